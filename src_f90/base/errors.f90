@@ -1,0 +1,36 @@
+!> Errors as data: a library routine returns one, only the program stops.
+!>
+!> A routine that can fail has `type(error_type), allocatable, intent(out) :: error`;
+!> the caller tests `allocated(error)` and may put context in front of the message.
+module errors
+   implicit none (type, external)
+   private
+   public :: error_type, raise, add_context
+   public :: input_error, numerics_error, system_error
+
+   !> What is wrong, and the exit status that belongs to it.
+   type :: error_type
+      integer :: status = 0
+      character(len=:), allocatable :: message
+   end type error_type
+
+   !> Exit statuses: usage or input; the numerics failed; file or system.
+   integer, parameter :: input_error = 1, numerics_error = 2, system_error = 3
+
+contains
+
+   !> Sets an error.
+   pure subroutine raise(error, status, message)
+      type(error_type), allocatable, intent(out) :: error
+      integer, intent(in) :: status
+      character(len=*), intent(in) :: message
+      error = error_type(status, message)
+   end subroutine raise
+
+   !> Puts "context: " in front of the message of a set error; does nothing to an unset one.
+   pure subroutine add_context(error, context)
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=*), intent(in) :: context
+      if (allocated(error)) error%message = context//': '//error%message
+   end subroutine add_context
+end module errors

@@ -1,0 +1,93 @@
+!> Small text helpers for messages and input.
+module text
+   use kinds, only: wp, i8
+   implicit none (type, external)
+   private
+   public :: to_text, exact_text, lower_case, join
+
+   !> A number as short text, for messages: `to_text(3)`, `to_text(0.1_wp)`.
+   interface to_text
+      module procedure integer_text, long_text, real_text
+   end interface to_text
+
+contains
+
+   pure function integer_text(i) result(string)
+      integer, intent(in) :: i
+      character(len=:), allocatable :: string
+      string = long_text(int(i, i8))
+   end function integer_text
+
+   pure function long_text(i) result(string)
+      integer(i8), intent(in) :: i
+      character(len=:), allocatable :: string
+      character(len=24) :: buffer
+      write (buffer, '(i0)') i
+      string = trim(buffer)
+   end function long_text
+
+   !> Six significant digits, without needless zeros.
+   pure function real_text(x) result(string)
+      real(wp), intent(in) :: x
+      character(len=:), allocatable :: string
+      character(len=32) :: buffer
+      integer :: e, last
+      if (x == 0) then
+         string = '0'
+         return
+      end if
+      if (abs(x) >= 1e-3_wp .and. abs(x) < 1e6_wp) then
+         write (buffer, '(f0.'//integer_text(max(0, 5 - floor(log10(abs(x)))))//')') x
+         e = len_trim(buffer) + 1
+      else
+         write (buffer, '(es13.5e3)') x
+         buffer = adjustl(buffer)
+         e = scan(buffer, 'E')
+         if (e == 0) e = len_trim(buffer) + 1
+      end if
+      last = e - 1
+      if (index(buffer(:last), '.') > 0) last = len_trim(buffer(:verify(buffer(:last), '0', back=.true.)))
+      if (last < 1) last = 1
+      if (buffer(last:last) == '.') last = last - 1
+      string = buffer(:last)//trim(buffer(e:))
+      if (string(1:1) == '.') string = '0'//string
+      if (index(string, '-.') == 1) string = '-0'//string(2:)
+   end function real_text
+
+   !> Seventeen significant digits: reading them back gives the same bits.
+   pure function exact_text(x) result(string)
+      real(wp), intent(in) :: x
+      character(len=:), allocatable :: string
+      character(len=32) :: buffer
+      real(wp) :: back
+      string = real_text(x)
+      read (string, *) back
+      if (transfer(back, 1_i8) == transfer(x, 1_i8)) return
+      write (buffer, '(es24.16e3)') x
+      string = trim(adjustl(buffer))
+   end function exact_text
+
+   pure function lower_case(string) result(lower)
+      character(len=*), intent(in) :: string
+      character(len=len(string)) :: lower
+      integer :: i, code
+      lower = string
+      do i = 1, len(string)
+         code = iachar(string(i:i))
+         if (code >= iachar('A') .and. code <= iachar('Z')) lower(i:i) = achar(code + 32)
+      end do
+   end function lower_case
+
+   !> The trimmed items with a separator between them.
+   pure function join(items, separator) result(string)
+      character(len=*), intent(in) :: items(:)
+      character(len=*), intent(in) :: separator
+      character(len=:), allocatable :: string
+      integer :: i
+      string = ''
+      do i = 1, size(items)
+         if (i > 1) string = string//separator
+         string = string//trim(items(i))
+      end do
+   end function join
+end module text

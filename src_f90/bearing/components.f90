@@ -1,0 +1,90 @@
+!> Builds the film solver, contact table, friction law and pad places of a scene: the only place
+!> that turns names of the input into types.
+module components
+   use kinds, only: wp, degree
+   use scene, only: scene_type
+   use pad_film, only: pad_film_type
+   use film_solver, only: film_solver_type
+   use sor_film, only: new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
+   use contact_law, only: contact_law_type, new_contact_law
+   use friction, only: friction_law, no_friction, bengisu_akay_friction, lugre_friction, &
+      & default_bristle_damping
+   use kinematics, only: pad_place
+   implicit none (type, external)
+   private
+   public :: new_film, new_law, new_friction, new_places
+
+contains
+
+   !> The film solver of all pads.
+   pure function new_film(scene) result(film)
+      type(scene_type), intent(in) :: scene
+      class(film_solver_type), allocatable :: film
+      type(pad_film_type) :: films(scene%pad_count())
+      integer :: i, cavitation
+      associate (b => scene%bearing, p => scene%pads, f => scene%film)
+         do i = 1, size(films)
+            films(i) = pad_film_type(b%journal_radius, b%machined_clearance, b%axial_length, &
+               & p%pivot_ratio(i)*p%arc_deg(i)*degree, (1 - p%pivot_ratio(i))*p%arc_deg(i)*degree, &
+               & b%viscosity, b%supply_pressure, b%ambient_pressure, b%cavitation_pressure)
+         end do
+         select case (f%cavitation)
+         case ('none')
+            cavitation = cavitation_none
+         case ('gumbel')
+            cavitation = cavitation_gumbel
+         case default
+            cavitation = cavitation_reynolds
+         end select
+         film = new_sor_film(films, sor_options(f%circumferential_cells, f%axial_cells, f%relaxation, &
+            & f%tolerance, f%max_sweeps, cavitation))
+      end associate
+   end function new_film
+
+   !> The contact law of the pivots.
+   pure function new_law(scene) result(law)
+      type(scene_type), intent(in) :: scene
+      class(contact_law_type), allocatable :: law
+      associate (v => scene%pivot)
+         law = new_contact_law(v%law, v%socket_radius, v%radius_difference, v%young_modulus, &
+            & v%poisson_ratio, v%penetration_factor)
+      end associate
+   end function new_law
+
+   !> The friction law of the pivots.
+   pure function new_friction(scene) result(law)
+      type(scene_type), intent(in) :: scene
+      class(friction_law), allocatable :: law
+      real(wp) :: damping
+      associate (f => scene%friction)
+         select case (f%model)
+         case ('bengisu_akay')
+            law = bengisu_akay_friction(.false., f%static_coefficient, f%dynamic_coefficient, &
+               & f%critical_velocity, f%decay)
+         case ('lugre')
+            damping = f%bristle_damping
+            if (damping < 0) damping = default_bristle_damping(f%bristle_stiffness, f%characteristic_load)
+            law = lugre_friction(.true., f%static_coefficient, f%dynamic_coefficient, &
+               & f%stribeck_velocity, f%stribeck_exponent, f%bristle_stiffness, damping, f%viscous_coefficient)
+         case default
+            law = no_friction()
+         end select
+      end associate
+   end function new_friction
+
+   !> Where the pads sit.
+   pure function new_places(scene) result(places)
+      type(scene_type), intent(in) :: scene
+      type(pad_place) :: places(scene%pad_count())
+      integer :: i
+      associate (b => scene%bearing, p => scene%pads)
+         do i = 1, size(places)
+            places(i)%angle = p%pivot_angle_deg(i)*degree
+            places(i)%sin_angle = sin(places(i)%angle)
+            places(i)%cos_angle = cos(places(i)%angle)
+            places(i)%pivot_radius = b%journal_radius + b%assembled_clearance + p%pivot_distance(i)
+            places(i)%centre_distance = b%journal_radius + b%machined_clearance + p%pivot_distance(i)
+         end do
+      end associate
+   end function new_places
+end module components

@@ -1,0 +1,277 @@
+!> What a run is about: one derived type per namelist group. The defaults are Tables 1 and 2 of
+!> Dyk et al. 2023, so a default scene is the paper's bearing. SI units unless a name says otherwise.
+module scene
+   use kinds, only: wp, rpm, degree
+   use text, only: to_text
+   use errors, only: error_type, raise, input_error
+   implicit none (type, external)
+   private
+   public :: scene_type, max_pads
+   public :: case_type, rotor_type, operation_type, bearing_type, pads_type, pivot_type, friction_type
+   public :: film_type, integration_type, output_type
+
+   integer, parameter :: max_pads = 24
+
+   type :: case_type
+      character(len=:), allocatable :: title
+      !> 'equilibrium' or 'march'.
+      character(len=:), allocatable :: task
+   end type case_type
+
+   type :: rotor_type
+      !> Mass carried by the bearing, kg; unbalance, kg m.
+      real(wp) :: mass = 2000, unbalance = 0.010_wp
+      !> > 0: ISO 21940-11 grade, mm/s, replaces the unbalance; its speed (< 0: the highest of the run).
+      real(wp) :: balance_grade = -1, balance_speed_rpm = -1
+      real(wp) :: gravity = 9.81_wp
+      !> Extra force on the journal along y and z, N.
+      real(wp) :: static_load(2) = 0
+   end type rotor_type
+
+   type :: operation_type
+      !> Speed at the start and at the end (linear in between), and how long, s.
+      real(wp) :: speed_rpm = 6500, final_speed_rpm = 6500, duration = 2
+   end type operation_type
+
+   type :: bearing_type
+      real(wp) :: journal_radius = 49.9e-3_wp, machined_clearance = 100e-6_wp
+      real(wp) :: assembled_clearance = 80e-6_wp, axial_length = 100e-3_wp
+      real(wp) :: viscosity = 19e-3_wp
+      real(wp) :: supply_pressure = 0, ambient_pressure = 0, cavitation_pressure = 0
+   end type bearing_type
+
+   !> One value a pad.
+   type :: pads_type
+      real(wp), allocatable :: pivot_angle_deg(:), arc_deg(:), pivot_ratio(:), pivot_distance(:)
+      real(wp), allocatable :: mass(:), inertia(:), centre_tangential(:), centre_radial(:)
+      !> 'tilting_radial' or 'tilting_only'.
+      character(len=:), allocatable :: motion
+   end type pads_type
+
+   type :: pivot_type
+      !> 'fang' or 'hertz'.
+      character(len=:), allocatable :: law
+      real(wp) :: socket_radius = 13e-3_wp, radius_difference = 15e-6_wp
+      !> Of ball and socket.
+      real(wp) :: young_modulus(2) = 2.1e11_wp, poisson_ratio(2) = 0.3_wp
+      real(wp) :: penetration_factor = 4
+   end type pivot_type
+
+   type :: friction_type
+      !> 'none', 'bengisu_akay' or 'lugre'.
+      character(len=:), allocatable :: model
+      real(wp) :: static_coefficient = 0.1_wp, dynamic_coefficient = 0.05_wp
+      real(wp) :: critical_velocity = 1e-5_wp, decay = 1000
+      real(wp) :: stribeck_velocity = 1e-3_wp, stribeck_exponent = 1
+      !> Bristle damping < 0: eq (28).
+      real(wp) :: bristle_stiffness = 1e6_wp, bristle_damping = -1, viscous_coefficient = 0
+      real(wp) :: characteristic_load = 1e4_wp
+   end type friction_type
+
+   type :: film_type
+      !> 'sor'.
+      character(len=:), allocatable :: solver
+      integer :: circumferential_cells = 60, axial_cells = 15
+      !> 0: the grid's optimum.
+      real(wp) :: relaxation = 0, tolerance = 1e-6_wp
+      integer :: max_sweeps = 5000
+      !> 'reynolds', 'gumbel' or 'none'.
+      character(len=:), allocatable :: cavitation
+   end type film_type
+
+   type :: integration_type
+      real(wp) :: relative_tolerance = 1e-6_wp, tolerance_scale = 1
+      !> 0: no limit.
+      real(wp) :: max_step = 0
+      integer :: max_steps = 100000000
+   end type integration_type
+
+   type :: output_type
+      integer :: samples_per_revolution = 360
+      real(wp) :: start_time = 0
+      !> Revolutions at the end of the run that the spectra are taken over.
+      integer :: spectrum_revolutions = 50
+   end type output_type
+
+   type :: scene_type
+      !> The namelist group &case.
+      type(case_type) :: about
+      type(rotor_type) :: rotor
+      type(operation_type) :: operation
+      type(bearing_type) :: bearing
+      type(pads_type) :: pads
+      type(pivot_type) :: pivot
+      type(friction_type) :: friction
+      type(film_type) :: film
+      type(integration_type) :: integration
+      type(output_type) :: output
+   contains
+      procedure :: pad_count
+      procedure :: tilting_radial
+      procedure :: highest_speed
+      procedure :: unbalance
+      procedure :: acceleration
+      procedure :: speed
+      procedure :: shaft_angle
+      procedure :: load
+      procedure :: validate
+   end type scene_type
+
+   !> The paper's bearing.
+   interface scene_type
+      module procedure new_scene
+   end interface scene_type
+
+contains
+
+   pure function new_scene() result(scene)
+      type(scene_type) :: scene
+      scene%about%title = ''
+      scene%about%task = 'march'
+      scene%pads%pivot_angle_deg = [-45.0_wp, 225.0_wp]
+      scene%pads%arc_deg = [69.3_wp, 69.3_wp]
+      scene%pads%pivot_ratio = [0.5_wp, 0.5_wp]
+      scene%pads%pivot_distance = [14e-3_wp, 14e-3_wp]
+      scene%pads%mass = [0.8108_wp, 0.8108_wp]
+      scene%pads%inertia = [4.055e-4_wp, 4.055e-4_wp]
+      scene%pads%centre_tangential = [0.0_wp, 0.0_wp]
+      scene%pads%centre_radial = [-10.1e-3_wp, -10.1e-3_wp]
+      scene%pads%motion = 'tilting_radial'
+      scene%pivot%law = 'fang'
+      scene%friction%model = 'none'
+      scene%film%solver = 'sor'
+      scene%film%cavitation = 'reynolds'
+   end function new_scene
+
+   pure integer function pad_count(self)
+      class(scene_type), intent(in) :: self
+      pad_count = size(self%pads%pivot_angle_deg)
+   end function pad_count
+
+   pure logical function tilting_radial(self)
+      class(scene_type), intent(in) :: self
+      tilting_radial = self%pads%motion == 'tilting_radial'
+   end function tilting_radial
+
+   !> Highest speed of the run, rad/s.
+   pure real(wp) function highest_speed(self)
+      class(scene_type), intent(in) :: self
+      highest_speed = max(self%operation%speed_rpm, self%operation%final_speed_rpm)*rpm
+   end function highest_speed
+
+   !> Unbalance, kg m: as given, or by ISO 21940-11, eq (26): m G / Omega with G in m/s.
+   pure real(wp) function unbalance(self)
+      class(scene_type), intent(in) :: self
+      real(wp) :: balance_rpm
+      unbalance = self%rotor%unbalance
+      if (self%rotor%balance_grade > 0) then
+         balance_rpm = self%rotor%balance_speed_rpm
+         if (balance_rpm < 0) balance_rpm = self%highest_speed()/rpm
+         ! eq (26): 9549 G m / n, in g mm
+         unbalance = 9549*self%rotor%balance_grade*self%rotor%mass/balance_rpm*1e-6_wp
+      end if
+   end function unbalance
+
+   !> Angular acceleration of the shaft, rad/s^2.
+   pure real(wp) function acceleration(self)
+      class(scene_type), intent(in) :: self
+      acceleration = (self%operation%final_speed_rpm - self%operation%speed_rpm)*rpm/self%operation%duration
+   end function acceleration
+
+   !> Shaft speed at time t, rad/s.
+   pure real(wp) function speed(self, t)
+      class(scene_type), intent(in) :: self
+      real(wp), intent(in) :: t
+      speed = self%operation%speed_rpm*rpm + self%acceleration()*t
+   end function speed
+
+   !> Shaft angle at time t, rad: the integral of the speed.
+   pure real(wp) function shaft_angle(self, t)
+      class(scene_type), intent(in) :: self
+      real(wp), intent(in) :: t
+      shaft_angle = (self%operation%speed_rpm*rpm + 0.5_wp*self%acceleration()*t)*t
+   end function shaft_angle
+
+   !> Steady force on the journal along y and z, N.
+   pure function load(self)
+      class(scene_type), intent(in) :: self
+      real(wp) :: load(2)
+      load = self%rotor%static_load - [self%rotor%mass*self%rotor%gravity, 0.0_wp]
+   end function load
+
+   !> Checks what no single value can tell. The message names the variables, values and what is allowed.
+   subroutine validate(self, error)
+      class(scene_type), intent(in) :: self
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: ratio
+      integer :: i
+
+      associate (b => self%bearing, p => self%pads, f => self%friction, v => self%pivot)
+         ratio = b%machined_clearance/b%journal_radius
+         call require(ratio >= 1e-5_wp .and. ratio <= 0.05_wp, 'bearing%machined_clearance = ' &
+            & //to_text(b%machined_clearance)//': must be 1e-5 to 0.05 of bearing%journal_radius = ' &
+            & //to_text(b%journal_radius)//' (both in m)')
+         call require(b%assembled_clearance <= 2*b%machined_clearance, 'bearing%assembled_clearance = ' &
+            & //to_text(b%assembled_clearance)//': must be at most twice bearing%machined_clearance = ' &
+            & //to_text(b%machined_clearance))
+         ratio = b%axial_length/b%journal_radius
+         call require(ratio >= 0.02_wp .and. ratio <= 50, 'bearing%axial_length = '//to_text(b%axial_length) &
+            & //': must be 0.02 to 50 times bearing%journal_radius = '//to_text(b%journal_radius)//' (both in m)')
+         call require(b%cavitation_pressure <= min(b%supply_pressure, b%ambient_pressure) &
+            & .or. self%film%cavitation == 'none', 'bearing%cavitation_pressure = ' &
+            & //to_text(b%cavitation_pressure)//': must not exceed bearing%supply_pressure = ' &
+            & //to_text(b%supply_pressure)//' and bearing%ambient_pressure = '//to_text(b%ambient_pressure))
+         call require(f%dynamic_coefficient <= f%static_coefficient, 'friction%dynamic_coefficient = ' &
+            & //to_text(f%dynamic_coefficient)//': must not exceed friction%static_coefficient = ' &
+            & //to_text(f%static_coefficient))
+         call require(f%model /= 'lugre' .or. f%dynamic_coefficient > 0, &
+            & 'friction%dynamic_coefficient = 0: must be > 0 for model = ''lugre''')
+         call require(v%radius_difference <= 0.5_wp*v%socket_radius, 'pivot%radius_difference = ' &
+            & //to_text(v%radius_difference)//': must be at most half of pivot%socket_radius = ' &
+            & //to_text(v%socket_radius))
+         call require(v%law /= 'hertz' .or. v%radius_difference > 0, &
+            & 'pivot%radius_difference = 0: must be > 0 for law = ''hertz''')
+         call require(self%output%start_time <= self%operation%duration, 'output%start_time = ' &
+            & //to_text(self%output%start_time)//': must not exceed operation%duration = ' &
+            & //to_text(self%operation%duration))
+         call require(self%operation%duration*self%highest_speed()/360/degree &
+            & *self%output%samples_per_revolution < 1e9_wp, 'operation%duration = ' &
+            & //to_text(self%operation%duration)//': more than 1e9 samples at output%samples_per_revolution = ' &
+            & //to_text(self%output%samples_per_revolution))
+         do i = 1, self%pad_count()
+            call require(p%inertia(i) > p%mass(i)*(p%centre_tangential(i)**2 + p%centre_radial(i)**2), &
+               & 'pads%inertia = '//to_text(p%inertia(i))//': must exceed mass times the squared distance of ' &
+               & //'the centre of gravity from the pivot, '//to_text(p%mass(i)*(p%centre_tangential(i)**2 &
+               & + p%centre_radial(i)**2))//' (pad '//to_text(i)//')')
+            call require_room(i)
+         end do
+      end associate
+
+   contains
+
+      !> Keeps the first unmet requirement.
+      subroutine require(met, message)
+         logical, intent(in) :: met
+         character(len=*), intent(in) :: message
+         if (.not. met .and. .not. allocated(error)) call raise(error, input_error, message)
+      end subroutine require
+
+      !> A pad reaches from theta - theta_2 to theta + theta_1; the next one must start after that.
+      subroutine require_room(i)
+         integer, intent(in) :: i
+         real(wp) :: gap
+         integer :: j
+         associate (p => self%pads)
+            do j = 1, self%pad_count()
+               if (i == j) cycle
+               ! from pivot i on to pivot j, going up
+               gap = modulo(p%pivot_angle_deg(j) - p%pivot_angle_deg(i), 360.0_wp)
+               call require(gap > p%pivot_ratio(i)*p%arc_deg(i) + (1 - p%pivot_ratio(j))*p%arc_deg(j), &
+                  & 'pads%pivot_angle_deg = '//to_text(p%pivot_angle_deg(i))//', ' &
+                  & //to_text(p%pivot_angle_deg(j))//': pads '//to_text(i)//' and '//to_text(j) &
+                  & //' overlap; the pivots must be further apart or pads%arc_deg smaller')
+            end do
+         end associate
+      end subroutine require_room
+   end subroutine validate
+end module scene

@@ -1,0 +1,54 @@
+!> What every film solver takes and answers. A solver holds all pads of a bearing, so that one
+!> call serves one right-hand side and a solver may work on several pads side by side.
+module film_solver
+   use kinds, only: wp, i8
+   implicit none (type, external)
+   private
+   public :: film_solver_type, film_motion, film_response, film_counters
+   public :: film_ok, film_closed, film_not_converged
+
+   !> Motion of the journal seen from a pad; with the speed, all that the film force depends on.
+   type :: film_motion
+      !> (e_y', e_z'), m, and its rate, m/s, in the pad frame.
+      real(wp) :: position(2) = 0, velocity(2) = 0
+   end type film_motion
+
+   integer, parameter :: film_ok = 0, film_closed = 1, film_not_converged = 2
+
+   !> What a solver answers for one pad.
+   type :: film_response
+      integer :: status = film_ok
+      !> Force on the journal in the pad frame (F_y', F_z'), N, eq (6).
+      real(wp) :: force(2) = 0
+      !> d force / d (position, velocity), N/m and N s/m; set on request.
+      real(wp) :: slope(2, 4) = 0
+      !> Lowest and highest pressure at the grid points, Pa; least film thickness, m.
+      real(wp) :: min_pressure = 0, max_pressure = 0, min_film = 0
+      !> Relative residual of an iterative solution; 0 for a direct one.
+      real(wp) :: residual = 0
+   end type film_response
+
+   !> Work done since the solver was made.
+   type :: film_counters
+      !> Pads evaluated by axial modes and by over-relaxation; sweeps of the latter.
+      integer(i8) :: modal = 0, sor = 0, sweeps = 0
+   end type film_counters
+
+   type, abstract :: film_solver_type
+      type(film_counters) :: counters
+   contains
+      procedure(evaluate_film), deferred :: evaluate
+   end type film_solver_type
+
+   abstract interface
+      !> The film of every pad at a motion each and a journal speed, rad/s.
+      subroutine evaluate_film(self, motion, speed, want_slopes, response)
+         import :: film_solver_type, film_motion, film_response, wp
+         class(film_solver_type), intent(inout) :: self
+         type(film_motion), intent(in) :: motion(:)
+         real(wp), intent(in) :: speed
+         logical, intent(in) :: want_slopes
+         type(film_response), intent(out) :: response(:)
+      end subroutine evaluate_film
+   end interface
+end module film_solver

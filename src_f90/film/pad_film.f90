@@ -1,0 +1,69 @@
+!> One pad's gap: geometry, clearance and the right-hand side of the Reynolds equation.
+!>
+!> Pad coordinates: the angle phi from the pivot, positive towards the leading edge; the axial
+!> coordinate from the middle of the pad.
+module pad_film
+   use kinds, only: wp
+   use film_solver, only: film_motion
+   implicit none (type, external)
+   private
+   public :: pad_film_type
+
+   !> Geometry, oil and boundary pressures of one pad's film.
+   type :: pad_film_type
+      !> Journal radius R_J, machined clearance c_m, axial length L, m.
+      real(wp) :: journal_radius, machined_clearance, axial_length
+      !> Angles from the pivot to the leading and trailing edge, theta_1 and theta_2, rad, > 0.
+      real(wp) :: leading_angle, trailing_angle
+      !> Dynamic viscosity, Pa s.
+      real(wp) :: viscosity
+      !> Pressure at the leading edge, at the other edges, and where the film ruptures, Pa.
+      real(wp) :: supply_pressure, ambient_pressure, cavitation_pressure
+   contains
+      procedure :: pad_radius
+      procedure :: arc
+      procedure :: thickness
+      procedure :: least_thickness
+   end type pad_film_type
+
+contains
+
+   !> R = R_J + c_m, m.
+   pure function pad_radius(self)
+      class(pad_film_type), intent(in) :: self
+      real(wp) :: pad_radius
+      pad_radius = self%journal_radius + self%machined_clearance
+   end function pad_radius
+
+   !> Arc of the pad, rad.
+   pure function arc(self)
+      class(pad_film_type), intent(in) :: self
+      real(wp) :: arc
+      arc = self%leading_angle + self%trailing_angle
+   end function arc
+
+   !> h = c_m - e_y' sin(phi) - e_z' cos(phi), m.
+   elemental function thickness(self, motion, sin_phi, cos_phi) result(h)
+      class(pad_film_type), intent(in) :: self
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: sin_phi, cos_phi
+      real(wp) :: h
+      h = self%machined_clearance - motion%position(1)*sin_phi - motion%position(2)*cos_phi
+   end function thickness
+
+   !> Least film thickness on the pad, m: inside the arc where h has a minimum there, else at an edge.
+   pure function least_thickness(self, motion) result(h)
+      class(pad_film_type), intent(in) :: self
+      type(film_motion), intent(in) :: motion
+      real(wp) :: h, phi
+      associate (e => motion%position)
+         phi = atan2(e(1), e(2))
+         if (phi > -self%trailing_angle .and. phi < self%leading_angle) then
+            h = self%machined_clearance - norm2(e)
+         else
+            h = min(self%thickness(motion, sin(self%leading_angle), cos(self%leading_angle)), &
+               & self%thickness(motion, -sin(self%trailing_angle), cos(self%trailing_angle)))
+         end if
+      end associate
+   end function least_thickness
+end module pad_film

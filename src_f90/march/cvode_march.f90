@@ -1,0 +1,223 @@
+!> Marches an ode_model with CVODE (BDF, Newton, dense). The only file that knows SUNDIALS.
+module cvode_march
+   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_int64_t, c_loc, &
+      & c_long, c_null_ptr, c_ptr
+   use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodesvtolerances, fcvodesetuserdata, &
+      & fcvodesetlinearsolver, fcvodesetjacfn, fcvodesetmaxstep, fcvodesetstoptime, &
+      & fcvodeseterrfile, fcvode, fcvodegetdky, fcvodefree, fcvodegetnumrhsevals, &
+      & fcvodegetnumjacevals, fcvodegetnumerrtestfails, fcvodegetnumnonlinsolvconvfails, &
+      & fcvodegetcurrentstep, cv_bdf, cv_one_step, cv_err_failure, cv_conv_failure, &
+      & cv_too_much_acc, cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, &
+      & cv_unrec_rhsfunc_err, cv_lsetup_fail
+   use fsundials_context_mod, only: fsuncontext_create, fsuncontext_free
+   use fsundials_nvector_mod, only: n_vector, fn_vgetarraypointer, fn_vdestroy
+   use fsundials_matrix_mod, only: sunmatrix, fsunmatdestroy
+   use fsundials_linearsolver_mod, only: sunlinearsolver, fsunlinsolfree
+   use fnvector_serial_mod, only: fn_vmake_serial
+   use fsunmatrix_dense_mod, only: fsundensematrix, fsundensematrix_data
+   use fsunlinsol_dense_mod, only: fsunlinsol_dense
+   use kinds, only: wp, i8
+   use text, only: to_text
+   use errors, only: error_type, raise, numerics_error
+   use ode_model, only: ode_model_type, march_observer
+   implicit none (type, external)
+   private
+   public :: march, march_options, march_statistics, sample_plan
+
+   type :: march_options
+      real(wp) :: relative_tolerance = 1e-6_wp
+      !> Absolute tolerance of each state.
+      real(wp), allocatable :: absolute_tolerance(:)
+      !> Longest step, s; 0: no limit. Most steps before the march gives up.
+      real(wp) :: max_step = 0
+      integer(i8) :: max_steps = huge(1_i8)
+   end type march_options
+
+   type :: march_statistics
+      integer(i8) :: steps = 0, rhs_evaluations = 0, jacobian_evaluations = 0
+      integer(i8) :: error_test_failures = 0, convergence_failures = 0
+   end type march_statistics
+
+   !> When the observer sees the state: at first + k interval, k = 0 .. count - 1.
+   type :: sample_plan
+      real(wp) :: first = 0, interval = 0
+      integer(i8) :: count = 0
+   contains
+      procedure :: time => sample_time
+   end type sample_plan
+
+   !> What CVODE hands back to the callbacks.
+   type :: user_data
+      class(ode_model_type), pointer :: model
+      integer(c_int64_t) :: n
+   end type user_data
+
+   !> Steps between two calls of the observer's progress.
+   integer(i8), parameter :: steps_per_report = 256
+
+contains
+
+   !> Time of sample k = 0, 1, ..., s.
+   pure function sample_time(self, k) result(t)
+      class(sample_plan), intent(in) :: self
+      integer(i8), intent(in) :: k
+      real(wp) :: t
+      t = self%first + real(k, wp)*self%interval
+   end function sample_time
+
+   !> Marches y from t_start to t_end. Samples are CVODE's interpolation, so they never shorten a step.
+   !> Numerics errors say why, where and when; samples taken before them stand.
+   subroutine march(model, options, t_start, t_end, plan, y, observer, statistics, error)
+      class(ode_model_type), intent(inout), target :: model
+      type(march_options), intent(in) :: options
+      real(wp), intent(in) :: t_start, t_end
+      type(sample_plan), intent(in) :: plan
+      !> State at t_start on entry, at the time reached on return.
+      real(wp), intent(inout), contiguous, target :: y(:)
+      class(march_observer), intent(inout) :: observer
+      type(march_statistics), intent(out) :: statistics
+      type(error_type), allocatable, intent(out) :: error
+      type(user_data), target :: user
+      type(c_ptr) :: context, memory
+      type(n_vector), pointer :: y_vector, sample_vector, tolerance_vector
+      type(sunmatrix), pointer :: matrix
+      type(sunlinearsolver), pointer :: linear_solver
+      real(wp), target :: sample(size(y)), tolerance(size(y))
+      real(c_double) :: t(1)
+      integer(c_int) :: flag
+      integer(i8) :: k
+
+      user%model => model
+      user%n = size(y)
+      tolerance = options%absolute_tolerance
+      flag = fsuncontext_create(c_null_ptr, context)
+      memory = fcvodecreate(cv_bdf, context)
+      y_vector => fn_vmake_serial(user%n, y, context)
+      sample_vector => fn_vmake_serial(user%n, sample, context)
+      tolerance_vector => fn_vmake_serial(user%n, tolerance, context)
+      matrix => fsundensematrix(user%n, user%n, context)
+      linear_solver => fsunlinsol_dense(y_vector, matrix, context)
+      flag = fcvodeinit(memory, c_funloc(rhs_callback), t_start, y_vector)
+      ! what CVODE would print is told in our own error instead
+      flag = fcvodeseterrfile(memory, c_null_ptr)
+      flag = fcvodesetuserdata(memory, c_loc(user))
+      flag = fcvodesvtolerances(memory, options%relative_tolerance, tolerance_vector)
+      flag = fcvodesetlinearsolver(memory, linear_solver, matrix)
+      flag = fcvodesetjacfn(memory, c_funloc(jacobian_callback))
+      flag = fcvodesetmaxstep(memory, options%max_step)
+      flag = fcvodesetstoptime(memory, t_end)
+
+      t = t_start
+      k = 0
+      sample = y
+      do
+         do while (k < plan%count)
+            ! the last sample may lie a rounding error past the end
+            if (plan%time(k) > t(1) .and. t(1) < t_end) exit
+            if (statistics%steps > 0) flag = fcvodegetdky(memory, min(plan%time(k), t(1)), 0_c_int, sample_vector)
+            call observer%sample(min(plan%time(k), t(1)), sample, error)
+            if (allocated(error)) exit
+            k = k + 1
+         end do
+         if (allocated(error) .or. t(1) >= t_end) exit
+         if (statistics%steps >= options%max_steps) then
+            call raise(error, numerics_error, 'the march gave up at t = '//to_text(t(1))//' s, after ' &
+               & //to_text(statistics%steps)//' steps (integration%max_steps)')
+            exit
+         end if
+         if (allocated(model%trouble)) deallocate (model%trouble)
+         flag = fcvode(memory, t_end, y_vector, t, cv_one_step)
+         if (flag < 0) then
+            call raise(error, numerics_error, failure(flag, model, memory, t(1), statistics%steps))
+            exit
+         end if
+         statistics%steps = statistics%steps + 1
+         if (mod(statistics%steps, steps_per_report) == 0) call observer%progress(t(1), statistics%steps)
+      end do
+
+      call read_statistics(memory, statistics)
+      call fcvodefree(memory)
+      flag = fsunlinsolfree(linear_solver)
+      call fsunmatdestroy(matrix)
+      call fn_vdestroy(tolerance_vector)
+      call fn_vdestroy(sample_vector)
+      call fn_vdestroy(y_vector)
+      flag = fsuncontext_free(context)
+   end subroutine march
+
+   !> Says why, where and when a march ended early.
+   function failure(flag, model, memory, t, steps) result(message)
+      integer(c_int), intent(in) :: flag
+      class(ode_model_type), intent(in) :: model
+      type(c_ptr), intent(in) :: memory
+      real(wp), intent(in) :: t
+      integer(i8), intent(in) :: steps
+      character(len=:), allocatable :: message, reason
+      real(c_double) :: h(1)
+      integer(c_int) :: ignored
+      ignored = fcvodegetcurrentstep(memory, h)
+      select case (flag)
+      case (cv_err_failure)
+         reason = 'the error test kept failing'
+      case (cv_conv_failure)
+         reason = 'the Newton iteration kept failing'
+      case (cv_too_much_acc)
+         reason = 'the tolerances are finer than the machine can resolve'
+      case (cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, cv_unrec_rhsfunc_err, &
+         & cv_lsetup_fail)
+         reason = 'the equations of motion could not be evaluated'
+      case default
+         reason = 'CVODE gave up with code '//to_text(int(flag))
+      end select
+      if (allocated(model%trouble)) reason = model%trouble//'; '//reason
+      message = 'the march stopped at t = '//to_text(t)//' s, after '//to_text(steps)//' steps: '//reason &
+         & //' (step size '//to_text(h(1))//' s)'
+   end function failure
+
+   subroutine read_statistics(memory, statistics)
+      type(c_ptr), intent(in) :: memory
+      type(march_statistics), intent(inout) :: statistics
+      integer(c_long) :: count(1)
+      integer(c_int) :: flag
+      flag = fcvodegetnumrhsevals(memory, count)
+      statistics%rhs_evaluations = count(1)
+      flag = fcvodegetnumjacevals(memory, count)
+      statistics%jacobian_evaluations = count(1)
+      flag = fcvodegetnumerrtestfails(memory, count)
+      statistics%error_test_failures = count(1)
+      flag = fcvodegetnumnonlinsolvconvfails(memory, count)
+      statistics%convergence_failures = count(1)
+   end subroutine read_statistics
+
+   !> CVODE's right-hand side function: 0 good, 1 refused, try a shorter step.
+   integer(c_int) function rhs_callback(t, y_vector, dydt_vector, user_pointer) bind(c)
+      real(c_double), value :: t
+      type(n_vector) :: y_vector, dydt_vector
+      type(c_ptr), value :: user_pointer
+      type(user_data), pointer :: user
+      real(c_double), pointer :: y(:), dydt(:)
+      logical :: ok
+      call c_f_pointer(user_pointer, user)
+      y(1:user%n) => fn_vgetarraypointer(y_vector)
+      dydt(1:user%n) => fn_vgetarraypointer(dydt_vector)
+      call user%model%rhs(t, y, dydt, ok)
+      rhs_callback = merge(0_c_int, 1_c_int, ok)
+   end function rhs_callback
+
+   !> CVODE's Jacobian function.
+   integer(c_int) function jacobian_callback(t, y_vector, f_vector, matrix, user_pointer, work1, work2, &
+      & work3) bind(c)
+      real(c_double), value :: t
+      type(n_vector) :: y_vector, f_vector, work1, work2, work3
+      type(sunmatrix) :: matrix
+      type(c_ptr), value :: user_pointer
+      type(user_data), pointer :: user
+      real(c_double), pointer :: y(:), jacobian(:, :)
+      logical :: ok
+      call c_f_pointer(user_pointer, user)
+      y(1:user%n) => fn_vgetarraypointer(y_vector)
+      jacobian(1:user%n, 1:user%n) => fsundensematrix_data(matrix)
+      call user%model%jacobian(t, y, jacobian, ok)
+      jacobian_callback = merge(0_c_int, 1_c_int, ok)
+   end function jacobian_callback
+end module cvode_march

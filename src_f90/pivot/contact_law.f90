@@ -1,0 +1,221 @@
+!> Normal force of a ball in a socket over the penetration: closed forms.
+!>
+!> Fang's conformal law (Dyk et al. 2023, eqs (11)-(18)) is explicit once the projected contact
+!> radius `a` is chosen: `n(a)`, `B(n)`, `g(a)`; then eq (14) with (16) is linear in the force.
+!> Hertz's law is the usual non-conformal one.
+module contact_law
+   use kinds, only: wp, pi
+   implicit none (type, external)
+   private
+   public :: contact_law_type, contact_point, new_contact_law
+
+   !> State of the contact at one penetration.
+   type :: contact_point
+      !> Normal force, N, and its slope over the penetration, N/m.
+      real(wp) :: force = 0, slope = 0
+      !> Projected contact radius, m; exponent of the pressure distribution (11); its peak (12), Pa.
+      real(wp) :: radius = 0, exponent = 0.5_wp, peak_pressure = 0
+   end type contact_point
+
+   !> A law for one ball-and-socket pivot.
+   type, abstract :: contact_law_type
+      !> Socket radius R2 and radius difference dR = R2 - R1, m.
+      real(wp) :: socket_radius, radius_difference
+      !> k1 + k2 of eq (18), 1/Pa.
+      real(wp) :: compliance
+   contains
+      !> The contact at a penetration > 0, m.
+      procedure(at_penetration), deferred :: at
+      !> Penetration, m, that carries a force, N.
+      procedure :: penetration
+   end type contact_law_type
+
+   abstract interface
+      pure function at_penetration(self, penetration) result(point)
+         import :: contact_law_type, contact_point, wp
+         class(contact_law_type), intent(in) :: self
+         real(wp), intent(in) :: penetration
+         type(contact_point) :: point
+      end function at_penetration
+   end interface
+
+   !> Fang's conformal law for dR > 0.
+   type, extends(contact_law_type) :: fang_law
+      !> 4 in eq (13); 2 pi agrees with Hertz's approach.
+      real(wp) :: penetration_factor
+   contains
+      procedure :: at => fang_at
+   end type fang_law
+
+   !> Its limit dR = 0: contact over the whole socket, a linear spring.
+   type, extends(contact_law_type) :: snug_law
+      real(wp) :: penetration_factor
+   contains
+      procedure :: at => snug_at
+   end type snug_law
+
+   !> Hertz: F = 4/3 E* sqrt(R1 R2 / dR) eta^(3/2).
+   type, extends(contact_law_type) :: hertz_law
+   contains
+      procedure :: at => hertz_at
+   end type hertz_law
+
+   !> dR / R2 below which the limit dR = 0 is taken.
+   real(wp), parameter :: snug_ratio = 1e-9_wp
+   !> Constant of eq (16); equals 4 (n + 1/2)(n + 1) at a = R2, so that dR = 0 gives a = R2.
+   real(wp), parameter :: fang_constant = 3.8304_wp
+
+contains
+
+   !> The law called `name` ('fang' or 'hertz'; hertz needs dR > 0).
+   pure function new_contact_law(name, socket_radius, radius_difference, young_modulus, &
+      & poisson_ratio, penetration_factor) result(law)
+      character(len=*), intent(in) :: name
+      !> R2 and dR, m.
+      real(wp), intent(in) :: socket_radius, radius_difference
+      !> Of ball and socket; Pa and 1.
+      real(wp), intent(in) :: young_modulus(2), poisson_ratio(2)
+      !> Factor of eq (13).
+      real(wp), intent(in) :: penetration_factor
+      class(contact_law_type), allocatable :: law
+      real(wp) :: compliance
+      compliance = sum((1 - poisson_ratio**2)/(pi*young_modulus))
+      if (name == 'hertz') then
+         law = hertz_law(socket_radius, radius_difference, compliance)
+      else if (radius_difference > snug_ratio*socket_radius) then
+         law = fang_law(socket_radius, radius_difference, compliance, penetration_factor)
+      else
+         law = snug_law(socket_radius, radius_difference, compliance, penetration_factor)
+      end if
+   end function new_contact_law
+
+   pure function hertz_at(self, penetration) result(point)
+      class(hertz_law), intent(in) :: self
+      real(wp), intent(in) :: penetration
+      type(contact_point) :: point
+      real(wp) :: effective_radius
+      effective_radius = (self%socket_radius - self%radius_difference)*self%socket_radius &
+         & /self%radius_difference
+      point%force = 4/(3*pi*self%compliance)*sqrt(effective_radius*penetration)*penetration
+      point%slope = 1.5_wp*point%force/penetration
+      point%radius = sqrt(effective_radius*penetration)
+      point%peak_pressure = 1.5_wp*point%force/(pi*point%radius**2)
+   end function hertz_at
+
+   pure function snug_at(self, penetration) result(point)
+      class(snug_law), intent(in) :: self
+      real(wp), intent(in) :: penetration
+      type(contact_point) :: point
+      point = force_over_radius(self%socket_radius, self%socket_radius, self%compliance, &
+         & self%penetration_factor, penetration)
+      point%slope = point%force/penetration
+   end function snug_at
+
+   !> Finds the contact radius of a penetration by safeguarded Newton steps on ln(eta), which is
+   !> steep but monotone in `a`, then takes the force from eq (13), which is well conditioned.
+   pure function fang_at(self, penetration) result(point)
+      class(fang_law), intent(in) :: self
+      real(wp), intent(in) :: penetration
+      type(contact_point) :: point
+      real(wp) :: a, low, high, log_eta, d_log_eta, d_log_force, step
+      integer :: i
+      low = 0
+      high = self%socket_radius
+      a = 0.5_wp*high
+      do i = 1, 200
+         call radius_curve(self, a, log_eta, d_log_eta, d_log_force)
+         if (log_eta > log(penetration)) then
+            high = a
+         else
+            low = a
+         end if
+         step = -(log_eta - log(penetration))/d_log_eta
+         if (a + step <= low .or. a + step >= high) step = 0.5_wp*(low + high) - a
+         a = a + step
+         if (abs(step) <= 4*epsilon(a)*a) exit
+      end do
+      call radius_curve(self, a, log_eta, d_log_eta, d_log_force)
+      point = force_over_radius(a, self%socket_radius, self%compliance, self%penetration_factor, &
+         & penetration)
+      point%slope = point%force/penetration*d_log_force/d_log_eta
+   end function fang_at
+
+   !> Eqs (12), (13), (15), (16) solved for the force at a contact radius and a penetration.
+   pure function force_over_radius(a, socket_radius, compliance, factor, penetration) result(point)
+      real(wp), intent(in) :: a, socket_radius, compliance, factor, penetration
+      type(contact_point) :: point
+      point%radius = a
+      point%exponent = pressure_exponent(a/socket_radius)
+      point%peak_pressure = penetration/(factor*compliance*exp(log_b(point%exponent))*a)
+      point%force = point%peak_pressure*pi*a**2/(point%exponent + 1)
+   end function force_over_radius
+
+   !> ln(eta) at contact radius a, and the slopes over a of ln(eta) and of ln(F).
+   !> Beyond the radius where the force of eq (14) grows without bound, ln(eta) is huge.
+   pure subroutine radius_curve(self, a, log_eta, d_log_eta, d_log_force)
+      class(fang_law), intent(in) :: self
+      real(wp), intent(in) :: a
+      real(wp), intent(out) :: log_eta, d_log_eta, d_log_force
+      real(wp) :: r1, r2, n, dn, dlog_b, g, room, d_room, log_force
+      r2 = self%socket_radius
+      r1 = r2 - self%radius_difference
+      n = pressure_exponent(a/r2)
+      dn = (n - 0.5_wp)*15.08_wp/r2
+      dlog_b = dn*log_b_slope(n)
+      g = 2/pi + (a/r2)**2
+      room = 4*r1*r2*(n + 0.5_wp)*(n + 1) - fang_constant*a**3/r2
+      if (room <= 0) then
+         log_eta = huge(a)
+         d_log_eta = 1
+         d_log_force = 1
+         return
+      end if
+      d_room = 4*r1*r2*(2*n + 1.5_wp)*dn - 3*fang_constant*a**2/r2
+      log_force = log(a**3*pi*g*self%radius_difference/(self%compliance*room)) - log_b(n)
+      d_log_force = 3/a + 2*a/(r2**2*g) - d_room/room - dlog_b
+      log_eta = log(self%penetration_factor*self%compliance*(n + 1)/(pi*a)) + log_b(n) + log_force
+      d_log_eta = dlog_b + dn/(n + 1) + d_log_force - 1/a
+   end subroutine radius_curve
+
+   !> Eq (15).
+   pure function pressure_exponent(radius_ratio) result(n)
+      real(wp), intent(in) :: radius_ratio
+      real(wp) :: n
+      n = 0.5_wp - 0.24_wp*exp(-15.08_wp*(1 - radius_ratio))
+   end function pressure_exponent
+
+   !> ln B(n) of eq (16).
+   pure function log_b(n)
+      real(wp), intent(in) :: n
+      real(wp) :: log_b
+      log_b = log(sqrt(pi)/2) + log_gamma(n + 1) - log_gamma(n + 1.5_wp)
+   end function log_b
+
+   !> d ln B / dn by fourth-order differences (error near 1e-12).
+   pure function log_b_slope(n) result(slope)
+      real(wp), intent(in) :: n
+      real(wp) :: slope
+      real(wp), parameter :: d = 1e-3_wp
+      slope = (8*(log_b(n + d) - log_b(n - d)) - (log_b(n + 2*d) - log_b(n - 2*d)))/(12*d)
+   end function log_b_slope
+
+   !> Penetration, m, that carries a force > 0, N, by bisection on the logarithm.
+   pure function penetration(self, force) result(eta)
+      class(contact_law_type), intent(in) :: self
+      real(wp), intent(in) :: force
+      real(wp) :: eta, low, high
+      type(contact_point) :: point
+      integer :: i
+      low = log(1e-15_wp)
+      high = log(self%socket_radius)
+      do i = 1, 60
+         eta = exp(0.5_wp*(low + high))
+         point = self%at(eta)
+         if (point%force > force) then
+            high = log(eta)
+         else
+            low = log(eta)
+         end if
+      end do
+   end function penetration
+end module contact_law

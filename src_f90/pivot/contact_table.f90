@@ -1,0 +1,104 @@
+!> The contact law tabulated over the penetration, for constant-time lookup.
+!>
+!> Every octave of the penetration is cut into `2**bits` equal cells, so the leading bits of the
+!> floating-point number are the cell's index. In each cell the force is the cubic that meets the
+!> law's force and slope at both ends: force and slope are continuous. The relative error is the
+!> same in all octaves, about `(2**-bits)**4 / 384` times the law's fourth derivative.
+module contact_table
+   use kinds, only: wp, i8
+   use contact_law, only: contact_law_type, contact_point
+   implicit none (type, external)
+   private
+   public :: contact_table_type, new_contact_table
+
+   !> Cells per octave: 2**bits. Octaves covered: 2**first to 2**(last+1) metres.
+   integer, parameter :: bits = 5, first = -40, last = -7
+   !> Position of the index bits in a 64-bit real.
+   integer, parameter :: shift = 52 - bits
+   integer, parameter :: bias = 1023
+   !> Index of the lowest cell.
+   integer(i8), parameter :: base = int(bias + first, i8)*2_i8**bits
+   integer, parameter :: n_cells = (last - first + 1)*2**bits
+
+   !> Force and slope of one pivot over the penetration.
+   type :: contact_table_type
+      private
+      !> Cubic coefficients (4) of each cell over its width.
+      real(wp), allocatable :: cubic(:, :)
+      !> Lower end and one over the width of each cell, m and 1/m.
+      real(wp), allocatable :: start(:), per_width(:)
+      !> Local power law below the lowest cell; straight line above the highest.
+      real(wp) :: low_exponent = 1
+      type(contact_point) :: low_end, high_end
+      !> Largest relative error of the force at the middles of the cells, where it peaks.
+      real(wp), public :: relative_error = 0
+   contains
+      !> Force, N, and slope, N/m, at a penetration, m; both zero where it is not positive.
+      procedure :: lookup
+   end type contact_table_type
+
+contains
+
+   !> Tabulates a law and measures the table's error.
+   pure function new_contact_table(law) result(table)
+      class(contact_law_type), intent(in) :: law
+      type(contact_table_type) :: table
+      type(contact_point) :: left, right, middle
+      real(wp) :: x, width, force, slope
+      integer :: k
+      allocate (table%cubic(4, 0:n_cells - 1), table%start(0:n_cells - 1), table%per_width(0:n_cells - 1))
+      right = law%at(cell_start(0))
+      table%low_end = right
+      table%low_exponent = right%slope*cell_start(0)/right%force
+      do k = 0, n_cells - 1
+         left = right
+         x = cell_start(k)
+         width = cell_start(k + 1) - x
+         right = law%at(x + width)
+         table%start(k) = x
+         table%per_width(k) = 1/width
+         associate (f0 => left%force, s0 => left%slope*width, f1 => right%force, s1 => right%slope*width)
+            table%cubic(:, k) = [f0, s0, 3*(f1 - f0) - 2*s0 - s1, 2*(f0 - f1) + s0 + s1]
+         end associate
+         middle = law%at(x + 0.5_wp*width)
+         call table%lookup(x + 0.5_wp*width, force, slope)
+         table%relative_error = max(table%relative_error, abs(force/middle%force - 1))
+      end do
+      table%high_end = right
+   end function new_contact_table
+
+   pure subroutine lookup(self, penetration, force, slope)
+      class(contact_table_type), intent(in) :: self
+      real(wp), intent(in) :: penetration
+      real(wp), intent(out) :: force, slope
+      integer(i8) :: k
+      real(wp) :: t, d
+      if (.not. penetration > 0) then
+         force = 0
+         slope = 0
+         return
+      end if
+      k = shiftr(transfer(penetration, 1_i8), shift) - base
+      if (k < 0) then
+         force = self%low_end%force*(penetration/cell_start(0))**self%low_exponent
+         slope = force*self%low_exponent/penetration
+      else if (k >= n_cells) then
+         d = penetration - cell_start(n_cells)
+         force = self%high_end%force + self%high_end%slope*d
+         slope = self%high_end%slope
+      else
+         associate (c => self%cubic(:, k))
+            t = (penetration - self%start(k))*self%per_width(k)
+            force = c(1) + t*(c(2) + t*(c(3) + t*c(4)))
+            slope = (c(2) + t*(2*c(3) + t*3*c(4)))*self%per_width(k)
+         end associate
+      end if
+   end subroutine lookup
+
+   !> Lower end of cell k, m: the real whose leading bits are the index.
+   elemental function cell_start(k) result(x)
+      integer, intent(in) :: k
+      real(wp) :: x
+      x = transfer(shiftl(base + k, shift), x)
+   end function cell_start
+end module contact_table

@@ -1,0 +1,71 @@
+!> Amplitude spectra by FFTW. The only file that knows FFTW.
+module spectra
+   use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_int, c_ptr
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: one_sided_amplitude, full_amplitude
+
+   interface
+      type(c_ptr) function fftw_plan_dft_1d(n, in, out, sign, flags) bind(c)
+         import :: c_ptr, c_int, c_double_complex
+         integer(c_int), value :: n, sign, flags
+         complex(c_double_complex), intent(inout) :: in(*), out(*)
+      end function fftw_plan_dft_1d
+
+      subroutine fftw_execute_dft(plan, in, out) bind(c)
+         import :: c_ptr, c_double_complex
+         type(c_ptr), value :: plan
+         complex(c_double_complex), intent(inout) :: in(*), out(*)
+      end subroutine fftw_execute_dft
+
+      subroutine fftw_destroy_plan(plan) bind(c)
+         import :: c_ptr
+         type(c_ptr), value :: plan
+      end subroutine fftw_destroy_plan
+   end interface
+
+   !> From fftw3.h.
+   integer(c_int), parameter :: fftw_forward = -1, fftw_estimate = 64
+
+contains
+
+   !> Amplitudes of a real signal of n samples at the frequencies k/(n dt), k = 0 .. n/2: a sine of
+   !> amplitude a gives a, a constant c gives |c|, at any n.
+   function one_sided_amplitude(signal) result(amplitude)
+      real(wp), intent(in) :: signal(:)
+      real(wp) :: amplitude(0:size(signal)/2)
+      complex(wp) :: spectrum(0:size(signal) - 1)
+      integer :: n
+      n = size(signal)
+      spectrum = transformed(cmplx(signal, 0.0_wp, wp))
+      amplitude = 2*abs(spectrum(0:n/2))/n
+      amplitude(0) = 0.5_wp*amplitude(0)
+      if (mod(n, 2) == 0) amplitude(n/2) = 0.5_wp*amplitude(n/2)
+   end function one_sided_amplitude
+
+   !> Amplitudes of a complex signal y + i z of n samples at the frequencies k/(n dt), k = -((n-1)/2) ..
+   !> n/2, in that order: positive frequencies turn from y towards z (forward whirl), negative ones back.
+   function full_amplitude(signal) result(amplitude)
+      complex(wp), intent(in) :: signal(:)
+      real(wp) :: amplitude(-((size(signal) - 1)/2):size(signal)/2)
+      complex(wp) :: spectrum(0:size(signal) - 1)
+      integer :: k, n
+      n = size(signal)
+      spectrum = transformed(signal)
+      do k = lbound(amplitude, 1), ubound(amplitude, 1)
+         amplitude(k) = abs(spectrum(modulo(k, n)))/n
+      end do
+   end function full_amplitude
+
+   !> sum_j signal(j) exp(-2 pi i j k / n).
+   function transformed(signal) result(spectrum)
+      complex(wp), intent(in) :: signal(:)
+      complex(wp) :: spectrum(size(signal)), work(size(signal))
+      type(c_ptr) :: plan
+      plan = fftw_plan_dft_1d(size(signal), work, spectrum, fftw_forward, fftw_estimate)
+      work = signal
+      call fftw_execute_dft(plan, work, spectrum)
+      call fftw_destroy_plan(plan)
+   end function transformed
+end module spectra
