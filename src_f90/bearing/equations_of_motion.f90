@@ -59,6 +59,8 @@ module equations_of_motion
       !> Index before the first state of a pad; index of its bristle.
       procedure :: offset
       procedure :: bristle
+      !> The state with journal and pads at rest at given places, bristles undeflected.
+      procedure :: at_rest
    end type bearing_model
 
    integer(i8), parameter :: timing_stride = 16
@@ -126,6 +128,19 @@ contains
       integer, intent(in) :: pad
       bristle = 4 + pad*self%states_per_pad
    end function bristle
+
+   pure function at_rest(self, journal, tilt, penetration) result(y)
+      class(bearing_model), intent(in) :: self
+      real(wp), intent(in) :: journal(2), tilt(:), penetration(:)
+      real(wp) :: y(self%n)
+      integer :: i
+      y = 0
+      y(1:2) = journal
+      do i = 1, size(tilt)
+         y(self%offset(i) + 1) = tilt(i)
+         if (self%radial) y(self%offset(i) + 3) = penetration(i)
+      end do
+   end function at_rest
 
    subroutine evaluate(self, t, y, want_slopes, ok)
       class(bearing_model), intent(inout) :: self

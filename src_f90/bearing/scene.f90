@@ -29,8 +29,8 @@ module scene
    end type rotor_type
 
    type :: operation_type
-      !> Speed at the start and at the end (linear in between), and how long, s.
-      real(wp) :: speed_rpm = 6500, final_speed_rpm = 6500, duration = 2
+      !> Speed at the start and at the end (linear in between; < 0: the same), and how long, s.
+      real(wp) :: speed_rpm = 6500, final_speed_rpm = -1, duration = 2
    end type operation_type
 
    type :: bearing_type
@@ -114,6 +114,7 @@ module scene
       procedure :: speed
       procedure :: shaft_angle
       procedure :: load
+      procedure :: settle
       procedure :: validate
    end type scene_type
 
@@ -141,7 +142,14 @@ contains
       scene%friction%model = 'none'
       scene%film%solver = 'sor'
       scene%film%cavitation = 'reynolds'
+      call scene%settle()
    end function new_scene
+
+   !> Puts the value that stands for another variable's in its place.
+   pure subroutine settle(self)
+      class(scene_type), intent(inout) :: self
+      if (self%operation%final_speed_rpm < 0) self%operation%final_speed_rpm = self%operation%speed_rpm
+   end subroutine settle
 
    pure integer function pad_count(self)
       class(scene_type), intent(in) :: self
@@ -207,6 +215,8 @@ contains
       integer :: i
 
       associate (b => self%bearing, p => self%pads, f => self%friction, v => self%pivot)
+         call require(mod(self%film%circumferential_cells, 2) == 0, 'film%circumferential_cells = ' &
+            & //to_text(self%film%circumferential_cells)//': must be even')
          ratio = b%machined_clearance/b%journal_radius
          call require(ratio >= 1e-5_wp .and. ratio <= 0.05_wp, 'bearing%machined_clearance = ' &
             & //to_text(b%machined_clearance)//': must be 1e-5 to 0.05 of bearing%journal_radius = ' &

@@ -52,7 +52,7 @@ module cvode_march
       integer(c_int64_t) :: n
    end type user_data
 
-   !> Steps between two calls of the observer's progress.
+   !> Steps between two calls of the observer's report.
    integer(i8), parameter :: steps_per_report = 256
 
 contains
@@ -132,7 +132,7 @@ contains
             exit
          end if
          statistics%steps = statistics%steps + 1
-         if (mod(statistics%steps, steps_per_report) == 0) call observer%progress(t(1), statistics%steps)
+         if (mod(statistics%steps, steps_per_report) == 0) call observer%report(t(1), statistics%steps)
       end do
 
       call read_statistics(memory, statistics)

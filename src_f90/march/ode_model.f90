@@ -37,7 +37,7 @@ module ode_model
    type, abstract :: march_observer
    contains
       procedure(take_sample), deferred :: sample
-      procedure(take_progress), deferred :: progress
+      procedure(take_progress), deferred :: report
    end type march_observer
 
    abstract interface

@@ -1,0 +1,178 @@
+# tiltpad: make run, make test; make help lists the rest.
+
+VERSION := 0.1.0
+
+# ---- what can be set ---------------------------------------------------------------------------
+# MODE=release|debug   debug: bounds, floating-point traps, all warnings
+# FC, FFLAGS           compiler and its optimisation flags
+# PREFIX               where make install puts things
+# SUNDIALS_PREFIX, HDF5_PREFIX, FFTW_PREFIX   libraries of a cluster; nothing is installed then
+# LAPACK               how to link LAPACK
+MODE   ?= release
+PREFIX ?= /usr/local
+PYTHON ?= python3
+LAPACK ?= -llapack -lblas
+ifeq ($(origin FC),default)
+FC := gfortran
+endif
+ifeq ($(MODE),debug)
+FFLAGS ?= -O1 -g -fcheck=all -fbacktrace -ffpe-trap=invalid,zero,overflow -Wall -Wextra \
+          -Wno-unused-dummy-argument -Wno-uninitialized -Wno-maybe-uninitialized -Werror
+B := build/debug
+else ifeq ($(MODE),release)
+FFLAGS ?= -O3 -march=native
+B := build
+else
+$(error MODE=$(MODE): must be release or debug)
+endif
+
+# ---- libraries ---------------------------------------------------------------------------------
+prefixes := $(SUNDIALS_PREFIX) $(HDF5_PREFIX) $(FFTW_PREFIX)
+modules  := $(foreach p,$(SUNDIALS_PREFIX) /usr,$p/include/sundials/fortran $p/fortran $p/include) \
+            $(if $(HDF5_PREFIX),$(HDF5_PREFIX)/include $(HDF5_PREFIX)/mod $(HDF5_PREFIX)/include/static,/usr/include/hdf5/serial)
+hdf5_name := $(if $(HDF5_PREFIX),hdf5,hdf5_serial)
+hdf5_libs := $(if $(HDF5_PREFIX),-lhdf5_hl_fortran -lhdf5_hl -lhdf5_fortran -lhdf5,\
+             -lhdf5_serialhl_fortran -lhdf5_serial_hl -lhdf5_serial_fortran -lhdf5_serial)
+LIBS := $(foreach p,$(prefixes),$(foreach d,$(wildcard $p/lib $p/lib64),-L$d -Wl,-rpath,$d)) \
+        -lsundials_fcvode_mod -lsundials_fnvecserial_mod -lsundials_fsunmatrixdense_mod \
+        -lsundials_fsunlinsoldense_mod -lsundials_cvode -lsundials_nvecserial \
+        $(hdf5_libs) -lfftw3 $(LAPACK)
+# directory modules are found in, and where ours go
+INCLUDE := $(foreach d,$(wildcard $(modules)),-I$d) -I$(B)/mod
+COMPILE = $(FC) -std=f2018 -fimplicit-none -fopenmp-simd $(FFLAGS) $(INCLUDE) -J$(B)/mod
+
+# ---- system packages ---------------------------------------------------------------------------
+PACKAGES := gfortran libc6-dev libsundials-dev libsundials-fortran-dev libhdf5-dev libfftw3-dev \
+            liblapack-dev python3 python3-venv
+
+sources := $(sort $(shell find src_f90 -name '*.f90'))
+main    := src_f90/app/tiltpad.f90
+objects := $(patsubst %.f90,$(B)/obj/%.o,$(notdir $(filter-out $(main),$(sources)))) $(B)/obj/build_info.o
+tests   := $(sort $(wildcard tests/unit/test_*.f90 tests/physics/test_*.f90))
+test_programs := $(patsubst %.f90,$(B)/tests/%,$(notdir $(tests)))
+vpath %.f90 $(sort $(dir $(sources) $(tests))) tests $(B)/obj
+
+VENV := build/venv
+venv_python := $(VENV)/bin/python
+
+.PHONY: help run build deps python test lint format docs install clean
+.DELETE_ON_ERROR:
+.SECONDARY:
+
+help:
+	@echo 'make run      set up, build, run input/paper/steady_lugre.nml, draw it into build/run'
+	@echo 'make test     set up, build, run every test'
+	@echo 'make build    build/bin/tiltpad          (MODE=debug: build/debug/bin/tiltpad)'
+	@echo 'make deps     install what is missing (root or sudo; otherwise print the list and stop)'
+	@echo 'make python   Python environment build/venv with the package tiltpad'
+	@echo 'make lint     style of Fortran and Python; make format mends Fortran layout'
+	@echo 'make docs     write docs/inputs.md from the program'
+	@echo 'make install  program into PREFIX/bin    (PREFIX=$(PREFIX))'
+	@echo 'make clean    remove build/'
+
+# ---- the two commands --------------------------------------------------------------------------
+run: build python
+	@mkdir -p build/run
+	$(B)/bin/tiltpad input/paper/steady_lugre.nml --output build/run/steady_lugre.h5
+	@for plot in orbit spectrum hysteresis; do \
+	   $(VENV)/bin/tiltpad-plot $$plot build/run/steady_lugre.h5 -o build/run/$$plot.png || exit 1; done
+
+test: build python
+	@$(MAKE) --no-print-directory MODE=debug test-programs
+	@TILTPAD=$(abspath $(B)/bin/tiltpad) tests/run_all $(VENV)/bin/python build/debug/tests
+
+# ---- set-up ------------------------------------------------------------------------------------
+deps: build/deps-checked
+
+build/deps-checked:
+	@mkdir -p build
+ifneq ($(strip $(prefixes)),)
+	@echo 'prefixes given: nothing is installed'
+else
+	@if command -v dpkg-query >/dev/null; then \
+	   missing=; for p in $(PACKAGES); do \
+	     dpkg-query -W -f '$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || missing="$$missing $$p"; done; \
+	   if [ -n "$$missing" ]; then \
+	     if [ "$$(id -u)" = 0 ]; then sudo=; \
+	     elif sudo -n true 2>/dev/null; then sudo=sudo; \
+	     else echo "missing packages; install them and call make again:"; echo "  apt-get install$$missing"; exit 1; fi; \
+	     echo "installing:$$missing"; \
+	     $$sudo apt-get update -qq && \
+	     $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends $$missing >/dev/null || exit 1; \
+	   fi; \
+	 else echo 'no Debian packages here: taking libraries from the compiler'"'"'s own paths'; fi
+endif
+	@touch $@
+
+python: $(VENV)/ready
+
+$(VENV)/ready: post/pyproject.toml post/requirements.txt | build/deps-checked
+	$(PYTHON) -m venv $(VENV)
+	$(venv_python) -m pip install -q --disable-pip-version-check -r post/requirements.txt
+	$(venv_python) -m pip install -q --disable-pip-version-check --no-build-isolation --no-deps -e post
+	@touch $@
+
+# ---- build -------------------------------------------------------------------------------------
+build: $(B)/bin/tiltpad
+
+$(B)/bin/tiltpad: $(B)/obj/tiltpad.o $(B)/lib/libtiltpad.a
+	@mkdir -p $(@D)
+	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
+
+$(B)/lib/libtiltpad.a: $(objects)
+	@mkdir -p $(@D)
+	@rm -f $@
+	ar rcs $@ $^
+
+$(B)/obj/%.o: %.f90 $(B)/flags | build/deps-checked
+	$(COMPILE) -c $< -o $@
+
+$(B)/tests/%: $(B)/obj/%.o $(B)/obj/check.o $(B)/lib/libtiltpad.a
+	@mkdir -p $(@D)
+	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
+
+test-programs: $(test_programs)
+
+# what the program says of itself; rewritten only when it changes
+commit := $(shell git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)
+define build_info
+!> What the program says of its own making; written by the Makefile.
+module build_info
+   implicit none (type, external)
+   private
+   public :: program_version, program_commit
+
+   character(len=*), parameter :: program_version = '$(VERSION)'
+   character(len=*), parameter :: program_commit = '$(commit)'
+end module build_info
+endef
+$(shell mkdir -p $(B)/obj $(B)/mod)
+$(file >$(B)/obj/build_info.new,$(build_info))
+$(file >$(B)/flags.new,$(COMPILE) $(LIBS))
+$(shell for f in $(B)/obj/build_info.f90:$(B)/obj/build_info.new $(B)/flags:$(B)/flags.new; do \
+   cmp -s $${f#*:} $${f%:*} && rm $${f#*:} || mv $${f#*:} $${f%:*}; done)
+
+# module order: an object depends on the objects of the modules it uses (file = module)
+$(shell awk -v b=$(B)/obj 'FNR == 1 { n = split(FILENAME, part, "/"); sub(/\.f90$$/, "", part[n]); \
+   own[part[n]] = 1; this = part[n] } \
+   tolower($$1) == "use" { used = tolower($$2); sub(/,.*/, "", used); uses[this] = uses[this] " " used } \
+   END { own["build_info"] = 1; for (f in uses) { split(uses[f], m, " "); line = ""; \
+   for (i in m) if (m[i] in own) line = line " " b "/" m[i] ".o"; if (line != "") print b "/" f ".o:" line } }' \
+   $(sources) $(tests) tests/check.f90 > $(B)/depend.mk)
+include $(B)/depend.mk
+
+# ---- house-keeping -----------------------------------------------------------------------------
+lint: python
+	$(VENV)/bin/fortitude check src_f90 tests
+	$(VENV)/bin/ruff check post tests
+	$(VENV)/bin/ruff format --check post tests
+
+docs: build
+	@{ cat docs/inputs_head.md; $(B)/bin/tiltpad --reference; } > docs/inputs.md
+
+install: build
+	install -d $(DESTDIR)$(PREFIX)/bin
+	install -m 755 $(B)/bin/tiltpad $(DESTDIR)$(PREFIX)/bin/tiltpad
+
+clean:
+	rm -rf build

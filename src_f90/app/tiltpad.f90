@@ -1,0 +1,139 @@
+!> The command: arguments, messages, exit status. The only place that stops.
+program tiltpad
+   use, intrinsic :: iso_c_binding, only: c_int
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use errors, only: error_type, raise, input_error
+   use scene, only: scene_type
+   use scene_namelist, only: read_scene, scene_text
+   use input_reference, only: reference_text
+   use build_info, only: program_version, program_commit
+   use run_case, only: run_scene
+   implicit none (type, external)
+
+   interface
+      subroutine c_exit(status) bind(c, name='exit')
+         import :: c_int
+         integer(c_int), value :: status
+      end subroutine c_exit
+   end interface
+
+   !> Longest override.
+   integer, parameter :: longest = 4096
+
+   type(error_type), allocatable :: error
+   call command(error)
+   flush (output_unit)
+   if (allocated(error)) then
+      write (error_unit, '(a)') 'tiltpad: error: '//error%message
+      call c_exit(int(error%status, c_int))
+   end if
+
+contains
+
+   !> Does what the command line says.
+   subroutine command(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(scene_type) :: scene
+      character(len=:), allocatable :: word, case_file, output, stem
+      character(len=longest), allocatable :: overrides(:)
+      logical :: check, quiet
+      integer :: i
+
+      check = .false.
+      quiet = .false.
+      case_file = ''
+      output = ''
+      allocate (overrides(0))
+      i = 0
+      do while (i < command_argument_count())
+         i = i + 1
+         word = argument(i)
+         select case (word)
+         case ('--help', '-h')
+            call print_help()
+            return
+         case ('--version')
+            print '(a)', 'tiltpad '//program_version//' ('//program_commit//')'
+            return
+         case ('--reference')
+            write (output_unit, '(a)', advance='no') reference_text()
+            return
+         case ('--check')
+            check = .true.
+         case ('--quiet', '-q')
+            quiet = .true.
+         case ('--output', '-o', '--set')
+            if (i == command_argument_count()) then
+               call raise(error, input_error, word//': a value must follow; see tiltpad --help')
+               return
+            end if
+            i = i + 1
+            if (word == '--set' .and. len(argument(i)) > longest) then
+               call raise(error, input_error, '--set: the value is too long')
+               return
+            end if
+            if (word == '--set') then
+               overrides = [character(len=longest) :: overrides, argument(i)]
+            else
+               output = argument(i)
+               if (output == '') call raise(error, input_error, word//': the file name is empty')
+               if (allocated(error)) return
+            end if
+         case default
+            if (len(word) == 0) then
+               call raise(error, input_error, 'an empty argument; see tiltpad --help')
+            else if (word(1:1) == '-') then
+               call raise(error, input_error, 'unknown option '//word//'; see tiltpad --help')
+            else if (case_file /= '') then
+               call raise(error, input_error, 'one case at a time: '//case_file//' and '//word//' given')
+            else
+               case_file = word
+            end if
+            if (allocated(error)) return
+         end select
+      end do
+      if (case_file == '') then
+         call raise(error, input_error, 'no case given; usage: tiltpad [options] CASE.nml, see tiltpad --help')
+         return
+      end if
+
+      call read_scene(case_file, overrides, scene, error)
+      if (allocated(error)) return
+      if (check) then
+         write (output_unit, '(a)', advance='no') scene_text(scene)
+         return
+      end if
+      if (output == '') then
+         stem = case_file(index(case_file, '/', back=.true.) + 1:)
+         if (index(stem, '.', back=.true.) > 1) stem = stem(:index(stem, '.', back=.true.) - 1)
+         output = stem//'.h5'
+      end if
+      call run_scene(scene, output, quiet, error)
+   end subroutine command
+
+   !> The i-th word of the command line, of any length.
+   function argument(i)
+      integer, intent(in) :: i
+      character(len=:), allocatable :: argument
+      integer :: length
+      call get_command_argument(i, length=length)
+      allocate (character(len=length) :: argument)
+      call get_command_argument(i, argument)
+   end function argument
+
+   subroutine print_help()
+      print '(a)', 'usage: tiltpad [options] CASE.nml', &
+         & '', &
+         & 'Marches the tilting pad journal bearing of a namelist case and writes an HDF5 result file.', &
+         & '', &
+         & '  --output FILE           result file; default: the case''s name with .h5, in this directory', &
+         & '  --set group%name=value  overrides one value of the case; may be repeated', &
+         & '  --check                 reads, checks and prints the resolved case; runs nothing', &
+         & '  --quiet                 prints nothing but errors', &
+         & '  --reference             prints the input reference (Markdown)', &
+         & '  --version, --help', &
+         & '', &
+         & 'Exit status: 0 done; 1 usage or input; 2 the numerics failed (what was computed is kept);', &
+         & '3 file or system.'
+   end subroutine print_help
+end program tiltpad

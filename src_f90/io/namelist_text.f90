@@ -1,0 +1,307 @@
+!> Splits namelist text into assignments that know where they stand. Values are not interpreted.
+module namelist_text
+   use text, only: to_text, lower_case
+   use errors, only: error_type, raise, input_error
+   implicit none (type, external)
+   private
+   public :: namelist_type, assignment_type, token_type, parse_namelist, parse_override
+
+   !> One value; `repeat*value` stands for several of them.
+   type :: token_type
+      character(len=:), allocatable :: text
+      logical :: quoted = .false.
+   end type token_type
+
+   !> `group%name(subscript) = values`, and where: "case.nml line 3" or "--set".
+   type :: assignment_type
+      character(len=:), allocatable :: group, name, place
+      !> First element that the values go to; 0 where no subscript is given.
+      integer :: subscript = 0
+      type(token_type), allocatable :: values(:)
+   end type assignment_type
+
+   type :: namelist_type
+      character(len=:), allocatable :: file
+      !> Groups in their order, and where they start.
+      type(assignment_type), allocatable :: groups(:)
+      type(assignment_type), allocatable :: assignments(:)
+   end type namelist_type
+
+   !> Where the scanner is.
+   type :: scanner
+      character(len=:), allocatable :: text, file
+      integer :: at = 1, line = 1
+   contains
+      procedure :: peek
+      procedure :: skip_blank
+      procedure :: word
+      procedure :: place
+   end type scanner
+
+   character(len=*), parameter :: newline = achar(10), tab = achar(9), return = achar(13)
+   character(len=*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyz_'
+   character(len=*), parameter :: name_characters = letters//'0123456789'
+
+contains
+
+   !> Parses the text of a file; `file` is for messages.
+   subroutine parse_namelist(text, file, namelist, error)
+      character(len=*), intent(in) :: text, file
+      type(namelist_type), intent(out) :: namelist
+      type(error_type), allocatable, intent(out) :: error
+      type(scanner) :: scan
+      type(assignment_type) :: group
+      integer :: i
+
+      namelist%file = file
+      allocate (namelist%groups(0), namelist%assignments(0))
+      do i = 1, len(text)
+         if (iachar(text(i:i)) < 32 .and. index(newline//tab//return, text(i:i)) == 0 .or. iachar(text(i:i)) == 127) then
+            call raise(error, input_error, file//': not a text file (byte '//to_text(i)//' is a control character)')
+            return
+         end if
+      end do
+      scan%text = text
+      scan%file = file
+      do
+         call scan%skip_blank(',')
+         if (scan%peek() == '') exit
+         if (scan%peek() /= '&') then
+            call raise(error, input_error, scan%place()//': '''//scan%word()//''' stands outside a group;' &
+               & //' expected &name')
+            return
+         end if
+         scan%at = scan%at + 1
+         group%place = scan%place()
+         group%group = lower_case(scan%word())
+         do i = 1, size(namelist%groups)
+            if (namelist%groups(i)%group == group%group) then
+               call raise(error, input_error, group%place//': group &'//group%group//' is given twice, first at ' &
+                  & //namelist%groups(i)%place)
+               return
+            end if
+         end do
+         namelist%groups = [namelist%groups, group]
+         call parse_group(scan, group, namelist%assignments, error)
+         if (allocated(error)) return
+      end do
+      if (size(namelist%groups) == 0) call raise(error, input_error, file//': no namelist group in it; expected &name ... /')
+   end subroutine parse_namelist
+
+   !> Parses the argument of --set, "group%name=value", and puts it in place of what the file says.
+   subroutine parse_override(text, namelist, error)
+      character(len=*), intent(in) :: text
+      type(namelist_type), intent(inout) :: namelist
+      type(error_type), allocatable, intent(out) :: error
+      type(scanner) :: scan
+      type(assignment_type) :: group
+      type(assignment_type), allocatable :: new(:)
+      logical, allocatable :: keep(:)
+      integer :: percent, i
+      percent = index(text, '%')
+      group%place = '--set '//text
+      if (percent > 1) group%group = lower_case(trim(adjustl(text(:percent - 1))))
+      if (percent <= 1 .or. index(text, '=') < percent) then
+         call raise(error, input_error, group%place//': expected group%name=value')
+         return
+      end if
+      scan%text = text(percent + 1:)//' /'
+      scan%file = '--set '//text
+      allocate (new(0))
+      call parse_group(scan, group, new, error)
+      if (allocated(error)) return
+      call scan%skip_blank('')
+      if (size(new) /= 1 .or. scan%peek() /= '') then
+         call raise(error, input_error, group%place//': expected one group%name=value')
+         return
+      end if
+      new(1)%place = '--set'
+      keep = [(.not. same_target(namelist%assignments(i), new(1)), i=1, size(namelist%assignments))]
+      namelist%assignments = [pack(namelist%assignments, keep), new]
+   end subroutine parse_override
+
+   !> From behind the group's name to behind its end.
+   subroutine parse_group(scan, group, assignments, error)
+      type(scanner), intent(inout) :: scan
+      type(assignment_type), intent(in) :: group
+      type(assignment_type), allocatable, intent(inout) :: assignments(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(assignment_type) :: new
+      integer :: i
+      do
+         call scan%skip_blank(',')
+         select case (scan%peek())
+         case ('/')
+            scan%at = scan%at + 1
+            return
+         case ('&', '')
+            if (scan%peek() == '&' .and. lower_case(scan%text(scan%at:min(scan%at + 3, len(scan%text)))) == '&end') then
+               scan%at = scan%at + 4
+               return
+            end if
+            call raise(error, input_error, group%place//': group &'//group%group//' is not closed by /')
+            return
+         end select
+         new = group
+         new%place = scan%place()
+         call parse_target(scan, new, error)
+         if (.not. allocated(error)) call parse_values(scan, new, error)
+         if (allocated(error)) return
+         do i = 1, size(assignments)
+            if (same_target(assignments(i), new)) then
+               call raise(error, input_error, new%place//': '//new%group//'%'//new%name//' is given twice, first at ' &
+                  & //assignments(i)%place)
+               return
+            end if
+         end do
+         assignments = [assignments, new]
+      end do
+   end subroutine parse_group
+
+   !> name [(subscript)] =
+   subroutine parse_target(scan, new, error)
+      type(scanner), intent(inout) :: scan
+      type(assignment_type), intent(inout) :: new
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: found, subscript
+      integer :: open, status
+      found = lower_case(scan%word())
+      open = index(found, '(')
+      status = 0
+      new%name = found
+      if (open > 0) then
+         new%name = found(:open - 1)
+         subscript = found(open + 1:max(open, len(found) - 1))
+         if (subscript == '' .or. verify(subscript, '0123456789') /= 0 .or. len(subscript) > 4 &
+            & .or. found(len(found):) /= ')') then
+            status = 1
+         else
+            read (subscript, *) new%subscript
+            if (new%subscript < 1) status = 1
+         end if
+      end if
+      call scan%skip_blank('')
+      if (status /= 0 .or. len(new%name) == 0 .or. verify(new%name, name_characters) /= 0 .or. scan%peek() /= '=') then
+         call raise(error, input_error, new%place//': '''//found//''' in group &'//new%group &
+            & //': expected name = value')
+         return
+      end if
+      scan%at = scan%at + 1
+   end subroutine parse_target
+
+   !> Values up to the next name, the end of the group or of the text.
+   subroutine parse_values(scan, new, error)
+      type(scanner), intent(inout) :: scan
+      type(assignment_type), intent(inout) :: new
+      type(error_type), allocatable, intent(out) :: error
+      type(scanner) :: ahead
+      type(token_type) :: token
+      character(len=:), allocatable :: found
+      logical :: comma
+      allocate (new%values(0))
+      comma = .true.
+      do
+         call scan%skip_blank('')
+         if (scan%peek() == ',') then
+            if (comma) exit
+            comma = .true.
+            scan%at = scan%at + 1
+            cycle
+         end if
+         if (index('/&', scan%peek()) > 0) exit
+         ahead = scan
+         if (scan%peek() == '''' .or. scan%peek() == '"') then
+            call quoted(ahead, token, new, error)
+            if (allocated(error)) return
+         else
+            found = ahead%word()
+            token%text = found
+            token%quoted = .false.
+            call ahead%skip_blank('')
+            ! a word before '=' is the next name
+            if (ahead%peek() == '=') then
+               if (found == '') ahead%at = ahead%at + 1
+               if (found /= '') exit
+            end if
+         end if
+         scan = ahead
+         new%values = [new%values, token]
+         comma = .false.
+      end do
+      if (size(new%values) == 0 .or. scan%peek() == ',') call raise(error, input_error, new%place//': '//new%group &
+         & //'%'//new%name//': a value is missing')
+   end subroutine parse_values
+
+   !> A string in quotes on one line; a doubled quote stands for itself.
+   subroutine quoted(scan, token, new, error)
+      type(scanner), intent(inout) :: scan
+      type(token_type), intent(out) :: token
+      type(assignment_type), intent(in) :: new
+      type(error_type), allocatable, intent(out) :: error
+      character :: quote
+      quote = scan%peek()
+      token%text = ''
+      token%quoted = .true.
+      do
+         scan%at = scan%at + 1
+         if (scan%peek() == '' .or. scan%peek() == newline) then
+            call raise(error, input_error, new%place//': '//new%group//'%'//new%name//': the quote is not closed')
+            return
+         else if (scan%peek() == quote) then
+            scan%at = scan%at + 1
+            if (scan%peek() /= quote) return
+         end if
+         token%text = token%text//scan%text(scan%at:scan%at)
+      end do
+   end subroutine quoted
+
+   pure logical function same_target(a, b)
+      type(assignment_type), intent(in) :: a, b
+      same_target = a%group == b%group .and. a%name == b%name .and. a%subscript == b%subscript
+   end function same_target
+
+   !> The character here; empty at the end.
+   pure function peek(self) result(character)
+      class(scanner), intent(in) :: self
+      character(len=:), allocatable :: character
+      character = self%text(self%at:min(self%at, len(self%text)))
+   end function peek
+
+   !> Moves over blanks, ends of lines, comments, and the characters of `also`.
+   pure subroutine skip_blank(self, also)
+      class(scanner), intent(inout) :: self
+      character(len=*), intent(in) :: also
+      do while (self%at <= len(self%text))
+         associate (c => self%text(self%at:self%at))
+            if (c == '!') then
+               do while (self%at < len(self%text))
+                  if (self%text(self%at + 1:self%at + 1) == newline) exit
+                  self%at = self%at + 1
+               end do
+            else if (c == newline) then
+               self%line = self%line + 1
+            else if (index(' '//tab//return//also, c) == 0) then
+               return
+            end if
+         end associate
+         self%at = self%at + 1
+      end do
+   end subroutine skip_blank
+
+   !> The run of characters from here to a separator; moves behind it.
+   function word(self) result(found)
+      class(scanner), intent(inout) :: self
+      character(len=:), allocatable :: found
+      integer :: length
+      length = scan(self%text(self%at:)//' ', ' ,=/&!''"'//tab//newline//return) - 1
+      found = self%text(self%at:self%at + length - 1)
+      self%at = self%at + length
+   end function word
+
+   pure function place(self)
+      class(scanner), intent(in) :: self
+      character(len=:), allocatable :: place
+      place = self%file
+      if (index(self%file, '--set') /= 1) place = self%file//' line '//to_text(self%line)
+   end function place
+end module namelist_text

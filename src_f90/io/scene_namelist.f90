@@ -1,0 +1,451 @@
+!> Scene from namelist text and back. Values are checked where they are read, so that the message can
+!> name file, line, group, variable, value and what is allowed.
+module scene_namelist
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp
+   use text, only: to_text, exact_text, lower_case
+   use errors, only: error_type, raise, add_context, input_error
+   use scene, only: scene_type, max_pads
+   use scene_fields, only: field_visitor, range_type, visit_scene
+   use namelist_text, only: namelist_type, assignment_type, token_type, parse_namelist, parse_override
+   implicit none (type, external)
+   private
+   public :: read_scene, scene_from_text, scene_text
+
+   !> Longest input file, bytes.
+   integer, parameter :: longest_file = 1000000
+
+   !> Fills a scene from assignments.
+   type, extends(field_visitor) :: scene_reader
+      type(namelist_type) :: namelist
+      logical, allocatable :: used(:), known_group(:)
+      character(len=:), allocatable :: this_group, groups, variables
+      integer :: pad_count = 0
+      type(error_type), allocatable :: error
+   contains
+      procedure :: group => read_group
+      procedure :: word => read_word
+      procedure :: whole => read_whole
+      procedure :: numbers => read_numbers
+      procedure :: per_pad => read_per_pad
+      procedure, private :: check_unused
+      procedure, private :: reals
+      procedure, private :: refuse
+   end type scene_reader
+
+   !> Writes a scene as namelist text.
+   type, extends(field_visitor) :: scene_writer
+      character(len=:), allocatable :: text
+   contains
+      procedure :: group => write_group
+      procedure :: word => write_word
+      procedure :: whole => write_whole
+      procedure :: numbers => write_numbers
+      procedure :: per_pad => write_per_pad
+      procedure, private :: line
+   end type scene_writer
+
+   character(len=*), parameter :: newline = achar(10)
+
+contains
+
+   !> Reads a case file, applies the overrides ("group%name=value") and checks everything.
+   subroutine read_scene(file, overrides, scene, error)
+      character(len=*), intent(in) :: file, overrides(:)
+      type(scene_type), intent(out) :: scene
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: text
+      character(len=200) :: message
+      logical :: exists
+      integer :: unit, status, length
+      inquire (file=file, exist=exists)
+      if (.not. exists) then
+         call raise(error, input_error, file//': no such file')
+         return
+      end if
+      open (newunit=unit, file=file, access='stream', form='unformatted', action='read', status='old', &
+         & iostat=status, iomsg=message)
+      if (status == 0) then
+         inquire (unit=unit, size=length)
+         if (length > longest_file) then
+            call raise(error, input_error, file//': '//to_text(length)//' bytes; an input file has at most ' &
+               & //to_text(longest_file))
+            close (unit)
+            return
+         end if
+         allocate (character(len=max(length, 0)) :: text)
+         if (length > 0) read (unit, iostat=status, iomsg=message) text
+         close (unit)
+      end if
+      if (status /= 0) then
+         call raise(error, input_error, file//': cannot be read: '//trim(message))
+         return
+      end if
+      call scene_from_text(text, file, overrides, scene, error)
+   end subroutine read_scene
+
+   !> The same from text; `file` is for messages.
+   subroutine scene_from_text(text, file, overrides, scene, error)
+      character(len=*), intent(in) :: text, file, overrides(:)
+      type(scene_type), intent(out) :: scene
+      type(error_type), allocatable, intent(out) :: error
+      type(scene_reader) :: reader
+      integer :: i
+      call parse_namelist(text, file, reader%namelist, error)
+      do i = 1, size(overrides)
+         if (.not. allocated(error)) call parse_override(trim(overrides(i)), reader%namelist, error)
+      end do
+      if (allocated(error)) return
+      allocate (reader%used(size(reader%namelist%assignments)), source=.false.)
+      allocate (reader%known_group(size(reader%namelist%groups)), source=.false.)
+      reader%this_group = ''
+      reader%groups = ''
+      scene = scene_type()
+      scene%operation%final_speed_rpm = -1
+      call visit_scene(scene, reader)
+      call reader%group('', '')
+      do i = 1, size(reader%namelist%groups)
+         if (.not. reader%known_group(i)) call reader%refuse(reader%namelist%groups(i)%place//': unknown group &' &
+            & //reader%namelist%groups(i)%group//'; known:'//reader%groups)
+      end do
+      do i = 1, size(reader%used)
+         if (.not. reader%used(i)) call reader%refuse(reader%namelist%assignments(i)%place//': unknown group ' &
+            & //reader%namelist%assignments(i)%group//'; known:'//reader%groups)
+      end do
+      if (.not. allocated(reader%error)) then
+         call scene%settle()
+         call scene%validate(reader%error)
+         call add_context(reader%error, file)
+      end if
+      if (allocated(reader%error)) call move_alloc(reader%error, error)
+   end subroutine scene_from_text
+
+   !> Keeps the first error.
+   subroutine refuse(self, message)
+      class(scene_reader), intent(inout) :: self
+      character(len=*), intent(in) :: message
+      if (.not. allocated(self%error)) call raise(self%error, input_error, message)
+   end subroutine refuse
+
+   subroutine read_group(self, name, meaning)
+      class(scene_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name, meaning
+      integer :: i
+      call self%check_unused()
+      self%this_group = name
+      self%variables = ''
+      self%groups = self%groups//' '//name
+      do i = 1, size(self%namelist%groups)
+         if (self%namelist%groups(i)%group == name) self%known_group(i) = .true.
+      end do
+   end subroutine read_group
+
+   !> Refuses what was assigned in the group just left and not asked for.
+   subroutine check_unused(self)
+      class(scene_reader), intent(inout) :: self
+      integer :: i
+      do i = 1, size(self%used)
+         associate (a => self%namelist%assignments(i))
+            if (a%group /= self%this_group .or. self%used(i)) cycle
+            call self%refuse(a%place//': unknown variable '//a%group//'%'//a%name//'; known:'//self%variables)
+            self%used(i) = .true.
+         end associate
+      end do
+   end subroutine check_unused
+
+   subroutine read_word(self, name, value, choices, meaning)
+      class(scene_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name, choices, meaning
+      character(len=:), allocatable, intent(inout) :: value
+      character(len=:), allocatable :: found
+      integer :: i
+      self%variables = self%variables//' '//name
+      do i = 1, size(self%used)
+         associate (a => self%namelist%assignments(i))
+            if (a%group /= self%this_group .or. a%name /= name) cycle
+            self%used(i) = .true.
+            found = a%values(1)%text
+            if (choices /= '') found = lower_case(trim(adjustl(found)))
+            if (size(a%values) > 1 .or. a%subscript > 0) then
+               call self%refuse(a%place//': '//described(a)//': takes one text')
+            else if (choices /= '' .and. index(' '//choices//' ', ' '//found//' ') == 0) then
+               call self%refuse(a%place//': '//described(a)//': must be one of '''//quoted_list(choices)//'''')
+            else if (choices == '' .and. .not. a%values(1)%quoted) then
+               call self%refuse(a%place//': '//described(a)//': text must stand in quotes')
+            end if
+            value = found
+         end associate
+      end do
+   end subroutine read_word
+
+   subroutine read_whole(self, name, value, allowed, meaning)
+      class(scene_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name, meaning
+      integer, intent(inout) :: value
+      type(range_type), intent(in) :: allowed
+      real(wp), allocatable :: given(:)
+      integer :: i
+      self%variables = self%variables//' '//name
+      do i = 1, size(self%used)
+         associate (a => self%namelist%assignments(i))
+            if (a%group /= self%this_group .or. a%name /= name) cycle
+            self%used(i) = .true.
+            call self%reals(a, 1, allowed, given)
+            if (allocated(self%error)) return
+            if (verify(a%values(1)%text, '+-0123456789*') /= 0) then
+               call self%refuse(a%place//': '//described(a)//': must be a whole number, '//allowed%text())
+               return
+            end if
+            value = nint(given(1))
+         end associate
+      end do
+   end subroutine read_whole
+
+   subroutine read_numbers(self, name, values, allowed, unit, meaning)
+      class(scene_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name, unit, meaning
+      real(wp), intent(inout) :: values(:)
+      type(range_type), intent(in) :: allowed
+      real(wp), allocatable :: given(:)
+      integer :: i
+      self%variables = self%variables//' '//name
+      do i = 1, size(self%used)
+         associate (a => self%namelist%assignments(i))
+            if (a%group /= self%this_group .or. a%name /= name) cycle
+            self%used(i) = .true.
+            call self%reals(a, size(values), allowed, given)
+            if (allocated(self%error)) return
+            if (a%subscript == 0 .and. size(given) /= size(values)) then
+               call self%refuse(a%place//': '//described(a)//': takes '//to_text(size(values))//' values')
+               return
+            end if
+            values(max(1, a%subscript):max(1, a%subscript) + size(given) - 1) = given
+         end associate
+      end do
+   end subroutine read_numbers
+
+   subroutine read_per_pad(self, name, values, fixes_pads, allowed, unit, meaning)
+      class(scene_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name, unit, meaning
+      real(wp), allocatable, intent(inout) :: values(:)
+      logical, intent(in) :: fixes_pads
+      type(range_type), intent(in) :: allowed
+      real(wp), allocatable :: given(:)
+      integer :: i, most
+      self%variables = self%variables//' '//name
+      most = merge(max_pads, self%pad_count, fixes_pads)
+      if (.not. fixes_pads) values = spread(values(1), 1, self%pad_count)
+      do i = 1, size(self%used)
+         associate (a => self%namelist%assignments(i))
+            if (a%group /= self%this_group .or. a%name /= name) cycle
+            self%used(i) = .true.
+            call self%reals(a, most, allowed, given)
+            if (allocated(self%error)) exit
+            if (fixes_pads) then
+               if (a%subscript > 0) call self%refuse(a%place//': '//described(a) &
+                  & //': the number of angles is the number of pads; give all of them without subscript')
+               values = given
+            else if (a%subscript > 0) then
+               values(a%subscript:a%subscript + size(given) - 1) = given
+            else if (size(given) == 1) then
+               values = spread(given(1), 1, self%pad_count)
+            else if (size(given) == self%pad_count) then
+               values = given
+            else
+               call self%refuse(a%place//': '//described(a)//': takes one value for all pads or one each (' &
+                  & //to_text(self%pad_count)//')')
+            end if
+         end associate
+      end do
+      if (fixes_pads) self%pad_count = size(values)
+   end subroutine read_per_pad
+
+   !> The values of an assignment as reals, each within the range; at most `most` up to the last element.
+   subroutine reals(self, a, most, allowed, values)
+      class(scene_reader), intent(inout) :: self
+      type(assignment_type), intent(in) :: a
+      integer, intent(in) :: most
+      type(range_type), intent(in) :: allowed
+      real(wp), allocatable, intent(out) :: values(:)
+      real(wp) :: x
+      integer :: i, star, repeat, status
+      character(len=:), allocatable :: digits
+      allocate (values(0))
+      do i = 1, size(a%values)
+         digits = lower_case(a%values(i)%text)
+         star = index(digits, '*')
+         repeat = 1
+         status = 0
+         if (star > 0) then
+            if (star == 1 .or. star > 7 .or. verify(digits(:star - 1), '0123456789') /= 0) then
+               status = 1
+            else
+               read (digits(:star - 1), *) repeat
+               if (repeat < 1) status = 1
+            end if
+            digits = digits(star + 1:)
+         end if
+         if (.not. a%values(i)%quoted .and. is_special(digits)) then
+            call self%refuse(a%place//': '//described(a)//': must be finite, '//allowed%text())
+            return
+         end if
+         if (status == 0 .and. .not. a%values(i)%quoted .and. is_number(digits)) read (digits, *, iostat=status) x
+         if (status /= 0 .or. a%values(i)%quoted .or. .not. is_number(digits)) then
+            call self%refuse(a%place//': '//described(a)//': must be a number, '//allowed%text())
+            return
+         end if
+         if (.not. ieee_is_finite(x)) then
+            call self%refuse(a%place//': '//described(a)//': must be finite, '//allowed%text())
+            return
+         end if
+         if (.not. allowed%allows(x)) then
+            call self%refuse(a%place//': '//described(a)//': must be '//allowed%text())
+            return
+         end if
+         if (max(1, a%subscript) - 1 + size(values) + repeat > most) then
+            call self%refuse(a%place//': '//described(a)//': at most '//to_text(most)//' values')
+            return
+         end if
+         values = [values, spread(x, 1, repeat)]
+      end do
+   end subroutine reals
+
+   !> [sign] digits [. digits] [e|d [sign] digits], with a digit before or after the point. Fortran itself
+   !> would take more, such as 1+2 for 100.
+   pure logical function is_number(word)
+      character(len=*), intent(in) :: word
+      character(len=:), allocatable :: mantissa, exponent
+      integer :: e, point
+      is_number = .false.
+      if (len(word) == 0 .or. len(word) > 60) return
+      e = scan(word, 'ed')
+      mantissa = word
+      if (e > 0) then
+         mantissa = word(:e - 1)
+         exponent = unsigned(word(e + 1:))
+         if (len(exponent) == 0 .or. verify(exponent, '0123456789') /= 0) return
+      end if
+      mantissa = unsigned(mantissa)
+      point = index(mantissa, '.')
+      if (point > 0) mantissa = mantissa(:point - 1)//mantissa(point + 1:)
+      is_number = len(mantissa) > 0 .and. verify(mantissa, '0123456789') == 0
+   end function is_number
+
+   pure logical function is_special(word)
+      character(len=*), intent(in) :: word
+      is_special = any(unsigned(word) == [character(len=8) :: 'nan', 'inf', 'infinity'])
+   end function is_special
+
+   pure function unsigned(word)
+      character(len=*), intent(in) :: word
+      character(len=:), allocatable :: unsigned
+      unsigned = word
+      if (len(word) > 0) then
+         if (index('+-', word(1:1)) > 0) unsigned = word(2:)
+      end if
+   end function unsigned
+
+   !> "rotor%mass = -1"
+   pure function described(a)
+      type(assignment_type), intent(in) :: a
+      character(len=:), allocatable :: described
+      integer :: i
+      described = a%group//'%'//a%name
+      if (a%subscript > 0) described = described//'('//to_text(a%subscript)//')'
+      described = described//' = '
+      do i = 1, min(4, size(a%values))
+         if (i > 1) described = described//', '
+         if (a%values(i)%quoted) then
+            described = described//''''//a%values(i)%text//''''
+         else
+            described = described//a%values(i)%text
+         end if
+      end do
+      if (size(a%values) > 4) described = described//', ... ('//to_text(size(a%values))//' values)'
+   end function described
+
+   !> "a b" to "a', 'b".
+   pure function quoted_list(choices) result(list)
+      character(len=*), intent(in) :: choices
+      character(len=:), allocatable :: list
+      integer :: i
+      list = ''
+      do i = 1, len(choices)
+         if (choices(i:i) == ' ') then
+            list = list//''', '''
+         else
+            list = list//choices(i:i)
+         end if
+      end do
+   end function quoted_list
+
+   !> The whole scene as namelist text, every number to the last bit.
+   function scene_text(scene) result(text)
+      type(scene_type), intent(in) :: scene
+      character(len=:), allocatable :: text
+      type(scene_type) :: copy
+      type(scene_writer) :: writer
+      copy = scene
+      writer%text = ''
+      call visit_scene(copy, writer)
+      text = writer%text//'/'//newline
+   end function scene_text
+
+   subroutine write_group(self, name, meaning)
+      class(scene_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name, meaning
+      if (self%text /= '') self%text = self%text//'/'//newline
+      self%text = self%text//'&'//name//newline
+   end subroutine write_group
+
+   subroutine line(self, name, value)
+      class(scene_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name, value
+      self%text = self%text//'  '//name//' = '//value//newline
+   end subroutine line
+
+   subroutine write_word(self, name, value, choices, meaning)
+      class(scene_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name, choices, meaning
+      character(len=:), allocatable, intent(inout) :: value
+      character(len=:), allocatable :: quoted
+      integer :: i
+      quoted = ''
+      do i = 1, len(value)
+         quoted = quoted//value(i:i)
+         if (value(i:i) == '''') quoted = quoted//''''
+      end do
+      call self%line(name, ''''//quoted//'''')
+   end subroutine write_word
+
+   subroutine write_whole(self, name, value, allowed, meaning)
+      class(scene_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name, meaning
+      integer, intent(inout) :: value
+      type(range_type), intent(in) :: allowed
+      call self%line(name, to_text(value))
+   end subroutine write_whole
+
+   subroutine write_numbers(self, name, values, allowed, unit, meaning)
+      class(scene_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name, unit, meaning
+      real(wp), intent(inout) :: values(:)
+      type(range_type), intent(in) :: allowed
+      character(len=:), allocatable :: list
+      integer :: i
+      list = exact_text(values(1))
+      do i = 2, size(values)
+         list = list//', '//exact_text(values(i))
+      end do
+      call self%line(name, list)
+   end subroutine write_numbers
+
+   subroutine write_per_pad(self, name, values, fixes_pads, allowed, unit, meaning)
+      class(scene_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name, unit, meaning
+      real(wp), allocatable, intent(inout) :: values(:)
+      logical, intent(in) :: fixes_pads
+      type(range_type), intent(in) :: allowed
+      call self%numbers(name, values, allowed, unit, meaning)
+   end subroutine write_per_pad
+end module scene_namelist
