@@ -5,6 +5,8 @@ module components
    use scene, only: scene_type
    use pad_film, only: pad_film_type
    use film_solver, only: film_solver_type
+   use modal_film, only: new_modal_film
+   use auto_film, only: new_auto_film
    use sor_film, only: new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
    use contact_law, only: contact_law_type, new_contact_law
    use friction, only: friction_law, no_friction, bengisu_akay_friction, lugre_friction, &
@@ -14,6 +16,9 @@ module components
    private
    public :: new_film, new_law, new_friction, new_places
 
+   !> Cells along the arc where the input leaves them to the solver.
+   integer, parameter :: modal_default = 24, sor_default = 60
+
 contains
 
    !> The film solver of all pads.
@@ -21,7 +26,8 @@ contains
       type(scene_type), intent(in) :: scene
       class(film_solver_type), allocatable :: film
       type(pad_film_type) :: films(scene%pad_count())
-      integer :: i, cavitation
+      type(sor_options) :: options
+      integer :: i, cavitation, modal_cells, sor_cells
       associate (b => scene%bearing, p => scene%pads, f => scene%film)
          do i = 1, size(films)
             films(i) = pad_film_type(b%journal_radius, b%machined_clearance, b%axial_length, &
@@ -36,8 +42,21 @@ contains
          case default
             cavitation = cavitation_reynolds
          end select
-         film = new_sor_film(films, sor_options(f%circumferential_cells, f%axial_cells, f%relaxation, &
-            & f%tolerance, f%max_sweeps, cavitation))
+         modal_cells = merge(f%circumferential_cells, modal_default, f%circumferential_cells > 0)
+         sor_cells = merge(f%circumferential_cells, sor_default, f%circumferential_cells > 0)
+         options = sor_options(sor_cells, f%axial_cells, f%relaxation, f%tolerance, f%max_sweeps, cavitation)
+         select case (f%solver)
+         case ('modal')
+            film = new_modal_film(films, modal_cells, f%axial_modes)
+         case ('sor')
+            film = new_sor_film(films, options)
+         case default
+            if (cavitation == cavitation_none) then
+               film = new_modal_film(films, modal_cells, f%axial_modes)
+            else
+               film = new_auto_film(films, modal_cells, f%axial_modes, options)
+            end if
+         end select
       end associate
    end function new_film
 

@@ -69,9 +69,10 @@ module scene
    end type friction_type
 
    type :: film_type
-      !> 'sor'.
+      !> 'auto', 'modal' or 'sor'.
       character(len=:), allocatable :: solver
-      integer :: circumferential_cells = 60, axial_cells = 15
+      !> Cells along the arc, 0: the solver's own number; along half the width (sor); modes (modal).
+      integer :: circumferential_cells = 0, axial_cells = 15, axial_modes = 8
       !> 0: the grid's optimum.
       real(wp) :: relaxation = 0, tolerance = 1e-6_wp
       integer :: max_sweeps = 5000
@@ -140,7 +141,7 @@ contains
       scene%pads%motion = 'tilting_radial'
       scene%pivot%law = 'fang'
       scene%friction%model = 'none'
-      scene%film%solver = 'sor'
+      scene%film%solver = 'auto'
       scene%film%cavitation = 'reynolds'
       call scene%settle()
    end function new_scene
@@ -215,8 +216,12 @@ contains
       integer :: i
 
       associate (b => self%bearing, p => self%pads, f => self%friction, v => self%pivot)
-         call require(mod(self%film%circumferential_cells, 2) == 0, 'film%circumferential_cells = ' &
-            & //to_text(self%film%circumferential_cells)//': must be even')
+         associate (cells => self%film%circumferential_cells)
+            call require(mod(cells, 2) == 0 .and. (cells == 0 .or. cells >= 8), 'film%circumferential_cells = ' &
+               & //to_text(cells)//': must be even, and 0 or at least 8')
+         end associate
+         call require(self%film%solver /= 'modal' .or. self%film%cavitation == 'none', 'film%solver = ''modal''' &
+            & //': axial modes know no cavitation; needs film%cavitation = ''none'', or film%solver = ''auto''')
          ratio = b%machined_clearance/b%journal_radius
          call require(ratio >= 1e-5_wp .and. ratio <= 0.05_wp, 'bearing%machined_clearance = ' &
             & //to_text(b%machined_clearance)//': must be 1e-5 to 0.05 of bearing%journal_radius = ' &

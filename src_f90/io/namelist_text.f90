@@ -244,7 +244,7 @@ contains
       token%quoted = .true.
       do
          scan%at = scan%at + 1
-         if (scan%peek() == '' .or. scan%peek() == newline) then
+         if (len(scan%peek()) == 0 .or. scan%peek() == newline) then
             call raise(error, input_error, new%place//': '//new%group//'%'//new%name//': the quote is not closed')
             return
          else if (scan%peek() == quote) then

@@ -158,10 +158,13 @@ contains
          call v%number('characteristic_load', f%characteristic_load, positive(1e12_wp), 'N', 'N_m of eq (28)')
 
          call v%group('film', 'How the Reynolds equation is solved')
-         call v%word('solver', m%solver, 'sor', 'successive over-relaxation')
-         call v%whole('circumferential_cells', m%circumferential_cells, between(8.0_wp, 2000.0_wp), &
-            & 'cells along the arc, even')
-         call v%whole('axial_cells', m%axial_cells, between(2.0_wp, 1000.0_wp), 'cells along half the width')
+         call v%word('solver', m%solver, 'auto modal sor', &
+            & 'axial modes where the film is whole and sor where it ruptures, axial modes, or over-relaxation')
+         call v%whole('circumferential_cells', m%circumferential_cells, between(0.0_wp, 2000.0_wp), &
+            & 'cells along the arc, even; 0: 24 for modal, 60 for sor')
+         call v%whole('axial_cells', m%axial_cells, between(2.0_wp, 1000.0_wp), 'sor: cells along half the width')
+         call v%whole('axial_modes', m%axial_modes, between(1.0_wp, 200.0_wp), &
+            & 'modal: most modes across the width; those too stiff for the cells go into the closed form')
          call v%number('relaxation', m%relaxation, between(0.0_wp, 1.999_wp), '1', &
             & 'relaxation factor; 0: the optimum of the grid')
          call v%number('tolerance', m%tolerance, between(1e-13_wp, 1e-2_wp), '1', 'residual over source')
