@@ -33,10 +33,12 @@ modules  := $(foreach p,$(SUNDIALS_PREFIX) /usr,$p/include/sundials/fortran $p/f
 hdf5_name := $(if $(HDF5_PREFIX),hdf5,hdf5_serial)
 hdf5_libs := $(if $(HDF5_PREFIX),-lhdf5_hl_fortran -lhdf5_hl -lhdf5_fortran -lhdf5,\
              -lhdf5_serialhl_fortran -lhdf5_serial_hl -lhdf5_serial_fortran -lhdf5_serial)
+# Debian's reference LAPACK rather than OpenBLAS, which starts threads for our 12 x 12 systems
 LIBS := $(foreach p,$(prefixes),$(foreach d,$(wildcard $p/lib $p/lib64),-L$d -Wl,-rpath,$d)) \
         -lsundials_fcvode_mod -lsundials_fnvecserial_mod -lsundials_fsunmatrixdense_mod \
         -lsundials_fsunlinsoldense_mod -lsundials_cvode -lsundials_nvecserial \
-        $(hdf5_libs) -lfftw3 $(LAPACK)
+        $(hdf5_libs) -lfftw3 $(LAPACK) \
+        $(foreach d,$(if $(strip $(prefixes)),,$(wildcard /usr/lib/*/lapack /usr/lib/*/blas)),-Wl,-rpath,$d)
 # directory modules are found in, and where ours go
 INCLUDE := $(foreach d,$(wildcard $(modules)),-I$d) -I$(B)/mod
 COMPILE = $(FC) -std=f2018 -fimplicit-none -fopenmp-simd $(FFLAGS) $(INCLUDE) -J$(B)/mod

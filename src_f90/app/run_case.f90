@@ -1,7 +1,7 @@
 !> A run from scene to result file: equilibrium, march, spectra, key figures.
 module run_case
    use kinds, only: wp, i8, pi
-   use text, only: to_text
+   use text, only: to_text, fixed_text
    use errors, only: error_type, raise, add_context, numerics_error
    use ode_model, only: march_observer
    use cvode_march, only: march, march_options, march_statistics, sample_plan
@@ -148,13 +148,12 @@ contains
    subroutine print_equilibrium(static)
       type(equilibrium_type), intent(in) :: static
       integer :: i
-      print '(a,f0.3,a,f0.4,a)', 'equilibrium: journal y ', static%journal(1)*1e6_wp, ' um, z ', &
-         & static%journal(2)*1e6_wp, ' um'
+      print '(a)', 'equilibrium: journal y '//micro(static%journal(1))//', z '//micro(static%journal(2))//' um'
       do i = 1, size(static%tilt)
-         print '(a,i0,a,f8.4,a,f8.4,a,f9.1,a,f7.3,a,f7.3,a)', '  pad ', i, ': tilt ', static%tilt(i)*1e3_wp, &
-            & ' mrad, penetration ', static%penetration(i)*1e6_wp, ' um, contact ', static%contact_force(i), &
-            & ' N, least film ', static%min_film(i)*1e6_wp, ' um, highest pressure ', &
-            & static%max_pressure(i)*1e-6_wp, ' MPa'
+         print '(a)', '  pad '//to_text(i)//': tilt '//milli(static%tilt(i))//' mrad, penetration ' &
+            & //micro(static%penetration(i))//' um, contact '//fixed_text(static%contact_force(i), 1) &
+            & //' N, least film '//micro(static%min_film(i))//' um, highest pressure ' &
+            & //mega(static%max_pressure(i))//' MPa'
       end do
    end subroutine print_equilibrium
 
@@ -175,19 +174,39 @@ contains
          call file%last_samples('min_film_thickness', n, film)
          call file%last_samples('max_pressure', n, pressure)
       end associate
-      print '(a,2(a,f0.3,a,f0.3),a)', 'last revolution: ', 'journal y ', minval(y)*1e6_wp, ' to ', maxval(y)*1e6_wp, &
-         & ' um, z ', minval(z)*1e6_wp, ' to ', maxval(z)*1e6_wp, ' um'
+      print '(a)', 'last revolution: journal y '//micro(minval(y))//' to '//micro(maxval(y))//', z ' &
+         & //micro(minval(z))//' to '//micro(maxval(z))//' um'
       do i = 1, size(tilt, 1)
-         print '(a,i0,2(a,f8.4),a,f7.3,a,f7.3,a,f9.5,a)', '  pad ', i, ': tilt ', minval(tilt(i, :))*1e3_wp, ' to ', &
-            & maxval(tilt(i, :))*1e3_wp, ' mrad, least film ', minval(film(i, :))*1e6_wp, ' um, highest pressure ', &
-            & maxval(pressure(i, :))*1e-6_wp, ' MPa, friction work ', loop_area(tilt(i, :), moment(i, :)), ' J'
+         print '(a)', '  pad '//to_text(i)//': tilt '//milli(minval(tilt(i, :)))//' to ' &
+            & //milli(maxval(tilt(i, :)))//' mrad, least film '//micro(minval(film(i, :)))//' um, highest pressure ' &
+            & //mega(maxval(pressure(i, :)))//' MPa, friction work ' &
+            & //fixed_text(1e3_wp*loop_area(tilt(i, :), moment(i, :)), 3)//' mJ'
       end do
-      associate (film_work => model%film%counters)
-         print '(a,i0,a,i0,a,i0,a,i0,a,i0,a)', 'cost: ', statistics%steps, ' steps, ', &
-            & statistics%rhs_evaluations, ' right-hand sides, ', statistics%jacobian_evaluations, ' Jacobians, ', &
-            & film_work%modal + film_work%sor, ' films, ', film_work%sweeps, ' sweeps'
+      associate (work => model%film%counters)
+         print '(a)', 'cost: '//to_text(statistics%steps)//' steps, '//to_text(statistics%rhs_evaluations) &
+            & //' right-hand sides, '//to_text(statistics%jacobian_evaluations)//' Jacobians, films '//to_text(work%modal) &
+            & //' modal and '//to_text(work%sor)//' sor ('//to_text(work%sweeps)//' sweeps)'
       end associate
-      print '(a,f0.2,a,f0.2,a,f0.2,a)', '  wall time ', seconds, ' s: film ', model%film_seconds, ' s, samples ', &
-         & observer%seconds, ' s'
+      print '(a)', '  wall time '//fixed_text(seconds, 2)//' s, of it film '//fixed_text(model%film_seconds, 2) &
+         & //' s and samples '//fixed_text(observer%seconds, 2)//' s'
    end subroutine print_march
+
+   !> Metres as micrometres, radians as milliradians, pascals as megapascals.
+   function micro(x)
+      real(wp), intent(in) :: x
+      character(len=:), allocatable :: micro
+      micro = fixed_text(1e6_wp*x, 3)
+   end function micro
+
+   function milli(x)
+      real(wp), intent(in) :: x
+      character(len=:), allocatable :: milli
+      milli = fixed_text(1e3_wp*x, 4)
+   end function milli
+
+   function mega(x)
+      real(wp), intent(in) :: x
+      character(len=:), allocatable :: mega
+      mega = fixed_text(1e-6_wp*x, 3)
+   end function mega
 end module run_case

@@ -3,7 +3,7 @@ module text
    use kinds, only: wp, i8
    implicit none (type, external)
    private
-   public :: to_text, exact_text, lower_case, join
+   public :: to_text, exact_text, fixed_text, lower_case
 
    !> A number as short text, for messages: `to_text(3)`, `to_text(0.1_wp)`.
    interface to_text
@@ -67,6 +67,16 @@ contains
       string = trim(adjustl(buffer))
    end function exact_text
 
+   !> So many decimals, with a digit before the point.
+   pure function fixed_text(x, decimals) result(string)
+      real(wp), intent(in) :: x
+      integer, intent(in) :: decimals
+      character(len=:), allocatable :: string
+      character(len=40) :: buffer
+      write (buffer, '(f40.'//integer_text(decimals)//')') x
+      string = trim(adjustl(buffer))
+   end function fixed_text
+
    pure function lower_case(string) result(lower)
       character(len=*), intent(in) :: string
       character(len=len(string)) :: lower
@@ -77,17 +87,4 @@ contains
          if (code >= iachar('A') .and. code <= iachar('Z')) lower(i:i) = achar(code + 32)
       end do
    end function lower_case
-
-   !> The trimmed items with a separator between them.
-   pure function join(items, separator) result(string)
-      character(len=*), intent(in) :: items(:)
-      character(len=*), intent(in) :: separator
-      character(len=:), allocatable :: string
-      integer :: i
-      string = ''
-      do i = 1, size(items)
-         if (i > 1) string = string//separator
-         string = string//trim(items(i))
-      end do
-   end function join
 end module text
