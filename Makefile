@@ -17,7 +17,7 @@ FC := gfortran
 endif
 ifeq ($(MODE),debug)
 FFLAGS ?= -O1 -g -fcheck=all -fbacktrace -ffpe-trap=invalid,zero,overflow -Wall -Wextra \
-          -Wno-unused-dummy-argument -Wno-uninitialized -Wno-maybe-uninitialized -Werror
+          -Wno-unused-dummy-argument -Wno-uninitialized -Wno-maybe-uninitialized -Wno-compare-reals -Werror
 B := build/debug
 else ifeq ($(MODE),release)
 FFLAGS ?= -O3 -march=native
@@ -52,6 +52,25 @@ main    := src_f90/app/tiltpad.f90
 objects := $(patsubst %.f90,$(B)/obj/%.o,$(notdir $(filter-out $(main),$(sources)))) $(B)/obj/build_info.o
 tests   := $(sort $(wildcard tests/unit/test_*.f90 tests/physics/test_*.f90))
 test_programs := $(patsubst %.f90,$(B)/tests/%,$(notdir $(tests)))
+# what the program says of itself; rewritten only when it changes
+commit := $(shell git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)
+define build_info
+!> What the program says of its own making; written by the Makefile.
+module build_info
+   implicit none (type, external)
+   private
+   public :: program_version, program_commit
+
+   character(len=*), parameter :: program_version = '$(VERSION)'
+   character(len=*), parameter :: program_commit = '$(commit)'
+end module build_info
+endef
+$(shell mkdir -p $(B)/obj $(B)/mod)
+$(file >$(B)/obj/build_info.new,$(build_info))
+$(file >$(B)/flags.new,$(COMPILE) $(LIBS))
+$(shell for f in $(B)/obj/build_info.f90:$(B)/obj/build_info.new $(B)/flags:$(B)/flags.new; do \
+   cmp -s $${f#*:} $${f%:*} && rm $${f#*:} || mv $${f#*:} $${f%:*}; done)
+
 vpath %.f90 $(sort $(dir $(sources) $(tests))) tests $(B)/obj
 
 VENV := build/venv
@@ -134,25 +153,6 @@ $(B)/tests/%: $(B)/obj/%.o $(B)/obj/check.o $(B)/lib/libtiltpad.a
 	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
 
 test-programs: $(test_programs)
-
-# what the program says of itself; rewritten only when it changes
-commit := $(shell git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)
-define build_info
-!> What the program says of its own making; written by the Makefile.
-module build_info
-   implicit none (type, external)
-   private
-   public :: program_version, program_commit
-
-   character(len=*), parameter :: program_version = '$(VERSION)'
-   character(len=*), parameter :: program_commit = '$(commit)'
-end module build_info
-endef
-$(shell mkdir -p $(B)/obj $(B)/mod)
-$(file >$(B)/obj/build_info.new,$(build_info))
-$(file >$(B)/flags.new,$(COMPILE) $(LIBS))
-$(shell for f in $(B)/obj/build_info.f90:$(B)/obj/build_info.new $(B)/flags:$(B)/flags.new; do \
-   cmp -s $${f#*:} $${f%:*} && rm $${f#*:} || mv $${f#*:} $${f%:*}; done)
 
 # module order: an object depends on the objects of the modules it uses (file = module)
 $(shell awk -v b=$(B)/obj 'FNR == 1 { n = split(FILENAME, part, "/"); sub(/\.f90$$/, "", part[n]); \

@@ -34,7 +34,7 @@ contains
    subroutine command(error)
       type(error_type), allocatable, intent(out) :: error
       type(scene_type) :: scene
-      character(len=:), allocatable :: word, case_file, output, stem
+      character(len=:), allocatable :: word, value, case_file, output, stem
       character(len=longest), allocatable :: overrides(:)
       logical :: check, quiet
       integer :: i
@@ -68,17 +68,15 @@ contains
                return
             end if
             i = i + 1
-            if (word == '--set' .and. len(argument(i)) > longest) then
-               call raise(error, input_error, '--set: the value is too long')
-               return
-            end if
+            value = argument(i)
             if (word == '--set') then
-               overrides = [character(len=longest) :: overrides, argument(i)]
+               if (len(value) > longest) call raise(error, input_error, '--set: the value is too long')
+               overrides = [character(len=longest) :: overrides, value]
             else
-               output = argument(i)
-               if (output == '') call raise(error, input_error, word//': the file name is empty')
-               if (allocated(error)) return
+               if (value == '') call raise(error, input_error, word//': the file name is empty')
+               output = value
             end if
+            if (allocated(error)) return
          case default
             if (len(word) == 0) then
                call raise(error, input_error, 'an empty argument; see tiltpad --help')
