@@ -16,7 +16,7 @@ ifeq ($(origin FC),default)
 FC := gfortran
 endif
 ifeq ($(MODE),debug)
-FFLAGS ?= -O1 -g -fcheck=all -fbacktrace -ffpe-trap=invalid,zero,overflow -Wall -Wextra \
+FFLAGS ?= -O1 -g -fcheck=all,no-array-temps -fbacktrace -ffpe-trap=invalid,zero,overflow -Wall -Wextra \
           -Wno-unused-dummy-argument -Wno-uninitialized -Wno-maybe-uninitialized -Wno-compare-reals -Werror
 B := build/debug
 else ifeq ($(MODE),release)

@@ -212,11 +212,12 @@ contains
       type(sunmatrix) :: matrix
       type(c_ptr), value :: user_pointer
       type(user_data), pointer :: user
-      real(c_double), pointer :: y(:), jacobian(:, :)
+      real(c_double), pointer :: y(:), first(:), jacobian(:, :)
       logical :: ok
       call c_f_pointer(user_pointer, user)
       y(1:user%n) => fn_vgetarraypointer(y_vector)
-      jacobian(1:user%n, 1:user%n) => fsundensematrix_data(matrix)
+      first => fsundensematrix_data(matrix)
+      call c_f_pointer(c_loc(first), jacobian, [user%n, user%n])
       call user%model%jacobian(t, y, jacobian, ok)
       jacobian_callback = merge(0_c_int, 1_c_int, ok)
    end function jacobian_callback
