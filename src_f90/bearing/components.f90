@@ -45,18 +45,13 @@ contains
          modal_cells = merge(f%circumferential_cells, modal_default, f%circumferential_cells > 0)
          sor_cells = merge(f%circumferential_cells, sor_default, f%circumferential_cells > 0)
          options = sor_options(sor_cells, f%axial_cells, f%relaxation, f%tolerance, f%max_sweeps, cavitation)
-         select case (f%solver)
-         case ('modal')
-            film = new_modal_film(films, modal_cells, f%axial_modes)
-         case ('sor')
+         if (f%solver == 'sor') then
             film = new_sor_film(films, options)
-         case default
-            if (cavitation == cavitation_none) then
-               film = new_modal_film(films, modal_cells, f%axial_modes)
-            else
-               film = new_auto_film(films, modal_cells, f%axial_modes, options)
-            end if
-         end select
+         else if (cavitation == cavitation_reynolds) then
+            film = new_auto_film(films, modal_cells, f%axial_modes, options)
+         else
+            film = new_modal_film(films, modal_cells, f%axial_modes, cavitation == cavitation_gumbel)
+         end if
       end associate
    end function new_film
 

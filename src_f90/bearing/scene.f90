@@ -220,8 +220,8 @@ contains
             call require(mod(cells, 2) == 0 .and. (cells == 0 .or. cells >= 8), 'film%circumferential_cells = ' &
                & //to_text(cells)//': must be even, and 0 or at least 8')
          end associate
-         call require(self%film%solver /= 'modal' .or. self%film%cavitation == 'none', 'film%solver = ''modal''' &
-            & //': axial modes know no cavitation; needs film%cavitation = ''none'', or film%solver = ''auto''')
+         call require(self%film%solver /= 'modal' .or. self%film%cavitation /= 'reynolds', 'film%solver = ''modal''' &
+            & //': needs film%cavitation = ''gumbel'' or ''none''; film%solver = ''auto'' knows ''reynolds''')
          ratio = b%machined_clearance/b%journal_radius
          call require(ratio >= 1e-5_wp .and. ratio <= 0.05_wp, 'bearing%machined_clearance = ' &
             & //to_text(b%machined_clearance)//': must be 1e-5 to 0.05 of bearing%journal_radius = ' &

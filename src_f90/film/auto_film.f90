@@ -31,7 +31,7 @@ contains
       type(sor_options), intent(in) :: options
       type(auto_film_type) :: solver
       solver%cavitation_pressure = films%cavitation_pressure
-      solver%modal = new_modal_film(films, cells, modes)
+      solver%modal = new_modal_film(films, cells, modes, .false.)
       solver%sor = new_sor_film(films, options)
    end function new_auto_film
 

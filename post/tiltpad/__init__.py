@@ -1,0 +1,49 @@
+"""Results of tiltpad: reading, calculating, drawing.
+
+    import tiltpad
+    run = tiltpad.read("case.h5")
+    y, z = tiltpad.orbit(run)                     # m
+    ax = tiltpad.plots.orbit(run)                 # matplotlib axes
+
+`tiltpad.plots` (one run on one pair of axes) and `tiltpad.figures` (whole pictures) load matplotlib, and
+are loaded when first used.
+"""
+
+from importlib import import_module
+from typing import Any
+
+from tiltpad.read import IncompleteRunWarning, NotInRunError, Run, RunError, read
+from tiltpad.signals import (
+    envelope,
+    full_spectrum,
+    hysteresis,
+    last_revolutions,
+    loop_area,
+    orbit,
+    revolutions,
+    spectrum,
+    waveform,
+)
+
+__all__ = [
+    "IncompleteRunWarning",
+    "NotInRunError",
+    "Run",
+    "RunError",
+    "envelope",
+    "full_spectrum",
+    "hysteresis",
+    "last_revolutions",
+    "loop_area",
+    "orbit",
+    "read",
+    "revolutions",
+    "spectrum",
+    "waveform",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name in ("figures", "plots"):
+        return import_module(f"tiltpad.{name}")
+    raise AttributeError(f"module 'tiltpad' has no attribute {name!r}")

@@ -1,0 +1,70 @@
+"""The resolved namelist that every result file carries in its attribute `input`."""
+
+import re
+from typing import Any
+
+ASSIGNMENT = re.compile(r"^&(?P<group>\w+)|^\s+(?P<name>\w+) = (?P<value>.*)$", re.MULTILINE)
+
+WORDS = {"none": "no friction", "bengisu_akay": "Bengisu-Akay", "lugre": "LuGre"}
+UNITS = {"duration": "s", "mass": "kg", "unbalance": "kg m", "viscosity": "Pa s", "radius_difference": "m"}
+
+
+def parse(text: str) -> dict[str, dict[str, Any]]:
+    """Groups of the namelist text: {"bearing": {"assembled_clearance": 8e-5, ...}, ...}.
+
+    It reads what the program writes (one assignment a line, texts in single quotes), not every namelist.
+    """
+    groups: dict[str, dict[str, Any]] = {}
+    for found in ASSIGNMENT.finditer(text):
+        if found["group"]:
+            groups[found["group"]] = group = {}
+        else:
+            group[found["name"]] = value_of(found["value"].strip())
+    return groups
+
+
+def value_of(text: str) -> str | int | float | tuple[int | float, ...]:
+    """A text without its quotes, a number, or a tuple of numbers."""
+    if text.startswith("'"):
+        return text[1:-1].replace("''", "'")
+    numbers = tuple(number_of(word) for word in text.split(","))
+    return numbers[0] if len(numbers) == 1 else numbers
+
+
+def number_of(word: str) -> int | float:
+    return float(word) if re.search(r"[.eE]", word) else int(word)
+
+
+def differences(inputs: list[dict[str, dict[str, Any]]]) -> list[str]:
+    """What tells runs apart, one short text each: "LuGre, tilting only", from the values that differ."""
+    values = [flattened(each) for each in inputs]
+    names = list(dict.fromkeys(name for each in values for name in each))
+    varying = [name for name in names if len({each.get(name) for each in values}) > 1]
+    if "pads" in varying:
+        varying.remove("pads%pivot_angle_deg")
+    return [", ".join(described(name, each.get(name)) for name in varying) for each in values]
+
+
+def flattened(groups: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """Values by "group%name" as a reader would tell them: no title, one speed or a range, pads alike once."""
+    values = {f"{group}%{name}": value for group in groups for name, value in groups[group].items()}
+    values.pop("case%title", None)
+    first, last = values.pop("operation%speed_rpm"), values.pop("operation%final_speed_rpm")
+    angles = values["pads%pivot_angle_deg"]
+    said = {"speed": f"{first:g} rpm" if first == last else f"{first:g} to {last:g} rpm"}
+    said["pads"] = f"{len(angles) if isinstance(angles, tuple) else 1} pads"
+    for name, value in values.items():
+        alike = name.startswith("pads%") and isinstance(value, tuple) and len(set(value)) == 1
+        said[name] = value[0] if alike else value
+    return said
+
+
+def described(name: str, value: Any) -> str:
+    name = name.split("%")[-1]
+    if value is None:
+        return f"no {name}"
+    if isinstance(value, str):
+        return WORDS.get(value, value.replace("_", " ")) if name == "model" else value.replace("_", " ")
+    numbers = value if isinstance(value, tuple) else (value,)
+    name, unit = (name[:-4], "deg") if name.endswith("_deg") else (name, UNITS.get(name, ""))
+    return f"{name.replace('_', ' ')} = {', '.join(f'{number:g}' for number in numbers)} {unit}".rstrip()

@@ -1,0 +1,41 @@
+"""Units that pictures are drawn in: the one place where SI values are converted."""
+
+from math import pi
+from typing import NamedTuple
+
+
+class Shown(NamedTuple):
+    """A quantity in a picture: value in SI units times `factor`, in `unit`."""
+
+    text: str
+    factor: float
+    unit: str
+
+    @property
+    def label(self) -> str:
+        return f"{self.text} ({self.unit})"
+
+
+SHOWN = {
+    "time": Shown("time", 1, "s"),
+    "shaft_angle": Shown("shaft angle", 1, "rad"),
+    "speed": Shown("speed", 30 / pi, "rpm"),
+    "frequency": Shown("frequency", 1, "Hz"),
+    "amplitude": Shown("amplitude", 1e6, "µm"),
+    "journal_y": Shown("journal $y$", 1e6, "µm"),
+    "journal_z": Shown("journal $z$", 1e6, "µm"),
+    "journal_vy": Shown("journal velocity, $y$", 1e3, "mm/s"),
+    "journal_vz": Shown("journal velocity, $z$", 1e3, "mm/s"),
+    "pad_tilt": Shown("tilt", 1e3, "mrad"),
+    "pad_tilt_rate": Shown("tilt rate", 1e3, "mrad/s"),
+    "pad_penetration": Shown("penetration", 1e6, "µm"),
+    "pad_penetration_rate": Shown("penetration rate", 1e3, "mm/s"),
+    "bristle_deflection": Shown("bristle deflection", 1e6, "µm"),
+    "contact_force": Shown("contact force", 1e-3, "kN"),
+    "friction_moment": Shown("friction moment", 1, "N m"),
+    "work": Shown("work", 1e3, "mJ"),
+    "film_force_tangential": Shown("film force, tangential", 1e-3, "kN"),
+    "film_force_radial": Shown("film force, radial", 1e-3, "kN"),
+    "min_film_thickness": Shown("least film thickness", 1e6, "µm"),
+    "max_pressure": Shown("highest pressure", 1e-6, "MPa"),
+}

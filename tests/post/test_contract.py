@@ -1,0 +1,148 @@
+"""Names, dimensions and units of the result file, as docs/results.md lists them."""
+
+import h5py
+import numpy as np
+import pytest
+import xarray
+
+TIME, PADS = ("time",), ("time", "pad")
+SERIES = {
+    "time": (TIME, "s"),
+    "shaft_angle": (TIME, "rad"),
+    "speed": (TIME, "rad/s"),
+    "journal_y": (TIME, "m"),
+    "journal_z": (TIME, "m"),
+    "journal_vy": (TIME, "m/s"),
+    "journal_vz": (TIME, "m/s"),
+    "pad_tilt": (PADS, "rad"),
+    "pad_tilt_rate": (PADS, "rad/s"),
+    "pad_penetration": (PADS, "m"),
+    "pad_penetration_rate": (PADS, "m/s"),
+    "bristle_deflection": (PADS, "m"),
+    "contact_force": (PADS, "N"),
+    "friction_moment": (PADS, "N m"),
+    "film_force_tangential": (PADS, "N"),
+    "film_force_radial": (PADS, "N"),
+    "min_film_thickness": (PADS, "m"),
+    "max_pressure": (PADS, "Pa"),
+}
+CONSTANT = {"pad": (("pad",), "1"), "pivot_angle": (("pad",), "rad")}
+EQUILIBRIUM = {
+    "equilibrium/journal_y": ((), "m"),
+    "equilibrium/journal_z": ((), "m"),
+    "equilibrium/pad_tilt": (("pad",), "rad"),
+    "equilibrium/pad_penetration": (("pad",), "m"),
+    "equilibrium/contact_force": (("pad",), "N"),
+    "equilibrium/min_film_thickness": (("pad",), "m"),
+    "equilibrium/max_pressure": (("pad",), "Pa"),
+    "equilibrium/residual": ((), "1"),
+}
+SPECTRUM = {
+    "spectrum/frequency": (("spectrum/frequency",), "Hz"),
+    "spectrum/order": (("spectrum/frequency",), "1"),
+    "spectrum/journal_y": (("spectrum/frequency",), "m"),
+    "spectrum/journal_z": (("spectrum/frequency",), "m"),
+    "spectrum/pad_tilt": (("pad", "spectrum/frequency"), "rad"),
+    "spectrum/full_frequency": (("spectrum/full_frequency",), "Hz"),
+    "spectrum/journal_full": (("spectrum/full_frequency",), "m"),
+}
+COUNTS = ["steps", "rhs_evaluations", "jacobian_evaluations", "error_test_failures", "convergence_failures"]
+COUNTS += ["film_modal", "film_sor", "sor_sweeps"]
+
+RADIAL = {"pad_penetration", "pad_penetration_rate", "equilibrium/pad_penetration"}
+BRISTLE = {"bristle_deflection"}
+ABSENT = {
+    "lugre": set(),
+    "bengisu": BRISTLE,
+    "none": BRISTLE,
+    "tilting": RADIAL,
+    "four": set(),
+    "runup": set(SPECTRUM),
+    "equilibrium": set(SERIES) | set(SPECTRUM),
+}
+
+
+@pytest.fixture(params=ABSENT)
+def scene(request):
+    return request.param
+
+
+@pytest.fixture
+def file(result, scene):
+    with h5py.File(result(scene), "r") as file:
+        yield file
+
+
+def test_every_dataset_is_there_and_no_other_scene_s(file, scene):
+    everything = SERIES | CONSTANT | EQUILIBRIUM | SPECTRUM
+    there = {name for name in everything if name in file}
+    assert there == set(everything) - ABSENT[scene]
+
+
+def test_dimensions_units_and_meaning(file, scene):
+    expected = SERIES | CONSTANT | EQUILIBRIUM | SPECTRUM
+    for name in set(expected) - ABSENT[scene]:
+        dimensions, units = expected[name]
+        dataset = file[name]
+        assert dataset.dtype == np.float64, name
+        assert dataset.attrs["units"] == units, name
+        assert len(dataset.attrs["long_name"]) > 3, name
+        assert dataset.ndim == len(dimensions), name
+        for axis, dimension in enumerate(dimensions):
+            assert dataset.shape[axis] == len(file[dimension]), name
+            if name != dimension:
+                assert dataset.dims[axis][0] == file[dimension], name
+        if dimensions == (name,):
+            assert dataset.is_scale, name
+
+
+def test_pads_and_samples(file, scene):
+    pads = 4 if scene == "four" else 2
+    np.testing.assert_array_equal(file["pad"], np.arange(1, pads + 1))
+    np.testing.assert_allclose(np.degrees(file["pivot_angle"]), [-45, 225, 45, 135][:pads], rtol=1e-14)
+    for name in set(SERIES) - ABSENT[scene]:
+        assert np.isfinite(file[name][()]).all(), name
+
+
+def test_attributes(file, scene):
+    attributes = file.attrs
+    assert attributes["format_version"] == 1
+    assert attributes["complete"] == 1
+    assert attributes["program"] == "tiltpad"
+    assert attributes["title"] == ("Steady, it's LuGre" if scene == "lugre" else "")
+    assert attributes["task"] == ("equilibrium" if scene == "equilibrium" else "march")
+    assert attributes["input"].startswith("&case\n")
+    assert attributes["version"]
+    assert attributes["commit"]
+    assert np.datetime64(attributes["created"][:19]) > np.datetime64("2020-01-01")
+
+
+def test_statistics(file, scene):
+    statistics = file["statistics"]
+    for name in COUNTS:
+        assert np.issubdtype(statistics[name].dtype, np.integer), name
+        assert statistics[name][()] >= 0, name
+    marched = scene != "equilibrium"
+    assert (statistics["steps"][()] > 0) == marched
+    assert (statistics["film_modal"][()] + statistics["film_sor"][()] > 0) == marched
+    for name in ("wall_seconds", "film_seconds"):
+        assert statistics[name].attrs["units"] == "s"
+    assert statistics["wall_seconds"][()] > 0
+
+
+def test_xarray_reads_it_as_it_is(result):
+    path = result("lugre")
+    with xarray.open_dataset(path, engine="h5netcdf") as root:
+        assert dict(root.sizes) == {"time": 6 * 360 + 181, "pad": 2}
+        assert root["pad_tilt"].dims == ("time", "pad")
+        assert root["journal_y"].dims == ("time",)
+        assert root["journal_y"].attrs["units"] == "m"
+        assert {"time", "pad"} <= set(root.coords)
+        assert float(root["journal_y"].sel(time=0)) == float(root["journal_y"][0])
+    with xarray.open_dataset(path, engine="h5netcdf", group="equilibrium") as group:
+        assert group["pad_tilt"].dims == ("pad",)
+        assert group["journal_y"].dims == ()
+    with xarray.open_dataset(path, engine="h5netcdf", group="spectrum") as group:
+        assert group["journal_y"].dims == ("frequency",)
+        assert group["pad_tilt"].dims == ("pad", "frequency")
+        assert group["journal_full"].dims == ("full_frequency",)

@@ -1,0 +1,286 @@
+"""Pictures: what is on the axes, and what the command writes and says."""
+
+import os
+import re
+import subprocess
+import sys
+import zlib
+from pathlib import Path
+from xml.etree import ElementTree
+
+import matplotlib.image
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+import tiltpad
+from tiltpad import command
+
+PLOTS = ["orbit", "spectrum", "hysteresis", "waveform", "runup"]
+
+
+@pytest.fixture(autouse=True)
+def closed_figures():
+    yield
+    plt.close("all")
+
+
+def test_an_orbit_has_equal_axes_and_y_up(run):
+    case = run("lugre")
+    ax = tiltpad.plots.orbit(case)
+    assert ax.get_aspect() == 1
+    path = ax.get_lines()[0].get_xydata()
+    np.testing.assert_allclose(path[:, 0], 1e6 * case.journal_z[-361:])
+    np.testing.assert_allclose(path[:, 1], 1e6 * case.journal_y[-361:])
+    assert ax.get_ylim()[0] < ax.get_ylim()[1]
+    assert ax.get_xlabel() == "journal $z$ (µm)"
+    assert ax.get_ylabel() == "journal $y$ (µm)"
+    rest = ax.get_lines()[1].get_xydata()[0]
+    np.testing.assert_allclose(rest, 1e6 * np.array([case.journal_z[0], case.journal_y[0]]))
+
+
+def test_the_orbit_turns_as_the_arrow_of_rotation_does(run):
+    """From +y towards +z: clockwise with y up and z to the right."""
+    path = tiltpad.plots.orbit(run("lugre")).get_lines()[0].get_xydata()
+    assert tiltpad.loop_area(path[:, 0], path[:, 1]) > 0
+    ax = tiltpad.plots.clearance(run("lugre"))
+    arrow = next(each for each in ax.patches if type(each).__name__ == "FancyArrowPatch")
+    (x_tail, y_tail), (x_head, y_head) = arrow._posA_posB
+    assert x_head * y_tail - x_tail * y_head > 0
+
+
+def test_the_clearance_circle(run):
+    ax = tiltpad.plots.clearance(run("lugre"))
+    circle = next(each for each in ax.patches if type(each).__name__ == "Circle")
+    assert circle.radius == pytest.approx(80)
+    pads = [each for each in ax.patches if type(each).__name__ == "Arc"]
+    middles = [(each.theta1 + each.theta2) / 2 for each in pads]
+    np.testing.assert_allclose(middles, [-45, 225])
+    assert pads[0].theta2 - pads[0].theta1 == pytest.approx(69.3)
+
+
+def test_axes_that_are_given_are_used_and_returned(run):
+    _, ax = plt.subplots()
+    case = run("lugre")
+    for draw in (
+        tiltpad.plots.orbit,
+        tiltpad.plots.hysteresis,
+        tiltpad.plots.waveform,
+        tiltpad.plots.history,
+    ):
+        before = len(ax.get_lines())
+        assert draw(case, ax, color="red") is ax
+        assert len(ax.get_lines()) > before
+        assert ax.get_lines()[before].get_color() == "red"
+
+
+def test_a_spectrum_leaves_the_mean_out(run):
+    case = run("lugre")
+    line = tiltpad.plots.spectrum(case, name="journal_y").get_lines()[0]
+    assert np.isnan(line.get_ydata()[0])
+    assert np.nanmax(line.get_ydata()) == pytest.approx(1e6 * case["spectrum/journal_y"][1:].max())
+    ax = tiltpad.plots.full_spectrum(case, orders=4)
+    np.testing.assert_allclose(ax.get_xlim(), np.array([-4, 4]) * 6500 / 60)
+    low, high = ax.get_ylim()
+    assert 1e-6 * high < low < high
+
+
+def test_units_and_values_of_the_others(run):
+    case = run("lugre")
+    ax = tiltpad.plots.hysteresis(case, pad=2)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("tilt (mrad)", "friction moment (N m)")
+    np.testing.assert_allclose(ax.get_lines()[0].get_xdata(), 1e3 * case.pad_tilt[-361:, 1])
+    ax = tiltpad.plots.waveform(case, name="pad_tilt_rate", last=2, pad=1)
+    assert ax.get_ylabel() == "tilt rate (mrad/s)"
+    np.testing.assert_allclose(ax.get_xlim(), (0, 2))
+    ax = tiltpad.plots.history(run("runup"), name="journal_z")
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("time (s)", "journal $z$ (µm)")
+
+
+def test_every_series_can_be_drawn_and_has_a_unit(run):
+    case = run("lugre")
+    series = [name for name in case.file if getattr(case.file[name], "shape", ())[:1] == (case.samples,)]
+    assert len(series) == 18
+    for name in series:
+        ax = tiltpad.plots.waveform(case, name=name, last=1)
+        assert re.search(r" \(.+\)$", ax.get_ylabel()), name
+        plt.close(ax.figure)
+
+
+def test_a_history_of_many_revolutions_is_a_light_band(run, monkeypatch):
+    case = run("lugre")
+    monkeypatch.setattr(tiltpad.plots, "BAND_FROM", 3)
+    ax = tiltpad.plots.history(case, name="journal_y")
+    low, high = (line.get_ydata() for line in ax.get_lines())
+    assert len(low) == len(high) == 6
+    assert low.min() == pytest.approx(1e6 * case.journal_y.min())
+    assert high.max() == pytest.approx(1e6 * case.journal_y.max())
+    assert len(tiltpad.plots.history(case, name="pad_tilt").get_lines()) == 4
+
+
+def test_a_runup_shows_its_speed(run):
+    from tiltpad import figures
+
+    fig = figures.runup([run("runup")])
+    fig.draw_without_rendering()
+    (top,) = fig.axes[0].child_axes
+    assert top.get_xlabel() == "speed (rpm)"
+    np.testing.assert_allclose(top.get_xlim(), (1500, 6500), rtol=5e-3)
+    assert not figures.runup([run("lugre")]).axes[0].child_axes
+
+
+def test_one_run_is_named_by_its_title(run):
+    from tiltpad import figures
+
+    assert figures.orbit([run("lugre")]).legends[0].get_title().get_text() == "Steady, it's LuGre"
+    assert figures.hysteresis([run("lugre")]).get_suptitle() == "Steady, it's LuGre"
+
+
+def test_runs_are_told_apart(run):
+    from tiltpad import figures
+
+    runs = [run("none"), run("bengisu")]
+    fig = figures.orbit(runs)
+    texts = [text.get_text() for text in fig.legends[0].get_texts()]
+    assert texts == ["no friction", "Bengisu-Akay", "orbit", "equilibrium"]
+    colours = {fig.axes[1].get_lines()[k].get_color() for k in (0, 2)}
+    assert len(colours) == 2
+    assert figures.labels([run("none"), run("none")])[0].endswith("none.h5")
+
+
+@pytest.mark.parametrize(
+    ("plot", "scene"),
+    [*((plot, "lugre") for plot in PLOTS), ("orbit", "runup"), ("runup", "runup"), ("waveform", "runup")],
+)
+def test_nothing_is_cut_off(run, plot, scene):
+    """Every text lies within the picture, and no two tick labels of an axis lie on each other."""
+    from tiltpad import figures
+
+    with plt.style.context(tiltpad.plots.STYLE):
+        fig = figures.FIGURES[plot]([run(scene)])
+        fig.draw_without_rendering()
+    page = fig.bbox.padded(0.5)
+    panels = [ax.get_tightbbox() for ax in fig.axes]
+    heading = fig.legends[0] if fig.legends else fig.get_suptitle() and fig._suptitle
+    above = [heading.get_window_extent()] if heading else []
+    assert bool(above) == (scene == "lugre" or plot != "orbit")
+    assert not any(box.overlaps(panel) for box in above for panel in panels)
+    assert not (fig.legends and fig.get_suptitle())
+    for ax in [*fig.axes, *(child for each in fig.axes for child in each.child_axes)]:
+        box = ax.get_tightbbox()
+        assert page.x0 <= box.x0 < box.x1 <= page.x1
+        assert page.y0 <= box.y0 < box.y1 <= page.y1
+        for axis in (ax.xaxis, ax.yaxis):
+            ticks = [t for t in axis.get_majorticklabels() if t.get_visible() and t.get_text()]
+            low, high = sorted(axis.get_view_interval())
+            boxes = [
+                t.get_window_extent() for t in ticks if low <= t.get_position()[axis is ax.yaxis] <= high
+            ]
+            boxes.sort(key=lambda each: (each.x0, each.y0))
+            assert not any(a.overlaps(b) for a, b in zip(boxes[:-1], boxes[1:], strict=True))
+
+
+def drawn(path: Path) -> float:
+    """Share of a picture that is drawn on (PNG), or number of line pieces in it; checks the format."""
+    data = path.read_bytes()
+    if path.suffix == ".png":
+        assert data.startswith(b"\x89PNG\r\n\x1a\n")
+        pixels = matplotlib.image.imread(path)[..., :3]
+        assert min(pixels.shape[:2]) > 400
+        return float((pixels.min(axis=2) < 0.9).mean())
+    if path.suffix == ".pdf":
+        assert data.startswith(b"%PDF-")
+        assert data.rstrip().endswith(b"%%EOF")
+        streams = re.findall(rb"stream\r?\n(.*?)\r?\nendstream", data, re.DOTALL)
+        texts = [zlib.decompress(each) for each in streams if each[:1] == b"x"]
+        return float(sum(len(re.findall(rb" (?:l|c)\s", each)) for each in texts))
+    root = ElementTree.fromstring(data)
+    assert root.tag.endswith("}svg")
+    curves = [each for each in root.iter() if each.tag.endswith("}path") and each.get("clip-path")]
+    return float(sum(len(each.get("d").split("L")) for each in curves))
+
+
+@pytest.mark.parametrize("plot", PLOTS)
+def test_the_command_draws_every_plot(result, tmp_path, monkeypatch, plot):
+    monkeypatch.chdir(tmp_path)
+    assert command.main([plot, str(result("lugre"))]) == 0
+    assert [path.name for path in tmp_path.iterdir()] == [f"lugre-{plot}.png"]
+    assert 0.01 < drawn(tmp_path / f"lugre-{plot}.png") < 0.5
+
+
+@pytest.mark.parametrize("form", ["pdf", "svg", "PNG"])
+def test_the_command_writes_every_format(result, tmp_path, form):
+    output = tmp_path / f"picture.{form}"
+    assert command.main(["waveform", str(result("lugre")), "-o", str(output), "--last", "2"]) == 0
+    if form == "PNG":
+        assert output.read_bytes().startswith(b"\x89PNG")
+    else:
+        assert drawn(output) > 500
+
+
+def test_the_command_draws_several_files(result, tmp_path):
+    files = [str(result(scene)) for scene in ("lugre", "bengisu")]
+    output = tmp_path / "both.svg"
+    for given, second in ((files, True), (files[:1], False)):
+        assert command.main(["hysteresis", *given, "--pad", "1", "-o", str(output)]) == 0
+        assert "stroke: #0072b2" in output.read_text()
+        assert ("stroke: #d55e00" in output.read_text()) == second
+
+
+def test_the_installed_command_needs_no_display(result, tmp_path):
+    program = Path(sys.executable).with_name("tiltpad-plot")
+    environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "MPLBACKEND")}
+    done = subprocess.run(
+        [program, "orbit", result("tilting")], cwd=tmp_path, env=environment, text=True, capture_output=True
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert drawn(tmp_path / "tilting-orbit.png") > 0.01
+    done = subprocess.run([program, "--help"], text=True, capture_output=True)
+    assert done.returncode == 0
+    assert all(plot in done.stdout for plot in PLOTS)
+    assert all(option in done.stdout for option in ("--output", "--last", "--pad"))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "message"),
+    [
+        (["orbit", "missing.h5"], 3, "missing.h5: no such file"),
+        (["orbit", "text.h5"], 3, "text.h5: not an HDF5 file"),
+        (["orbit", "none", "-o", "a.bmp"], 1, "a.bmp: the name must end in .png, .pdf or .svg"),
+        (["orbit", "none", "-o", "a"], 1, "a: the name must end in .png, .pdf or .svg"),
+        (["orbit", "none", "-o", "no/such/a.png"], 3, "no/such/a.png: cannot be written: No such file"),
+        (["orbit", "none", "--last", "0"], 1, "argument --last: 0: must be a positive number"),
+        (["orbit", "none", "--last", "two"], 1, "argument --last: two: must be a positive number"),
+        (["waveform", "none", "--pad", "3"], 1, "no pad 3 in this run: pads are 1 to 2"),
+        (["hysteresis", "none"], 1, "no hysteresis in this run: friction model is 'none'"),
+        (["spectrum", "runup"], 1, "no spectrum in this run: the speed changes"),
+        (["waveform", "equilibrium"], 1, "its task is 'equilibrium', nothing was marched in time"),
+        (["picture", "none"], 1, "invalid choice: 'picture'"),
+        (["orbit"], 1, "the following arguments are required: FILE"),
+    ],
+)
+def test_errors_are_one_line_and_a_status(result, tmp_path, monkeypatch, capsys, arguments, status, message):
+    monkeypatch.chdir(tmp_path)
+    Path("text.h5").write_text("no result\n")
+    scenes = ("none", "runup", "equilibrium")
+    given = [str(result(each)) if each in scenes else each for each in arguments]
+    try:
+        found = command.main(given)
+    except SystemExit as stop:
+        found = stop.code
+    said = capsys.readouterr()
+    assert found == status
+    assert said.out == ""
+    assert said.err.startswith("tiltpad-plot: error: ")
+    assert said.err.count("\n") == 1
+    assert message in said.err
+    assert [path.name for path in tmp_path.iterdir()] == ["text.h5"]
+
+
+def test_an_incomplete_run_is_drawn_with_a_warning(changed, tmp_path, capsys):
+    path = changed("none", lambda file: file.attrs.modify("complete", 0))
+    output = tmp_path / "a.png"
+    assert command.main(["orbit", str(path), "-o", str(output)]) == 0
+    said = capsys.readouterr().err
+    assert said.startswith("tiltpad-plot: warning: ")
+    assert said.count("\n") == 1
+    assert drawn(output) > 0.01

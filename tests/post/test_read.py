@@ -1,0 +1,147 @@
+"""Opening a result, and what is said of one that cannot be opened."""
+
+import os
+import re
+import sys
+
+import h5py
+import numpy as np
+import pytest
+import tiltpad
+from tiltpad import namelist
+
+
+def test_items_and_attributes_are_the_datasets(run, result):
+    case = run("lugre")
+    with h5py.File(result("lugre"), "r") as file:
+        np.testing.assert_array_equal(case.journal_y, file["journal_y"][()])
+        np.testing.assert_array_equal(case["pad_tilt"], file["pad_tilt"][()])
+        np.testing.assert_array_equal(case.values("pad_tilt", slice(5, 9)), file["pad_tilt"][5:9])
+        np.testing.assert_array_equal(case["equilibrium/pad_tilt"], file["equilibrium/pad_tilt"][()])
+        assert case.equilibrium["journal_y"] == file["equilibrium/journal_y"][()]
+        assert set(case.spectrum) == set(file["spectrum"])
+    assert (case.title, case.task, case.complete, case.format_version) == (
+        "Steady, it's LuGre",
+        "march",
+        1,
+        1,
+    )
+    assert "bristle_deflection" in case
+    assert "bristle_deflection" in dir(case)
+    assert "LuGre" in repr(case)
+
+
+def test_input(run):
+    case = run("lugre")
+    assert case.clearance == 80e-6
+    assert case.pads == 2
+    assert case.input["case"]["title"] == "Steady, it's LuGre"
+    assert case.input["pads"]["pivot_angle_deg"] == (-45, 225)
+    assert case.input["friction"]["model"] == "lugre"
+    assert case.input["friction"]["bristle_stiffness"] == 1e6
+    assert case.input["output"]["samples_per_revolution"] == 360
+
+
+def test_nothing_is_loaded_before_it_is_asked_for(run, monkeypatch):
+    read = []
+    original = h5py.Dataset.__getitem__
+    monkeypatch.setattr(
+        h5py.Dataset, "__getitem__", lambda self, key: read.append(self.name) or original(self, key)
+    )
+    case = run("lugre")
+    assert read == []
+    assert len(case.time) > 0
+    assert read == ["/time"]
+
+
+def test_a_closed_file_can_be_overwritten(run):
+    with run("none") as case:
+        pass
+    assert not case.file
+
+
+@pytest.mark.parametrize(
+    ("scene", "name", "reason"),
+    [
+        ("none", "bristle_deflection", "no bristle_deflection in this run: friction model is 'none'"),
+        (
+            "bengisu",
+            "bristle_deflection",
+            "no bristle_deflection in this run: friction model is 'bengisu_akay'",
+        ),
+        ("tilting", "pad_penetration", "no pad_penetration in this run: pad motion is 'tilting_only'"),
+        ("tilting", "equilibrium/pad_penetration", "pad motion is 'tilting_only'"),
+        ("runup", "spectrum/journal_y", "no spectrum in this run: the speed changes"),
+        ("equilibrium", "journal_y", "no journal_y in this run: its task is 'equilibrium'"),
+        ("lugre", "journal_x", "no journal_x in this run: there are bristle_deflection, "),
+    ],
+)
+def test_a_dataset_that_the_scene_lacks(run, result, scene, name, reason):
+    with pytest.raises(tiltpad.RunError, match=re.escape(reason)) as raised:
+        run(scene)[name]
+    assert str(raised.value).startswith(str(result(scene)) + ": ")
+    if "/" not in name:
+        assert not hasattr(run(scene), name)
+
+
+def test_no_such_file(tmp_path):
+    with pytest.raises(tiltpad.RunError, match="no such file"):
+        tiltpad.read(tmp_path / "missing.h5")
+    with pytest.raises(tiltpad.RunError, match="is a folder"):
+        tiltpad.read(tmp_path)
+
+
+@pytest.mark.skipif(sys.platform == "win32" or os.geteuid() == 0, reason="permissions do not bind here")
+def test_no_permission(tmp_path):
+    path = tmp_path / "closed.h5"
+    path.touch(mode=0)
+    with pytest.raises(tiltpad.RunError, match="no permission"):
+        tiltpad.read(path)
+
+
+def test_not_hdf5(tmp_path):
+    path = tmp_path / "text.h5"
+    path.write_text("time,journal_y\n")
+    with pytest.raises(tiltpad.RunError, match="not an HDF5 file"):
+        tiltpad.read(path)
+
+
+def test_a_torn_file(result, tmp_path):
+    path = tmp_path / "torn.h5"
+    path.write_bytes(result("lugre").read_bytes()[:20000])
+    with pytest.raises(tiltpad.RunError, match="damaged"):
+        tiltpad.read(path)
+
+
+def test_another_program_s_file(tmp_path):
+    path = tmp_path / "other.h5"
+    with h5py.File(path, "w") as file:
+        file["time"] = [0.0]
+    with pytest.raises(tiltpad.RunError, match="not a result of tiltpad"):
+        tiltpad.read(path)
+
+
+def test_a_later_format(changed):
+    path = changed("none", lambda file: file.attrs.modify("format_version", 2))
+    with pytest.raises(tiltpad.RunError, match="format_version 2 is newer than 1"):
+        tiltpad.read(path)
+
+
+def test_an_incomplete_run_is_read_with_a_warning(changed):
+    path = changed("none", lambda file: file.attrs.modify("complete", 0))
+    with pytest.warns(tiltpad.IncompleteRunWarning, match=r"incomplete run, ended at 0\.06 s of 0\.06 s"):
+        case = tiltpad.read(path)
+    assert len(case.journal_y) > 1000
+
+
+def test_what_tells_runs_apart(run):
+    inputs = [run(scene).input for scene in ("lugre", "bengisu", "none")]
+    assert namelist.differences(inputs) == ["LuGre", "Bengisu-Akay", "no friction"]
+    inputs = [run(scene).input for scene in ("lugre", "tilting")]
+    assert namelist.differences(inputs) == ["tilting radial", "tilting only"]
+    inputs = [run(scene).input for scene in ("four", "runup")]
+    assert namelist.differences(inputs) == [
+        "6500 rpm, 4 pads, duration = 0.02 s",
+        "1500 to 6500 rpm, 2 pads, duration = 0.1 s",
+    ]
+    assert namelist.differences([inputs[0], inputs[0]]) == ["", ""]

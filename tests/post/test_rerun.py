@@ -1,0 +1,28 @@
+"""The input kept in a file makes the same run again."""
+
+import h5py
+import numpy as np
+import pytest
+
+
+def datasets(path):
+    found = {}
+    with h5py.File(path, "r") as file:
+        file.visititems(
+            lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None
+        )
+        return found, file.attrs["input"]
+
+
+@pytest.mark.parametrize("scene", ["lugre", "tilting", "runup", "equilibrium"])
+def test_bit_for_bit(result, tiltpad, tmp_path, scene):
+    first, text = datasets(result(scene))
+    (tmp_path / "again.nml").write_text(text)
+    done = tiltpad("--quiet", "again.nml", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    second, again = datasets(tmp_path / "again.h5")
+    assert again == text
+    assert set(second) == set(first)
+    for name in first:
+        if not (name.startswith("statistics/") and name.endswith("_seconds")):
+            np.testing.assert_array_equal(second[name], first[name], err_msg=name, strict=True)

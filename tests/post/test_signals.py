@@ -1,0 +1,70 @@
+"""What the package calculates, on signals whose answer is known."""
+
+import numpy as np
+import pytest
+import tiltpad
+
+
+@pytest.mark.parametrize(("count", "samples"), [(1, 361), (2, 721), (0.5, 181), (100, 2341)])
+def test_last_revolutions_at_constant_speed(run, count, samples):
+    case = run("lugre")
+    part = tiltpad.last_revolutions(case, count)
+    assert part.stop == case.samples == 2341
+    assert part.stop - part.start == samples
+
+
+def test_last_revolutions_of_a_runup(run):
+    case = run("runup")
+    part = tiltpad.last_revolutions(case, 3)
+    turned = np.ptp(case.shaft_angle[part]) / (2 * np.pi)
+    assert 3 - 1e-9 < turned < 3 + 1.6 / 360
+    assert part.stop - part.start > 3 * 360 + 1
+
+
+def test_orbit_and_waveform_are_those_samples(run):
+    case = run("lugre")
+    y, z = tiltpad.orbit(case, 2)
+    np.testing.assert_array_equal(y, case.journal_y[-721:])
+    np.testing.assert_array_equal(z, case.journal_z[-721:])
+    time, tilt = tiltpad.waveform(case, "pad_tilt", 1)
+    np.testing.assert_array_equal(time, case.time[-361:])
+    np.testing.assert_array_equal(tilt, case.pad_tilt[-361:])
+
+
+def test_spectra_are_those_of_the_file(run):
+    case = run("lugre")
+    frequency, amplitude = tiltpad.spectrum(case, "journal_z")
+    np.testing.assert_array_equal(amplitude, case["spectrum/journal_z"])
+    assert frequency[np.argmax(amplitude[1:]) + 1] == pytest.approx(6500 / 60)
+    frequency, amplitude = tiltpad.full_spectrum(case)
+    assert frequency[0] < 0 < frequency[-1]
+    assert len(frequency) == len(amplitude)
+
+
+def test_hysteresis(run):
+    case = run("four")
+    tilt, moment = tiltpad.hysteresis(case, 2)
+    np.testing.assert_array_equal(tilt, case.pad_tilt[-361:, 1])
+    np.testing.assert_array_equal(moment, case.friction_moment[-361:, 1])
+    with pytest.raises(tiltpad.NotInRunError, match="no pad 5 in this run: pads are 1 to 4"):
+        tiltpad.hysteresis(case, 5)
+    with pytest.raises(tiltpad.NotInRunError, match="no hysteresis in this run: friction model is 'none'"):
+        tiltpad.hysteresis(run("none"))
+
+
+def test_loop_area():
+    turn = np.linspace(0, 2 * np.pi, 1000, endpoint=False)
+    clockwise = tiltpad.loop_area(3 * np.sin(turn) + 7, 2 * np.cos(turn) - 5)
+    assert clockwise == pytest.approx(6 * np.pi, rel=1e-4)
+    assert tiltpad.loop_area(3 * np.cos(turn), 2 * np.sin(turn)) == pytest.approx(-6 * np.pi, rel=1e-4)
+
+
+def test_envelope_holds_every_sample(run):
+    case = run("lugre")
+    time, low, high = tiltpad.envelope(case, "pad_tilt", spans=3)
+    assert low.shape == high.shape == (3, 2)
+    np.testing.assert_array_equal(low.min(axis=0), case.pad_tilt.min(axis=0))
+    np.testing.assert_array_equal(high.max(axis=0), case.pad_tilt.max(axis=0))
+    assert (np.diff(time) > 0).all()
+    # no span is shorter than a revolution, so a periodic signal has a smooth band
+    assert len(tiltpad.envelope(case, "journal_y")[0]) == 6
