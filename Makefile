@@ -87,7 +87,7 @@ help:
 	@echo 'make deps     install what is missing (root or sudo; otherwise print the list and stop)'
 	@echo 'make python   Python environment build/venv with the package tiltpad'
 	@echo 'make lint     style of Fortran and Python; make format mends Fortran layout'
-	@echo 'make docs     write docs/inputs.md from the program'
+	@echo 'make docs     write docs/inputs.md and docs/images from the program'
 	@echo 'make install  program into PREFIX/bin    (PREFIX=$(PREFIX))'
 	@echo 'make clean    remove build/'
 
@@ -169,8 +169,10 @@ lint: python
 	$(VENV)/bin/ruff check post tests
 	$(VENV)/bin/ruff format --check post tests
 
-docs: build
+docs: run
 	@{ cat docs/inputs_head.md; $(B)/bin/tiltpad --reference; } > docs/inputs.md
+	@mkdir -p docs/images
+	cp build/run/*.png docs/images/
 
 install: build
 	install -d $(DESTDIR)$(PREFIX)/bin

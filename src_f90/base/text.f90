@@ -26,33 +26,42 @@ contains
       string = trim(buffer)
    end function long_text
 
-   !> Six significant digits, without needless zeros.
+   !> Six significant digits, without needless zeros: 0.019, 1e-4, -1.25e9.
    pure function real_text(x) result(string)
       real(wp), intent(in) :: x
       character(len=:), allocatable :: string
       character(len=32) :: buffer
-      integer :: e, last
-      if (x == 0) then
+      integer :: exponent, e
+      if (abs(x) >= 1e-3_wp .and. abs(x) < 1e6_wp) then
+         string = without_zeros(fixed_text(x, max(0, 5 - floor(log10(abs(x))))))
+         return
+      end if
+      if (.not. abs(x) > 0) then
          string = '0'
          return
       end if
-      if (abs(x) >= 1e-3_wp .and. abs(x) < 1e6_wp) then
-         write (buffer, '(f0.'//integer_text(max(0, 5 - floor(log10(abs(x)))))//')') x
-         e = len_trim(buffer) + 1
-      else
-         write (buffer, '(es13.5e3)') x
-         buffer = adjustl(buffer)
-         e = scan(buffer, 'E')
-         if (e == 0) e = len_trim(buffer) + 1
+      write (buffer, '(es14.5e3)') x
+      buffer = adjustl(buffer)
+      e = scan(buffer, 'E')
+      if (e == 0) then
+         ! not a number, or infinite
+         string = trim(buffer)
+         return
       end if
-      last = e - 1
-      if (index(buffer(:last), '.') > 0) last = len_trim(buffer(:verify(buffer(:last), '0', back=.true.)))
-      if (last < 1) last = 1
-      if (buffer(last:last) == '.') last = last - 1
-      string = buffer(:last)//trim(buffer(e:))
-      if (string(1:1) == '.') string = '0'//string
-      if (index(string, '-.') == 1) string = '-0'//string(2:)
+      read (buffer(e + 1:), *) exponent
+      string = without_zeros(buffer(:e - 1))//'e'//integer_text(exponent)
    end function real_text
+
+   !> "0.0190" to "0.019", "10.0" to "10".
+   pure function without_zeros(digits) result(string)
+      character(len=*), intent(in) :: digits
+      character(len=:), allocatable :: string
+      integer :: last
+      last = len(digits)
+      if (index(digits, '.') > 0) last = verify(digits, '0', back=.true.)
+      if (digits(last:last) == '.') last = last - 1
+      string = digits(:last)
+   end function without_zeros
 
    !> Seventeen significant digits: reading them back gives the same bits.
    pure function exact_text(x) result(string)

@@ -90,7 +90,7 @@ contains
          call v%number('balance_grade', r%balance_grade, between(-1.0_wp, 1e5_wp), 'mm/s', &
             & 'ISO 21940-11 grade G; > 0 replaces unbalance by eq (26)')
          call v%number('balance_speed_rpm', r%balance_speed_rpm, between(-1.0_wp, 1e6_wp), 'rpm', &
-            & 'speed of eq (26); < 0: the highest of the run')
+            & 'speed of eq (26); <= 0: the highest of the run')
          call v%number('gravity', r%gravity, between(0.0_wp, 1e3_wp), 'm/s^2', 'acceleration towards -y')
          call v%numbers('static_load', r%static_load, between(-1e12_wp, 1e12_wp), 'N', &
             & 'extra force on the journal along y and z')

@@ -1,0 +1,322 @@
+"""The command line: options, precedence, names of files, exit status 0, and what a run prints."""
+
+import os
+import pty
+import re
+import select
+import subprocess
+import time
+
+import h5py
+import pytest
+from conftest import PROGRAM
+
+BRIEF = "&operation duration=0.002 /\n"
+# long enough in wall time for the progress line to show
+LONG = "&operation duration=4 / &output samples_per_revolution=4 / &integration max_step=1e-4 /\n"
+
+# a case with something unusual in every kind of value
+RICH = """! comment
+&CASE Title = 'it''s "quoted", 50 % & more! / \u00fc \u20ac ' task='March' /
+&rotor static_load = 0,-1.5D2 mass=1*2000.0 /
+&operation
+  speed_rpm = 3000, final_speed_rpm = 6500 ! run-up
+  duration = 0.1
+/
+&pads
+  pivot_angle_deg = -90 0 90 180
+  arc_deg = 4*60
+  arc_deg(2) = 61.23456789012345
+  mass(2) = 2*0.9
+&end
+&friction model = "LuGre" /
+"""
+
+
+@pytest.fixture
+def case(tmp_path):
+    (tmp_path / "case.nml").write_text(BRIEF)
+    return tmp_path
+
+
+def value(text, group, name):
+    """A value of a resolved case."""
+    block = re.search(rf"^&{group}\n(.*?)^/$", text, re.M | re.S)[1]
+    return re.search(rf"^ *{name} = (.*)$", block, re.M)[1]
+
+
+def check(tiltpad, folder, *arguments):
+    run = tiltpad("--check", *arguments, cwd=folder)
+    assert run.returncode == 0, run.stderr
+    assert run.stderr == ""
+    return run.stdout
+
+
+@pytest.mark.parametrize("option", ["--help", "-h"])
+def test_help(tiltpad, tmp_path, option):
+    run = tiltpad(option, cwd=tmp_path)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert run.stdout.startswith("usage: tiltpad [options] CASE.nml\n")
+    for word in ("--output", "--set", "--check", "--quiet", "--version", "--help", "Exit status"):
+        assert word in run.stdout
+    assert all(len(line) <= 100 for line in run.stdout.splitlines())
+    assert not list(tmp_path.iterdir())
+
+
+def test_version(tiltpad, tmp_path):
+    run = tiltpad("--version", cwd=tmp_path)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert re.fullmatch(
+        r"tiltpad [0-9]+\.[0-9]+\.[0-9]+ \([0-9a-f]{7,}(-dirty)?\)\n|tiltpad [0-9.]+ \(unknown\)\n",
+        run.stdout,
+    )
+
+
+def test_check_runs_nothing(tiltpad, case):
+    text = check(tiltpad, case, "case.nml")
+    assert text.startswith("&case\n") and text.endswith("/\n")
+    assert [path.name for path in case.iterdir()] == ["case.nml"]
+
+
+@pytest.mark.parametrize(
+    "text", [BRIEF, RICH, "&case /\n", "&case / &rotor /"], ids=["brief", "rich", "empty", "groups"]
+)
+def test_check_resolves_to_itself(tiltpad, tmp_path, text):
+    (tmp_path / "case.nml").write_text(text, encoding="utf-8")
+    first = check(tiltpad, tmp_path, "case.nml")
+    (tmp_path / "again.nml").write_text(first, encoding="utf-8")
+    assert check(tiltpad, tmp_path, "again.nml") == first
+
+
+def test_check_of_all_cases_that_come_along(tiltpad, tmp_path, root):
+    cases = sorted((root / "input").rglob("*.nml"))
+    assert cases
+    for path in cases:
+        first = check(tiltpad, tmp_path, path)
+        (tmp_path / "again.nml").write_text(first, encoding="utf-8")
+        assert check(tiltpad, tmp_path, "again.nml") == first
+
+
+def test_check_tells_every_value(tiltpad, tmp_path):
+    (tmp_path / "case.nml").write_text(RICH, encoding="utf-8")
+    text = check(tiltpad, tmp_path, "case.nml")
+    assert value(text, "case", "title") == "'it''s \"quoted\", 50 % & more! / \u00fc \u20ac '"
+    assert value(text, "case", "task") == "'march'"
+    assert value(text, "friction", "model") == "'lugre'"
+    assert [float(x) for x in value(text, "rotor", "static_load").split(",")] == [0, -150]
+    assert [float(x) for x in value(text, "pads", "arc_deg").split(",")] == [60, 61.23456789012345, 60, 60]
+    assert [float(x) for x in value(text, "pads", "mass").split(",")] == [0.8108, 0.9, 0.9, 0.8108]
+
+
+@pytest.mark.parametrize("end", ["\r\n", "\n", "\n\n\t", " "], ids=["crlf", "lf", "tabs", "one line"])
+def test_line_ends(tiltpad, tmp_path, end):
+    lines = ["&rotor", "mass = 1234", "unbalance = 0.5 ,", "/", "&case", "title = 'a b'", "/", ""]
+    (tmp_path / "case.nml").write_bytes(end.join(lines).encode())
+    text = check(tiltpad, tmp_path, "case.nml")
+    assert value(text, "rotor", "mass") == "1234"
+    assert value(text, "rotor", "unbalance") == "0.5"
+    assert value(text, "case", "title") == "'a b'"
+
+
+def test_byte_order_mark(tiltpad, tmp_path):
+    """Some editors put one in front of UTF-8."""
+    (tmp_path / "case.nml").write_text("\ufeff&rotor mass=1234 /\n", encoding="utf-8")
+    assert value(check(tiltpad, tmp_path, "case.nml"), "rotor", "mass") == "1234"
+
+
+def test_long_line_and_title(tiltpad, tmp_path):
+    title = 20000 * "x "
+    (tmp_path / "case.nml").write_text(f"&rotor{20000 * ' '}mass=1234 / &case title='{title}' /")
+    text = check(tiltpad, tmp_path, "case.nml")
+    assert value(text, "rotor", "mass") == "1234"
+    assert value(text, "case", "title") == f"'{title}'"
+
+
+def test_pads_from_one_to_the_most(tiltpad, tmp_path):
+    for pads in range(1, 25):
+        angles = ",".join(f"{-90 + 15 * i}" for i in range(pads))
+        (tmp_path / "case.nml").write_text(f"&pads pivot_angle_deg={angles} arc_deg=10 /\n")
+        text = check(tiltpad, tmp_path, "case.nml")
+        assert len(value(text, "pads", "inertia").split(",")) == pads
+
+
+def test_set_comes_before_the_file_and_the_last_one_counts(tiltpad, tmp_path):
+    (tmp_path / "case.nml").write_text("&rotor mass=1 /\n&pads arc_deg=50, 51 /\n")
+    set_1, set_2, set_3 = (
+        ("--set", "rotor%mass=2"),
+        ("--set", "ROTOR%Mass = 3"),
+        ("--set", "pads%arc_deg(2)=52"),
+    )
+    assert value(check(tiltpad, tmp_path, "case.nml"), "rotor", "mass") == "1"
+    assert value(check(tiltpad, tmp_path, "case.nml", *set_1), "rotor", "mass") == "2"
+    assert value(check(tiltpad, tmp_path, *set_1, "case.nml", *set_2), "rotor", "mass") == "3"
+    assert value(check(tiltpad, tmp_path, *set_2, *set_1, "case.nml"), "rotor", "mass") == "2"
+    assert value(check(tiltpad, tmp_path, *set_3, "case.nml"), "pads", "arc_deg") == "50, 52"
+    assert (
+        value(check(tiltpad, tmp_path, *set_3, "--set", "pads%arc_deg=53", "case.nml"), "pads", "arc_deg")
+        == "53, 53"
+    )
+
+
+def test_set_mends_a_value_of_the_file(tiltpad, tmp_path):
+    (tmp_path / "case.nml").write_text("&rotor mass=-1 /\n")
+    assert value(check(tiltpad, tmp_path, "case.nml", "--set", "rotor%mass=5"), "rotor", "mass") == "5"
+
+
+def test_set_takes_text(tiltpad, case):
+    title = "it''s 1 % of /all/ & = \u00fc!"
+    text = check(
+        tiltpad, case, "case.nml", "--set", f"case%title='{title}'", "--set", 'friction%model="lugre"'
+    )
+    assert value(text, "case", "title") == f"'{title}'"
+    assert value(text, "friction", "model") == "'lugre'"
+
+
+@pytest.mark.parametrize(
+    ("name", "output"),
+    [
+        ("case.nml", "case.h5"),
+        ("a.b.nml", "a.b.h5"),
+        ("noend", "noend.h5"),
+        (".hidden", ".hidden.h5"),
+        ("\u00fc x.nml", "\u00fc x.h5"),
+    ],
+)
+def test_default_output(tiltpad, tmp_path, name, output):
+    """The case's name with .h5, in the working directory and not beside the case."""
+    (tmp_path / "cases").mkdir()
+    (tmp_path / "work").mkdir()
+    (tmp_path / "cases" / name).write_text(BRIEF)
+    run = tiltpad(f"../cases/{name}", cwd=tmp_path / "work")
+    assert (run.returncode, run.stderr) == (0, "")
+    assert [path.name for path in (tmp_path / "work").iterdir()] == [output]
+    assert [path.name for path in (tmp_path / "cases").iterdir()] == [name]
+    assert output in run.stdout
+
+
+@pytest.mark.parametrize("option", ["--output", "-o"])
+@pytest.mark.parametrize("output", ["run.h5", "deep er/b c/run 1.h5", "noend", "new\nline.h5"])
+def test_output(tiltpad, case, option, output):
+    (case / output).parent.mkdir(parents=True, exist_ok=True)
+    run = tiltpad("case.nml", option, output, cwd=case)
+    assert (run.returncode, run.stderr) == (0, "")
+    with h5py.File(case / output) as file:
+        assert file.attrs["complete"] == 1
+    assert len(list((case / output).parent.glob("*.part*"))) == 0
+
+
+def test_output_replaces_what_a_link_leads_to(tiltpad, case):
+    """A link, to a larger disk say, stays a link."""
+    (case / "store").mkdir()
+    (case / "case.h5").symlink_to("store/case.h5")
+    (case / "store" / "case.h5").write_bytes(b"earlier")
+    assert tiltpad("case.nml", cwd=case).returncode == 0
+    assert (case / "case.h5").is_symlink()
+    with h5py.File(case / "store" / "case.h5") as file:
+        assert file.attrs["complete"] == 1
+
+
+def test_quiet(tiltpad, case):
+    for option in ("--quiet", "-q"):
+        run = tiltpad("case.nml", option, cwd=case)
+        assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
+
+
+def test_input_of_the_result_runs_again(tiltpad, case):
+    assert tiltpad("case.nml", "--set", "case%title='a ''b'' c'", cwd=case).returncode == 0
+    with h5py.File(case / "case.h5") as file:
+        text = file.attrs["input"]
+        assert file.attrs["title"] == "a 'b' c"
+        first = file["journal_y"][:]
+    (case / "again.nml").write_text(text)
+    assert tiltpad("again.nml", cwd=case).returncode == 0
+    with h5py.File(case / "again.h5") as file:
+        assert file.attrs["input"] == text
+        assert (file["journal_y"][:] == first).all()
+
+
+def test_a_log_is_plain_lines(tiltpad, tmp_path):
+    (tmp_path / "case.nml").write_text(LONG)
+    run = tiltpad("case.nml", cwd=tmp_path)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert "\r" not in run.stdout
+    assert "\x1b" not in run.stdout
+    assert run.stdout.endswith("\n")
+    for word in ("equilibrium", "last revolution", "pad 1", "pad 2", "cost", "wall time", "case.h5"):
+        assert word in run.stdout
+    assert not re.search(r"\*\*|NaN|Infinity", run.stdout)
+    assert not re.search(r"(^|[\s-])\.[0-9]", run.stdout), "numbers have a digit before the point"
+
+
+def on_a_terminal(arguments, folder):
+    """What the program writes to a pseudo-terminal, and its exit status."""
+    leader, follower = pty.openpty()
+    with subprocess.Popen(
+        [PROGRAM, *arguments], cwd=folder, stdin=follower, stdout=follower, stderr=follower
+    ) as process:
+        os.close(follower)
+        seen = b""
+        end = time.monotonic() + 60
+        while time.monotonic() < end:
+            if not select.select([leader], [], [], 1)[0]:
+                continue
+            try:
+                new = os.read(leader, 65536)
+            except OSError:
+                break
+            if not new:
+                break
+            seen += new
+        else:
+            process.kill()
+    os.close(leader)
+    return seen.decode(), process.returncode
+
+
+def test_a_terminal_has_a_line_that_renews_itself(tmp_path):
+    (tmp_path / "case.nml").write_text(LONG)
+    seen, status = on_a_terminal(["case.nml"], tmp_path)
+    assert status == 0
+    lines = re.findall(r"\r(t = [^\r\n]*)", seen)
+    assert len(lines) >= 2
+    for line in lines:
+        assert re.match(r"t = \S+ s of 4 s, [0-9]+ %, [0-9]+ steps, [0-9]+ s left", line), line
+    percent = [int(re.search(r"([0-9]+) %", line)[1]) for line in lines]
+    assert percent == sorted(percent)
+    # it renews itself in place and is gone at the end
+    assert "\n" not in seen[seen.index(lines[0]) : seen.rindex(lines[-1])]
+    assert re.search(r"\r\x1b\[K[^\r]*last revolution", seen)
+
+
+def test_quiet_on_a_terminal(tmp_path):
+    (tmp_path / "case.nml").write_text(LONG)
+    assert on_a_terminal(["--quiet", "case.nml"], tmp_path) == ("", 0)
+
+
+def test_killed_in_the_middle(tiltpad, case):
+    """The previous result stays whole, whatever ends the run."""
+    assert tiltpad("case.nml", "--quiet", cwd=case).returncode == 0
+    earlier = (case / "case.h5").read_bytes()
+    with subprocess.Popen(
+        [PROGRAM, "case.nml", "--quiet", "--set", "operation%duration=1000"], cwd=case
+    ) as process:
+        time.sleep(0.5)
+        assert process.poll() is None
+        process.kill()
+    assert (case / "case.h5").read_bytes() == earlier
+
+
+def test_two_runs_to_one_file(case):
+    """Both end well and the file is one of the two."""
+    durations = ("0.05", "0.06")
+    runs = [
+        subprocess.Popen(
+            [PROGRAM, "case.nml", "--quiet", "--set", f"operation%duration={duration}"], cwd=case
+        )
+        for duration in durations
+    ]
+    assert [run.wait(60) for run in runs] == [0, 0]
+    assert sorted(path.name for path in case.iterdir()) == ["case.h5", "case.nml"]
+    with h5py.File(case / "case.h5") as file:
+        assert file.attrs["complete"] == 1
+        assert min(abs(file["time"][-1] - float(duration)) for duration in durations) < 1e-4
