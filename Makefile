@@ -87,7 +87,7 @@ help:
 	@echo 'make deps     install what is missing (root or sudo; otherwise print the list and stop)'
 	@echo 'make python   Python environment build/venv with the package tiltpad'
 	@echo 'make lint     style of Fortran and Python; make format mends Fortran layout'
-	@echo 'make docs     write docs/inputs.md and docs/images from the program'
+	@echo 'make docs     write docs/inputs.md, docs/verification.md and docs/images from the program'
 	@echo 'make install  program into PREFIX/bin    (PREFIX=$(PREFIX))'
 	@echo 'make clean    remove build/'
 
@@ -165,14 +165,15 @@ include $(B)/depend.mk
 
 # ---- house-keeping -----------------------------------------------------------------------------
 lint: python
-	$(VENV)/bin/fortitude check src_f90 tests
-	$(VENV)/bin/ruff check post tests
-	$(VENV)/bin/ruff format --check post tests
+	$(VENV)/bin/fortitude check --line-length 120 --ignore S241,C002,C061,C071 src_f90 tests
+	$(VENV)/bin/ruff check --config post/pyproject.toml post tests docs
+	$(VENV)/bin/ruff format --check --config post/pyproject.toml post tests docs
 
 docs: run
 	@{ cat docs/inputs_head.md; $(B)/bin/tiltpad --reference; } > docs/inputs.md
 	@mkdir -p docs/images
 	cp build/run/*.png docs/images/
+	$(venv_python) docs/verify.py $(B)/bin/tiltpad > build/verification.md && mv build/verification.md docs/
 
 install: build
 	install -d $(DESTDIR)$(PREFIX)/bin

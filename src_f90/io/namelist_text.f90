@@ -38,25 +38,26 @@ module namelist_text
       procedure :: place
    end type scanner
 
-   character(len=*), parameter :: newline = achar(10), tab = achar(9), return = achar(13)
+   character(len=*), parameter :: newline = achar(10), tab = achar(9), carriage = achar(13)
    character(len=*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyz_'
    character(len=*), parameter :: name_characters = letters//'0123456789'
 
 contains
 
    !> Parses the text of a file; `file` is for messages.
-   subroutine parse_namelist(text, file, namelist, error)
+   subroutine parse_namelist(text, file, parsed, error)
       character(len=*), intent(in) :: text, file
-      type(namelist_type), intent(out) :: namelist
+      type(namelist_type), intent(out) :: parsed
       type(error_type), allocatable, intent(out) :: error
       type(scanner) :: scan
       type(assignment_type) :: group
-      integer :: i
+      integer :: i, code
 
-      namelist%file = file
-      allocate (namelist%groups(0), namelist%assignments(0))
+      parsed%file = file
+      allocate (parsed%groups(0), parsed%assignments(0))
       do i = 1, len(text)
-         if (iachar(text(i:i)) < 32 .and. index(newline//tab//return, text(i:i)) == 0 .or. iachar(text(i:i)) == 127) then
+         code = iachar(text(i:i))
+         if (code == 127 .or. code < 32 .and. index(newline//tab//carriage, text(i:i)) == 0) then
             call raise(error, input_error, file//': not a text file (byte '//to_text(i)//' is a control character)')
             return
          end if
@@ -74,24 +75,25 @@ contains
          scan%at = scan%at + 1
          group%place = scan%place()
          group%group = lower_case(scan%word())
-         do i = 1, size(namelist%groups)
-            if (namelist%groups(i)%group == group%group) then
+         do i = 1, size(parsed%groups)
+            if (parsed%groups(i)%group == group%group) then
                call raise(error, input_error, group%place//': group &'//group%group//' is given twice, first at ' &
-                  & //namelist%groups(i)%place)
+                  & //parsed%groups(i)%place)
                return
             end if
          end do
-         namelist%groups = [namelist%groups, group]
-         call parse_group(scan, group, namelist%assignments, error)
+         parsed%groups = [parsed%groups, group]
+         call parse_group(scan, group, parsed%assignments, error)
          if (allocated(error)) return
       end do
-      if (size(namelist%groups) == 0) call raise(error, input_error, file//': no namelist group in it; expected &name ... /')
+      if (size(parsed%groups) == 0) call raise(error, input_error, &
+         & file//': no namelist group in it; expected &name ... /')
    end subroutine parse_namelist
 
    !> Parses the argument of --set, "group%name=value", and puts it in place of what the file says.
-   subroutine parse_override(text, namelist, error)
+   subroutine parse_override(text, parsed, error)
       character(len=*), intent(in) :: text
-      type(namelist_type), intent(inout) :: namelist
+      type(namelist_type), intent(inout) :: parsed
       type(error_type), allocatable, intent(out) :: error
       type(scanner) :: scan
       type(assignment_type) :: group
@@ -116,8 +118,8 @@ contains
          return
       end if
       new(1)%place = '--set'
-      keep = [(.not. same_target(namelist%assignments(i), new(1)), i=1, size(namelist%assignments))]
-      namelist%assignments = [pack(namelist%assignments, keep), new]
+      keep = [(.not. same_target(parsed%assignments(i), new(1)), i=1, size(parsed%assignments))]
+      parsed%assignments = [pack(parsed%assignments, keep), new]
    end subroutine parse_override
 
    !> From behind the group's name to behind its end.
@@ -141,6 +143,8 @@ contains
             end if
             call raise(error, input_error, group%place//': group &'//group%group//' is not closed by /')
             return
+         case default
+            continue
          end select
          new = group
          new%place = scan%place()
@@ -261,10 +265,10 @@ contains
    end function same_target
 
    !> The character here; empty at the end.
-   pure function peek(self) result(character)
+   pure function peek(self) result(here)
       class(scanner), intent(in) :: self
-      character(len=:), allocatable :: character
-      character = self%text(self%at:min(self%at, len(self%text)))
+      character(len=:), allocatable :: here
+      here = self%text(self%at:min(self%at, len(self%text)))
    end function peek
 
    !> Moves over blanks, ends of lines, comments, and the characters of `also`.
@@ -280,7 +284,7 @@ contains
                end do
             else if (c == newline) then
                self%line = self%line + 1
-            else if (index(' '//tab//return//also, c) == 0) then
+            else if (index(' '//tab//carriage//also, c) == 0) then
                return
             end if
          end associate
@@ -293,7 +297,7 @@ contains
       class(scanner), intent(inout) :: self
       character(len=:), allocatable :: found
       integer :: length
-      length = scan(self%text(self%at:)//' ', ' ,=/&!''"'//tab//newline//return) - 1
+      length = scan(self%text(self%at:)//' ', ' ,=/&!''"'//tab//newline//carriage) - 1
       found = self%text(self%at:self%at + length - 1)
       self%at = self%at + length
    end function word

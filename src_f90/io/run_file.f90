@@ -213,7 +213,7 @@ contains
       real(wp), intent(in) :: interval
       integer, intent(in) :: revolutions
       real(wp), intent(in) :: speed
-      !> One-sided, at k/T; full, at k/T with k = -((n-1)/2) .. n/2; one-sided (pad, k).
+      !> One-sided, at k/T; full, at k/T with k = -((n-1)/2) .. n/2; one-sided (k, pad).
       real(wp), intent(in) :: journal_y(:), journal_z(:), journal_full(:), tilt(:, :)
       real(wp) :: step
       integer :: k, n
@@ -226,7 +226,7 @@ contains
             & 'frequency over shaft frequency', 'spectrum/frequency')
          call file%put_list('spectrum/journal_y', journal_y, 'm', 'amplitude of journal_y', 'spectrum/frequency')
          call file%put_list('spectrum/journal_z', journal_z, 'm', 'amplitude of journal_z', 'spectrum/frequency')
-         call file%put_table('spectrum/pad_tilt', transpose(tilt), 'rad', 'amplitude of pad_tilt', &
+         call file%put_table('spectrum/pad_tilt', tilt, 'rad', 'amplitude of pad_tilt', &
             & 'pad spectrum/frequency')
          call file%put_list('spectrum/full_frequency', [(k*step, k=-((n - 1)/2), n/2)], 'Hz', &
             & 'frequency, positive for forward whirl', 'spectrum/full_frequency')

@@ -48,7 +48,7 @@ module cvode_march
 
    !> What CVODE hands back to the callbacks.
    type :: user_data
-      class(ode_model_type), pointer :: model
+      class(ode_model_type), pointer :: model => null()
       integer(c_int64_t) :: n
    end type user_data
 

@@ -1,0 +1,139 @@
+"""Prints docs/verification.md: what the program's numbers are held against, from its own runs.
+
+usage: verify.py TILTPAD > verification.md
+"""
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import tiltpad
+
+CASES = Path(__file__).resolve().parent.parent / "input/paper"
+
+PAGE = """\
+# Verification
+
+Written by `make docs` from runs of the program. The tests in `tests/` hold what is said here, and more:
+analytic limits, order of convergence, derivatives against differences, energy balance, bad input.
+
+## Equilibrium
+
+The paper's two pads, no unbalance, no friction, against converged values of independent programs that share
+no code with this one; in brackets ROSS 3 (open-source rotordynamics, finite elements, rigid pivots). The
+references know no cavitation, so the first three rows of each block have `film%cavitation = 'none'`; the last
+has the default, which differs where the film ruptures near the trailing edge, at low speed.
+
+| pads, rpm | film | y um | reference | z um | reference | tilts mrad | reference | least film um | reference | deviation of y, % of c_r |
+|---|---|---|---|---|---|---|---|---|---|---|
+{equilibria}
+
+## The LuGre case
+
+`input/paper/steady_lugre.nml`, 2 s at 6500 rpm, default settings; ranges over the last revolution.
+
+| signal | here | reference | error, % of peak-to-peak |
+|---|---|---|---|
+{lugre}
+
+## Default settings against tight ones
+
+Largest deviation in the last revolution over peak-to-peak; tight: {tight}.
+
+| case | journal y | journal z | tilt | friction moment |
+|---|---|---|---|---|
+{settings}
+"""  # noqa: E501
+
+# Converged equilibria: motion, rpm: y, z um, tilts mrad, least film um, y by ROSS um.
+REFERENCES = {
+    ("tilting_radial", 6500): (-55.595, 0.0266, (-0.2029, 1.0269), 41.512, None),
+    ("tilting_only", 6500): (-45.561, 0.0234, (-0.0920, 0.9159), 41.514, -45.61),
+    ("tilting_only", 3000): (-64.229, 0.0174, (-0.2848, 1.1362), 29.154, -64.24),
+    ("tilting_only", 1500): (-77.619, 0.0129, (-0.4295, 1.2879), 20.261, -77.66),
+}
+FINE = ("film%circumferential_cells=120", "film%axial_cells=30")
+FILMS = {
+    "modal": ("film%cavitation=none",),
+    "sor 60 x 15": ("film%cavitation=none", "film%solver=sor"),
+    "sor 120 x 30": ("film%cavitation=none", "film%solver=sor", *FINE),
+    "default (reynolds)": (),
+}
+# Converged last revolution of the LuGre case.
+LUGRE = {
+    "journal y, um": ("journal_y", 1e6, -63.16, -44.29),
+    "journal z, um": ("journal_z", 1e6, -9.20, 9.82),
+    "tilt of pad 1, mrad": ("pad_tilt", 1e3, -0.2324, -0.1396),
+}
+SCENES = ("steady_tr", "steady_to", "steady_ba_10_05", "steady_lugre", "steady_lugre5")
+TIGHT = (
+    "film%circumferential_cells=96",
+    "film%axial_modes=32",
+    "film%axial_cells=60",
+    "film%tolerance=1e-8",
+    "film%max_sweeps=100000",
+    "integration%relative_tolerance=1e-9",
+)
+
+
+def run(program, case, folder, *overrides):
+    """Runs a case and returns the open result."""
+    output = Path(folder) / f"{case}-{abs(hash(overrides))}.h5"
+    options = [word for override in overrides for word in ("--set", override)]
+    subprocess.run([program, CASES / f"{case}.nml", "--quiet", "--output", output, *options], check=True)
+    return tiltpad.read(output)
+
+
+def row(*cells):
+    """A row of a Markdown table."""
+    return "| " + " | ".join(map(str, cells)) + " |"
+
+
+def equilibria(program, folder):
+    """Rows of equilibrium against reference, per film solver."""
+    for (motion, speed), (ref_y, ref_z, ref_tilt, ref_film, ross) in REFERENCES.items():
+        scene = (f"pads%motion={motion}", f"operation%speed_rpm={speed}", "case%task=equilibrium")
+        for name, film in FILMS.items():
+            with run(program, "steady_tr", folder, *scene, *film) as found:
+                e, c_r = found.equilibrium, found.clearance
+            y, z, least = (1e6 * x for x in (e["journal_y"], e["journal_z"], e["min_film_thickness"].min()))
+            tilt = ", ".join(f"{1e3 * x:.4f}" for x in e["pad_tilt"])
+            yield row(
+                *(f"{motion}, {speed}", name, f"{y:.3f}", f"{ref_y}{f' ({ross})' if ross else ''}"),
+                *(f"{z:.4f}", ref_z, tilt, ", ".join(map(str, ref_tilt)), f"{least:.3f}", ref_film),
+                f"{100 * abs(1e-6 * (y - ref_y)) / c_r:.4f}",
+            )
+
+
+def lugre(program, folder):
+    """Rows of the LuGre case's last revolution against reference."""
+    with run(program, "steady_lugre", folder) as found:
+        part = tiltpad.last_revolutions(found)
+        for label, (name, factor, low, high) in LUGRE.items():
+            values = factor * found.values(name, part).reshape(part.stop - part.start, -1)[:, 0]
+            worst = max(abs(values.min() - low), abs(values.max() - high)) / (high - low)
+            here = f"{values.min():.4f} to {values.max():.4f}"
+            yield row(label, here, f"{low} to {high}", f"{100 * worst:.3f}")
+
+
+def settings(program, folder):
+    """Rows of default against tight settings."""
+    for case in SCENES:
+        with run(program, case, folder) as quick, run(program, case, folder, *TIGHT) as exact:
+            part = tiltpad.last_revolutions(exact)
+            errors = []
+            for name in ("journal_y", "journal_z", "pad_tilt", "friction_moment"):
+                a, b = quick.values(name, part), exact.values(name, part)
+                span = (b.max(axis=0) - b.min(axis=0)).max()
+                errors.append(f"{abs(a - b).max() / span:.1e}" if span > 0 else "-")
+            yield row(case, *errors)
+
+
+def main(program):
+    with tempfile.TemporaryDirectory() as folder:
+        tables = {f.__name__: "\n".join(f(program, folder)) for f in (equilibria, lugre, settings)}
+    print(PAGE.format(tight=", ".join(f"`{each}`" for each in TIGHT), **tables), end="")
+
+
+main(sys.argv[1])
