@@ -22,6 +22,12 @@ def tiltpad():
 
 
 @pytest.fixture(scope="session")
+def program():
+    """Path of the program under test."""
+    return PROGRAM
+
+
+@pytest.fixture(scope="session")
 def root():
     """The project's folder."""
     return ROOT

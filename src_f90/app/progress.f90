@@ -41,6 +41,7 @@ contains
       integer(i8), intent(in) :: steps
       real(wp) :: now
       character(len=:), allocatable :: line
+      integer :: ignored
       if (self%quiet) return
       now = wall_clock()
       if (now - self%last < merge(terminal_pause, log_pause, self%terminal)) return
@@ -53,7 +54,7 @@ contains
       else
          write (output_unit, '(a)') line
       end if
-      flush (output_unit)
+      flush (output_unit, iostat=ignored)
       self%shown = .true.
    end subroutine report
 

@@ -2,10 +2,11 @@
 program tiltpad
    use, intrinsic :: iso_c_binding, only: c_int
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
-   use errors, only: error_type, raise, input_error
+   use errors, only: error_type, raise, input_error, system_error
    use scene, only: scene_type
    use scene_namelist, only: read_scene, scene_text
    use input_reference, only: reference_text
+   use posix, only: real_path, write_output, keep_file_size_quiet
    use build_info, only: program_version, program_commit
    use run_case, only: run_scene
    implicit none (type, external)
@@ -21,10 +22,12 @@ program tiltpad
    integer, parameter :: longest = 4096
 
    type(error_type), allocatable :: error
+   call keep_file_size_quiet()
    call command(error)
    flush (output_unit)
    if (allocated(error)) then
-      write (error_unit, '(a)') 'tiltpad: error: '//error%message
+      write (error_unit, '(a)') 'tiltpad: error: '//printable(error%message)
+      flush (error_unit)
       call c_exit(int(error%status, c_int))
    end if
 
@@ -56,7 +59,7 @@ contains
             print '(a)', 'tiltpad '//program_version//' ('//program_commit//')'
             return
          case ('--reference')
-            write (output_unit, '(a)', advance='no') reference_text()
+            call put(reference_text(), error)
             return
          case ('--check')
             check = .true.
@@ -98,7 +101,7 @@ contains
       call read_scene(case_file, overrides, scene, error)
       if (allocated(error)) return
       if (check) then
-         write (output_unit, '(a)', advance='no') scene_text(scene)
+         call put(scene_text(scene), error)
          return
       end if
       if (output == '') then
@@ -106,8 +109,30 @@ contains
          if (index(stem, '.', back=.true.) > 1) stem = stem(:index(stem, '.', back=.true.) - 1)
          output = stem//'.h5'
       end if
+      if (real_path(output) == real_path(case_file)) then
+         call raise(error, input_error, output//': the result would replace the case; name another with --output')
+         return
+      end if
       call run_scene(scene, output, quiet, error)
    end subroutine command
+
+   !> The text with a question mark for every control character, so that an error stays one line.
+   pure function printable(text)
+      character(len=*), intent(in) :: text
+      character(len=len(text)) :: printable
+      integer :: i
+      printable = text
+      do i = 1, len(text)
+         if (iachar(text(i:i)) < 32 .or. iachar(text(i:i)) == 127) printable(i:i) = '?'
+      end do
+   end function printable
+
+   !> Writes text to standard output.
+   subroutine put(text, error)
+      character(len=*), intent(in) :: text
+      type(error_type), allocatable, intent(out) :: error
+      if (.not. write_output(text)) call raise(error, system_error, 'standard output cannot be written')
+   end subroutine put
 
    !> The i-th word of the command line, of any length.
    function argument(i)

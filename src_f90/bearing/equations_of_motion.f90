@@ -52,6 +52,7 @@ module equations_of_motion
    contains
       procedure :: rhs
       procedure :: jacobian
+      procedure :: condition
       !> Sets frame, motion, response and loads at (t, y).
       procedure :: evaluate
       procedure, private :: pad_forces
@@ -64,6 +65,8 @@ module equations_of_motion
    end type bearing_model
 
    integer(i8), parameter :: timing_stride = 16
+   !> Film thickness over assembled clearance below which a failed march is put down to it.
+   real(wp), parameter :: nearly_closed = 1e-2_wp
 
 contains
 
@@ -205,6 +208,19 @@ contains
          end associate
       end do
    end subroutine film_trouble
+
+   !> Names the pad whose film is nearly closed, if there is one.
+   function condition(self)
+      class(bearing_model), intent(in) :: self
+      character(len=:), allocatable :: condition
+      integer :: i
+      condition = ''
+      i = minloc(self%response%min_film, dim=1)
+      associate (film => self%response(i)%min_film)
+         if (film < nearly_closed*self%scene%bearing%assembled_clearance) &
+            & condition = 'the film of pad '//to_text(i)//' is closing: thickness '//to_text(film)//' m'
+      end associate
+   end function condition
 
    !> Contact, friction, and the right-hand sides of (3) and (4) for one pad.
    subroutine pad_forces(self, i, y, want_slopes)

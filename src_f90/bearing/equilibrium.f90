@@ -4,6 +4,7 @@
 !> Euler step of the motion without inertia, f(x, dx/dt) = 0, with a time step that grows as the
 !> residual falls, so that it starts as a stable motion and ends as Newton's method.
 module equilibrium
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error
@@ -94,7 +95,7 @@ contains
          return
       end if
       found%residual = residual_of(model, f)
-      do while (found%residual > residual_limit)
+      do while (.not. found%residual <= residual_limit)
          if (found%iterations == max_iterations) then
             call raise(error, numerics_error, 'no equilibrium found at ' &
                & //to_text(model%scene%operation%speed_rpm)//' rpm: after '//to_text(max_iterations) &
@@ -105,6 +106,8 @@ contains
          call model%jacobian(0.0_wp, y, slopes, ok)
          do while (ok)
             call newton_step(model, slopes(v, x), slopes(v, v), f(v), time_step, step, ok)
+            if (.not. all(ieee_is_finite(step))) ok = .false.
+            if (.not. ok) exit
             move = maxval(abs(step/clearance_scale(model, x)))
             if (move <= longest_move) exit
             ! a shorter step in time, and not of its result, stays on the way of the motion
@@ -127,7 +130,7 @@ contains
             end if
          end do
          residual = residual_of(model, f_trial)
-         time_step = time_step*min(10.0_wp, max(0.3_wp, 1.5_wp*found%residual/residual))
+         time_step = time_step*max(0.3_wp, 1.5_wp*found%residual/max(residual, 0.15_wp*found%residual))
          y = trial
          f = f_trial
          found%residual = residual

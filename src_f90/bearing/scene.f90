@@ -21,7 +21,7 @@ module scene
    type :: rotor_type
       !> Mass carried by the bearing, kg; unbalance, kg m.
       real(wp) :: mass = 2000, unbalance = 0.010_wp
-      !> > 0: ISO 21940-11 grade, mm/s, replaces the unbalance; its speed (<= 0: the highest of the run).
+      !> > 0: ISO 21940-11 grade, mm/s, replaces the unbalance; its speed (< 0: the highest of the run).
       real(wp) :: balance_grade = -1, balance_speed_rpm = -1
       real(wp) :: gravity = 9.81_wp
       !> Extra force on the journal along y and z, N.
@@ -175,7 +175,7 @@ contains
       unbalance = self%rotor%unbalance
       if (self%rotor%balance_grade > 0) then
          balance_rpm = self%rotor%balance_speed_rpm
-         if (.not. balance_rpm > 0) balance_rpm = self%highest_speed()/rpm
+         if (balance_rpm < 0) balance_rpm = self%highest_speed()/rpm
          ! eq (26): 9549 G m / n, in g mm
          unbalance = 9549*self%rotor%balance_grade*self%rotor%mass/balance_rpm*1e-6_wp
       end if
@@ -229,6 +229,8 @@ contains
          call require(b%assembled_clearance <= 2*b%machined_clearance, 'bearing%assembled_clearance = ' &
             & //to_text(b%assembled_clearance)//': must be at most twice bearing%machined_clearance = ' &
             & //to_text(b%machined_clearance))
+         call require(.not. (self%rotor%balance_speed_rpm >= 0 .and. self%rotor%balance_speed_rpm < 1), &
+            & 'rotor%balance_speed_rpm = '//to_text(self%rotor%balance_speed_rpm)//': must be < 0 (the highest of the run) or >= 1')
          ratio = b%axial_length/b%journal_radius
          call require(ratio >= 0.02_wp .and. ratio <= 50, 'bearing%axial_length = '//to_text(b%axial_length) &
             & //': must be 0.02 to 50 times bearing%journal_radius = '//to_text(b%journal_radius)//' (both in m)')

@@ -2,7 +2,7 @@
 !> that knows HDF5. After a failure every routine does nothing; `failure` says what failed first.
 module hdf5_file
    use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
-   use hdf5, only: hid_t, hsize_t, h5open_f, h5eset_auto_f, h5fcreate_f, h5fclose_f, h5fflush_f, &
+   use hdf5, only: hid_t, hsize_t, h5open_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fclose_f, h5fflush_f, &
       & h5f_acc_trunc_f, h5f_scope_local_f, h5gcreate_f, h5gclose_f, h5screate_f, h5screate_simple_f, &
       & h5sclose_f, h5s_scalar_f, h5s_unlimited_f, h5sget_simple_extent_ndims_f, &
       & h5sselect_hyperslab_f, h5s_select_set_f, h5tcopy_f, &
@@ -62,6 +62,8 @@ contains
       class(hdf5_type), intent(inout) :: self
       character(len=*), intent(in) :: path
       integer :: status
+      ! what is open is closed here; at exit HDF5 would crash over a file it could not write
+      call h5dont_atexit_f(status)
       call h5open_f(status)
       ! HDF5 would print its own stack of errors
       call h5eset_auto_f(0, status)

@@ -27,6 +27,9 @@ module namelist_text
       type(assignment_type), allocatable :: assignments(:)
    end type namelist_type
 
+   !> Most groups, assignments, or values of one assignment: far more than any case has.
+   integer, parameter :: most_items = 1000
+
    !> Where the scanner is.
    type :: scanner
       character(len=:), allocatable :: text, file
@@ -64,6 +67,8 @@ contains
       end do
       scan%text = text
       scan%file = file
+      ! a UTF-8 byte order mark
+      if (index(text, char(239)//char(187)//char(191)) == 1) scan%at = 4
       do
          call scan%skip_blank(',')
          if (scan%peek() == '') exit
@@ -75,6 +80,14 @@ contains
          scan%at = scan%at + 1
          group%place = scan%place()
          group%group = lower_case(scan%word())
+         if (group%group == '') then
+            call raise(error, input_error, group%place//': a group''s name is missing behind &')
+            return
+         end if
+         if (size(parsed%groups) == most_items) then
+            call raise(error, input_error, group%place//': more than '//to_text(most_items)//' groups')
+            return
+         end if
          do i = 1, size(parsed%groups)
             if (parsed%groups(i)%group == group%group) then
                call raise(error, input_error, group%place//': group &'//group%group//' is given twice, first at ' &
@@ -118,7 +131,7 @@ contains
          return
       end if
       new(1)%place = '--set'
-      keep = [(.not. same_target(parsed%assignments(i), new(1)), i=1, size(parsed%assignments))]
+      keep = [(.not. undoes(new(1), parsed%assignments(i)), i=1, size(parsed%assignments))]
       parsed%assignments = [pack(parsed%assignments, keep), new]
    end subroutine parse_override
 
@@ -152,12 +165,16 @@ contains
          if (.not. allocated(error)) call parse_values(scan, new, error)
          if (allocated(error)) return
          do i = 1, size(assignments)
-            if (same_target(assignments(i), new)) then
+            if (undoes(new, assignments(i))) then
                call raise(error, input_error, new%place//': '//new%group//'%'//new%name//' is given twice, first at ' &
                   & //assignments(i)%place)
                return
             end if
          end do
+         if (size(assignments) == most_items) then
+            call raise(error, input_error, new%place//': more than '//to_text(most_items)//' values given')
+            return
+         end if
          assignments = [assignments, new]
       end do
    end subroutine parse_group
@@ -198,10 +215,10 @@ contains
       type(scanner), intent(inout) :: scan
       type(assignment_type), intent(inout) :: new
       type(error_type), allocatable, intent(out) :: error
-      type(scanner) :: ahead
       type(token_type) :: token
       character(len=:), allocatable :: found
       logical :: comma
+      integer :: at, line
       allocate (new%values(0))
       comma = .true.
       do
@@ -213,27 +230,34 @@ contains
             cycle
          end if
          if (index('/&', scan%peek()) > 0) exit
-         ahead = scan
+         if (size(new%values) == most_items) then
+            call raise(error, input_error, new%place//': '//new%group//'%'//new%name//': more than ' &
+               & //to_text(most_items)//' values')
+            return
+         end if
          if (scan%peek() == '''' .or. scan%peek() == '"') then
-            call quoted(ahead, token, new, error)
+            call quoted(scan, token, new, error)
             if (allocated(error)) return
          else
-            found = ahead%word()
+            at = scan%at
+            line = scan%line
+            found = scan%word()
             token%text = found
             token%quoted = .false.
-            call ahead%skip_blank('')
-            ! a word before '=' is the next name
-            if (ahead%peek() == '=') then
-               if (found == '') ahead%at = ahead%at + 1
-               if (found /= '') exit
+            call scan%skip_blank('')
+            if (scan%peek() == '=') then
+               ! a word before '=' is the next name; a second '=' is no value
+               if (found == '') exit
+               scan%at = at
+               scan%line = line
+               exit
             end if
          end if
-         scan = ahead
          new%values = [new%values, token]
          comma = .false.
       end do
-      if (size(new%values) == 0 .or. scan%peek() == ',') call raise(error, input_error, new%place//': '//new%group &
-         & //'%'//new%name//': a value is missing')
+      if (size(new%values) == 0 .or. scan%peek() == ',' .or. scan%peek() == '=') &
+         & call raise(error, input_error, new%place//': '//new%group//'%'//new%name//': a value is missing')
    end subroutine parse_values
 
    !> A string in quotes on one line; a doubled quote stands for itself.
@@ -259,10 +283,12 @@ contains
       end do
    end subroutine quoted
 
-   pure logical function same_target(a, b)
-      type(assignment_type), intent(in) :: a, b
-      same_target = a%group == b%group .and. a%name == b%name .and. a%subscript == b%subscript
-   end function same_target
+   !> True where the new assignment would undo all of an earlier one.
+   pure logical function undoes(new, earlier)
+      type(assignment_type), intent(in) :: new, earlier
+      undoes = new%group == earlier%group .and. new%name == earlier%name &
+         & .and. (new%subscript == 0 .or. new%subscript == earlier%subscript)
+   end function undoes
 
    !> The character here; empty at the end.
    pure function peek(self) result(here)

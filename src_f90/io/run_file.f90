@@ -12,7 +12,7 @@ module run_file
    use equations_of_motion, only: bearing_model
    use equilibrium, only: equilibrium_type
    use hdf5_file, only: hdf5_type, growing_type
-   use posix, only: rename_file, delete_file, process_id
+   use posix, only: rename_file, delete_file, process_id, real_path, is_regular
    implicit none (type, external)
    private
    public :: run_file_type, format_version
@@ -61,8 +61,16 @@ contains
       character(len=200) :: message
       integer :: unit, status, i, clock(8)
       character(len=25) :: created
-      self%path = path
-      self%temporary = path//'.part'//to_text(int(process_id()))
+      logical :: exists
+      ! a link is followed, so that its target is replaced and not the link
+      self%path = real_path(path)
+      self%temporary = self%path//'.part'//to_text(int(process_id()))
+      inquire (file=self%path//'/.', exist=exists)
+      if (.not. exists) inquire (file=self%path, exist=exists)
+      if (exists .and. .not. is_regular(self%path)) then
+         call raise(error, system_error, 'cannot write '//path//': it is a directory, device or pipe')
+         return
+      end if
       ! the system says better than HDF5 why a file cannot be made
       open (newunit=unit, file=self%temporary, status='replace', action='write', iostat=status, iomsg=message)
       if (status /= 0) then
@@ -272,10 +280,12 @@ contains
       if (complete) call self%file%put_flag('complete', 1)
       call self%file%close()
       if (.not. allocated(self%file%failure)) then
-         if (.not. rename_file(self%temporary, self%path)) self%file%failure = 'renaming failed'
+         if (.not. rename_file(self%temporary, self%path)) call raise(error, system_error, 'cannot rename the result to ' &
+            & //self%path//'; it is in '//self%temporary)
+         return
       end if
       call self%error_of(error)
-      if (allocated(error)) call delete_file(self%temporary)
+      call delete_file(self%temporary)
    end subroutine finish
 
    subroutine abandon(self)

@@ -11,8 +11,6 @@ module scene_fields
    !> Allowed values of a number.
    type :: range_type
       real(wp) :: low = -huge(1.0_wp), high = huge(1.0_wp)
-      !> True where the lower end itself is not allowed.
-      logical :: open = .false.
    contains
       procedure :: allows
       procedure :: text => range_text
@@ -85,29 +83,29 @@ contains
          call v%word('task', c%task, 'march equilibrium', 'march in time, or stop at the static equilibrium')
 
          call v%group('rotor', 'The rotor''s share on this bearing, and what loads it')
-         call v%number('mass', r%mass, positive(1e9_wp), 'kg', 'mass m_J carried by the bearing')
+         call v%number('mass', r%mass, between(1e-6_wp, 1e9_wp), 'kg', 'mass m_J carried by the bearing')
          call v%number('unbalance', r%unbalance, between(0.0_wp, 1e6_wp), 'kg m', 'unbalance dmE')
          call v%number('balance_grade', r%balance_grade, between(-1.0_wp, 1e5_wp), 'mm/s', &
             & 'ISO 21940-11 grade G; > 0 replaces unbalance by eq (26)')
          call v%number('balance_speed_rpm', r%balance_speed_rpm, between(-1.0_wp, 1e6_wp), 'rpm', &
-            & 'speed of eq (26); <= 0: the highest of the run')
+            & 'speed of eq (26); < 0: the highest of the run')
          call v%number('gravity', r%gravity, between(0.0_wp, 1e3_wp), 'm/s^2', 'acceleration towards -y')
          call v%numbers('static_load', r%static_load, between(-1e12_wp, 1e12_wp), 'N', &
             & 'extra force on the journal along y and z')
 
          call v%group('operation', 'Speed and time')
-         call v%number('speed_rpm', o%speed_rpm, positive(1e6_wp), 'rpm', 'shaft speed at the start')
+         call v%number('speed_rpm', o%speed_rpm, between(1e-3_wp, 1e6_wp), 'rpm', 'shaft speed at the start')
          call v%number('final_speed_rpm', o%final_speed_rpm, between(-1.0_wp, 1e6_wp), 'rpm', &
             & 'shaft speed at the end, linear in between; < 0: as speed_rpm')
-         call v%number('duration', o%duration, positive(1e6_wp), 's', 'simulated time')
+         call v%number('duration', o%duration, between(1e-9_wp, 1e6_wp), 's', 'simulated time')
 
          call v%group('bearing', 'Geometry, oil and boundary pressures')
          call v%number('journal_radius', b%journal_radius, between(1e-4_wp, 10.0_wp), 'm', 'R_J')
-         call v%number('machined_clearance', b%machined_clearance, positive(0.1_wp), 'm', &
+         call v%number('machined_clearance', b%machined_clearance, between(1e-9_wp, 0.1_wp), 'm', &
             & 'radial clearance c_m between pad bore and journal')
-         call v%number('assembled_clearance', b%assembled_clearance, positive(0.1_wp), 'm', &
+         call v%number('assembled_clearance', b%assembled_clearance, between(1e-9_wp, 0.1_wp), 'm', &
             & 'radial clearance c_r at the pivots')
-         call v%number('axial_length', b%axial_length, positive(100.0_wp), 'm', 'pad length L along the shaft')
+         call v%number('axial_length', b%axial_length, between(1e-5_wp, 100.0_wp), 'm', 'pad length L along the shaft')
          call v%number('viscosity', b%viscosity, between(1e-6_wp, 10.0_wp), 'Pa s', 'dynamic viscosity of the oil')
          call v%number('supply_pressure', b%supply_pressure, between(-1e9_wp, 1e9_wp), 'Pa', &
             & 'pressure at the leading edges')
@@ -122,10 +120,10 @@ contains
          call v%per_pad('arc_deg', p%arc_deg, .false., between(0.1_wp, 350.0_wp), 'deg', 'arc theta_1 + theta_2')
          call v%per_pad('pivot_ratio', p%pivot_ratio, .false., between(0.01_wp, 0.99_wp), '1', &
             & 'theta_1 over the arc: where the pivot stands, from the leading edge')
-         call v%per_pad('pivot_distance', p%pivot_distance, .false., positive(1.0_wp), 'm', &
+         call v%per_pad('pivot_distance', p%pivot_distance, .false., between(1e-6_wp, 1.0_wp), 'm', &
             & 'kappa, from the pad''s bore out to the pivot')
-         call v%per_pad('mass', p%mass, .false., positive(1e6_wp), 'kg', 'pad mass')
-         call v%per_pad('inertia', p%inertia, .false., positive(1e6_wp), 'kg m^2', 'moment of inertia about the pivot')
+         call v%per_pad('mass', p%mass, .false., between(1e-9_wp, 1e6_wp), 'kg', 'pad mass')
+         call v%per_pad('inertia', p%inertia, .false., between(1e-15_wp, 1e6_wp), 'kg m^2', 'moment of inertia about the pivot')
          call v%per_pad('centre_tangential', p%centre_tangential, .false., between(-1.0_wp, 1.0_wp), 'm', &
             & 'centre of gravity C_xi from the pivot, along the pad')
          call v%per_pad('centre_radial', p%centre_radial, .false., between(-1.0_wp, 1.0_wp), 'm', &
@@ -136,7 +134,7 @@ contains
       associate (p => scene%pivot, f => scene%friction, m => scene%film, i => scene%integration, o => scene%output)
          call v%group('pivot', 'Ball-and-socket contact')
          call v%word('law', p%law, 'fang hertz', 'conformal contact (11)-(18), or Hertz')
-         call v%number('socket_radius', p%socket_radius, positive(10.0_wp), 'm', 'R_2')
+         call v%number('socket_radius', p%socket_radius, between(1e-5_wp, 10.0_wp), 'm', 'R_2')
          call v%number('radius_difference', p%radius_difference, between(0.0_wp, 1.0_wp), 'm', 'dR = R_2 - R_1')
          call v%numbers('young_modulus', p%young_modulus, between(1e6_wp, 1e14_wp), 'Pa', 'of ball and socket')
          call v%numbers('poisson_ratio', p%poisson_ratio, between(-0.99_wp, 0.5_wp), '1', 'of ball and socket')
@@ -155,7 +153,7 @@ contains
          call v%number('bristle_damping', f%bristle_damping, between(-1.0_wp, 1e6_wp), 's/m', &
             & 'LuGre: sigma_1; < 0: eq (28)')
          call v%number('viscous_coefficient', f%viscous_coefficient, between(0.0_wp, 1e6_wp), 's/m', 'LuGre: sigma_2')
-         call v%number('characteristic_load', f%characteristic_load, positive(1e12_wp), 'N', 'N_m of eq (28)')
+         call v%number('characteristic_load', f%characteristic_load, between(1e-6_wp, 1e12_wp), 'N', 'N_m of eq (28)')
 
          call v%group('film', 'How the Reynolds equation is solved')
          call v%word('solver', m%solver, 'auto modal sor', &
@@ -189,12 +187,6 @@ contains
       end associate
 
    contains
-      !> Above zero and up to a bound that only catches slips.
-      type(range_type) function positive(high)
-         real(wp), intent(in) :: high
-         positive = range_type(0.0_wp, high, .true.)
-      end function positive
-
       type(range_type) function between(low, high)
          real(wp), intent(in) :: low, high
          between = range_type(low, high)
@@ -215,17 +207,13 @@ contains
    pure logical function allows(self, x)
       class(range_type), intent(in) :: self
       real(wp), intent(in) :: x
-      allows = x >= self%low .and. x <= self%high .and. .not. (self%open .and. x <= self%low)
+      allows = x >= self%low .and. x <= self%high
    end function allows
 
-   !> "> 0 and <= 10", "0 to 1".
+   !> "0 to 1".
    pure function range_text(self) result(string)
       class(range_type), intent(in) :: self
       character(len=:), allocatable :: string
-      if (self%open) then
-         string = '> '//to_text(self%low)//' and <= '//to_text(self%high)
-      else
-         string = to_text(self%low)//' to '//to_text(self%high)
-      end if
+      string = to_text(self%low)//' to '//to_text(self%high)
    end function range_text
 end module scene_fields

@@ -1,19 +1,21 @@
 !> Scene from namelist text and back. Values are checked where they are read, so that the message can
 !> name file, line, group, variable, value and what is allowed.
 module scene_namelist
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_overflow, ieee_get_halting_mode, ieee_set_flag, &
+      & ieee_set_halting_mode
    use kinds, only: wp
    use text, only: to_text, exact_text, lower_case
    use errors, only: error_type, raise, add_context, input_error
    use scene, only: scene_type, max_pads
    use scene_fields, only: field_visitor, range_type, visit_scene
    use namelist_text, only: namelist_type, assignment_type, token_type, parse_namelist, parse_override
+   use posix, only: is_regular
    implicit none (type, external)
    private
    public :: read_scene, scene_from_text, scene_text
 
-   !> Longest input file, bytes.
-   integer, parameter :: longest_file = 1000000
+   !> Longest input file, and longest text in it, bytes.
+   integer, parameter :: longest_file = 100000, longest_text = 1000
 
    !> Fills a scene from assignments.
    type, extends(field_visitor) :: scene_reader
@@ -61,6 +63,10 @@ contains
       inquire (file=file, exist=exists)
       if (.not. exists) then
          call raise(error, input_error, file//': no such file')
+         return
+      end if
+      if (.not. is_regular(file)) then
+         call raise(error, input_error, file//': a directory, device or pipe, not an ordinary file')
          return
       end if
       open (newunit=unit, file=file, access='stream', form='unformatted', action='read', status='old', &
@@ -172,6 +178,9 @@ contains
                call self%refuse(a%place//': '//described(a)//': must be one of '''//quoted_list(choices)//'''')
             else if (choices == '' .and. .not. a%values(1)%quoted) then
                call self%refuse(a%place//': '//described(a)//': text must stand in quotes')
+            else if (len(found) > longest_text) then
+               call self%refuse(a%place//': '//a%group//'%'//a%name//': '//to_text(len(found)) &
+                  & //' characters; a text has at most '//to_text(longest_text))
             end if
             value = found
          end associate
@@ -269,6 +278,7 @@ contains
       real(wp), allocatable, intent(out) :: values(:)
       real(wp) :: x
       integer :: i, star, repeat, status
+      logical :: halting
       character(len=:), allocatable :: digits
       allocate (values(0))
       do i = 1, size(a%values)
@@ -289,7 +299,14 @@ contains
             call self%refuse(a%place//': '//described(a)//': must be finite, '//allowed%text())
             return
          end if
-         if (status == 0 .and. .not. a%values(i)%quoted .and. is_number(digits)) read (digits, *, iostat=status) x
+         if (status == 0 .and. .not. a%values(i)%quoted .and. is_number(digits)) then
+            ! 1e400 overflows in the reading; a build that traps overflow must not stop there
+            call ieee_get_halting_mode(ieee_overflow, halting)
+            call ieee_set_halting_mode(ieee_overflow, .false.)
+            read (digits, *, iostat=status) x
+            call ieee_set_flag(ieee_overflow, .false.)
+            call ieee_set_halting_mode(ieee_overflow, halting)
+         end if
          if (status /= 0 .or. a%values(i)%quoted .or. .not. is_number(digits)) then
             call self%refuse(a%place//': '//described(a)//': must be a number, '//allowed%text())
             return

@@ -3,7 +3,7 @@ module cvode_march
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_int64_t, c_loc, &
       & c_long, c_null_ptr, c_ptr
    use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodesvtolerances, fcvodesetuserdata, &
-      & fcvodesetlinearsolver, fcvodesetjacfn, fcvodesetmaxstep, fcvodesetstoptime, &
+      & fcvodesetlinearsolver, fcvodesetjacfn, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, &
       & fcvodeseterrfile, fcvode, fcvodegetdky, fcvodefree, fcvodegetnumrhsevals, &
       & fcvodegetnumjacevals, fcvodegetnumerrtestfails, fcvodegetnumnonlinsolvconvfails, &
       & fcvodegetcurrentstep, cv_bdf, cv_one_step, cv_err_failure, cv_conv_failure, &
@@ -105,6 +105,8 @@ contains
       flag = fcvodesetlinearsolver(memory, linear_solver, matrix)
       flag = fcvodesetjacfn(memory, c_funloc(jacobian_callback))
       flag = fcvodesetmaxstep(memory, options%max_step)
+      ! shorter steps would not move the time
+      flag = fcvodesetminstep(memory, epsilon(t_end)*t_end)
       flag = fcvodesetstoptime(memory, t_end)
 
       t = t_start
@@ -169,7 +171,11 @@ contains
       case default
          reason = 'CVODE gave up with code '//to_text(int(flag))
       end select
-      if (allocated(model%trouble)) reason = model%trouble//'; '//reason
+      if (allocated(model%trouble)) then
+         reason = model%trouble//'; '//reason
+      else if (model%condition() /= '') then
+         reason = model%condition()//'; '//reason
+      end if
       message = 'the march stopped at t = '//to_text(t)//' s, after '//to_text(steps)//' steps: '//reason &
          & //' (step size '//to_text(h(1))//' s)'
    end function failure

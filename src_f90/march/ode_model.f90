@@ -11,6 +11,8 @@ module ode_model
    contains
       procedure(right_hand_side), deferred :: rhs
       procedure(jacobian_matrix), deferred :: jacobian
+      !> What is remarkable in the state evaluated last, for the message of a march that cannot go on.
+      procedure :: condition
    end type ode_model_type
 
    abstract interface
@@ -59,4 +61,12 @@ module ode_model
          integer(i8), intent(in) :: steps
       end subroutine take_progress
    end interface
+
+contains
+
+   function condition(self)
+      class(ode_model_type), intent(in) :: self
+      character(len=:), allocatable :: condition
+      condition = ''
+   end function condition
 end module ode_model

@@ -6,7 +6,6 @@ import stat
 import subprocess
 
 import pytest
-from conftest import PROGRAM
 
 # what only a runtime library, a signal handler or HDF5 would print
 TRACE = ("At line", "Fortran runtime", "HDF5-DIAG", "Backtrace", "Program received", "forrtl")
@@ -30,7 +29,8 @@ def refused(tiltpad, folder, *arguments, names=(), status=1, timeout=30, **optio
     allowed = status if isinstance(status, tuple) else (status,)
     assert run.returncode in allowed, run.stderr
     assert run.stdout == ""
-    assert run.stderr.endswith("\n") and run.stderr.count("\n") == 1, run.stderr
+    assert run.stderr.endswith("\n"), run.stderr
+    assert run.stderr.count("\n") == 1, run.stderr
     assert run.stderr.startswith("tiltpad: error: ")
     for name in names:
         assert name in run.stderr
@@ -42,15 +42,15 @@ def refused(tiltpad, folder, *arguments, names=(), status=1, timeout=30, **optio
 
 # one value that is not allowed: assignment in its group, what the message must name
 VALUES = [
-    ("rotor", "mass=-1", "> 0"),
-    ("rotor", "mass=0", "> 0"),
+    ("rotor", "mass=-1", "1e-6 to"),
+    ("rotor", "mass=0", "1e-6 to"),
     ("rotor", "mass=nan", "finite"),
     ("rotor", "mass=NaN", "finite"),
     ("rotor", "mass=inf", "finite"),
     ("rotor", "mass=-Infinity", "finite"),
     ("rotor", "mass=1e400", "finite"),
     ("rotor", "mass=1e99999", "finite"),
-    ("rotor", "mass=1e-400", "> 0"),
+    ("rotor", "mass=1e-400", "1e-6 to"),
     ("rotor", "mass=1+2", "number"),
     ("rotor", "mass=0x10", "number"),
     ("rotor", "mass=z'10'", "value|number|at most 1"),
@@ -76,14 +76,14 @@ VALUES = [
     ("rotor", "gravity=-9.81", "0 to"),
     ("rotor", "static_load=1", "2 values"),
     ("rotor", "static_load=1,2,3", "at most 2"),
-    ("operation", "speed_rpm=0", "> 0"),
-    ("operation", "speed_rpm=-6500", "> 0"),
-    ("operation", "duration=0", "> 0"),
-    ("bearing", "journal_radius=0", "0.0001 to 10|1E-004 to 10"),
+    ("operation", "speed_rpm=0", "0.001 to"),
+    ("operation", "speed_rpm=-6500", "0.001 to"),
+    ("operation", "duration=0", "1e-9 to"),
+    ("bearing", "journal_radius=0", "to 10"),
     ("bearing", "journal_radius=49.9", "to 10"),
-    ("bearing", "machined_clearance=0", "> 0"),
-    ("bearing", "assembled_clearance=-80e-6", "> 0"),
-    ("bearing", "axial_length=0", "> 0"),
+    ("bearing", "machined_clearance=0", "1e-9 to"),
+    ("bearing", "assembled_clearance=-80e-6", "1e-9 to"),
+    ("bearing", "axial_length=0", "1e-5 to"),
     ("bearing", "viscosity=0", "to 10"),
     ("bearing", "viscosity=19", "to 10"),
     ("pads", "arc_deg=0", "to 350"),
@@ -91,12 +91,12 @@ VALUES = [
     ("pads", "arc_deg(3)=60", "at most 2"),
     ("pads", "pivot_ratio=1", "to 0.99"),
     ("pads", "pivot_angle_deg=25*0", "24"),
-    ("pads", "mass=-0.8", "> 0"),
-    ("pads", "inertia=0", "> 0"),
+    ("pads", "mass=-0.8", "1e-9 to"),
+    ("pads", "inertia=0", "1e-15 to"),
     ("pads", "motion='tilting'", "tilting_radial"),
-    ("pivot", "young_modulus=210,210", "Pa|1E+006|1000000"),
+    ("pivot", "young_modulus=210,210", " to "),
     ("pivot", "poisson_ratio=0.6,0.3", "to 0.5"),
-    ("pivot", "socket_radius=0", "> 0"),
+    ("pivot", "socket_radius=0", "1e-5 to"),
     ("pivot", "radius_difference=-15e-6", "0 to"),
     ("pivot", "law='hertzian'", "fang"),
     ("friction", "model='lugree'", "bengisu_akay"),
@@ -282,7 +282,8 @@ def test_unreadable_case(tiltpad, tmp_path):
     (tmp_path / "case.nml").chmod(0)
     run = tiltpad("case.nml", cwd=tmp_path)
     assert run.returncode in (1, 3)
-    assert run.stderr.startswith("tiltpad: error: case.nml: ") and run.stderr.count("\n") == 1
+    assert run.stderr.startswith("tiltpad: error: case.nml: ")
+    assert run.stderr.count("\n") == 1
     assert [path.name for path in tmp_path.iterdir()] == ["case.nml"]
 
 
@@ -373,12 +374,12 @@ def test_disk_full(tiltpad, case, duration):
     assert "full" in message or "too large" in message.lower()
 
 
-def test_disk_full_for_standard_output(tiltpad, case):
+def test_disk_full_for_standard_output(program, case):
     if not os.path.exists("/dev/full"):
         pytest.skip("no /dev/full here")
     with open("/dev/full", "w") as full:
         run = subprocess.run(
-            [PROGRAM, "--check", "case.nml"],
+            [program, "--check", "case.nml"],
             stdout=full,
             stderr=subprocess.PIPE,
             text=True,
@@ -386,7 +387,8 @@ def test_disk_full_for_standard_output(tiltpad, case):
             timeout=30,
         )
     assert run.returncode == 3
-    assert run.stderr.startswith("tiltpad: error: ") and run.stderr.count("\n") == 1
+    assert run.stderr.startswith("tiltpad: error: ")
+    assert run.stderr.count("\n") == 1
 
 
 # --set: argument, what the message must name
@@ -403,7 +405,7 @@ OVERRIDES = {
     "rotor%mass=3 / &pads mass=1": ["rotor%mass=3 / &pads mass=1", "one group%name=value"],
     "rotor%mass=3 / mass=4": ["rotor%mass=3 / mass=4", "one group%name=value"],
     "rotor%mass=3/": ["rotor%mass=3/"],
-    "rotor%mass=-3": ["rotor%mass = -3", "> 0"],
+    "rotor%mass=-3": ["rotor%mass = -3", "1e-6 to"],
     "rotor%mass=1+2": ["rotor%mass = 1+2", "number"],
     "rotor%weight=3": ["rotor%weight", "mass"],
     "motor%mass=3": ["motor", "rotor"],

@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 import pytest
 
-NUMBER = r"-?[0-9]+(\.[0-9]+)?(E[+-]?[0-9]+)?"
+NUMBER = r"-?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?"
 SAMPLED = ("journal_y", "journal_z", "pad_tilt", "contact_force", "min_film_thickness", "max_pressure")
 
 
@@ -62,7 +62,7 @@ CLOSING = {
 @pytest.mark.parametrize("key", CLOSING)
 def test_film_that_closes(tiltpad, tmp_path, key):
     message = fails(tiltpad, tmp_path, *CLOSING[key])
-    assert re.search(rf"film of pad [12] closed: thickness {NUMBER} m", message), message
+    assert re.search(rf"film of pad [12] (closed|is closing): thickness {NUMBER} m", message), message
     assert re.search(rf"step size {NUMBER} s", message), message
     stopped_in_the_march(tmp_path, message)
 
@@ -148,7 +148,8 @@ def test_extremes_end(tiltpad, tmp_path, key):
     overrides = [word for value in EXTREMES[key] for word in ("--set", value)]
     run = tiltpad("case.nml", "--quiet", *overrides, cwd=tmp_path, timeout=20)
     assert run.returncode in (1, 2)
-    assert run.stderr.startswith("tiltpad: error: ") and run.stderr.count("\n") == 1
+    assert run.stderr.startswith("tiltpad: error: ")
+    assert run.stderr.count("\n") == 1
     assert "NaN" not in run.stderr
     assert "with code" not in run.stderr
 
