@@ -41,7 +41,6 @@ contains
       integer(i8), intent(in) :: steps
       real(wp) :: now
       character(len=:), allocatable :: line
-      integer :: ignored
       if (self%quiet) return
       now = wall_clock()
       if (now - self%last < merge(terminal_pause, log_pause, self%terminal)) return
@@ -54,7 +53,7 @@ contains
       else
          write (output_unit, '(a)') line
       end if
-      flush (output_unit, iostat=ignored)
+      flush (output_unit)
       self%shown = .true.
    end subroutine report
 

@@ -217,8 +217,9 @@ contains
       condition = ''
       i = minloc(self%response%min_film, dim=1)
       associate (film => self%response(i)%min_film)
-         if (film < nearly_closed*self%scene%bearing%assembled_clearance) &
-            & condition = 'the film of pad '//to_text(i)//' is closing: thickness '//to_text(film)//' m'
+         if (film < nearly_closed*self%scene%bearing%assembled_clearance) then
+            condition = 'the film of pad '//to_text(i)//' is closing: thickness '//to_text(film)//' m'
+         end if
       end associate
    end function condition
 

@@ -230,7 +230,8 @@ contains
             & //to_text(b%assembled_clearance)//': must be at most twice bearing%machined_clearance = ' &
             & //to_text(b%machined_clearance))
          call require(.not. (self%rotor%balance_speed_rpm >= 0 .and. self%rotor%balance_speed_rpm < 1), &
-            & 'rotor%balance_speed_rpm = '//to_text(self%rotor%balance_speed_rpm)//': must be < 0 (the highest of the run) or >= 1')
+            & 'rotor%balance_speed_rpm = '//to_text(self%rotor%balance_speed_rpm) &
+            & //': must be < 0 (the highest of the run) or >= 1')
          ratio = b%axial_length/b%journal_radius
          call require(ratio >= 0.02_wp .and. ratio <= 50, 'bearing%axial_length = '//to_text(b%axial_length) &
             & //': must be 0.02 to 50 times bearing%journal_radius = '//to_text(b%journal_radius)//' (both in m)')

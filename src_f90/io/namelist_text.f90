@@ -256,8 +256,9 @@ contains
          new%values = [new%values, token]
          comma = .false.
       end do
-      if (size(new%values) == 0 .or. scan%peek() == ',' .or. scan%peek() == '=') &
-         & call raise(error, input_error, new%place//': '//new%group//'%'//new%name//': a value is missing')
+      if (size(new%values) == 0 .or. scan%peek() == ',' .or. scan%peek() == '=') then
+         call raise(error, input_error, new%place//': '//new%group//'%'//new%name//': a value is missing')
+      end if
    end subroutine parse_values
 
    !> A string in quotes on one line; a doubled quote stands for itself.

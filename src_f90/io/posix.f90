@@ -5,7 +5,8 @@ module posix
    use, intrinsic :: iso_fortran_env, only: output_unit
    implicit none (type, external)
    private
-   public :: rename_file, delete_file, process_id, is_terminal, write_output, real_path, is_regular, keep_file_size_quiet
+   public :: rename_file, delete_file, real_path, is_regular, process_id, is_terminal, write_output
+   public :: keep_file_size_quiet
 
    !> Longest path, and Linux' numbers for statx and for the signal of a file grown too large.
    integer, parameter :: path_max = 4096
@@ -40,7 +41,7 @@ module posix
       type(c_ptr) function c_realpath(path, resolved) bind(c, name='realpath')
          import :: c_ptr, c_char
          character(kind=c_char), intent(in) :: path(*)
-         character(kind=c_char), intent(out) :: resolved(*)
+         character(kind=c_char), intent(inout) :: resolved(*)
       end function c_realpath
 
       type(c_funptr) function c_signal(number, handler) bind(c, name='signal')
@@ -97,8 +98,8 @@ contains
       character(len=*), intent(in) :: path
       integer(c_int16_t) :: buffer(statx_shorts)
       is_regular = .false.
-      if (c_statx(at_fdcwd, path//c_null_char, 0_c_int, statx_type, buffer) == 0) &
-         & is_regular = iand(int(buffer(mode_at)), type_mask) == type_regular
+      if (c_statx(at_fdcwd, path//c_null_char, 0_c_int, statx_type, buffer) /= 0) return
+      is_regular = iand(int(buffer(mode_at)), type_mask) == type_regular
    end function is_regular
 
    !> A file that grows past the limit of the shell then fails in writing, instead of ending the program.

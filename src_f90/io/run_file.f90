@@ -61,13 +61,14 @@ contains
       character(len=200) :: message
       integer :: unit, status, i, clock(8)
       character(len=25) :: created
-      logical :: exists
+      logical :: exists, regular
       ! a link is followed, so that its target is replaced and not the link
       self%path = real_path(path)
       self%temporary = self%path//'.part'//to_text(int(process_id()))
       inquire (file=self%path//'/.', exist=exists)
       if (.not. exists) inquire (file=self%path, exist=exists)
-      if (exists .and. .not. is_regular(self%path)) then
+      regular = is_regular(self%path)
+      if (exists .and. .not. regular) then
          call raise(error, system_error, 'cannot write '//path//': it is a directory, device or pipe')
          return
       end if
@@ -280,8 +281,8 @@ contains
       if (complete) call self%file%put_flag('complete', 1)
       call self%file%close()
       if (.not. allocated(self%file%failure)) then
-         if (.not. rename_file(self%temporary, self%path)) call raise(error, system_error, 'cannot rename the result to ' &
-            & //self%path//'; it is in '//self%temporary)
+         if (.not. rename_file(self%temporary, self%path)) call raise(error, system_error, &
+            & 'cannot rename the result to '//self%path//'; it is in '//self%temporary)
          return
       end if
       call self%error_of(error)

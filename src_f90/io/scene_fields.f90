@@ -123,7 +123,8 @@ contains
          call v%per_pad('pivot_distance', p%pivot_distance, .false., between(1e-6_wp, 1.0_wp), 'm', &
             & 'kappa, from the pad''s bore out to the pivot')
          call v%per_pad('mass', p%mass, .false., between(1e-9_wp, 1e6_wp), 'kg', 'pad mass')
-         call v%per_pad('inertia', p%inertia, .false., between(1e-15_wp, 1e6_wp), 'kg m^2', 'moment of inertia about the pivot')
+         call v%per_pad('inertia', p%inertia, .false., between(1e-15_wp, 1e6_wp), 'kg m^2', &
+            & 'moment of inertia about the pivot')
          call v%per_pad('centre_tangential', p%centre_tangential, .false., between(-1.0_wp, 1.0_wp), 'm', &
             & 'centre of gravity C_xi from the pivot, along the pad')
          call v%per_pad('centre_radial', p%centre_radial, .false., between(-1.0_wp, 1.0_wp), 'm', &
