@@ -32,6 +32,8 @@ module equilibrium
    integer, parameter :: max_iterations = 400
    !> Longest move of journal or pad edge in one iteration, in assembled clearances.
    real(wp), parameter :: longest_move = 0.2_wp
+   !> Move below which an iteration without progress is the last.
+   real(wp), parameter :: shortest_move = 1e-12_wp
 
    !> Places of the journal to start from, in assembled clearances down the load.
    real(wp), parameter :: fractions(*) = [-0.6_wp, -0.3_wp, 0.0_wp, 0.3_wp, 0.6_wp, 0.9_wp]
@@ -85,8 +87,9 @@ contains
       real(wp) :: time_step, residual, move
       real(wp), allocatable :: step(:)
       integer, allocatable :: x(:), v(:)
-      logical :: ok
+      logical :: ok, stuck
 
+      stuck = .false.
       call unknowns(model, x, v)
       time_step = 1/model%scene%highest_speed()
       call model%rhs(0.0_wp, y, f, ok)
@@ -96,10 +99,11 @@ contains
       end if
       found%residual = residual_of(model, f)
       do while (.not. found%residual <= residual_limit)
-         if (found%iterations == max_iterations) then
+         if (found%iterations == max_iterations .or. stuck) then
             call raise(error, numerics_error, 'no equilibrium found at ' &
-               & //to_text(model%scene%operation%speed_rpm)//' rpm: after '//to_text(max_iterations) &
+               & //to_text(model%scene%operation%speed_rpm)//' rpm: after '//to_text(found%iterations) &
                & //' iterations the unbalanced force is still '//to_text(found%residual)//' of the load')
+            if (model%condition() /= '') error%message = error%message//'; '//model%condition()
             return
          end if
          found%iterations = found%iterations + 1
@@ -130,6 +134,7 @@ contains
             end if
          end do
          residual = residual_of(model, f_trial)
+         stuck = move < shortest_move .and. residual > 0.5_wp*found%residual
          time_step = time_step*max(0.3_wp, 1.5_wp*found%residual/max(residual, 0.15_wp*found%residual))
          y = trial
          f = f_trial

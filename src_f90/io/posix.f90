@@ -39,9 +39,9 @@ module posix
       end function c_statx
 
       type(c_ptr) function c_realpath(path, resolved) bind(c, name='realpath')
-         import :: c_ptr, c_char
+         import :: c_ptr, c_char, path_max
          character(kind=c_char), intent(in) :: path(*)
-         character(kind=c_char), intent(inout) :: resolved(*)
+         character(kind=c_char), intent(inout) :: resolved(path_max)
       end function c_realpath
 
       type(c_funptr) function c_signal(number, handler) bind(c, name='signal')
