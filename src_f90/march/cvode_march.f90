@@ -3,7 +3,8 @@ module cvode_march
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_int64_t, c_loc, &
       & c_long, c_null_ptr, c_ptr
    use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodesvtolerances, fcvodesetuserdata, &
-      & fcvodesetlinearsolver, fcvodesetjacfn, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, &
+      & fcvodesetlinearsolver, fcvodesetjacfn, fcvodesetjacevalfrequency, fcvodesetlsetupfrequency, &
+      & fcvodesetnonlinconvcoef, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, &
       & fcvodeseterrfile, fcvode, fcvodegetdky, fcvodefree, fcvodegetnumrhsevals, &
       & fcvodegetnumjacevals, fcvodegetnumerrtestfails, fcvodegetnumnonlinsolvconvfails, &
       & fcvodegetcurrentstep, cv_bdf, cv_one_step, cv_err_failure, cv_conv_failure, &
@@ -52,6 +53,10 @@ module cvode_march
       integer(c_int64_t) :: n
    end type user_data
 
+   !> Steps after which Jacobian and factorisation are renewed (CVODE: 51 and 20), and the Newton tolerance
+   !> over that of the error test (CVODE: 0.1). The Jacobian is analytic and cheap; fresh, it saves steps.
+   integer(c_long), parameter :: jacobian_age = 5
+   real(wp), parameter :: newton_coefficient = 0.05_wp
    !> Steps between two calls of the observer's report.
    integer(i8), parameter :: steps_per_report = 256
 
@@ -104,6 +109,9 @@ contains
       flag = fcvodesvtolerances(memory, options%relative_tolerance, tolerance_vector)
       flag = fcvodesetlinearsolver(memory, linear_solver, matrix)
       flag = fcvodesetjacfn(memory, c_funloc(jacobian_callback))
+      flag = fcvodesetjacevalfrequency(memory, jacobian_age)
+      flag = fcvodesetlsetupfrequency(memory, jacobian_age)
+      flag = fcvodesetnonlinconvcoef(memory, newton_coefficient)
       flag = fcvodesetmaxstep(memory, options%max_step)
       ! shorter steps would not move the time
       flag = fcvodesetminstep(memory, epsilon(t_end)*t_end)
