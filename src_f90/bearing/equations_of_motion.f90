@@ -65,6 +65,8 @@ module equations_of_motion
    end type bearing_model
 
    integer(i8), parameter :: timing_stride = 16
+   !> Scale of the tilt rate over that at which Bengisu-Akay friction changes its direction.
+   real(wp), parameter :: sticking_scale = 10
    !> Film thickness over assembled clearance below which a failed march is put down to it.
    real(wp), parameter :: nearly_closed = 1e-2_wp
 
@@ -91,7 +93,8 @@ contains
    end function new_bearing_model
 
    !> Natural size of each state: clearance; clearance over pad length; the penetration under the load;
-   !> the deflection at which bristles yield; rates: times the highest speed.
+   !> the deflection at which bristles yield; rates: times the highest speed, but the tilt rate not above
+   !> ten times that at which friction changes its direction, or its moment would be no better than 1e-2.
    function state_scales(model) result(scale)
       type(bearing_model), intent(in) :: model
       real(wp) :: scale(model%n)
@@ -106,7 +109,7 @@ contains
             o = model%offset(i)
             scale(o + 1) = b%assembled_clearance/((b%journal_radius + b%machined_clearance) &
                & *scene%pads%arc_deg(i)*degree)
-            scale(o + 2) = scale(o + 1)*speed
+            scale(o + 2) = min(scale(o + 1)*speed, sticking_scale*model%friction%sticking_velocity()/model%ball_radius)
             if (model%radial) then
                law = new_law(scene)
                force = norm2(scene%load()) + model%unbalance*speed**2

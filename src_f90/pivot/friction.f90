@@ -26,6 +26,9 @@ module friction
       real(wp) :: static_coefficient = 0, dynamic_coefficient = 0
    contains
       procedure(evaluate_law), deferred :: evaluate
+      !> Velocity over which the force changes from one direction to the other, m/s; huge where no such
+      !> velocity is.
+      procedure :: sticking_velocity
    end type friction_law
 
    abstract interface
@@ -51,6 +54,7 @@ module friction
       real(wp) :: critical_velocity, decay
    contains
       procedure :: evaluate => evaluate_bengisu_akay
+      procedure :: sticking_velocity => critical_velocity
    end type bengisu_akay_friction
 
    !> LuGre amended for a varying normal force, eqs (23)-(25).
@@ -71,6 +75,16 @@ contains
       real(wp) :: damping
       damping = sqrt(bristle_stiffness/characteristic_load)
    end function default_bristle_damping
+
+   pure real(wp) function sticking_velocity(self)
+      class(friction_law), intent(in) :: self
+      sticking_velocity = huge(1.0_wp)
+   end function sticking_velocity
+
+   pure real(wp) function critical_velocity(self)
+      class(bengisu_akay_friction), intent(in) :: self
+      critical_velocity = self%critical_velocity
+   end function critical_velocity
 
    pure subroutine evaluate_none(self, velocity, deflection, normal, want_slopes, response)
       class(no_friction), intent(in) :: self
