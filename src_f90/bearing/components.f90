@@ -44,7 +44,9 @@ contains
          end select
          modal_cells = merge(f%circumferential_cells, modal_default, f%circumferential_cells > 0)
          sor_cells = merge(f%circumferential_cells, sor_default, f%circumferential_cells > 0)
-         options = sor_options(sor_cells, f%axial_cells, f%relaxation, f%tolerance, f%max_sweeps, cavitation)
+         ! noise of the film must stay below what the march looks at
+         options = sor_options(sor_cells, f%axial_cells, f%relaxation, &
+            & min(f%tolerance, 0.1_wp*scene%integration%relative_tolerance), f%max_sweeps, cavitation)
          if (f%solver == 'sor') then
             film = new_sor_film(films, options)
          else if (cavitation == cavitation_reynolds) then

@@ -3,7 +3,7 @@
 !> Pad coordinates: the angle phi from the pivot, positive towards the leading edge; the axial
 !> coordinate from the middle of the pad.
 module pad_film
-   use kinds, only: wp
+   use kinds, only: wp, pi
    use film_solver, only: film_motion
    implicit none (type, external)
    private
@@ -58,6 +58,9 @@ contains
       real(wp) :: h, phi
       associate (e => motion%position)
          phi = atan2(e(1), e(2))
+         ! of the angles that differ by a turn, the one on the pad, if there is one
+         if (phi <= -self%trailing_angle) phi = phi + 2*pi
+         if (phi >= self%leading_angle) phi = phi - 2*pi
          if (phi > -self%trailing_angle .and. phi < self%leading_angle) then
             h = self%machined_clearance - norm2(e)
          else

@@ -294,6 +294,12 @@ contains
       if (self%options%cavitation /= cavitation_none) then
          where (.not. pad%pressure > 0) positive = 0
       end if
+      ok = .true.
+      if (.not. any(positive > 0)) then
+         ! nothing left that could change
+         pad%adjoint = 0
+         return
+      end if
       d_face = 3*pad%h_face**2/pad%d_phi**2
       d_face(0) = 2*d_face(0)
       d_face(n) = 2*d_face(n)

@@ -166,7 +166,8 @@ contains
             & 'modal: most modes across the width; those too stiff for the cells go into the closed form')
          call v%number('relaxation', m%relaxation, between(0.0_wp, 1.999_wp), '1', &
             & 'relaxation factor; 0: the optimum of the grid')
-         call v%number('tolerance', m%tolerance, between(1e-13_wp, 1e-2_wp), '1', 'residual over source')
+         call v%number('tolerance', m%tolerance, between(1e-13_wp, 1e-2_wp), '1', &
+            & 'residual over source; at most a tenth of relative_tolerance is taken')
          call v%whole('max_sweeps', m%max_sweeps, between(1.0_wp, 1e8_wp), 'sweeps after which a film is given up')
          call v%word('cavitation', m%cavitation, 'reynolds gumbel none', &
             & 'p >= p_cav in the solution, clipped after it, or not at all')

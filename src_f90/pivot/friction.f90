@@ -26,8 +26,8 @@ module friction
       real(wp) :: static_coefficient = 0, dynamic_coefficient = 0
    contains
       procedure(evaluate_law), deferred :: evaluate
-      !> Velocity over which the force changes from one direction to the other, m/s; huge where no such
-      !> velocity is.
+      !> Velocity over which the force changes from one direction to the other, m/s; far above all others
+      !> where there is no such velocity.
       procedure :: sticking_velocity
    end type friction_law
 
@@ -78,7 +78,7 @@ contains
 
    pure real(wp) function sticking_velocity(self)
       class(friction_law), intent(in) :: self
-      sticking_velocity = huge(1.0_wp)
+      sticking_velocity = 1e30_wp
    end function sticking_velocity
 
    pure real(wp) function critical_velocity(self)

@@ -1,0 +1,166 @@
+"""Whole runs against converged values of independent programs, and against each other."""
+
+import h5py
+import numpy as np
+import pytest
+
+# Converged equilibria of the paper's two pads without unbalance, friction and cavitation, by programs that
+# share no code with this one: y, z (um), tilts (mrad), least film (um).
+EQUILIBRIA = {
+    ("tilting_radial", 6500): (-55.595, 0.0266, (-0.2029, 1.0269), 41.512),
+    ("tilting_only", 6500): (-45.561, 0.0234, (-0.0920, 0.9159), 41.514),
+    ("tilting_only", 3000): (-64.229, 0.0174, (-0.2848, 1.1362), 29.154),
+    ("tilting_only", 1500): (-77.619, 0.0129, (-0.4295, 1.2879), 20.261),
+}
+# Converged last revolution of the paper's LuGre case: y, z (um), tilt of pad 1 (mrad).
+LUGRE = {"journal_y": (-63.16, -44.29), "journal_z": (-9.20, 9.82), "pad_tilt": (-0.2324, -0.1396)}
+
+
+@pytest.fixture
+def march(tiltpad, root, tmp_path):
+    """Runs a case of input/ with overrides and returns the open file."""
+    files = []
+
+    def run(case, *overrides):
+        output = tmp_path / f"{len(files)}.h5"
+        options = [word for override in overrides for word in ("--set", override)]
+        done = tiltpad(root / "input" / f"{case}.nml", "--output", output, "--quiet", *options)
+        assert done.returncode == 0, done.stderr
+        files.append(h5py.File(output))
+        return files[-1]
+
+    yield run
+    for file in files:
+        file.close()
+
+
+def last_revolution(file):
+    """Samples of the last revolution at constant speed, both ends included."""
+    angle = file["shaft_angle"][:]
+    return slice(int(np.searchsorted(angle, angle[-1] - 2 * np.pi - 1e-6)), len(angle))
+
+
+def deviation(a, b, name):
+    """Largest difference of a signal in the last revolution over its peak-to-peak."""
+    a, b = a[name][last_revolution(a)], b[name][last_revolution(b)]
+    return np.abs(a - b).max() / np.ptp(b, axis=0).max()
+
+
+@pytest.mark.parametrize("solver", ["auto", "sor"])
+@pytest.mark.parametrize(("motion", "speed"), EQUILIBRIA)
+def test_equilibrium(march, motion, speed, solver):
+    """Within 0.1 % of the assembled clearance of 80 um; axial modes to the digits of the reference."""
+    y, z, tilts, film = EQUILIBRIA[motion, speed]
+    found = march(
+        "paper/steady_tr",
+        "case%task=equilibrium",
+        f"pads%motion={motion}",
+        f"operation%speed_rpm={speed}",
+        f"film%solver={solver}",
+        "film%cavitation=none",
+    )["equilibrium"]
+    # half of the last digit shown and the discretisation of the modes, 1e-5 of the clearance
+    near, digit = (0.08, 0.0) if solver == "sor" else (0.0013, 0.0001)
+    assert 1e6 * found["journal_y"][()] == pytest.approx(y, abs=near)
+    assert 1e6 * found["journal_z"][()] == pytest.approx(z, abs=max(digit, near))
+    assert 1e6 * found["min_film_thickness"][:].min() == pytest.approx(film, abs=near)
+    # a tilt moves the film by the pad's half length, about 30 um a mrad
+    assert 1e3 * found["pad_tilt"][:] == pytest.approx(tilts, abs=max(digit, near / 30))
+    assert found["residual"][()] <= 1e-8
+
+
+def test_lugre_for_two_seconds(march):
+    """The default case to the digits of the reference, far closer than 1 % of peak-to-peak."""
+    file = march("paper/steady_lugre")
+    part = last_revolution(file)
+    assert len(file["time"]) == 78001
+    assert file["time"][-1] == pytest.approx(2, abs=1e-12)
+    for name, (low, high) in LUGRE.items():
+        values = (1e3 if name == "pad_tilt" else 1e6) * file[name][part].reshape(part.stop - part.start, -1)[
+            :, 0
+        ]
+        assert values.min() == pytest.approx(low, abs=1e-3 * (high - low)), name
+        assert values.max() == pytest.approx(high, abs=1e-3 * (high - low)), name
+
+
+@pytest.mark.parametrize(
+    "case", ["steady_tr", "steady_to_ba", "steady_ba_10_05", "steady_lugre", "steady_lugre5"]
+)
+def test_default_tolerance(march, case):
+    """The default relative tolerance keeps 1e-3 of peak-to-peak against one a thousand times tighter."""
+    span = ("operation%duration=0.3", "output%start_time=0.28")
+    quick = march(f"paper/{case}", *span)
+    exact = march(f"paper/{case}", *span, "integration%relative_tolerance=1e-8")
+    names = ["journal_y", "journal_z", "pad_tilt"] + (["friction_moment"] if case != "steady_tr" else [])
+    for name in names:
+        assert deviation(quick, exact, name) < 1e-3, name
+
+
+def test_solvers_agree(march):
+    """Over-relaxation approaches the axial modes with the square of its cell."""
+    span = ("operation%duration=0.06", "film%tolerance=1e-7", "film%cavitation=none")
+    modal = march("paper/steady_lugre", *span)
+    errors = []
+    for cells in (24, 48):
+        grid = (f"film%circumferential_cells={cells}", f"film%axial_cells={cells // 4}")
+        errors.append(
+            deviation(march("paper/steady_lugre", *span, "film%solver=sor", *grid), modal, "journal_y")
+        )
+    assert 3 < errors[0] / errors[1] < 5
+    assert errors[1] < 1e-2
+
+
+def test_sampling_changes_nothing(march):
+    """Samples are interpolated: more or fewer of them give the same states at the same times."""
+    span = "operation%duration=0.02"
+    many = march("paper/steady_lugre", span, "output%samples_per_revolution=360")
+    few = march("paper/steady_lugre", span, "output%samples_per_revolution=40")
+    late = march("paper/steady_lugre", span, "output%start_time=0.01")
+    assert np.array_equal(many["journal_y"][::9], few["journal_y"][:])
+    assert np.array_equal(many["bristle_deflection"][::9], few["bristle_deflection"][:])
+    assert late["time"][0] == 0.01
+    assert late["journal_y"][-1] == pytest.approx(many["journal_y"][-1], abs=1e-9)
+
+
+def test_run_up_ends_in_the_steady_orbit(march):
+    """A slow run-up that ends at 6500 rpm is close to the steady orbit there."""
+    steady = march("paper/steady_tr", "operation%duration=0.3")
+    runup = march("paper/steady_tr", "operation%speed_rpm=5500", "operation%final_speed_rpm=6500")
+    speed = runup["speed"][:]
+    assert speed[0] * 30 / np.pi == pytest.approx(5500)
+    assert speed[-1] * 30 / np.pi == pytest.approx(6500)
+    # the phase is the integral of the speed
+    angle = np.concatenate([[0], np.cumsum((speed[1:] + speed[:-1]) / 2 * np.diff(runup["time"][:]))])
+    assert np.allclose(runup["shaft_angle"][:], angle, rtol=1e-9)
+    for name in ("journal_y", "journal_z"):
+        size, reference = (np.ptp(file[name][last_revolution(file)]) for file in (runup, steady))
+        # the unbalance force of the last revolutions is that of 0.25 % less speed, 0.5 % in force
+        assert size == pytest.approx(reference, rel=0.01)
+
+
+def test_balance_grade(march):
+    """Rule (26) with G 6.3, 2000 kg and 6500 rpm is an unbalance of 0.0185 kg m."""
+    rule = march("paper/steady_tr", "operation%duration=0.02", "rotor%balance_grade=6.3")
+    given = march("paper/steady_tr", "operation%duration=0.02", "rotor%unbalance=0.018510369230769231")
+    assert deviation(rule, given, "journal_y") < 1e-6
+
+
+def test_friction_none_is_lugre_without_grip(march):
+    """With coefficients of 1e-6 the bristles hold nothing: the frictionless orbit."""
+    span = "operation%duration=0.1"
+    free = march("paper/steady_tr", span)
+    weak = march(
+        "paper/steady_lugre", span, "friction%static_coefficient=1e-6", "friction%dynamic_coefficient=1e-6"
+    )
+    assert deviation(weak, free, "journal_y") < 1e-3
+    assert deviation(weak, free, "pad_tilt") < 1e-3
+
+
+def test_four_pads_change_the_orbit_little(march):
+    """The two upper pads carry nothing: less than 2 % of the orbit of two pads, equilibrium within 0.05 um."""
+    span = ("operation%duration=0.2", "film%cavitation=gumbel")
+    two = march("paper/steady_tr", *span)
+    four = march("paper/steady_tr", *span, "pads%pivot_angle_deg=-45,225,45,135")
+    assert deviation(four, two, "journal_y") < 0.02
+    assert abs(four["equilibrium/journal_y"][()] - two["equilibrium/journal_y"][()]) < 5e-8
+    assert np.all(four["equilibrium/contact_force"][2:] == 0)

@@ -1,0 +1,178 @@
+!> Rupture of the film: the Reynolds condition as a complementarity problem, and the order of the models.
+program test_cavitation
+   use kinds, only: wp, degree
+   use text, only: to_text
+   use film_solver, only: film_motion, film_response, film_ok
+   use pad_film, only: pad_film_type
+   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel, &
+      & cavitation_reynolds
+   use check, only: expect, expect_close, report
+   implicit none (type, external)
+
+   integer, parameter :: nx = 40, nz = 8
+   real(wp), parameter :: speed = 680, clearance = 100e-6_wp, tolerance = 1e-9_wp
+   integer :: i
+
+   ! the same numbers in every run
+   call random_init(.true., .false.)
+   do i = 1, 12
+      call complementarity()
+      call order_of_models()
+   end do
+   call whole_film()
+   call level_of_rupture()
+   call report()
+
+contains
+
+   pure type(pad_film_type) function pad(rupture)
+      real(wp), intent(in) :: rupture
+      pad = pad_film_type(49.9e-3_wp, clearance, 0.1_wp, 40*degree, 30*degree, 19e-3_wp, 3e5_wp, 1e5_wp, rupture)
+   end function pad
+
+   subroutine solve(rupture, cavitation, motion, solver, r)
+      real(wp), intent(in) :: rupture
+      integer, intent(in) :: cavitation
+      type(film_motion), intent(in) :: motion
+      type(sor_film_type), intent(out) :: solver
+      type(film_response), intent(out) :: r
+      solver = new_sor_film([pad(rupture)], sor_options(nx, nz, tolerance=tolerance, max_sweeps=100000, &
+         & cavitation=cavitation))
+      call solver%evaluate_pad(1, motion, speed, .false., r)
+      call expect(r%status == film_ok, 'the film converges')
+   end subroutine solve
+
+   !> A wedge that opens over part of the pad.
+   type(film_motion) function opening_motion()
+      opening_motion%position = clearance*[between(-0.1_wp, 0.4_wp), between(0.3_wp, 0.6_wp)]
+      opening_motion%velocity = clearance*speed*[between(-0.1_wp, 0.1_wp), between(-0.1_wp, 0.1_wp)]
+   end function opening_motion
+
+   !> Volume balance of every cell in natural order, Pa: what the neighbours and the source would make the
+   !> pressure, less the pressure. The plain finite volumes of the Reynolds equation, written out anew.
+   function imbalance(film, motion, p) result(change)
+      type(pad_film_type), intent(in) :: film
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: p(nx, nz)
+      real(wp) :: change(nx, nz), d, dz, r, phi, left, right, side(2), here, flows, sum_of
+      integer :: i, j
+      r = film%pad_radius()
+      d = film%arc()/nx
+      dz = film%axial_length/(2*nz)
+      do i = 1, nx
+         phi = -film%trailing_angle + (i - 0.5_wp)*d
+         left = thickness(motion, phi - d/2)**3/d**2
+         right = thickness(motion, phi + d/2)**3/d**2
+         here = thickness(motion, phi)**3*(r/dz)**2
+         if (i == 1) left = 2*left
+         if (i == nx) right = 2*right
+         do j = 1, nz
+            ! no flow across the middle plane
+            side = [merge(0.0_wp, here, j == 1), merge(2/(1 - 1/(3.0_wp*nz))*here, here, j == nz)]
+            sum_of = left + right + sum(side)
+            flows = left*merge(film%ambient_pressure, p(max(1, i - 1), j), i == 1) &
+               & + right*merge(film%supply_pressure, p(min(nx, i + 1), j), i == nx) + side(1)*p(i, max(1, j - 1)) &
+               & + side(2)*merge(film%ambient_pressure, p(i, min(nz, j + 1)), j == nz)
+            flows = flows + 6*film%viscosity*speed*film%journal_radius*r &
+               & *(thickness(motion, phi + d/2) - thickness(motion, phi - d/2))/d &
+               & + 12*film%viscosity*r**2*(motion%velocity(1)*sin(phi) + motion%velocity(2)*cos(phi))
+            change(i, j) = flows/sum_of - p(i, j)
+         end do
+      end do
+   end function imbalance
+
+   pure real(wp) function thickness(motion, angle)
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: angle
+      thickness = clearance - motion%position(1)*sin(angle) - motion%position(2)*cos(angle)
+   end function thickness
+
+   !> Everywhere p >= p_cav; where p > p_cav the balance holds; where p = p_cav the cell would rather fall
+   !> below. The solver's residual is relative to the source over the diagonal, some 1e-2 of the highest
+   !> pressure: the balance holds to 1e-9 of that.
+   subroutine complementarity()
+      type(sor_film_type) :: solver
+      type(film_response) :: r
+      type(film_motion) :: motion
+      real(wp) :: p(nx, nz), change(nx, nz), scale
+      real(wp), parameter :: rupture = 0.5e5_wp
+      integer :: ruptured
+      motion = opening_motion()
+      call solve(rupture, cavitation_reynolds, motion, solver, r)
+      p = solver%pressure_field(1)
+      change = imbalance(pad(rupture), motion, p)
+      scale = tolerance*r%max_pressure
+      ruptured = count(p <= rupture)
+      call expect(minval(p) >= rupture, 'no pressure below that of rupture')
+      call expect_close(maxval(abs(change), mask=p > rupture), 0.0_wp, 10*scale, 'balance in the full film')
+      if (ruptured > 0) call expect(maxval(change, mask=p <= rupture) <= 10*scale, &
+         & 'ruptured cells would fall further: ' &
+         & //to_text(maxval(change, mask=p <= rupture)))
+      call expect_close(r%min_pressure, minval(p), 1e-9_wp*r%max_pressure, 'lowest pressure')
+   end subroutine complementarity
+
+   !> The operator has a positive inverse, so by comparison p(reynolds) >= max(p(none), p_cav) = p(gumbel) >=
+   !> p(none) in every cell, and the same holds for the load.
+   subroutine order_of_models()
+      type(sor_film_type) :: none, gumbel, reynolds
+      type(film_response) :: r_none, r_gumbel, r_reynolds
+      type(film_motion) :: motion
+      real(wp) :: slack
+      real(wp), parameter :: rupture = 0.5e5_wp
+      motion = opening_motion()
+      call solve(rupture, cavitation_none, motion, none, r_none)
+      call solve(rupture, cavitation_gumbel, motion, gumbel, r_gumbel)
+      call solve(rupture, cavitation_reynolds, motion, reynolds, r_reynolds)
+      ! solutions to the tolerance, amplified by 1/(1 - Jacobi's radius), about 200 on this grid
+      slack = 1000*tolerance*max(r_none%max_pressure, -r_none%min_pressure)
+      call expect(all(reynolds%pressure_field(1) >= gumbel%pressure_field(1) - slack), 'reynolds above gumbel')
+      call expect_close(maxval(abs(gumbel%pressure_field(1) - max(none%pressure_field(1), rupture))), 0.0_wp, slack, &
+         & 'gumbel is the whole film, clipped')
+      call expect(-r_reynolds%force(2) >= -r_gumbel%force(2) - slack*7e-3_wp .and. &
+         & -r_gumbel%force(2) >= -r_none%force(2) - slack*7e-3_wp, 'loads in order')
+      if (r_none%min_pressure < rupture - slack) call expect(-r_reynolds%force(2) > -r_gumbel%force(2) .and. &
+         & -r_gumbel%force(2) > -r_none%force(2), 'and apart where the film ruptures')
+   end subroutine order_of_models
+
+   !> Where nothing falls below the pressure of rupture the models agree.
+   subroutine whole_film()
+      integer, parameter :: models(3) = [cavitation_none, cavitation_gumbel, cavitation_reynolds]
+      type(sor_film_type) :: solver
+      type(film_response) :: r(3)
+      type(film_motion) :: motion
+      integer :: k
+      motion = film_motion([-3e-5_wp, 5e-5_wp], [0.0_wp, 2e-3_wp])
+      do k = 1, 3
+         call solve(0.0_wp, models(k), motion, solver, r(k))
+      end do
+      call expect(r(1)%min_pressure > 0, 'a whole film')
+      call expect_close(norm2(r(2)%force - r(1)%force), 0.0_wp, 0.0_wp, 'gumbel has nothing to clip')
+      call expect_close(norm2(r(3)%force - r(1)%force), 0.0_wp, 1000*tolerance*norm2(r(1)%force), &
+         & 'reynolds has nothing to hold')
+   end subroutine whole_film
+
+   !> A lower pressure of rupture lets more tension act: the load falls with it, down to the whole film's.
+   subroutine level_of_rupture()
+      type(sor_film_type) :: solver
+      type(film_response) :: r, whole
+      real(wp) :: before
+      integer :: k
+      type(film_motion), parameter :: motion = film_motion([2e-5_wp, 5e-5_wp], [0.0_wp, 0.0_wp])
+      call solve(0.0_wp, cavitation_none, motion, solver, whole)
+      before = huge(before)
+      do k = 0, 4
+         call solve(0.25_wp*k*whole%min_pressure, cavitation_reynolds, motion, solver, r)
+         call expect(-r%force(2) < before, 'the load falls with the level '//to_text(k))
+         before = -r%force(2)
+      end do
+      call solve(1.01_wp*whole%min_pressure, cavitation_reynolds, motion, solver, r)
+      call expect_close(norm2(r%force - whole%force), 0.0_wp, 1000*tolerance*norm2(whole%force), &
+         & 'a level never reached ruptures nothing')
+   end subroutine level_of_rupture
+
+   real(wp) function between(low, high)
+      real(wp), intent(in) :: low, high
+      call random_number(between)
+      between = low + (high - low)*between
+   end function between
+end program test_cavitation

@@ -1,0 +1,227 @@
+!> Static equilibria: against values that independent programs agree on, against their own balance, under
+!> rotation of the bearing, and over a wide range of speeds and loads.
+program test_equilibrium_table
+   use kinds, only: wp, degree
+   use text, only: to_text
+   use errors, only: error_type, numerics_error
+   use scene, only: scene_type
+   use film_solver, only: film_motion, film_response
+   use pad_film, only: pad_film_type
+   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_reynolds
+   use equilibrium, only: equilibrium_type, find_equilibrium
+   use check, only: expect, expect_close, report
+   implicit none (type, external)
+
+   !> 0.1 % of the assembled clearance.
+   real(wp), parameter :: small = 0.08e-6_wp
+
+   call tilting_radial_table()
+   call tilting_only_table(6500.0_wp, [-45.561_wp, 0.0234_wp], [-0.0920_wp, 0.9159_wp], 41.514_wp)
+   call tilting_only_table(3000.0_wp, [-64.229_wp, 0.0174_wp], [-0.2848_wp, 1.1362_wp], 29.154_wp)
+   call tilting_only_table(1500.0_wp, [-77.619_wp, 0.0129_wp], [-0.4295_wp, 1.2879_wp], 20.261_wp)
+   call grid_convergence()
+   call independent_balance('tilting_radial')
+   call independent_balance('tilting_only')
+   call turned_bearing()
+   call wide_range('tilting_radial')
+   call wide_range('tilting_only')
+   call no_equilibrium('tilting_radial')
+   call no_equilibrium('tilting_only')
+   call report()
+
+contains
+
+   type(scene_type) function paper_scene(motion, speed_rpm) result(scene)
+      character(len=*), intent(in) :: motion
+      real(wp), intent(in) :: speed_rpm
+      scene = scene_type()
+      scene%pads%motion = motion
+      scene%operation%speed_rpm = speed_rpm
+      scene%operation%final_speed_rpm = speed_rpm
+   end function paper_scene
+
+   type(equilibrium_type) function found_in(scene) result(found)
+      type(scene_type), intent(in) :: scene
+      type(error_type), allocatable :: error
+      call find_equilibrium(scene, found, error)
+      call expect(.not. allocated(error), 'found: '//scene%pads%motion//', '//to_text(scene%operation%speed_rpm) &
+         & //' rpm')
+      if (allocated(error)) call expect(.false., '   but: '//error%message)
+   end function found_in
+
+   !> Places of the journal, um, tilts, mrad, and films, um, in the units of the table; a tilt of 0.1 % of the
+   !> clearance at the pad's edge is 2.6e-3 mrad.
+   subroutine expect_place(found, journal, tilt, film, what)
+      type(equilibrium_type), intent(in) :: found
+      real(wp), intent(in) :: journal(2), tilt(2), film
+      character(len=*), intent(in) :: what
+      call expect_close(found%journal(1), journal(1)*1e-6_wp, small, 'journal y, '//what)
+      call expect_close(found%journal(2), journal(2)*1e-6_wp, small, 'journal z, '//what)
+      call expect_close(maxval(abs(found%tilt - tilt*1e-3_wp)), 0.0_wp, 2.6e-6_wp, 'tilts, '//what)
+      call expect_close(minval(found%min_film), film*1e-6_wp, small, 'least film, '//what)
+      call expect(found%residual <= 1e-8_wp, 'residual, '//what)
+   end subroutine expect_place
+
+   subroutine tilting_radial_table()
+      type(equilibrium_type) :: found
+      type(scene_type) :: scene
+      integer :: k
+      character(len=4), parameter :: solvers(2) = ['auto', 'sor ']
+      scene = paper_scene('tilting_radial', 6500.0_wp)
+      do k = 1, 2
+         scene%film%solver = trim(solvers(k))
+         found = found_in(scene)
+         call expect_place(found, [-55.595_wp, 0.0266_wp], [-0.2029_wp, 1.0269_wp], 41.512_wp, 'TR 6500 '//solvers(k))
+         ! the pivots are 2 MN/mm stiff: their penetration follows the load, to its 1e-4, and not the film
+         call expect_close(found%penetration(1), 7.0915e-6_wp, 1e-9_wp, 'penetration 1, '//solvers(k))
+         call expect_close(found%penetration(2), 7.0870e-6_wp, 1e-9_wp, 'penetration 2, '//solvers(k))
+      end do
+   end subroutine tilting_radial_table
+
+   subroutine tilting_only_table(speed_rpm, journal, tilt, film)
+      real(wp), intent(in) :: speed_rpm, journal(2), tilt(2), film
+      type(scene_type) :: scene
+      scene = paper_scene('tilting_only', speed_rpm)
+      call expect_place(found_in(scene), journal, tilt, film, 'TO '//to_text(speed_rpm))
+      scene%film%solver = 'sor'
+      call expect_place(found_in(scene), journal, tilt, film, 'TO sor '//to_text(speed_rpm))
+   end subroutine tilting_only_table
+
+   !> The over-relaxed film is of second order, so the journal's place is too: errors against the converged
+   !> value, known to 0.001 um, fall fourfold from 30 x 8 to 60 x 16 and to 120 x 32 cells (to a third or less), and
+   !> extrapolation from the two finest meets it within its last digit.
+   subroutine grid_convergence()
+      type(scene_type) :: scene
+      type(equilibrium_type) :: found
+      real(wp) :: off(0:2)
+      integer :: k
+      scene = paper_scene('tilting_only', 6500.0_wp)
+      scene%film%solver = 'sor'
+      do k = 0, 2
+         scene%film%circumferential_cells = 30*2**k
+         scene%film%axial_cells = 8*2**k
+         found = found_in(scene)
+         off(k) = found%journal(1) + 45.561e-6_wp
+      end do
+      call expect(abs(off(1)) < 0.35_wp*abs(off(0)), 'closer on 60 x 16 cells: '//to_text(off(0))//' '//to_text(off(1)))
+      call expect(abs(off(2)) < 0.35_wp*abs(off(1)), 'closer on 120 x 32 cells: '//to_text(off(1))//' ' &
+         & //to_text(off(2)))
+      call expect_close((4*off(2) - off(1))/3, 0.0_wp, 1e-9_wp, 'extrapolated journal')
+      scene = paper_scene('tilting_only', 6500.0_wp)
+      found = found_in(scene)
+      call expect_close(found%journal(1), -45.561e-6_wp, 1e-9_wp, 'axial modes are there already')
+   end subroutine grid_convergence
+
+   !> Forces at the place found, from films set up and measured anew: gaps from the plane geometry of the pad
+   !> and a film solution of its own, converged to 1e-10 (amplified by 1e3: 1e-7 of a film force).
+   subroutine independent_balance(motion)
+      character(len=*), intent(in) :: motion
+      type(scene_type) :: scene
+      type(equilibrium_type) :: found
+      type(sor_film_type) :: solver
+      type(pad_film_type) :: film
+      type(film_response) :: r
+      real(wp) :: total(2), a, theta, pivot(2), centre(2), e(2), load, along(2), outward(2), weight
+      integer :: pad
+      scene = paper_scene(motion, 4000.0_wp)
+      scene%film%solver = 'sor'
+      scene%film%cavitation = 'reynolds'
+      scene%rotor%static_load = [1e3_wp, 5e3_wp]
+      scene%pads%pivot_ratio = 0.55_wp
+      scene%pads%centre_tangential = 3e-3_wp
+      found = found_in(scene)
+      associate (b => scene%bearing, p => scene%pads)
+         film = pad_film_type(b%journal_radius, b%machined_clearance, b%axial_length, 0.55_wp*69.3_wp*degree, &
+            & 0.45_wp*69.3_wp*degree, b%viscosity, 0.0_wp, 0.0_wp, 0.0_wp)
+         solver = new_sor_film([film, film], sor_options(tolerance=1e-10_wp, max_sweeps=100000, &
+            & cavitation=cavitation_reynolds))
+         total = [-2000*9.81_wp + 1e3_wp, 5e3_wp]
+         load = norm2(total)
+         do pad = 1, 2
+            theta = p%pivot_angle_deg(pad)*degree
+            a = theta - found%tilt(pad)
+            along = [cos(a), -sin(a)]
+            outward = [sin(a), cos(a)]
+            pivot = (b%journal_radius + b%assembled_clearance + p%pivot_distance(pad) + found%penetration(pad)) &
+               & *[sin(theta), cos(theta)]
+            centre = pivot - (b%journal_radius + b%machined_clearance + p%pivot_distance(pad))*outward
+            e = found%journal - centre
+            call solver%evaluate_pad(pad, film_motion([dot_product(e, along), dot_product(e, outward)]), &
+               & scene%speed(0.0_wp), .false., r)
+            total = total + r%force(1)*along + r%force(2)*outward
+            weight = p%mass(pad)*9.81_wp
+            ! moments about the pivot over its distance; forces along the pad's radius
+            call expect_close(r%force(1) + weight*(3e-3_wp*sin(a) - p%centre_radial(pad)*cos(a)) &
+               & /(b%journal_radius + b%machined_clearance + p%pivot_distance(pad)), 0.0_wp, 1e-6_wp*load, &
+               & 'moments on pad '//to_text(pad)//', '//motion)
+            call expect_close(-r%force(2) - weight*sin(a), found%contact_force(pad), 1e-6_wp*load, &
+               & 'contact of pad '//to_text(pad)//', '//motion)
+            call expect_close(found%max_pressure(pad), r%max_pressure, 1e-6_wp*r%max_pressure, 'highest pressure')
+         end do
+      end associate
+      call expect_close(norm2(total), 0.0_wp, 1e-6_wp*load, 'forces on the journal, '//motion)
+   end subroutine independent_balance
+
+   !> Without gravity nothing tells up from sideways: with pivots and load turned by an angle, journal and
+   !> pads are found turned by it. Both solutions balance to 1e-8 of the load, 1e-8 of the clearance.
+   subroutine turned_bearing()
+      type(scene_type) :: scene
+      type(equilibrium_type) :: straight, turned
+      real(wp) :: c, s
+      real(wp), parameter :: angle = 73
+      scene = paper_scene('tilting_radial', 6500.0_wp)
+      scene%rotor%gravity = 0
+      scene%rotor%static_load = [-2e4_wp, 3e3_wp]
+      straight = found_in(scene)
+      c = cos(angle*degree)
+      s = sin(angle*degree)
+      ! pivots stand at (sin, cos): a growing angle turns from z towards y
+      scene%pads%pivot_angle_deg = scene%pads%pivot_angle_deg + angle
+      scene%rotor%static_load = [c*(-2e4_wp) + s*3e3_wp, -s*(-2e4_wp) + c*3e3_wp]
+      turned = found_in(scene)
+      call expect_close(norm2(turned%journal - [c*straight%journal(1) + s*straight%journal(2), &
+         & -s*straight%journal(1) + c*straight%journal(2)]), 0.0_wp, 1e-11_wp, 'the journal turns with the bearing')
+      call expect_close(maxval(abs(turned%tilt - straight%tilt)), 0.0_wp, 1e-9_wp, 'tilts stay')
+      call expect_close(maxval(abs(turned%contact_force - straight%contact_force)), 0.0_wp, 1e-2_wp, &
+         & 'contact forces stay')
+   end subroutine turned_bearing
+
+   !> 300 to 15000 rpm, 0.1 to 3 times the load: the journal is found everywhere, on films that are open, and
+   !> higher with speed and lower with load.
+   subroutine wide_range(motion)
+      character(len=*), intent(in) :: motion
+      real(wp), parameter :: speeds(*) = [300.0_wp, 1000.0_wp, 3500.0_wp, 15000.0_wp], loads(*) = [0.1_wp, 0.5_wp, &
+         & 3.0_wp]
+      type(scene_type) :: scene
+      type(equilibrium_type) :: found
+      real(wp) :: height(size(speeds), size(loads))
+      integer :: i, k
+      height = 0
+      do i = 1, size(speeds)
+         do k = 1, size(loads)
+            scene = paper_scene(motion, speeds(i))
+            scene%rotor%static_load = [-(loads(k) - 1)*2000*9.81_wp, 0.0_wp]
+            found = found_in(scene)
+            height(i, k) = found%journal(1)
+            if (allocated(found%min_film)) call expect(minval(found%min_film) > 0, 'films are open')
+         end do
+      end do
+      call expect(all(height(2:, :) > height(:size(speeds) - 1, :)), 'higher with speed, '//motion)
+      call expect(all(height(:, 2:) < height(:, :size(loads) - 1)), 'lower with load, '//motion)
+   end subroutine wide_range
+
+   !> A load away from the two lower pads is carried by nothing: that is told, in words.
+   subroutine no_equilibrium(motion)
+      character(len=*), intent(in) :: motion
+      type(scene_type) :: scene
+      type(equilibrium_type) :: found
+      type(error_type), allocatable :: error
+      scene = paper_scene(motion, 3000.0_wp)
+      scene%rotor%static_load = [3*2000*9.81_wp, 0.0_wp]
+      call find_equilibrium(scene, found, error)
+      call expect(allocated(error), 'a load away from the pads has no equilibrium, '//motion)
+      if (.not. allocated(error)) return
+      call expect(error%status == numerics_error, 'an error of the numerics')
+      call expect(index(error%message, 'no equilibrium found') > 0, 'which says so: '//error%message)
+   end subroutine no_equilibrium
+end program test_equilibrium_table

@@ -1,0 +1,196 @@
+!> The equations of a pad against Newton's and Euler's laws about its centre of gravity, which lies off the
+!> pivot's radius, and of the journal against its forces.
+program test_newton_euler
+   use kinds, only: wp
+   use text, only: to_text
+   use scene, only: scene_type
+   use equations_of_motion, only: bearing_model, new_bearing_model
+   use check, only: expect, expect_close, report
+   implicit none (type, external)
+
+   !> Forces of 1e4 N in sums whose parts cancel a thousandfold.
+   real(wp), parameter :: rounding = 1e4_wp*epsilon(1.0_wp)
+   integer :: i
+
+   ! the same numbers in every run
+   call random_init(.true., .false.)
+   do i = 1, 20
+      call pad_radial()
+      call pad_tilting_only()
+      call journal()
+   end do
+   call mass_matrix()
+   call report()
+
+contains
+
+   type(scene_type) function offset_scene(motion) result(scene)
+      character(len=*), intent(in) :: motion
+      scene = scene_type()
+      scene%pads%motion = motion
+      scene%pads%mass = [0.8_wp, 8.0_wp]
+      scene%pads%inertia = [4.0e-4_wp, 5.0e-3_wp]
+      scene%pads%centre_tangential = [8e-3_wp, -15e-3_wp]
+      scene%friction%model = 'lugre'
+      scene%rotor%gravity = 500
+      scene%film%cavitation = 'none'
+   end function offset_scene
+
+   !> Random places, velocities and bristles, with films open and pivots loaded.
+   function random_state(model) result(y)
+      type(bearing_model), intent(in) :: model
+      real(wp), allocatable :: y(:)
+      integer :: pad
+      y = model%at_rest([between(-50e-6_wp, 0.0_wp), between(-10e-6_wp, 10e-6_wp)], &
+         & [between(-3e-4_wp, 7e-4_wp), between(-3e-4_wp, 7e-4_wp)], [between(-2e-6_wp, 9e-6_wp), between(1e-6_wp, &
+         & 9e-6_wp)])
+      y(3:4) = [between(-0.02_wp, 0.02_wp), between(-0.02_wp, 0.02_wp)]
+      do pad = 1, 2
+         y(model%offset(pad) + 2) = between(-5.0_wp, 5.0_wp)
+         if (model%radial) y(model%offset(pad) + 4) = between(-5e-3_wp, 5e-3_wp)
+         y(model%bristle(pad)) = between(-1e-7_wp, 1e-7_wp)
+      end do
+   end function random_state
+
+   !> The film on the pad, -F, acts at the centre of its arc, R + kappa inward of the pivot; the pivot pushes
+   !> with F_bs inward, holds with some tangential force T, and rubs with M_f against the tilt rate; weight
+   !> acts at C. The pivot accelerates by eta'' along z'. Then m a_C = sum of forces, whose y' part gives T,
+   !> and I_C delta'' = moment about C, with I_C = I_P - m |C|**2; turning is positive from y' to z'.
+   subroutine pad_radial()
+      type(bearing_model) :: model
+      real(wp), allocatable :: y(:), f(:)
+      real(wp) :: a, tilt_acceleration, radial_acceleration, rate, acceleration(2), weight(2), film(2), tangential
+      real(wp) :: moment, inertia, friction, sizes(2), total
+      integer :: pad
+      logical :: ok
+      model = new_bearing_model(offset_scene('tilting_radial'))
+      y = random_state(model)
+      allocate (f(model%n))
+      call model%rhs(0.01_wp, y, f, ok)
+      call expect(ok, 'a state with films')
+      do pad = 1, 2
+         associate (p => model%scene%pads, o => model%offset(pad), loads => model%loads(pad), &
+            & arm => model%places(pad)%centre_distance)
+            a = model%places(pad)%angle - y(o + 1)
+            rate = y(o + 2)
+            tilt_acceleration = f(o + 2)
+            radial_acceleration = f(o + 4)
+            ! C = (C_xi, C_eta) turns with the pad: C' = rate (-C_eta, C_xi) and so on
+            associate (c_t => p%centre_tangential(pad), c_r => p%centre_radial(pad), m => p%mass(pad))
+               acceleration = [-tilt_acceleration*c_r - rate**2*c_t, &
+                  & radial_acceleration + tilt_acceleration*c_t - rate**2*c_r]
+               weight = m*500*[-cos(a), -sin(a)]
+               film = -model%response(pad)%force
+               tangential = m*acceleration(1) - film(1) - weight(1)
+               total = film(2) + weight(2) - loads%contact
+               sizes(1) = abs(film(2)) + abs(weight(2)) + abs(loads%contact)
+               call expect_close(m*acceleration(2), total, rounding*sizes(1), 'Newton, pad '//to_text(pad))
+               friction = model%ball_radius*loads%friction%force
+               ! arms from C: arc centre (-c_t, -arm - c_r); pivot (-c_t, -c_r)
+               moment = -c_t*film(2) + (arm + c_r)*film(1) - c_t*(-loads%contact) + c_r*tangential - friction
+               inertia = p%inertia(pad) - m*(c_t**2 + c_r**2)
+               sizes(2) = sizes(1)*abs(c_t) + (abs(film(1)) + abs(tangential))*arm + abs(friction)
+               call expect_close(inertia*tilt_acceleration, moment, rounding*sizes(2), 'Euler, pad '//to_text(pad))
+            end associate
+         end associate
+      end do
+   end subroutine pad_radial
+
+   !> Without radial motion moments about the pivot, which is at rest, do.
+   subroutine pad_tilting_only()
+      type(bearing_model) :: model
+      real(wp), allocatable :: y(:), f(:)
+      real(wp) :: a, moment, friction, sizes
+      integer :: pad
+      logical :: ok
+      model = new_bearing_model(offset_scene('tilting_only'))
+      y = random_state(model)
+      allocate (f(model%n))
+      call model%rhs(0.01_wp, y, f, ok)
+      call expect(ok, 'a state with films')
+      do pad = 1, 2
+         associate (p => model%scene%pads, o => model%offset(pad), arm => model%places(pad)%centre_distance)
+            a = model%places(pad)%angle - y(o + 1)
+            friction = model%ball_radius*model%loads(pad)%friction%force
+            ! C x weight, with weight along (-cos a, -sin a)
+            moment = -model%response(pad)%force(1)*arm - friction + p%mass(pad)*500 &
+               & *(-p%centre_tangential(pad)*sin(a) + p%centre_radial(pad)*cos(a))
+            sizes = abs(model%response(pad)%force(1))*arm + abs(friction) + p%mass(pad)*500*0.03_wp
+            call expect_close(p%inertia(pad)*f(o + 2), moment, rounding*sizes, 'moments about the pivot')
+         end associate
+      end do
+   end subroutine pad_tilting_only
+
+   !> Mass times acceleration of the journal is load, unbalance and the films' forces, turned one by one.
+   subroutine journal()
+      type(bearing_model) :: model
+      type(scene_type) :: scene
+      real(wp), allocatable :: y(:), f(:)
+      real(wp) :: total(2), sizes, a, t
+      integer :: pad
+      logical :: ok
+      scene = offset_scene('tilting_radial')
+      scene%rotor%static_load = [300.0_wp, -700.0_wp]
+      model = new_bearing_model(scene)
+      y = random_state(model)
+      allocate (f(model%n))
+      t = between(0.0_wp, 0.01_wp)
+      call model%rhs(t, y, f, ok)
+      associate (w => scene%speed(0.0_wp))
+         total = scene%rotor%static_load + [-2000*500.0_wp, 0.0_wp] + 0.01_wp*w**2*[cos(w*t), sin(w*t)]
+      end associate
+      sizes = norm2(total)
+      do pad = 1, 2
+         a = model%places(pad)%angle - y(model%offset(pad) + 1)
+         associate (force => model%response(pad)%force)
+            total = total + force(1)*[cos(a), -sin(a)] + force(2)*[sin(a), cos(a)]
+            sizes = sizes + norm2(force)
+         end associate
+      end do
+      call expect_close(norm2(2000*f(3:4) - total), 0.0_wp, rounding*sizes, 'Newton, journal')
+   end subroutine journal
+
+   !> Accelerations over (moment, force) of two states give the inverse mass matrix of a pad: that of
+   !> [[I_P, m C_xi], [m C_xi, m]], symmetric and positive definite. The loads of the states are far from
+   !> parallel, so solving for it loses two digits or three.
+   subroutine mass_matrix()
+      type(bearing_model) :: model
+      real(wp), allocatable :: y(:), f(:)
+      real(wp) :: loads(2, 2), rates(2, 2), inverse(2, 2), expected(2, 2), det, scale(2)
+      integer :: pad, k
+      logical :: ok
+      model = new_bearing_model(offset_scene('tilting_radial'))
+      allocate (f(model%n))
+      do pad = 1, 2
+         associate (p => model%scene%pads, o => model%offset(pad))
+            do k = 1, 2
+               y = model%at_rest([-3e-5_wp, 0.0_wp], [2e-4_wp, 5e-4_wp], merge(9e-6_wp, 1e-7_wp, k == 1)*[1.0_wp, &
+                  & 1.0_wp])
+               y(o + 2) = merge(0.0_wp, 3.0_wp, k == 1)
+               call model%rhs(0.0_wp, y, f, ok)
+               loads(:, k) = [model%loads(pad)%moment, model%loads(pad)%radial]
+               rates(:, k) = f([o + 2, o + 4])
+            end do
+            det = loads(1, 1)*loads(2, 2) - loads(1, 2)*loads(2, 1)
+            inverse = matmul(rates, reshape([loads(2, 2), -loads(2, 1), -loads(1, 2), loads(1, 1)], [2, 2]))/det
+            det = p%inertia(pad)*p%mass(pad) - (p%mass(pad)*p%centre_tangential(pad))**2
+            expected = reshape([p%mass(pad), -p%mass(pad)*p%centre_tangential(pad), &
+               & -p%mass(pad)*p%centre_tangential(pad), p%inertia(pad)], [2, 2])/det
+            ! each entry against the geometric mean of its diagonals
+            scale = sqrt([expected(1, 1), expected(2, 2)])
+            do k = 1, 2
+               call expect_close(maxval(abs(inverse(:, k) - expected(:, k))/(scale*scale(k))), 0.0_wp, 1e-10_wp, &
+                  & 'inverse mass matrix, column '//to_text(k))
+            end do
+            call expect_close((inverse(1, 2) - inverse(2, 1))/product(scale), 0.0_wp, 1e-10_wp, 'symmetric')
+            call expect(inverse(1, 1) > 0 .and. inverse(1, 1)*inverse(2, 2) > inverse(1, 2)*inverse(2, 1), 'positive')
+         end associate
+      end do
+   end subroutine mass_matrix
+
+   real(wp) function between(low, high)
+      real(wp), intent(in) :: low, high
+      call random_number(between)
+      between = low + (high - low)*between
+   end function between
+end program test_newton_euler

@@ -1,0 +1,232 @@
+!> Contact laws: the paper's equations, check values, slopes, pressure, inverse.
+program test_contact_law
+   use kinds, only: wp, pi
+   use text, only: to_text
+   use contact_law, only: contact_law_type, contact_point, new_contact_law
+   use check, only: expect, expect_close, report
+   implicit none (type, external)
+
+   real(wp), parameter :: socket = 13e-3_wp, young(2) = 2.1e11_wp, poisson(2) = 0.3_wp
+   !> k1 + k2 of eq (18).
+   real(wp), parameter :: k12 = 2*(1 - 0.3_wp**2)/(pi*2.1e11_wp)
+   real(wp), parameter :: differences(*) = [1e-7_wp, 1e-6_wp, 15e-6_wp, 30e-6_wp, 1e-3_wp]
+   integer :: i
+
+   call check_values()
+   call snug_is_linear()
+   call hertz_closed_form()
+   call unequal_materials()
+   do i = 1, size(differences)
+      call printed_equations(differences(i))
+      call slopes('fang', differences(i))
+      call monotone('fang', differences(i))
+      call inverse('fang', differences(i))
+   end do
+   call slopes('hertz', 15e-6_wp)
+   call monotone('hertz', 15e-6_wp)
+   call inverse('hertz', 15e-6_wp)
+   call slopes('fang', 0.0_wp)
+   call inverse('fang', 0.0_wp)
+   call pressure_carries_force(0.0_wp)
+   call pressure_carries_force(15e-6_wp)
+   call report()
+
+contains
+
+   !> The paper's pivot (Table 2) with a radius difference.
+   function paper_law(name, difference) result(law)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: difference
+      class(contact_law_type), allocatable :: law
+      law = new_contact_law(name, socket, difference, young, poisson, 4.0_wp)
+   end function paper_law
+
+   !> Values of an independent solution, to the digits it gives.
+   subroutine check_values()
+      class(contact_law_type), allocatable :: law
+      type(contact_point) :: point
+      real(wp) :: eta
+      law = paper_law('fang', 15e-6_wp)
+      eta = law%penetration(1e4_wp)
+      point = law%at(eta)
+      call expect_close(eta, 5.5191e-6_wp, 0.5e-10_wp, 'penetration at 10 kN, dR = 15 um')
+      call expect_close(point%radius/socket, 0.5767_wp, 0.5e-4_wp, 'contact radius at 10 kN, dR = 15 um')
+      law = paper_law('fang', 30e-6_wp)
+      call expect_close(law%penetration(1e4_wp), 6.5867e-6_wp, 0.5e-10_wp, 'penetration at 10 kN, dR = 30 um')
+   end subroutine check_values
+
+   !> dR = 0: a = R2 at any load, so n = 0.26 and eq (13) with (12) is a line.
+   subroutine snug_is_linear()
+      class(contact_law_type), allocatable :: law
+      type(contact_point) :: point
+      real(wp), parameter :: n = 0.26_wp
+      real(wp) :: b, stiffness
+      integer :: e
+      law = paper_law('fang', 0.0_wp)
+      b = 0.5_wp*sqrt(pi)*gamma(n + 1)/gamma(n + 1.5_wp)
+      stiffness = pi*socket/(4*k12*b*(n + 1))
+      do e = -12, -3
+         point = law%at(10.0_wp**e)
+         ! a gamma function and some products
+         call expect_close(point%force*10.0_wp**(-e), stiffness, 1e-13_wp*stiffness, 'force at dR = 0, 1e'//to_text(e))
+         call expect_close(point%force*10.0_wp**(-e), 3.3767e9_wp, 0.5e5_wp, 'stiffness at dR = 0, 1e'//to_text(e))
+         call expect_close(point%slope, stiffness, 1e-13_wp*stiffness, 'slope at dR = 0, 1e'//to_text(e))
+         call expect_close(point%radius, socket, 0.0_wp, 'contact over the whole socket, 1e'//to_text(e))
+      end do
+   end subroutine snug_is_linear
+
+   subroutine hertz_closed_form()
+      class(contact_law_type), allocatable :: law
+      type(contact_point) :: point
+      real(wp) :: modulus, radius, eta
+      integer :: e
+      law = paper_law('hertz', 15e-6_wp)
+      modulus = 1/(pi*k12)
+      radius = (socket - 15e-6_wp)*socket/15e-6_wp
+      do e = -12, -4
+         eta = 3*10.0_wp**e
+         point = law%at(eta)
+         call expect_close(point%force, 4*modulus/3*sqrt(radius)*eta**1.5_wp, 1e-14_wp*point%force, &
+            & 'Hertz force, 3e'//to_text(e))
+         call expect_close(point%slope, 2*modulus*sqrt(radius*eta), 1e-14_wp*point%slope, 'Hertz slope, 3e'//to_text(e))
+         call expect_close(point%radius**2, radius*eta, 1e-14_wp*radius*eta, 'Hertz radius, 3e'//to_text(e))
+         call expect_close(point%peak_pressure, 2*modulus/pi*sqrt(eta/radius), 1e-14_wp*point%peak_pressure, &
+            & 'Hertz pressure, 3e'//to_text(e))
+      end do
+   end subroutine hertz_closed_form
+
+   !> Only k1 + k2 counts: a rigid ball halves the compliance and doubles the snug stiffness.
+   subroutine unequal_materials()
+      class(contact_law_type), allocatable :: law, soft
+      type(contact_point) :: point, soft_point
+      law = new_contact_law('fang', socket, 0.0_wp, [2.1e11_wp, 2.1e30_wp], poisson, 4.0_wp)
+      soft = paper_law('fang', 0.0_wp)
+      point = law%at(1e-6_wp)
+      soft_point = soft%at(1e-6_wp)
+      call expect_close(point%force, 2*soft_point%force, 1e-13_wp*point%force, 'a rigid ball')
+      law = new_contact_law('fang', socket, 0.0_wp, young, [0.3_wp, 0.0_wp], 4.0_wp)
+      point = law%at(1e-6_wp)
+      call expect_close(point%force, soft_point%force*2*0.91_wp/1.91_wp, 1e-13_wp*point%force, 'two Poisson ratios')
+   end subroutine unequal_materials
+
+   !> What the law answers meets eqs (12)-(17) as printed. Rounding alone separates them; the exponent's
+   !> factor 15 in (15) and the cube root in (14) amplify it by no more than ten or so.
+   subroutine printed_equations(difference)
+      real(wp), intent(in) :: difference
+      real(wp), parameter :: rounding = 200*epsilon(1.0_wp)
+      class(contact_law_type), allocatable :: law
+      type(contact_point) :: point
+      real(wp) :: eta, a, n, b, c, g, r1, worst(4)
+      integer :: e
+      law = paper_law('fang', difference)
+      r1 = socket - difference
+      worst = 0
+      do e = -48, -12
+         eta = 10.0_wp**(0.25_wp*e)
+         point = law%at(eta)
+         a = point%radius
+         n = point%exponent
+         b = 0.5_wp*sqrt(pi)*gamma(n + 1)/gamma(n + 1.5_wp)
+         c = 3.8304_wp*b*point%force*k12/(pi*socket)
+         g = 2/pi + (a/socket)**2
+         worst(1) = max(worst(1), abs(point%peak_pressure/((n + 1)*point%force/(pi*a**2)) - 1))
+         worst(2) = max(worst(2), abs(4*k12*b*point%peak_pressure*a/eta - 1))
+         worst(3) = max(worst(3), abs((4*b*r1*socket*k12*point%force/(pi*(g*difference + c))*(n + 0.5_wp)*(n + 1)) &
+            & **(1/3.0_wp)/a - 1))
+         worst(4) = max(worst(4), abs(0.5_wp - 0.24_wp*exp(-15.08_wp*(1 - a/socket)) - n))
+      end do
+      call expect_close(worst(1), 0.0_wp, rounding, 'eq (12), dR = '//to_text(difference))
+      call expect_close(worst(2), 0.0_wp, rounding, 'eq (13), dR = '//to_text(difference))
+      call expect_close(worst(3), 0.0_wp, rounding, 'eq (14), dR = '//to_text(difference))
+      call expect_close(worst(4), 0.0_wp, rounding, 'eq (15), dR = '//to_text(difference))
+   end subroutine printed_equations
+
+   !> Differences with a step h of the penetration: error h**2/6 of the third logarithmic derivative (of
+   !> order ten) and rounding 1e-15/h; both below 1e-8 for h = 1e-5.
+   subroutine slopes(name, difference)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: difference
+      real(wp), parameter :: h = 1e-5_wp
+      class(contact_law_type), allocatable :: law
+      type(contact_point) :: point, up, down
+      real(wp) :: eta, worst
+      integer :: e
+      law = paper_law(name, difference)
+      worst = 0
+      do e = -24, -6
+         eta = 10.0_wp**(0.5_wp*e)
+         point = law%at(eta)
+         up = law%at(eta*(1 + h))
+         down = law%at(eta*(1 - h))
+         worst = max(worst, abs((up%force - down%force)/(2*h*eta*point%slope) - 1))
+      end do
+      call expect_close(worst, 0.0_wp, 1e-8_wp, 'slope of '//name//', dR = '//to_text(difference))
+   end subroutine slopes
+
+   !> Deeper is always stronger, stiffer and wider.
+   subroutine monotone(name, difference)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: difference
+      class(contact_law_type), allocatable :: law
+      type(contact_point) :: point, before
+      integer :: k, falls
+      law = paper_law(name, difference)
+      before = law%at(1e-12_wp)
+      falls = 0
+      do k = 1, 900
+         point = law%at(10.0_wp**(-12 + 0.01_wp*k))
+         if (point%force <= before%force) falls = falls + 1
+         if (point%slope <= before%slope) falls = falls + 1
+         if (point%radius < before%radius) falls = falls + 1
+         before = point
+      end do
+      call expect(falls == 0, name//' rises everywhere, dR = '//to_text(difference)//': '//to_text(falls)//' falls')
+      if (name == 'fang') call expect(point%radius <= socket, 'contact within the socket')
+   end subroutine monotone
+
+   !> penetration() inverts at(): the bisection ends at the rounding of ln(eta), 30 epsilon, times the
+   !> exponent of the law, at most 1.5 (Hertz) and somewhat more near the transition to the snug limit.
+   subroutine inverse(name, difference)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: difference
+      class(contact_law_type), allocatable :: law
+      type(contact_point) :: point
+      real(wp) :: worst
+      integer :: e
+      law = paper_law(name, difference)
+      worst = 0
+      do e = -2, 7
+         point = law%at(law%penetration(3*10.0_wp**e))
+         worst = max(worst, abs(point%force/(3*10.0_wp**e) - 1))
+      end do
+      call expect_close(worst, 0.0_wp, 200*epsilon(worst), 'inverse of '//name//', dR = '//to_text(difference))
+   end subroutine inverse
+
+   !> Integral of (11) over the contact: with 1 - (r/a)**2 = s**4 the integrand is s**(4n + 3), smooth
+   !> enough for Simpson's rule: relative error about 1e-9 with 400 intervals.
+   subroutine pressure_carries_force(difference)
+      real(wp), intent(in) :: difference
+      integer, parameter :: intervals = 400
+      class(contact_law_type), allocatable :: law
+      type(contact_point) :: point
+      real(wp) :: total, s
+      integer :: e, k
+      law = paper_law('fang', difference)
+      do e = -9, -4
+         point = law%at(10.0_wp**e)
+         total = 0
+         do k = 0, intervals
+            s = real(k, wp)/intervals
+            total = total + simpson_weight(k, intervals)*4*s**(4*point%exponent + 3)/intervals
+         end do
+         call expect_close(pi*point%radius**2*point%peak_pressure*total, point%force, 1e-8_wp*point%force, &
+            & 'pressure (11) over the contact, 1e'//to_text(e))
+      end do
+   end subroutine pressure_carries_force
+
+   pure real(wp) function simpson_weight(k, intervals)
+      integer, intent(in) :: k, intervals
+      simpson_weight = merge(4, 2, mod(k, 2) == 1)/3.0_wp
+      if (k == 0 .or. k == intervals) simpson_weight = 1/3.0_wp
+   end function simpson_weight
+end program test_contact_law

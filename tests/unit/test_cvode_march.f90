@@ -1,0 +1,324 @@
+!> The march on small problems with known solutions: accuracy, samples, refusals, limits.
+module march_problems
+   use kinds, only: wp, i8
+   use errors, only: error_type, raise, numerics_error
+   use ode_model, only: ode_model_type, march_observer
+   implicit none (type, external)
+   private
+   public :: stiff_cosine, robertson, keeper
+
+   !> y' = -k (y - cos t) - sin t, beside a damped oscillator of its own: y = cos t from y(0) = 1.
+   type, extends(ode_model_type) :: stiff_cosine
+      real(wp) :: stiffness = 1e5_wp
+      !> Refuses every time after this one.
+      real(wp) :: refuse_after = huge(1.0_wp)
+      !> Refuses the first so many evaluations.
+      integer :: refuse_first = 0
+      !> Answers with numbers too large at this call and beyond.
+      integer :: calls = 0
+   contains
+      procedure :: rhs => cosine_rhs
+      procedure :: jacobian => cosine_jacobian
+   end type stiff_cosine
+
+   !> Robertson's chemical reaction.
+   type, extends(ode_model_type) :: robertson
+   contains
+      procedure :: rhs => robertson_rhs
+      procedure :: jacobian => robertson_jacobian
+   end type robertson
+
+   !> Keeps its samples; sets an error at sample `stop_at`.
+   type, extends(march_observer) :: keeper
+      real(wp), allocatable :: t(:), y(:, :)
+      integer :: stop_at = 0, reports = 0
+   contains
+      procedure :: sample => keep_sample
+      procedure :: report => keep_report
+   end type keeper
+
+contains
+
+   subroutine cosine_rhs(self, t, y, dydt, ok)
+      class(stiff_cosine), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: dydt(:)
+      logical, intent(out) :: ok
+      self%calls = self%calls + 1
+      dydt(1) = -self%stiffness*(y(1) - cos(t)) - sin(t)
+      dydt(2) = y(3)
+      dydt(3) = -4*y(2)
+      ok = t <= self%refuse_after .and. self%calls > self%refuse_first
+      if (.not. ok) self%trouble = 'the problem ends'
+   end subroutine cosine_rhs
+
+   subroutine cosine_jacobian(self, t, y, matrix, ok)
+      class(stiff_cosine), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: matrix(:, :)
+      logical, intent(out) :: ok
+      matrix = 0
+      matrix(1, 1) = -self%stiffness
+      matrix(2, 3) = 1
+      matrix(3, 2) = -4
+      ok = .true.
+   end subroutine cosine_jacobian
+
+   subroutine robertson_rhs(self, t, y, dydt, ok)
+      class(robertson), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: dydt(:)
+      logical, intent(out) :: ok
+      dydt(1) = -0.04_wp*y(1) + 1e4_wp*y(2)*y(3)
+      dydt(3) = 3e7_wp*y(2)**2
+      dydt(2) = -dydt(1) - dydt(3)
+      ok = .true.
+   end subroutine robertson_rhs
+
+   subroutine robertson_jacobian(self, t, y, matrix, ok)
+      class(robertson), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: matrix(:, :)
+      logical, intent(out) :: ok
+      matrix(1, :) = [-0.04_wp, 1e4_wp*y(3), 1e4_wp*y(2)]
+      matrix(3, :) = [0.0_wp, 6e7_wp*y(2), 0.0_wp]
+      matrix(2, :) = -matrix(1, :) - matrix(3, :)
+      ok = .true.
+   end subroutine robertson_jacobian
+
+   subroutine keep_sample(self, t, y, error)
+      class(keeper), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: grown(:, :)
+      integer :: n
+      if (.not. allocated(self%t)) allocate (self%t(0), self%y(size(y), 0))
+      n = size(self%t)
+      allocate (grown(size(y), n + 1))
+      grown(:, :n) = self%y
+      grown(:, n + 1) = y
+      call move_alloc(grown, self%y)
+      self%t = [self%t, t]
+      if (n + 1 == self%stop_at) call raise(error, numerics_error, 'the keeper is full')
+   end subroutine keep_sample
+
+   subroutine keep_report(self, t, steps)
+      class(keeper), intent(inout) :: self
+      real(wp), intent(in) :: t
+      integer(i8), intent(in) :: steps
+      self%reports = self%reports + 1
+   end subroutine keep_report
+end module march_problems
+
+program test_cvode_march
+   use kinds, only: wp, i8
+   use text, only: to_text
+   use errors, only: error_type, numerics_error
+   use cvode_march, only: march, march_options, march_statistics, sample_plan
+   use march_problems, only: stiff_cosine, robertson, keeper
+   use check, only: expect, expect_close, report
+   implicit none (type, external)
+
+   call accuracy()
+   call samples_in_time()
+   call last_sample_past_the_end()
+   call chemistry()
+   call refusal()
+   call passing_refusal()
+   call step_limits()
+   call observer_stops()
+   call report()
+
+contains
+
+   !> y = (cos t, sin 2t, 2 cos 2t).
+   pure function exact(t)
+      real(wp), intent(in) :: t
+      real(wp) :: exact(3)
+      exact = [cos(t), sin(2*t), 2*cos(2*t)]
+   end function exact
+
+   pure type(march_options) function tolerances(relative)
+      real(wp), intent(in) :: relative
+      tolerances%relative_tolerance = relative
+      tolerances%absolute_tolerance = spread(relative, 1, 3)
+   end function tolerances
+
+   !> Largest error of the samples over 0 to 6 s.
+   subroutine sampled_error(tolerance, error_found, steps)
+      real(wp), intent(in) :: tolerance
+      real(wp), intent(out) :: error_found
+      integer(i8), intent(out) :: steps
+      type(stiff_cosine) :: model
+      type(keeper) :: observer
+      type(march_statistics) :: statistics
+      type(error_type), allocatable :: error
+      real(wp) :: y(3)
+      integer :: k
+      y = exact(0.0_wp)
+      call march(model, tolerances(tolerance), 0.0_wp, 6.0_wp, sample_plan(0.0_wp, 0.01_wp, 601_i8), y, observer, &
+         & statistics, error)
+      call expect(.not. allocated(error), 'the march ends well at tolerance '//to_text(tolerance))
+      error_found = 0
+      do k = 1, size(observer%t)
+         error_found = max(error_found, maxval(abs(observer%y(:, k) - exact(observer%t(k)))))
+      end do
+      steps = statistics%steps
+      call expect(statistics%rhs_evaluations >= steps .and. statistics%jacobian_evaluations > 0, 'work is counted')
+      call expect(observer%reports == steps/256, 'a report every 256 steps')
+   end subroutine sampled_error
+
+   !> A step's error is at most the tolerance times (|y| + 1) sqrt(3), with |y| <= 2 (a weighted root mean
+   !> square of three states), and adds up over the steps of an undamped oscillator; it falls with the
+   !> tolerance. An explicit method would need 6 k/2 = 3e5 steps for the stiff part.
+   subroutine accuracy()
+      real(wp) :: found, before
+      integer(i8) :: steps
+      integer :: e
+      before = 1
+      do e = -4, -10, -2
+         call sampled_error(10.0_wp**e, found, steps)
+         call expect(found < 6*steps*10.0_wp**e, 'error '//to_text(found)//' at tolerance 1e'//to_text(e))
+         call expect(found < 0.1_wp*before, 'the error falls with the tolerance, at 1e'//to_text(e))
+         call expect(steps < 10000, 'stiffness does not bind the step: '//to_text(steps)//' steps')
+         before = found
+      end do
+   end subroutine accuracy
+
+   !> Samples come once each, at their very times, the first and the last among them.
+   subroutine samples_in_time()
+      type(stiff_cosine) :: model
+      type(keeper) :: observer
+      type(march_statistics) :: statistics
+      type(sample_plan) :: plan
+      type(error_type), allocatable :: error
+      real(wp) :: y(3)
+      integer :: k
+      plan = sample_plan(0.5_wp, 0.125_wp, 13_i8)
+      y = exact(0.5_wp)
+      call march(model, tolerances(1e-8_wp), 0.5_wp, 2.0_wp, plan, y, observer, statistics, error)
+      call expect(.not. allocated(error), 'the march ends well')
+      call expect(size(observer%t) == 13, 'as many samples as planned')
+      do k = 1, size(observer%t)
+         call expect_close(observer%t(k), 0.5_wp + 0.125_wp*(k - 1), 0.0_wp, 'time of sample '//to_text(k))
+         call expect_close(plan%time(k - 1_i8), observer%t(k), 0.0_wp, 'planned time of sample '//to_text(k))
+      end do
+      call expect_close(norm2(observer%y(:, 1) - exact(0.5_wp)), 0.0_wp, 0.0_wp, 'the first sample is the start')
+      call expect_close(norm2(observer%y(:, 13) - y), 0.0_wp, 4*epsilon(y), 'the last sample is the end')
+      call expect_close(norm2(y - exact(2.0_wp)), 0.0_wp, 6*statistics%steps*1e-8_wp, &
+         & 'the state at the end is returned')
+   end subroutine samples_in_time
+
+   !> A last sample that rounding puts past the end is taken at the end; a late first one is waited for.
+   subroutine last_sample_past_the_end()
+      type(stiff_cosine) :: model
+      type(keeper) :: observer
+      type(march_statistics) :: statistics
+      type(error_type), allocatable :: error
+      real(wp) :: y(3)
+      y = exact(0.0_wp)
+      call march(model, tolerances(1e-8_wp), 0.0_wp, 1.0_wp, sample_plan(0.4_wp, 0.1_wp*(1 + 1e-9_wp), 7_i8), y, &
+         & observer, statistics, error)
+      call expect(size(observer%t) == 7, 'all samples are taken')
+      call expect_close(observer%t(1), 0.4_wp, 0.0_wp, 'a late first sample')
+      call expect_close(observer%t(7), 1.0_wp, 0.0_wp, 'a sample just past the end is taken at the end')
+      call expect_close(norm2(observer%y(:, 1) - exact(0.4_wp)), 0.0_wp, 6*statistics%steps*1e-8_wp, 'its state')
+   end subroutine last_sample_past_the_end
+
+   !> Robertson's reaction at t = 40: reference values to ten digits; mass is conserved by the equations and,
+   !> being linear, by the method up to its Newton iteration.
+   subroutine chemistry()
+      type(robertson) :: model
+      type(keeper) :: observer
+      type(march_statistics) :: statistics
+      type(march_options) :: options
+      type(error_type), allocatable :: error
+      real(wp), parameter :: expected(3) = [0.7158270688_wp, 9.185534765e-6_wp, 0.2841637457_wp]
+      real(wp) :: y(3)
+      options%relative_tolerance = 1e-8_wp
+      options%absolute_tolerance = [1e-10_wp, 1e-14_wp, 1e-10_wp]
+      y = [1.0_wp, 0.0_wp, 0.0_wp]
+      call march(model, options, 0.0_wp, 40.0_wp, sample_plan(), y, observer, statistics, error)
+      call expect(.not. allocated(error), 'Robertson''s reaction ends well')
+      call expect(.not. allocated(observer%t), 'no samples where none are planned')
+      call expect_close(maxval(abs(y/expected - 1)), 0.0_wp, 6*statistics%steps*1e-8_wp, &
+         & 'Robertson''s reaction at t = 40')
+      call expect_close(sum(y), 1.0_wp, 1e-8_wp, 'mass is conserved')
+   end subroutine chemistry
+
+   !> A problem that has no solution beyond t = 0.5 ends there, with its own words and the time.
+   subroutine refusal()
+      type(stiff_cosine) :: model
+      type(keeper) :: observer
+      type(march_statistics) :: statistics
+      type(error_type), allocatable :: error
+      real(wp) :: y(3)
+      integer :: before
+      model%refuse_after = 0.5_wp
+      y = exact(0.0_wp)
+      call march(model, tolerances(1e-6_wp), 0.0_wp, 1.0_wp, sample_plan(0.0_wp, 0.1_wp, 11_i8), y, observer, &
+         & statistics, error)
+      call expect(allocated(error), 'refusal is an error')
+      if (.not. allocated(error)) return
+      call expect(error%status == numerics_error, 'refusal is an error of the numerics')
+      call expect(index(error%message, 'the problem ends') > 0, 'the error gives the reason: '//error%message)
+      call expect(index(error%message, 't = 0.5 s') > 0 .or. index(error%message, 't = 0.49') > 0, &
+         & 'the error gives the time: '//error%message)
+      call expect(index(error%message, 'after '//to_text(statistics%steps)//' steps') > 0, 'the error counts the steps')
+      before = size(observer%t)
+      call expect(before == 5 .or. before == 6, 'samples before the end stand: '//to_text(before))
+      call expect_close(norm2(observer%y(:, before) - exact(observer%t(before))), 0.0_wp, 6*statistics%steps*1e-6_wp, &
+         & 'and are good')
+   end subroutine refusal
+
+   !> A refusal at the first evaluation is an error at the start.
+   subroutine passing_refusal()
+      type(stiff_cosine) :: model
+      type(keeper) :: observer
+      type(march_statistics) :: statistics
+      type(error_type), allocatable :: error
+      real(wp) :: y(3)
+      model%refuse_first = 1
+      y = exact(0.0_wp)
+      call march(model, tolerances(1e-6_wp), 0.0_wp, 1.0_wp, sample_plan(), y, observer, statistics, error)
+      call expect(allocated(error), 'refusal of the start is an error')
+      if (allocated(error)) call expect(index(error%message, 't = 0 s') > 0, 'at the start: '//error%message)
+   end subroutine passing_refusal
+
+   subroutine step_limits()
+      type(stiff_cosine) :: model
+      type(keeper) :: observer
+      type(march_statistics) :: statistics
+      type(march_options) :: options
+      type(error_type), allocatable :: error
+      real(wp) :: y(3)
+      options = tolerances(1e-6_wp)
+      options%max_steps = 20
+      y = exact(0.0_wp)
+      call march(model, options, 0.0_wp, 6.0_wp, sample_plan(), y, observer, statistics, error)
+      call expect(allocated(error), 'too many steps are an error')
+      if (allocated(error)) call expect(index(error%message, 'max_steps') > 0 .and. index(error%message, 't = ') > 0, &
+         & 'which names the limit and the time: '//error%message)
+      call expect(statistics%steps == 20, 'the limit is kept: '//to_text(statistics%steps)//' steps')
+      options = tolerances(1e-2_wp)
+      options%max_step = 1e-3_wp
+      y = exact(0.0_wp)
+      call march(model, options, 0.0_wp, 1.0_wp, sample_plan(), y, observer, statistics, error)
+      call expect(statistics%steps >= 1000, 'no step is longer than max_step: '//to_text(statistics%steps)//' steps')
+   end subroutine step_limits
+
+   subroutine observer_stops()
+      type(stiff_cosine) :: model
+      type(keeper) :: observer
+      type(march_statistics) :: statistics
+      type(error_type), allocatable :: error
+      real(wp) :: y(3)
+      observer%stop_at = 3
+      y = exact(0.0_wp)
+      call march(model, tolerances(1e-6_wp), 0.0_wp, 1.0_wp, sample_plan(0.0_wp, 0.1_wp, 11_i8), y, observer, &
+         & statistics, error)
+      call expect(allocated(error), 'an error of the observer ends the march')
+      if (allocated(error)) call expect(error%message == 'the keeper is full', 'and comes back unchanged')
+      call expect(size(observer%t) == 3, 'at once')
+   end subroutine observer_stops
+end program test_cvode_march

@@ -1,0 +1,294 @@
+!> The equations of motion: layout of the state, Jacobian, unbalance and run-up, what is refused.
+program test_equations_of_motion
+   use kinds, only: wp, i8
+   use text, only: to_text
+   use scene, only: scene_type
+   use equations_of_motion, only: bearing_model, new_bearing_model
+   use check, only: expect, expect_close, report
+   implicit none (type, external)
+
+   character(len=*), parameter :: motions(2) = [character(len=14) :: 'tilting_radial', 'tilting_only']
+   character(len=*), parameter :: frictions(3) = [character(len=12) :: 'none', 'bengisu_akay', 'lugre']
+   integer :: m, f
+
+   ! the same numbers in every run
+   call random_init(.true., .false.)
+   do m = 1, size(motions)
+      do f = 1, size(frictions)
+         call layout(motions(m), frictions(f))
+         call jacobian_by_differences(motions(m), frictions(f), 0.0_wp)
+         call jacobian_by_differences(motions(m), frictions(f), 0.003_wp)
+      end do
+      call trivial_rows(motions(m))
+   end do
+   call unbalance_force()
+   call forces_by_definition()
+   call refusals()
+   call report()
+
+contains
+
+   type(scene_type) function paper_scene(motion, friction) result(scene)
+      character(len=*), intent(in) :: motion, friction
+      scene = scene_type()
+      scene%pads%motion = trim(motion)
+      scene%friction%model = trim(friction)
+   end function paper_scene
+
+   subroutine layout(motion, friction)
+      character(len=*), intent(in) :: motion, friction
+      type(bearing_model) :: model
+      real(wp), allocatable :: y(:)
+      integer :: own, pad
+      model = new_bearing_model(paper_scene(motion, friction))
+      own = 2
+      if (motion == 'tilting_radial') own = 4
+      if (friction == 'lugre') own = own + 1
+      call expect(model%states_per_pad == own, 'states of a pad, '//motion//' '//friction)
+      call expect(model%n == 4 + 2*own .and. size(model%scale) == model%n, 'states, '//motion//' '//friction)
+      call expect(all(model%scale > 0), 'every state has a scale')
+      y = model%at_rest([1.0_wp, 2.0_wp], [3.0_wp, 4.0_wp], [5.0_wp, 6.0_wp])
+      call expect(size(y) == model%n, 'size of a state at rest')
+      call expect_close(norm2(y(1:4) - [1.0_wp, 2.0_wp, 0.0_wp, 0.0_wp]), 0.0_wp, 0.0_wp, 'journal of a state at rest')
+      do pad = 1, 2
+         call expect(model%offset(pad) == 4 + (pad - 1)*own, 'offset of a pad')
+         call expect_close(y(model%offset(pad) + 1), 2.0_wp + pad, 0.0_wp, 'tilt of a state at rest')
+         if (motion == 'tilting_radial') call expect_close(y(model%offset(pad) + 3), 4.0_wp + pad, 0.0_wp, &
+            & 'penetration of a state at rest')
+         if (friction == 'lugre') call expect(model%bristle(pad) == model%offset(pad) + own, 'bristle of a pad')
+      end do
+      call expect_close(sum(y), merge(21.0_wp, 10.0_wp, motion == 'tilting_radial'), 0.0_wp, 'nothing else at rest')
+   end subroutine layout
+
+   !> A scene in which every term counts: pads as heavy as the load, their centres off the pivots' radius,
+   !> different from each other, and a film without rupture, hence smooth.
+   type(scene_type) function heavy_scene(motion, friction, offset) result(scene)
+      character(len=*), intent(in) :: motion, friction
+      real(wp), intent(in) :: offset
+      scene = paper_scene(motion, friction)
+      scene%rotor%mass = 20
+      scene%rotor%gravity = 300
+      scene%pads%mass = [80.0_wp, 60.0_wp]
+      scene%pads%inertia = [0.03_wp, 0.025_wp]
+      scene%pads%centre_tangential = [offset, -2*offset]
+      scene%pads%pivot_ratio = [0.5_wp, 0.6_wp]
+      scene%film%solver = 'sor'
+      scene%film%cavitation = 'none'
+      scene%film%circumferential_cells = 16
+      scene%film%axial_cells = 4
+      scene%film%tolerance = 1e-12_wp
+   end function heavy_scene
+
+   !> Steps of h = 1e-3 of each state's scale in the five-point form: error h**4/30 of the fifth derivative
+   !> (1e-12 times some 1e3), film converged to 1e-12, amplified by 50 and divided by h: 1e-7. Each row is
+   !> measured by its largest entry, all in the scales of the states. The pads' own weight makes
+   !> 1e-3 and more of the rows it stands in, centrifugal terms 1e-4, so 2e-6 sees all of them.
+   subroutine jacobian_by_differences(motion, friction, offset)
+      character(len=*), intent(in) :: motion, friction
+      real(wp), intent(in) :: offset
+      real(wp), parameter :: h = 1e-3_wp, offsets(4) = [-2*h, -h, h, 2*h]
+      real(wp), parameter :: weights(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/(12*h), t = 1.234e-2_wp
+      type(bearing_model) :: model
+      real(wp), allocatable :: y(:), trial(:), f(:), found(:, :), expected(:, :)
+      integer :: column, k, row, repeat
+      logical :: ok, all_ok
+      real(wp) :: worst
+      character(len=:), allocatable :: what
+      what = trim(motion)//', '//trim(friction)//', C_xi = '//to_text(offset)
+      model = new_bearing_model(heavy_scene(motion, friction, offset))
+      allocate (f(model%n), found(model%n, model%n), expected(model%n, model%n))
+      worst = 0
+      all_ok = .true.
+      do repeat = 1, 3
+         y = moving_state(model)
+         call model%jacobian(t, y, found, ok)
+         all_ok = all_ok .and. ok
+         do column = 1, model%n
+            expected(:, column) = 0
+            do k = 1, 4
+               trial = y
+               trial(column) = y(column) + offsets(k)*step_scale(model, column)
+               call model%rhs(t, trial, f, ok)
+               all_ok = all_ok .and. ok
+               expected(:, column) = expected(:, column) + weights(k)*f
+            end do
+            found(:, column) = found(:, column)*step_scale(model, column)
+         end do
+         do row = 1, model%n
+            worst = max(worst, maxval(abs(found(row, :) - expected(row, :)))/maxval(abs(expected(row, :))))
+         end do
+      end do
+      call expect(all_ok, 'all states are admitted, '//what)
+      call expect_close(worst, 0.0_wp, 2e-6_wp, 'Jacobian by differences, '//what)
+   end subroutine jacobian_by_differences
+
+   !> The scale of a state; tilt rates are stepped in the scale of the friction's decay, 1 mm/s at the ball.
+   pure real(wp) function step_scale(model, column)
+      type(bearing_model), intent(in) :: model
+      integer, intent(in) :: column
+      integer :: pad
+      step_scale = model%scale(column)
+      do pad = 1, 2
+         if (column == model%offset(pad) + 2) step_scale = 0.2_wp
+      end do
+   end function step_scale
+
+   !> Pads carrying, tilted, in motion, sliding at some mm/s: away from the kinks at rest and at v_c.
+   function moving_state(model) result(y)
+      type(bearing_model), intent(in) :: model
+      real(wp), allocatable :: y(:)
+      integer :: pad
+      y = model%at_rest([between(-40e-6_wp, -20e-6_wp), between(-5e-6_wp, 5e-6_wp)], &
+         & [between(-1e-4_wp, 1e-4_wp), between(6e-4_wp, 8e-4_wp)], [between(4e-6_wp, 8e-6_wp), between(4e-6_wp, &
+         & 8e-6_wp)])
+      y(3:4) = [between(-5e-3_wp, 5e-3_wp), between(-5e-3_wp, 5e-3_wp)]
+      do pad = 1, 2
+         y(model%offset(pad) + 2) = sign(between(0.3_wp, 0.6_wp), between(-1.0_wp, 1.0_wp))
+         if (model%radial) y(model%offset(pad) + 4) = between(-2e-3_wp, 2e-3_wp)
+         if (model%friction%has_bristle) y(model%bristle(pad)) = between(-1e-7_wp, 1e-7_wp)
+      end do
+   end function moving_state
+
+   !> Positions grow at their rates, and every entry of the right-hand side is set.
+   subroutine trivial_rows(motion)
+      character(len=*), intent(in) :: motion
+      type(bearing_model) :: model
+      real(wp), allocatable :: y(:), f(:)
+      logical :: ok
+      integer :: pad
+      model = new_bearing_model(heavy_scene(motion, 'lugre', 0.003_wp))
+      y = moving_state(model)
+      allocate (f(model%n), source=huge(1.0_wp))
+      call model%rhs(0.0_wp, y, f, ok)
+      call expect(ok .and. all(f < huge(f)), 'every rate is set, '//motion)
+      call expect_close(norm2(f(1:2) - y(3:4)), 0.0_wp, 0.0_wp, 'rates of the journal, '//motion)
+      do pad = 1, 2
+         associate (o => model%offset(pad))
+            call expect_close(f(o + 1), y(o + 2), 0.0_wp, 'rate of the tilt, '//motion)
+            if (model%radial) call expect_close(f(o + 3), y(o + 4), 0.0_wp, 'rate of the penetration')
+         end associate
+      end do
+   end subroutine trivial_rows
+
+   !> The unbalance pulls like a mass on the shaft: with the shaft's angle phi(t) its force is
+   !> -dmE d2/dt2 (cos phi, sin phi), in steady running and in run-up. Five-point differences of a step
+   !> d = 1e-2/w: error (w d)**4/90 = 1e-10, rounding of angles up to 100 rad 1e-14/(w d)**2 = 1e-10.
+   subroutine unbalance_force()
+      type(scene_type) :: scene
+      type(bearing_model) :: with, without
+      real(wp), allocatable :: y(:), f(:), f0(:)
+      real(wp) :: t, d, expected(2)
+      logical :: ok
+      integer :: k
+      scene = paper_scene('tilting_radial', 'none')
+      scene%operation%speed_rpm = 1500
+      scene%operation%duration = 0.5_wp
+      do k = 0, 5
+         scene%operation%final_speed_rpm = merge(1500, 60000, k < 2)
+         scene%rotor%unbalance = 0.5_wp
+         with = new_bearing_model(scene)
+         scene%rotor%unbalance = 0
+         without = new_bearing_model(scene)
+         y = with%at_rest([-4e-5_wp, 0.0_wp], [-2e-4_wp, 1e-3_wp], [7e-6_wp, 7e-6_wp])
+         allocate (f(with%n), f0(with%n))
+         t = 0.013_wp*k
+         call with%rhs(t, y, f, ok)
+         call without%rhs(t, y, f0, ok)
+         d = 1e-2_wp/scene%speed(t)
+         expected = -0.5_wp*(16*(place(scene, t + d) + place(scene, t - d)) - 30*place(scene, t) &
+            & - place(scene, t + 2*d) - place(scene, t - 2*d))/(12*d**2)/scene%rotor%mass
+         call expect_close(norm2(f(3:4) - f0(3:4) - expected), 0.0_wp, 1e-8_wp*norm2(expected) &
+            & + 10*epsilon(d)*norm2(f0(3:4)), 'unbalance at t = '//to_text(t))
+         call expect_close(norm2(f(5:) - f0(5:)), 0.0_wp, 0.0_wp, 'pads know no unbalance')
+         deallocate (f, f0)
+      end do
+   end subroutine unbalance_force
+
+   !> Where a mass on the shaft stands, over its radius.
+   pure function place(scene, time)
+      type(scene_type), intent(in) :: scene
+      real(wp), intent(in) :: time
+      real(wp) :: place(2)
+      place = [cos(scene%shaft_angle(time)), sin(scene%shaft_angle(time))]
+   end function place
+
+   !> Contact only pushes: none without penetration; tilting only, it is the radial reaction or nothing.
+   subroutine forces_by_definition()
+      type(bearing_model) :: model
+      real(wp), allocatable :: y(:), f(:)
+      real(wp) :: reaction
+      logical :: ok
+      integer :: pad
+      model = new_bearing_model(paper_scene('tilting_radial', 'lugre'))
+      y = model%at_rest([-2e-5_wp, 0.0_wp], [-2e-4_wp, 1e-3_wp], [-1e-6_wp, 5e-6_wp])
+      y(model%bristle(1)) = 1e-7_wp
+      y(model%bristle(2)) = 1e-7_wp
+      allocate (f(model%n))
+      call model%rhs(0.0_wp, y, f, ok)
+      call expect_close(model%loads(1)%contact, 0.0_wp, 0.0_wp, 'no contact without penetration')
+      call expect_close(model%loads(1)%friction%force, 0.0_wp, 0.0_wp, 'no friction without contact')
+      call expect_close(model%loads(2)%friction%force, 0.1_wp*model%loads(2)%contact, &
+         & 1e-14_wp*model%loads(2)%contact, 'bristles carry in contact')
+      call expect(model%loads(2)%contact > 1e3_wp, 'contact under penetration')
+      deallocate (f)
+      model = new_bearing_model(heavy_scene('tilting_only', 'none', 0.0_wp))
+      y = moving_state(model)
+      allocate (f(model%n))
+      call model%rhs(0.0_wp, y, f, ok)
+      do pad = 1, 2
+         associate (p => model%scene%pads, a => model%places(pad)%angle - y(model%offset(pad) + 1))
+            reaction = -model%response(pad)%force(2) - p%mass(pad)*300*sin(a) &
+               & + p%mass(pad)*p%centre_radial(pad)*y(model%offset(pad) + 2)**2
+            call expect_close(model%loads(pad)%contact, max(0.0_wp, reaction), 1e-12_wp*abs(reaction), &
+               & 'radial reaction of pad '//to_text(pad))
+         end associate
+      end do
+      call hanging_pads()
+   end subroutine forces_by_definition
+
+   !> Heavy pads above the journal hang from pivots that cannot pull.
+   subroutine hanging_pads()
+      type(scene_type) :: scene
+      type(bearing_model) :: model
+      real(wp), allocatable :: y(:), f(:)
+      logical :: ok
+      integer :: pad
+      scene = heavy_scene('tilting_only', 'bengisu_akay', 0.0_wp)
+      scene%pads%pivot_angle_deg = [45.0_wp, 135.0_wp]
+      model = new_bearing_model(scene)
+      y = model%at_rest([0.0_wp, 0.0_wp], [3e-4_wp, 3e-4_wp], [0.0_wp, 0.0_wp])
+      y([model%offset(1), model%offset(2)] + 2) = 0.3_wp
+      allocate (f(model%n))
+      call model%rhs(0.0_wp, y, f, ok)
+      do pad = 1, 2
+         call expect(model%loads(pad)%radial < -1e3_wp, 'weight pulls a pad off its pivot')
+         call expect_close(model%loads(pad)%contact, 0.0_wp, 0.0_wp, 'a pivot does not pull')
+         call expect_close(model%loads(pad)%friction%force, 0.0_wp, 0.0_wp, 'nor rub then')
+      end do
+   end subroutine hanging_pads
+
+   !> What has no film is refused in words.
+   subroutine refusals()
+      type(bearing_model) :: model
+      real(wp), allocatable :: y(:), f(:)
+      logical :: ok
+      model = new_bearing_model(paper_scene('tilting_radial', 'none'))
+      allocate (f(model%n))
+      y = model%at_rest([-4e-5_wp, 200e-6_wp], [-2e-4_wp, 1e-3_wp], [7e-6_wp, 7e-6_wp])
+      call model%rhs(0.0_wp, y, f, ok)
+      call expect(.not. ok, 'a closed film is refused')
+      if (.not. ok) call expect(index(model%trouble, 'pad 1') > 0 .and. index(model%trouble, 'closed') > 0, &
+         & 'and says which: '//model%trouble)
+      y = model%at_rest([0.0_wp, 0.0_wp], [0.0_wp, 0.7_wp], [0.0_wp, 0.0_wp])
+      call model%rhs(0.0_wp, y, f, ok)
+      call expect(.not. ok, 'a pad turned over is refused')
+      if (.not. ok) call expect(index(model%trouble, 'pad 2 turned over') > 0, 'and says so: '//model%trouble)
+      call expect(model%evaluations == 2_i8, 'evaluations are counted')
+   end subroutine refusals
+
+   real(wp) function between(low, high)
+      real(wp), intent(in) :: low, high
+      call random_number(between)
+      between = low + (high - low)*between
+   end function between
+end program test_equations_of_motion

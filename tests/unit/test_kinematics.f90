@@ -1,0 +1,215 @@
+!> From journal and pad to their relative motion: against plane geometry, time and state differences.
+program test_kinematics
+   use kinds, only: wp, degree
+   use text, only: to_text
+   use film_solver, only: film_motion
+   use pad_film, only: pad_film_type
+   use kinematics, only: pad_place, pad_frame, frame_of, motion_of, motion_slopes, to_global
+   use check, only: expect, expect_close, report
+   implicit none (type, external)
+
+   !> The paper's bearing: R_J, c_m, c_r, kappa, m.
+   real(wp), parameter :: journal_radius = 49.9e-3_wp, c_m = 100e-6_wp, c_r = 80e-6_wp, kappa = 14e-3_wp
+   real(wp), parameter :: angles(*) = [-45.0_wp, 225.0_wp, 10.0_wp, 90.0_wp, 137.0_wp]
+   integer :: i
+
+   ! the same numbers in every run
+   call random_init(.true., .false.)
+   do i = 1, size(angles)
+      call unloaded(place_at(angles(i)))
+      call directions(place_at(angles(i)))
+      call against_geometry(place_at(angles(i)))
+      call rates(place_at(angles(i)))
+      call slopes(place_at(angles(i)))
+      call global_frame(place_at(angles(i)))
+   end do
+   call report()
+
+contains
+
+   pure type(pad_place) function place_at(angle_deg)
+      real(wp), intent(in) :: angle_deg
+      place_at%angle = angle_deg*degree
+      place_at%sin_angle = sin(place_at%angle)
+      place_at%cos_angle = cos(place_at%angle)
+      place_at%pivot_radius = journal_radius + c_r + kappa
+      place_at%centre_distance = journal_radius + c_m + kappa
+   end function place_at
+
+   pure type(pad_film_type) function film()
+      film = pad_film_type(journal_radius, c_m, 0.1_wp, 40*degree, 30*degree, 19e-3_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+   end function film
+
+   !> Film thickness at angle phi from the pivot, with everything at rest.
+   pure real(wp) function thickness(place, journal, tilt, penetration, phi)
+      type(pad_place), intent(in) :: place
+      real(wp), intent(in) :: journal(2), tilt, penetration, phi
+      type(pad_film_type) :: gap
+      gap = film()
+      thickness = gap%thickness(motion_of(place, frame_of(place, journal, tilt, penetration), [0.0_wp, 0.0_wp], &
+         & 0.0_wp, 0.0_wp), sin(phi), cos(phi))
+   end function thickness
+
+   !> Rounding of differences of lengths of 0.1 m.
+   pure real(wp) function rounding()
+      rounding = 20*epsilon(1.0_wp)*0.1_wp
+   end function rounding
+
+   subroutine unloaded(place)
+      type(pad_place), intent(in) :: place
+      real(wp), parameter :: centre(2) = 0
+      call expect_close(thickness(place, centre, 0.0_wp, 0.0_wp, 0.0_wp), c_r, rounding(), &
+         & 'the assembled clearance at the pivot')
+      ! c_m - (c_m - c_r) cos(phi)
+      call expect_close(thickness(place, centre, 0.0_wp, 0.0_wp, 0.5_wp), c_m - (c_m - c_r)*cos(0.5_wp), rounding(), &
+         & 'preload away from the pivot')
+   end subroutine unloaded
+
+   subroutine directions(place)
+      type(pad_place), intent(in) :: place
+      real(wp), parameter :: centre(2) = 0, step = 10e-6_wp
+      real(wp) :: towards(2), h
+      towards = [place%sin_angle, place%cos_angle]
+      call expect_close(thickness(place, step*towards, 0.0_wp, 0.0_wp, 0.0_wp), c_r - step, rounding(), &
+         & 'the journal towards the pivot thins the film')
+      call expect_close(thickness(place, centre, 0.0_wp, step, 0.0_wp), c_r + step, rounding(), &
+         & 'penetration opens the film')
+      ! tilting by delta carries the journal, seen from the pad, by the pivot's radius times delta along -y':
+      ! h grows by that times sin(phi), to second order in delta
+      h = thickness(place, centre, 1e-4_wp, 0.0_wp, 0.6_wp)
+      call expect_close(h - thickness(place, centre, 0.0_wp, 0.0_wp, 0.6_wp), 1e-4_wp*place%pivot_radius*sin(0.6_wp), &
+         & 0.6e-8_wp*place%pivot_radius, 'positive tilt opens the leading edge')
+      h = thickness(place, centre, 1e-4_wp, 0.0_wp, -0.5_wp)
+      call expect_close(h - thickness(place, centre, 0.0_wp, 0.0_wp, -0.5_wp), &
+         & -1e-4_wp*place%pivot_radius*sin(0.5_wp), 0.6e-8_wp*place%pivot_radius, &
+         & 'positive tilt closes the trailing edge')
+   end subroutine directions
+
+   !> The gap measured in the plane, between a point of the bore and the journal's circle, with the pad
+   !> turned about its pivot. It differs from the thickness by e**2/(2 R_J) and less.
+   subroutine against_geometry(place)
+      type(pad_place), intent(in) :: place
+      real(wp) :: journal(2), tilt, penetration, phi, pivot(2), along(2), outward(2), point(2), gap, allowed, worst
+      integer :: k
+      worst = 0
+      do k = 1, 200
+         journal = [random(60e-6_wp), random(60e-6_wp)]
+         tilt = random(2e-3_wp)
+         penetration = random(20e-6_wp)
+         phi = random(0.6_wp)
+         pivot = (place%pivot_radius + penetration)*[place%sin_angle, place%cos_angle]
+         ! the pad's own directions, turned from the pivot's in the sense of the journal's rotation
+         outward = turned([place%sin_angle, place%cos_angle], tilt)
+         along = turned([place%cos_angle, -place%sin_angle], tilt)
+         point = pivot - place%centre_distance*outward + (journal_radius + c_m)*(sin(phi)*along + cos(phi)*outward)
+         gap = norm2(point - journal) - journal_radius
+         allowed = (norm2(journal) + abs(tilt)*place%centre_distance + abs(penetration) + c_m)**2/(2*journal_radius)
+         worst = max(worst, abs(gap - thickness(place, journal, tilt, penetration, phi))/(allowed + rounding()))
+      end do
+      call expect(worst < 1.01_wp, 'thickness against plane geometry, in units of e**2/(2 R_J): '//to_text(worst))
+   end subroutine against_geometry
+
+   !> Turned by an angle in the sense of the journal's rotation, from +y towards +z.
+   pure function turned(vector, angle)
+      real(wp), intent(in) :: vector(2), angle
+      real(wp) :: turned(2)
+      turned = [vector(1)*cos(angle) - vector(2)*sin(angle), vector(1)*sin(angle) + vector(2)*cos(angle)]
+   end function turned
+
+   !> Velocities are the time derivatives of positions along a path: central differences of a step h have
+   !> an error of h**2/6 of the third derivative (here 1e-10) and rounding 1e-17/h = 1e-12 m/s.
+   subroutine rates(place)
+      type(pad_place), intent(in) :: place
+      real(wp), parameter :: h = 1e-5_wp
+      type(film_motion) :: motion, before, after
+      real(wp) :: worst
+      integer :: k
+      worst = 0
+      do k = 1, 50
+         motion = on_path(place, 0.37_wp*k)
+         before = on_path(place, 0.37_wp*k - h)
+         after = on_path(place, 0.37_wp*k + h)
+         worst = max(worst, maxval(abs((after%position - before%position)/(2*h) - motion%velocity)))
+      end do
+      call expect_close(worst, 0.0_wp, 1e-11_wp, 'velocities are rates of positions')
+   end subroutine rates
+
+   !> The motion at a time on some smooth path with velocities of order 1e-3 and a tilt far from small.
+   pure type(film_motion) function on_path(place, t)
+      type(pad_place), intent(in) :: place
+      real(wp), intent(in) :: t
+      real(wp) :: journal(2), velocity(2), tilt, tilt_rate, penetration, penetration_rate
+      journal = 1e-3_wp*[sin(t), cos(1.3_wp*t)]
+      velocity = 1e-3_wp*[cos(t), -1.3_wp*sin(1.3_wp*t)]
+      tilt = 0.3_wp + 1e-2_wp*sin(0.7_wp*t)
+      tilt_rate = 0.7e-2_wp*cos(0.7_wp*t)
+      penetration = 1e-3_wp*cos(0.9_wp*t)
+      penetration_rate = -0.9e-3_wp*sin(0.9_wp*t)
+      on_path = motion_of(place, frame_of(place, journal, tilt, penetration), velocity, tilt_rate, penetration_rate)
+   end function on_path
+
+   !> Slopes against central differences, each in the unit of its state: the relations are at most
+   !> quadratic but for sines of the tilt, so a step of 1e-4 leaves 1e-9 and rounding 1e-12.
+   subroutine slopes(place)
+      type(pad_place), intent(in) :: place
+      real(wp), parameter :: h = 1e-4_wp
+      real(wp) :: local(8), up(8), down(8), found(4, 8), expected(4)
+      integer :: k, trial
+      character(len=*), parameter :: names(8) = [character(len=16) :: 'y', 'z', 'y rate', 'z rate', 'tilt', &
+         & 'tilt rate', 'penetration', 'penetration rate']
+      do trial = 1, 5
+         do k = 1, 8
+            local(k) = random(1.0_wp)
+         end do
+         local(5) = 0.2_wp*local(5)
+         found = motion_slopes(place, frame_of(place, local(1:2), local(5), local(7)), motion_at(place, local), &
+            & local(6))
+         do k = 1, 8
+            up = local
+            down = local
+            up(k) = up(k) + h
+            down(k) = down(k) - h
+            expected = (as_vector(motion_at(place, up)) - as_vector(motion_at(place, down)))/(2*h)
+            call expect_close(maxval(abs(found(:, k) - expected)), 0.0_wp, 1e-8_wp, 'slopes over '//trim(names(k)))
+         end do
+      end do
+   end subroutine slopes
+
+   pure type(film_motion) function motion_at(place, local)
+      type(pad_place), intent(in) :: place
+      real(wp), intent(in) :: local(8)
+      motion_at = motion_of(place, frame_of(place, local(1:2), local(5), local(7)), local(3:4), local(6), local(8))
+   end function motion_at
+
+   pure function as_vector(motion) result(vector)
+      type(film_motion), intent(in) :: motion
+      real(wp) :: vector(4)
+      vector = [motion%position, motion%velocity]
+   end function as_vector
+
+   !> Eq (5): the pad's y' and z' in global directions, a proper rotation.
+   subroutine global_frame(place)
+      type(pad_place), intent(in) :: place
+      type(pad_frame) :: frame
+      real(wp) :: along(2), outward(2), a
+      real(wp), parameter :: small = 10*epsilon(1.0_wp)
+      frame = frame_of(place, [1e-5_wp, 2e-5_wp], 0.1_wp, 0.0_wp)
+      a = place%angle - 0.1_wp
+      along = to_global(frame, [1.0_wp, 0.0_wp])
+      outward = to_global(frame, [0.0_wp, 1.0_wp])
+      call expect_close(norm2(along - [cos(a), -sin(a)]), 0.0_wp, small, 'y'' in global directions')
+      call expect_close(norm2(outward - [sin(a), cos(a)]), 0.0_wp, small, 'z'' in global directions')
+      call expect_close(dot_product(along, outward), 0.0_wp, small, 'directions are orthogonal')
+      call expect_close(along(1)*outward(2) - along(2)*outward(1), 1.0_wp, small, 'directions turn, and do not mirror')
+      ! what frame_of measured is the journal seen from the pivot
+      call expect_close(norm2(to_global(frame, [frame%along, frame%outward]) - ([1e-5_wp, 2e-5_wp] &
+         & - place%pivot_radius*[place%sin_angle, place%cos_angle])), 0.0_wp, small, 'the journal seen from the pivot')
+   end subroutine global_frame
+
+   !> Between -size and size.
+   real(wp) function random(size)
+      real(wp), intent(in) :: size
+      call random_number(random)
+      random = size*(2*random - 1)
+   end function random
+end program test_kinematics

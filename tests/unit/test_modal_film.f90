@@ -1,0 +1,249 @@
+!> The film by axial modes, and the solver that chooses: slopes, boundary pressures, tails, rupture.
+program test_modal_film
+   use kinds, only: wp, pi, degree
+   use text, only: to_text
+   use film_solver, only: film_motion, film_response, film_ok, film_closed
+   use pad_film, only: pad_film_type
+   use modal_film, only: modal_film_type, new_modal_film
+   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_gumbel, &
+      & cavitation_reynolds
+   use auto_film, only: auto_film_type, new_auto_film
+   use check, only: expect, expect_close, report
+   implicit none (type, external)
+
+   real(wp), parameter :: speed = 680, clearance = 100e-6_wp, theta_1 = 40*degree, theta_2 = 30*degree
+   integer :: i
+
+   ! the same numbers in every run
+   call random_init(.true., .false.)
+   call slopes()
+   do i = 0, 3
+      call heated_edge(2**i)
+   end do
+   call few_modes()
+   call uniform_pressure()
+   call shifted_pressures()
+   call gumbel_clips()
+   call closed_film()
+   call choice()
+   call report()
+
+contains
+
+   !> The paper's pad with its pivot off the middle; pressures at the leading edge, elsewhere, at rupture.
+   pure type(pad_film_type) function pad(supply, ambient, rupture)
+      real(wp), intent(in) :: supply, ambient, rupture
+      pad = pad_film_type(49.9e-3_wp, clearance, 0.1_wp, theta_1, theta_2, 19e-3_wp, supply, ambient, rupture)
+   end function pad
+
+   type(film_motion) function random_motion()
+      random_motion%position = clearance*[between(-0.5_wp, 0.2_wp), between(0.0_wp, 0.6_wp)]
+      random_motion%velocity = clearance*speed*[between(-0.1_wp, 0.1_wp), between(-0.1_wp, 0.1_wp)]
+   end function random_motion
+
+   !> One pad's answer.
+   type(film_response) function answer(solver, motion, at_speed)
+      type(modal_film_type), intent(inout) :: solver
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: at_speed
+      type(film_response) :: all(1)
+      call solver%evaluate([motion], at_speed, .true., all)
+      answer = all(1)
+   end function answer
+
+   !> Five-point differences with a step of 1e-3 of the clearance (and of it times the speed): an error of
+   !> 1e-12 times the fifth derivative, 4**5 times some 10; rounding of a direct solution 1e-14/1e-3.
+   subroutine slopes()
+      real(wp), parameter :: h = 1e-3_wp, offsets(4) = [-2*h, -h, h, 2*h]
+      real(wp), parameter :: weights(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/(12*h)
+      type(modal_film_type) :: solver
+      type(film_motion) :: motion, moved
+      type(film_response) :: r, at(4)
+      real(wp) :: scale(4), expected(2), worst
+      integer :: trial, column, k
+      solver = new_modal_film([pad(2e5_wp, 1e5_wp, 0.0_wp)], 24, 8, gumbel=.false.)
+      scale = clearance*[1.0_wp, 1.0_wp, speed, speed]
+      worst = 0
+      do trial = 1, 20
+         motion = random_motion()
+         r = answer(solver, motion, speed)
+         do column = 1, 4
+            do k = 1, 4
+               moved = shifted(motion, offsets(k)*scale*unit(column))
+               at(k) = answer(solver, moved, speed)
+            end do
+            expected = [sum(weights*at%force(1)), sum(weights*at%force(2))]
+            worst = max(worst, maxval(abs(r%slope(:, column)*scale(column) - expected))/norm2(expected))
+         end do
+      end do
+      call expect_close(worst, 0.0_wp, 1e-7_wp, 'slopes of the modes')
+   end subroutine slopes
+
+   !> The column-th unit vector of motions.
+   pure function unit(column)
+      integer, intent(in) :: column
+      real(wp) :: unit(4)
+      unit = 0
+      unit(column) = 1
+   end function unit
+
+   pure type(film_motion) function shifted(motion, step)
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: step(4)
+      shifted = film_motion(motion%position + step(1:2), motion%velocity + step(3:4))
+   end function shifted
+
+   !> A higher pressure at the leading edge, nothing else, on an even film: like heat in a plate. Mode by
+   !> mode u = sinh(Lambda (phi + theta_2))/sinh(Lambda arc), whose integrals are closed; 2000 of them leave
+   !> 1e-7. The tail of the solver has the edge layers to first order, c_m/Lambda_m, and lacks the second,
+   !> c_m/Lambda_m**2: beyond M modes 0.6 sum m**-4 over odd m > 2 M, 0.013/M**3 of the force.
+   subroutine heated_edge(modes)
+      integer, intent(in) :: modes
+      real(wp), parameter :: rise = 3e5_wp, length = 0.1_wp, radius = 50e-3_wp
+      type(modal_film_type) :: solver
+      type(film_response) :: r
+      real(wp) :: exact(2), lambda, decay
+      integer :: k
+      exact = 0
+      do k = 1, 4001, 2
+         lambda = radius*k*pi/length
+         decay = exp(-lambda*(theta_1 + theta_2))
+         exact = exact - radius*8*length/(k*pi)**2*rise/(1 - decay**2) &
+            & *(integral(lambda, theta_1) - decay*integral(lambda, -theta_2) &
+            & - decay**2*integral(-lambda, theta_1) + decay*integral(-lambda, -theta_2))
+      end do
+      solver = new_modal_film([pad(rise, 0.0_wp, 0.0_wp)], 96, modes, gumbel=.false.)
+      r = answer(solver, film_motion([0.0_wp, 0.0_wp]), 0.0_wp)
+      call expect_close(norm2(r%force - exact), 0.0_wp, 0.02_wp/modes**3*norm2(exact), 'pressure at the edge, modes ' &
+         & //to_text(modes))
+   end subroutine heated_edge
+
+   !> Integral of exp(lambda (phi - x)) (sin, cos)(phi) up to x.
+   pure function integral(lambda, x)
+      real(wp), intent(in) :: lambda, x
+      real(wp) :: integral(2)
+      integral = [lambda*sin(x) - cos(x), lambda*cos(x) + sin(x)]/(lambda**2 + 1)
+   end function integral
+
+   !> The closed form of the tail stands for the modes left out: wedge and squeeze with one to four modes
+   !> against twelve, on 96 cells. The narrow-pad limit of mode m has an error of (1/Lambda_m)**2 of its own
+   !> c_m/Lambda_m**2, that is m**-6: 1e-2 for all but the first, 1e-3 and 1e-4 for all but two and four, and room for
+   !> another once.
+   subroutine few_modes()
+      type(modal_film_type) :: solver
+      type(film_response) :: most, few
+      type(film_motion) :: motion
+      integer :: k
+      motion = film_motion([-2e-5_wp, 4e-5_wp], [1e-3_wp, -2e-3_wp])
+      solver = new_modal_film([pad(0.0_wp, 0.0_wp, 0.0_wp)], 96, 12, gumbel=.false.)
+      most = answer(solver, motion, speed)
+      do k = 0, 2
+         solver = new_modal_film([pad(0.0_wp, 0.0_wp, 0.0_wp)], 96, 2**k, gumbel=.false.)
+         few = answer(solver, motion, speed)
+         call expect_close(norm2(few%force - most%force), 0.0_wp, 2*0.1_wp**(k + 2)*norm2(most%force), &
+            & 'tail of modes beyond '//to_text(2**k))
+      end do
+   end subroutine few_modes
+
+   !> At rest in one pressure: the force of that pressure, by Simpson's rule to (d/2)**4/180 = 1e-9.
+   subroutine uniform_pressure()
+      real(wp), parameter :: p = 3e5_wp
+      type(modal_film_type) :: solver
+      type(film_response) :: r
+      real(wp) :: exact(2)
+      solver = new_modal_film([pad(p, p, 0.0_wp)], 24, 8, gumbel=.false.)
+      r = answer(solver, film_motion([-2e-5_wp, 4e-5_wp]), 0.0_wp)
+      exact = -p*0.1_wp*50e-3_wp*[cos(theta_2) - cos(theta_1), sin(theta_1) + sin(theta_2)]
+      call expect_close(norm2(r%force - exact), 0.0_wp, 1e-7_wp*norm2(exact), 'force of a uniform pressure')
+      call expect_close(r%max_pressure, p, 1e-12_wp*p, 'highest pressure')
+      call expect_close(r%min_pressure, p, 1e-12_wp*p, 'lowest pressure')
+   end subroutine uniform_pressure
+
+   !> A constant on all pressures is a constant on the film.
+   subroutine shifted_pressures()
+      real(wp), parameter :: shift = 5e5_wp
+      type(modal_film_type) :: solver
+      type(film_response) :: low, high
+      real(wp) :: force(2)
+      type(film_motion), parameter :: motion = film_motion([-1e-5_wp, 5e-5_wp], [1e-3_wp, -2e-3_wp])
+      solver = new_modal_film([pad(2e5_wp, 1e5_wp, 0.0_wp)], 24, 8, gumbel=.false.)
+      low = answer(solver, motion, speed)
+      solver = new_modal_film([pad(2e5_wp + shift, 1e5_wp + shift, shift)], 24, 8, gumbel=.false.)
+      high = answer(solver, motion, speed)
+      force = -shift*0.1_wp*50e-3_wp*[cos(theta_2) - cos(theta_1), sin(theta_1) + sin(theta_2)]
+      call expect_close(norm2(high%force - low%force - force), 0.0_wp, 1e-7_wp*norm2(force), &
+         & 'force of raised pressures')
+      call expect_close(high%max_pressure - low%max_pressure, shift, 1e-10_wp*shift, 'highest of raised pressures')
+      call expect_close(high%min_pressure - low%min_pressure, shift, 1e-10_wp*shift, 'lowest of raised pressures')
+      call expect_close(norm2(high%slope - low%slope), 0.0_wp, 1e-9_wp*norm2(low%slope), 'slopes of raised pressures')
+   end subroutine shifted_pressures
+
+   !> Guembel's condition takes the tension away: nothing where there is none, and what a fine clipped
+   !> over-relaxation takes where there is, within the cells that the edge of the film falls into: 1 % of the
+   !> force at most.
+   subroutine gumbel_clips()
+      type(modal_film_type) :: whole, clipped
+      type(sor_film_type) :: fine
+      type(film_response) :: r, r_clipped, r_fine
+      type(film_motion), parameter :: pressed = film_motion([-3e-5_wp, 5e-5_wp], [0.0_wp, 2e-3_wp])
+      type(film_motion), parameter :: torn = film_motion([1e-5_wp, 5e-5_wp], [0.0_wp, 0.0_wp])
+      whole = new_modal_film([pad(1e5_wp, 1e5_wp, 0.0_wp)], 24, 8, gumbel=.false.)
+      clipped = new_modal_film([pad(1e5_wp, 1e5_wp, 0.0_wp)], 24, 8, gumbel=.true.)
+      r = answer(whole, pressed, speed)
+      r_clipped = answer(clipped, pressed, speed)
+      call expect(r%min_pressure > 0, 'a pressed film is whole')
+      call expect_close(norm2(r%force - r_clipped%force), 0.0_wp, 1e-12_wp*norm2(r%force), 'nothing to clip')
+      r = answer(whole, torn, speed)
+      r_clipped = answer(clipped, torn, speed)
+      fine = new_sor_film([pad(1e5_wp, 1e5_wp, 0.0_wp)], sor_options(120, 30, tolerance=1e-8_wp, &
+         & cavitation=cavitation_gumbel))
+      call fine%evaluate_pad(1, torn, speed, .false., r_fine)
+      call expect(-r_clipped%force(2) > -r%force(2), 'clipping takes tension away')
+      call expect_close(norm2(r_clipped%force - r_fine%force), 0.0_wp, 1e-2_wp*norm2(r_fine%force), &
+         & 'clipped modes against clipped cells')
+   end subroutine gumbel_clips
+
+   subroutine closed_film()
+      type(modal_film_type) :: solver
+      type(film_response) :: r
+      solver = new_modal_film([pad(0.0_wp, 0.0_wp, 0.0_wp)], 24, 8, gumbel=.false.)
+      r = answer(solver, film_motion([0.0_wp, 1.1_wp*clearance]), speed)
+      call expect(r%status == film_closed, 'a journal in the pad closes the film')
+      call expect_close(r%min_film, -0.1_wp*clearance, 1e-18_wp, 'by how much')
+      r = answer(solver, film_motion([0.0_wp, 0.5_wp*clearance]), speed)
+      call expect(r%status == film_ok, 'the film opens again')
+   end subroutine closed_film
+
+   !> The solver that chooses gives the modes' answer to a whole film and the cells' to a ruptured one, pad
+   !> by pad.
+   subroutine choice()
+      type(pad_film_type) :: films(2)
+      type(auto_film_type) :: auto
+      type(modal_film_type) :: modal
+      type(sor_film_type) :: sor
+      type(sor_options) :: options
+      type(film_response) :: r(2), by_modes(2), by_cells
+      type(film_motion) :: motion(2)
+      films = pad(0.0_wp, 0.0_wp, 0.0_wp)
+      options = sor_options(24, 6, tolerance=1e-8_wp, cavitation=cavitation_reynolds)
+      auto = new_auto_film(films, 24, 8, options)
+      modal = new_modal_film(films, 24, 8, gumbel=.false.)
+      sor = new_sor_film(films, options)
+      motion = [film_motion([-3e-5_wp, 5e-5_wp], [0.0_wp, 2e-3_wp]), film_motion([5e-6_wp, 5e-5_wp])]
+      call auto%evaluate(motion, speed, .true., r)
+      call modal%evaluate(motion, speed, .true., by_modes)
+      call sor%evaluate_pad(2, motion(2), speed, .true., by_cells)
+      call expect_close(norm2(r(1)%force - by_modes(1)%force), 0.0_wp, 0.0_wp, 'modes for the whole film')
+      call expect(by_modes(2)%min_pressure < 0 .and. by_modes(2)%max_pressure > 0, 'one film is torn in part')
+      call expect_close(norm2(r(2)%force - by_cells%force), 0.0_wp, 0.0_wp, 'cells for the ruptured one')
+      call expect_close(norm2(r(2)%slope - by_cells%slope), 0.0_wp, 0.0_wp, 'with their slopes')
+      call expect(auto%counters%sor == 1 .and. auto%counters%modal == 1, 'each is counted')
+      call expect(auto%counters%sweeps == sor%counters%sweeps, 'and so are the sweeps')
+   end subroutine choice
+
+   real(wp) function between(low, high)
+      real(wp), intent(in) :: low, high
+      call random_number(between)
+      between = low + (high - low)*between
+   end function between
+end program test_modal_film

@@ -1,0 +1,204 @@
+!> Namelist text into assignments: what it reads, where it says things stand, and what it refuses.
+program test_namelist_text
+   use text, only: to_text
+   use errors, only: error_type, input_error
+   use namelist_text, only: namelist_type, parse_namelist, parse_override
+   use check, only: expect, report
+   implicit none (type, external)
+
+   character(len=*), parameter :: newline = achar(10), return = achar(13), tab = achar(9)
+
+   call plain()
+   call separators()
+   call quotes()
+   call subscripts_and_repeats()
+   call endings()
+   call places()
+   call overrides()
+   call refused()
+   call refused_overrides()
+   call report()
+
+contains
+
+   !> Parses text that must be good.
+   subroutine parse(text, found)
+      character(len=*), intent(in) :: text
+      type(namelist_type), intent(out) :: found
+      type(error_type), allocatable :: error
+      call parse_namelist(text, 'case.nml', found, error)
+      call expect(.not. allocated(error), 'accepted: '//text)
+      if (allocated(error)) call expect(.false., '   but: '//error%message)
+   end subroutine parse
+
+   !> Assignment i is group%name = the values, joined by bars; quoted ones in quotes.
+   subroutine expect_assignment(found, i, expected)
+      type(namelist_type), intent(in) :: found
+      integer, intent(in) :: i
+      character(len=*), intent(in) :: expected
+      character(len=:), allocatable :: as_text
+      integer :: k
+      call expect(i <= size(found%assignments), 'assignment '//to_text(i)//' is there')
+      if (i > size(found%assignments)) return
+      associate (a => found%assignments(i))
+         as_text = a%group//'%'//a%name
+         if (a%subscript > 0) as_text = as_text//'('//to_text(a%subscript)//')'
+         as_text = as_text//'='
+         do k = 1, size(a%values)
+            if (k > 1) as_text = as_text//'|'
+            if (a%values(k)%quoted) then
+               as_text = as_text//'"'//a%values(k)%text//'"'
+            else
+               as_text = as_text//a%values(k)%text
+            end if
+         end do
+      end associate
+      call expect(as_text == expected .and. len(as_text) == len(expected), expected//' came out as '//as_text)
+   end subroutine expect_assignment
+
+   subroutine plain()
+      type(namelist_type) :: found
+      call parse('&rotor mass = 2000 unbalance=0.01 /'//newline//'&film solver = ''sor'' /', found)
+      call expect(size(found%groups) == 2 .and. size(found%assignments) == 3, 'two groups, three assignments')
+      call expect(found%groups(1)%group == 'rotor' .and. found%groups(2)%group == 'film', 'names of groups')
+      call expect_assignment(found, 1, 'rotor%mass=2000')
+      call expect_assignment(found, 2, 'rotor%unbalance=0.01')
+      call expect_assignment(found, 3, 'film%solver="sor"')
+      call parse('&film'//newline//'/'//newline, found)
+      call expect(size(found%groups) == 1 .and. size(found%assignments) == 0, 'an empty group')
+   end subroutine plain
+
+   !> Blanks, tabs, commas, line ends of either kind, comments, capitals.
+   subroutine separators()
+      type(namelist_type) :: found
+      call parse('! head / & ''quote'//newline//'&ROTOR'//return//newline//tab//'Mass=1,'//return//newline &
+         & //'static_LOAD = 1.0,'//tab//'2D0 ! a comment, with / and &end and = '//return//newline//'/' &
+         & //return//newline, &
+         & found)
+      call expect_assignment(found, 1, 'rotor%mass=1')
+      call expect_assignment(found, 2, 'rotor%static_load=1.0|2D0')
+      call parse('&a x=1,y=2,/', found)
+      call expect_assignment(found, 2, 'a%y=2')
+      call parse('&a x = 1 '//newline//' 2'//newline//',3'//newline//'y = 4/ &b z=5/', found)
+      call expect_assignment(found, 1, 'a%x=1|2|3')
+      call expect_assignment(found, 2, 'a%y=4')
+      call expect_assignment(found, 3, 'b%z=5')
+      call parse('&a x = 1!comment'//newline//'/! the end', found)
+      call expect_assignment(found, 1, 'a%x=1')
+   end subroutine separators
+
+   !> Whatever stands in quotes is text; a doubled quote is one.
+   subroutine quotes()
+      type(namelist_type) :: found
+      call parse('&case title = ''a/b ! c & d = e, "f"'' task="it''s"/', found)
+      call expect_assignment(found, 1, 'case%title="a/b ! c & d = e, "f""')
+      call expect_assignment(found, 2, 'case%task="it''s"')
+      call parse('&case title = ''it''''s ''''quoted'''''', b = "a""b", c = '''', d = '' two  blanks ''/', found)
+      call expect_assignment(found, 1, 'case%title="it''s ''quoted''"')
+      call expect_assignment(found, 2, 'case%b="a"b"')
+      call expect_assignment(found, 3, 'case%c=""')
+      call expect_assignment(found, 4, 'case%d=" two  blanks "')
+   end subroutine quotes
+
+   subroutine subscripts_and_repeats()
+      type(namelist_type) :: found
+      call parse('&pads mass(2) = 0.9, arc_deg = 3*1.0, 2*69.3 pivot_ratio(1)=.5 pivot_ratio(02) = +5.E-1/', found)
+      call expect_assignment(found, 1, 'pads%mass(2)=0.9')
+      call expect_assignment(found, 2, 'pads%arc_deg=3*1.0|2*69.3')
+      call expect_assignment(found, 3, 'pads%pivot_ratio(1)=.5')
+      call expect_assignment(found, 4, 'pads%pivot_ratio(2)=+5.E-1')
+   end subroutine subscripts_and_repeats
+
+   subroutine endings()
+      type(namelist_type) :: found
+      call parse('&a x=1 &end &b y=2 &END', found)
+      call expect_assignment(found, 1, 'a%x=1')
+      call expect_assignment(found, 2, 'b%y=2')
+      call parse('&a x=1/,&b y=2/', found)
+      call expect_assignment(found, 2, 'b%y=2')
+   end subroutine endings
+
+   !> Every group and assignment knows its line.
+   subroutine places()
+      type(namelist_type) :: found
+      call parse(newline//'! comment'//newline//'&a'//return//newline//'  x = 1,'//newline//'      2'//newline &
+         & //'  y = ''z'' /', found)
+      call expect(found%groups(1)%place == 'case.nml line 3', 'line of the group: '//found%groups(1)%place)
+      call expect(found%assignments(1)%place == 'case.nml line 4', 'line of x: '//found%assignments(1)%place)
+      call expect(found%assignments(2)%place == 'case.nml line 6', 'line of y: '//found%assignments(2)%place)
+   end subroutine places
+
+   !> An override takes the place of what the file says of the same element, and adds to the rest.
+   subroutine overrides()
+      type(namelist_type) :: found
+      type(error_type), allocatable :: error
+      call parse('&a x=1 y=2/', found)
+      call parse_override('A%X = 3', found, error)
+      call expect(.not. allocated(error), 'an override')
+      call expect(size(found%assignments) == 2, 'replaces')
+      call expect_assignment(found, 1, 'a%y=2')
+      call expect_assignment(found, 2, 'a%x=3')
+      call expect(found%assignments(2)%place == '--set', 'and says where it comes from')
+      call parse_override('b%title=''a/b''', found, error)
+      call expect_assignment(found, 3, 'b%title="a/b"')
+      call parse_override('a%y(2)=1,2', found, error)
+      call expect_assignment(found, 4, 'a%y(2)=1|2')
+      call expect(size(found%assignments) == 4, 'another element is another assignment')
+   end subroutine overrides
+
+   !> The message names file and line and has the words.
+   subroutine expect_refused(text, words)
+      character(len=*), intent(in) :: text, words
+      type(namelist_type) :: found
+      type(error_type), allocatable :: error
+      call parse_namelist(text, 'case.nml', found, error)
+      call expect(allocated(error), 'refused: '//text)
+      if (.not. allocated(error)) return
+      call expect(error%status == input_error, 'an error of the input')
+      call expect(index(error%message, 'case.nml') == 1, 'names the file: '//error%message)
+      call expect(index(error%message, words) > 0, 'says "'//words//'": '//error%message)
+   end subroutine expect_refused
+
+   subroutine refused()
+      call expect_refused('', 'no namelist group')
+      call expect_refused('! nothing'//newline, 'no namelist group')
+      call expect_refused('x = 1', 'outside a group')
+      call expect_refused('&a x = 1', 'not closed by /')
+      call expect_refused('&a'//newline//'x = 1'//newline//'&b y = 2 /', 'line 1: group &a is not closed')
+      call expect_refused('&a /'//newline//'&A /', 'line 2: group &a is given twice, first at case.nml line 1')
+      call expect_refused('&a x=1'//newline//'X=2/', 'line 2: a%x is given twice, first at case.nml line 1')
+      call expect_refused('&a x(1)=1 x(01)=2/', 'given twice')
+      call expect_refused('&a x=/', 'a value is missing')
+      call expect_refused('&a x= y=1/', 'a value is missing')
+      call expect_refused('&a x=,1/', 'a value is missing')
+      call expect_refused('&a x=1,,2/', 'a value is missing')
+      call expect_refused('&a x/', 'expected name = value')
+      call expect_refused('&a =1/', 'expected name = value')
+      call expect_refused('&a x()=1/', 'expected name = value')
+      call expect_refused('&a x(0)=1/', 'expected name = value')
+      call expect_refused('&a x(-1)=1/', 'expected name = value')
+      call expect_refused('&a x(1:2)=1/', 'expected name = value')
+      call expect_refused('&a x(1=1/', 'expected name = value')
+      call expect_refused('&a x(99999)=1/', 'expected name = value')
+      call expect_refused('&a b%c=1/', 'expected name = value')
+      call expect_refused('&a x=''open/', 'quote is not closed')
+      call expect_refused('&a'//newline//'x=''open'//newline//'''/', 'line 2: a%x: the quote is not closed')
+      call expect_refused('&a x=1'//achar(0)//'/', 'control character')
+      call expect_refused(char(137)//'HDF'//newline//return//newline//achar(26), 'not a text file')
+   end subroutine refused
+
+   subroutine refused_overrides()
+      character(len=*), parameter :: wrong(*) = [character(len=12) :: 'x=1', '%x=1', 'a%x', 'a%=1', 'a%x=', &
+         & 'a%x=1 y=2', 'a%x=1/ 2', '=a%x', 'a%x=''b']
+      type(namelist_type) :: found
+      type(error_type), allocatable :: error
+      integer :: i
+      call parse('&a x=1/', found)
+      do i = 1, size(wrong)
+         call parse_override(trim(wrong(i)), found, error)
+         call expect(allocated(error), 'refused: --set '//trim(wrong(i)))
+         if (allocated(error)) call expect(index(error%message, '--set') == 1, 'names the option: '//error%message)
+      end do
+      call expect(size(found%assignments) == 1, 'and changes nothing')
+   end subroutine refused_overrides
+end program test_namelist_text

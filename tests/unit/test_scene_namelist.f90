@@ -1,0 +1,329 @@
+!> Scenes from text and back: defaults, one value for all pads, ranges, round trip to the last bit.
+module scene_probes
+   use kinds, only: wp
+   use scene_fields, only: field_visitor, range_type
+   implicit none (type, external)
+   private
+   public :: collector, shaker
+
+   !> Keeps every number and word in order.
+   type, extends(field_visitor) :: collector
+      real(wp), allocatable :: numbers_found(:)
+      character(len=:), allocatable :: words_found
+   contains
+      procedure :: group => collect_group
+      procedure :: word => collect_word
+      procedure :: whole => collect_whole
+      procedure :: numbers => collect_numbers
+      procedure :: per_pad => collect_per_pad
+   end type collector
+
+   !> Takes up to a thousandth off every real, so that all its bits count.
+   type, extends(collector) :: shaker
+   contains
+      procedure :: numbers => shake_numbers
+   end type shaker
+
+contains
+
+   subroutine collect_group(self, name, meaning)
+      class(collector), intent(inout) :: self
+      character(len=*), intent(in) :: name, meaning
+      if (.not. allocated(self%words_found)) then
+         self%words_found = ''
+         allocate (self%numbers_found(0))
+      end if
+      self%words_found = self%words_found//'&'//name
+   end subroutine collect_group
+
+   subroutine collect_word(self, name, value, choices, meaning)
+      class(collector), intent(inout) :: self
+      character(len=*), intent(in) :: name, choices, meaning
+      character(len=:), allocatable, intent(inout) :: value
+      self%words_found = self%words_found//'|'//value//'|'
+   end subroutine collect_word
+
+   subroutine collect_whole(self, name, value, allowed, meaning)
+      class(collector), intent(inout) :: self
+      character(len=*), intent(in) :: name, meaning
+      integer, intent(inout) :: value
+      type(range_type), intent(in) :: allowed
+      self%numbers_found = [self%numbers_found, real(value, wp)]
+   end subroutine collect_whole
+
+   subroutine collect_numbers(self, name, values, allowed, unit, meaning)
+      class(collector), intent(inout) :: self
+      character(len=*), intent(in) :: name, unit, meaning
+      real(wp), intent(inout) :: values(:)
+      type(range_type), intent(in) :: allowed
+      self%numbers_found = [self%numbers_found, values]
+   end subroutine collect_numbers
+
+   subroutine collect_per_pad(self, name, values, fixes_pads, allowed, unit, meaning)
+      class(collector), intent(inout) :: self
+      character(len=*), intent(in) :: name, unit, meaning
+      real(wp), allocatable, intent(inout) :: values(:)
+      logical, intent(in) :: fixes_pads
+      type(range_type), intent(in) :: allowed
+      call self%numbers(name, values, allowed, unit, meaning)
+   end subroutine collect_per_pad
+
+   subroutine shake_numbers(self, name, values, allowed, unit, meaning)
+      class(shaker), intent(inout) :: self
+      character(len=*), intent(in) :: name, unit, meaning
+      real(wp), intent(inout) :: values(:)
+      type(range_type), intent(in) :: allowed
+      real(wp) :: share(size(values))
+      call random_number(share)
+      values = values*(1 - 1e-3_wp*share)
+   end subroutine shake_numbers
+end module scene_probes
+
+program test_scene_namelist
+   use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_overflow
+   use kinds, only: wp, i8
+   use text, only: to_text
+   use errors, only: error_type, input_error
+   use scene, only: scene_type
+   use scene_fields, only: visit_scene
+   use scene_namelist, only: scene_from_text, scene_text, read_scene
+   use scene_probes, only: collector, shaker
+   use check, only: expect, expect_close, report
+   implicit none (type, external)
+
+   character(len=*), parameter :: newline = achar(10)
+   integer :: i
+
+   ! the same numbers in every run
+   call random_init(.true., .false.)
+   call paper_tables()
+   call one_value_for_all_pads()
+   call each_pad_its_own()
+   call words_and_numbers()
+   call overrides()
+   do i = 1, 10
+      call round_trip()
+   end do
+   call awkward_titles()
+   call refused_values()
+   call refused_scenes()
+   call files()
+   call report()
+
+contains
+
+   !> A scene from text that must be good.
+   type(scene_type) function scene_of(text) result(scene)
+      character(len=*), intent(in) :: text
+      type(error_type), allocatable :: error
+      call scene_from_text(text, 'case.nml', [character(len=1) ::], scene, error)
+      call expect(.not. allocated(error), 'accepted: '//text)
+      if (allocated(error)) call expect(.false., '   but: '//error%message)
+   end function scene_of
+
+   subroutine expect_list(found, expected, what)
+      real(wp), intent(in) :: found(:), expected(:)
+      character(len=*), intent(in) :: what
+      call expect(size(found) == size(expected), 'how many: '//what)
+      if (size(found) == size(expected)) call expect_close(maxval(abs(found - expected)), 0.0_wp, 0.0_wp, what)
+   end subroutine expect_list
+
+   !> An empty group gives Tables 1 and 2 of the paper.
+   subroutine paper_tables()
+      type(scene_type) :: s
+      s = scene_of('&case /')
+      call expect_list([s%bearing%journal_radius, s%bearing%machined_clearance, s%bearing%assembled_clearance, &
+         & s%bearing%axial_length, s%bearing%viscosity], [49.9e-3_wp, 100e-6_wp, 80e-6_wp, 100e-3_wp, 19e-3_wp], &
+         & 'Table 1: bearing')
+      call expect_list([s%bearing%supply_pressure, s%bearing%ambient_pressure, s%bearing%cavitation_pressure], &
+         & [0.0_wp, 0.0_wp, 0.0_wp], 'pressures')
+      call expect_list(s%pads%pivot_angle_deg, [-45.0_wp, 225.0_wp], 'load between the two lower pads')
+      call expect_list(s%pads%arc_deg, [69.3_wp, 69.3_wp], 'Table 1: angular pad length')
+      call expect_list(s%pads%pivot_ratio, [0.5_wp, 0.5_wp], 'Table 1: pivot ratio')
+      call expect_list(s%pads%pivot_distance, [14e-3_wp, 14e-3_wp], 'Table 1: kappa')
+      call expect_list(s%pads%mass, [0.8108_wp, 0.8108_wp], 'Table 1: pad mass')
+      call expect_list(s%pads%inertia, [4.055e-4_wp, 4.055e-4_wp], 'Table 1: pad inertia')
+      call expect_list(s%pads%centre_tangential, [0.0_wp, 0.0_wp], 'Table 1: C_xi')
+      call expect_list(s%pads%centre_radial, [-10.1e-3_wp, -10.1e-3_wp], 'Table 1: C_eta')
+      call expect_list([s%rotor%mass, s%rotor%unbalance, s%rotor%gravity, s%unbalance()], &
+         & [2000.0_wp, 0.01_wp, 9.81_wp, 0.01_wp], 'Table 1: rotor')
+      call expect_list([s%pivot%socket_radius, s%pivot%radius_difference, s%pivot%penetration_factor], &
+         & [13e-3_wp, 15e-6_wp, 4.0_wp], 'Table 2: pivot')
+      call expect_list([s%pivot%young_modulus, s%pivot%poisson_ratio], [2.1e11_wp, 2.1e11_wp, 0.3_wp, 0.3_wp], &
+         & 'Table 2: steel')
+      call expect_list([s%friction%decay, s%friction%critical_velocity, s%friction%stribeck_velocity, &
+         & s%friction%stribeck_exponent, s%friction%bristle_stiffness, s%friction%viscous_coefficient, &
+         & s%friction%characteristic_load], [1000.0_wp, 1e-5_wp, 1e-3_wp, 1.0_wp, 1e6_wp, 0.0_wp, 1e4_wp], &
+         & 'Table 2: friction')
+      call expect_list([s%operation%speed_rpm, s%operation%final_speed_rpm, s%operation%duration], &
+         & [6500.0_wp, 6500.0_wp, 2.0_wp], 'steady running for 2 s')
+      call expect(s%pads%motion == 'tilting_radial' .and. s%pivot%law == 'fang' .and. s%about%task == 'march', 'words')
+      call expect_list(s%load(), [-2000*9.81_wp, 0.0_wp], 'load')
+   end subroutine paper_tables
+
+   subroutine one_value_for_all_pads()
+      type(scene_type) :: s
+      s = scene_of('&pads pivot_angle_deg = -45, 45, 135, 225, mass = 0.9, arc_deg = 4*60. pivot_ratio = 1*0.6 /')
+      call expect(s%pad_count() == 4, 'as many pads as angles')
+      call expect_list(s%pads%mass, spread(0.9_wp, 1, 4), 'one value for all pads')
+      call expect_list(s%pads%arc_deg, spread(60.0_wp, 1, 4), 'a repeat for all pads')
+      call expect_list(s%pads%pivot_ratio, spread(0.6_wp, 1, 4), 'a repeat of one')
+      call expect_list(s%pads%inertia, spread(4.055e-4_wp, 1, 4), 'defaults for all pads')
+      s = scene_of('&pads pivot_angle_deg = -90 /')
+      call expect(s%pad_count() == 1 .and. size(s%pads%centre_radial) == 1, 'a single pad')
+   end subroutine one_value_for_all_pads
+
+   subroutine each_pad_its_own()
+      type(scene_type) :: s
+      s = scene_of('&pads mass(2) = 0.7, arc_deg(1) = 50, 55, pivot_ratio = 0.5, 0.6, centre_tangential = 1e-3 ' &
+         & //'centre_tangential(2) = -1e-3 /')
+      call expect_list(s%pads%mass, [0.8108_wp, 0.7_wp], 'one pad by its subscript')
+      call expect_list(s%pads%arc_deg, [50.0_wp, 55.0_wp], 'values from a subscript on')
+      call expect_list(s%pads%pivot_ratio, [0.5_wp, 0.6_wp], 'one value a pad')
+      call expect_list(s%pads%centre_tangential, [1e-3_wp, -1e-3_wp], 'all pads, then one of them')
+   end subroutine each_pad_its_own
+
+   subroutine words_and_numbers()
+      type(scene_type) :: s
+      s = scene_of('&Friction MODEL = "LuGre" decay=1.D3/'//achar(13) &
+         & //newline//'&rotor static_load(2) = +1.5e+3, mass=1e3,/' &
+         & //newline//'&film circumferential_cells = 40 solver='' sor ''/')
+      call expect(s%friction%model == 'lugre' .and. s%film%solver == 'sor', 'words in capitals and with blanks')
+      call expect_list([s%friction%decay, s%rotor%static_load, s%rotor%mass], [1000.0_wp, 0.0_wp, 1500.0_wp, &
+         & 1000.0_wp], &
+         & 'numbers in several forms')
+      call expect(s%film%circumferential_cells == 40, 'a whole number')
+      s = scene_of('&operation speed_rpm = 1500, final_speed_rpm = 6500, duration = 10/ &rotor balance_grade = 6.3/')
+      call expect_list([s%operation%final_speed_rpm], [6500.0_wp], 'a run-up')
+      ! eq (26): 9549*6.3*2000/6500 g mm
+      call expect_close(s%unbalance(), 0.0185104_wp, 1e-7_wp, 'unbalance by grade')
+   end subroutine words_and_numbers
+
+   subroutine overrides()
+      type(scene_type) :: s
+      type(error_type), allocatable :: error
+      call scene_from_text('&rotor mass = 1/', 'case.nml', [character(len=30) :: 'rotor%mass=1500', &
+         & 'case%title=''a b''', 'rotor%mass=1600'], s, error)
+      call expect(.not. allocated(error), 'overrides')
+      call expect_list([s%rotor%mass], [1600.0_wp], 'the last override stands')
+      call expect(s%about%title == 'a b', 'a group the file lacks')
+      call scene_from_text('&rotor mass = 1/', 'case.nml', ['rotor%mass=-1'], s, error)
+      call expect(allocated(error), 'an override is checked')
+      if (allocated(error)) call expect(index(error%message, '--set') == 1, 'and named: '//error%message)
+   end subroutine overrides
+
+   !> Every real with random last bits: text and back gives the same bits, whatever the writer thinks.
+   subroutine round_trip()
+      type(scene_type) :: scene, back
+      type(shaker) :: shake
+      type(collector) :: before, after
+      type(error_type), allocatable :: error
+      scene = scene_of('&pads pivot_angle_deg = -45, 45, 135, 225 /')
+      scene%rotor%static_load = [1.0_wp/3, -1e7_wp/7]
+      scene%about%title = 'a/b ! it''s "quoted" & more, x = 1  '
+      call visit_scene(scene, shake)
+      call scene_from_text(scene_text(scene), 'scene', [character(len=1) ::], back, error)
+      call expect(.not. allocated(error), 'the text of a scene is accepted')
+      if (allocated(error)) call expect(.false., '   but: '//error%message)
+      call visit_scene(scene, before)
+      call visit_scene(back, after)
+      call expect(before%words_found == after%words_found .and. len(before%words_found) == len(after%words_found), &
+         & 'words come back: '//after%words_found)
+      call expect(size(before%numbers_found) == size(after%numbers_found), 'as many numbers come back')
+      call expect(all(transfer(before%numbers_found, [1_i8]) == transfer(after%numbers_found, [1_i8])), &
+         & 'the same bits come back')
+      call expect(scene_text(back) == scene_text(scene), 'the same text comes back')
+   end subroutine round_trip
+
+   subroutine awkward_titles()
+      character(len=*), parameter :: titles(*) = [character(len=12) :: '''', '''''', '/', '! no', '&end', ' a', '"', &
+         & '=']
+      type(scene_type) :: scene, back
+      type(error_type), allocatable :: error
+      integer :: k
+      scene = scene_type()
+      do k = 1, size(titles)
+         scene%about%title = trim(titles(k))
+         call scene_from_text(scene_text(scene), 'scene', [character(len=1) ::], back, error)
+         call expect(.not. allocated(error), 'title '//trim(titles(k)))
+         if (.not. allocated(error)) call expect(back%about%title == scene%about%title .and. &
+            & len(back%about%title) == len(scene%about%title), 'title '//trim(titles(k))//' comes back')
+      end do
+   end subroutine awkward_titles
+
+   !> The message names the place, the variable and the word.
+   subroutine expect_refused(text, words)
+      character(len=*), intent(in) :: text, words
+      type(scene_type) :: scene
+      type(error_type), allocatable :: error
+      call scene_from_text(text, 'case.nml', [character(len=1) ::], scene, error)
+      call expect(allocated(error), 'refused: '//text)
+      if (.not. allocated(error)) return
+      call expect(error%status == input_error, 'an error of the input')
+      call expect(index(error%message, 'case.nml') == 1, 'names the file: '//error%message)
+      call expect(index(error%message, words) > 0, 'says "'//words//'": '//error%message)
+   end subroutine expect_refused
+
+   subroutine refused_values()
+      call expect_refused('&roter /', 'unknown group &roter')
+      call expect_refused('&rotor'//newline//'m#ss = 1/', 'line 2')
+      call expect_refused('&rotor mas = 1/', 'unknown variable rotor%mas; known: mass')
+      call expect_refused('&rotor mass = heavy/', 'rotor%mass = heavy: must be a number')
+      call expect_refused('&rotor mass = ''1''/', 'must be a number')
+      call expect_refused('&rotor mass = 1+2/', 'must be a number')
+      call expect_refused('&rotor mass = 1e/', 'must be a number')
+      call expect_refused('&rotor mass = 1.2.3/', 'must be a number')
+      call expect_refused('&rotor mass = 0*1/', 'must be a number')
+      call expect_refused('&rotor mass = 1 2/', 'at most 1')
+      call expect_refused('&rotor mass = nan/', 'must be finite')
+      call expect_refused('&rotor mass = -Infinity/', 'must be finite')
+      call expect_refused('&rotor mass = 0/', 'rotor%mass = 0: must be')
+      call expect_refused('&rotor static_load = 1/', 'takes 2 values')
+      call expect_refused('&rotor static_load = 1 2 3/', 'at most 2')
+      call expect_refused('&film axial_cells = 15.5/', 'whole number')
+      call expect_refused('&film axial_cells = 1/', 'must be 2 to 1000')
+      call expect_refused('&friction model = ''coulomb''/', 'must be one of ''none'', ''bengisu_akay'', ''lugre''')
+      call expect_refused('&friction model = ''lugre'' ''none''/', 'takes one text')
+      call expect_refused('&case title = bare/', 'must stand in quotes')
+      call expect_refused('&pads mass = 1 1 1/', 'at most 2')
+      call expect_refused('&pads pivot_angle_deg = 0 120 240 mass = 1 1/', 'one value for all pads or one each (3)')
+      call expect_refused('&pads mass(3) = 1/', 'at most 2')
+      call expect_refused('&pads pivot_angle_deg(2) = 200/', 'without subscript')
+      call expect_refused('&pads pivot_angle_deg = 25*0/', 'at most 24')
+      ! a number beyond the largest: reading it must not stop the test where traps are on
+      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call expect_refused('&rotor mass = 1e999/', 'must be')
+      call ieee_set_halting_mode(ieee_overflow, .true.)
+   end subroutine refused_values
+
+   !> What no single value can tell.
+   subroutine refused_scenes()
+      call expect_refused('&pads pivot_angle_deg = -45, 0/', 'overlap')
+      call expect_refused('&pads inertia = 1e-6/', 'must exceed mass times')
+      call expect_refused('&bearing machined_clearance = 1e-2/', '0.05 of bearing%journal_radius')
+      call expect_refused('&bearing assembled_clearance = 250e-6/', 'at most twice')
+      call expect_refused('&bearing cavitation_pressure = 1e5/', 'must not exceed')
+      call expect_refused('&friction static_coefficient = 0.1 dynamic_coefficient = 0.2/', 'must not exceed')
+      call expect_refused('&pivot law = ''hertz'' radius_difference = 0/', 'must be > 0 for law')
+      call expect_refused('&film circumferential_cells = 41/', 'must be even')
+      call expect_refused('&output start_time = 3/', 'must not exceed operation%duration')
+   end subroutine refused_scenes
+
+   subroutine files()
+      type(scene_type) :: scene
+      type(error_type), allocatable :: error
+      character(len=*), parameter :: name = 'test_scene_namelist.tmp'
+      integer :: unit
+      call read_scene('no/such/file.nml', [character(len=1) ::], scene, error)
+      call expect(allocated(error), 'a missing file')
+      if (allocated(error)) call expect(error%message == 'no/such/file.nml: no such file', error%message)
+      open (newunit=unit, file=name, access='stream', form='unformatted', status='replace', action='write')
+      write (unit) '&rotor mass = 1234 /'
+      close (unit)
+      call read_scene(name, [character(len=1) ::], scene, error)
+      call expect(.not. allocated(error), 'a file without a last line end')
+      call expect_close(scene%rotor%mass, 1234.0_wp, 0.0_wp, 'its value')
+      open (newunit=unit, file=name, status='old')
+      close (unit, status='delete')
+   end subroutine files
+end program test_scene_namelist

@@ -1,0 +1,122 @@
+!> Numbers as text: short text to six digits, exact text to the last bit.
+program test_text
+   use kinds, only: wp, i8
+   use text, only: to_text, exact_text, lower_case
+   use check, only: expect, expect_close, report
+   implicit none (type, external)
+
+   ! the same numbers in every run
+   call random_init(.true., .false.)
+   call whole_numbers()
+   call short_reals()
+   call short_reals_are_close()
+   call exact_round_trip()
+   call exact_special_values()
+   call words()
+   call report()
+
+contains
+
+   subroutine whole_numbers()
+      call expect(to_text(0) == '0', 'to_text(0)')
+      call expect(to_text(-120) == '-120', 'to_text(-120) keeps its zero')
+      call expect(to_text(huge(1_i8)) == '9223372036854775807', 'to_text of the largest long integer')
+      call expect(to_text(-huge(1_i8) - 1) == '-9223372036854775808', 'to_text of the lowest long integer')
+   end subroutine whole_numbers
+
+   subroutine short_reals()
+      call expect_text(0.0_wp, '0')
+      call expect_text(0.1_wp, '0.1')
+      call expect_text(-0.5_wp, '-0.5')
+      call expect_text(100.0_wp, '100')
+      call expect_text(1e-3_wp, '0.001')
+      call expect_text(69.3_wp, '69.3')
+      call expect_text(123456.7_wp, '123457')
+      call expect_text(1.0_wp/3, '0.333333')
+      call expect_text(15e-6_wp, '1.5e-5')
+      call expect_text(2.1e11_wp, '2.1e11')
+      call expect_text(-1e100_wp, '-1e100')
+   end subroutine short_reals
+
+   subroutine expect_text(x, expected)
+      real(wp), intent(in) :: x
+      character(len=*), intent(in) :: expected
+      call expect(to_text(x) == expected, 'to_text '//expected//' came out as '//to_text(x))
+   end subroutine expect_text
+
+   !> Six significant digits: wrong by at most half a unit of the sixth, 5e-6 of the number.
+   subroutine short_reals_are_close()
+      real(wp) :: x, back, worst
+      integer :: e
+      worst = 0
+      do e = -300, 300
+         x = random_mantissa()*10.0_wp**e
+         if (mod(e, 2) == 0) x = -x
+         back = value_of(to_text(x))
+         worst = max(worst, abs(back/x - 1))
+      end do
+      call expect_close(worst, 0.0_wp, 5.0001e-6_wp, 'to_text read back is within half a unit of the sixth digit')
+      call expect_close(value_of(to_text(999999.5_wp)), 999999.5_wp, 5.0_wp, 'to_text rounds up to a million')
+      call expect_close(value_of(to_text(9.999999e-4_wp)), 1e-3_wp, 5e-9_wp, 'to_text rounds up to a thousandth')
+   end subroutine short_reals_are_close
+
+   !> Every exponent a real has, positive and negative, with random last bits: the same bits come back.
+   subroutine exact_round_trip()
+      real(wp) :: x
+      integer :: e, i, wrong, too_long
+      wrong = 0
+      too_long = 0
+      do e = minexponent(x), maxexponent(x)
+         do i = 1, 4
+            x = set_exponent(random_mantissa(), e)
+            if (mod(i, 2) == 0) x = -x
+            if (.not. same_bits(value_of(exact_text(x)), x)) wrong = wrong + 1
+            if (len(exact_text(x)) > 24) too_long = too_long + 1
+         end do
+      end do
+      call expect(wrong == 0, 'exact_text loses bits of '//to_text(wrong)//' numbers')
+      call expect(too_long == 0, 'exact_text has more than seventeen digits, sign and exponent')
+   end subroutine exact_round_trip
+
+   subroutine exact_special_values()
+      real(wp), parameter :: values(*) = [0.0_wp, -0.0_wp, 1.0_wp, 0.1_wp, 1.0_wp/3, 15e-6_wp, &
+         & tiny(1.0_wp), huge(1.0_wp), -huge(1.0_wp), epsilon(1.0_wp), 1 - epsilon(1.0_wp)/2, 2.0_wp**53]
+      integer :: i
+      do i = 1, size(values)
+         call expect(same_bits(value_of(exact_text(values(i))), values(i)), 'exact_text '//exact_text(values(i)))
+      end do
+      ! a number below the normal range
+      call expect(same_bits(value_of(exact_text(transfer(1_i8, 1.0_wp))), transfer(1_i8, 1.0_wp)), &
+         & 'exact_text of the least subnormal number')
+      call expect(exact_text(0.1_wp) == '0.1', 'exact_text is short where short is exact')
+   end subroutine exact_special_values
+
+   subroutine words()
+      character(len=1) :: c
+      integer :: i, changed
+      call expect(lower_case('AbC_z 19%') == 'abc_z 19%', 'lower_case')
+      changed = 0
+      do i = 0, 127
+         c = lower_case(achar(i))
+         if (c /= achar(i)) changed = changed + 1
+      end do
+      call expect(changed == 26, 'lower_case changes the 26 capitals alone')
+      call expect(len(lower_case('')) == 0, 'lower_case of nothing')
+   end subroutine words
+
+   !> A random number in [1, 2).
+   real(wp) function random_mantissa()
+      call random_number(random_mantissa)
+      random_mantissa = 1 + random_mantissa
+   end function random_mantissa
+
+   real(wp) function value_of(string)
+      character(len=*), intent(in) :: string
+      read (string, *) value_of
+   end function value_of
+
+   pure logical function same_bits(a, b)
+      real(wp), intent(in) :: a, b
+      same_bits = transfer(a, 1_i8) == transfer(b, 1_i8)
+   end function same_bits
+end program test_text
