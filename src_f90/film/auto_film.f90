@@ -1,10 +1,15 @@
-!> Axial modes while the film is whole, over-relaxation for a pad at an instant where it ruptures.
+!> Axial modes while the film is whole; over-relaxation for what rupture changes, for a pad at an instant.
+!>
+!> Where the film ruptures the force is sor with rupture, plus c times (modal - sor without rupture), with
+!> c = 1 at the onset and 0 where the tension of the whole film reaches its highest pressure. So at the
+!> onset the force does not jump by the difference of the two discretisations, a loaded pad keeps the modes'
+!> accuracy, and an empty pad is left to sor alone.
 module auto_film
    use kinds, only: wp
    use film_solver, only: film_solver_type, film_motion, film_response, film_ok
    use pad_film, only: pad_film_type
    use modal_film, only: modal_film_type, new_modal_film
-   use sor_film, only: sor_film_type, sor_options, new_sor_film
+   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none
    implicit none (type, external)
    private
    public :: auto_film_type, new_auto_film
@@ -17,22 +22,27 @@ module auto_film
       private
       real(wp), allocatable :: cavitation_pressure(:)
       type(modal_film_type) :: modal
-      type(sor_film_type) :: sor
+      !> With and without rupture.
+      type(sor_film_type) :: sor, whole
    contains
       procedure :: evaluate
    end type auto_film_type
 
 contains
 
-   !> Both solvers for the same films: cells along the arc and modes of the one, options of the other.
+   !> All solvers for the same films: cells along the arc and modes of the one, options of the others.
    pure function new_auto_film(films, cells, modes, options) result(solver)
       type(pad_film_type), intent(in) :: films(:)
       integer, intent(in) :: cells, modes
       type(sor_options), intent(in) :: options
       type(auto_film_type) :: solver
+      type(sor_options) :: without_rupture
       solver%cavitation_pressure = films%cavitation_pressure
       solver%modal = new_modal_film(films, cells, modes, .false.)
       solver%sor = new_sor_film(films, options)
+      without_rupture = options
+      without_rupture%cavitation = cavitation_none
+      solver%whole = new_sor_film(films, without_rupture)
    end function new_auto_film
 
    subroutine evaluate(self, motion, speed, want_slopes, response)
@@ -41,19 +51,31 @@ contains
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_slopes
       type(film_response), intent(out) :: response(:)
-      real(wp) :: depth
+      type(film_response) :: ruptured, whole
+      real(wp) :: tension, height, c
       integer :: i
       call self%modal%evaluate(motion, speed, want_slopes, response)
       do i = 1, size(motion)
          if (response(i)%status /= film_ok) cycle
-         depth = slight_tension*(response(i)%max_pressure - self%cavitation_pressure(i))
-         if (response(i)%min_pressure < self%cavitation_pressure(i) - depth) then
-            call self%sor%evaluate_pad(i, motion(i), speed, want_slopes, response(i))
-         else
+         tension = self%cavitation_pressure(i) - response(i)%min_pressure
+         height = response(i)%max_pressure - self%cavitation_pressure(i)
+         if (tension <= slight_tension*height) then
             self%counters%modal = self%counters%modal + 1
+            cycle
          end if
+         call self%sor%evaluate_pad(i, motion(i), speed, want_slopes, ruptured)
+         if (ruptured%status == film_ok .and. tension < height) then
+            c = 1 - tension/height
+            call self%whole%evaluate_pad(i, motion(i), speed, want_slopes, whole)
+            ruptured%status = whole%status
+            ruptured%residual = max(ruptured%residual, whole%residual)
+            ruptured%force = ruptured%force + c*(response(i)%force - whole%force)
+            ruptured%slope = ruptured%slope + c*(response(i)%slope - whole%slope)
+            ruptured%max_pressure = ruptured%max_pressure + c*(response(i)%max_pressure - whole%max_pressure)
+         end if
+         response(i) = ruptured
       end do
       self%counters%sor = self%sor%counters%sor
-      self%counters%sweeps = self%sor%counters%sweeps
+      self%counters%sweeps = self%sor%counters%sweeps + self%whole%counters%sweeps
    end subroutine evaluate
 end module auto_film

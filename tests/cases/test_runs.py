@@ -41,9 +41,11 @@ def last_revolution(file):
 
 
 def deviation(a, b, name):
-    """Largest difference of a signal in the last revolution over its peak-to-peak."""
+    """Largest difference of a signal in the last revolution over its peak-to-peak, or over 5 % of its natural
+    scale where it hardly moves: assembled clearance; clearance over pad radius."""
+    scale = {"journal": 80e-6, "pad": 80e-6 / 50e-3}.get(name.split("_")[0], 0)
     a, b = a[name][last_revolution(a)], b[name][last_revolution(b)]
-    return np.abs(a - b).max() / np.ptp(b, axis=0).max()
+    return np.abs(a - b).max() / max(np.ptp(b, axis=0).max(), 0.05 * scale)
 
 
 @pytest.mark.parametrize("solver", ["auto", "sor"])
@@ -116,8 +118,9 @@ def test_sampling_changes_nothing(march):
     many = march("paper/steady_lugre", span, "output%samples_per_revolution=360")
     few = march("paper/steady_lugre", span, "output%samples_per_revolution=40")
     late = march("paper/steady_lugre", span, "output%start_time=0.01")
-    assert np.array_equal(many["journal_y"][::9], few["journal_y"][:])
-    assert np.array_equal(many["bristle_deflection"][::9], few["bristle_deflection"][:])
+    # the sample times themselves are rounded
+    for name in ("journal_y", "bristle_deflection"):
+        assert np.allclose(many[name][::9], few[name][:], rtol=1e-9, atol=0)
     assert late["time"][0] == 0.01
     assert late["journal_y"][-1] == pytest.approx(many["journal_y"][-1], abs=1e-9)
 
@@ -157,7 +160,7 @@ def test_friction_none_is_lugre_without_grip(march):
 
 
 def test_four_pads_change_the_orbit_little(march):
-    """The two upper pads carry nothing: less than 2 % of the orbit of two pads, equilibrium within 0.05 um."""
+    """The two upper pads carry nothing: less than 2 % of the orbit; equilibrium within 0.05 um."""
     span = ("operation%duration=0.2", "film%cavitation=gumbel")
     two = march("paper/steady_tr", *span)
     four = march("paper/steady_tr", *span, "pads%pivot_angle_deg=-45,225,45,135")
