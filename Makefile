@@ -28,9 +28,10 @@ endif
 
 # ---- libraries ---------------------------------------------------------------------------------
 prefixes := $(SUNDIALS_PREFIX) $(HDF5_PREFIX) $(FFTW_PREFIX)
-modules  := $(foreach p,$(SUNDIALS_PREFIX) /usr,$p/include/sundials/fortran $p/fortran $p/include) \
-            $(if $(HDF5_PREFIX),$(HDF5_PREFIX)/include $(HDF5_PREFIX)/mod $(HDF5_PREFIX)/include/static,/usr/include/hdf5/serial)
-hdf5_name := $(if $(HDF5_PREFIX),hdf5,hdf5_serial)
+# places of a prefix are looked for; Debian's are not, as they may be installed only now
+modules  := $(if $(SUNDIALS_PREFIX),$(wildcard $(addprefix $(SUNDIALS_PREFIX)/,include/sundials/fortran fortran include)),\
+             /usr/include/sundials/fortran) \
+            $(if $(HDF5_PREFIX),$(wildcard $(addprefix $(HDF5_PREFIX)/,include mod include/static)),/usr/include/hdf5/serial)
 hdf5_libs := $(if $(HDF5_PREFIX),-lhdf5_hl_fortran -lhdf5_hl -lhdf5_fortran -lhdf5,\
              -lhdf5_serialhl_fortran -lhdf5_serial_hl -lhdf5_serial_fortran -lhdf5_serial)
 # Debian's reference LAPACK rather than OpenBLAS, which starts threads for our 12 x 12 systems
@@ -38,9 +39,8 @@ LIBS := $(foreach p,$(prefixes),$(foreach d,$(wildcard $p/lib $p/lib64),-L$d -Wl
         -lsundials_fcvode_mod -lsundials_fnvecserial_mod -lsundials_fsunmatrixdense_mod \
         -lsundials_fsunlinsoldense_mod -lsundials_cvode -lsundials_nvecserial \
         $(hdf5_libs) -lfftw3 $(LAPACK) \
-        $(foreach d,$(if $(strip $(prefixes)),,$(wildcard /usr/lib/*/lapack /usr/lib/*/blas)),-Wl,-rpath,$d)
-# directory modules are found in, and where ours go
-INCLUDE := $(foreach d,$(wildcard $(modules)),-I$d) -I$(B)/mod
+        $(if $(strip $(prefixes)),,$$(ls -d /usr/lib/*/lapack /usr/lib/*/blas 2>/dev/null | sed s/^/-Wl,-rpath,/))
+INCLUDE := $(addprefix -I,$(modules)) -I$(B)/mod
 COMPILE = $(FC) -std=f2018 -fimplicit-none -fopenmp-simd $(FFLAGS) $(INCLUDE) -J$(B)/mod
 
 # ---- system packages ---------------------------------------------------------------------------
@@ -76,7 +76,7 @@ vpath %.f90 $(sort $(dir $(sources) $(tests))) tests $(B)/obj
 VENV := build/venv
 venv_python := $(VENV)/bin/python
 
-.PHONY: help run build deps python test lint format docs install clean
+.PHONY: help run build deps python test test-programs lint format docs install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -86,7 +86,7 @@ help:
 	@echo 'make build    build/bin/tiltpad          (MODE=debug: build/debug/bin/tiltpad)'
 	@echo 'make deps     install what is missing (root or sudo; otherwise print the list and stop)'
 	@echo 'make python   Python environment build/venv with the package tiltpad'
-	@echo 'make lint     style of Fortran and Python; make format mends Fortran layout'
+	@echo 'make lint     style of Fortran and Python; make format mends what it can'
 	@echo 'make docs     write docs/inputs.md, docs/verification.md and docs/images from the program'
 	@echo 'make install  program into PREFIX/bin    (PREFIX=$(PREFIX))'
 	@echo 'make clean    remove build/'
@@ -163,11 +163,18 @@ $(shell awk -v b=$(B)/obj 'FNR == 1 { n = split(FILENAME, part, "/"); sub(/\.f90
    $(sources) $(tests) tests/check.f90 > $(B)/depend.mk)
 include $(B)/depend.mk
 
+fortran_style := --line-length 120 --ignore S241,C002,C061,C071
+
 # ---- house-keeping -----------------------------------------------------------------------------
 lint: python
-	$(VENV)/bin/fortitude check --line-length 120 --ignore S241,C002,C061,C071 src_f90 tests
+	$(VENV)/bin/fortitude check $(fortran_style) src_f90 tests
 	$(VENV)/bin/ruff check --config post/pyproject.toml post tests docs
 	$(VENV)/bin/ruff format --check --config post/pyproject.toml post tests docs
+
+format: python
+	-$(VENV)/bin/fortitude check --fix $(fortran_style) src_f90 tests
+	$(VENV)/bin/ruff check --fix --config post/pyproject.toml post tests docs
+	$(VENV)/bin/ruff format --config post/pyproject.toml post tests docs
 
 docs: run
 	@{ cat docs/inputs_head.md; $(B)/bin/tiltpad --reference; } > docs/inputs.md
