@@ -32,7 +32,10 @@ prefixes := $(SUNDIALS_PREFIX) $(HDF5_PREFIX) $(FFTW_PREFIX)
 modules  := $(if $(SUNDIALS_PREFIX),$(wildcard $(addprefix $(SUNDIALS_PREFIX)/,include/sundials/fortran fortran include)),\
              /usr/include/sundials/fortran) \
             $(if $(HDF5_PREFIX),$(wildcard $(addprefix $(HDF5_PREFIX)/,include mod include/static)),/usr/include/hdf5/serial)
-hdf5_libs := $(if $(HDF5_PREFIX),-lhdf5_hl_fortran -lhdf5_hl -lhdf5_fortran -lhdf5,\
+# the high-level Fortran library has two names, by HDF5's two build systems
+hdf5_libs := $(if $(HDF5_PREFIX),\
+             -l$(if $(wildcard $(HDF5_PREFIX)/lib*/libhdf5hl_fortran.*),hdf5hl_fortran,hdf5_hl_fortran) \
+             -lhdf5_hl -lhdf5_fortran -lhdf5,\
              -lhdf5_serialhl_fortran -lhdf5_serial_hl -lhdf5_serial_fortran -lhdf5_serial)
 # Debian's reference LAPACK rather than OpenBLAS, which starts threads for our 12 x 12 systems
 LIBS := $(foreach p,$(prefixes),$(foreach d,$(wildcard $p/lib $p/lib64),-L$d -Wl,-rpath,$d)) \
@@ -182,6 +185,7 @@ docs: run
 	cp build/run/*.png docs/images/
 	$(venv_python) docs/verify.py $(B)/bin/tiltpad > build/verification.md && mv build/verification.md docs/
 
+# on a cluster only the program: it needs no Python
 install: build
 	install -d $(DESTDIR)$(PREFIX)/bin
 	install -m 755 $(B)/bin/tiltpad $(DESTDIR)$(PREFIX)/bin/tiltpad
