@@ -10,7 +10,7 @@ module run_case
    use scene, only: scene_type
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
-   use scene_namelist, only: scene_text
+   use namelist_writer, only: scene_text
    use run_file, only: run_file_type
    use progress, only: progress_type, new_progress, wall_clock
    implicit none (type, external)

@@ -4,7 +4,8 @@ program tiltpad
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use errors, only: error_type, raise, input_error, system_error
    use scene, only: scene_type
-   use scene_namelist, only: read_scene, scene_text
+   use scene_namelist, only: read_scene
+   use namelist_writer, only: scene_text
    use input_reference, only: reference_text
    use posix, only: real_path, write_output, keep_file_size_quiet
    use build_info, only: program_version, program_commit

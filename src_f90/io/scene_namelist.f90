@@ -1,18 +1,19 @@
-!> Scene from namelist text and back. Values are checked where they are read, so that the message can
+!> Scene from namelist text. Values are checked where they are read, so that the message can
 !> name file, line, group, variable, value and what is allowed.
 module scene_namelist
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_overflow, ieee_get_halting_mode, ieee_set_flag, &
       & ieee_set_halting_mode
    use kinds, only: wp
-   use text, only: to_text, exact_text, lower_case
+   use text, only: to_text, lower_case
    use errors, only: error_type, raise, add_context, input_error
    use scene, only: scene_type, max_pads
    use scene_fields, only: field_visitor, range_type, visit_scene
+   use number_syntax, only: is_number, is_special
    use namelist_text, only: namelist_type, assignment_type, token_type, parse_namelist, parse_override
    use posix, only: is_regular
    implicit none (type, external)
    private
-   public :: read_scene, scene_from_text, scene_text
+   public :: read_scene, scene_from_text
 
    !> Longest input file, and longest text in it, bytes.
    integer, parameter :: longest_file = 100000, longest_text = 1000
@@ -34,20 +35,6 @@ module scene_namelist
       procedure, private :: reals
       procedure, private :: refuse
    end type scene_reader
-
-   !> Writes a scene as namelist text.
-   type, extends(field_visitor) :: scene_writer
-      character(len=:), allocatable :: text
-   contains
-      procedure :: group => write_group
-      procedure :: word => write_word
-      procedure :: whole => write_whole
-      procedure :: numbers => write_numbers
-      procedure :: per_pad => write_per_pad
-      procedure, private :: line
-   end type scene_writer
-
-   character(len=*), parameter :: newline = achar(10)
 
 contains
 
@@ -327,41 +314,6 @@ contains
       end do
    end subroutine reals
 
-   !> [sign] digits [. digits] [e|d [sign] digits], with a digit before or after the point. Fortran itself
-   !> would take more, such as 1+2 for 100.
-   pure logical function is_number(word)
-      character(len=*), intent(in) :: word
-      character(len=:), allocatable :: mantissa, exponent
-      integer :: e, point
-      is_number = .false.
-      if (len(word) == 0 .or. len(word) > 60) return
-      e = scan(word, 'ed')
-      mantissa = word
-      if (e > 0) then
-         mantissa = word(:e - 1)
-         exponent = unsigned(word(e + 1:))
-         if (len(exponent) == 0 .or. verify(exponent, '0123456789') /= 0) return
-      end if
-      mantissa = unsigned(mantissa)
-      point = index(mantissa, '.')
-      if (point > 0) mantissa = mantissa(:point - 1)//mantissa(point + 1:)
-      is_number = len(mantissa) > 0 .and. verify(mantissa, '0123456789') == 0
-   end function is_number
-
-   pure logical function is_special(word)
-      character(len=*), intent(in) :: word
-      is_special = any(unsigned(word) == [character(len=8) :: 'nan', 'inf', 'infinity'])
-   end function is_special
-
-   pure function unsigned(word)
-      character(len=*), intent(in) :: word
-      character(len=:), allocatable :: unsigned
-      unsigned = word
-      if (len(word) > 0) then
-         if (index('+-', word(1:1)) > 0) unsigned = word(2:)
-      end if
-   end function unsigned
-
    !> "rotor%mass = -1"
    pure function described(a)
       type(assignment_type), intent(in) :: a
@@ -395,74 +347,4 @@ contains
          end if
       end do
    end function quoted_list
-
-   !> The whole scene as namelist text, every number to the last bit.
-   function scene_text(scene) result(text)
-      type(scene_type), intent(in) :: scene
-      character(len=:), allocatable :: text
-      type(scene_type) :: copy
-      type(scene_writer) :: writer
-      copy = scene
-      writer%text = ''
-      call visit_scene(copy, writer)
-      text = writer%text//'/'//newline
-   end function scene_text
-
-   subroutine write_group(self, name, meaning)
-      class(scene_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, meaning
-      if (self%text /= '') self%text = self%text//'/'//newline
-      self%text = self%text//'&'//name//newline
-   end subroutine write_group
-
-   subroutine line(self, name, value)
-      class(scene_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, value
-      self%text = self%text//'  '//name//' = '//value//newline
-   end subroutine line
-
-   subroutine write_word(self, name, value, choices, meaning)
-      class(scene_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, choices, meaning
-      character(len=:), allocatable, intent(inout) :: value
-      character(len=:), allocatable :: quoted
-      integer :: i
-      quoted = ''
-      do i = 1, len(value)
-         quoted = quoted//value(i:i)
-         if (value(i:i) == '''') quoted = quoted//''''
-      end do
-      call self%line(name, ''''//quoted//'''')
-   end subroutine write_word
-
-   subroutine write_whole(self, name, value, allowed, meaning)
-      class(scene_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, meaning
-      integer, intent(inout) :: value
-      type(range_type), intent(in) :: allowed
-      call self%line(name, to_text(value))
-   end subroutine write_whole
-
-   subroutine write_numbers(self, name, values, allowed, unit, meaning)
-      class(scene_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, meaning
-      real(wp), intent(inout) :: values(:)
-      type(range_type), intent(in) :: allowed
-      character(len=:), allocatable :: list
-      integer :: i
-      list = exact_text(values(1))
-      do i = 2, size(values)
-         list = list//', '//exact_text(values(i))
-      end do
-      call self%line(name, list)
-   end subroutine write_numbers
-
-   subroutine write_per_pad(self, name, values, fixes_pads, allowed, unit, meaning)
-      class(scene_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, meaning
-      real(wp), allocatable, intent(inout) :: values(:)
-      logical, intent(in) :: fixes_pads
-      type(range_type), intent(in) :: allowed
-      call self%numbers(name, values, allowed, unit, meaning)
-   end subroutine write_per_pad
 end module scene_namelist

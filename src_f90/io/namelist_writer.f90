@@ -1,0 +1,96 @@
+!> A scene as namelist text that reads back to the same bits.
+module namelist_writer
+   use kinds, only: wp
+   use text, only: to_text, exact_text
+   use scene, only: scene_type
+   use scene_fields, only: field_visitor, range_type, visit_scene
+   implicit none (type, external)
+   private
+   public :: scene_text
+
+   !> Writes a scene as namelist text.
+   type, extends(field_visitor) :: scene_writer
+      character(len=:), allocatable :: text
+   contains
+      procedure :: group => write_group
+      procedure :: word => write_word
+      procedure :: whole => write_whole
+      procedure :: numbers => write_numbers
+      procedure :: per_pad => write_per_pad
+      procedure, private :: line
+   end type scene_writer
+
+   character(len=*), parameter :: newline = achar(10)
+
+contains
+
+   !> The whole scene as namelist text, every number to the last bit.
+   function scene_text(scene) result(text)
+      type(scene_type), intent(in) :: scene
+      character(len=:), allocatable :: text
+      type(scene_type) :: copy
+      type(scene_writer) :: writer
+      copy = scene
+      writer%text = ''
+      call visit_scene(copy, writer)
+      text = writer%text//'/'//newline
+   end function scene_text
+
+   subroutine write_group(self, name, meaning)
+      class(scene_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name, meaning
+      if (self%text /= '') self%text = self%text//'/'//newline
+      self%text = self%text//'&'//name//newline
+   end subroutine write_group
+
+   subroutine line(self, name, value)
+      class(scene_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name, value
+      self%text = self%text//'  '//name//' = '//value//newline
+   end subroutine line
+
+   subroutine write_word(self, name, value, choices, meaning)
+      class(scene_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name, choices, meaning
+      character(len=:), allocatable, intent(inout) :: value
+      character(len=:), allocatable :: quoted
+      integer :: i
+      quoted = ''
+      do i = 1, len(value)
+         quoted = quoted//value(i:i)
+         if (value(i:i) == '''') quoted = quoted//''''
+      end do
+      call self%line(name, ''''//quoted//'''')
+   end subroutine write_word
+
+   subroutine write_whole(self, name, value, allowed, meaning)
+      class(scene_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name, meaning
+      integer, intent(inout) :: value
+      type(range_type), intent(in) :: allowed
+      call self%line(name, to_text(value))
+   end subroutine write_whole
+
+   subroutine write_numbers(self, name, values, allowed, unit, meaning)
+      class(scene_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name, unit, meaning
+      real(wp), intent(inout) :: values(:)
+      type(range_type), intent(in) :: allowed
+      character(len=:), allocatable :: list
+      integer :: i
+      list = exact_text(values(1))
+      do i = 2, size(values)
+         list = list//', '//exact_text(values(i))
+      end do
+      call self%line(name, list)
+   end subroutine write_numbers
+
+   subroutine write_per_pad(self, name, values, fixes_pads, allowed, unit, meaning)
+      class(scene_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name, unit, meaning
+      real(wp), allocatable, intent(inout) :: values(:)
+      logical, intent(in) :: fixes_pads
+      type(range_type), intent(in) :: allowed
+      call self%numbers(name, values, allowed, unit, meaning)
+   end subroutine write_per_pad
+end module namelist_writer
