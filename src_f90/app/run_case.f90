@@ -6,7 +6,7 @@ module run_case
    use ode_model, only: march_observer
    use cvode_march, only: march, march_options, march_statistics, sample_plan
    use spectra, only: one_sided_amplitude, full_amplitude
-   use loops, only: loop_area
+   use loops, only: loop_area, periodicity, new_periodicity
    use scene, only: scene_type
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
@@ -23,6 +23,7 @@ module run_case
       type(run_file_type) :: file
       type(progress_type) :: progress
       real(wp) :: seconds = 0
+      type(periodicity) :: orbit
    contains
       procedure :: sample => record_sample
       procedure :: report => record_progress
@@ -83,6 +84,9 @@ contains
 
       observer%model = model
       observer%progress = new_progress(scene%operation%duration, quiet)
+      if (scene%integration%stop_when_periodic > 0) then
+         observer%orbit = new_periodicity(scene%output%samples_per_revolution, 2 + scene%pad_count())
+      end if
       options%relative_tolerance = scene%integration%relative_tolerance
       options%absolute_tolerance = scene%integration%relative_tolerance*scene%integration%tolerance_scale*model%scale
       options%max_step = scene%integration%max_step
@@ -94,7 +98,7 @@ contains
       y = model%at_rest(static%journal, static%tilt, static%penetration)
       call march(model, options, 0.0_wp, scene%operation%duration, plan, y, observer, statistics, error)
       call observer%progress%clear()
-      if (.not. allocated(error)) call write_spectra(scene, plan, observer%file)
+      if (.not. allocated(error)) call write_spectra(scene, plan%interval, observer%file)
    end subroutine march_scene
 
    subroutine record_sample(self, t, y, error)
@@ -107,6 +111,12 @@ contains
       call self%model%evaluate(t, y, .false., ok)
       if (ok) then
          call self%file%add_sample(self%model, t, y, error)
+         associate (limit => self%model%scene%integration%stop_when_periodic)
+            if (limit > 0) then
+               call self%orbit%add(self%model%positions(y))
+               self%satisfied = self%orbit%change <= limit
+            end if
+         end associate
       else
          call raise(error, numerics_error, 'the sample at t = '//to_text(t)//' s failed: '//self%model%trouble)
       end if
@@ -122,15 +132,16 @@ contains
 
    !> Spectra over the last whole revolutions of a run at constant speed; none where it was not sampled
    !> over one.
-   subroutine write_spectra(scene, plan, file)
+   subroutine write_spectra(scene, interval, file)
       type(scene_type), intent(in) :: scene
-      type(sample_plan), intent(in) :: plan
+      !> Between samples, s.
+      real(wp), intent(in) :: interval
       type(run_file_type), intent(inout) :: file
       real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), amplitudes(:, :)
       integer :: revolutions, n, i
       if (scene%acceleration() /= 0) return
       associate (samples => scene%output%samples_per_revolution)
-         revolutions = int(min(int(scene%output%spectrum_revolutions, i8), (plan%count - 1)/samples))
+         revolutions = int(min(int(scene%output%spectrum_revolutions, i8), (file%samples - 1)/samples))
          n = revolutions*samples
       end associate
       if (revolutions == 0 .or. n < 2) return
@@ -141,7 +152,7 @@ contains
       do i = 1, scene%pad_count()
          amplitudes(:, i) = one_sided_amplitude(tilt(i, :))
       end do
-      call file%put_spectrum(plan%interval, revolutions, scene%highest_speed(), one_sided_amplitude(y(1, :)), &
+      call file%put_spectrum(interval, revolutions, scene%highest_speed(), one_sided_amplitude(y(1, :)), &
          & one_sided_amplitude(z(1, :)), full_amplitude(cmplx(y(1, :), z(1, :), wp)), amplitudes)
    end subroutine write_spectra
 

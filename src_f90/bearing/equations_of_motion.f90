@@ -62,6 +62,8 @@ module equations_of_motion
       procedure :: bristle
       !> The state with journal and pads at rest at given places, bristles undeflected.
       procedure :: at_rest
+      !> Journal y, z and the tilts, each over its scale.
+      procedure :: positions
    end type bearing_model
 
    integer(i8), parameter :: timing_stride = 16
@@ -147,6 +149,15 @@ contains
          if (self%radial) y(self%offset(i) + 3) = penetration(i)
       end do
    end function at_rest
+
+   pure function positions(self, y)
+      class(bearing_model), intent(in) :: self
+      real(wp), intent(in) :: y(:)
+      real(wp) :: positions(2 + size(self%places))
+      integer :: i, at(2 + size(self%places))
+      at = [1, 2, (self%offset(i) + 1, i=1, size(self%places))]
+      positions = y(at)/self%scale(at)
+   end function positions
 
    subroutine evaluate(self, t, y, want_slopes, ok)
       class(bearing_model), intent(inout) :: self

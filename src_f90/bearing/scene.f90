@@ -85,6 +85,8 @@ module scene
       !> 0: no limit.
       real(wp) :: max_step = 0
       integer :: max_steps = 100000000
+      !> > 0: the march ends once journal and tilts repeat within this part of the clearance.
+      real(wp) :: stop_when_periodic = 0
    end type integration_type
 
    type :: output_type
@@ -229,6 +231,9 @@ contains
          call require(b%assembled_clearance <= 2*b%machined_clearance, 'bearing%assembled_clearance = ' &
             & //to_text(b%assembled_clearance)//': must be at most twice bearing%machined_clearance = ' &
             & //to_text(b%machined_clearance))
+         call require(self%integration%stop_when_periodic <= 0 .or. .not. abs(self%acceleration()) > 0, &
+            & 'integration%stop_when_periodic = '//to_text(self%integration%stop_when_periodic) &
+            & //': must be 0 where operation%final_speed_rpm differs from operation%speed_rpm')
          call require(.not. (self%rotor%balance_speed_rpm >= 0 .and. self%rotor%balance_speed_rpm < 1), &
             & 'rotor%balance_speed_rpm = '//to_text(self%rotor%balance_speed_rpm) &
             & //': must be < 0 (the highest of the run) or >= 1')

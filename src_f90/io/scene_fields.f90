@@ -179,6 +179,9 @@ contains
             & 'absolute tolerances: relative_tolerance times this times each state''s own scale')
          call v%number('max_step', i%max_step, between(0.0_wp, 1e6_wp), 's', 'longest step; 0: no limit')
          call v%whole('max_steps', i%max_steps, between(1.0_wp, 2e9_wp), 'steps after which the march is given up')
+         call v%number('stop_when_periodic', i%stop_when_periodic, between(0.0_wp, 1.0_wp), '1', &
+            & '> 0: end once journal and tilts, sampled, repeat from one revolution to the next within this part of ' &
+            & //'the assembled clearance (tilts: at the pad''s length)')
 
          call v%group('output', 'What is kept')
          call v%whole('samples_per_revolution', o%samples_per_revolution, between(1.0_wp, 1e6_wp), &

@@ -70,8 +70,8 @@ contains
       t = self%first + real(k, wp)*self%interval
    end function sample_time
 
-   !> Marches y from t_start to t_end. Samples are CVODE's interpolation, so they never shorten a step.
-   !> Numerics errors say why, where and when; samples taken before them stand.
+   !> Marches y from t_start to t_end, or until the observer is satisfied. Samples are CVODE's interpolation,
+   !> so they never shorten a step. Numerics errors say why, where and when; samples taken before them stand.
    subroutine march(model, options, t_start, t_end, plan, y, observer, statistics, error)
       class(ode_model_type), intent(inout), target :: model
       type(march_options), intent(in) :: options
@@ -126,10 +126,10 @@ contains
             if (plan%time(k) > t(1) .and. t(1) < t_end) exit
             if (statistics%steps > 0) flag = fcvodegetdky(memory, min(plan%time(k), t(1)), 0_c_int, sample_vector)
             call observer%sample(min(plan%time(k), t(1)), sample, error)
-            if (allocated(error)) exit
+            if (allocated(error) .or. observer%satisfied) exit
             k = k + 1
          end do
-         if (allocated(error) .or. t(1) >= t_end) exit
+         if (allocated(error) .or. observer%satisfied .or. t(1) >= t_end) exit
          if (statistics%steps >= options%max_steps) then
             call raise(error, numerics_error, 'the march gave up at t = '//to_text(t(1))//' s, after ' &
                & //to_text(statistics%steps)//' steps (integration%max_steps)')

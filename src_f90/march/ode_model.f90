@@ -37,6 +37,8 @@ module ode_model
 
    !> Receives the samples of a march.
    type, abstract :: march_observer
+      !> Set by the observer: the march has reached what it was for, and ends.
+      logical :: satisfied = .false.
    contains
       procedure(take_sample), deferred :: sample
       procedure(take_progress), deferred :: report

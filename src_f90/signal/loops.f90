@@ -3,7 +3,20 @@ module loops
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: loop_area, peak_to_peak
+   public :: loop_area, periodicity, new_periodicity
+
+   !> Compares each revolution of sampled signals with the one before.
+   type :: periodicity
+      private
+      !> Last revolution (signal, sample); samples seen; largest difference in this revolution so far.
+      real(wp), allocatable :: last(:, :)
+      integer :: seen = 0
+      real(wp) :: largest = 0
+      !> Largest difference between the last two whole revolutions; huge before there are two.
+      real(wp), public :: change = huge(1.0_wp)
+   contains
+      procedure :: add
+   end type periodicity
 
 contains
 
@@ -14,8 +27,24 @@ contains
       loop_area = 0.5_wp*sum((cshift(x, 1) - x)*(cshift(y, 1) + y))
    end function loop_area
 
-   pure real(wp) function peak_to_peak(x)
-      real(wp), intent(in) :: x(:)
-      peak_to_peak = maxval(x) - minval(x)
-   end function peak_to_peak
+   !> For so many signals, sampled so often in a revolution.
+   pure function new_periodicity(samples, signals) result(orbit)
+      integer, intent(in) :: samples, signals
+      type(periodicity) :: orbit
+      allocate (orbit%last(signals, 0:samples - 1), source=0.0_wp)
+   end function new_periodicity
+
+   !> The next sample of all signals.
+   pure subroutine add(self, values)
+      class(periodicity), intent(inout) :: self
+      real(wp), intent(in) :: values(:)
+      integer :: slot, samples
+      samples = size(self%last, 2)
+      slot = mod(self%seen, samples)
+      if (slot == 0) self%largest = 0
+      self%largest = max(self%largest, maxval(abs(values - self%last(:, slot))))
+      self%last(:, slot) = values
+      self%seen = self%seen + 1
+      if (slot == samples - 1 .and. self%seen >= 2*samples) self%change = self%largest
+   end subroutine add
 end module loops

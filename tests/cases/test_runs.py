@@ -167,3 +167,18 @@ def test_four_pads_change_the_orbit_little(march):
     assert deviation(four, two, "journal_y") < 0.02
     assert abs(four["equilibrium/journal_y"][()] - two["equilibrium/journal_y"][()]) < 5e-8
     assert np.all(four["equilibrium/contact_force"][2:] == 0)
+
+
+def test_stop_when_periodic(march):
+    """Ends early and complete, in an orbit that is as close to the final one as was asked for."""
+    limit = 1e-4
+    early = march("paper/steady_lugre", f"integration%stop_when_periodic={limit}")
+    late = march("paper/steady_lugre", "operation%duration=0.5")
+    assert early.attrs["complete"] == 1
+    assert early["time"][-1] < 0.1
+    for name in ("journal_y", "journal_z"):
+        a, b = (file[name][-360:] for file in (early, late))
+        # what is left decays by a factor a revolution; 0.5 or less here, so it is no more than the last change
+        assert abs(a.min() - b.min()) < 2 * limit * 80e-6
+        assert abs(a.max() - b.max()) < 2 * limit * 80e-6
+    assert "spectrum" in early

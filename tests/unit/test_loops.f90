@@ -1,7 +1,7 @@
 !> Key figures of loops, against polygons whose area is known.
 program test_loops
    use kinds, only: wp, pi
-   use loops, only: loop_area, peak_to_peak
+   use loops, only: loop_area, periodicity, new_periodicity
    use check, only: expect, expect_close, report
    implicit none (type, external)
 
@@ -11,7 +11,7 @@ program test_loops
    call square()
    call ellipse()
    call line()
-   call swings()
+   call decay()
    call report()
 
 contains
@@ -41,9 +41,20 @@ contains
       call expect_close(loop_area(x, x**2), 0.0_wp, 100*rounding, 'there and back encloses nothing')
    end subroutine line
 
-   subroutine swings()
-      call expect_close(peak_to_peak([-1.0_wp, 4.0_wp, 2.0_wp]), 5.0_wp, 0.0_wp, 'peak to peak')
-      call expect_close(peak_to_peak([3.0_wp]), 0.0_wp, 0.0_wp, 'peak to peak of one point')
-      call expect(peak_to_peak([-2.0_wp, -5.0_wp]) > 0, 'peak to peak of negative numbers')
-   end subroutine swings
+   !> A decaying oscillation of n samples a revolution: x = r**revolution sin(angle) changes by
+   !> r**(k - 1) (1 - r) from revolution k - 1 to k, counted from 0.
+   subroutine decay()
+      integer, parameter :: n = 8
+      real(wp), parameter :: ratio = 0.5_wp
+      type(periodicity) :: orbit
+      integer :: i, revolution
+      orbit = new_periodicity(n, 2)
+      do i = 0, 4*n - 1
+         revolution = i/n
+         call orbit%add([ratio**revolution*sin(2*pi*i/n), 1.0_wp])
+         if (i < 2*n - 1) call expect(orbit%change > 1e300_wp, 'no change before two whole revolutions')
+         if (mod(i, n) == n - 1 .and. revolution > 0) call expect_close(orbit%change, &
+            & ratio**(revolution - 1)*(1 - ratio), rounding, 'change from one revolution to the next')
+      end do
+   end subroutine decay
 end program test_loops
