@@ -178,7 +178,7 @@ def test_stop_when_periodic(march):
     assert early["time"][-1] < 0.1
     for name in ("journal_y", "journal_z"):
         a, b = (file[name][-360:] for file in (early, late))
-        # what is left decays by a factor a revolution; 0.5 or less here, so it is no more than the last change
+        # what is left falls by half or more each revolution, so it is no more than the last change
         assert abs(a.min() - b.min()) < 2 * limit * 80e-6
         assert abs(a.max() - b.max()) < 2 * limit * 80e-6
     assert "spectrum" in early
