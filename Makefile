@@ -79,13 +79,14 @@ vpath %.f90 $(sort $(dir $(sources) $(tests))) tests $(B)/obj
 VENV := build/venv
 venv_python := $(VENV)/bin/python
 
-.PHONY: help run build deps python test test-programs lint format docs install clean
+.PHONY: help run build deps python test stress test-programs lint format docs install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
 help:
 	@echo 'make run      set up, build, run input/paper/steady_lugre.nml, draw it into build/run'
 	@echo 'make test     set up, build, run every test'
+	@echo 'make stress   random scenes, some minutes; writes docs/stability.md (SCENES=300 SEED=1)'
 	@echo 'make build    build/bin/tiltpad          (MODE=debug: build/debug/bin/tiltpad)'
 	@echo 'make deps     install what is missing (root or sudo; otherwise print the list and stop)'
 	@echo 'make python   Python environment build/venv with the package tiltpad'
@@ -104,6 +105,12 @@ run: build python
 test: build python
 	@$(MAKE) --no-print-directory MODE=debug test-programs
 	@TILTPAD=$(abspath $(B)/bin/tiltpad) tests/run_all $(VENV)/bin/python build/debug/tests
+
+# random scenes; SCENES and SEED choose them
+SCENES ?= 300
+SEED   ?= 1
+stress: build python
+	$(venv_python) tests/stress/stress.py $(B)/bin/tiltpad --scenes $(SCENES) --seed $(SEED) --report docs/stability.md
 
 # ---- set-up ------------------------------------------------------------------------------------
 deps: build/deps-checked

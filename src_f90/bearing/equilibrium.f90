@@ -87,21 +87,22 @@ contains
       real(wp) :: time_step, residual, move
       real(wp), allocatable :: step(:)
       integer, allocatable :: x(:), v(:)
+      character(len=:), allocatable :: none_found
       logical :: ok, stuck
 
+      none_found = 'no equilibrium found at '//to_text(model%scene%operation%speed_rpm)//' rpm: '
       stuck = .false.
       call unknowns(model, x, v)
       time_step = 1/model%scene%highest_speed()
       call model%rhs(0.0_wp, y, f, ok)
       if (.not. ok) then
-         call raise(error, numerics_error, 'no equilibrium found: '//model%trouble//' at the start')
+         call raise(error, numerics_error, none_found//model%trouble//' at the start')
          return
       end if
       found%residual = residual_of(model, f)
       do while (.not. found%residual <= residual_limit)
          if (found%iterations == max_iterations .or. stuck) then
-            call raise(error, numerics_error, 'no equilibrium found at ' &
-               & //to_text(model%scene%operation%speed_rpm)//' rpm: after '//to_text(found%iterations) &
+            call raise(error, numerics_error, none_found//'after '//to_text(found%iterations) &
                & //' iterations the unbalanced force is still '//to_text(found%residual)//' of the load')
             if (model%condition() /= '') error%message = error%message//'; '//model%condition()
             return
@@ -118,7 +119,8 @@ contains
             time_step = time_step*min(0.5_wp, longest_move/move)
          end do
          if (.not. ok) then
-            call raise(error, numerics_error, 'no equilibrium found: the equations are singular')
+            call raise(error, numerics_error, none_found//'the equations are singular, the unbalanced force is still ' &
+               & //to_text(found%residual)//' of the load')
             return
          end if
          do
@@ -129,7 +131,7 @@ contains
             step = 0.5_wp*step
             time_step = 0.5_wp*time_step
             if (maxval(abs(step/model%scale(x))) < epsilon(step)) then
-               call raise(error, numerics_error, 'no equilibrium found: '//model%trouble)
+               call raise(error, numerics_error, none_found//model%trouble)
                return
             end if
          end do

@@ -1,0 +1,320 @@
+"""What a run of the program must keep to: the checks of one scene, and the error of its tolerances."""
+
+import copy
+import re
+import subprocess
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import h5py
+import numpy as np
+from scenes import Scene, text
+
+#: Seconds after which a run counts as hung; the step budget should end it long before.
+HUNG = 300
+#: Steps of a scene that rests in its equilibrium, where there is nothing to compare.
+AT_REST = 20
+#: Revolutions over which two runs of a scene are compared.
+COMPARED = 2.5
+#: How much finer the run is that a scene is compared with.
+FINER = 100.0
+PREFIX = "tiltpad: error: "
+NO_MESSAGE = ("At line", "runtime", "Backtrace", "HDF5-DIAG", "CVODE ERROR", "NaN", "Infinity", "with code")
+STATES = ("journal_y", "journal_z", "pad_tilt", "pad_penetration")
+
+
+@dataclass
+class Comparison:
+    """A short run against a finer one; errors in units of the tolerance and of the clearance."""
+
+    outcome: str
+    error: float = 0.0
+    promised: float = 0.0
+    sensitivity: float = 0.0
+    share: float = 0.0
+    moment: float = 0.0
+
+
+@dataclass
+class Result:
+    """How a scene ended."""
+
+    number: int
+    scene: Scene
+    outcome: str = ""
+    message: str = ""
+    faults: list[str] = field(default_factory=list)
+    steps: int = 0
+    revolutions: float = 0.0
+    failures: int = 0
+    seconds: float = 0.0
+    comparison: Comparison | None = None
+
+
+def run(program: Path, scene: Scene, folder: Path, name: str) -> subprocess.CompletedProcess | None:
+    """Runs a scene in a folder as NAME.nml; None where it hung."""
+    (folder / f"{name}.nml").write_text(text(scene))
+    command = [program, f"{name}.nml", "--quiet"]
+    try:
+        return subprocess.run(command, cwd=folder, timeout=HUNG, text=True, capture_output=True)
+    except subprocess.TimeoutExpired:
+        return None
+
+
+def judge(program: Path, number: int, scene: Scene, folder: Path, compare: bool) -> Result:
+    """Runs a scene and checks how it ended; on request compares it with a finer run."""
+    result = Result(number, scene)
+    started = time.monotonic()
+    done = run(program, scene, folder, "scene")
+    result.seconds = time.monotonic() - started
+    if done is None:
+        result.outcome = "hung"
+        result.faults = [f"still running after {HUNG} s"]
+        return result
+    result.message = done.stderr.strip()
+    file = folder / "scene.h5"
+    if done.returncode == 0:
+        result.outcome = "done"
+        result.faults += [f"printed: {said!r}" for said in (done.stdout, done.stderr) if said]
+    elif done.returncode in (1, 2):
+        result.outcome = outcome_of(done)
+        result.faults += refusal_faults(done, file)
+    else:
+        result.outcome = "crashed"
+        result.faults = [f"exit status {done.returncode}: {result.message[:300]}"]
+        return result
+    if file.exists():
+        result.faults += file_faults(file, scene, done.returncode == 0)
+        read_cost(file, result)
+    elif done.returncode == 0:
+        result.faults.append("no result file")
+    if compare and result.outcome == "done" and not result.faults and result.steps > AT_REST:
+        result.comparison = compared(program, scene, folder)
+        if result.comparison.outcome == "missed":
+            result.faults.append(f"error {result.comparison.error:.3g} tolerances against a finer run")
+        if result.comparison.outcome == "hung":
+            result.faults.append("a run to compare with hung")
+    return result
+
+
+def outcome_of(done: subprocess.CompletedProcess) -> str:
+    """Kind of a refusal."""
+    if done.returncode == 1:
+        return "input refused"
+    if "no equilibrium found" in done.stderr:
+        return "no equilibrium"
+    return "step budget" if "integration%max_steps" in done.stderr else "march stopped"
+
+
+def refusal_faults(done: subprocess.CompletedProcess, file: Path) -> list[str]:
+    """A refusal is one line that says why, where and when, and nothing else."""
+    said, faults = done.stderr, []
+    if done.stdout:
+        faults.append(f"printed: {done.stdout[:200]!r}")
+    if not said.startswith(PREFIX) or said.count("\n") != 1 or not said.endswith("\n"):
+        faults.append(f"not one line of error: {said[:300]!r}")
+    faults += [f"{word!r} in the message: {said.strip()}" for word in NO_MESSAGE if word in said]
+    if done.returncode == 1 and not re.search(r"\w+%\w+", said):
+        faults.append(f"no variable named: {said.strip()}")
+    if done.returncode == 2 and "no equilibrium found" in said:
+        if not re.search(r"pad \d+|still \S+ of the load", said):
+            faults.append(f"nothing named: {said.strip()}")
+        if file.exists():
+            faults.append("a result file without an equilibrium")
+    elif done.returncode == 2:
+        if not re.search(r" t = \S+ s", said):
+            faults.append(f"no time named: {said.strip()}")
+        if not file.exists():
+            faults.append("what was computed is not kept")
+    return faults
+
+
+def file_faults(path: Path, scene: Scene, complete: bool) -> list[str]:
+    """A result file holds finite numbers only, whole or not, and what physics allows."""
+    with h5py.File(path) as file:
+        faults = not_finite(file)
+        if file.attrs["complete"] != int(complete):
+            faults.append(f"complete = {file.attrs['complete']}")
+        if faults or "time" not in file:
+            return faults or (["no samples"] if complete else [])
+        values = {name: file[name][:] for name in file if isinstance(file[name], h5py.Dataset)}
+        residual = file["equilibrium/residual"][()]
+        promised = promise(file, scene["integration"]["relative_tolerance"])
+    return unphysical(values, residual, promised, scene, complete)
+
+
+def promise(file: h5py.File, tolerance: float) -> float:
+    """What the steps of a run may add up to over the scales of its states: N steps of at most sqrt(n)
+    tolerances each, in n states."""
+    states = 4 + sum(file[name].shape[1] for name in file if re.match("pad_t|pad_p|brist", name))
+    return int(file["statistics/steps"][()]) * np.sqrt(states) * tolerance
+
+
+def not_finite(file: h5py.File) -> list[str]:
+    """Datasets that hold a NaN or an infinity."""
+    faults = []
+
+    def visit(name, item):
+        if isinstance(item, h5py.Dataset) and item.dtype.kind == "f" and not np.all(np.isfinite(item[()])):
+            faults.append(f"{name} is not finite")
+
+    file.visititems(visit)
+    return faults
+
+
+def unphysical(
+    values: dict[str, np.ndarray], residual: float, promised: float, scene: Scene, complete: bool
+) -> list[str]:
+    """What the samples must fulfil, each in words, and whether they do."""
+    moment, bound = values["friction_moment"], moment_bound(values, scene)
+    step = np.diff(values["time"])
+    reach = 0.5 * np.radians(scene["pads"]["arc_deg"])
+    ruptured = scene["bearing"].get("cavitation_pressure", 0.0)
+    ruptured -= np.inf if scene["film"]["cavitation"] == "none" else 1e-3 + 1e-6 * abs(ruptured)
+    duration = scene["operation"]["duration"]
+    checks = {
+        "time does not grow evenly": np.all(step > 0) and np.all(abs(np.diff(step)) <= 1e-9 * duration),
+        "the last sample misses the end": not complete
+        or 0 <= 1 - values["time"][-1] / duration + 1e-12 <= 1.01 * step.max() / duration,
+        "the shaft turns back": np.all(np.diff(values["shaft_angle"]) > 0) and np.all(values["speed"] > 0),
+        "contact_force < 0": np.all(values["contact_force"] >= 0),
+        "min_film_thickness <= 0": np.all(values["min_film_thickness"] > 0),
+        "max_pressure below the film's rupture": np.all(values["max_pressure"] >= ruptured),
+        "friction_moment over its bound": np.all(abs(moment) <= bound * (1 + promised) + 1e-12),
+        "a pad turned over": np.all(abs(values["pad_tilt"]) <= reach),
+        "equilibrium not at rest": residual <= 1e-7,
+        "contact without penetration": "pad_penetration" not in values
+        or np.all(values["contact_force"][values["pad_penetration"] < 0] == 0),
+    }
+    return [words for words, kept in checks.items() if not kept]
+
+
+def moment_bound(values: dict[str, np.ndarray], scene: Scene) -> np.ndarray:
+    """Largest friction moment: f_s N R_1; with LuGre what its damping and viscosity may add."""
+    friction, contact = scene["friction"], scene["pivot"]
+    ball = contact["socket_radius"] - contact["radius_difference"]
+    if friction["model"] == "none":
+        return 0 * values["contact_force"]
+    coefficient = friction["static_coefficient"]
+    if friction["model"] == "lugre":
+        damping = friction.get("bristle_damping", -1.0)
+        if damping < 0:
+            damping = np.sqrt(friction["bristle_stiffness"] / 1e4)
+        velocity = abs(ball * values["pad_tilt_rate"])
+        ratio = coefficient / friction["dynamic_coefficient"]
+        slope = damping * (1 + ratio) + friction.get("viscous_coefficient", 0.0)
+        coefficient = coefficient + slope * velocity
+    return coefficient * values["contact_force"] * ball
+
+
+def read_cost(path: Path, result: Result) -> None:
+    """Steps and failures of a run, and how far it came."""
+    with h5py.File(path) as file:
+        counts = file["statistics"]
+        result.steps = int(counts["steps"][()])
+        result.failures = int(counts["convergence_failures"][()] + counts["error_test_failures"][()])
+    when = re.search(r" t = (\S+) s", result.message)
+    result.revolutions = revolutions(scene_time(result.scene, when), result.scene)
+
+
+def scene_time(scene: Scene, when: re.Match | None) -> float:
+    """When a run ended: as its message says, or as planned."""
+    return float(when[1]) if when else scene["operation"]["duration"]
+
+
+def revolutions(end: float, scene: Scene) -> float:
+    """Revolutions of the shaft up to a time."""
+    operation = scene["operation"]
+    first, last = operation["speed_rpm"], operation.get("final_speed_rpm", operation["speed_rpm"])
+    return (first + 0.5 * (last - first) * end / operation["duration"]) * end / 60
+
+
+def shortened(scene: Scene) -> Scene:
+    """The first revolutions of a scene, with the same speed at the same time."""
+    short = copy.deepcopy(scene)
+    operation = short["operation"]
+    first, last = operation["speed_rpm"], operation.get("final_speed_rpm", operation["speed_rpm"])
+    duration = operation["duration"]
+    wanted = min(duration, COMPARED * 60 / min(max(first, 0.5 * (first + last)), max(first, last)))
+    operation["duration"] = wanted
+    operation["final_speed_rpm"] = first + (last - first) * wanted / duration
+    short["output"] = {"samples_per_revolution": 180}
+    return short
+
+
+def tightened(scene: Scene, load: float = 0.0) -> Scene:
+    """The scene with a finer tolerance, and on request a load that much larger, N."""
+    fine = copy.deepcopy(scene)
+    tolerance = scene["integration"]["relative_tolerance"]
+    fine["integration"]["relative_tolerance"] = tolerance / FINER
+    fine["integration"]["max_steps"] *= 20
+    fine["film"]["tolerance"] = min(1e-6, tolerance) / FINER
+    fine["film"]["max_sweeps"] = 100000
+    force = fine["rotor"].get("static_load", [0.0, 0.0])
+    fine["rotor"]["static_load"] = [each + load for each in force]
+    return fine
+
+
+def compared(program: Path, scene: Scene, folder: Path) -> Comparison:
+    """The first revolutions against a finer run; where they differ too much, whether the scene amplifies."""
+    short = shortened(scene)
+    runs = (("coarse", short), ("fine", tightened(short)))
+    for name, each in runs:
+        done = run(program, each, folder, name)
+        if done is None or done.returncode != 0:
+            return Comparison("hung" if done is None else f"{name} run refused")
+    tolerance = scene["integration"]["relative_tolerance"]
+    error, share, moment = difference(folder / "coarse.h5", folder / "fine.h5", scene)
+    with h5py.File(folder / "coarse.h5") as file:
+        promised = promise(file, tolerance) / tolerance
+    found = Comparison("kept", error, promised, share=share, moment=moment)
+    if error <= found.promised:
+        return found
+    done = run(program, tightened(short, tolerance * load_of(scene)), folder, "disturbed")
+    if done is None or done.returncode != 0:
+        return Comparison("hung" if done is None else "disturbed run refused", error, found.promised)
+    found.sensitivity = difference(folder / "disturbed.h5", folder / "fine.h5", scene)[0]
+    found.outcome = "sensitive" if found.sensitivity > 0.1 * error else "missed"
+    return found
+
+
+def load_of(scene: Scene) -> float:
+    """Static load, N; without one the unbalance force."""
+    rotor = scene["rotor"]
+    force = rotor.get("static_load", [0.0, 0.0])
+    load = np.hypot(force[0] - rotor["mass"] * rotor.get("gravity", 9.81), force[1])
+    speed = scene["operation"]["speed_rpm"] * np.pi / 30
+    return max(load, rotor.get("unbalance", 0.0) * speed**2, 1.0)
+
+
+def difference(path: Path, other: Path, scene: Scene) -> tuple[float, float, float]:
+    """Largest difference of two runs: of the states in units of their tolerance, of the states in their
+    scales, of the friction moment in its peak-to-peak."""
+    tolerance = scene["integration"]["relative_tolerance"]
+    error = share = 0.0
+    with h5py.File(path) as a, h5py.File(other) as b:
+        common = min(len(a["time"]), len(b["time"]))
+        scales = state_scales(scene, b)
+        for name in STATES:
+            if name not in a:
+                continue
+            found, true = a[name][:common], b[name][:common]
+            gap = abs(found - true)
+            error = max(error, float(np.max(gap / (tolerance * (abs(true) + scales[name])))))
+            share = max(share, float(np.max(gap / scales[name])))
+        found, true = a["friction_moment"][:common], b["friction_moment"][:common]
+        span = float(np.ptp(true, axis=0).max())
+        moment = float(abs(found - true).max() / span) if span > 0 else 0.0
+    return error, share, moment
+
+
+def state_scales(scene: Scene, file: h5py.File) -> dict[str, np.ndarray | float]:
+    """Natural size of the positions, as the absolute tolerances have it; of the penetration its largest."""
+    bearing, clearance = scene["bearing"], scene["bearing"]["assembled_clearance"]
+    radius = bearing["journal_radius"] + bearing["machined_clearance"]
+    length = radius * np.radians(scene["pads"]["arc_deg"])
+    scales = {"journal_y": clearance, "journal_z": clearance, "pad_tilt": clearance / length}
+    if "pad_penetration" in file:
+        scales["pad_penetration"] = max(file["pad_penetration"][:].max(), 1e-3 * clearance)
+    return scales

@@ -1,0 +1,247 @@
+"""The page that says what the stress test found."""
+
+import re
+from collections import Counter
+from collections.abc import Callable, Iterable
+
+import numpy as np
+from judge import AT_REST, COMPARED, FINER, Result
+
+OUTCOMES = ("done", "step budget", "march stopped", "no equilibrium", "input refused", "crashed", "hung")
+NUMBER = r"-?\d+(\.\d+)?([eE][+-]?\d+)?"
+
+PAGE = """\
+# Stability
+
+{count} random scenes (seed {seed}) over wide ranges of every input: 1 to 24 pads, L/D 0.1 to 2, clearance
+0.4 to 4 per mille, preload -0.3 to 0.7, pivot ratios 0.3 to 0.7, load up to 5 times the paper's in any
+direction, 100 to 15000 rpm, constant, up and down, unbalance up to contact, every friction model (critical
+velocity down to 1e-8 m/s, bristles up to 1e9 1/m), motion, contact law, kind of rupture and film solver, 2 to
+30 revolutions. Sizes, masses and loads scale with the journal, so that most scenes are bearings, if not good
+ones.
+
+A scene passes if it ends with a whole result whose numbers are finite and physically possible (contact forces
+>= 0, films > 0, friction within its bound, time even), or with a refusal of one line that says why, where and
+when; what was computed up to then is kept and finite. None may hang: `integration%max_steps` bounds the work,
+and a scene that uses it up is counted on its own.
+
+**{passed} passed, {failed} failed.** Written by
+
+    {command}
+
+## Outcomes
+
+{outcomes}
+
+By friction and motion:
+
+{models}
+
+By number of pads:
+
+{counts}
+
+## Refusals
+
+{reasons}
+
+## Cost
+
+Steps of the scenes that moved (more than {moved} steps), per revolution, and the share of attempts that the
+error test or Newton's iteration turned down:
+
+{cost}
+
+The dearest:
+
+{dearest}
+
+## Error
+
+{compared} of the scenes that moved and ended well were run again over {revolutions} revolutions, with
+`relative_tolerance` (and `film%tolerance`) {finer} times smaller. The error is the largest difference of
+journal position, tilt and penetration at any instant, in units of the tolerance
+`relative_tolerance * (|state| + scale)`.
+
+What the settings promise: CVODE keeps what one step adds below sqrt(n) tolerances in each of n states, so
+N steps of a scene that does not amplify disturbances stay below **N sqrt(n)** tolerances. A scene beyond that
+is run once more, finely, with its load changed by `relative_tolerance` of itself. If that alone moves it a
+tenth as far or more, the scene is sensitive and no solver tracks it at this tolerance; otherwise it fails.
+
+{verdicts}
+
+{errors}
+
+The friction moment is not a state: where friction is steep it jumps, and a small difference in the time of a
+jump is a large one in the moment. Worst cases against the promise:
+
+{worst}
+
+Every failed scene is kept as a namelist in `build/stress` (`--keep`), with what was wrong in its first lines.
+"""
+
+
+def page(results: list[Result], seed: int) -> str:
+    """The whole page."""
+    failed = sum(bool(result.faults) for result in results)
+    compared = [result for result in results if result.comparison]
+    return PAGE.format(
+        count=len(results),
+        seed=seed,
+        passed=len(results) - failed,
+        failed=failed,
+        command="build/venv/bin/python tests/stress/stress.py build/bin/tiltpad "
+        f"--scenes {len(results)} --seed {seed} --report docs/stability.md",
+        outcomes=outcomes(results),
+        models=crossed(results, lambda result: f"{model(result)}, {motion(result)}"),
+        counts=crossed(results, pads),
+        reasons=reasons(results),
+        moved=AT_REST,
+        cost=cost(results),
+        dearest=dearest(results),
+        compared=len(compared),
+        revolutions=f"{COMPARED:g}",
+        finer=f"{FINER:g}",
+        verdicts=verdicts(compared),
+        errors=errors(compared),
+        worst=worst(compared),
+    )
+
+
+def table(head: Iterable, rows: Iterable[Iterable]) -> str:
+    """A Markdown table."""
+    head = list(head)
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join("| " + " | ".join(map(str, line)) + " |" for line in lines)
+
+
+def model(result: Result) -> str:
+    return result.scene["friction"]["model"]
+
+
+def motion(result: Result) -> str:
+    return result.scene["pads"]["motion"]
+
+
+def pads(result: Result) -> str:
+    count = len(result.scene["pads"]["pivot_angle_deg"])
+    return next(name for most, name in ((2, "1-2"), (6, "3-6"), (12, "7-12"), (24, "13-24")) if count <= most)
+
+
+def outcomes(results: list[Result]) -> str:
+    """Scenes and failures of each outcome."""
+    found = Counter(result.outcome for result in results)
+    bad = Counter(result.outcome for result in results if result.faults)
+    rows = [(each, found[each], bad[each]) for each in OUTCOMES if found[each]]
+    return table(("outcome", "scenes", "of them failed"), rows)
+
+
+def crossed(results: list[Result], key: Callable[[Result], str]) -> str:
+    """Outcomes over a property of the scenes."""
+    found = Counter((key(result), result.outcome) for result in results)
+    used = [each for each in OUTCOMES if any(outcome == each for _, outcome in found)]
+    keys = sorted({name for name, _ in found}, key=lambda name: (not name[0].isdigit(), len(name), name))
+    return table(("", *used), ([name, *(found[name, outcome] for outcome in used)] for name in keys))
+
+
+def reasons(results: list[Result]) -> str:
+    """Refusals by their words, without numbers."""
+    refused = [result for result in results if result.outcome in OUTCOMES[1:5]]
+    found = Counter(reason(result.message) for result in refused)
+    return table(("reason", "scenes"), found.most_common()) if found else "None."
+
+
+def reason(message: str) -> str:
+    """A message without its numbers, places and times."""
+    message = re.sub(r"; what was computed is in .*", "", message.removeprefix("tiltpad: error: "))
+    message = re.sub(r"(the march \w+( up)?) at t = \S+ s, after \d+ steps:? ?", r"\1: ", message)
+    message = re.sub(r" \(step size [^)]*\)| at \S+ rpm", "", message)
+    return re.sub(NUMBER, "..", message)
+
+
+def cost(results: list[Result]) -> str:
+    """Steps per revolution by friction model and motion: middle, nine in ten, most."""
+    groups: dict[str, list[tuple[float, float]]] = {}
+    for result in results:
+        if result.steps > AT_REST and result.revolutions > 0:
+            attempts = result.steps + result.failures
+            rates = result.steps / result.revolutions, result.failures / attempts
+            groups.setdefault(f"{model(result)}, {motion(result)}", []).append(rates)
+    rows = []
+    for name in sorted(groups, key=lambda name: (len(name), name)):
+        rate, share = np.array(groups[name]).T
+        middle, most = np.median(rate), rate.max()
+        row = name, len(rate), short(middle), short(np.quantile(rate, 0.9)), short(most)
+        rows.append((*row, f"{100 * np.median(share):.0f} %"))
+    return table(("", "scenes", "median", "9 of 10 below", "most", "turned down (median)"), rows)
+
+
+def short(number: float) -> str:
+    """Three digits."""
+    return f"{number:.3g}"
+
+
+def dearest(results: list[Result], most: int = 8) -> str:
+    """Scenes with the most steps per revolution."""
+    moved = [result for result in results if result.revolutions > 0]
+    moved.sort(key=lambda result: -result.steps / result.revolutions)
+    rows = []
+    for each in moved[:most]:
+        rate = short(each.steps / each.revolutions)
+        rows.append((each.number, rate, f"{each.seconds:.1f}", each.outcome, *features(each)))
+    return table(("scene", "steps per revolution", "wall s", "outcome", *FEATURES), rows)
+
+
+FEATURES = ("pads", "friction", "motion", "film")
+
+
+def features(result: Result) -> tuple:
+    """Pads, friction, motion and film in short."""
+    friction, film = result.scene["friction"], result.scene["film"]
+    said = friction["model"]
+    if "critical_velocity" in friction:
+        said += f" {friction['critical_velocity']:.0e} m/s"
+    if "bristle_stiffness" in friction:
+        said += f" {friction['bristle_stiffness']:.0e} 1/m"
+    film = f"{film['cavitation']}, {film.get('solver', 'auto')}"
+    return len(result.scene["pads"]["pivot_angle_deg"]), said, motion(result), film
+
+
+def verdicts(compared: list[Result]) -> str:
+    """How the comparisons ended."""
+    meaning = {
+        "kept": "within the promise",
+        "sensitive": "sensitive: beyond the promise, as is a run with a slightly different load",
+        "missed": "beyond the promise (failed)",
+    }
+    found = Counter(result.comparison.outcome for result in compared)
+    return table(("", "scenes"), ((meaning.get(key, key), n) for key, n in found.most_common()))
+
+
+def errors(compared: list[Result]) -> str:
+    """Distribution of the errors, of the scenes that moved."""
+    runs = [r.comparison for r in compared if r.comparison.outcome in ("kept", "sensitive", "missed")]
+    if not runs:
+        return "None compared."
+    rows = []
+    for name, values in (
+        ("error over promise", [each.error / each.promised for each in runs]),
+        ("error, in tolerances", [each.error for each in runs]),
+        ("error, in scales of the states (clearance)", [each.share for each in runs]),
+        ("friction moment, in its peak-to-peak", [each.moment for each in runs]),
+    ):
+        rows.append((name, *(f"{q:.1e}" for q in np.quantile(values, (0.5, 0.9, 0.99, 1.0)))))
+    return table(("", "median", "9 of 10 below", "99 of 100 below", "most"), rows)
+
+
+def worst(compared: list[Result], most: int = 8) -> str:
+    """Scenes with the largest errors against the promise."""
+    runs = [(each.comparison.error / each.comparison.promised, each) for each in compared
+            if each.comparison.promised > 0]  # fmt: skip
+    rows = []
+    for part, each in sorted(runs, key=lambda run: -run[0])[:most]:
+        moved = each.comparison.sensitivity
+        row = each.number, f"{part:.1e}", f"{each.comparison.share:.1e}", f"{moved:.1e}" if moved else "-"
+        rows.append((*row, each.comparison.outcome, *features(each)))
+    head = ("scene", "error over promise", "in scales", "by the load, in tolerances", "verdict")
+    return table((*head, *FEATURES), rows)

@@ -1,0 +1,89 @@
+"""Stress test: random scenes over wide ranges of every input; each ends in a result or a named refusal.
+
+usage: stress.py TILTPAD [--scenes N] [--seed S] [--jobs J] [--compare SHARE] [--keep FOLDER] [--report FILE]
+
+Scenes that fail are kept as namelists, to be run again. The last line reads "N passed, N failed".
+"""
+
+import argparse
+import os
+import shutil
+import tempfile
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from judge import Result, judge
+from report import page
+from scenes import Dice, draw, text
+
+
+def arguments() -> argparse.Namespace:
+    """What the command line says."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("program", type=lambda word: Path(word).resolve())
+    parser.add_argument("--scenes", type=int, default=300, help="how many")
+    parser.add_argument("--first", type=int, default=1, help="number of the first scene")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--compare", type=float, default=0.5, help="share compared with a finer run")
+    parser.add_argument("--keep", type=Path, default=Path("build/stress"), help="folder for scenes that fail")
+    parser.add_argument("--report", type=Path, help="Markdown page to write")
+    parser.add_argument("--verbose", action="store_true", help="a line for every scene")
+    return parser.parse_args()
+
+
+def member(options: argparse.Namespace, number: int) -> Result:
+    """Draws, runs and judges one scene in a folder of its own."""
+    scene = draw(options.seed, number)
+    compare = Dice(f"compare {options.seed}/{number}").chance(options.compare)
+    folder = Path(tempfile.mkdtemp(prefix="tiltpad-stress-"))
+    try:
+        result = judge(options.program, number, scene, folder, compare)
+    finally:
+        shutil.rmtree(folder)
+    if result.faults:
+        keep(options, result)
+    return result
+
+
+def keep(options: argparse.Namespace, result: Result) -> None:
+    """Writes a scene that failed, with what was wrong, as a namelist."""
+    options.keep.mkdir(parents=True, exist_ok=True)
+    words = "".join(f"! {fault}\n" for fault in result.faults)
+    (options.keep / f"seed{options.seed}_{result.number}.nml").write_text(words + text(result.scene))
+
+
+def tell(result: Result, verbose: bool) -> None:
+    """A line for a scene that failed, or for every scene."""
+    for fault in result.faults:
+        print(f"FAILED: scene {result.number}: {fault}", flush=True)
+    if verbose:
+        error = f", {result.comparison}" if result.comparison else ""
+        said = result.message.removeprefix("tiltpad: error: ")
+        print(f"{result.number}: {result.outcome}, {result.steps} steps, {result.revolutions:.2f} rev, "
+              f"{result.seconds:.2f} s {said}{error}", flush=True)  # fmt: skip
+
+
+def main() -> int:
+    options = arguments()
+    started = time.monotonic()
+    results = []
+    with ThreadPoolExecutor(options.jobs) as pool:
+        numbers = range(options.first, options.first + options.scenes)
+        for result in pool.map(lambda number: member(options, number), numbers):
+            tell(result, options.verbose)
+            results.append(result)
+    summary = page(results, options.seed)
+    if options.report:
+        options.report.write_text(summary)
+    else:
+        print(summary)
+    failed = sum(bool(result.faults) for result in results)
+    print(f"{time.monotonic() - started:.0f} s")
+    print(f"{len(results) - failed} passed, {failed} failed")
+    return int(failed > 0)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
