@@ -20,7 +20,7 @@ FFLAGS ?= -O1 -g -fcheck=all,no-array-temps -fbacktrace -ffpe-trap=invalid,zero,
           -Wno-unused-dummy-argument -Wno-uninitialized -Wno-maybe-uninitialized -Wno-compare-reals -Werror
 B := build/debug
 else ifeq ($(MODE),release)
-FFLAGS ?= -O3 -march=native
+FFLAGS ?= -O3 -march=native -mprefer-vector-width=256 -fstack-arrays
 B := build
 else
 $(error MODE=$(MODE): must be release or debug)

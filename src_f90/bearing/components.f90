@@ -22,7 +22,7 @@ module components
 contains
 
    !> The film solver of all pads.
-   pure function new_film(scene) result(film)
+   function new_film(scene) result(film)
       type(scene_type), intent(in) :: scene
       class(film_solver_type), allocatable :: film
       type(pad_film_type) :: films(scene%pad_count())
@@ -50,7 +50,7 @@ contains
          if (f%solver == 'sor') then
             film = new_sor_film(films, options)
          else if (cavitation == cavitation_reynolds) then
-            film = new_auto_film(films, modal_cells, f%axial_modes, options)
+            film = new_auto_film(films, modal_cells, f%axial_modes, sor_cells, f%axial_cells)
          else
             film = new_modal_film(films, modal_cells, f%axial_modes, cavitation == cavitation_gumbel)
          end if

@@ -1,15 +1,16 @@
-!> Axial modes while the film is whole; over-relaxation for what rupture changes, for a pad at an instant.
+!> Axial modes while the film is whole; for what rupture changes, for a pad at an instant, the equations of
+!> over-relaxation solved by elimination.
 !>
-!> Where the film ruptures the force is sor with rupture, plus c times (modal - sor without rupture), with
-!> c = 1 at the onset and 0 where the tension of the whole film reaches its highest pressure. So at the
-!> onset the force does not jump by the difference of the two discretisations, a loaded pad keeps the modes'
-!> accuracy, and an empty pad is left to sor alone.
+!> Where the film ruptures the force is that of the finite volumes with rupture, plus c times (modal - finite
+!> volumes without rupture), with c = 1 at the onset and 0 where the tension of the whole film reaches its
+!> highest pressure. So at the onset the force does not jump by the difference of the two discretisations, a
+!> loaded pad keeps the modes' accuracy, and an empty pad is left to the finite volumes alone.
 module auto_film
    use kinds, only: wp
    use film_solver, only: film_solver_type, film_motion, film_response, film_ok
    use pad_film, only: pad_film_type
    use modal_film, only: modal_film_type, new_modal_film
-   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none
+   use direct_film, only: direct_film_type, new_direct_film
    implicit none (type, external)
    private
    public :: auto_film_type, new_auto_film
@@ -22,27 +23,26 @@ module auto_film
       private
       real(wp), allocatable :: cavitation_pressure(:)
       type(modal_film_type) :: modal
-      !> With and without rupture.
-      type(sor_film_type) :: sor, whole
+      type(direct_film_type), allocatable :: direct(:)
    contains
       procedure :: evaluate
    end type auto_film_type
 
 contains
 
-   !> All solvers for the same films: cells along the arc and modes of the one, options of the others.
-   pure function new_auto_film(films, cells, modes, options) result(solver)
+   !> Both solvers for the same films: cells along the arc and modes of the one; cells along the arc and
+   !> along half the width of the other.
+   function new_auto_film(films, cells, modes, columns, rows) result(solver)
       type(pad_film_type), intent(in) :: films(:)
-      integer, intent(in) :: cells, modes
-      type(sor_options), intent(in) :: options
+      integer, intent(in) :: cells, modes, columns, rows
       type(auto_film_type) :: solver
-      type(sor_options) :: without_rupture
+      integer :: i
       solver%cavitation_pressure = films%cavitation_pressure
       solver%modal = new_modal_film(films, cells, modes, .false.)
-      solver%sor = new_sor_film(films, options)
-      without_rupture = options
-      without_rupture%cavitation = cavitation_none
-      solver%whole = new_sor_film(films, without_rupture)
+      allocate (solver%direct(size(films)))
+      do i = 1, size(films)
+         solver%direct(i) = new_direct_film(films(i), columns, rows)
+      end do
    end function new_auto_film
 
    subroutine evaluate(self, motion, speed, want_slopes, response)
@@ -63,19 +63,16 @@ contains
             self%counters%modal = self%counters%modal + 1
             cycle
          end if
-         call self%sor%evaluate_pad(i, motion(i), speed, want_slopes, ruptured)
+         self%counters%sor = self%counters%sor + 1
+         call self%direct(i)%evaluate(motion(i), speed, .true., want_slopes, self%counters, ruptured)
          if (ruptured%status == film_ok .and. tension < height) then
             c = 1 - tension/height
-            call self%whole%evaluate_pad(i, motion(i), speed, want_slopes, whole)
-            ruptured%status = whole%status
-            ruptured%residual = max(ruptured%residual, whole%residual)
+            call self%direct(i)%evaluate(motion(i), speed, .false., want_slopes, self%counters, whole)
             ruptured%force = ruptured%force + c*(response(i)%force - whole%force)
             ruptured%slope = ruptured%slope + c*(response(i)%slope - whole%slope)
             ruptured%max_pressure = ruptured%max_pressure + c*(response(i)%max_pressure - whole%max_pressure)
          end if
          response(i) = ruptured
       end do
-      self%counters%sor = self%sor%counters%sor
-      self%counters%sweeps = self%sor%counters%sweeps + self%whole%counters%sweeps
    end subroutine evaluate
 end module auto_film

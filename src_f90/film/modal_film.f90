@@ -12,8 +12,8 @@
 module modal_film
    use kinds, only: wp, pi
    use film_solver, only: film_solver_type, film_motion, film_response, film_closed
-   use pad_film, only: pad_film_type
-   use modal_sweeps, only: lanes, solve_modes, solve_adjoint, sum_modes
+   use pad_film, only: pad_film_type, pad_directions
+   use modal_sweeps, only: lanes, weigh_nodes, solve_modes, solve_adjoints, sum_modes, sum_adjoint
    implicit none (type, external)
    private
    public :: modal_film_type, new_modal_film
@@ -37,10 +37,11 @@ module modal_film
    !> `d` is their distance, rad. Modes fill up blocks of `lanes`; idle lanes have c = 0.
    type :: modal_pad
       type(pad_film_type) :: film
+      type(pad_directions) :: directions
       integer :: n, blocks
       real(wp) :: d, radius
-      !> Sine, cosine and weight of the quadrature (Simpson's rule) at the nodes.
-      real(wp), allocatable :: sine(:), cosine(:), weight(:)
+      !> Sine, cosine and weight of the quadrature (Simpson's rule) at the nodes; the weight times either.
+      real(wp), allocatable :: sine(:), cosine(:), weight(:), along(:), outward(:)
       !> By lane: c_k = (L/2) b_k^2; (Lambda_k d)^2/12; and b_k cos(lambda_k Z) at (lane, place).
       real(wp), allocatable :: c(:), stiffness(:), at_place(:, :)
       !> Sums over the modes left out of c_k/Lambda_k^j, j = 1, 2, 3, and of b_k cos(lambda_k Z)/Lambda_k^2.
@@ -49,9 +50,10 @@ module modal_film
       real(wp), allocatable :: h(:), h_slope(:), per_g(:), v(:), r(:), s(:)
       !> By lane, node and block: a = 1 - d^2 V/12, factors f of the elimination, q.
       real(wp), allocatable :: a(:, :, :), f(:, :, :), q(:, :, :)
-      !> What q/g by (lane, block, node) and -r/h^3 by node count along the width: c and tail(2), less the
-      !> part of the width where the film has ruptured.
+      !> What q/g by (lane, node, block) and -r/h^3 by node count along the width: c and tail(2), less the
+      !> part of the width where the film has ruptured, if it has.
       real(wp), allocatable :: share(:, :, :), narrow_share(:)
+      logical :: ruptured = .true.
    end type modal_pad
 
    type, extends(film_solver_type) :: modal_film_type
@@ -86,6 +88,7 @@ contains
       real(wp) :: phi(0:n), lambda(most), unit
       integer :: i, k, modes
       pad%film = film
+      pad%directions = film%directions()
       pad%n = n
       pad%radius = film%pad_radius()
       pad%d = film%arc()/n
@@ -105,15 +108,17 @@ contains
          pad%place_tail = pad%place_tail - pad%at_place(k, :)/lambda(k)**2
       end do
       phi = [(i*pad%d - film%trailing_angle, i=0, n)]
-      allocate (pad%sine(0:n), pad%cosine(0:n), pad%weight(0:n))
+      allocate (pad%sine(0:n), pad%cosine(0:n), pad%weight(0:n), pad%along(0:n), pad%outward(0:n))
       pad%sine(:) = sin(phi)
       pad%cosine(:) = cos(phi)
       pad%weight(0:n:2) = 2*pad%d/3
       pad%weight(1:n:2) = 4*pad%d/3
       pad%weight(0:n:n) = pad%d/3
+      pad%along(:) = pad%weight*pad%sine
+      pad%outward(:) = pad%weight*pad%cosine
       allocate (pad%h(0:n), pad%h_slope(0:n), pad%per_g(0:n), pad%v(0:n), pad%r(0:n), pad%s(0:n))
       allocate (pad%a(lanes, 0:n, pad%blocks), pad%f(lanes, 0:n, pad%blocks), pad%q(lanes, 0:n, pad%blocks))
-      allocate (pad%share(lanes, pad%blocks, 0:n), pad%narrow_share(0:n))
+      allocate (pad%share(lanes, 0:n, pad%blocks), pad%narrow_share(0:n))
    end subroutine init_pad
 
    subroutine evaluate_all(self, motion, speed, want_slopes, response)
@@ -127,22 +132,24 @@ contains
       integer :: i, b
       do i = 1, size(motion)
          associate (pad => self%pads(i))
-            response(i)%min_film = pad%film%least_thickness(motion(i))
+            response(i)%min_film = pad%film%least_thickness(motion(i), pad%directions)
             if (.not. response(i)%min_film > 0) then
                response(i)%status = film_closed
                cycle
             end if
             self%counters%modal = self%counters%modal + 1
             rise = pad%film%supply_pressure - pad%film%ambient_pressure
-            call set_nodes(pad, motion(i), source_factors(pad, speed))
+            call set_nodes(pad%n, pad%film%machined_clearance, motion(i), source_factors(pad, speed), pad%sine, &
+               & pad%cosine, pad%h, pad%h_slope, pad%per_g, pad%v, pad%r, pad%s)
             do b = 1, pad%blocks
                call solve_modes(pad%n, pad%d, pad%stiffness(lanes*b - lanes + 1:lanes*b), pad%v, pad%s, &
                   & rise/pad%per_g(pad%n), pad%a(:, :, b), pad%f(:, :, b), pad%q(:, :, b))
             end do
             call sum_up(pad, rise, response(i))
             clip = self%gumbel .and. response(i)%min_pressure < pad%film%cavitation_pressure
+            if (pad%ruptured .and. (clip .or. want_slopes)) call whole_shares(pad)
             if (clip) call rupture(pad, response(i))
-            if (want_slopes) call add_slopes(pad, rise, clip, source_factors(pad, speed), response(i))
+            if (want_slopes) call add_slopes(pad, rise, source_factors(pad, speed), response(i))
          end associate
       end do
    end subroutine evaluate_all
@@ -155,22 +162,26 @@ contains
       factors = pad%film%viscosity*pad%radius*[-6*speed*pad%film%journal_radius, 12*pad%radius]
    end function source_factors
 
-   pure subroutine set_nodes(pad, motion, factors)
-      type(modal_pad), intent(inout) :: pad
+   !> Film thickness and what the equation takes from it, at the nodes.
+   pure subroutine set_nodes(n, clearance, motion, factors, sine, cosine, h, h_slope, per_g, v, r, s)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: clearance
       type(film_motion), intent(in) :: motion
-      real(wp), intent(in) :: factors(2)
+      real(wp), intent(in) :: factors(2), sine(0:n), cosine(0:n)
+      real(wp), dimension(0:n), intent(out) :: h, h_slope, per_g, v, r, s
       real(wp) :: per_h
       integer :: i
-      associate (e => motion%position, w => motion%velocity, c => pad%film%machined_clearance)
-         do i = 0, pad%n
-            pad%h(i) = c - e(1)*pad%sine(i) - e(2)*pad%cosine(i)
-            pad%h_slope(i) = e(2)*pad%sine(i) - e(1)*pad%cosine(i)
-            per_h = 1/pad%h(i)
-            pad%per_g(i) = per_h*sqrt(per_h)
+      associate (e => motion%position, w => motion%velocity)
+         !$omp simd private(per_h)
+         do i = 0, n
+            h(i) = clearance - e(1)*sine(i) - e(2)*cosine(i)
+            h_slope(i) = e(2)*sine(i) - e(1)*cosine(i)
+            per_h = 1/h(i)
+            per_g(i) = per_h*sqrt(per_h)
             ! h'' = c_m - h
-            pad%v(i) = 0.75_wp*(pad%h_slope(i)*per_h)**2 + 1.5_wp*(c*per_h - 1)
-            pad%r(i) = factors(1)*pad%h_slope(i) - factors(2)*(w(1)*pad%sine(i) + w(2)*pad%cosine(i))
-            pad%s(i) = pad%r(i)*pad%per_g(i)
+            v(i) = 0.75_wp*(h_slope(i)*per_h)**2 + 1.5_wp*(clearance*per_h - 1)
+            r(i) = factors(1)*h_slope(i) - factors(2)*(w(1)*sine(i) + w(2)*cosine(i))
+            s(i) = r(i)*per_g(i)
          end do
       end associate
    end subroutine set_nodes
@@ -180,31 +191,34 @@ contains
       type(modal_pad), intent(in) :: pad
       real(wp), intent(in) :: rise
       type(film_response), intent(inout) :: response
-      real(wp), dimension(0:pad%n) :: weight, p_middle, p_side
-      real(wp) :: force(2), edge(0:1)
-      integer :: b
-      associate (film => pad%film, n => pad%n)
-         weight = pad%weight*pad%per_g
-         p_middle = -pad%place_tail(middle)*pad%s
-         p_side = -pad%place_tail(side)*pad%s
-         force = -pad%tail(2)*[dot_product(weight*pad%s, pad%sine), dot_product(weight*pad%s, pad%cosine)]
+      real(wp), dimension(0:pad%n) :: along, outward, p_middle, p_side
+      real(wp) :: force(2), edge(0:1), lowest, highest
+      integer :: i, b
+      associate (film => pad%film, n => pad%n, s => pad%s, per_g => pad%per_g, sine => pad%sine, cosine => pad%cosine)
+         call weigh_nodes(n, pad%along, pad%outward, per_g, s, pad%tail(2), pad%place_tail(middle), &
+            & pad%place_tail(side), along, outward, force, p_middle, p_side)
          do b = 1, pad%blocks
             associate (first => lanes*b - lanes + 1, last => lanes*b)
-               call sum_modes(n, weight, pad%sine, pad%cosine, pad%c(first:last), pad%at_place(first:last, middle), &
+               call sum_modes(n, along, outward, pad%c(first:last), pad%at_place(first:last, middle), &
                   & pad%at_place(first:last, side), pad%q(:, :, b), force, p_middle, p_side)
             end associate
          end do
          ! layers at the edges of the modes left out, and the supply pressure in them
-         edge = pad%tail(3)*pad%s(::n)*pad%per_g(::n)
+         edge = pad%tail(3)*[s(0)*per_g(0), s(n)*per_g(n)]
          edge(1) = edge(1) + pad%tail(1)*rise
-         force = force + edge(0)*[pad%sine(0), pad%cosine(0)] + edge(1)*[pad%sine(n), pad%cosine(n)]
-         response%force = -pad%radius*(force + film%ambient_pressure*film%axial_length &
-            & *[pad%cosine(0) - pad%cosine(n), pad%sine(n) - pad%sine(0)])
-         p_middle = p_middle*pad%per_g
-         p_side = p_side*pad%per_g
-         response%min_pressure = film%ambient_pressure &
-            & + min(0.0_wp, rise, minval(p_middle(1:n - 1)), minval(p_side(1:n - 1)))
-         response%max_pressure = film%ambient_pressure + max(0.0_wp, rise, maxval(p_middle(1:n - 1)))
+         force(1) = force(1) + edge(0)*sine(0) + edge(1)*sine(n) &
+            & + film%ambient_pressure*film%axial_length*(cosine(0) - cosine(n))
+         force(2) = force(2) + edge(0)*cosine(0) + edge(1)*cosine(n) &
+            & + film%ambient_pressure*film%axial_length*(sine(n) - sine(0))
+         response%force = -pad%radius*force
+         lowest = min(0.0_wp, rise)
+         highest = max(0.0_wp, rise)
+         do i = 1, n - 1
+            lowest = min(lowest, per_g(i)*min(p_middle(i), p_side(i)))
+            highest = max(highest, per_g(i)*p_middle(i))
+         end do
+         response%min_pressure = film%ambient_pressure + lowest
+         response%max_pressure = film%ambient_pressure + highest
       end associate
    end subroutine sum_up
 
@@ -216,7 +230,7 @@ contains
       real(wp) :: p(gauss), lost(gauss), floor, missing
       integer :: i, b, k
       floor = pad%film%cavitation_pressure - pad%film%ambient_pressure
-      call whole_shares(pad)
+      pad%ruptured = .true.
       ! the edges have their pressure
       do i = 1, pad%n - 1
          p = -pad%place_tail(:gauss)*pad%s(i)
@@ -231,7 +245,7 @@ contains
          pad%narrow_share(i) = pad%narrow_share(i) - dot_product(lost, pad%place_tail(:gauss))
          do b = 1, pad%blocks
             do k = 1, lanes
-               pad%share(k, b, i) = pad%share(k, b, i) - dot_product(lost, pad%at_place(lanes*(b - 1) + k, :gauss))
+               pad%share(k, i, b) = pad%share(k, i, b) - dot_product(lost, pad%at_place(lanes*(b - 1) + k, :gauss))
             end do
          end do
          missing = pad%radius*pad%weight(i)*dot_product(lost, floor - p)
@@ -243,56 +257,71 @@ contains
    !> The shares of a film without rupture.
    pure subroutine whole_shares(pad)
       type(modal_pad), intent(inout) :: pad
-      pad%share = spread(reshape(pad%c, [lanes, pad%blocks]), 3, pad%n + 1)
+      integer :: b
+      do b = 1, pad%blocks
+         pad%share(:, :, b) = spread(pad%c(lanes*b - lanes + 1:lanes*b), 2, pad%n + 1)
+      end do
       pad%narrow_share = pad%tail(2)
+      pad%ruptured = .false.
    end subroutine whole_shares
 
-   !> Force derivatives by adjoints. For a force weight psi, let B m = share psi weight/g with the matrix B
+   !> Force derivatives by adjoints. For a force weight psi, let B m = -share psi weight/g with the matrix B
    !> of the scheme; the force changes by m . (dS - dB q) and by what changes in the quadrature itself; all
    !> of it is linear in dh, dh' and dr at the nodes.
-   subroutine add_slopes(pad, rise, clip, factors, response)
+   pure subroutine add_slopes(pad, rise, factors, response)
       type(modal_pad), intent(inout) :: pad
       real(wp), intent(in) :: rise, factors(2)
-      logical, intent(in) :: clip
       type(film_response), intent(inout) :: response
-      real(wp), dimension(lanes, 0:pad%n) :: adjoint, spread_adjoint
-      real(wp), dimension(0:pad%n) :: psi, total, over_v, over_s, over_line, over_narrow, over_h, over_slope, over_r
-      real(wp) :: boundary
-      integer :: i, m, n, b
-      n = pad%n
-      if (.not. clip) call whole_shares(pad)
-      total = [(sum(pad%share(:, :, i)*pad%q(:, i, :)), i=0, n)]
-      do m = 1, 2
-         psi = -pad%radius*pad%sine
-         if (m == 2) psi = -pad%radius*pad%cosine
-         ! slopes of the force over q/g, -r/h^3, v and s at the nodes
-         over_line = pad%weight*psi
-         over_narrow = pad%narrow_share*pad%weight*psi
-         over_narrow([0, n]) = over_narrow([0, n]) - pad%tail(3)*psi([0, n])
+      real(wp) :: adjoint(lanes, 0:pad%n, 2)
+      real(wp), dimension(0:pad%n, 2) :: over_line, load, over_s, over_v
+      real(wp) :: boundary(2), total, over_narrow, over_h, over_slope, over_r, per_h
+      integer :: i, m, b
+      associate (n => pad%n, sine => pad%sine, cosine => pad%cosine, per_g => pad%per_g)
+         ! slopes of the force over q/g, v and s at the nodes
+         over_line(:, 1) = -pad%radius*pad%along
+         over_line(:, 2) = -pad%radius*pad%outward
+         load(:, 1) = over_line(:, 1)*per_g
+         load(:, 2) = over_line(:, 2)*per_g
          over_s = 0
          over_v = 0
          boundary = 0
          do b = 1, pad%blocks
-            call solve_adjoint(n, pad%a(:, :, b), pad%f(:, :, b), pad%share(:, b, :), over_line*pad%per_g, adjoint)
-            spread_adjoint = 10*adjoint
-            spread_adjoint(:, 1:) = spread_adjoint(:, 1:) + adjoint(:, :n - 1)
-            spread_adjoint(:, :n - 1) = spread_adjoint(:, :n - 1) + adjoint(:, 1:)
-            over_s = over_s + pad%d**2/12*sum(spread_adjoint, dim=1)
-            over_v = over_v + pad%d**2/12*sum(spread_adjoint*pad%q(:, :, b), dim=1)
-            ! q = rise g at the leading edge stands in the last equation as a q
-            boundary = boundary - dot_product(adjoint(:, n - 1), pad%a(:, n, b))*rise/pad%per_g(n)
+            call solve_adjoints(n, pad%a(:, :, b), pad%f(:, :, b), pad%share(:, :, b), load, adjoint)
+            do m = 1, 2
+               call sum_adjoint(n, adjoint(:, :, m), pad%q(:, :, b), over_s(:, m), over_v(:, m))
+               ! q = rise g at the leading edge stands in the last equation as a q
+               if (rise /= 0) boundary(m) = boundary(m) - dot_product(adjoint(:, n - 1, m), pad%a(:, n, b))*rise/per_g(n)
+            end do
          end do
-         ! q/g at the leading edge is given
-         over_line(n) = 0
-         ! v = 3/4 (h'/h)^2 + 3/2 (c_m/h - 1), s = r h^(-3/2), 1/g = h^(-3/2), r = wedge h' + squeeze dh/dt
-         over_r = over_s*pad%per_g - over_narrow*pad%per_g**2
-         over_slope = over_v*1.5_wp*pad%h_slope/pad%h**2 + over_r*factors(1)
-         over_h = -over_v*1.5_wp*(pad%h_slope**2/pad%h + pad%film%machined_clearance)/pad%h**2 &
-            & - 1.5_wp/pad%h*(over_s*pad%s + over_line*total*pad%per_g) + 3*over_narrow*pad%s*pad%per_g/pad%h
-         over_h(n) = over_h(n) + 1.5_wp/pad%h(n)*boundary
-         response%slope(m, :) = [-dot_product(over_h, pad%sine) - dot_product(over_slope, pad%cosine), &
-            & -dot_product(over_h, pad%cosine) + dot_product(over_slope, pad%sine), &
-            & -factors(2)*dot_product(over_r, pad%sine), -factors(2)*dot_product(over_r, pad%cosine)]
-      end do
+         over_s = pad%d**2/12*over_s
+         over_v = pad%d**2/12*over_v
+         response%slope = 0
+         do i = 0, n
+            per_h = 1/pad%h(i)
+            ! q/g at the leading edge is given
+            total = 0
+            if (i < n) then
+               do b = 1, pad%blocks
+                  total = total + dot_product(pad%share(:, i, b), pad%q(:, i, b))
+               end do
+            end if
+            do m = 1, 2
+               ! slope over -r/h^3
+               over_narrow = pad%narrow_share(i)*over_line(i, m)
+               if (i == 0 .or. i == n) over_narrow = over_narrow + pad%tail(3)*pad%radius*merge(sine(i), cosine(i), m == 1)
+               ! v = 3/4 (h'/h)^2 + 3/2 (c_m/h - 1), s = r h^(-3/2), 1/g = h^(-3/2), r = wedge h' + squeeze dh/dt
+               over_r = over_s(i, m)*per_g(i) - over_narrow*per_g(i)**2
+               over_slope = over_v(i, m)*1.5_wp*pad%h_slope(i)*per_h**2 + over_r*factors(1)
+               over_h = -over_v(i, m)*1.5_wp*(pad%h_slope(i)**2*per_h + pad%film%machined_clearance)*per_h**2 &
+                  & - 1.5_wp*per_h*(over_s(i, m)*pad%s(i) + over_line(i, m)*total*per_g(i)) &
+                  & + 3*over_narrow*pad%s(i)*per_g(i)*per_h
+               if (i == n) over_h = over_h + 1.5_wp*per_h*boundary(m)
+               response%slope(m, 1) = response%slope(m, 1) - over_h*sine(i) - over_slope*cosine(i)
+               response%slope(m, 2) = response%slope(m, 2) - over_h*cosine(i) + over_slope*sine(i)
+               response%slope(m, 3) = response%slope(m, 3) - factors(2)*over_r*sine(i)
+               response%slope(m, 4) = response%slope(m, 4) - factors(2)*over_r*cosine(i)
+            end do
+         end do
+      end associate
    end subroutine add_slopes
 end module modal_film

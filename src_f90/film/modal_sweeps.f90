@@ -1,100 +1,204 @@
-!> The inner loops of the modal film: serial along phi, side by side over the modes of a block.
+!> The inner loops of the modal film: along the arc from both edges to the middle and back, so that two
+!> chains of divisions run at a time; side by side over the modes of a block.
 module modal_sweeps
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: lanes, solve_modes, solve_adjoint, sum_modes
+   public :: lanes, weigh_nodes, solve_modes, solve_adjoints, sum_modes, sum_adjoint
 
    !> Modes solved side by side: the length of a vector register.
    integer, parameter :: lanes = 8
 
 contains
 
-   !> Numerov's scheme for q'' = V q + s, q(0) = 0, q(n) given, V = Lambda^2 + v. With a = 1 - d^2 V/12 and
-   !> w = a q it reads
-   !>    w(i-1) + (10 - 12/a(i)) w(i) + w(i+1) = d^2/12 (s(i-1) + 10 s(i) + s(i+1)),
-   !> and f(i) = 1/(12 - a(i) (10 + e(i-1))), e = a f, eliminates with one division a node.
+   !> Numerov's scheme for q'' = V q + s, q(0) = 0, q(n) given, n even, V = Lambda^2 + v. With
+   !> a = 1 - d^2 V/12 and w = a q it reads
+   !>    (12 - 10 a(i)) q(i) = w(i-1) + w(i+1) - d^2/12 (s(i-1) + 10 s(i) + s(i+1)).
+   !> Elimination from an edge leaves w(i) = e(i) w(next inwards) + y(i), with e = a f and
+   !> f(i) = 1/(12 - a(i) (10 + e(next outwards))).
    pure subroutine solve_modes(n, d, stiffness, v, s, last, a, f, q)
       integer, intent(in) :: n
       !> Step; (Lambda d)^2/12 by lane; v and s by node; q(n).
       real(wp), intent(in) :: d, stiffness(lanes), v(0:n), s(0:n), last
       !> a, and the factors of the elimination, for the adjoint; the solution.
       real(wp), intent(out) :: a(lanes, 0:n), f(lanes, 0:n), q(lanes, 0:n)
-      real(wp), dimension(lanes) :: e, y, w
-      real(wp) :: load, unit
-      integer :: i, k
+      real(wp), dimension(lanes) :: e, e2, y, y2, w, w2
+      real(wp) :: unit, load, load2
+      integer :: i, j, k
       unit = d**2/12
-      do i = 0, n
+      e = 0
+      e2 = 0
+      y = 0
+      a(:, n) = 1 - unit*v(n) - stiffness
+      y2 = a(:, n)*last
+      do i = 1, n/2 - 1
+         j = n - i
+         load = unit*(s(i - 1) + 10*s(i) + s(i + 1))
+         load2 = unit*(s(j - 1) + 10*s(j) + s(j + 1))
+         !$omp simd
          do k = 1, lanes
             a(k, i) = 1 - unit*v(i) - stiffness(k)
-         end do
-      end do
-      e = 0
-      y = 0
-      do i = 1, n - 1
-         load = unit*(s(i - 1) + 10*s(i) + s(i + 1))
-         do k = 1, lanes
             f(k, i) = 1/(12 - a(k, i)*(10 + e(k)))
             q(k, i) = y(k) - load
             e(k) = a(k, i)*f(k, i)
             y(k) = e(k)*q(k, i)
          end do
+         !$omp simd
+         do k = 1, lanes
+            a(k, j) = 1 - unit*v(j) - stiffness(k)
+            f(k, j) = 1/(12 - a(k, j)*(10 + e2(k)))
+            q(k, j) = y2(k) - load2
+            e2(k) = a(k, j)*f(k, j)
+            y2(k) = e2(k)*q(k, j)
+         end do
       end do
-      q(:, 0) = 0
-      q(:, n) = last
-      w = a(:, n)*last
-      do i = n - 1, 1, -1
+      i = n/2
+      load = unit*(s(i - 1) + 10*s(i) + s(i + 1))
+      !$omp simd
+      do k = 1, lanes
+         a(k, i) = 1 - unit*v(i) - stiffness(k)
+         f(k, i) = 1/(12 - a(k, i)*(10 + e(k) + e2(k)))
+         q(k, i) = f(k, i)*(y(k) + y2(k) - load)
+         w(k) = a(k, i)*q(k, i)
+         w2(k) = w(k)
+      end do
+      do i = n/2 - 1, 1, -1
+         j = n - i
+         !$omp simd
          do k = 1, lanes
             q(k, i) = f(k, i)*(w(k) + q(k, i))
             w(k) = a(k, i)*q(k, i)
          end do
+         !$omp simd
+         do k = 1, lanes
+            q(k, j) = f(k, j)*(w2(k) + q(k, j))
+            w2(k) = a(k, j)*q(k, j)
+         end do
       end do
+      q(:, 0) = 0
+      q(:, n) = last
    end subroutine solve_modes
 
-   !> The transposed scheme with the load share(k, i) load(i): the same elimination, as w = a q scales the
-   !> columns of a symmetric matrix.
-   pure subroutine solve_adjoint(n, a, f, share, load, adjoint)
+   !> The transposed scheme with two loads, -share(k, i) load(i, m): the same elimination, as w = a q scales
+   !> the columns of a symmetric matrix.
+   pure subroutine solve_adjoints(n, a, f, share, load, adjoint)
       integer, intent(in) :: n
-      real(wp), intent(in) :: a(lanes, 0:n), f(lanes, 0:n), share(lanes, 0:n), load(0:n)
-      real(wp), intent(out) :: adjoint(lanes, 0:n)
-      real(wp) :: y(lanes)
-      integer :: i
-      adjoint(:, 0) = 0
-      adjoint(:, n) = 0
-      y = 0
-      do i = 1, n - 1
-         y = f(:, i)*(a(:, i)*y - share(:, i)*load(i))
-         adjoint(:, i) = y
+      real(wp), intent(in) :: a(lanes, 0:n), f(lanes, 0:n), share(lanes, 0:n), load(0:n, 2)
+      real(wp), intent(out) :: adjoint(lanes, 0:n, 2)
+      real(wp), dimension(lanes) :: y, y2
+      integer :: i, j, k, m
+      do m = 1, 2
+         y = 0
+         y2 = 0
+         do i = 1, n/2 - 1
+            j = n - i
+            !$omp simd
+            do k = 1, lanes
+               y(k) = f(k, i)*(a(k, i)*y(k) - share(k, i)*load(i, m))
+               adjoint(k, i, m) = y(k)
+            end do
+            !$omp simd
+            do k = 1, lanes
+               y2(k) = f(k, j)*(a(k, j)*y2(k) - share(k, j)*load(j, m))
+               adjoint(k, j, m) = y2(k)
+            end do
+         end do
+         i = n/2
+         !$omp simd
+         do k = 1, lanes
+            y(k) = f(k, i)*(a(k, i)*(y(k) + y2(k)) - share(k, i)*load(i, m))
+            adjoint(k, i, m) = y(k)
+            y2(k) = y(k)
+         end do
+         do i = n/2 - 1, 1, -1
+            j = n - i
+            !$omp simd
+            do k = 1, lanes
+               y(k) = adjoint(k, i, m) + a(k, i)*f(k, i)*y(k)
+               adjoint(k, i, m) = y(k)
+            end do
+            !$omp simd
+            do k = 1, lanes
+               y2(k) = adjoint(k, j, m) + a(k, j)*f(k, j)*y2(k)
+               adjoint(k, j, m) = y2(k)
+            end do
+         end do
+         adjoint(:, 0, m) = 0
+         adjoint(:, n, m) = 0
       end do
-      do i = n - 2, 1, -1
-         adjoint(:, i) = adjoint(:, i) + a(:, i)*f(:, i)*adjoint(:, i + 1)
-      end do
-   end subroutine solve_adjoint
+   end subroutine solve_adjoints
 
-   !> Adds a block's sums over nodes and lanes of weight c q (sine, cosine), and its part of the pressure at
-   !> two places across the width (times g).
-   pure subroutine sum_modes(n, weight, sine, cosine, c, middle, side, q, sums, p_middle, p_side)
+   !> Quadrature weights of q, and the narrow-pad part (the modes left out) of the sums and the pressures.
+   pure subroutine weigh_nodes(n, w_sine, w_cosine, per_g, s, tail, tail_middle, tail_side, along, outward, sums, &
+      & p_middle, p_side)
       integer, intent(in) :: n
-      !> By node, and by lane (b_k cos(lambda_k Z) in the middle and towards the side).
-      real(wp), intent(in) :: weight(0:n), sine(0:n), cosine(0:n), c(lanes), middle(lanes), side(lanes), q(lanes, 0:n)
-      real(wp), intent(inout) :: sums(2), p_middle(0:n), p_side(0:n)
-      real(wp) :: along(lanes), outward(lanes), at_middle, at_side
-      integer :: i, k
-      along = 0
-      outward = 0
+      !> Quadrature weight times sine and cosine, 1/g and s by node; sums over the modes left out.
+      real(wp), intent(in) :: w_sine(0:n), w_cosine(0:n), per_g(0:n), s(0:n), tail, tail_middle, tail_side
+      real(wp), intent(out) :: along(0:n), outward(0:n), sums(2), p_middle(0:n), p_side(0:n)
+      real(wp) :: sum_along, sum_outward
+      integer :: i
+      sum_along = 0
+      sum_outward = 0
+      !$omp simd reduction(+:sum_along, sum_outward)
       do i = 0, n
+         along(i) = w_sine(i)*per_g(i)
+         outward(i) = w_cosine(i)*per_g(i)
+         sum_along = sum_along - tail*along(i)*s(i)
+         sum_outward = sum_outward - tail*outward(i)*s(i)
+         p_middle(i) = -tail_middle*s(i)
+         p_side(i) = -tail_side*s(i)
+      end do
+      sums = [sum_along, sum_outward]
+   end subroutine weigh_nodes
+
+   !> Adds a block's sums over nodes and lanes of c q (along, outward), and its part of the pressure at two
+   !> places across the width (times g).
+   pure subroutine sum_modes(n, along, outward, c, middle, side, q, sums, p_middle, p_side)
+      integer, intent(in) :: n
+      !> By node; by lane: c, and b_k cos(lambda_k Z) in the middle and towards the side.
+      real(wp), intent(in) :: along(0:n), outward(0:n), c(lanes), middle(lanes), side(lanes), q(lanes, 0:n)
+      real(wp), intent(inout) :: sums(2), p_middle(0:n), p_side(0:n)
+      real(wp) :: sum_along(lanes), sum_outward(lanes), at_middle, at_side
+      integer :: i, k
+      sum_along = 0
+      sum_outward = 0
+      do i = 0, n
+         !$omp simd
+         do k = 1, lanes
+            sum_along(k) = sum_along(k) + along(i)*q(k, i)
+            sum_outward(k) = sum_outward(k) + outward(i)*q(k, i)
+         end do
          at_middle = 0
          at_side = 0
          !$omp simd reduction(+:at_middle, at_side)
          do k = 1, lanes
-            along(k) = along(k) + weight(i)*sine(i)*q(k, i)
-            outward(k) = outward(k) + weight(i)*cosine(i)*q(k, i)
             at_middle = at_middle + middle(k)*q(k, i)
             at_side = at_side + side(k)*q(k, i)
          end do
          p_middle(i) = p_middle(i) + at_middle
          p_side(i) = p_side(i) + at_side
       end do
-      sums = sums + [sum(c*along), sum(c*outward)]
+      sums = sums + [sum(c*sum_along), sum(c*sum_outward)]
    end subroutine sum_modes
+
+   !> Adds a block's sums over its lanes of m(i-1) + 10 m(i) + m(i+1), alone and times q, and of share q.
+   pure subroutine sum_adjoint(n, adjoint, q, over_s, over_v)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: adjoint(lanes, 0:n), q(lanes, 0:n)
+      real(wp), intent(inout) :: over_s(0:n), over_v(0:n)
+      real(wp) :: stencil, alone, times_q
+      integer :: i, k
+      do i = 0, n
+         alone = 0
+         times_q = 0
+         !$omp simd reduction(+:alone, times_q)
+         do k = 1, lanes
+            stencil = adjoint(k, max(i - 1, 0)) + 10*adjoint(k, i) + adjoint(k, min(i + 1, n))
+            alone = alone + stencil
+            times_q = times_q + stencil*q(k, i)
+         end do
+         over_s(i) = over_s(i) + alone
+         over_v(i) = over_v(i) + times_q
+      end do
+   end subroutine sum_adjoint
 end module modal_sweeps

@@ -3,11 +3,11 @@
 !> Pad coordinates: the angle phi from the pivot, positive towards the leading edge; the axial
 !> coordinate from the middle of the pad.
 module pad_film
-   use kinds, only: wp, pi
+   use kinds, only: wp
    use film_solver, only: film_motion
    implicit none (type, external)
    private
-   public :: pad_film_type
+   public :: pad_film_type, pad_directions
 
    !> Geometry, oil and boundary pressures of one pad's film.
    type :: pad_film_type
@@ -23,8 +23,14 @@ module pad_film
       procedure :: pad_radius
       procedure :: arc
       procedure :: thickness
+      procedure :: directions
       procedure :: least_thickness
    end type pad_film_type
+
+   !> (sin phi, cos phi) at the edges and the middle of the arc; cosine of half the arc.
+   type :: pad_directions
+      real(wp) :: leading(2), trailing(2), middle(2), cos_half
+   end type pad_directions
 
 contains
 
@@ -51,22 +57,30 @@ contains
       h = self%machined_clearance - motion%position(1)*sin_phi - motion%position(2)*cos_phi
    end function thickness
 
+   pure function directions(self)
+      class(pad_film_type), intent(in) :: self
+      type(pad_directions) :: directions
+      directions%leading = [sin(self%leading_angle), cos(self%leading_angle)]
+      directions%trailing = [-sin(self%trailing_angle), cos(self%trailing_angle)]
+      associate (phi => 0.5_wp*(self%leading_angle - self%trailing_angle))
+         directions%middle = [sin(phi), cos(phi)]
+      end associate
+      directions%cos_half = cos(0.5_wp*self%arc())
+   end function directions
+
    !> Least film thickness on the pad, m: inside the arc where h has a minimum there, else at an edge.
-   pure function least_thickness(self, motion) result(h)
+   pure function least_thickness(self, motion, directions) result(h)
       class(pad_film_type), intent(in) :: self
       type(film_motion), intent(in) :: motion
-      real(wp) :: h, phi
-      associate (e => motion%position)
-         phi = atan2(e(1), e(2))
-         ! of the angles that differ by a turn, the one on the pad, if there is one
-         if (phi <= -self%trailing_angle) phi = phi + 2*pi
-         if (phi >= self%leading_angle) phi = phi - 2*pi
-         if (phi > -self%trailing_angle .and. phi < self%leading_angle) then
-            h = self%machined_clearance - norm2(e)
-         else
-            h = min(self%thickness(motion, sin(self%leading_angle), cos(self%leading_angle)), &
-               & self%thickness(motion, -sin(self%trailing_angle), cos(self%trailing_angle)))
-         end if
-      end associate
+      !> The pad's own, computed once.
+      type(pad_directions), intent(in) :: directions
+      real(wp) :: h, e
+      e = sqrt(dot_product(motion%position, motion%position))
+      if (dot_product(motion%position, directions%middle) > e*directions%cos_half) then
+         h = self%machined_clearance - e
+      else
+         h = self%machined_clearance - max(dot_product(motion%position, directions%leading), &
+            & dot_product(motion%position, directions%trailing))
+      end if
    end function least_thickness
 end module pad_film

@@ -225,8 +225,8 @@ contains
       type(film_response) :: r(2), by_modes(2), by_cells
       type(film_motion) :: motion(2)
       films = pad(0.0_wp, 0.0_wp, 0.0_wp)
-      options = sor_options(24, 6, tolerance=1e-8_wp, cavitation=cavitation_reynolds)
-      auto = new_auto_film(films, 24, 8, options)
+      options = sor_options(24, 6, tolerance=1e-12_wp, cavitation=cavitation_reynolds)
+      auto = new_auto_film(films, 24, 8, options%circumferential_cells, options%axial_cells)
       modal = new_modal_film(films, 24, 8, gumbel=.false.)
       sor = new_sor_film(films, options)
       motion = [film_motion([-3e-5_wp, 5e-5_wp], [0.0_wp, 2e-3_wp]), film_motion([5e-6_wp, 5e-5_wp])]
@@ -235,10 +235,12 @@ contains
       call sor%evaluate_pad(2, motion(2), speed, .true., by_cells)
       call expect_close(norm2(r(1)%force - by_modes(1)%force), 0.0_wp, 0.0_wp, 'modes for the whole film')
       call expect(by_modes(2)%min_pressure < 0 .and. by_modes(2)%max_pressure > 0, 'one film is torn in part')
-      call expect_close(norm2(r(2)%force - by_cells%force), 0.0_wp, 0.0_wp, 'cells for the ruptured one')
-      call expect_close(norm2(r(2)%slope - by_cells%slope), 0.0_wp, 0.0_wp, 'with their slopes')
+      ! both solve the same equations; the tolerance is that of over-relaxation
+      call expect_close(norm2(r(2)%force - by_cells%force), 0.0_wp, 1e-9_wp*norm2(by_cells%force), &
+         & 'cells for the ruptured one')
+      call expect_close(norm2(r(2)%slope - by_cells%slope), 0.0_wp, 1e-9_wp*norm2(by_cells%slope), 'with their slopes')
       call expect(auto%counters%sor == 1 .and. auto%counters%modal == 1, 'each is counted')
-      call expect(auto%counters%sweeps == sor%counters%sweeps, 'and so are the sweeps')
+      call expect(auto%counters%sweeps > 0, 'and so are the eliminations')
    end subroutine choice
 
    real(wp) function between(low, high)

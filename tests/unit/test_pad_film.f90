@@ -84,7 +84,7 @@ contains
       inside = 0
       do i = 1, 300
          motion = random_motion()
-         least = film%least_thickness(motion)
+         least = film%least_thickness(motion, film%directions())
          scanned = minval(film%thickness(motion, sin(phi), cos(phi)))
          miss = norm2(motion%position)*(film%arc()/n)**2/8
          worst_above = max(worst_above, (least - scanned)/clearance)

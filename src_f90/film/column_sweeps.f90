@@ -1,0 +1,149 @@
+!> The inner loops of direct_film: chains of single equations by mode of the grid, and small dense blocks one
+!> column of cells wide. Modes and rows are filled up to whole vectors.
+module column_sweeps
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: padded, factor_chain, solve_chain, finish_chain, weighted, apply, invert
+
+   integer, parameter :: lanes = 8
+
+contains
+
+   !> Rows filled up to a multiple of the vector length.
+   pure integer function padded(rows)
+      integer, intent(in) :: rows
+      padded = lanes*((rows + lanes - 1)/lanes)
+   end function padded
+
+   !> The face between column i and the one before it, on the way from the first column to the last.
+   pure integer function face_behind(i, step)
+      integer, intent(in) :: i, step
+      face_behind = merge(i - 1, i, step > 0)
+   end function face_behind
+
+   !> Reciprocal pivots (mode, column) of the columns from one to another, in either direction.
+   pure subroutine factor_chain(m, n, from, to, along, beside, eigenvalue, per_pivot)
+      !> Modes, columns, first and last of the chain.
+      integer, intent(in) :: m, n, from, to
+      !> Conductances through the faces and beside; axial eigenvalue by mode.
+      real(wp), intent(in) :: along(0:n), beside(n), eigenvalue(m)
+      real(wp), intent(inout) :: per_pivot(m, n)
+      real(wp) :: behind(lanes), around, coupling
+      integer :: i, k, first, step
+      step = merge(1, -1, from == 1)
+      do first = 0, m - 1, lanes
+         behind = 0
+         do i = from, to, step
+            around = along(i - 1) + along(i)
+            coupling = along(face_behind(i, step))**2
+            !$omp simd
+            do k = 1, lanes
+               behind(k) = 1/(around + beside(i)*eigenvalue(first + k) - coupling*behind(k))
+               per_pivot(first + k, i) = behind(k)
+            end do
+         end do
+      end do
+   end subroutine factor_chain
+
+   !> The way in: x = per_pivot (load uniform + edge_load at_edge + what comes from the column behind).
+   pure subroutine solve_chain(m, n, from, to, along, per_pivot, load, uniform, edge_load, at_edge, x)
+      integer, intent(in) :: m, n, from, to
+      real(wp), intent(in) :: along(0:n), per_pivot(m, n), load(n), uniform(m), edge_load(n), at_edge(m)
+      real(wp), intent(inout) :: x(m, n)
+      real(wp) :: behind(lanes), coupling
+      integer :: i, k, first, step
+      step = merge(1, -1, from == 1)
+      do first = 0, m - 1, lanes
+         behind = 0
+         do i = from, to, step
+            coupling = along(face_behind(i, step))
+            !$omp simd
+            do k = 1, lanes
+               behind(k) = per_pivot(first + k, i)*(load(i)*uniform(first + k) + edge_load(i)*at_edge(first + k) &
+                  & + coupling*behind(k))
+               x(first + k, i) = behind(k)
+            end do
+         end do
+      end do
+   end subroutine solve_chain
+
+   !> The way back, from the solution in the column next inwards.
+   pure subroutine finish_chain(m, n, from, to, along, per_pivot, inward, x)
+      integer, intent(in) :: m, n, from, to
+      real(wp), intent(in) :: along(0:n), per_pivot(m, n), inward(m)
+      real(wp), intent(inout) :: x(m, n)
+      real(wp) :: ahead(lanes), coupling
+      integer :: i, k, first, step
+      step = merge(1, -1, from == 1)
+      do first = 0, m - 1, lanes
+         ahead = inward(first + 1:first + lanes)
+         do i = to, from, -step
+            coupling = along(face_behind(i, -step))
+            !$omp simd
+            do k = 1, lanes
+               ahead(k) = x(first + k, i) + coupling*per_pivot(first + k, i)*ahead(k)
+               x(first + k, i) = ahead(k)
+            end do
+         end do
+      end do
+   end subroutine finish_chain
+
+   pure real(wp) function weighted(m, weight, x)
+      integer, intent(in) :: m
+      real(wp), intent(in) :: weight(m), x(m)
+      integer :: k
+      weighted = 0
+      !$omp simd reduction(+:weighted)
+      do k = 1, m
+         weighted = weighted + weight(k)*x(k)
+      end do
+   end function weighted
+
+   !> Block (m, rows) times vector.
+   pure function apply(m, rows, block, x)
+      integer, intent(in) :: m, rows
+      real(wp), intent(in) :: block(m, rows), x(rows)
+      real(wp) :: apply(m), part(lanes)
+      integer :: j, k, first
+      do first = 0, m - 1, lanes
+         part = 0
+         do j = 1, rows
+            !$omp simd
+            do k = 1, lanes
+               part(k) = part(k) + block(first + k, j)*x(j)
+            end do
+         end do
+         apply(first + 1:first + lanes) = part
+      end do
+   end function apply
+
+   !> Inverse, in place, of the part of a symmetric positive definite block where mask > 0; 0 elsewhere.
+   !> Gauss-Jordan by symmetric sweeps, which need no pivoting.
+   pure subroutine invert(m, rows, mask, block)
+      integer, intent(in) :: m, rows
+      real(wp), intent(in) :: mask(m)
+      real(wp), intent(inout) :: block(m, rows)
+      real(wp) :: pivot_column(m), factor, per_pivot
+      integer :: i, j, k
+      do i = 1, rows
+         block(:, i) = block(:, i)*mask(i)*mask
+      end do
+      do i = 1, rows
+         if (.not. mask(i) > 0) cycle
+         per_pivot = 1/block(i, i)
+         pivot_column = block(:, i)
+         do j = 1, rows
+            factor = pivot_column(j)*per_pivot
+            !$omp simd
+            do k = 1, m
+               block(k, j) = block(k, j) - factor*pivot_column(k)
+            end do
+            block(i, j) = factor
+         end do
+         block(:, i) = per_pivot*pivot_column
+         block(i, i) = -per_pivot
+      end do
+      block = -block
+   end subroutine invert
+end module column_sweeps

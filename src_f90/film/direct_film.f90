@@ -1,0 +1,303 @@
+!> Film with the Reynolds condition by elimination: the equations of over-relaxation, solved exactly.
+!>
+!> Where a column of cells is whole, the axial part of its equations is the same matrix for every column, up
+!> to a factor; its eigenvectors ("modes" of the grid) turn the columns into independent chains of single
+!> equations. Only between the first and the last column that rupture touches are whole blocks eliminated.
+!> Which cells are ruptured is found as an active set: cells below the cavitation pressure leave the film,
+!> ruptured cells that would fill come back; for this kind of matrix that ends, after a few rounds from the
+!> set of the last motion (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13, 2002, theorem 3.2).
+module direct_film
+   use kinds, only: wp
+   use film_solver, only: film_motion, film_response, film_counters, film_closed, film_not_converged
+   use pad_film, only: pad_film_type
+   use film_grid, only: film_grid_type, new_film_grid
+   use column_sweeps, only: padded, factor_chain, solve_chain, finish_chain, weighted, apply, invert
+   implicit none (type, external)
+   private
+   public :: direct_film_type, new_direct_film
+
+   integer, parameter :: max_rounds = 100
+   !> Pressure over the highest below which a cell counts as empty: rounding must not decide.
+   real(wp), parameter :: rounding = 1e-12_wp
+
+   !> One pad's film.
+   type :: direct_film_type
+      private
+      type(film_grid_type) :: grid
+      !> Modes of the grid, (row, mode) and (mode, row), and their eigenvalues. Rows and modes are filled up
+      !> with zeros to a multiple of the vector length.
+      real(wp), allocatable :: modes(:, :), transposed(:, :), eigenvalue(:)
+      !> A load of 1 in every row and one of 1 in the edge row, by mode.
+      real(wp), allocatable :: uniform(:), at_edge(:)
+      !> Cells that belong to the film: 1, the others 0 (row, column).
+      real(wp), allocatable :: film(:, :)
+      !> Columns that rupture touches: first to last; none: first = columns + 1.
+      integer :: first, last
+      !> Reciprocal pivots outside them (mode, column); inverse blocks inside (row, row, column).
+      real(wp), allocatable :: per_pivot(:, :), block(:, :, :)
+      real(wp), allocatable :: pressure(:, :), adjoint(:, :)
+   contains
+      procedure :: evaluate
+   end type direct_film_type
+
+   interface
+      !> LAPACK: eigenvalues and eigenvectors of a symmetric tridiagonal matrix.
+      subroutine dstev(jobz, n, d, e, z, ldz, work, info)
+         import :: wp
+         character, intent(in) :: jobz
+         integer, intent(in) :: n, ldz
+         real(wp), intent(inout) :: d(*), e(*)
+         real(wp), intent(out) :: z(ldz, *), work(*)
+         integer, intent(out) :: info
+      end subroutine dstev
+   end interface
+
+contains
+
+   !> The film of one pad on a grid of so many cells along the arc and along half the width.
+   function new_direct_film(film, columns, rows) result(self)
+      type(pad_film_type), intent(in) :: film
+      integer, intent(in) :: columns, rows
+      type(direct_film_type) :: self
+      real(wp) :: diagonal(rows), beside(rows), vectors(rows, rows), work(2*rows)
+      integer :: n, info
+      self%grid = new_film_grid(film, columns, rows)
+      diagonal = 2
+      diagonal(1) = 1
+      diagonal(rows) = 1 + self%grid%edge
+      beside = -1
+      call dstev('V', rows, diagonal, beside, vectors, rows, work, info)
+      n = padded(rows)
+      allocate (self%modes(n, rows), self%transposed(n, rows), self%eigenvalue(n), source=0.0_wp)
+      allocate (self%uniform(n), self%at_edge(n), source=0.0_wp)
+      self%modes(:rows, :) = vectors
+      self%transposed(:rows, :) = transpose(vectors)
+      self%eigenvalue(:rows) = diagonal
+      self%uniform(:rows) = sum(vectors, dim=1)
+      self%at_edge(:rows) = vectors(rows, :)
+      allocate (self%film(n, columns), self%pressure(n, columns), self%adjoint(n, columns), source=0.0_wp)
+      self%film(:rows, :) = 1
+      allocate (self%per_pivot(n, columns), self%block(n, rows, columns), source=0.0_wp)
+   end function new_direct_film
+
+   !> The film at a motion and a journal speed, rad/s, with the Reynolds condition or without rupture.
+   !> Counts a pad and the eliminations.
+   subroutine evaluate(self, motion, speed, ruptures, want_slopes, counters, response)
+      class(direct_film_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      logical, intent(in) :: ruptures, want_slopes
+      type(film_counters), intent(inout) :: counters
+      type(film_response), intent(out) :: response
+      real(wp) :: weight(self%grid%columns, 2)
+      integer :: m, round
+      logical :: changed
+      associate (grid => self%grid)
+         response%min_film = grid%film%least_thickness(motion, grid%directions)
+         if (.not. response%min_film > 0) then
+            response%status = film_closed
+            return
+         end if
+         call grid%set_motion(motion, speed)
+         do round = 1, max_rounds
+            call eliminate(self, ruptures)
+            call solve(self, -grid%source, -grid%edge_source, self%pressure)
+            counters%sweeps = counters%sweeps + 1
+            changed = .false.
+            if (ruptures) call update_film(self, changed)
+            if (.not. changed) exit
+         end do
+         if (changed) response%status = film_not_converged
+         call sum_up(self, response)
+         if (want_slopes) then
+            call to_rows(self, self%pressure)
+            weight(:, 1) = grid%cell_weight()*grid%sin_cell
+            weight(:, 2) = grid%cell_weight()*grid%cos_cell
+            do m = 1, 2
+               call solve(self, weight(:, m), 0*weight(:, m), self%adjoint)
+               call to_rows(self, self%adjoint)
+               response%slope(m, :) = grid%slopes(speed, self%pressure, self%adjoint)
+            end do
+         end if
+      end associate
+   end subroutine evaluate
+
+   !> Force; lowest and highest pressure in the middle plane and at the edges.
+   pure subroutine sum_up(self, response)
+      type(direct_film_type), intent(in) :: self
+      type(film_response), intent(inout) :: response
+      real(wp), dimension(self%grid%columns) :: sums, middle
+      integer :: i, m
+      m = size(self%modes, 1)
+      associate (grid => self%grid, p => self%pressure)
+         do i = 1, grid%columns
+            if (i >= self%first .and. i <= self%last) then
+               sums(i) = sum(p(:, i))
+               middle(i) = p(1, i)
+            else
+               sums(i) = weighted(m, self%uniform, p(:, i))
+               middle(i) = weighted(m, self%transposed(:, 1), p(:, i))
+            end if
+         end do
+         response%force = grid%force(sums)
+         response%min_pressure = grid%film%cavitation_pressure + min(minval(middle), grid%ambient, grid%supply)
+         response%max_pressure = grid%film%cavitation_pressure + max(maxval(middle), grid%ambient, grid%supply)
+      end associate
+   end subroutine sum_up
+
+   !> Takes cells below the cavitation pressure out of the film, and puts those back that would fill. A film
+   !> whose pressure falls below that at its edges does so in a column with a source > 0; so the other whole
+   !> columns need no look.
+   pure subroutine update_film(self, changed)
+      type(direct_film_type), intent(inout) :: self
+      logical, intent(out) :: changed
+      !> Pressure by rows, with a rim.
+      real(wp) :: p(0:size(self%modes, 1) + 1, 0:self%grid%columns + 1)
+      real(wp) :: floor, inflow, limit, new, changes
+      integer :: i, k, m
+      m = size(self%modes, 1)
+      associate (grid => self%grid, rows => self%grid%rows, first => self%first, last => self%last)
+         floor = 0
+         p(:, 0) = 0
+         p(:, grid%columns + 1) = 0
+         do i = 1, grid%columns
+            if (i >= first .and. i <= last) then
+               p(1:m, i) = self%pressure(:, i)
+            else if (grid%source(i) > 0 .or. i == first - 1 .or. i == last + 1) then
+               p(1:m, i) = apply(m, rows, self%modes, self%pressure(:, i))
+            else
+               p(1:m, i) = 0
+            end if
+            ! the middle plane is symmetric, the side is a boundary
+            p(0, i) = p(1, i)
+            p(rows + 1, i) = 0
+            floor = max(floor, p(1, i))
+         end do
+         floor = -rounding*floor
+         changes = 0
+         do i = 1, grid%columns
+            limit = -floor*(grid%along(i - 1) + grid%along(i) + 2*grid%beside(i)) + grid%source(i)
+            !$omp simd private(inflow, new) reduction(+:changes)
+            do k = 1, rows
+               inflow = grid%along(i - 1)*p(k, i - 1) + grid%along(i)*p(k, i + 1) &
+                  & + grid%beside(i)*(p(k - 1, i) + p(k + 1, i)) - merge(grid%edge_source(i), 0.0_wp, k == rows)
+               new = merge(1.0_wp, 0.0_wp, merge(p(k, i) >= floor, inflow > limit, self%film(k, i) > 0))
+               changes = changes + abs(new - self%film(k, i))
+               self%film(k, i) = new
+            end do
+         end do
+         changed = changes > 0
+      end associate
+   end subroutine update_film
+
+   !> Turns the columns outside first to last from modes to rows.
+   pure subroutine to_rows(self, x)
+      type(direct_film_type), intent(in) :: self
+      real(wp), intent(inout), contiguous :: x(:, :)
+      integer :: i
+      do i = 1, self%grid%columns
+         if (i < self%first .or. i > self%last) x(:, i) = apply(size(x, 1), self%grid%rows, self%modes, x(:, i))
+      end do
+   end subroutine to_rows
+
+   !> Pivots and blocks: whole columns from both edges of the pad inwards, mode by mode, then the columns
+   !> between, from the first to the last; none of these where the film does not rupture.
+   pure subroutine eliminate(self, ruptures)
+      type(direct_film_type), intent(inout) :: self
+      logical, intent(in) :: ruptures
+      logical :: touched(self%grid%columns)
+      real(wp) :: diagonal
+      integer :: i, j, m
+      m = size(self%modes, 1)
+      associate (grid => self%grid, c => self%grid%along, n => self%grid%columns, rows => self%grid%rows)
+         self%first = n + 1
+         self%last = n
+         if (ruptures) then
+            do i = 1, n
+               touched(i) = any(self%film(:rows, i) <= 0)
+            end do
+            if (any(touched)) then
+               self%first = findloc(touched, .true., dim=1)
+               self%last = findloc(touched, .true., dim=1, back=.true.)
+            end if
+         end if
+         call factor_chain(m, n, 1, self%first - 1, c, grid%beside, self%eigenvalue, self%per_pivot)
+         call factor_chain(m, n, n, self%last + 1, c, grid%beside, self%eigenvalue, self%per_pivot)
+         do i = self%first, self%last
+            associate (block => self%block(:, :, i))
+               if (.not. any(self%film(:rows, i) > 0)) then
+                  block = 0
+                  cycle
+               end if
+               if (i > self%first) then
+                  block = -c(i - 1)**2*self%block(:, :, i - 1)
+               else if (i > 1) then
+                  block = modal_block(self, -c(i - 1)**2*self%per_pivot(:, i - 1))
+               else
+                  block = 0
+               end if
+               if (i == self%last .and. i < n) block = block + modal_block(self, -c(i)**2*self%per_pivot(:, i + 1))
+               diagonal = c(i - 1) + c(i) + 2*grid%beside(i)
+               do j = 1, rows
+                  block(j, j) = block(j, j) + diagonal
+               end do
+               block(1, 1) = block(1, 1) - grid%beside(i)
+               block(rows, rows) = block(rows, rows) + (grid%edge - 1)*grid%beside(i)
+               do j = 1, rows - 1
+                  block(j, j + 1) = block(j, j + 1) - grid%beside(i)
+                  block(j + 1, j) = block(j + 1, j) - grid%beside(i)
+               end do
+               call invert(m, rows, self%film(:, i), block)
+            end associate
+         end do
+      end associate
+   end subroutine eliminate
+
+   !> The matrix with given values by mode, in rows.
+   pure function modal_block(self, values) result(block)
+      type(direct_film_type), intent(in) :: self
+      real(wp), intent(in) :: values(:)
+      real(wp) :: block(size(self%modes, 1), self%grid%rows)
+      integer :: j
+      do j = 1, self%grid%rows
+         block(:, j) = apply(size(block, 1), size(block, 2), self%modes, values*self%transposed(:, j))
+      end do
+   end function modal_block
+
+   !> The solution, by rows from the first to the last column that rupture touches, by modes outside, for a
+   !> load per column in every row of the film, and one more in its edge row.
+   pure subroutine solve(self, load, edge_load, x)
+      type(direct_film_type), intent(in) :: self
+      real(wp), intent(in) :: load(:), edge_load(:)
+      real(wp), intent(inout), contiguous :: x(:, :)
+      real(wp) :: next(size(x, 1))
+      integer :: i, m
+      m = size(x, 1)
+      associate (c => self%grid%along, n => self%grid%columns, rows => self%grid%rows, first => self%first, &
+         & last => self%last)
+         call solve_chain(m, n, 1, first - 1, c, self%per_pivot, load, self%uniform, edge_load, self%at_edge, x)
+         call solve_chain(m, n, n, last + 1, c, self%per_pivot, load, self%uniform, edge_load, self%at_edge, x)
+         do i = first, last
+            next = load(i)
+            next(rows) = next(rows) + edge_load(i)
+            if (i > first) then
+               next = next + c(i - 1)*x(:, i - 1)
+            else if (i > 1) then
+               next = next + c(i - 1)*apply(m, rows, self%modes, x(:, i - 1))
+            end if
+            if (i == last .and. i < n) next = next + c(i)*apply(m, rows, self%modes, x(:, i + 1))
+            x(:, i) = apply(m, rows, self%block(:, :, i), next)
+         end do
+         do i = last - 1, first, -1
+            x(:, i) = x(:, i) + c(i)*apply(m, rows, self%block(:, :, i), x(:, i + 1))
+         end do
+         next = 0
+         if (first <= n) next = apply(m, rows, self%transposed, x(:, first))
+         call finish_chain(m, n, 1, first - 1, c, self%per_pivot, next, x)
+         if (last < n) then
+            next = apply(m, rows, self%transposed, x(:, last))
+            call finish_chain(m, n, n, last + 1, c, self%per_pivot, next, x)
+         end if
+      end associate
+   end subroutine solve
+end module direct_film

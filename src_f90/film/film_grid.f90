@@ -1,0 +1,156 @@
+!> Finite volumes of one pad's film on half the axial width (the film is symmetric).
+!>
+!> With phi for X = R phi, and everything times R**2, the Reynolds equation is
+!>
+!>    d/dphi(h^3 dp/dphi) + R^2 h^3 d2p/dZ2 = R^2 (-6 mu omega R_J/R dh/dphi + 12 mu dh/dt).
+!>
+!> Columns of cells lie along the arc from the trailing to the leading edge, rows from the middle plane to
+!> the side. Pressures are those above the cavitation pressure. Fields are (row, column).
+module film_grid
+   use kinds, only: wp
+   use film_solver, only: film_motion
+   use pad_film, only: pad_film_type, pad_directions
+   implicit none (type, external)
+   private
+   public :: film_grid_type, new_film_grid
+
+   type :: film_grid_type
+      type(pad_film_type) :: film
+      type(pad_directions) :: directions
+      integer :: columns, rows
+      !> Angular and axial size of a cell, rad and m.
+      real(wp) :: d_phi, d_z
+      !> Conductance from an edge row to the pad's side over that between rows: 2 for half a cell, more
+      !> because the profile bends; so chosen that the parabola of a narrow pad comes out exactly.
+      real(wp) :: edge
+      !> Pressure at the leading edge and at the other edges, Pa.
+      real(wp) :: supply, ambient
+      !> Sine and cosine at the cell centres and at the cell faces (0:columns).
+      real(wp), allocatable :: sin_cell(:), cos_cell(:), sin_face(:), cos_face(:)
+      !> Film thickness at the same places, m.
+      real(wp), allocatable :: h_cell(:), h_face(:)
+      !> Conductances through the faces along the arc (0:columns), and between the rows of a column.
+      real(wp), allocatable :: along(:), beside(:)
+      !> Right-hand side of a column: in every row, and what the side adds in the edge row.
+      real(wp), allocatable :: source(:), edge_source(:)
+   contains
+      procedure :: set_motion
+      procedure :: force
+      procedure :: cell_weight
+      procedure :: slopes
+   end type film_grid_type
+
+contains
+
+   !> A grid of so many cells along the arc and along half the width.
+   pure function new_film_grid(film, columns, rows) result(grid)
+      type(pad_film_type), intent(in) :: film
+      integer, intent(in) :: columns, rows
+      type(film_grid_type) :: grid
+      integer :: i
+      grid%film = film
+      grid%directions = film%directions()
+      grid%columns = columns
+      grid%rows = rows
+      grid%d_phi = film%arc()/columns
+      grid%d_z = film%axial_length/(2*rows)
+      grid%edge = 2/(1 - 1/(3.0_wp*rows))
+      grid%supply = film%supply_pressure - film%cavitation_pressure
+      grid%ambient = film%ambient_pressure - film%cavitation_pressure
+      grid%sin_cell = [(sin((i - 0.5_wp)*grid%d_phi - film%trailing_angle), i=1, columns)]
+      grid%cos_cell = [(cos((i - 0.5_wp)*grid%d_phi - film%trailing_angle), i=1, columns)]
+      allocate (grid%sin_face(0:columns), grid%cos_face(0:columns), grid%h_face(0:columns), grid%along(0:columns))
+      grid%sin_face(:) = [(sin(i*grid%d_phi - film%trailing_angle), i=0, columns)]
+      grid%cos_face(:) = [(cos(i*grid%d_phi - film%trailing_angle), i=0, columns)]
+      allocate (grid%h_cell(columns), grid%beside(columns), grid%source(columns), grid%edge_source(columns))
+   end function new_film_grid
+
+   !> Film thickness, conductances and right-hand side at a motion and a journal speed, rad/s.
+   pure subroutine set_motion(self, motion, speed)
+      class(film_grid_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      associate (n => self%columns)
+         self%h_cell(:) = self%film%thickness(motion, self%sin_cell, self%cos_cell)
+         self%h_face(:) = self%film%thickness(motion, self%sin_face, self%cos_face)
+         self%along(:) = self%h_face**3/self%d_phi**2
+         ! the boundary lies half a cell away
+         self%along(0) = 2*self%along(0)
+         self%along(n) = 2*self%along(n)
+         self%beside(:) = self%h_cell**3*(self%film%pad_radius()/self%d_z)**2
+         self%source(:) = wedge(self, speed)*(self%h_face(1:n) - self%h_face(0:n - 1)) &
+            & - squeeze(self)*(motion%velocity(1)*self%sin_cell + motion%velocity(2)*self%cos_cell)
+         self%source(1) = self%source(1) - self%along(0)*self%ambient
+         self%source(n) = self%source(n) - self%along(n)*self%supply
+         self%edge_source(:) = -self%edge*self%beside*self%ambient
+      end associate
+   end subroutine set_motion
+
+   !> Factor of the difference of h over a cell in the right-hand side.
+   pure real(wp) function wedge(self, speed)
+      class(film_grid_type), intent(in) :: self
+      real(wp), intent(in) :: speed
+      wedge = -6*self%film%viscosity*speed*self%film%journal_radius*self%film%pad_radius()/self%d_phi
+   end function wedge
+
+   !> Factor of dh/dt in the right-hand side.
+   pure real(wp) function squeeze(self)
+      class(film_grid_type), intent(in) :: self
+      squeeze = 12*self%film%viscosity*self%film%pad_radius()**2
+   end function squeeze
+
+   !> Area of two mirrored cells, m^2: what a cell's pressure counts in the force.
+   pure real(wp) function cell_weight(self)
+      class(film_grid_type), intent(in) :: self
+      cell_weight = 2*self%film%pad_radius()*self%d_phi*self%d_z
+   end function cell_weight
+
+   !> Force on the journal in the pad frame, N, of the pressure summed over the rows of each column.
+   pure function force(self, column_sums)
+      class(film_grid_type), intent(in) :: self
+      real(wp), intent(in) :: column_sums(:)
+      real(wp) :: force(2)
+      associate (sums => column_sums + self%film%cavitation_pressure*self%rows)
+         force = -self%cell_weight()*[dot_product(self%sin_cell, sums), dot_product(self%cos_cell, sums)]
+      end associate
+   end function force
+
+   !> Slopes of a force over position and velocity by its adjoint. With L p = -s and F = g . p, let L a = -g,
+   !> a = 0 where the film has ruptured; then dF = a . (ds + dL p), and a . dL p is a sum over faces, with
+   !> differences of a and p over each.
+   pure function slopes(self, speed, p, a)
+      class(film_grid_type), intent(in) :: self
+      real(wp), intent(in) :: speed
+      !> Pressure and adjoint, (row, column).
+      real(wp), intent(in) :: p(:, :), a(:, :)
+      real(wp) :: slopes(4)
+      real(wp), dimension(0:self%columns) :: over_face
+      real(wp), dimension(self%columns) :: over_side, total
+      real(wp) :: radius_over_d_z
+      integer :: i
+      radius_over_d_z = self%film%pad_radius()/self%d_z
+      associate (n => self%columns, rows => self%rows)
+         over_face(0) = 2*sum((p(:rows, 1) - self%ambient)*a(:rows, 1))
+         over_face(n) = 2*sum((p(:rows, n) - self%supply)*a(:rows, n))
+         do i = 1, n
+            if (i < n) over_face(i) = sum((p(:rows, i + 1) - p(:rows, i))*(a(:rows, i + 1) - a(:rows, i)))
+            over_side(i) = sum((p(2:rows, i) - p(:rows - 1, i))*(a(2:rows, i) - a(:rows - 1, i))) &
+               & + self%edge*(p(rows, i) - self%ambient)*a(rows, i)
+            total(i) = sum(a(:rows, i))
+         end do
+         over_face = over_face*3*self%h_face**2/self%d_phi**2
+         over_side = over_side*3*(self%h_cell*radius_over_d_z)**2
+         slopes(1) = over_position(self%sin_face, self%sin_cell)
+         slopes(2) = over_position(self%cos_face, self%cos_cell)
+         slopes(3) = -squeeze(self)*dot_product(self%sin_cell, total)
+         slopes(4) = -squeeze(self)*dot_product(self%cos_cell, total)
+      end associate
+   contains
+      !> Slope over e_y' (sines) or e_z' (cosines): dh = -sin(phi) de_y' - cos(phi) de_z'.
+      pure real(wp) function over_position(at_face, at_cell)
+         real(wp), intent(in) :: at_face(0:), at_cell(:)
+         over_position = -dot_product(wedge(self, speed)*(at_face(1:) - at_face(:self%columns - 1)), total) &
+            & - dot_product(at_face, over_face) - dot_product(at_cell, over_side)
+      end function over_position
+   end function slopes
+end module film_grid

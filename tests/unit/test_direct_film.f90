@@ -1,0 +1,148 @@
+!> The film by elimination against over-relaxation of the same equations, its slopes, and its starts.
+program test_direct_film
+   use kinds, only: wp, degree
+   use text, only: to_text
+   use film_solver, only: film_motion, film_response, film_counters, film_ok, film_closed
+   use pad_film, only: pad_film_type
+   use direct_film, only: direct_film_type, new_direct_film
+   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_reynolds
+   use check, only: expect, expect_close, report
+   implicit none (type, external)
+
+   real(wp), parameter :: speed = 680, clearance = 100e-6_wp
+   integer, parameter :: grids(2, 3) = reshape([24, 6, 30, 9, 12, 2], [2, 3])
+   integer :: i
+
+   ! the same numbers in every run
+   call random_init(.true., .false.)
+   do i = 1, size(grids, 2)
+      call against_relaxation(grids(1, i), grids(2, i), .true., [0.0_wp, 0.0_wp, 0.0_wp])
+      call against_relaxation(grids(1, i), grids(2, i), .true., [3e5_wp, 1e5_wp, -1e5_wp])
+      call against_relaxation(grids(1, i), grids(2, i), .false., [3e5_wp, 1e5_wp, 0.0_wp])
+   end do
+   call any_start()
+   call empty_film()
+   call closed_film()
+   call report()
+
+contains
+
+   !> The paper's pad with pressures at the leading edge, at the others, at rupture.
+   pure type(pad_film_type) function paper_pad(pressures)
+      real(wp), intent(in) :: pressures(3)
+      paper_pad = pad_film_type(49.9e-3_wp, clearance, 0.1_wp, 0.5_wp*69.3_wp*degree, 0.5_wp*69.3_wp*degree, &
+         & 19e-3_wp, pressures(1), pressures(2), pressures(3))
+   end function paper_pad
+
+   !> A film that converges or diverges, with squeeze of either sign.
+   type(film_motion) function random_motion()
+      random_motion%position = clearance*[between(-0.5_wp, 0.4_wp), between(0.0_wp, 0.6_wp)]
+      random_motion%velocity = clearance*speed*[between(-0.3_wp, 0.3_wp), between(-0.3_wp, 0.3_wp)]
+   end function random_motion
+
+   real(wp) function between(low, high)
+      real(wp), intent(in) :: low, high
+      call random_number(between)
+      between = low + (high - low)*between
+   end function between
+
+   !> Over-relaxation stops at a residual of 1e-12 of the source; on these grids the error of its solution is
+   !> at most some 100 times that, and its slopes are solutions of the same kind.
+   subroutine against_relaxation(columns, rows, ruptures, pressures)
+      integer, intent(in) :: columns, rows
+      logical, intent(in) :: ruptures
+      real(wp), intent(in) :: pressures(3)
+      real(wp), parameter :: tolerance = 1e-9_wp
+      integer, parameter :: trials = 40
+      type(pad_film_type) :: film
+      type(direct_film_type) :: direct
+      type(sor_film_type) :: sor
+      type(film_counters) :: counters
+      type(film_motion) :: motion
+      type(film_response) :: r, expected
+      real(wp) :: worst, worst_slope, worst_pressure
+      integer :: trial, ruptured, k
+      film = paper_pad(pressures)
+      direct = new_direct_film(film, columns, rows)
+      sor = new_sor_film([film], sor_options(columns, rows, tolerance=1e-12_wp, max_sweeps=100000, &
+         & cavitation=merge(cavitation_reynolds, cavitation_none, ruptures)))
+      worst = 0
+      worst_slope = 0
+      worst_pressure = 0
+      ruptured = 0
+      do trial = 1, trials
+         motion = random_motion()
+         call direct%evaluate(motion, speed, ruptures, .true., counters, r)
+         call sor%evaluate_pad(1, motion, speed, .true., expected)
+         if (r%status /= film_ok) worst = huge(worst)
+         if (any(sor%pressure_field(1) <= pressures(3))) ruptured = ruptured + 1
+         worst = max(worst, deviation(r%force, expected%force))
+         associate (field => sor%pressure_field(1))
+            worst_pressure = max(worst_pressure, deviation([r%max_pressure], [max(maxval(field(:, 1)), &
+               & maxval(pressures(:2)))]))
+         end associate
+         do k = 1, 4
+            worst_slope = max(worst_slope, deviation(r%slope(:, k), expected%slope(:, k)))
+         end do
+      end do
+      associate (name => to_text(columns)//' x '//to_text(rows)//merge(' ruptured', ' whole   ', ruptures))
+         call expect(worst < tolerance, name//': force, error '//to_text(worst))
+         call expect(worst_pressure < tolerance, name//': highest pressure, error '//to_text(worst_pressure))
+         call expect(worst_slope < tolerance, name//': slopes, error '//to_text(worst_slope))
+         if (ruptures) call expect(ruptured > trials/4, name//': films do rupture, '//to_text(ruptured))
+      end associate
+   end subroutine against_relaxation
+
+   !> Relative; absolute where nothing is expected.
+   pure real(wp) function deviation(found, expected)
+      real(wp), intent(in) :: found(:), expected(:)
+      deviation = norm2(found - expected)
+      if (norm2(expected) > 0) deviation = deviation/norm2(expected)
+   end function deviation
+
+   !> The answer does not depend on the film of the last motion.
+   subroutine any_start()
+      type(direct_film_type) :: warm, cold
+      type(film_counters) :: counters
+      type(film_motion) :: motion
+      type(film_response) :: r, expected
+      integer :: trial
+      warm = new_direct_film(paper_pad([0.0_wp, 0.0_wp, 0.0_wp]), 60, 15)
+      do trial = 1, 50
+         motion = random_motion()
+         cold = new_direct_film(paper_pad([0.0_wp, 0.0_wp, 0.0_wp]), 60, 15)
+         call warm%evaluate(motion, speed, .true., .false., counters, r)
+         call cold%evaluate(motion, speed, .true., .false., counters, expected)
+         call expect_close(norm2(r%force - expected%force), 0.0_wp, 1e-12_wp*norm2(expected%force), 'any start')
+         ! without rupture nothing is remembered
+         call warm%evaluate(motion, speed, .false., .false., counters, r)
+      end do
+   end subroutine any_start
+
+   !> A pad that the journal leaves: nothing but rupture, no force, no slopes; and back.
+   subroutine empty_film()
+      type(direct_film_type) :: direct
+      type(film_counters) :: counters
+      type(film_motion) :: motion
+      type(film_response) :: r, before
+      direct = new_direct_film(paper_pad([0.0_wp, 0.0_wp, 0.0_wp]), 24, 6)
+      motion%position = clearance*[-0.2_wp, 0.3_wp]
+      call direct%evaluate(motion, speed, .true., .true., counters, before)
+      motion%velocity = [0.0_wp, -10*clearance*speed]
+      call direct%evaluate(motion, speed, .true., .true., counters, r)
+      call expect(r%status == film_ok .and. all(abs(r%force) <= 0) .and. all(abs(r%slope) <= 0), 'nothing left')
+      motion%velocity = 0
+      call direct%evaluate(motion, speed, .true., .true., counters, r)
+      call expect_close(r%force(2), before%force(2), 1e-12_wp*abs(before%force(2)), 'the film comes back')
+      call expect(all(abs(r%slope - before%slope) <= 1e-10_wp*maxval(abs(before%slope))), 'so do its slopes')
+   end subroutine empty_film
+
+   subroutine closed_film()
+      type(direct_film_type) :: direct
+      type(film_counters) :: counters
+      type(film_response) :: r
+      direct = new_direct_film(paper_pad([0.0_wp, 0.0_wp, 0.0_wp]), 24, 6)
+      call direct%evaluate(film_motion([0.0_wp, clearance], [0.0_wp, 0.0_wp]), speed, .true., .true., counters, r)
+      call expect(r%status == film_closed, 'a closed film is refused')
+   end subroutine closed_film
+end program test_direct_film
