@@ -290,7 +290,7 @@ contains
             do m = 1, 2
                call sum_adjoint(n, adjoint(:, :, m), pad%q(:, :, b), over_s(:, m), over_v(:, m))
                ! q = rise g at the leading edge stands in the last equation as a q
-               if (rise /= 0) boundary(m) = boundary(m) - dot_product(adjoint(:, n - 1, m), pad%a(:, n, b))*rise/per_g(n)
+               boundary(m) = boundary(m) - dot_product(adjoint(:, n - 1, m), pad%a(:, n, b))*rise/per_g(n)
             end do
          end do
          over_s = pad%d**2/12*over_s
@@ -308,7 +308,8 @@ contains
             do m = 1, 2
                ! slope over -r/h^3
                over_narrow = pad%narrow_share(i)*over_line(i, m)
-               if (i == 0 .or. i == n) over_narrow = over_narrow + pad%tail(3)*pad%radius*merge(sine(i), cosine(i), m == 1)
+               if (i == 0 .or. i == n) over_narrow = over_narrow &
+                  & + pad%tail(3)*pad%radius*merge(sine(i), cosine(i), m == 1)
                ! v = 3/4 (h'/h)^2 + 3/2 (c_m/h - 1), s = r h^(-3/2), 1/g = h^(-3/2), r = wedge h' + squeeze dh/dt
                over_r = over_s(i, m)*per_g(i) - over_narrow*per_g(i)**2
                over_slope = over_v(i, m)*1.5_wp*pad%h_slope(i)*per_h**2 + over_r*factors(1)
