@@ -1,76 +1,45 @@
-!> Equations of motion (1)-(4) of journal and pads, with film, contact and friction, as an ODE.
-!>
-!> State: y, z, vy, vz of the journal; then for each pad tilt, tilt rate, (tilting-radial) penetration
-!> and its rate, (LuGre) bristle deflection. A state that the scene lacks is not there.
+!> Equations of motion (1)-(4) of journal and pads as an ODE, with their linearisation; states as in
+!> bearing_forces.
 module equations_of_motion
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kinds, only: wp, i8, degree
-   use text, only: to_text
-   use ode_model, only: ode_model_type
+   use kinds, only: wp, degree
    use scene, only: scene_type
-   use film_solver, only: film_solver_type, film_motion, film_response, film_closed, film_not_converged
    use contact_law, only: contact_law_type
-   use contact_table, only: contact_table_type, new_contact_table
-   use friction, only: friction_law, friction_response
-   use kinematics, only: pad_place, pad_frame, frame_of, motion_of, motion_slopes, to_global
-   use components, only: new_film, new_law, new_friction, new_places
+   use bearing_forces, only: bearing_forces_type, init_forces
+   use arrow_system, only: arrow_matrix, new_arrow_matrix
+   use kinematics, only: motion_slopes, to_global
+   use components, only: new_law
    implicit none (type, external)
    private
-   public :: bearing_model, new_bearing_model, pad_loads
+   public :: bearing_model, new_bearing_model
 
-   !> Forces on one pad at one instant.
-   type :: pad_loads
-      !> Contact force F_bs, N, and its slope over the penetration, N/m (0 tilting-only).
-      real(wp) :: contact = 0, contact_slope = 0
-      !> Friction of the pivot.
-      type(friction_response) :: friction
-      !> Moment of eq (3), N m, and force of eq (4), N, on the pad.
-      real(wp) :: moment = 0, radial = 0
-   end type pad_loads
+   !> Columns of a pad's slopes: journal y, z, vy, vz, tilt, tilt rate, penetration, its rate.
+   integer, parameter :: columns = 8, tilt = 5, tilt_rate = 6, penetration = 7
 
-   type, extends(ode_model_type) :: bearing_model
-      type(scene_type) :: scene
-      !> States of a pad, and of all.
-      integer :: states_per_pad, n
-      logical :: radial
-      type(pad_place), allocatable :: places(:)
-      class(film_solver_type), allocatable :: film
-      type(contact_table_type) :: contact
-      class(friction_law), allocatable :: friction
-      !> Ball radius R1, m; unbalance, kg m.
-      real(wp) :: ball_radius, unbalance
+   type, extends(bearing_forces_type) :: bearing_model
       !> Natural size of each state.
       real(wp), allocatable :: scale(:)
-      !> The last evaluation, pad by pad.
-      type(pad_frame), allocatable :: frame(:)
-      type(film_motion), allocatable :: motion(:)
-      type(film_response), allocatable :: response(:)
-      type(pad_loads), allocatable :: loads(:)
-      !> Wall time in the film solver, s: every `timing_stride`-th evaluation is timed.
-      real(wp) :: film_seconds = 0
-      integer(i8) :: evaluations = 0
+      !> Inverse of the mass matrix of (3)-(4), (2, 2, pad): rates of tilt rate and penetration rate per
+      !> moment and force. Tilting-only pads have no second row.
+      real(wp), allocatable :: per_mass(:, :, :)
+      !> From the last linearisation, without friction: slopes of the contact force (column, pad), of the
+      !> rates of tilt rate and penetration rate (2, column, pad), and the Jacobian.
+      real(wp), allocatable, private :: contact_slopes(:, :), rate_slopes(:, :, :)
+      type(arrow_matrix), private :: matrix
    contains
       procedure :: rhs
+      procedure :: linearize
+      procedure :: solve
+      !> The whole Jacobian at (t, y).
       procedure :: jacobian
-      procedure :: condition
-      !> Sets frame, motion, response and loads at (t, y).
-      procedure :: evaluate
-      procedure, private :: pad_forces
-      procedure, private :: film_trouble
-      !> Index before the first state of a pad; index of its bristle.
-      procedure :: offset
-      procedure :: bristle
+      procedure, private :: add_friction
       !> The state with journal and pads at rest at given places, bristles undeflected.
       procedure :: at_rest
       !> Journal y, z and the tilts, each over its scale.
       procedure :: positions
    end type bearing_model
 
-   integer(i8), parameter :: timing_stride = 16
    !> Scale of the tilt rate over that at which Bengisu-Akay friction changes its direction.
    real(wp), parameter :: sticking_scale = 10
-   !> Film thickness over assembled clearance below which a failed march is put down to it.
-   real(wp), parameter :: nearly_closed = 1e-2_wp
 
 contains
 
@@ -78,20 +47,26 @@ contains
    function new_bearing_model(scene) result(model)
       type(scene_type), intent(in) :: scene
       type(bearing_model) :: model
-      integer :: n
-      n = scene%pad_count()
-      model%scene = scene
-      model%radial = scene%tilting_radial()
-      model%friction = new_friction(scene)
-      model%states_per_pad = merge(4, 2, model%radial) + merge(1, 0, model%friction%has_bristle)
-      model%n = 4 + n*model%states_per_pad
-      model%places = new_places(scene)
-      model%film = new_film(scene)
-      if (model%radial) model%contact = new_contact_table(new_law(scene))
-      model%ball_radius = scene%pivot%socket_radius - scene%pivot%radius_difference
-      model%unbalance = scene%unbalance()
-      allocate (model%frame(n), model%motion(n), model%response(n), model%loads(n))
+      real(wp) :: coupling, determinant
+      integer :: i, n
+      call init_forces(model, scene)
       model%scale = state_scales(model)
+      n = scene%pad_count()
+      model%matrix = new_arrow_matrix(model%states_per_pad, n)
+      allocate (model%per_mass(2, 2, n), model%contact_slopes(columns, n), source=0.0_wp)
+      allocate (model%rate_slopes(2, columns, n), source=0.0_wp)
+      do i = 1, n
+         associate (mass => scene%pads%mass(i), inertia => scene%pads%inertia(i))
+            if (model%radial) then
+               ! coupled where C_xi /= 0
+               coupling = mass*scene%pads%centre_tangential(i)
+               determinant = inertia*mass - coupling**2
+               model%per_mass(:, :, i) = reshape([mass, -coupling, -coupling, inertia], [2, 2])/determinant
+            else
+               model%per_mass(1, 1, i) = 1/inertia
+            end if
+         end associate
+      end do
    end function new_bearing_model
 
    !> Natural size of each state: clearance; clearance over pad length; the penetration under the load;
@@ -125,18 +100,6 @@ contains
       end associate
    end function state_scales
 
-   pure integer function offset(self, pad)
-      class(bearing_model), intent(in) :: self
-      integer, intent(in) :: pad
-      offset = 4 + (pad - 1)*self%states_per_pad
-   end function offset
-
-   pure integer function bristle(self, pad)
-      class(bearing_model), intent(in) :: self
-      integer, intent(in) :: pad
-      bristle = 4 + pad*self%states_per_pad
-   end function bristle
-
    pure function at_rest(self, journal, tilt, penetration) result(y)
       class(bearing_model), intent(in) :: self
       real(wp), intent(in) :: journal(2), tilt(:), penetration(:)
@@ -159,111 +122,6 @@ contains
       positions = y(at)/self%scale(at)
    end function positions
 
-   subroutine evaluate(self, t, y, want_slopes, ok)
-      class(bearing_model), intent(inout) :: self
-      real(wp), intent(in) :: t, y(:)
-      logical, intent(in) :: want_slopes
-      logical, intent(out) :: ok
-      real(wp) :: penetration, penetration_rate
-      integer(i8) :: start, finish, rate
-      integer :: i, o
-
-      penetration = 0
-      penetration_rate = 0
-      do i = 1, size(self%places)
-         o = self%offset(i)
-         if (self%radial) then
-            penetration = y(o + 3)
-            penetration_rate = y(o + 4)
-         end if
-         self%frame(i) = frame_of(self%places(i), y(1:2), y(o + 1), penetration)
-         self%motion(i) = motion_of(self%places(i), self%frame(i), y(3:4), y(o + 2), penetration_rate)
-      end do
-      if (mod(self%evaluations, timing_stride) == 0) then
-         call system_clock(start, rate)
-         call self%film%evaluate(self%motion, self%scene%speed(t), want_slopes, self%response)
-         call system_clock(finish)
-         self%film_seconds = self%film_seconds + real(timing_stride*(finish - start), wp)/real(rate, wp)
-      else
-         call self%film%evaluate(self%motion, self%scene%speed(t), want_slopes, self%response)
-      end if
-      self%evaluations = self%evaluations + 1
-      call self%film_trouble(y, ok)
-      if (.not. ok) return
-      do i = 1, size(self%places)
-         call self%pad_forces(i, y, want_slopes)
-      end do
-   end subroutine evaluate
-
-   !> Refuses a state whose film is closed, did not converge, or whose pad has turned over.
-   subroutine film_trouble(self, y, ok)
-      class(bearing_model), intent(inout) :: self
-      real(wp), intent(in) :: y(:)
-      logical, intent(out) :: ok
-      integer :: i
-      ok = .true.
-      do i = 1, size(self%places)
-         associate (film => self%response(i), tilt => y(self%offset(i) + 1))
-            if (.not. abs(tilt) < 0.5_wp*self%scene%pads%arc_deg(i)*degree) then
-               self%trouble = 'pad '//to_text(i)//' turned over: tilt '//to_text(tilt)//' rad'
-            else if (film%status == film_closed) then
-               self%trouble = 'the film of pad '//to_text(i)//' closed: thickness '//to_text(film%min_film)//' m'
-            else if (film%status == film_not_converged) then
-               self%trouble = 'the film of pad '//to_text(i)//' did not converge: residual ' &
-                  & //to_text(film%residual)//' after film%max_sweeps = '//to_text(self%scene%film%max_sweeps)
-            else if (.not. all(ieee_is_finite(film%force))) then
-               self%trouble = 'the film force of pad '//to_text(i)//' is not finite: thickness ' &
-                  & //to_text(film%min_film)//' m'
-            else
-               cycle
-            end if
-            ok = .false.
-            return
-         end associate
-      end do
-   end subroutine film_trouble
-
-   !> Names the pad whose film is nearly closed, if there is one.
-   function condition(self)
-      class(bearing_model), intent(in) :: self
-      character(len=:), allocatable :: condition
-      integer :: i
-      condition = ''
-      i = minloc(self%response%min_film, dim=1)
-      associate (film => self%response(i)%min_film)
-         if (film < nearly_closed*self%scene%bearing%assembled_clearance) then
-            condition = 'the film of pad '//to_text(i)//' is closing: thickness '//to_text(film)//' m'
-         end if
-      end associate
-   end function condition
-
-   !> Contact, friction, and the right-hand sides of (3) and (4) for one pad.
-   subroutine pad_forces(self, i, y, want_slopes)
-      class(bearing_model), intent(inout) :: self
-      integer, intent(in) :: i
-      real(wp), intent(in) :: y(:)
-      logical, intent(in) :: want_slopes
-      real(wp) :: deflection, inertial
-      integer :: o
-      o = self%offset(i)
-      associate (loads => self%loads(i), frame => self%frame(i), force => self%response(i)%force, &
-         & pads => self%scene%pads, weight => self%scene%pads%mass(i)*self%scene%rotor%gravity, rate => y(o + 2))
-         inertial = pads%mass(i)*pads%centre_radial(i)*rate**2
-         loads%radial = -force(2) - weight*frame%s + inertial
-         if (self%radial) then
-            call self%contact%lookup(y(o + 3), loads%contact, loads%contact_slope)
-         else
-            loads%contact = max(0.0_wp, loads%radial)
-         end if
-         loads%radial = loads%radial - loads%contact
-         deflection = 0
-         if (self%friction%has_bristle) deflection = y(self%bristle(i))
-         call self%friction%evaluate(self%ball_radius*rate, deflection, loads%contact, want_slopes, loads%friction)
-         loads%moment = -force(1)*self%places(i)%centre_distance - self%ball_radius*loads%friction%force &
-            & - weight*(pads%centre_tangential(i)*frame%s - pads%centre_radial(i)*frame%c)
-      end associate
-   end subroutine pad_forces
-
    subroutine rhs(self, t, y, dydt, ok)
       class(bearing_model), intent(inout) :: self
       real(wp), intent(in) :: t, y(:)
@@ -282,86 +140,114 @@ contains
          o = self%offset(i)
          force = force + to_global(self%frame(i), self%response(i)%force)
          dydt(o + 1) = y(o + 2)
-         call accelerate(self, i, self%loads(i)%moment, self%loads(i)%radial, dydt)
-         if (self%radial) dydt(o + 3) = y(o + 4)
+         associate (rates => matmul(self%per_mass(:, :, i), [self%loads(i)%moment, self%loads(i)%radial]))
+            dydt(o + 2) = rates(1)
+            if (self%radial) dydt(o + 3:o + 4) = [y(o + 4), rates(2)]
+         end associate
          if (self%friction%has_bristle) dydt(self%bristle(i)) = self%loads(i)%friction%rate
       end do
       dydt(1:2) = y(3:4)
       dydt(3:4) = force/self%scene%rotor%mass
    end subroutine rhs
 
-   !> Solves the 2 x 2 mass matrix of (3)-(4), coupled where C_xi /= 0, for the rates of tilt rate and
-   !> penetration rate, and puts them in their places of `column`.
-   pure subroutine accelerate(self, i, moment, radial, column)
-      type(bearing_model), intent(in) :: self
-      integer, intent(in) :: i
-      real(wp), intent(in) :: moment, radial
-      real(wp), intent(inout) :: column(:)
-      real(wp) :: coupling, determinant
-      associate (mass => self%scene%pads%mass(i), inertia => self%scene%pads%inertia(i), o => self%offset(i))
-         if (self%radial) then
-            coupling = mass*self%scene%pads%centre_tangential(i)
-            determinant = inertia*mass - coupling**2
-            column(o + 2) = (mass*moment - coupling*radial)/determinant
-            column(o + 4) = (inertia*radial - coupling*moment)/determinant
-         else
-            column(o + 2) = moment/inertia
-         end if
+   !> Slopes of film and contact at (t, y), for `solve`.
+   subroutine linearize(self, t, y, ok)
+      class(bearing_model), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      logical, intent(out) :: ok
+      real(wp) :: force(2, columns), global(2, columns), moment(columns), radial(columns)
+      integer :: i, k, m
+
+      call self%evaluate(t, y, .true., ok)
+      if (.not. ok) return
+      m = merge(4, 2, self%radial)
+      associate (matrix => self%matrix)
+         matrix%corner = 0
+         matrix%corner(1, 3) = 1
+         matrix%corner(2, 4) = 1
+         do i = 1, size(self%places)
+            associate (frame => self%frame(i), film => self%response(i), loads => self%loads(i), &
+               & pads => self%scene%pads, weight => self%scene%pads%mass(i)*self%scene%rotor%gravity, &
+               & rate => y(self%offset(i) + 2))
+               force = matmul(film%slope, motion_slopes(self%places(i), frame, self%motion(i), rate))
+               radial = -force(2, :)
+               radial(tilt) = radial(tilt) + weight*frame%c
+               radial(tilt_rate) = radial(tilt_rate) + 2*pads%mass(i)*pads%centre_radial(i)*rate
+               associate (contact => self%contact_slopes(:, i))
+                  if (self%radial) then
+                     contact = 0
+                     contact(penetration) = loads%contact_slope
+                  else
+                     contact = merge(radial, 0.0_wp, loads%contact > 0)
+                  end if
+                  radial = radial - contact
+               end associate
+               moment = -force(1, :)*self%places(i)%centre_distance
+               moment(tilt) = moment(tilt) + weight*(pads%centre_tangential(i)*frame%c + pads%centre_radial(i)*frame%s)
+               do k = 1, columns
+                  global(:, k) = to_global(frame, force(:, k))
+                  self%rate_slopes(:, k, i) = matmul(self%per_mass(:, :, i), [moment(k), radial(k)])
+               end do
+               ! the frame turns with the pad
+               global(:, tilt) = global(:, tilt) + to_global(frame, [-film%force(2), film%force(1)])
+               global = global/self%scene%rotor%mass
+               matrix%corner(3:4, :) = matrix%corner(3:4, :) + global(:, :4)
+               matrix%across(3:4, :m, i) = global(:, 5:4 + m)
+               matrix%block(1, 2, i) = 1
+               if (self%radial) matrix%block(3, 4, i) = 1
+            end associate
+         end do
       end associate
-   end subroutine accelerate
+   end subroutine linearize
+
+   !> Puts the rates' slopes, with those of friction in the state evaluated last, into the Jacobian.
+   subroutine add_friction(self)
+      class(bearing_model), intent(inout) :: self
+      real(wp) :: moment(columns), rates(2, columns)
+      integer :: i, m
+      m = merge(4, 2, self%radial)
+      associate (matrix => self%matrix, bristle => self%states_per_pad)
+         do i = 1, size(self%places)
+            associate (friction => self%loads(i)%friction, per_moment => self%per_mass(:, 1, i))
+               moment = -self%ball_radius*friction%force_normal*self%contact_slopes(:, i)
+               moment(tilt_rate) = moment(tilt_rate) - self%ball_radius**2*friction%force_velocity
+               rates(1, :) = self%rate_slopes(1, :, i) + per_moment(1)*moment
+               rates(2, :) = self%rate_slopes(2, :, i) + per_moment(2)*moment
+               matrix%down(2, :, i) = rates(1, :4)
+               matrix%block(2, :m, i) = rates(1, 5:4 + m)
+               if (self%radial) then
+                  matrix%down(4, :, i) = rates(2, :4)
+                  matrix%block(4, :4, i) = rates(2, 5:)
+               end if
+               if (self%friction%has_bristle) then
+                  matrix%block(2:m:2, bristle, i) = -self%ball_radius*friction%force_deflection*per_moment(:m/2)
+                  matrix%block(bristle, 2, i) = friction%rate_velocity*self%ball_radius
+                  matrix%block(bristle, bristle, i) = friction%rate_deflection
+               end if
+            end associate
+         end do
+      end associate
+   end subroutine add_friction
+
+   !> b := (1 - gamma J)^(-1) b, with film and contact as linearised last and friction as evaluated last:
+   !> Newton's iteration then crosses the kinks of friction, where old slopes would lead it astray.
+   subroutine solve(self, gamma, b, ok)
+      class(bearing_model), intent(inout) :: self
+      real(wp), intent(in) :: gamma
+      real(wp), intent(inout) :: b(:)
+      logical, intent(out) :: ok
+      call self%add_friction()
+      call self%matrix%solve(gamma, b, ok)
+   end subroutine solve
 
    subroutine jacobian(self, t, y, matrix, ok)
       class(bearing_model), intent(inout) :: self
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: matrix(:, :)
       logical, intent(out) :: ok
-      integer :: i, k, o, locals, column
-      !> Slopes over (journal y, z, vy, vz, tilt, tilt rate, penetration, its rate).
-      real(wp) :: force(2, 8), contact(8), friction(8), moment(8), radial(8), global(2)
-
-      call self%evaluate(t, y, .true., ok)
+      call self%linearize(t, y, ok)
       if (.not. ok) return
-      matrix = 0
-      matrix(1, 3) = 1
-      matrix(2, 4) = 1
-      locals = merge(8, 6, self%radial)
-      do i = 1, size(self%places)
-         o = self%offset(i)
-         associate (frame => self%frame(i), film => self%response(i), loads => self%loads(i), &
-            & pads => self%scene%pads, weight => self%scene%pads%mass(i)*self%scene%rotor%gravity, rate => y(o + 2))
-            force = matmul(film%slope, motion_slopes(self%places(i), frame, self%motion(i), rate))
-            radial = -force(2, :)
-            radial(5) = radial(5) + weight*frame%c
-            radial(6) = radial(6) + 2*pads%mass(i)*pads%centre_radial(i)*rate
-            if (self%radial) then
-               contact = 0
-               contact(7) = loads%contact_slope
-            else
-               contact = merge(radial, 0.0_wp, loads%contact > 0)
-            end if
-            radial = radial - contact
-            friction = loads%friction%force_normal*contact
-            friction(6) = friction(6) + loads%friction%force_velocity*self%ball_radius
-            moment = -force(1, :)*self%places(i)%centre_distance - self%ball_radius*friction
-            moment(5) = moment(5) + weight*(pads%centre_tangential(i)*frame%c + pads%centre_radial(i)*frame%s)
-
-            do k = 1, locals
-               column = merge(k, o + k - 4, k <= 4)
-               global = to_global(frame, force(:, k))
-               ! the frame turns with the pad
-               if (k == 5) global = global + to_global(frame, [-film%force(2), film%force(1)])
-               matrix(3:4, column) = matrix(3:4, column) + global/self%scene%rotor%mass
-               call accelerate(self, i, moment(k), radial(k), matrix(:, column))
-            end do
-            matrix(o + 1, o + 2) = 1
-            if (self%radial) matrix(o + 3, o + 4) = 1
-            if (self%friction%has_bristle) then
-               column = self%bristle(i)
-               call accelerate(self, i, -self%ball_radius*loads%friction%force_deflection, 0.0_wp, matrix(:, column))
-               matrix(column, o + 2) = loads%friction%rate_velocity*self%ball_radius
-               matrix(column, column) = loads%friction%rate_deflection
-            end if
-         end associate
-      end do
+      call self%add_friction()
+      matrix = self%matrix%dense()
    end subroutine jacobian
 end module equations_of_motion

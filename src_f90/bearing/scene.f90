@@ -81,7 +81,7 @@ module scene
    end type film_type
 
    type :: integration_type
-      real(wp) :: relative_tolerance = 3e-6_wp, tolerance_scale = 1
+      real(wp) :: relative_tolerance = 1e-5_wp, tolerance_scale = 1
       !> 0: no limit.
       real(wp) :: max_step = 0
       integer :: max_steps = 100000000

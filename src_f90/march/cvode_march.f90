@@ -1,9 +1,10 @@
-!> Marches an ode_model with CVODE (BDF, Newton, dense). The only file that knows SUNDIALS.
+!> Marches an ode_model with CVODE (BDF, Newton). The only file that knows SUNDIALS.
 module cvode_march
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_int64_t, c_loc, &
       & c_long, c_null_ptr, c_ptr
    use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodesvtolerances, fcvodesetuserdata, &
-      & fcvodesetlinearsolver, fcvodesetjacfn, fcvodesetjacevalfrequency, fcvodesetlsetupfrequency, &
+      & fcvodesetlinearsolver, fcvodesetlinsysfn, fcvodesetlinearsolutionscaling, &
+      & fcvodesetjacevalfrequency, fcvodesetlsetupfrequency, fcvodegetcurrentgamma, &
       & fcvodesetnonlinconvcoef, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, &
       & fcvodeseterrfile, fcvode, fcvodegetdky, fcvodefree, fcvodegetnumrhsevals, &
       & fcvodegetnumjacevals, fcvodegetnumerrtestfails, fcvodegetnumnonlinsolvconvfails, &
@@ -13,10 +14,10 @@ module cvode_march
    use fsundials_context_mod, only: fsuncontext_create, fsuncontext_free
    use fsundials_nvector_mod, only: n_vector, fn_vgetarraypointer, fn_vdestroy
    use fsundials_matrix_mod, only: sunmatrix, fsunmatdestroy
-   use fsundials_linearsolver_mod, only: sunlinearsolver, fsunlinsolfree
+   use fsundials_linearsolver_mod, only: sunlinearsolver, sunlinearsolver_ops, sunlinearsolver_direct, &
+      & fsunlinsolnewempty, fsunlinsolfreeempty
    use fnvector_serial_mod, only: fn_vmake_serial
-   use fsunmatrix_dense_mod, only: fsundensematrix, fsundensematrix_data
-   use fsunlinsol_dense_mod, only: fsunlinsol_dense
+   use fsunmatrix_dense_mod, only: fsundensematrix
    use kinds, only: wp, i8
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error
@@ -32,6 +33,8 @@ module cvode_march
       !> Longest step, s; 0: no limit. Most steps before the march gives up.
       real(wp) :: max_step = 0
       integer(i8) :: max_steps = huge(1_i8)
+      !> Tolerance of Newton's iteration over that of the error test.
+      real(wp) :: newton_coefficient = 0.1_wp
    end type march_options
 
    type :: march_statistics
@@ -51,12 +54,11 @@ module cvode_march
    type :: user_data
       class(ode_model_type), pointer :: model => null()
       integer(c_int64_t) :: n
+      type(c_ptr) :: memory
    end type user_data
 
-   !> Steps after which Jacobian and factorisation are renewed (CVODE: 51 and 20), and the Newton tolerance
-   !> over that of the error test (CVODE: 0.1). The Jacobian is analytic and cheap; fresh, it saves steps.
-   integer(c_long), parameter :: jacobian_age = 5
-   real(wp), parameter :: newton_coefficient = 0.05_wp
+   !> Steps after which the slopes are taken anew (CVODE: 51): they are cheap, and fresh they save steps.
+   integer(c_long), parameter :: slopes_age = 5
    !> Steps between two calls of the observer's report.
    integer(i8), parameter :: steps_per_report = 256
 
@@ -87,6 +89,7 @@ contains
       type(n_vector), pointer :: y_vector, sample_vector, tolerance_vector
       type(sunmatrix), pointer :: matrix
       type(sunlinearsolver), pointer :: linear_solver
+      type(sunlinearsolver_ops), pointer :: operations
       real(wp), target :: sample(size(y)), tolerance(size(y))
       real(c_double) :: t(1)
       integer(c_int) :: flag
@@ -100,18 +103,26 @@ contains
       y_vector => fn_vmake_serial(user%n, y, context)
       sample_vector => fn_vmake_serial(user%n, sample, context)
       tolerance_vector => fn_vmake_serial(user%n, tolerance, context)
-      matrix => fsundensematrix(user%n, user%n, context)
-      linear_solver => fsunlinsol_dense(y_vector, matrix, context)
+      user%memory = memory
+      ! the model keeps its matrix and solves; CVODE wants to see one all the same
+      matrix => fsundensematrix(1_c_int64_t, 1_c_int64_t, context)
+      linear_solver => fsunlinsolnewempty(context)
+      linear_solver%content = c_loc(user)
+      call c_f_pointer(linear_solver%ops, operations)
+      operations%gettype = c_funloc(solver_type)
+      operations%solve = c_funloc(solve_callback)
       flag = fcvodeinit(memory, c_funloc(rhs_callback), t_start, y_vector)
       ! what CVODE would print is told in our own error instead
       flag = fcvodeseterrfile(memory, c_null_ptr)
       flag = fcvodesetuserdata(memory, c_loc(user))
       flag = fcvodesvtolerances(memory, options%relative_tolerance, tolerance_vector)
       flag = fcvodesetlinearsolver(memory, linear_solver, matrix)
-      flag = fcvodesetjacfn(memory, c_funloc(jacobian_callback))
-      flag = fcvodesetjacevalfrequency(memory, jacobian_age)
-      flag = fcvodesetlsetupfrequency(memory, jacobian_age)
-      flag = fcvodesetnonlinconvcoef(memory, newton_coefficient)
+      flag = fcvodesetlinsysfn(memory, c_funloc(linear_system_callback))
+      ! the model solves with the gamma of the step
+      flag = fcvodesetlinearsolutionscaling(memory, 0_c_int)
+      flag = fcvodesetjacevalfrequency(memory, slopes_age)
+      flag = fcvodesetlsetupfrequency(memory, slopes_age)
+      flag = fcvodesetnonlinconvcoef(memory, options%newton_coefficient)
       flag = fcvodesetmaxstep(memory, options%max_step)
       ! shorter steps would not move the time
       flag = fcvodesetminstep(memory, epsilon(t_end)*t_end)
@@ -147,7 +158,7 @@ contains
 
       call read_statistics(memory, statistics)
       call fcvodefree(memory)
-      flag = fsunlinsolfree(linear_solver)
+      call fsunlinsolfreeempty(linear_solver)
       call fsunmatdestroy(matrix)
       call fn_vdestroy(tolerance_vector)
       call fn_vdestroy(sample_vector)
@@ -218,21 +229,50 @@ contains
       rhs_callback = merge(0_c_int, 1_c_int, ok)
    end function rhs_callback
 
-   !> CVODE's Jacobian function.
-   integer(c_int) function jacobian_callback(t, y_vector, f_vector, matrix, user_pointer, work1, work2, &
-      & work3) bind(c)
-      real(c_double), value :: t
+   !> CVODE's set-up of the linear systems: new slopes, unless the last will do.
+   integer(c_int) function linear_system_callback(t, y_vector, f_vector, matrix, slopes_will_do, slopes_are_new, &
+      & gamma, user_pointer, work1, work2, work3) bind(c)
+      real(c_double), value :: t, gamma
       type(n_vector) :: y_vector, f_vector, work1, work2, work3
       type(sunmatrix) :: matrix
+      integer(c_int), value :: slopes_will_do
+      integer(c_int) :: slopes_are_new
       type(c_ptr), value :: user_pointer
       type(user_data), pointer :: user
-      real(c_double), pointer :: y(:), first(:), jacobian(:, :)
+      real(c_double), pointer :: y(:)
       logical :: ok
-      call c_f_pointer(user_pointer, user)
-      y(1:user%n) => fn_vgetarraypointer(y_vector)
-      first => fsundensematrix_data(matrix)
-      call c_f_pointer(c_loc(first), jacobian, [user%n, user%n])
-      call user%model%jacobian(t, y, jacobian, ok)
-      jacobian_callback = merge(0_c_int, 1_c_int, ok)
-   end function jacobian_callback
+      ok = .true.
+      slopes_are_new = merge(0_c_int, 1_c_int, slopes_will_do /= 0)
+      if (slopes_will_do == 0) then
+         call c_f_pointer(user_pointer, user)
+         y(1:user%n) => fn_vgetarraypointer(y_vector)
+         call user%model%linearize(t, y, ok)
+      end if
+      linear_system_callback = merge(0_c_int, 1_c_int, ok)
+   end function linear_system_callback
+
+   integer(c_int) function solver_type(linear_solver) bind(c)
+      type(sunlinearsolver) :: linear_solver
+      solver_type = sunlinearsolver_direct
+   end function solver_type
+
+   !> CVODE's linear solver: x = (1 - gamma J)^(-1) b.
+   integer(c_int) function solve_callback(linear_solver, matrix, x_vector, b_vector, tolerance) bind(c)
+      type(sunlinearsolver) :: linear_solver
+      type(sunmatrix) :: matrix
+      type(n_vector) :: x_vector, b_vector
+      real(c_double), value :: tolerance
+      type(user_data), pointer :: user
+      real(c_double), pointer :: x(:), b(:)
+      real(c_double) :: gamma(1)
+      integer(c_int) :: flag
+      logical :: ok
+      call c_f_pointer(linear_solver%content, user)
+      x(1:user%n) => fn_vgetarraypointer(x_vector)
+      b(1:user%n) => fn_vgetarraypointer(b_vector)
+      flag = fcvodegetcurrentgamma(user%memory, gamma)
+      x = b
+      call user%model%solve(gamma(1), x, ok)
+      solve_callback = merge(0_c_int, 1_c_int, ok)
+   end function solve_callback
 end module cvode_march

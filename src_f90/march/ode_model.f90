@@ -1,4 +1,4 @@
-!> What the march needs to know of a problem: y' = f(t, y), its Jacobian, and the scale of each state.
+!> What the march needs to know of a problem: y' = f(t, y), and its linear systems.
 module ode_model
    use kinds, only: wp
    implicit none (type, external)
@@ -10,7 +10,8 @@ module ode_model
       character(len=:), allocatable :: trouble
    contains
       procedure(right_hand_side), deferred :: rhs
-      procedure(jacobian_matrix), deferred :: jacobian
+      procedure(take_slopes), deferred :: linearize
+      procedure(solve_system), deferred :: solve
       !> What is remarkable in the state evaluated last, for the message of a march that cannot go on.
       procedure :: condition
    end type ode_model_type
@@ -25,14 +26,23 @@ module ode_model
          logical, intent(out) :: ok
       end subroutine right_hand_side
 
-      !> df/dy at (t, y).
-      subroutine jacobian_matrix(self, t, y, matrix, ok)
+      !> Takes what `solve` needs of df/dy at (t, y).
+      subroutine take_slopes(self, t, y, ok)
          import :: ode_model_type, wp
          class(ode_model_type), intent(inout) :: self
          real(wp), intent(in) :: t, y(:)
-         real(wp), intent(out) :: matrix(:, :)
          logical, intent(out) :: ok
-      end subroutine jacobian_matrix
+      end subroutine take_slopes
+
+      !> b := (1 - gamma df/dy)^(-1) b with the slopes taken last; a model that knows parts of them better,
+      !> from the right-hand side evaluated last, may use these. `ok = .false.`: no solution.
+      subroutine solve_system(self, gamma, b, ok)
+         import :: ode_model_type, wp
+         class(ode_model_type), intent(inout) :: self
+         real(wp), intent(in) :: gamma
+         real(wp), intent(inout) :: b(:)
+         logical, intent(out) :: ok
+      end subroutine solve_system
    end interface
 
    !> Receives the samples of a march.

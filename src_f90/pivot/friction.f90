@@ -7,7 +7,7 @@ module friction
    public :: friction_law, friction_response, no_friction, bengisu_akay_friction, lugre_friction
    public :: default_bristle_damping
 
-   !> What a law answers; the slopes are set only on request.
+   !> What a law answers.
    type :: friction_response
       !> Friction force, N; positive with a positive velocity.
       real(wp) :: force = 0
@@ -33,11 +33,10 @@ module friction
 
    abstract interface
       !> The response to a sliding velocity, m/s, bristle deflection, m, and normal force >= 0, N.
-      pure subroutine evaluate_law(self, velocity, deflection, normal, want_slopes, response)
+      pure subroutine evaluate_law(self, velocity, deflection, normal, response)
          import :: friction_law, friction_response, wp
          class(friction_law), intent(in) :: self
          real(wp), intent(in) :: velocity, deflection, normal
-         logical, intent(in) :: want_slopes
          type(friction_response), intent(out) :: response
       end subroutine evaluate_law
    end interface
@@ -86,17 +85,15 @@ contains
       critical_velocity = self%critical_velocity
    end function critical_velocity
 
-   pure subroutine evaluate_none(self, velocity, deflection, normal, want_slopes, response)
+   pure subroutine evaluate_none(self, velocity, deflection, normal, response)
       class(no_friction), intent(in) :: self
       real(wp), intent(in) :: velocity, deflection, normal
-      logical, intent(in) :: want_slopes
       type(friction_response), intent(out) :: response
    end subroutine evaluate_none
 
-   pure subroutine evaluate_bengisu_akay(self, velocity, deflection, normal, want_slopes, response)
+   pure subroutine evaluate_bengisu_akay(self, velocity, deflection, normal, response)
       class(bengisu_akay_friction), intent(in) :: self
       real(wp), intent(in) :: velocity, deflection, normal
-      logical, intent(in) :: want_slopes
       type(friction_response), intent(out) :: response
       real(wp) :: v, coefficient, slope
       v = abs(velocity)
@@ -112,15 +109,13 @@ contains
       end associate
       if (velocity < 0) coefficient = -coefficient
       response%force = coefficient*normal
-      if (.not. want_slopes) return
       response%force_velocity = slope*normal
       response%force_normal = coefficient
    end subroutine evaluate_bengisu_akay
 
-   pure subroutine evaluate_lugre(self, velocity, deflection, normal, want_slopes, response)
+   pure subroutine evaluate_lugre(self, velocity, deflection, normal, response)
       class(lugre_friction), intent(in) :: self
       real(wp), intent(in) :: velocity, deflection, normal
-      logical, intent(in) :: want_slopes
       type(friction_response), intent(out) :: response
       real(wp) :: ratio, drop, g, v, relaxation, g_slope, coefficient
       v = abs(velocity)
@@ -133,7 +128,6 @@ contains
       coefficient = self%bristle_stiffness*deflection + self%bristle_damping*response%rate &
          & + self%viscous_coefficient*velocity
       response%force = coefficient*normal
-      if (.not. want_slopes) return
       ! d relaxation / d|v| = sigma_0 (g - |v| dG/d|v|) / g**2, and |v| dG/d|v| = -gamma ratio drop
       g_slope = -self%stribeck_exponent*ratio*drop
       response%rate_velocity = 1 - sign(1.0_wp, velocity)*deflection*self%bristle_stiffness*(g - g_slope)/g**2

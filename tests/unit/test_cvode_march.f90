@@ -7,8 +7,36 @@ module march_problems
    private
    public :: stiff_cosine, robertson, keeper
 
+   !> A problem with a full Jacobian.
+   type, abstract, extends(ode_model_type) :: dense_problem
+      real(wp), allocatable :: matrix(:, :)
+   contains
+      procedure :: linearize => take_matrix
+      procedure :: solve => solve_dense
+      procedure(jacobian_matrix), deferred :: jacobian
+   end type dense_problem
+
+   abstract interface
+      pure function jacobian_matrix(self, y) result(matrix)
+         import :: dense_problem, wp
+         class(dense_problem), intent(in) :: self
+         real(wp), intent(in) :: y(:)
+         real(wp) :: matrix(size(y), size(y))
+      end function jacobian_matrix
+   end interface
+
+   interface
+      !> LAPACK: solves a x = b.
+      subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         integer, intent(in) :: n, nrhs, lda, ldb
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         integer, intent(out) :: ipiv(*), info
+      end subroutine dgesv
+   end interface
+
    !> y' = -k (y - cos t) - sin t, beside a damped oscillator of its own: y = cos t from y(0) = 1.
-   type, extends(ode_model_type) :: stiff_cosine
+   type, extends(dense_problem) :: stiff_cosine
       real(wp) :: stiffness = 1e5_wp
       !> Refuses every time after this one.
       real(wp) :: refuse_after = huge(1.0_wp)
@@ -22,7 +50,7 @@ module march_problems
    end type stiff_cosine
 
    !> Robertson's chemical reaction.
-   type, extends(ode_model_type) :: robertson
+   type, extends(dense_problem) :: robertson
    contains
       procedure :: rhs => robertson_rhs
       procedure :: jacobian => robertson_jacobian
@@ -39,6 +67,31 @@ module march_problems
 
 contains
 
+   subroutine take_matrix(self, t, y, ok)
+      class(dense_problem), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      logical, intent(out) :: ok
+      self%matrix = self%jacobian(y)
+      ok = .true.
+   end subroutine take_matrix
+
+   subroutine solve_dense(self, gamma, b, ok)
+      class(dense_problem), intent(inout) :: self
+      real(wp), intent(in) :: gamma
+      real(wp), intent(inout) :: b(:)
+      logical, intent(out) :: ok
+      real(wp) :: system(size(b), size(b)), column(size(b), 1)
+      integer :: pivots(size(b)), info, i
+      system = -gamma*self%matrix
+      do i = 1, size(b)
+         system(i, i) = system(i, i) + 1
+      end do
+      column(:, 1) = b
+      call dgesv(size(b), 1, system, size(b), pivots, column, size(b), info)
+      b = column(:, 1)
+      ok = info == 0
+   end subroutine solve_dense
+
    subroutine cosine_rhs(self, t, y, dydt, ok)
       class(stiff_cosine), intent(inout) :: self
       real(wp), intent(in) :: t, y(:)
@@ -52,17 +105,15 @@ contains
       if (.not. ok) self%trouble = 'the problem ends'
    end subroutine cosine_rhs
 
-   subroutine cosine_jacobian(self, t, y, matrix, ok)
-      class(stiff_cosine), intent(inout) :: self
-      real(wp), intent(in) :: t, y(:)
-      real(wp), intent(out) :: matrix(:, :)
-      logical, intent(out) :: ok
+   pure function cosine_jacobian(self, y) result(matrix)
+      class(stiff_cosine), intent(in) :: self
+      real(wp), intent(in) :: y(:)
+      real(wp) :: matrix(size(y), size(y))
       matrix = 0
       matrix(1, 1) = -self%stiffness
       matrix(2, 3) = 1
       matrix(3, 2) = -4
-      ok = .true.
-   end subroutine cosine_jacobian
+   end function cosine_jacobian
 
    subroutine robertson_rhs(self, t, y, dydt, ok)
       class(robertson), intent(inout) :: self
@@ -75,16 +126,14 @@ contains
       ok = .true.
    end subroutine robertson_rhs
 
-   subroutine robertson_jacobian(self, t, y, matrix, ok)
-      class(robertson), intent(inout) :: self
-      real(wp), intent(in) :: t, y(:)
-      real(wp), intent(out) :: matrix(:, :)
-      logical, intent(out) :: ok
+   pure function robertson_jacobian(self, y) result(matrix)
+      class(robertson), intent(in) :: self
+      real(wp), intent(in) :: y(:)
+      real(wp) :: matrix(size(y), size(y))
       matrix(1, :) = [-0.04_wp, 1e4_wp*y(3), 1e4_wp*y(2)]
       matrix(3, :) = [0.0_wp, 6e7_wp*y(2), 0.0_wp]
       matrix(2, :) = -matrix(1, :) - matrix(3, :)
-      ok = .true.
-   end subroutine robertson_jacobian
+   end function robertson_jacobian
 
    subroutine keep_sample(self, t, y, error)
       class(keeper), intent(inout) :: self

@@ -41,7 +41,7 @@ contains
    subroutine without_friction()
       type(no_friction) :: law
       type(friction_response) :: r
-      call law%evaluate(0.1_wp, 1e-6_wp, load, .true., r)
+      call law%evaluate(0.1_wp, 1e-6_wp, load, r)
       call expect(.not. law%has_bristle, 'no friction has no bristle')
       ! beyond any velocity, and still a number to reckon with
       call expect(law%sticking_velocity() > 1e6_wp .and. law%sticking_velocity() < 1e200_wp, 'nothing sticks without')
@@ -77,14 +77,14 @@ contains
       real(wp) :: h
       integer :: k
       law = bengisu_akay()
-      call law%evaluate(nearest(vc, -1.0_wp), 0.0_wp, load, .true., r)
+      call law%evaluate(nearest(vc, -1.0_wp), 0.0_wp, load, r)
       call expect_close(r%force_velocity, 0.0_wp, rounding*fs*load/vc, 'slope below v_c')
-      call law%evaluate(vc, 0.0_wp, load, .true., r)
+      call law%evaluate(vc, 0.0_wp, load, r)
       call expect_close(r%force_velocity, -chi*(fs - fd)*load, rounding*chi*fs*load, 'slope above v_c')
-      call law%evaluate(0.0_wp, 0.0_wp, load, .true., r)
+      call law%evaluate(0.0_wp, 0.0_wp, load, r)
       call expect_close(r%force_velocity, 2*fs/vc*load, rounding*fs*load/vc, 'slope at rest')
       do k = 1, size(velocities)
-         call law%evaluate(velocities(k), 0.0_wp, load, .true., r)
+         call law%evaluate(velocities(k), 0.0_wp, load, r)
          ! step 1e-4 of v: error (1e-4 v chi)**2/6 < 1e-8 of the slope, rounding 1e-16 f/(1e-4 v) < 1e-10 f/v
          h = 1e-4_wp*abs(velocities(k))
          call expect_close(r%force_velocity, (force_of(law, velocities(k) + h) - force_of(law, velocities(k) &
@@ -99,7 +99,7 @@ contains
       class(friction_law), intent(in) :: law
       real(wp), intent(in) :: velocity
       type(friction_response) :: r
-      call law%evaluate(velocity, 0.0_wp, load, .false., r)
+      call law%evaluate(velocity, 0.0_wp, load, r)
       force_of = r%force
    end function force_of
 
@@ -121,7 +121,7 @@ contains
          if (k == 0) cycle
          v = sign(10.0_wp**(-7 + 0.5_wp*abs(k)), real(k, wp))
          g = fd + (fs - fd)*exp(-abs(v/vs)**exponent)
-         call law%evaluate(v, sign(g/stiffness, v), load, .false., r)
+         call law%evaluate(v, sign(g/stiffness, v), load, r)
          call expect_close(r%rate, 0.0_wp, rounding*abs(v), 'bristles at rest while sliding at '//to_text(v))
          call expect_close(r%force, (sign(g, v) + 3*v)*load, rounding*(fs + damping*abs(v))*load, &
             & 'Stribeck curve at '//to_text(v))
@@ -142,17 +142,17 @@ contains
       do k = 1, size(velocities)
          v = velocities(k)
          z = 3e-8_wp*k
-         call law%evaluate(v, z, load, .true., r)
+         call law%evaluate(v, z, load, r)
          h = 1e-4_wp*abs(v)
-         call law%evaluate(v + h, z, load, .false., up)
-         call law%evaluate(v - h, z, load, .false., down)
+         call law%evaluate(v + h, z, load, up)
+         call law%evaluate(v - h, z, load, down)
          call expect_close(r%rate_velocity, (up%rate - down%rate)/(2*h), 1e-7_wp, 'rate over velocity '//to_text(v))
          call expect_close(r%force_velocity, (up%force - down%force)/(2*h), 1e-7_wp*(damping + fs/abs(v))*load, &
             & 'force over velocity '//to_text(v))
          ! linear in the deflection: rounding only
          h = 1e-2_wp*z
-         call law%evaluate(v, z + h, load, .false., up)
-         call law%evaluate(v, z - h, load, .false., down)
+         call law%evaluate(v, z + h, load, up)
+         call law%evaluate(v, z - h, load, down)
          call expect_close(r%rate_deflection, (up%rate - down%rate)/(2*h), 1e-10_wp*(stiffness*abs(v)/fd + abs(v)/z), &
             & 'rate over deflection')
          call expect_close(r%force_deflection, (up%force - down%force)/(2*h), &
@@ -169,7 +169,7 @@ contains
       real(wp) :: x, z, share
       integer :: k
       law = lugre(1.0_wp)
-      call law%evaluate(0.0_wp, 2e-8_wp, load, .true., r)
+      call law%evaluate(0.0_wp, 2e-8_wp, load, r)
       call expect_close(r%force, stiffness*2e-8_wp*load, rounding*r%force, 'a deflected bristle at rest is a spring')
       call expect_close(r%force_deflection, stiffness*load, rounding*stiffness*load, 'its stiffness is sigma_0 N')
       do k = 0, 2
@@ -202,10 +202,10 @@ contains
       class(friction_law), intent(in) :: law
       real(wp), intent(in) :: z, v0, v1, v2, dt
       type(friction_response) :: a, b, c, d
-      call law%evaluate(v0, z, load, .false., a)
-      call law%evaluate(v1, z + 0.5_wp*dt*a%rate, load, .false., b)
-      call law%evaluate(v1, z + 0.5_wp*dt*b%rate, load, .false., c)
-      call law%evaluate(v2, z + dt*c%rate, load, .false., d)
+      call law%evaluate(v0, z, load, a)
+      call law%evaluate(v1, z + 0.5_wp*dt*a%rate, load, b)
+      call law%evaluate(v1, z + 0.5_wp*dt*b%rate, load, c)
+      call law%evaluate(v2, z + dt*c%rate, load, d)
       bristle_step = z + dt*(a%rate + 2*b%rate + 2*c%rate + d%rate)/6
    end function bristle_step
 
@@ -226,7 +226,7 @@ contains
       do turn = 1, 3
          work = 0
          do k = 0, steps - 1
-            call law%evaluate(v(2*k), z, load, .false., r)
+            call law%evaluate(v(2*k), z, load, r)
             ! the trapezoidal rule of a periodic function
             work = work + r%force*v(2*k)*dt
             z = bristle_step(law, z, v(2*k), v(2*k + 1), v(2*k + 2), dt)
