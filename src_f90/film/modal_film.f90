@@ -13,6 +13,7 @@ module modal_film
    use kinds, only: wp, pi
    use film_solver, only: film_solver_type, film_motion, film_response, film_closed
    use pad_film, only: pad_film_type, pad_directions
+   use clipped_quadrature, only: clipped_weights
    use modal_sweeps, only: lanes, weigh_nodes, solve_modes, solve_adjoints, sum_modes, sum_adjoint
    implicit none (type, external)
    private
@@ -42,8 +43,9 @@ module modal_film
       real(wp) :: d, radius
       !> Sine, cosine and weight of the quadrature (Simpson's rule) at the nodes; the weight times either.
       real(wp), allocatable :: sine(:), cosine(:), weight(:), along(:), outward(:)
-      !> By lane: c_k = (L/2) b_k^2; (Lambda_k d)^2/12; and b_k cos(lambda_k Z) at (lane, place).
-      real(wp), allocatable :: c(:), stiffness(:), at_place(:, :)
+      !> By lane: c_k = (L/2) b_k^2; (Lambda_k d)^2/12; and b_k cos(lambda_k Z) at (place, lane), and by lane
+      !> in the middle and towards the side.
+      real(wp), allocatable :: c(:), stiffness(:), across(:, :), at_middle(:), at_side(:)
       !> Sums over the modes left out of c_k/Lambda_k^j, j = 1, 2, 3, and of b_k cos(lambda_k Z)/Lambda_k^2.
       real(wp) :: tail(3), place_tail(side)
       !> At the nodes: film thickness, its slope over phi, 1/g, v, r, s.
@@ -85,7 +87,7 @@ contains
       type(modal_pad), intent(out) :: pad
       type(pad_film_type), intent(in) :: film
       integer, intent(in) :: n, most
-      real(wp) :: phi(0:n), lambda(most), unit
+      real(wp) :: phi(0:n), lambda(most), unit, profile(side)
       integer :: i, k, modes
       pad%film = film
       pad%directions = film%directions()
@@ -97,23 +99,26 @@ contains
       modes = count((lambda*pad%d)**2/12 <= stiffest_mode)
       pad%blocks = (modes + lanes - 1)/lanes
       allocate (pad%c(lanes*pad%blocks), pad%stiffness(lanes*pad%blocks), source=0.0_wp)
-      allocate (pad%at_place(lanes*pad%blocks, side), source=0.0_wp)
+      allocate (pad%across(gauss, lanes*pad%blocks), source=0.0_wp)
+      allocate (pad%at_middle(lanes*pad%blocks), pad%at_side(lanes*pad%blocks), source=0.0_wp)
       pad%tail = 8*film%axial_length/pi**2*odd_sums*[unit, unit**2, unit**3]
       pad%place_tail = (film%axial_length/pad%radius)**2*(1 - places**2)/8
       do k = 1, modes
          pad%c(k) = 8*film%axial_length/((2*k - 1)*pi)**2
          pad%stiffness(k) = (lambda(k)*pad%d)**2/12
-         pad%at_place(k, :) = -4*(-1)**k/((2*k - 1)*pi)*cos((2*k - 1)*pi/2*places)
+         profile = -4*(-1)**k/((2*k - 1)*pi)*cos((2*k - 1)*pi/2*places)
+         pad%across(:, k) = profile(:gauss)
+         pad%at_middle(k) = profile(middle)
+         pad%at_side(k) = profile(side)
          pad%tail = pad%tail - pad%c(k)/[lambda(k), lambda(k)**2, lambda(k)**3]
-         pad%place_tail = pad%place_tail - pad%at_place(k, :)/lambda(k)**2
+         pad%place_tail = pad%place_tail - profile/lambda(k)**2
       end do
       phi = [(i*pad%d - film%trailing_angle, i=0, n)]
       allocate (pad%sine(0:n), pad%cosine(0:n), pad%weight(0:n), pad%along(0:n), pad%outward(0:n))
       pad%sine(:) = sin(phi)
       pad%cosine(:) = cos(phi)
-      pad%weight(0:n:2) = 2*pad%d/3
-      pad%weight(1:n:2) = 4*pad%d/3
-      pad%weight(0:n:n) = pad%d/3
+      call clipped_weights(n, spread(1.0_wp, 1, n + 1), pad%weight)
+      pad%weight = pad%d*pad%weight
       pad%along(:) = pad%weight*pad%sine
       pad%outward(:) = pad%weight*pad%cosine
       allocate (pad%h(0:n), pad%h_slope(0:n), pad%per_g(0:n), pad%v(0:n), pad%r(0:n), pad%s(0:n))
@@ -147,8 +152,8 @@ contains
             end do
             call sum_up(pad, rise, response(i))
             clip = self%gumbel .and. response(i)%min_pressure < pad%film%cavitation_pressure
-            if (pad%ruptured .and. (clip .or. want_slopes)) call whole_shares(pad)
-            if (clip) call rupture(pad, response(i))
+            if (pad%ruptured .and. want_slopes) call whole_shares(pad)
+            if (clip) call rupture(pad, rise, want_slopes, response(i))
             if (want_slopes) call add_slopes(pad, rise, source_factors(pad, speed), response(i))
          end associate
       end do
@@ -199,8 +204,8 @@ contains
             & pad%place_tail(side), along, outward, force, p_middle, p_side)
          do b = 1, pad%blocks
             associate (first => lanes*b - lanes + 1, last => lanes*b)
-               call sum_modes(n, along, outward, pad%c(first:last), pad%at_place(first:last, middle), &
-                  & pad%at_place(first:last, side), pad%q(:, :, b), force, p_middle, p_side)
+               call sum_modes(n, along, outward, pad%c(first:last), pad%at_middle(first:last), &
+                  & pad%at_side(first:last), pad%q(:, :, b), force, p_middle, p_side)
             end associate
          end do
          ! layers at the edges of the modes left out, and the supply pressure in them
@@ -222,36 +227,52 @@ contains
       end associate
    end subroutine sum_up
 
-   !> Takes what lies below the cavitation pressure out of the force, and its share of the width out of the
-   !> shares.
-   pure subroutine rupture(pad, response)
+   !> Takes what lies below the cavitation pressure out of the force and, if wanted, its share of the width out
+   !> of the shares.
+   pure subroutine rupture(pad, rise, want_shares, response)
       type(modal_pad), intent(inout) :: pad
+      real(wp), intent(in) :: rise
+      logical, intent(in) :: want_shares
       type(film_response), intent(inout) :: response
-      real(wp) :: p(gauss), lost(gauss), floor, missing
-      integer :: i, b, k
-      floor = pad%film%cavitation_pressure - pad%film%ambient_pressure
-      pad%ruptured = .true.
-      ! the edges have their pressure
-      do i = 1, pad%n - 1
-         p = -pad%place_tail(:gauss)*pad%s(i)
-         do b = 1, pad%blocks
-            do k = 1, lanes
-               p = p + pad%at_place(lanes*(b - 1) + k, :gauss)*pad%q(k, i, b)
+      !> Cavitation pressure less pressure, and weights of what is missing, by place and node.
+      real(wp), dimension(gauss, 0:pad%n) :: deficit, lost
+      real(wp) :: floor, missing, p(gauss), weights(0:pad%n)
+      integer :: i, b, k, l, place
+      associate (n => pad%n)
+         floor = pad%film%cavitation_pressure - pad%film%ambient_pressure
+         deficit(:, 0) = floor
+         deficit(:, n) = floor - rise
+         do i = 1, n - 1
+            p = -pad%place_tail(:gauss)*pad%s(i)
+            do b = 1, pad%blocks
+               do k = 1, lanes
+                  p = p + pad%across(:, lanes*(b - 1) + k)*pad%q(k, i, b)
+               end do
+            end do
+            deficit(:, i) = floor - p*pad%per_g(i)
+         end do
+         do place = 1, gauss
+            call clipped_weights(n, deficit(place, :), weights)
+            lost(place, :) = (pad%d*place_weights(place)*pad%film%axial_length)*weights
+         end do
+         do i = 0, n
+            missing = pad%radius*dot_product(lost(:, i), deficit(:, i))
+            response%force = response%force - missing*[pad%sine(i), pad%cosine(i)]
+         end do
+         response%max_pressure = max(response%max_pressure, pad%film%cavitation_pressure)
+         if (.not. want_shares) return
+         pad%ruptured = .true.
+         do i = 0, n
+            lost(:, i) = lost(:, i)/pad%weight(i)
+            pad%narrow_share(i) = pad%narrow_share(i) - dot_product(lost(:, i), pad%place_tail(:gauss))
+            do b = 1, pad%blocks
+               do k = 1, lanes
+                  l = lanes*(b - 1) + k
+                  pad%share(k, i, b) = pad%share(k, i, b) - dot_product(lost(:, i), pad%across(:, l))
+               end do
             end do
          end do
-         p = p*pad%per_g(i)
-         if (minval(p) >= floor) cycle
-         lost = merge(place_weights*pad%film%axial_length, 0.0_wp, p < floor)
-         pad%narrow_share(i) = pad%narrow_share(i) - dot_product(lost, pad%place_tail(:gauss))
-         do b = 1, pad%blocks
-            do k = 1, lanes
-               pad%share(k, i, b) = pad%share(k, i, b) - dot_product(lost, pad%at_place(lanes*(b - 1) + k, :gauss))
-            end do
-         end do
-         missing = pad%radius*pad%weight(i)*dot_product(lost, floor - p)
-         response%force = response%force - missing*[pad%sine(i), pad%cosine(i)]
-      end do
-      response%max_pressure = max(response%max_pressure, pad%film%cavitation_pressure)
+      end associate
    end subroutine rupture
 
    !> The shares of a film without rupture.
