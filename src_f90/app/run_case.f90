@@ -201,7 +201,7 @@ contains
       associate (work => model%film%counters)
          print '(a)', 'cost: '//to_text(statistics%steps)//' steps, '//to_text(statistics%rhs_evaluations) &
             & //' right-hand sides, '//to_text(statistics%jacobian_evaluations)//' Jacobians, films ' &
-            & //to_text(work%modal)//' modal and '//to_text(work%sor)//' sor ('//to_text(work%sweeps)//' sweeps)'
+            & //to_text(work%modal)//' modal and '//to_text(work%sor)//' on cells ('//to_text(work%sweeps)//' sweeps)'
       end associate
       print '(a)', '  wall time '//fixed_text(seconds, 2)//' s, of it film '//fixed_text(model%film_seconds, 2) &
          & //' s and samples '//fixed_text(observer%seconds, 2)//' s'

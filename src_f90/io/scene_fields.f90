@@ -158,17 +158,17 @@ contains
 
          call v%group('film', 'How the Reynolds equation is solved')
          call v%word('solver', m%solver, 'auto modal sor', &
-            & 'axial modes where the film is whole and sor where it ruptures, axial modes, or over-relaxation')
+            & 'axial modes, and finite volumes where a film ruptures; axial modes; over-relaxation')
          call v%whole('circumferential_cells', m%circumferential_cells, between(0.0_wp, 2000.0_wp), &
-            & 'cells along the arc, even; 0: 24 for modal, 60 for sor')
-         call v%whole('axial_cells', m%axial_cells, between(2.0_wp, 1000.0_wp), 'sor: cells along half the width')
+            & 'cells along the arc, even; 0: 24 for axial modes, 60 for finite volumes')
+         call v%whole('axial_cells', m%axial_cells, between(2.0_wp, 1000.0_wp), 'finite volumes: cells along half the width')
          call v%whole('axial_modes', m%axial_modes, between(1.0_wp, 200.0_wp), &
             & 'modal: most modes across the width; those too stiff for the cells go into the closed form')
          call v%number('relaxation', m%relaxation, between(0.0_wp, 1.999_wp), '1', &
-            & 'relaxation factor; 0: the optimum of the grid')
+            & 'sor: relaxation factor; 0: the optimum of the grid')
          call v%number('tolerance', m%tolerance, between(1e-13_wp, 1e-2_wp), '1', &
-            & 'residual over source; at most a tenth of relative_tolerance is taken')
-         call v%whole('max_sweeps', m%max_sweeps, between(1.0_wp, 1e8_wp), 'sweeps after which a film is given up')
+            & 'sor: residual over source; at most a tenth of relative_tolerance is taken')
+         call v%whole('max_sweeps', m%max_sweeps, between(1.0_wp, 1e8_wp), 'sor: sweeps after which a film is given up')
          call v%word('cavitation', m%cavitation, 'reynolds gumbel none', &
             & 'p >= p_cav in the solution, clipped after it, or not at all')
 

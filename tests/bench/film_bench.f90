@@ -1,0 +1,140 @@
+!> Time and error of one film evaluation by every solver, as CSV on standard output: film, state, what is
+!> asked for, microseconds a pad, force error against a refined solution of the same kind, work counted.
+!>
+!> The pad moves along a small circle about each state, so that warm starts are those of a march, and the
+!> error is the largest on the way.
+program film_bench
+   use, intrinsic :: iso_fortran_env, only: output_unit
+   use kinds, only: wp, i8, pi, degree
+   use text, only: to_text
+   use film_solver, only: film_solver_type, film_motion, film_response
+   use pad_film, only: pad_film_type
+   use modal_film, only: modal_film_type, new_modal_film
+   use auto_film, only: auto_film_type, new_auto_film
+   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel, &
+      & cavitation_reynolds
+   implicit none (type, external)
+
+   !> Journal speed, rad/s; the paper's machined clearance, m.
+   real(wp), parameter :: speed = 6500*pi/30, clearance = 150e-6_wp
+   !> Positions of one round, in 360 steps as a march would take them; their radius in clearances.
+   integer, parameter :: round = 360
+   real(wp), parameter :: radius = 0.02_wp
+   integer, parameter :: pads = 2
+   type(pad_film_type) :: films(pads)
+
+   films = pad_film_type(50e-3_wp, clearance, 50e-3_wp, 0.5_wp*69.3_wp*degree, 0.5_wp*69.3_wp*degree, 19e-3_wp, &
+      & 0.0_wp, 0.0_wp, 0.0_wp)
+   write (output_unit, '(a)') 'film,condition,state,slopes,microseconds,error,sweeps'
+   call compare('whole', [-0.25_wp, 0.5_wp], cavitation_none, 'none')
+   call compare('whole', [-0.25_wp, 0.5_wp], cavitation_reynolds, 'reynolds')
+   call compare('ruptured', [-0.05_wp, 0.5_wp], cavitation_gumbel, 'gumbel')
+   call compare('ruptured', [-0.05_wp, 0.5_wp], cavitation_reynolds, 'reynolds')
+   call compare('unloaded', [0.1_wp, 0.05_wp], cavitation_gumbel, 'gumbel')
+   call compare('unloaded', [0.1_wp, 0.05_wp], cavitation_reynolds, 'reynolds')
+
+contains
+
+   subroutine compare(state, centre, cavitation, condition)
+      character(len=*), intent(in) :: state, condition
+      !> Position in clearances.
+      real(wp), intent(in) :: centre(2)
+      integer, intent(in) :: cavitation
+      type(modal_film_type) :: modal
+      type(auto_film_type) :: auto
+      type(sor_film_type) :: sor
+      real(wp) :: exact(2, 0:round - 1)
+      integer :: n
+      if (cavitation == cavitation_reynolds) then
+         auto = new_auto_film(films, 128, 32, 480, 60)
+         call forces(auto, clearance*centre, exact)
+      else
+         modal = new_modal_film(films, 128, 32, cavitation == cavitation_gumbel)
+         call forces(modal, clearance*centre, exact)
+      end if
+      do n = 12, 48, 12
+         if (cavitation == cavitation_reynolds) then
+            auto = new_auto_film(films, n, 8, 60*n/24, 15*n/24)
+            call measure('auto '//to_text(n), auto, clearance*centre, exact, condition, state)
+         else
+            modal = new_modal_film(films, n, 8, cavitation == cavitation_gumbel)
+            call measure('modal '//to_text(n), modal, clearance*centre, exact, condition, state)
+         end if
+      end do
+      do n = 30, 120, 30
+         sor = new_sor_film(films, sor_options(n, n/4, tolerance=1e-6_wp, max_sweeps=100000, cavitation=cavitation))
+         call measure('sor '//to_text(n), sor, clearance*centre, exact, condition, state)
+      end do
+   end subroutine compare
+
+   subroutine measure(name, film, centre, exact, condition, state)
+      character(len=*), intent(in) :: name, condition, state
+      class(film_solver_type), intent(inout) :: film
+      real(wp), intent(in) :: centre(2), exact(2, 0:round - 1)
+      real(wp) :: found(2, 0:round - 1), error, seconds
+      integer(i8) :: sweeps
+      integer :: s
+      call forces(film, centre, found)
+      error = maxval(norm2(found - exact, dim=1)/norm2(exact, dim=1))
+      do s = 0, 1
+         call timed(film, centre, s == 1, seconds, sweeps)
+         write (output_unit, '(4(a, ","), f0.4, ",", es7.1, ",", i0)') trim(name), condition, state, &
+            & trim(merge('yes', 'no ', s == 1)), 1e6_wp*seconds, error, sweeps
+      end do
+   end subroutine measure
+
+   !> Place k of the round about a centre, m, with the velocity that belongs to it at the journal's speed.
+   pure type(film_motion) function place(centre, k)
+      real(wp), intent(in) :: centre(2)
+      integer, intent(in) :: k
+      real(wp) :: phase
+      phase = 2*pi*k/round
+      place%position = centre + radius*clearance*[cos(phase), sin(phase)]
+      place%velocity = radius*clearance*speed*[-sin(phase), cos(phase)]
+   end function place
+
+   !> Forces on the first pad along the round.
+   subroutine forces(film, centre, found)
+      class(film_solver_type), intent(inout) :: film
+      real(wp), intent(in) :: centre(2)
+      real(wp), intent(out) :: found(2, 0:round - 1)
+      type(film_response) :: response(pads)
+      integer :: k
+      do k = 0, round - 1
+         call film%evaluate(spread(place(centre, k), 1, pads), speed, .false., response)
+         found(:, k) = response(1)%force
+      end do
+   end subroutine forces
+
+   !> Wall time of an evaluation, s a pad: the shortest of five batches of at least 20 ms. Sweeps a pad.
+   subroutine timed(film, centre, want_slopes, seconds, sweeps)
+      class(film_solver_type), intent(inout) :: film
+      real(wp), intent(in) :: centre(2)
+      logical, intent(in) :: want_slopes
+      real(wp), intent(out) :: seconds
+      integer(i8), intent(out) :: sweeps
+      type(film_motion) :: places(pads, 0:round - 1)
+      type(film_response) :: response(pads)
+      integer(i8) :: start, finish, rate, before
+      integer :: batch, k, rounds
+      do k = 0, round - 1
+         places(:, k) = place(centre, k)
+      end do
+      seconds = huge(seconds)
+      do batch = 1, 5
+         rounds = 0
+         before = film%counters%sweeps
+         call system_clock(start, rate)
+         do
+            do k = 0, round - 1
+               call film%evaluate(places(:, k), speed, want_slopes, response)
+            end do
+            rounds = rounds + 1
+            call system_clock(finish)
+            if (real(finish - start, wp) > 0.02_wp*rate) exit
+         end do
+         seconds = min(seconds, real(finish - start, wp)/real(rate, wp)/(pads*round*rounds))
+         sweeps = (film%counters%sweeps - before)/(pads*round*rounds)
+      end do
+   end subroutine timed
+end program film_bench
