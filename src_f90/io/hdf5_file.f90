@@ -9,6 +9,7 @@ module hdf5_file
       & h5tclose_f, h5tset_cset_f, h5t_string, h5t_cset_utf8_f, h5acreate_f, h5awrite_f, h5aclose_f, &
       & h5adelete_f, h5aexists_f, h5dcreate_f, h5dopen_f, h5dwrite_f, h5dread_f, h5dclose_f, &
       & h5dset_extent_f, h5dget_space_f, h5pcreate_f, h5pclose_f, h5pset_chunk_f, h5p_dataset_create_f, &
+      & h5pset_chunk_cache_f, h5p_dataset_access_f, size_t, &
       & h5t_native_double, h5t_native_integer, h5kind_to_type, h5_integer_kind
    use h5ds, only: h5dsset_scale_f, h5dsattach_scale_f
    use kinds, only: wp, i8
@@ -200,7 +201,7 @@ contains
       integer, intent(in) :: width
       type(growing_type), intent(out) :: growing
       integer(hsize_t), allocatable :: dims(:), most(:), chunk(:)
-      integer(hid_t) :: space, properties
+      integer(hid_t) :: space, properties, access
       integer :: status
       if (allocated(self%failure)) return
       growing%width = max(width, 1)
@@ -215,9 +216,14 @@ contains
       call h5screate_simple_f(size(dims), dims, space, status, most)
       call h5pcreate_f(h5p_dataset_create_f, properties, status)
       call h5pset_chunk_f(properties, size(chunk), chunk, status)
-      call h5dcreate_f(self%file, path, h5t_native_double, space, growing%id, status, properties)
+      ! whole chunks are written as they come: a cache of them would only cost memory
+      call h5pcreate_f(h5p_dataset_access_f, access, status)
+      call h5pset_chunk_cache_f(access, 0_size_t, 0_size_t, 0.0, status)
+      call h5dcreate_f(self%file, path, h5t_native_double, space, growing%id, status, properties, &
+         & dapl_id=access)
       call self%check(status, 'create '//path)
       call self%describe(growing%id, units, long_name, scales, path)
+      call h5pclose_f(access, status)
       call h5pclose_f(properties, status)
       call h5sclose_f(space, status)
    end subroutine make_growing
