@@ -261,7 +261,8 @@ contains
             & 'Newton iterations that failed')
          call file%put_count('statistics/film_modal', film%modal, 'pads solved by axial modes in the march')
          call file%put_count('statistics/film_sor', film%sor, 'pads solved on finite volumes in the march')
-         call file%put_count('statistics/sor_sweeps', film%sweeps, 'sweeps of over-relaxation, or eliminations, in the march')
+         call file%put_count('statistics/sor_sweeps', film%sweeps, &
+            & 'sweeps of over-relaxation, or eliminations, in the march')
          call file%put_real('statistics/film_seconds', model%film_seconds, 's', 'wall time of the film in the march')
          call file%put_real('statistics/output_seconds', observer_seconds, 's', 'wall time of sampling')
          call file%put_real('statistics/wall_seconds', wall_seconds, 's', 'wall time of the run')
