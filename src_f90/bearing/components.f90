@@ -5,7 +5,7 @@ module components
    use scene, only: scene_type
    use pad_film, only: pad_film_type
    use film_solver, only: film_solver_type
-   use modal_film, only: new_modal_film
+   use modal_film, only: new_modal_film, enough_cells, enough_modes
    use auto_film, only: new_auto_film
    use sor_film, only: new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
    use contact_law, only: contact_law_type, new_contact_law
@@ -16,8 +16,8 @@ module components
    private
    public :: new_film, new_law, new_friction, new_places
 
-   !> Cells along the arc where the input leaves them to the solver.
-   integer, parameter :: modal_default = 24, sor_default = 60
+   !> Finite volumes along the arc where the input leaves them to the solver.
+   integer, parameter :: volumes_default = 60
 
 contains
 
@@ -27,7 +27,7 @@ contains
       class(film_solver_type), allocatable :: film
       type(pad_film_type) :: films(scene%pad_count())
       type(sor_options) :: options
-      integer :: i, cavitation, modal_cells, sor_cells
+      integer :: i, cavitation, cells, modes, volumes
       associate (b => scene%bearing, p => scene%pads, f => scene%film)
          do i = 1, size(films)
             films(i) = pad_film_type(b%journal_radius, b%machined_clearance, b%axial_length, &
@@ -42,17 +42,18 @@ contains
          case default
             cavitation = cavitation_reynolds
          end select
-         modal_cells = merge(f%circumferential_cells, modal_default, f%circumferential_cells > 0)
-         sor_cells = merge(f%circumferential_cells, sor_default, f%circumferential_cells > 0)
+         cells = merge(f%circumferential_cells, enough_cells(films), f%circumferential_cells > 0)
+         modes = merge(f%axial_modes, enough_modes(films), f%axial_modes > 0)
+         volumes = merge(f%circumferential_cells, volumes_default, f%circumferential_cells > 0)
          ! noise of the film must stay below what the march looks at
-         options = sor_options(sor_cells, f%axial_cells, f%relaxation, &
+         options = sor_options(volumes, f%axial_cells, f%relaxation, &
             & min(f%tolerance, 0.1_wp*scene%integration%relative_tolerance), f%max_sweeps, cavitation)
          if (f%solver == 'sor') then
             film = new_sor_film(films, options)
          else if (cavitation == cavitation_reynolds) then
-            film = new_auto_film(films, modal_cells, f%axial_modes, sor_cells, f%axial_cells)
+            film = new_auto_film(films, cells, modes, volumes, f%axial_cells)
          else
-            film = new_modal_film(films, modal_cells, f%axial_modes, cavitation == cavitation_gumbel)
+            film = new_modal_film(films, cells, modes, cavitation == cavitation_gumbel)
          end if
       end associate
    end function new_film

@@ -72,7 +72,7 @@ module scene
       !> 'auto', 'modal' or 'sor'.
       character(len=:), allocatable :: solver
       !> Cells along the arc, 0: the solver's own number; along half the width (sor); modes (modal).
-      integer :: circumferential_cells = 0, axial_cells = 15, axial_modes = 8
+      integer :: circumferential_cells = 0, axial_cells = 15, axial_modes = 0
       !> 0: the grid's optimum.
       real(wp) :: relaxation = 0, tolerance = 1e-6_wp
       integer :: max_sweeps = 5000

@@ -17,7 +17,7 @@ module auto_film
 
    !> How far below the cavitation pressure the whole film may fall, over its highest pressure, before it
    !> counts as ruptured: the force left out is of the second order in it, below the discretisation error.
-   real(wp), parameter :: slight_tension = 1e-3_wp
+   real(wp), parameter :: slight_tension = 1e-4_wp
 
    type, extends(film_solver_type) :: auto_film_type
       private

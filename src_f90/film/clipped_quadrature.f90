@@ -1,16 +1,27 @@
-!> Integrals of a smooth function over the part of a line where it is positive, from its values at equally
-!> spaced nodes: the cubic through four nodes, cell by cell, up to where it crosses zero. The weights move
-!> with the crossing without a jump, and the integral does so without a kink.
+!> Integrals of a smooth function over a line, and over the part of it where it is positive, from its values at
+!> equally spaced nodes: there by the cubic through four nodes, cell by cell, up to where it crosses zero. The
+!> weights move with the crossing without a jump, and the integral does so without a kink.
 module clipped_quadrature
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: clipped_weights
+   public :: gregory_weights, clipped_weights
 
    !> Weights of a whole cell away from the ends: primitives(1) - primitives(0).
    real(wp), parameter :: whole_cell(4) = [-1.0_wp, 13.0_wp, 13.0_wp, -1.0_wp]/24
 
 contains
+
+   !> Weights of the whole line by node, in steps, nodes 0:n, n >= 6: the trapezoidal rule with Gregory's end
+   !> corrections to the sixth difference, exact for polynomials of degree 6.
+   pure function gregory_weights(n) result(weights)
+      integer, intent(in) :: n
+      real(wp) :: weights(0:n)
+      real(wp), parameter :: ends(0:6) = [36799, 176648, 54851, 177984, 89437, 130936, 119585]/120960.0_wp
+      weights = 1
+      weights(:6) = weights(:6) + ends - 1
+      weights(n - 6:) = weights(n - 6:) + ends(6:0:-1) - 1
+   end function gregory_weights
 
    !> Weights by node, in steps, for a function f given at nodes 0:n, n >= 3: the integral over f > 0 of f times
    !> a smooth factor is the sum of weights, f and the factor at the nodes. Fourth order in whole cells, and

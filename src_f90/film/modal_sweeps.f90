@@ -4,10 +4,14 @@ module modal_sweeps
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: lanes, weigh_nodes, solve_modes, solve_adjoints, sum_modes, sum_adjoint
+   public :: lanes, weigh_nodes, solve_modes, solve_adjoints, sum_modes, looks, &
+      & lowest_pressure, sum_adjoint
 
    !> Modes solved side by side: the length of a vector register.
    integer, parameter :: lanes = 8
+
+   !> Places across the width where rupture is looked for.
+   integer, parameter :: looks = 4
 
 contains
 
@@ -128,13 +132,14 @@ contains
       end do
    end subroutine solve_adjoints
 
-   !> Quadrature weights of q, and the narrow-pad part (the modes left out) of the sums and the pressures.
-   pure subroutine weigh_nodes(n, w_sine, w_cosine, per_g, s, tail, tail_middle, tail_side, along, outward, sums, &
-      & p_middle, p_side)
+   !> Quadrature weights of q, and the narrow-pad part (the modes left out) of the sums and of the pressure in the
+   !> middle.
+   pure subroutine weigh_nodes(n, w_sine, w_cosine, per_g, s, tail, tail_middle, along, outward, sums, &
+      & p_middle)
       integer, intent(in) :: n
       !> Quadrature weight times sine and cosine, 1/g and s by node; sums over the modes left out.
-      real(wp), intent(in) :: w_sine(0:n), w_cosine(0:n), per_g(0:n), s(0:n), tail, tail_middle, tail_side
-      real(wp), intent(out) :: along(0:n), outward(0:n), sums(2), p_middle(0:n), p_side(0:n)
+      real(wp), intent(in) :: w_sine(0:n), w_cosine(0:n), per_g(0:n), s(0:n), tail, tail_middle
+      real(wp), intent(out) :: along(0:n), outward(0:n), sums(2), p_middle(0:n)
       real(wp) :: sum_along, sum_outward
       integer :: i
       sum_along = 0
@@ -146,19 +151,18 @@ contains
          sum_along = sum_along - tail*along(i)*s(i)
          sum_outward = sum_outward - tail*outward(i)*s(i)
          p_middle(i) = -tail_middle*s(i)
-         p_side(i) = -tail_side*s(i)
       end do
       sums = [sum_along, sum_outward]
    end subroutine weigh_nodes
 
-   !> Adds a block's sums over nodes and lanes of c q (along, outward), and its part of the pressure at two
-   !> places across the width (times g).
-   pure subroutine sum_modes(n, along, outward, c, middle, side, q, sums, p_middle, p_side)
+   !> Adds a block's sums over nodes and lanes of c q (along, outward), and its part of the pressure in
+   !> the middle (times g).
+   pure subroutine sum_modes(n, along, outward, c, middle, q, sums, p_middle)
       integer, intent(in) :: n
-      !> By node; by lane: c, and b_k cos(lambda_k Z) in the middle and towards the side.
-      real(wp), intent(in) :: along(0:n), outward(0:n), c(lanes), middle(lanes), side(lanes), q(lanes, 0:n)
-      real(wp), intent(inout) :: sums(2), p_middle(0:n), p_side(0:n)
-      real(wp) :: sum_along(lanes), sum_outward(lanes), at_middle, at_side
+      !> By node; by lane: c, and b_k.
+      real(wp), intent(in) :: along(0:n), outward(0:n), c(lanes), middle(lanes), q(lanes, 0:n)
+      real(wp), intent(inout) :: sums(2), p_middle(0:n)
+      real(wp) :: sum_along(lanes), sum_outward(lanes), at_middle
       integer :: i, k
       sum_along = 0
       sum_outward = 0
@@ -169,17 +173,39 @@ contains
             sum_outward(k) = sum_outward(k) + outward(i)*q(k, i)
          end do
          at_middle = 0
-         at_side = 0
-         !$omp simd reduction(+:at_middle, at_side)
+         !$omp simd reduction(+:at_middle)
          do k = 1, lanes
             at_middle = at_middle + middle(k)*q(k, i)
-            at_side = at_side + side(k)*q(k, i)
          end do
          p_middle(i) = p_middle(i) + at_middle
-         p_side(i) = p_side(i) + at_side
       end do
       sums = sums + [sum(c*sum_along), sum(c*sum_outward)]
    end subroutine sum_modes
+
+   !> Lowest pressure above ambient where rupture is looked for. It lies where s > 0, or at an edge.
+   pure real(wp) function lowest_pressure(n, blocks, s, per_g, tail, look, q)
+      integer, intent(in) :: n, blocks
+      !> s and 1/g by node; the modes left out; b_k cos(lambda_k Z) by place and lane.
+      real(wp), intent(in) :: s(0:n), per_g(0:n), tail(looks), look(looks, lanes, blocks), q(lanes, 0:n, blocks)
+      real(wp) :: even(looks), odd(looks)
+      integer :: i, b, k, l
+      lowest_pressure = 0
+      do i = 1, n - 1
+         if (.not. s(i) > 0) cycle
+         even = 0
+         odd = -tail*s(i)
+         do b = 1, blocks
+            do k = 1, lanes, 2
+               !$omp simd
+               do l = 1, looks
+                  odd(l) = odd(l) + look(l, k, b)*q(k, i, b)
+                  even(l) = even(l) + look(l, k + 1, b)*q(k + 1, i, b)
+               end do
+            end do
+         end do
+         lowest_pressure = min(lowest_pressure, per_g(i)*minval(odd + even))
+      end do
+   end function lowest_pressure
 
    !> Adds a block's sums over its lanes of m(i-1) + 10 m(i) + m(i+1), alone and times q, and of share q.
    pure subroutine sum_adjoint(n, adjoint, q, over_s, over_v)

@@ -2,12 +2,13 @@
 program test_clipped_quadrature
    use kinds, only: wp, pi
    use text, only: to_text
-   use clipped_quadrature, only: clipped_weights
+   use clipped_quadrature, only: gregory_weights, clipped_weights
    use check, only: expect, expect_close, report
    implicit none (type, external)
 
    call exact_for_cubics()
    call order()
+   call gregory()
    call weights_are_slopes()
    call no_jumps()
    call nothing_positive()
@@ -50,6 +51,17 @@ contains
          end associate
       end do
    end subroutine order
+
+   !> Exact for powers up to the sixth, on lines as short as the formula.
+   subroutine gregory()
+      integer :: i, n, k
+      do n = 6, 30, 4
+         do k = 0, 6
+            call expect_close(sum(gregory_weights(n)*[((real(i, wp)/n)**k, i=0, n)])/n, 1.0_wp/(k + 1), 1e-14_wp, &
+               & 'power '//to_text(k)//' on '//to_text(n)//' cells')
+         end do
+      end do
+   end subroutine gregory
 
    !> A change of f changes the integral by weights times the change: what is left is of the second order in
    !> the change, and in the error of the crossing.

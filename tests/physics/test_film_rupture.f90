@@ -1,0 +1,412 @@
+!> Films that rupture: Guembel's condition by modes against over-relaxation, slopes where part of the film is
+!> gone, and the onset of rupture under the solver that chooses.
+program test_film_rupture
+   use kinds, only: wp, i8, pi, degree
+   use text, only: to_text
+   use film_solver, only: film_solver_type, film_motion, film_response, film_ok
+   use pad_film, only: pad_film_type
+   use modal_film, only: modal_film_type, new_modal_film
+   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel
+   use auto_film, only: auto_film_type, new_auto_film
+   use check, only: expect, expect_close, report
+   implicit none (type, external)
+
+   real(wp), parameter :: speed = 680, clearance = 100e-6_wp
+   integer, parameter :: cells = 24, modes = 8
+   !> Error of the modes' force where the film is whole.
+   real(wp), parameter :: modal_error = 1e-4_wp
+   !> Ambient pressure, and with it that at the leading edge, where a film is not at the pressure of rupture.
+   real(wp), parameter :: ambient = 1e5_wp, supply = 3e5_wp
+
+   !> A journal that presses into the pad and leaves it again, as a function of an angle.
+   type :: journal_path
+      real(wp) :: position(2), position_sine(2), position_cosine(2), velocity_cosine(2)
+      logical :: flooded = .false.
+   end type journal_path
+
+   real(wp), parameter :: um = 1e-6_wp, still(2) = 0
+   !> Opening by squeeze, moderate and in a flooded pad strong; opening by its wedge, without squeeze.
+   type(journal_path), parameter :: paths(3) = [ &
+      & journal_path([-20*um, 30*um], [0.0_wp, 30*um], still, [0.0_wp, -6e-3_wp]), &
+      & journal_path([-20*um, 30*um], [0.0_wp, 30*um], still, [0.0_wp, -15e-3_wp], .true.), &
+      & journal_path([-5*um, 30*um], [0.0_wp, 30*um], [20*um, 0.0_wp], still)]
+   integer :: i
+
+   ! the same numbers in every run
+   call random_init(.true., .false.)
+   call guembel('diverging', pad(.false.), film_motion([10*um, 50*um], still))
+   call guembel('diverging, flooded', pad(.true.), film_motion([10*um, 50*um], still))
+   call guembel('diverging all over', pad(.false.), film_motion([20*um, 60*um], still))
+   call guembel('narrowest at the pivot', pad(.false.), film_motion([0.0_wp, 70*um], still))
+   call guembel('opening', pad(.false.), film_motion([-20*um, 50*um], [0.0_wp, -6e-3_wp]))
+   call guembel('opening, flooded', pad(.true.), film_motion([-20*um, 50*um], [0.0_wp, -6e-3_wp]))
+   call guembel('opening fast, flooded', pad(.true.), film_motion([-20*um, 50*um], [0.0_wp, -40e-3_wp]))
+   call guembel('turning', pad(.false.), film_motion([-20*um, 50*um], [20e-3_wp, -10e-3_wp]))
+   call guembel('unloaded', pad(.false.), film_motion([1*um, -30*um], still))
+   call guembel('unloaded, flooded', pad(.true.), film_motion([20*um, -30*um], still))
+   call modal_slopes()
+   call auto_slopes()
+   do i = 1, size(paths)
+      call onset(paths(i), 60, 15)
+      call onset(paths(i), 120, 30)
+      call no_chatter(paths(i))
+   end do
+   call report()
+
+contains
+
+   !> The paper's pad with its pivot off the middle; dry: every pressure is that of rupture.
+   pure type(pad_film_type) function pad(flooded)
+      logical, intent(in) :: flooded
+      pad = pad_film_type(49.9e-3_wp, clearance, 0.1_wp, 40*degree, 30*degree, 19e-3_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+      if (.not. flooded) return
+      pad%supply_pressure = supply
+      pad%ambient_pressure = ambient
+   end function pad
+
+   !> One pad's answer.
+   type(film_response) function answer(solver, motion)
+      class(film_solver_type), intent(inout) :: solver
+      type(film_motion), intent(in) :: motion
+      type(film_response) :: r(1)
+      call solver%evaluate([motion], speed, .true., r)
+      call expect(r(1)%status == film_ok, 'the film has a solution')
+      answer = r(1)
+   end function answer
+
+   !> The clipped pressure has a kink where the film ends. Along the arc the modes find it, so that their error
+   !> is that for the whole film, of fourth order. Across, the eight Gauss points on the half width miss a kink
+   !> by which the slope jumps by J by at most 2.8e-3 J times its square (by trying all places), however many
+   !> the cells; J comes from the cells of the reference, so that the bound knows nothing of the modes. The
+   !> reference is extrapolated over-relaxation. A factor of its second order changes with the place of the
+   !> kink in its cell, and is not extrapolated: a quarter of the last change from grid to grid is allowed.
+   subroutine guembel(what, film, motion)
+      character(len=*), intent(in) :: what
+      type(pad_film_type), intent(in) :: film
+      type(film_motion), intent(in) :: motion
+      type(modal_film_type) :: clipped, whole
+      type(sor_film_type) :: fine
+      type(film_response) :: r, r_whole, r_fine(2)
+      real(wp) :: reference(2), across, missed
+      integer :: k
+      do k = 1, 2
+         fine = new_sor_film([film], sor_options(120*k, 30*k, tolerance=1e-8_wp, max_sweeps=100000, &
+            & cavitation=cavitation_gumbel))
+         r_fine(k) = answer(fine, motion)
+      end do
+      reference = (4*r_fine(2)%force - r_fine(1)%force)/3
+      whole = new_modal_film([film], cells, modes, gumbel=.false.)
+      r_whole = answer(whole, motion)
+      call expect(r_whole%min_pressure < film%cavitation_pressure, what//': the film ruptures')
+      across = missed_across(film, fine%pressure_field(1))
+      do k = 0, 2
+         clipped = new_modal_film([film], cells*2**k, modes*2**k, gumbel=.true.)
+         r = answer(clipped, motion)
+         missed = across + modal_error/16**k*norm2(r_whole%force) + norm2(r_fine(2)%force - r_fine(1)%force)/4
+         call expect_close(norm2(r%force - reference), 0.0_wp, missed, 'Guembel, '//what//', cells ' &
+            & //to_text(cells*2**k)//', force '//to_text(norm2(reference)))
+      end do
+   end subroutine guembel
+
+   !> What the Gauss points across miss at most at the kinks of a clipped field.
+   pure real(wp) function missed_across(film, p)
+      type(pad_film_type), intent(in) :: film
+      real(wp), intent(in) :: p(:, :)
+      real(wp) :: d_phi, d_z
+      integer :: i
+      d_phi = film%arc()/size(p, 1)
+      d_z = film%axial_length/(2*size(p, 2))
+      missed_across = 0
+      do i = 1, size(p, 1)
+         missed_across = missed_across + slope_jumps(p(i, :) - film%cavitation_pressure)/d_z
+      end do
+      ! both halves of the width
+      missed_across = missed_across*film%pad_radius()*d_phi*2*2.8e-3_wp*(film%axial_length/2)**2
+   end function missed_across
+
+   !> Sum over the ends of the film along a line of cells of the change of pressure from cell to cell.
+   pure real(wp) function slope_jumps(p)
+      real(wp), intent(in) :: p(:)
+      integer :: i
+      slope_jumps = 0
+      do i = 2, size(p) - 1
+         if (p(i) > 0 .and. .not. p(i - 1) > 0) slope_jumps = slope_jumps + max(p(i), abs(p(i + 1) - p(i)))
+         if (p(i) > 0 .and. .not. p(i + 1) > 0) slope_jumps = slope_jumps + max(p(i), abs(p(i - 1) - p(i)))
+      end do
+   end function slope_jumps
+
+   pure function coordinates(motion)
+      type(film_motion), intent(in) :: motion
+      real(wp) :: coordinates(4)
+      coordinates = [motion%position, motion%velocity]
+   end function coordinates
+
+   !> A motion moved in one of its four numbers, in units of the clearance (and of it times the speed).
+   pure type(film_motion) function moved(motion, column, step)
+      type(film_motion), intent(in) :: motion
+      integer, intent(in) :: column
+      real(wp), intent(in) :: step
+      real(wp) :: x(4)
+      x = coordinates(motion)
+      x(column) = x(column) + step*merge(clearance, clearance*speed, column <= 2)
+      moved = film_motion(x(1:2), x(3:4))
+   end function moved
+
+   !> Central differences of two steps, per unit of the clearance (and of it times the speed). Where they
+   !> agree nothing left or joined the film between.
+   subroutine differences(solver, motion, column, derivative, smooth)
+      class(film_solver_type), intent(inout) :: solver
+      type(film_motion), intent(in) :: motion
+      integer, intent(in) :: column
+      real(wp), intent(out) :: derivative(2)
+      logical, intent(out) :: smooth
+      !> Errors: h**2/6 of the third derivative, 4**3 times some 10: 1e-8; rounding 1e-13/h = 1e-8.
+      real(wp), parameter :: h = 1e-5_wp
+      type(film_response) :: above, below
+      real(wp) :: wide(2)
+      above = answer(solver, moved(motion, column, 2*h))
+      below = answer(solver, moved(motion, column, -2*h))
+      wide = (above%force - below%force)/(4*h)
+      above = answer(solver, moved(motion, column, h))
+      below = answer(solver, moved(motion, column, -h))
+      derivative = (above%force - below%force)/(2*h)
+      smooth = norm2(wide - derivative) <= 2e-7_wp*norm2(derivative)
+   end subroutine differences
+
+   !> A film that opens over part of the pad, with squeeze of either sign.
+   type(film_motion) function opening_motion()
+      real(wp) :: u(4)
+      call random_number(u)
+      opening_motion%position = clearance*[-0.2_wp + 0.5_wp*u(1), 0.1_wp + 0.5_wp*u(2)]
+      opening_motion%velocity = clearance*speed*[-0.1_wp + 0.2_wp*u(3), -0.15_wp + 0.2_wp*u(4)]
+   end function opening_motion
+
+   !> Guembel's condition by modes: the slopes of what is left of the film. They take the weights of the clipped
+   !> quadrature for the slopes of its integral, which they are but for the fourth order of a cell over the
+   !> length of the film: a tenth of a thousandth in the mean, and a few thousandths where a few cells are left.
+   !> Where next to nothing is left of a film, the error is over a hundredth of the whole film's slope.
+   subroutine modal_slopes()
+      type(modal_film_type) :: solver, whole
+      type(film_motion) :: motion
+      type(film_response) :: r, r_whole
+      real(wp) :: expected(2), unit, error, worst, mean
+      integer :: trial, column, compared
+      logical :: smooth
+      worst = 0
+      mean = 0
+      compared = 0
+      do trial = 1, 60
+         solver = new_modal_film([pad(mod(trial, 2) == 0)], cells, modes, gumbel=.true.)
+         whole = new_modal_film([pad(mod(trial, 2) == 0)], cells, modes, gumbel=.false.)
+         motion = opening_motion()
+         r = answer(solver, motion)
+         r_whole = answer(whole, motion)
+         if (r_whole%min_pressure >= 0) cycle
+         do column = 1, 4
+            call differences(solver, motion, column, expected, smooth)
+            if (.not. smooth) cycle
+            compared = compared + 1
+            unit = merge(clearance, clearance*speed, column <= 2)
+            error = norm2(r%slope(:, column)*unit - expected) &
+               & /max(norm2(expected), 1e-2_wp*norm2(r_whole%slope(:, column))*unit)
+            worst = max(worst, error)
+            mean = mean + error
+         end do
+      end do
+      call expect(compared >= 100, 'slopes of ruptured films compared, Guembel: '//to_text(compared))
+      call expect_close(worst, 0.0_wp, 5e-3_wp, 'slopes of ruptured films, Guembel by modes')
+      call expect_close(mean/compared, 0.0_wp, 3e-4_wp, 'slopes of ruptured films, Guembel by modes, in the mean')
+   end subroutine modal_slopes
+
+   !> The solver that chooses: its slopes leave out how the share c of (modes - cells), both without rupture,
+   !> changes. c falls from 1 to 0 as the tension grows to the highest pressure, so what is left out is known.
+   !> It must also be small beside the slopes: the difference of the two solvers is 2e-3 of the force, and over a
+   !> clearance the share changes no more than a few times as much as the force, in parts of it.
+   subroutine auto_slopes()
+      integer, parameter :: columns = 60, rows = 15
+      type(auto_film_type) :: solver
+      type(modal_film_type) :: by_modes
+      type(sor_film_type) :: by_cells
+      type(film_motion) :: motion
+      type(film_response) :: r, r_modes, r_cells
+      real(wp) :: expected(2), unit, worst, left_out, deviation, change, largest
+      integer :: trial, column, compared
+      logical :: smooth
+      worst = 0
+      largest = 0
+      compared = 0
+      do trial = 1, 30
+         solver = new_auto_film([pad(mod(trial, 2) == 0)], cells, modes, columns, rows)
+         by_modes = new_modal_film([pad(mod(trial, 2) == 0)], cells, modes, gumbel=.false.)
+         by_cells = new_sor_film([pad(mod(trial, 2) == 0)], sor_options(columns, rows, tolerance=1e-8_wp, &
+            & cavitation=cavitation_none))
+         motion = opening_motion()
+         r = answer(solver, motion)
+         r_modes = answer(by_modes, motion)
+         if (solver%counters%sor == 0 .or. .not. norm2(r%slope(:, 2)) > 0) cycle
+         r_cells = answer(by_cells, motion)
+         do column = 1, 4
+            call differences(solver, motion, column, expected, smooth)
+            if (.not. smooth) cycle
+            compared = compared + 1
+            unit = merge(clearance, clearance*speed, column <= 2)
+            change = (share(by_modes, moved(motion, column, 1e-5_wp)) &
+               & - share(by_modes, moved(motion, column, -1e-5_wp)))/2e-5_wp
+            left_out = abs(change)*norm2(r_modes%force - r_cells%force)
+            deviation = norm2(r%slope(:, column)*unit - expected)
+            worst = max(worst, (deviation - 1.001_wp*left_out)/norm2(expected))
+            largest = max(largest, deviation/norm2(expected))
+         end do
+      end do
+      call expect(compared >= 50, 'slopes of ruptured films compared, auto: '//to_text(compared))
+      call expect(worst <= 1e-6_wp, 'slopes of ruptured films, auto, but for the share: '//to_text(worst))
+      call expect(largest <= 1e-2_wp, 'what the slopes of auto leave out: '//to_text(largest))
+   end subroutine auto_slopes
+
+   !> 1 at the onset of rupture, 0 from where the tension is the highest pressure.
+   real(wp) function share(by_modes, motion)
+      type(modal_film_type), intent(inout) :: by_modes
+      type(film_motion), intent(in) :: motion
+      type(film_response) :: r
+      r = answer(by_modes, motion)
+      share = 0
+      if (-r%min_pressure < r%max_pressure) share = 1 + r%min_pressure/r%max_pressure
+   end function share
+
+   pure type(film_motion) function place(path, angle)
+      type(journal_path), intent(in) :: path
+      real(wp), intent(in) :: angle
+      place%position = path%position + path%position_sine*sin(angle) + path%position_cosine*cos(angle)
+      place%velocity = path%velocity_cosine*cos(angle)
+   end function place
+
+   !> Where the film of auto starts or ceases to rupture along a path its force must not jump. On one side stand
+   !> the modes, on the other the modes and what rupture changes in the cells, which begins with nothing; so
+   !> nothing but the error of the cells may lie between them. That is measured: the largest difference of
+   !> cells and modes, both without rupture, along the path. The same for the slope along the path, twice, as
+   !> a few points miss its largest error, where rupture begins at an edge, as it does in a dry pad. (A flooded
+   !> film may break inside the pad first. A single point held there bends the film for a logarithm's distance
+   !> around it: the slope changes by a tenth and more with the first cell, however small.)
+   subroutine onset(path, columns, rows)
+      type(journal_path), intent(in) :: path
+      integer, intent(in) :: columns, rows
+      integer, parameter :: n = 100
+      real(wp), parameter :: d = 2*pi/n
+      type(auto_film_type) :: solver
+      type(film_response) :: before, after
+      real(wp) :: left, right, middle, allowed(2)
+      character(len=:), allocatable :: what
+      integer :: i, k, switches
+      logical :: was, is
+      allowed = error_of_cells(path, columns, rows)
+      solver = new_auto_film([pad(path%flooded)], cells, modes, columns, rows)
+      switches = 0
+      call look(solver, path, 0.0_wp, before, was)
+      do i = 1, n
+         call look(solver, path, i*d, after, is)
+         if (is .eqv. was) cycle
+         switches = switches + 1
+         left = (i - 1)*d
+         right = i*d
+         do k = 1, 30
+            middle = 0.5_wp*(left + right)
+            call look(solver, path, middle, after, is)
+            if (is .eqv. was) left = middle
+            if (is .neqv. was) right = middle
+         end do
+         call look(solver, path, left, before, is)
+         call look(solver, path, right, after, is)
+         what = ' at the onset, '//to_text(columns)//' columns, angle '//to_text(left)//', force ' &
+            & //to_text(norm2(after%force))
+         call expect_close(norm2(after%force - before%force), 0.0_wp, allowed(1), 'jump of the force'//what)
+         if (.not. path%flooded) call expect_close(norm2(matmul(after%slope - before%slope, direction(path, left))), &
+            & 0.0_wp, 2*allowed(2), 'jump of the slope'//what)
+         was = .not. was
+      end do
+      call expect(switches == 2, 'one onset, one end of rupture: '//to_text(switches))
+   end subroutine onset
+
+   !> Largest difference of cells and modes, both without rupture, along a path: of the force, of its slope.
+   function error_of_cells(path, columns, rows) result(largest)
+      type(journal_path), intent(in) :: path
+      integer, intent(in) :: columns, rows
+      real(wp) :: largest(2)
+      integer, parameter :: n = 12
+      type(modal_film_type) :: by_modes
+      type(sor_film_type) :: by_cells
+      type(film_response) :: r_modes, r_cells
+      real(wp) :: angle
+      integer :: i
+      by_modes = new_modal_film([pad(path%flooded)], cells, modes, gumbel=.false.)
+      by_cells = new_sor_film([pad(path%flooded)], sor_options(columns, rows, tolerance=1e-7_wp, &
+         & cavitation=cavitation_none))
+      largest = 0
+      do i = 1, n
+         angle = 2*pi*i/n
+         r_modes = answer(by_modes, place(path, angle))
+         r_cells = answer(by_cells, place(path, angle))
+         largest = max(largest, [norm2(r_cells%force - r_modes%force), &
+            & norm2(matmul(r_cells%slope - r_modes%slope, direction(path, angle)))])
+      end do
+   end function error_of_cells
+
+   !> The film at an angle of the path, and whether it counts as ruptured.
+   subroutine look(solver, path, angle, r, ruptured)
+      type(auto_film_type), intent(inout) :: solver
+      type(journal_path), intent(in) :: path
+      real(wp), intent(in) :: angle
+      type(film_response), intent(out) :: r
+      logical, intent(out) :: ruptured
+      integer(i8) :: modal
+      modal = solver%counters%modal
+      r = answer(solver, place(path, angle))
+      ruptured = solver%counters%modal == modal
+   end subroutine look
+
+   !> Change of motion along a path.
+   pure function direction(path, angle)
+      type(journal_path), intent(in) :: path
+      real(wp), intent(in) :: angle
+      real(wp) :: direction(4)
+      direction(1:2) = path%position_sine*cos(angle) - path%position_cosine*sin(angle)
+      direction(3:4) = -path%velocity_cosine*sin(angle)
+   end function direction
+
+   !> What the force of auto does from one point of a path to the next but for the mean of the slopes at both:
+   !> with steps ten times shorter ten times less at least, down to the modes' error; the same on the way
+   !> back, to rounding, whatever was solved before.
+   subroutine no_chatter(path)
+      type(journal_path), intent(in) :: path
+      integer, parameter :: few = 100, many = 1000
+      type(auto_film_type) :: solver
+      real(wp) :: coarse(2, 0:few), fine(2, 0:many), back(2, 0:few), rough_coarse, rough_fine, largest
+      solver = new_auto_film([pad(path%flooded)], cells, modes, 60, 15)
+      call walk(solver, path, 2*pi/few, coarse, rough_coarse)
+      call walk(solver, path, -2*pi/few, back, rough_coarse)
+      call walk(solver, path, 2*pi/many, fine, rough_fine)
+      largest = maxval(norm2(fine, dim=1))
+      call expect(rough_fine <= 0.1_wp*rough_coarse + modal_error*largest, 'steps of the force ' &
+         & //to_text(rough_coarse/largest)//', ten times finer '//to_text(rough_fine/largest))
+      call expect_close(maxval(norm2(coarse - back(:, few:0:-1), dim=1)), 0.0_wp, 1e-9_wp*largest, &
+         & 'there and back again')
+   end subroutine no_chatter
+
+   !> Forces along a path, step by step, and the largest change from one to the next but for the slopes'.
+   subroutine walk(solver, path, step, forces, roughest)
+      type(auto_film_type), intent(inout) :: solver
+      type(journal_path), intent(in) :: path
+      real(wp), intent(in) :: step
+      real(wp), intent(out) :: forces(:, 0:), roughest
+      type(film_response) :: now, before
+      integer :: k
+      roughest = 0
+      do k = 0, ubound(forces, 2)
+         now = answer(solver, place(path, k*step))
+         forces(:, k) = now%force
+         if (k > 0) roughest = max(roughest, norm2(now%force - before%force &
+            & - matmul(0.5_wp*(now%slope + before%slope), coordinates(place(path, k*step)) &
+            & - coordinates(place(path, (k - 1)*step)))))
+         before = now
+      end do
+   end subroutine walk
+end program test_film_rupture
