@@ -2,8 +2,8 @@
 !> over-relaxation solved by elimination.
 !>
 !> Where the film ruptures the force is that of the finite volumes with rupture, plus c times (modal - finite
-!> volumes without rupture), with c = 1 at the onset and 0 where the tension of the whole film reaches its
-!> highest pressure. So at the onset the force does not jump by the difference of the two discretisations, a
+!> volumes without rupture), with c = 1 up to a tension of the whole film of a tenth of its highest pressure,
+!> and 0 where they are the same. So at the onset the force does not jump by the difference of the two discretisations, a
 !> loaded pad keeps the modes' accuracy, and an empty pad is left to the finite volumes alone.
 module auto_film
    use kinds, only: wp
@@ -18,6 +18,9 @@ module auto_film
    !> How far below the cavitation pressure the whole film may fall, over its highest pressure, before it
    !> counts as ruptured: the force left out is of the second order in it, below the discretisation error.
    real(wp), parameter :: slight_tension = 1e-4_wp
+
+   !> Tension over the highest pressure up to which a pad is loaded: c = 1.
+   real(wp), parameter :: loaded_tension = 0.1_wp
 
    type, extends(film_solver_type) :: auto_film_type
       private
@@ -52,8 +55,9 @@ contains
       logical, intent(in) :: want_slopes
       type(film_response), intent(out) :: response(:)
       type(film_response) :: ruptured, whole
-      real(wp) :: tension, height, c
+      real(wp) :: tension, height, c, force(2)
       integer :: i
+      logical :: few
       call self%modal%evaluate(motion, speed, want_slopes, response)
       do i = 1, size(motion)
          if (response(i)%status /= film_ok) cycle
@@ -64,9 +68,18 @@ contains
             cycle
          end if
          self%counters%sor = self%counters%sor + 1
+         if (tension <= loaded_tension*height) then
+            ! slight rupture leaves the slopes nearly as they are
+            call self%direct(i)%force_of_rupture(motion(i), speed, self%counters, force, few)
+            if (few) then
+               response(i)%force = response(i)%force + force
+               response(i)%min_pressure = self%cavitation_pressure(i)
+               cycle
+            end if
+         end if
          call self%direct(i)%evaluate(motion(i), speed, .true., want_slopes, self%counters, ruptured)
          if (ruptured%status == film_ok .and. tension < height) then
-            c = 1 - tension/height
+            c = min(1.0_wp, (1 - tension/height)/(1 - loaded_tension))
             call self%direct(i)%evaluate(motion(i), speed, .false., want_slopes, self%counters, whole)
             ruptured%force = ruptured%force + c*(response(i)%force - whole%force)
             ruptured%slope = ruptured%slope + c*(response(i)%slope - whole%slope)

@@ -4,7 +4,7 @@ module column_sweeps
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: padded, factor_chain, solve_chain, finish_chain, weighted, apply, invert
+   public :: padded, green_chain, factor_chain, solve_chain, finish_chain, weighted, apply, invert
 
    integer, parameter :: lanes = 16
 
@@ -15,6 +15,42 @@ contains
       integer, intent(in) :: rows
       padded = lanes*((rows + lanes - 1)/lanes)
    end function padded
+
+   !> From the leading edge to the trailing one: reciprocal pivots (mode, column), and per_pivot (load + what comes
+   !> from the column behind) for three loads, uniform over the rows, the first with one at the edge besides.
+   !> What is found is kept in the first columns.
+   pure subroutine green_chain(m, n, kept, along, beside, eigenvalue, uniform, at_edge, load, edge_load, per_pivot, x)
+      integer, intent(in) :: m, n, kept
+      !> As in the chains below.
+      real(wp), intent(in) :: along(0:n), beside(n), eigenvalue(m), uniform(m), at_edge(m), load(3, n), edge_load(n)
+      real(wp), intent(out) :: per_pivot(m, kept), x(m, 3, kept)
+      real(wp), dimension(lanes) :: pivot, one, two, three
+      integer :: i, k, first
+      do first = 0, m - 1, lanes
+         pivot = 0
+         one = 0
+         two = 0
+         three = 0
+         do i = n, 1, -1
+            !$omp simd
+            do k = 1, lanes
+               ! along(n) stands in the diagonal alone
+               pivot(k) = 1/(along(i - 1) + along(i) + beside(i)*eigenvalue(first + k) - along(i)**2*pivot(k))
+               one(k) = pivot(k)*(load(1, i)*uniform(first + k) + edge_load(i)*at_edge(first + k) + along(i)*one(k))
+               two(k) = pivot(k)*(load(2, i)*uniform(first + k) + along(i)*two(k))
+               three(k) = pivot(k)*(load(3, i)*uniform(first + k) + along(i)*three(k))
+            end do
+            if (i > kept) cycle
+            !$omp simd
+            do k = 1, lanes
+               per_pivot(first + k, i) = pivot(k)
+               x(first + k, 1, i) = one(k)
+               x(first + k, 2, i) = two(k)
+               x(first + k, 3, i) = three(k)
+            end do
+         end do
+      end do
+   end subroutine green_chain
 
    !> The face between column i and the one before it, on the way from the first column to the last.
    pure integer function face_behind(i, step)

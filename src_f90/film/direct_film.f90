@@ -11,7 +11,9 @@ module direct_film
    use film_solver, only: film_motion, film_response, film_counters, film_closed, film_not_converged
    use pad_film, only: pad_film_type
    use film_grid, only: film_grid_type, new_film_grid
-   use column_sweeps, only: padded, factor_chain, solve_chain, finish_chain, weighted, apply, invert
+   use grid_modes, only: grid_modes_type, new_grid_modes
+   use slight_rupture, only: force_of_few
+   use column_sweeps, only: factor_chain, solve_chain, finish_chain, weighted, apply, invert
    implicit none (type, external)
    private
    public :: direct_film_type, new_direct_film
@@ -24,11 +26,7 @@ module direct_film
    type :: direct_film_type
       private
       type(film_grid_type) :: grid
-      !> Modes of the grid, (row, mode) and (mode, row), and their eigenvalues. Rows and modes are filled up
-      !> with zeros to a multiple of the vector length.
-      real(wp), allocatable :: modes(:, :), transposed(:, :), eigenvalue(:)
-      !> A load of 1 in every row and one of 1 in the edge row, by mode.
-      real(wp), allocatable :: uniform(:), at_edge(:)
+      type(grid_modes_type) :: basis
       !> Cells that belong to the film: 1, the others 0 (row, column).
       real(wp), allocatable :: film(:, :)
       !> Columns that rupture touches: first to last; none: first = columns + 1.
@@ -38,19 +36,8 @@ module direct_film
       real(wp), allocatable :: pressure(:, :), adjoint(:, :)
    contains
       procedure :: evaluate
+      procedure :: force_of_rupture
    end type direct_film_type
-
-   interface
-      !> LAPACK: eigenvalues and eigenvectors of a symmetric tridiagonal matrix.
-      subroutine dstev(jobz, n, d, e, z, ldz, work, info)
-         import :: wp
-         character, intent(in) :: jobz
-         integer, intent(in) :: n, ldz
-         real(wp), intent(inout) :: d(*), e(*)
-         real(wp), intent(out) :: z(ldz, *), work(*)
-         integer, intent(out) :: info
-      end subroutine dstev
-   end interface
 
 contains
 
@@ -59,22 +46,10 @@ contains
       type(pad_film_type), intent(in) :: film
       integer, intent(in) :: columns, rows
       type(direct_film_type) :: self
-      real(wp) :: diagonal(rows), beside(rows), vectors(rows, rows), work(2*rows)
-      integer :: n, info
+      integer :: n
       self%grid = new_film_grid(film, columns, rows)
-      diagonal = 2
-      diagonal(1) = 1
-      diagonal(rows) = 1 + self%grid%edge
-      beside = -1
-      call dstev('V', rows, diagonal, beside, vectors, rows, work, info)
-      n = padded(rows)
-      allocate (self%modes(n, rows), self%transposed(n, rows), self%eigenvalue(n), source=0.0_wp)
-      allocate (self%uniform(n), self%at_edge(n), source=0.0_wp)
-      self%modes(:rows, :) = vectors
-      self%transposed(:rows, :) = transpose(vectors)
-      self%eigenvalue(:rows) = diagonal
-      self%uniform(:rows) = sum(vectors, dim=1)
-      self%at_edge(:rows) = vectors(rows, :)
+      self%basis = new_grid_modes(rows, self%grid%edge)
+      n = self%basis%m
       allocate (self%film(n, columns), self%pressure(n, columns), self%adjoint(n, columns), source=0.0_wp)
       self%film(:rows, :) = 1
       allocate (self%per_pivot(n, columns), self%block(n, rows, columns), source=0.0_wp)
@@ -122,21 +97,35 @@ contains
       end associate
    end subroutine evaluate
 
+   !> Force with the Reynolds condition less force without rupture, N, where only a few cells rupture; else
+   !> `few` is false, and `evaluate` has to be asked.
+   subroutine force_of_rupture(self, motion, speed, counters, force, few)
+      class(direct_film_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      type(film_counters), intent(inout) :: counters
+      real(wp), intent(out) :: force(2)
+      logical, intent(out) :: few
+      call self%grid%set_motion(motion, speed)
+      call force_of_few(self%grid, self%basis, self%film, force, few)
+      counters%sweeps = counters%sweeps + 1
+   end subroutine force_of_rupture
+
    !> Force; lowest and highest pressure in the middle plane and at the edges.
    pure subroutine sum_up(self, response)
       type(direct_film_type), intent(in) :: self
       type(film_response), intent(inout) :: response
       real(wp), dimension(self%grid%columns) :: sums, middle
       integer :: i, m
-      m = size(self%modes, 1)
+      m = self%basis%m
       associate (grid => self%grid, p => self%pressure)
          do i = 1, grid%columns
             if (i >= self%first .and. i <= self%last) then
                sums(i) = sum(p(:, i))
                middle(i) = p(1, i)
             else
-               sums(i) = weighted(m, self%uniform, p(:, i))
-               middle(i) = weighted(m, self%transposed(:, 1), p(:, i))
+               sums(i) = weighted(m, self%basis%uniform, p(:, i))
+               middle(i) = weighted(m, self%basis%transposed(:, 1), p(:, i))
             end if
          end do
          response%force = grid%force(sums)
@@ -152,10 +141,10 @@ contains
       type(direct_film_type), intent(inout) :: self
       logical, intent(out) :: changed
       !> Pressure by rows, with a rim.
-      real(wp) :: p(0:size(self%modes, 1) + 1, 0:self%grid%columns + 1)
+      real(wp) :: p(0:self%basis%m + 1, 0:self%grid%columns + 1)
       real(wp) :: floor, inflow, limit, new, changes
       integer :: i, k, m
-      m = size(self%modes, 1)
+      m = self%basis%m
       associate (grid => self%grid, rows => self%grid%rows, first => self%first, last => self%last)
          floor = 0
          p(:, 0) = 0
@@ -164,7 +153,7 @@ contains
             if (i >= first .and. i <= last) then
                p(1:m, i) = self%pressure(:, i)
             else if (grid%source(i) > 0 .or. i == first - 1 .or. i == last + 1) then
-               p(1:m, i) = apply(m, rows, self%modes, self%pressure(:, i))
+               p(1:m, i) = apply(m, rows, self%basis%modes, self%pressure(:, i))
             else
                p(1:m, i) = 0
             end if
@@ -196,7 +185,7 @@ contains
       real(wp), intent(inout), contiguous :: x(:, :)
       integer :: i
       do i = 1, self%grid%columns
-         if (i < self%first .or. i > self%last) x(:, i) = apply(size(x, 1), self%grid%rows, self%modes, x(:, i))
+         if (i < self%first .or. i > self%last) x(:, i) = apply(size(x, 1), self%grid%rows, self%basis%modes, x(:, i))
       end do
    end subroutine to_rows
 
@@ -208,7 +197,7 @@ contains
       logical :: touched(self%grid%columns)
       real(wp) :: diagonal
       integer :: i, j, m
-      m = size(self%modes, 1)
+      m = self%basis%m
       associate (grid => self%grid, c => self%grid%along, n => self%grid%columns, rows => self%grid%rows)
          self%first = n + 1
          self%last = n
@@ -221,8 +210,8 @@ contains
                self%last = findloc(touched, .true., dim=1, back=.true.)
             end if
          end if
-         call factor_chain(m, n, 1, self%first - 1, c, grid%beside, self%eigenvalue, self%per_pivot)
-         call factor_chain(m, n, n, self%last + 1, c, grid%beside, self%eigenvalue, self%per_pivot)
+         call factor_chain(m, n, 1, self%first - 1, c, grid%beside, self%basis%eigenvalue, self%per_pivot)
+         call factor_chain(m, n, n, self%last + 1, c, grid%beside, self%basis%eigenvalue, self%per_pivot)
          do i = self%first, self%last
             associate (block => self%block(:, :, i))
                if (.not. any(self%film(:rows, i) > 0)) then
@@ -257,10 +246,10 @@ contains
    pure function modal_block(self, values) result(block)
       type(direct_film_type), intent(in) :: self
       real(wp), intent(in) :: values(:)
-      real(wp) :: block(size(self%modes, 1), self%grid%rows)
+      real(wp) :: block(self%basis%m, self%grid%rows)
       integer :: j
       do j = 1, self%grid%rows
-         block(:, j) = apply(size(block, 1), size(block, 2), self%modes, values*self%transposed(:, j))
+         block(:, j) = apply(size(block, 1), size(block, 2), self%basis%modes, values*self%basis%transposed(:, j))
       end do
    end function modal_block
 
@@ -275,27 +264,27 @@ contains
       m = size(x, 1)
       associate (c => self%grid%along, n => self%grid%columns, rows => self%grid%rows, first => self%first, &
          & last => self%last)
-         call solve_chain(m, n, 1, first - 1, c, self%per_pivot, load, self%uniform, edge_load, self%at_edge, x)
-         call solve_chain(m, n, n, last + 1, c, self%per_pivot, load, self%uniform, edge_load, self%at_edge, x)
+         call solve_chain(m, n, 1, first - 1, c, self%per_pivot, load, self%basis%uniform, edge_load, self%basis%at_edge, x)
+         call solve_chain(m, n, n, last + 1, c, self%per_pivot, load, self%basis%uniform, edge_load, self%basis%at_edge, x)
          do i = first, last
             next = load(i)
             next(rows) = next(rows) + edge_load(i)
             if (i > first) then
                next = next + c(i - 1)*x(:, i - 1)
             else if (i > 1) then
-               next = next + c(i - 1)*apply(m, rows, self%modes, x(:, i - 1))
+               next = next + c(i - 1)*apply(m, rows, self%basis%modes, x(:, i - 1))
             end if
-            if (i == last .and. i < n) next = next + c(i)*apply(m, rows, self%modes, x(:, i + 1))
+            if (i == last .and. i < n) next = next + c(i)*apply(m, rows, self%basis%modes, x(:, i + 1))
             x(:, i) = apply(m, rows, self%block(:, :, i), next)
          end do
          do i = last - 1, first, -1
             x(:, i) = x(:, i) + c(i)*apply(m, rows, self%block(:, :, i), x(:, i + 1))
          end do
          next = 0
-         if (first <= n) next = apply(m, rows, self%transposed, x(:, first))
+         if (first <= n) next = apply(m, rows, self%basis%transposed, x(:, first))
          call finish_chain(m, n, 1, first - 1, c, self%per_pivot, next, x)
          if (last < n) then
-            next = apply(m, rows, self%transposed, x(:, last))
+            next = apply(m, rows, self%basis%transposed, x(:, last))
             call finish_chain(m, n, n, last + 1, c, self%per_pivot, next, x)
          end if
       end associate

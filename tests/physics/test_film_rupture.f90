@@ -254,7 +254,7 @@ contains
                & - share(by_modes, moved(motion, column, -1e-5_wp)))/2e-5_wp
             left_out = abs(change)*norm2(r_modes%force - r_cells%force)
             deviation = norm2(r%slope(:, column)*unit - expected)
-            worst = max(worst, (deviation - 1.001_wp*left_out)/norm2(expected))
+            if (share(by_modes, motion) < 1) worst = max(worst, (deviation - 1.001_wp*left_out)/norm2(expected))
             largest = max(largest, deviation/norm2(expected))
          end do
       end do
@@ -263,14 +263,14 @@ contains
       call expect(largest <= 1e-2_wp, 'what the slopes of auto leave out: '//to_text(largest))
    end subroutine auto_slopes
 
-   !> 1 at the onset of rupture, 0 from where the tension is the highest pressure.
+   !> 1 while the tension is below a tenth of the highest pressure, 0 from where it is the highest pressure.
    real(wp) function share(by_modes, motion)
       type(modal_film_type), intent(inout) :: by_modes
       type(film_motion), intent(in) :: motion
       type(film_response) :: r
       r = answer(by_modes, motion)
       share = 0
-      if (-r%min_pressure < r%max_pressure) share = 1 + r%min_pressure/r%max_pressure
+      if (-r%min_pressure < r%max_pressure) share = min(1.0_wp, (1 + r%min_pressure/r%max_pressure)/0.9_wp)
    end function share
 
    pure type(film_motion) function place(path, angle)
@@ -372,9 +372,9 @@ contains
       direction(3:4) = -path%velocity_cosine*sin(angle)
    end function direction
 
-   !> What the force of auto does from one point of a path to the next but for the mean of the slopes at both:
-   !> with steps ten times shorter ten times less at least, down to the modes' error; the same on the way
-   !> back, to rounding, whatever was solved before.
+   !> The second difference of the force of auto along a path: where the force is smooth or has a kink, with
+   !> steps ten times shorter ten times less at least, down to the modes' error; a jump would stay. The forces
+   !> are the same on the way back, to rounding, whatever was solved before.
    subroutine no_chatter(path)
       type(journal_path), intent(in) :: path
       integer, parameter :: few = 100, many = 1000
@@ -391,22 +391,20 @@ contains
          & 'there and back again')
    end subroutine no_chatter
 
-   !> Forces along a path, step by step, and the largest change from one to the next but for the slopes'.
+   !> Forces along a path, step by step, and their largest second difference.
    subroutine walk(solver, path, step, forces, roughest)
       type(auto_film_type), intent(inout) :: solver
       type(journal_path), intent(in) :: path
       real(wp), intent(in) :: step
       real(wp), intent(out) :: forces(:, 0:), roughest
-      type(film_response) :: now, before
+      type(film_response) :: r
       integer :: k
-      roughest = 0
       do k = 0, ubound(forces, 2)
-         now = answer(solver, place(path, k*step))
-         forces(:, k) = now%force
-         if (k > 0) roughest = max(roughest, norm2(now%force - before%force &
-            & - matmul(0.5_wp*(now%slope + before%slope), coordinates(place(path, k*step)) &
-            & - coordinates(place(path, (k - 1)*step)))))
-         before = now
+         r = answer(solver, place(path, k*step))
+         forces(:, k) = r%force
       end do
+      associate (n => ubound(forces, 2))
+         roughest = maxval(norm2(forces(:, 2:n) - 2*forces(:, 1:n - 1) + forces(:, 0:n - 2), dim=1))
+      end associate
    end subroutine walk
 end program test_film_rupture

@@ -20,6 +20,8 @@ program test_direct_film
       call against_relaxation(grids(1, i), grids(2, i), .true., [3e5_wp, 1e5_wp, -1e5_wp])
       call against_relaxation(grids(1, i), grids(2, i), .false., [3e5_wp, 1e5_wp, 0.0_wp])
    end do
+   call few_cells([0.0_wp, 0.0_wp, 0.0_wp])
+   call few_cells([1.2e5_wp, 1e5_wp, 9e4_wp])
    call any_start()
    call empty_film()
    call closed_film()
@@ -99,6 +101,38 @@ contains
       deviation = norm2(found - expected)
       if (norm2(expected) > 0) deviation = deviation/norm2(expected)
    end function deviation
+
+   !> Where few cells rupture their force by Green's functions is the difference of the films with and without
+   !> rupture; where it says few, no others do.
+   subroutine few_cells(pressures)
+      real(wp), intent(in) :: pressures(3)
+      type(direct_film_type) :: direct, by_few
+      type(film_counters) :: counters
+      type(film_motion) :: motion
+      type(film_response) :: r, whole
+      real(wp) :: force(2), worst
+      integer :: trial, said, with_rupture
+      logical :: few
+      direct = new_direct_film(paper_pad(pressures), 60, 15)
+      by_few = new_direct_film(paper_pad(pressures), 60, 15)
+      said = 0
+      with_rupture = 0
+      worst = 0
+      do trial = 1, 300
+         motion%position = clearance*[between(-0.5_wp, -0.05_wp), between(0.0_wp, 0.6_wp)]
+         motion%velocity = clearance*speed*[between(-0.02_wp, 0.02_wp), between(-0.02_wp, 0.02_wp)]
+         call by_few%force_of_rupture(motion, speed, counters, force, few)
+         if (.not. few) cycle
+         said = said + 1
+         call direct%evaluate(motion, speed, .true., .false., counters, r)
+         call direct%evaluate(motion, speed, .false., .false., counters, whole)
+         if (norm2(r%force - whole%force) > 1e-6_wp*norm2(whole%force)) with_rupture = with_rupture + 1
+         worst = max(worst, norm2(force - (r%force - whole%force))/norm2(whole%force))
+      end do
+      call expect(worst < 1e-10_wp, 'few cells: error '//to_text(worst))
+      call expect(said > 50, 'few cells: often, '//to_text(said))
+      call expect(with_rupture > 20, 'few cells: with rupture, '//to_text(with_rupture))
+   end subroutine few_cells
 
    !> The answer does not depend on the film of the last motion.
    subroutine any_start()
