@@ -3,8 +3,8 @@
 !>
 !> Where the film ruptures the force is that of the finite volumes with rupture, plus c times (modal - finite
 !> volumes without rupture), with c = 1 up to a tension of the whole film of a tenth of its highest pressure,
-!> and 0 where they are the same. So at the onset the force does not jump by the difference of the two discretisations, a
-!> loaded pad keeps the modes' accuracy, and an empty pad is left to the finite volumes alone.
+!> and 0 where they are the same. So at the onset the force does not jump by the difference of the two
+!> discretisations, a loaded pad keeps the modes' accuracy, and an empty pad is left to the finite volumes alone.
 module auto_film
    use kinds, only: wp
    use film_solver, only: film_solver_type, film_motion, film_response, film_ok

@@ -264,8 +264,10 @@ contains
       m = size(x, 1)
       associate (c => self%grid%along, n => self%grid%columns, rows => self%grid%rows, first => self%first, &
          & last => self%last)
-         call solve_chain(m, n, 1, first - 1, c, self%per_pivot, load, self%basis%uniform, edge_load, self%basis%at_edge, x)
-         call solve_chain(m, n, n, last + 1, c, self%per_pivot, load, self%basis%uniform, edge_load, self%basis%at_edge, x)
+         call solve_chain(m, n, 1, first - 1, c, self%per_pivot, load, self%basis%uniform, edge_load, &
+            & self%basis%at_edge, x)
+         call solve_chain(m, n, n, last + 1, c, self%per_pivot, load, self%basis%uniform, edge_load, &
+            & self%basis%at_edge, x)
          do i = first, last
             next = load(i)
             next(rows) = next(rows) + edge_load(i)

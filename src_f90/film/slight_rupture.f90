@@ -129,8 +129,9 @@ contains
          along = own*basis%transposed(:, cells(a)%row)
          green(a, a) = weighted(basis%m, along, basis%transposed(:, cells(a)%row))
          do b = a + 1, size(cells)
-            if (cells(b)%column > cells(b - 1)%column) &
-               & along = along*grid%along(cells(b)%column - 1)*per_pivot(:, cells(b)%column)
+            if (cells(b)%column > cells(b - 1)%column) then
+               along = along*grid%along(cells(b)%column - 1)*per_pivot(:, cells(b)%column)
+            end if
             green(b, a) = weighted(basis%m, along, basis%transposed(:, cells(b)%row))
             green(a, b) = green(b, a)
          end do

@@ -20,8 +20,9 @@ program test_direct_film
       call against_relaxation(grids(1, i), grids(2, i), .true., [3e5_wp, 1e5_wp, -1e5_wp])
       call against_relaxation(grids(1, i), grids(2, i), .false., [3e5_wp, 1e5_wp, 0.0_wp])
    end do
-   call few_cells([0.0_wp, 0.0_wp, 0.0_wp])
-   call few_cells([1.2e5_wp, 1e5_wp, 9e4_wp])
+   call few_cells([0.0_wp, 0.0_wp, 0.0_wp], .true.)
+   ! a flooded film breaks away from its edges: few are none there
+   call few_cells([1.2e5_wp, 1e5_wp, 9e4_wp], .false.)
    call any_start()
    call empty_film()
    call closed_film()
@@ -104,8 +105,9 @@ contains
 
    !> Where few cells rupture their force by Green's functions is the difference of the films with and without
    !> rupture; where it says few, no others do.
-   subroutine few_cells(pressures)
+   subroutine few_cells(pressures, dry)
       real(wp), intent(in) :: pressures(3)
+      logical, intent(in) :: dry
       type(direct_film_type) :: direct, by_few
       type(film_counters) :: counters
       type(film_motion) :: motion
@@ -131,7 +133,7 @@ contains
       end do
       call expect(worst < 1e-10_wp, 'few cells: error '//to_text(worst))
       call expect(said > 50, 'few cells: often, '//to_text(said))
-      call expect(with_rupture > 20, 'few cells: with rupture, '//to_text(with_rupture))
+      call expect((with_rupture > 20) .eqv. dry, 'few cells: with rupture, '//to_text(with_rupture))
    end subroutine few_cells
 
    !> The answer does not depend on the film of the last motion.
