@@ -16,8 +16,9 @@ module components
    private
    public :: new_film, new_law, new_friction, new_places
 
-   !> Finite volumes along the arc where the input leaves them to the solver.
-   integer, parameter :: volumes_default = 60
+   !> Finite volumes along the arc and along half the width where the input leaves them to the solver: what
+   !> rupture adds to the modes' force wants the finer grid (docs/benchmarks.md).
+   integer, parameter :: sor_volumes(2) = [60, 15], rupture_volumes(2) = [80, 24]
 
 contains
 
@@ -27,7 +28,7 @@ contains
       class(film_solver_type), allocatable :: film
       type(pad_film_type) :: films(scene%pad_count())
       type(sor_options) :: options
-      integer :: i, cavitation, cells, modes, volumes
+      integer :: i, cavitation, cells, modes, volumes(2)
       associate (b => scene%bearing, p => scene%pads, f => scene%film)
          do i = 1, size(films)
             films(i) = pad_film_type(b%journal_radius, b%machined_clearance, b%axial_length, &
@@ -44,14 +45,17 @@ contains
          end select
          cells = merge(f%circumferential_cells, enough_cells(films), f%circumferential_cells > 0)
          modes = merge(f%axial_modes, enough_modes(films), f%axial_modes > 0)
-         volumes = merge(f%circumferential_cells, volumes_default, f%circumferential_cells > 0)
+         volumes = merge(sor_volumes, rupture_volumes, f%solver == 'sor')
+         associate (given => [f%circumferential_cells, f%axial_cells])
+            volumes = merge(given, volumes, given > 0)
+         end associate
          ! noise of the film must stay below what the march looks at
-         options = sor_options(volumes, f%axial_cells, f%relaxation, &
+         options = sor_options(volumes(1), volumes(2), f%relaxation, &
             & min(f%tolerance, 0.1_wp*scene%integration%relative_tolerance), f%max_sweeps, cavitation)
          if (f%solver == 'sor') then
             film = new_sor_film(films, options)
          else if (cavitation == cavitation_reynolds) then
-            film = new_auto_film(films, cells, modes, volumes, f%axial_cells)
+            film = new_auto_film(films, cells, modes, volumes(1), volumes(2))
          else
             film = new_modal_film(films, cells, modes, cavitation == cavitation_gumbel)
          end if

@@ -72,7 +72,7 @@ module scene
       !> 'auto', 'modal' or 'sor'.
       character(len=:), allocatable :: solver
       !> Cells along the arc, 0: the solver's own number; along half the width (sor); modes (modal).
-      integer :: circumferential_cells = 0, axial_cells = 15, axial_modes = 0
+      integer :: circumferential_cells = 0, axial_cells = 0, axial_modes = 0
       !> 0: the grid's optimum.
       real(wp) :: relaxation = 0, tolerance = 1e-6_wp
       integer :: max_sweeps = 5000
@@ -222,6 +222,7 @@ contains
             call require(mod(cells, 2) == 0 .and. (cells == 0 .or. cells >= 8), 'film%circumferential_cells = ' &
                & //to_text(cells)//': must be even, and 0 or at least 8')
          end associate
+         call require(self%film%axial_cells /= 1, 'film%axial_cells = 1: must be 2 or more, or 0 for enough')
          call require(self%film%solver /= 'modal' .or. self%film%cavitation /= 'reynolds', 'film%solver = ''modal''' &
             & //': needs film%cavitation = ''gumbel'' or ''none''; film%solver = ''auto'' knows ''reynolds''')
          ratio = b%machined_clearance/b%journal_radius

@@ -6,7 +6,7 @@ module column_sweeps
    private
    public :: padded, green_chain, factor_chain, solve_chain, finish_chain, weighted, apply, invert
 
-   integer, parameter :: lanes = 16
+   integer, parameter :: lanes = 8
 
 contains
 

@@ -14,8 +14,8 @@ module slight_rupture
    private
    public :: force_of_few
 
-   !> Most cells that count as few, and columns they may lie in.
-   integer, parameter :: most_cells = 48, most_columns = 12
+   !> Most cells that count as few: under tension, ruptured; and columns they may lie in.
+   integer, parameter :: most_cells = 128, most_ruptured = 48, most_columns = 16
    integer, parameter :: max_rounds = 30
    !> What the chains carry: the pressure, and the weights of both forces.
    integer, parameter :: loads = 3
@@ -38,13 +38,15 @@ contains
       real(wp), intent(inout) :: film(:, :)
       real(wp), intent(out) :: force(2)
       logical, intent(out) :: few
-      real(wp) :: load(loads, grid%columns), green(most_cells, most_cells), lambda(most_cells)
+      real(wp) :: load(loads, grid%columns)
       !> Of the columns up to the last with a source > 0: the others have no pressure below that of the edges.
       real(wp), dimension(basis%m, last_source(grid)) :: per_pivot
       real(wp), dimension(basis%m, loads, last_source(grid)) :: x
       type(candidate) :: cells(most_cells)
-      logical :: ruptured(most_cells)
-      integer :: n, i
+      real(wp) :: lambda(most_ruptured), after(most_cells)
+      integer :: held(most_ruptured)
+      logical :: ruptured(most_cells), new(most_cells)
+      integer :: n, k, i, round
       force = 0
       load(1, :) = -grid%source
       load(2, :) = -grid%cell_weight()*grid%sin_cell
@@ -52,18 +54,29 @@ contains
       call green_chain(basis%m, grid%columns, size(x, 3), grid%along, grid%beside, basis%eigenvalue, basis%uniform, &
          & basis%at_edge, load, -grid%edge_source, per_pivot, x)
       call find_cells(grid, basis, per_pivot, x, cells, n, few)
-      if (.not. few) return
-      call fill_green(grid, basis, per_pivot, cells(:n), green)
+      if (.not. few .or. n == 0) return
       do i = 1, n
          ruptured(i) = film(cells(i)%row, cells(i)%column) <= 0
       end do
-      call hold(n, green, cells%pressure, ruptured, lambda, few)
+      ! the active set: lambda > 0 on the ruptured cells, p + G lambda >= 0 on the others
+      do round = 1, max_rounds
+         k = count(ruptured(:n))
+         few = k <= most_ruptured
+         if (.not. few) return
+         held(:k) = pack([(i, i=1, n)], ruptured(:n))
+         call hold(grid, basis, per_pivot, cells(held(:k)), lambda)
+         call pressure_after(grid, basis, per_pivot, cells(held(:k)), lambda, cells(:n), after)
+         new(:n) = after(:n) < 0
+         new(held(:k)) = lambda(:k) > 0
+         few = all(new(:n) .eqv. ruptured(:n))
+         if (few) exit
+         ruptured(:n) = new(:n)
+      end do
       if (.not. few) return
       film(:grid%rows, :) = 1
-      do i = 1, n
-         if (.not. ruptured(i)) cycle
-         film(cells(i)%row, cells(i)%column) = 0
-         force = force + lambda(i)*cells(i)%influence
+      do i = 1, k
+         film(cells(held(i))%row, cells(held(i))%column) = 0
+         force = force + lambda(i)*cells(held(i))%influence
       end do
    end subroutine force_of_few
 
@@ -109,64 +122,66 @@ contains
       end do
    end subroutine find_cells
 
-   !> G between the cells, which are sorted by column: by mode G(i, i) = 1/R(i) + (along/R)^2 G(i-1, i-1) and
-   !> G(i, j) = (along/R)(j) G(i, j-1), R the pivots from the leading edge.
-   pure subroutine fill_green(grid, basis, per_pivot, cells, green)
+   !> lambda that holds cells, sorted by column, at p + G lambda = 0. By mode G(i, i) = 1/R(i) + (along/R)^2
+   !> G(i-1, i-1) and G(i, j) = (along/R)(j) G(i, j-1), R the pivots from the leading edge.
+   pure subroutine hold(grid, basis, per_pivot, cells, lambda)
       type(film_grid_type), intent(in) :: grid
       type(grid_modes_type), intent(in) :: basis
       real(wp), intent(in) :: per_pivot(:, :)
       type(candidate), intent(in) :: cells(:)
-      real(wp), intent(inout) :: green(:, :)
-      real(wp) :: own(basis%m), along(basis%m)
+      real(wp), intent(inout) :: lambda(:)
+      real(wp) :: green(size(cells), size(cells)), own(basis%m), along(basis%m)
       integer :: a, b, i
       own = 0
       i = 0
       do a = 1, size(cells)
          do while (i < cells(a)%column)
             i = i + 1
-            own = per_pivot(:, i) + merge((grid%along(i - 1)*per_pivot(:, i))**2*own, 0*own, i > 1)
+            own = per_pivot(:, i) + (grid%along(i - 1)*per_pivot(:, i))**2*own
          end do
          along = own*basis%transposed(:, cells(a)%row)
          green(a, a) = weighted(basis%m, along, basis%transposed(:, cells(a)%row))
          do b = a + 1, size(cells)
-            if (cells(b)%column > cells(b - 1)%column) then
-               along = along*grid%along(cells(b)%column - 1)*per_pivot(:, cells(b)%column)
-            end if
+            do i = cells(b - 1)%column + 1, cells(b)%column
+               along = along*grid%along(i - 1)*per_pivot(:, i)
+            end do
             green(b, a) = weighted(basis%m, along, basis%transposed(:, cells(b)%row))
-            green(a, b) = green(b, a)
          end do
+         i = cells(a)%column
       end do
-   end subroutine fill_green
-
-   !> The active set: lambda >= 0 on the ruptured cells, which have p + G lambda = 0; p + G lambda >= 0 on the
-   !> others. `ok` is false where it is not found.
-   pure subroutine hold(n, green, p, ruptured, lambda, ok)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: green(:, :), p(:)
-      logical, intent(inout) :: ruptured(:)
-      real(wp), intent(out) :: lambda(:)
-      logical, intent(out) :: ok
-      real(wp) :: factor(n, n), y(n)
-      integer :: active(n), k, round, i
-      logical :: new(n)
-      if (.not. any(ruptured(:n))) ruptured(:n) = .true.
-      do round = 1, max_rounds
-         k = count(ruptured(:n))
-         active(:k) = pack([(i, i=1, n)], ruptured(:n))
-         factor(:k, :k) = green(active(:k), active(:k))
-         y(:k) = -p(active(:k))
-         call solve_positive(k, factor, y)
-         lambda(:n) = 0
-         lambda(active(:k)) = y(:k)
-         do i = 1, n
-            new(i) = p(i) + dot_product(green(active(:k), i), y(:k)) < 0
-         end do
-         new(active(:k)) = y(:k) > 0
-         ok = all(new .eqv. ruptured(:n))
-         if (ok) return
-         ruptured(:n) = new
-      end do
+      lambda(:size(cells)) = -cells%pressure
+      call solve_positive(size(cells), green, lambda)
    end subroutine hold
+
+   !> p + G lambda at the candidates, with lambda at the held cells: in along their columns and out again.
+   pure subroutine pressure_after(grid, basis, per_pivot, held, lambda, cells, after)
+      type(film_grid_type), intent(in) :: grid
+      type(grid_modes_type), intent(in) :: basis
+      real(wp), intent(in) :: per_pivot(:, :), lambda(:)
+      type(candidate), intent(in) :: held(:), cells(:)
+      real(wp), intent(inout) :: after(:)
+      real(wp) :: y(basis%m, most_columns), p(basis%m)
+      integer :: i, k, last
+      last = cells(size(cells))%column
+      y(:, :last) = 0
+      do k = 1, size(held)
+         y(:, held(k)%column) = y(:, held(k)%column) + lambda(k)*basis%transposed(:, held(k)%row)
+      end do
+      do i = last, 1, -1
+         if (i < last) y(:, i) = y(:, i) + grid%along(i)*y(:, i + 1)
+         y(:, i) = per_pivot(:, i)*y(:, i)
+      end do
+      k = 1
+      do i = 1, last
+         if (i > 1) y(:, i) = y(:, i) + grid%along(i - 1)*per_pivot(:, i)*y(:, i - 1)
+         p = apply(basis%m, grid%rows, basis%modes, y(:, i))
+         do while (cells(k)%column == i)
+            after(k) = cells(k)%pressure + p(cells(k)%row)
+            k = k + 1
+            if (k > size(cells)) return
+         end do
+      end do
+   end subroutine pressure_after
 
    !> b := a^(-1) b for the leading k x k part of a symmetric positive definite matrix, by Cholesky's factors.
    pure subroutine solve_positive(k, a, b)
