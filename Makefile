@@ -79,7 +79,7 @@ vpath %.f90 $(sort $(dir $(sources) $(tests))) tests $(B)/obj
 VENV := build/venv
 venv_python := $(VENV)/bin/python
 
-.PHONY: help run build deps python test stress test-programs lint format docs install clean
+.PHONY: help run build deps python test stress bench test-programs lint format docs install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -87,6 +87,7 @@ help:
 	@echo 'make run      set up, build, run input/paper/steady_lugre.nml, draw it into build/run'
 	@echo 'make test     set up, build, run every test'
 	@echo 'make stress   random scenes, some minutes; writes docs/stability.md (SCENES=300 SEED=1)'
+	@echo 'make bench    run time against error, peers, some ten minutes; writes docs/benchmarks.md'
 	@echo 'make build    build/bin/tiltpad          (MODE=debug: build/debug/bin/tiltpad)'
 	@echo 'make deps     install what is missing (root or sudo; otherwise print the list and stop)'
 	@echo 'make python   Python environment build/venv with the package tiltpad'
@@ -111,6 +112,10 @@ SCENES ?= 300
 SEED   ?= 1
 stress: build python
 	$(venv_python) tests/stress/stress.py $(B)/bin/tiltpad --scenes $(SCENES) --seed $(SEED) --report docs/stability.md
+
+# PARTS='films pads' runs these alone and takes the others from their last run
+bench: build python $(VENV)/ready-bench
+	$(venv_python) tests/bench/bench.py $(B)/bin/tiltpad $(if $(PARTS),--only $(PARTS))
 
 # ---- set-up ------------------------------------------------------------------------------------
 deps: build/deps-checked
@@ -141,6 +146,10 @@ $(VENV)/ready: post/pyproject.toml post/requirements.txt | build/deps-checked
 	$(PYTHON) -m venv $(VENV)
 	$(venv_python) -m pip install -q --disable-pip-version-check -r post/requirements.txt
 	$(venv_python) -m pip install -q --disable-pip-version-check --no-build-isolation --no-deps -e post
+	@touch $@
+
+$(VENV)/ready-bench: tests/bench/requirements.txt $(VENV)/ready
+	$(venv_python) -m pip install -q --disable-pip-version-check -r $<
 	@touch $@
 
 # ---- build -------------------------------------------------------------------------------------

@@ -9,6 +9,7 @@ import tempfile
 from pathlib import Path
 
 import tiltpad
+from tiltpad.errors import SIGNALS
 
 CASES = Path(__file__).resolve().parent.parent / "input/paper"
 
@@ -118,22 +119,12 @@ def lugre(program, folder):
             yield row(label, here, f"{low} to {high}", f"{100 * worst:.3f}")
 
 
-def scale(run, name):
-    """Natural scale of a signal: clearance; clearance over pad radius."""
-    radius = run.input["bearing"]["journal_radius"] + run.input["bearing"]["machined_clearance"]
-    return {"journal": run.clearance, "pad": run.clearance / radius}.get(name.split("_")[0], 0)
-
-
 def settings(program, folder):
     """Rows of default against tight settings."""
     for case in SCENES:
         with run(program, case, folder) as quick, run(program, case, folder, *TIGHT) as exact:
-            part = tiltpad.last_revolutions(exact)
-            errors = []
-            for name in ("journal_y", "journal_z", "pad_tilt", "friction_moment"):
-                a, b = quick.values(name, part), exact.values(name, part)
-                span = max((b.max(axis=0) - b.min(axis=0)).max(), 0.05 * scale(exact, name))
-                errors.append(f"{abs(a - b).max() / span:.1e}" if span > 0 else "-")
+            found = tiltpad.deviations(quick, exact)
+            errors = [f"{found[name]:.1e}" if name in found else "-" for name in SIGNALS]
             yield row(case, *errors)
 
 

@@ -12,6 +12,7 @@ are loaded when first used.
 from importlib import import_module
 from typing import Any
 
+from tiltpad.errors import deviations
 from tiltpad.read import IncompleteRunWarning, NotInRunError, Run, RunError, read
 from tiltpad.signals import (
     envelope,
@@ -30,6 +31,7 @@ __all__ = [
     "NotInRunError",
     "Run",
     "RunError",
+    "deviations",
     "envelope",
     "full_spectrum",
     "hysteresis",

@@ -68,3 +68,26 @@ def test_envelope_holds_every_sample(run):
     assert (np.diff(time) > 0).all()
     # no span is shorter than a revolution, so a periodic signal has a smooth band
     assert len(tiltpad.envelope(case, "journal_y")[0]) == 6
+
+
+def test_a_run_does_not_deviate_from_itself(run):
+    assert tiltpad.deviations(run("lugre"), run("lugre")) == dict.fromkeys(tiltpad.errors.SIGNALS, 0.0)
+
+
+def test_deviations_are_over_peak_to_peak_or_natural_scale(run):
+    case, other = run("lugre"), run("none")
+    part = tiltpad.last_revolutions(other)
+    found = tiltpad.deviations(case, other)
+    gap = np.abs(case.journal_y[part] - other.journal_y[part]).max()
+    assert found["journal_y"] == pytest.approx(gap / np.ptp(other.journal_y[part]))
+    # without friction there is no moment, and nothing to measure it by
+    assert "friction_moment" not in found
+    # between two samples nothing moves
+    still = tiltpad.deviations(case, other, slice(part.stop - 1, part.stop))
+    last = abs(case.journal_y[-1] - other.journal_y[-1])
+    assert still["journal_y"] == pytest.approx(last / (0.05 * other.clearance))
+
+
+def test_deviations_need_the_same_samples(run):
+    with pytest.raises(tiltpad.RunError, match="not the same samples"):
+        tiltpad.deviations(run("runup"), run("lugre"), slice(0, None))

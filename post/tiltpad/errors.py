@@ -1,0 +1,44 @@
+"""How far a run is from a better one: the error that docs/benchmarks.md and docs/verification.md quote."""
+
+import numpy as np
+
+from tiltpad.read import Run, RunError
+from tiltpad.signals import last_revolutions
+
+#: Journal orbit, pad tilts and friction moments.
+SIGNALS = ("journal_y", "journal_z", "pad_tilt", "friction_moment")
+#: Share of its natural scale over which a signal is measured where it hardly moves.
+RESTING = 0.05
+
+
+def natural_scale(run: Run, name: str) -> float:
+    """Of journal positions the assembled clearance, of tilts that over the pad's radius; 0: there is none."""
+    bearing = run.input["bearing"]
+    radius = bearing["journal_radius"] + bearing["machined_clearance"]
+    return {"journal": run.clearance, "pad": run.clearance / radius}.get(name.split("_")[0], 0.0)
+
+
+def deviation(values: np.ndarray, true: np.ndarray, scale: float = 0.0) -> float | None:
+    """Largest deviation of a signal, (time,) or (time, pad), from the true one, over the peak-to-peak of the
+    latter (of the pad that moves most), or over 5 % of its natural scale where it moves less; None where
+    there is neither.
+    """
+    span = max(float(np.ptp(true, axis=0).max()), RESTING * scale)
+    return float(np.abs(values - true).max()) / span if span > 0 else None
+
+
+def deviations(run: Run, reference: Run, part: slice | None = None) -> dict[str, float]:
+    """The deviation of each of SIGNALS from a reference run of the same scene, over the samples `part` of the
+    reference (default: its last revolution). One that cannot be measured (friction where there is none) is
+    left out.
+    """
+    part = last_revolutions(reference) if part is None else part
+    found = {}
+    for name in SIGNALS:
+        values, true = run.values(name, part), reference.values(name, part)
+        if values.shape != true.shape:
+            raise RunError(
+                f"{run.path} and {reference.path}: not the same samples, {name} cannot be compared"
+            )
+        found[name] = deviation(values, true, natural_scale(reference, name))
+    return {name: value for name, value in found.items() if value is not None}

@@ -1,0 +1,157 @@
+"""The tables of films, pads and peers, and the sentences that follow from them."""
+
+from figures import compared
+from films import exponent
+from peers import DIFFERENCED, OWN, SCALAR, SCALED, SCIPY, TILTPAD
+from runner import Row
+from settings import TOLERANCE_SPAN
+from tables import LABELS, NOT_RUN, film_time, short, small, table
+
+#: Seconds of the scene's whole march.
+OF = 2
+
+
+def films(rows: list[Row]) -> str:
+    """Film solvers."""
+    lines = []
+    for row in rows:
+        first = next(other for other in rows if other.scene == row.scene)
+        lines.append(
+            (
+                LABELS[row.scene],
+                row.setting,
+                short(row.wall_seconds),
+                short(1e6 * film_time(row)),
+                f"{film_time(row) / film_time(first):.0f}",
+                small(row.error),
+                f"{row.finite_volumes / row.film_evaluations:.0%}",
+            )
+        )
+    head = "scene", "film", "wall s", "film, us a pad", "over auto", "error", "finite volumes"
+    return table(head, lines) if lines else NOT_RUN
+
+
+def tolerances(rows: list[Row]) -> str:
+    """Scaled and scalar absolute tolerances."""
+    found = [row for row in rows if row.group == SCIPY and row.rotor_seconds == TOLERANCE_SPAN]
+    lines = [(row.setting, short(row.wall_seconds), row.rhs, small(row.error_same_film)) for row in found]
+    return table(("absolute tolerances", "wall s", "right-hand sides", "error"), lines) if lines else NOT_RUN
+
+
+def tolerances_words(rows: list[Row]) -> str:
+    """What the scalar tolerance costs and loses."""
+    found = {row.setting: row for row in rows if row.group == SCIPY and row.rotor_seconds == TOLERANCE_SPAN}
+    scaled, scalar = found.get(SCALED), found.get(SCALAR)
+    if not (scaled and scalar and scaled.wall_seconds and scalar.wall_seconds):
+        return ""
+    return (
+        f"With one scalar for all states the march takes {short(scalar.wall_seconds / scaled.wall_seconds, 2)} "
+        f"times as long, and its error is {short(scalar.error_same_film / scaled.error_same_film, 2)} times as "
+        "large."
+    )
+
+
+def pads(rows: list[Row]) -> str:
+    """Cost over the number of pads."""
+    lines = []
+    for row in rows:
+        a_side = 1e6 * row.march_seconds / row.rhs if row.rhs else None
+        lines.append(
+            (
+                row.setting,
+                short(row.wall_seconds),
+                row.steps,
+                row.rhs,
+                short(a_side),
+                short(a_side / int(row.setting) if a_side else None),
+                short(row.memory_mb, 2),
+                row.note,
+            )
+        )
+    head = (
+        "pads",
+        "wall s",
+        "steps",
+        "right-hand sides",
+        "us a right-hand side",
+        "us a side and pad",
+        "MB",
+        "",
+    )
+    return table(head, lines) if lines else NOT_RUN
+
+
+def pads_words(rows: list[Row]) -> str:
+    """The exponent."""
+    good = [row for row in rows if row.rhs]
+    if len(good) < 2:
+        return ""
+    power = exponent([int(row.setting) for row in good], [row.march_seconds / row.rhs for row in good])
+    return f"Fitted: time grows with the number of pads to the power {power:.2f}; 1 is linear."
+
+
+def peers(rows: list[Row]) -> str:
+    """Wall seconds a second of rotor time."""
+    lines = []
+    base = rate(next((row for row in rows if row.group == TILTPAD), None))
+    shown = compared(rows)
+    for row in rows:
+        if row in shown or row.note or row.setting == SCALED + DIFFERENCED:
+            each = rate(row)
+            name = f"{row.group.partition(',')[0]}, {row.setting}"
+            if row.note:
+                lines.append((name, row.note, *[""] * 7))
+                continue
+            lines.append(
+                (
+                    name,
+                    f"{row.rotor_seconds:g} s",
+                    short(row.wall_seconds),
+                    short(each),
+                    short(OF * each),
+                    short(each / base),
+                    small(error_of(row, rows)),
+                    small(row.error_same_film),
+                    short(row.memory_mb, 2),
+                )
+            )
+    head = (
+        "",
+        "marched",
+        "wall s",
+        "wall s a second",
+        f"{OF} s would take",
+        "over tiltpad",
+        "error",
+        "same film",
+        "MB",
+    )
+    return table(head, lines) if lines else NOT_RUN
+
+
+def rate(row: Row | None) -> float | None:
+    """Wall seconds a second of rotor time."""
+    return row.wall_seconds / row.rotor_seconds if row and row.wall_seconds else None
+
+
+def error_of(row: Row, rows: list[Row]) -> float | None:
+    """Error of a row; of tiltpad's whole run that of its run as short as the peers'."""
+    if row.group != TILTPAD:
+        return row.error
+    return next(
+        (other.error for other in rows if other.group != TILTPAD and other.setting == row.setting), None
+    )
+
+
+def peers_words(rows: list[Row]) -> str:
+    """What SciPy's own Jacobian costs; what the ratios are."""
+    own = next((row for row in rows if row.group == SCIPY and row.setting == SCALED + OWN), None)
+    other = next((row for row in rows if row.setting == SCALED + DIFFERENCED), None)
+    base = next((row for row in rows if row.group == TILTPAD), None)
+    if not (rate(own) and rate(other) and rate(base)):
+        return ""
+    return (
+        f"Left to difference the Jacobian itself, SciPy takes {short(rate(other) / rate(own), 2)} times as long "
+        f"again (measured over {other.rotor_seconds:g} s): its steps are near rounding, and what the warm-started "
+        "film leaves unsolved is as large as what they change."
+    )

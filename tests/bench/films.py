@@ -1,0 +1,49 @@
+"""The film solvers against each other, and the cost of more pads."""
+
+from collections.abc import Iterator
+
+import numpy as np
+from runner import Row, Runner
+from settings import FILM_REFERENCE, FILM_SCENES, FILM_SOLVERS, MAIN, PAD_COUNTS, Scene
+
+
+def films(runner: Runner) -> Iterator[Row]:
+    """`sor` on three grids against `auto`, in the same settings."""
+    references = runner.many([(scene, "", *FILM_REFERENCE) for scene in FILM_SCENES])
+    for scene, (fine, reference) in zip(FILM_SCENES, references, strict=True):
+        if fine.note:
+            raise RuntimeError(f"no reference for {scene.label}: {fine.note}")
+        for setting in FILM_SOLVERS:
+            yield runner.judged(reference, scene, "film solver", *setting)
+        reference.unlink()
+
+
+def pads(runner: Runner) -> Iterator[Row]:
+    """The same pad several times."""
+    for count in PAD_COUNTS:
+        row, path = runner.run(ring(count), "pads", str(count))
+        path.unlink(missing_ok=True)
+        yield row
+
+
+def ring(count: int) -> Scene:
+    """So many pads evenly around the journal, two of them below it, each with its share of the load."""
+    angles = (-45, 225) if count == 2 else [-90 + (i + 0.5) * 360 / count for i in range(count)]
+    return Scene(
+        f"pads_{count}",
+        f"{count} pads",
+        MAIN[1].case,
+        (
+            f"pads%pivot_angle_deg={','.join(f'{each:g}' for each in angles)}",
+            "pads%arc_deg=20",
+            "bearing%assembled_clearance=60e-6",
+            "film%cavitation=none",
+            f"rotor%mass={50 * count}",
+            f"rotor%unbalance={5e-5 * count:g}",
+        ),
+    )
+
+
+def exponent(counts: list[int], seconds: list[float]) -> float:
+    """Exponent of the power law through times over counts."""
+    return float(np.polyfit(np.log(counts), np.log(seconds), 1)[0])

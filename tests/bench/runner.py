@@ -1,0 +1,160 @@
+"""Runs of the program: timed alone on one core, or side by side where only the result counts."""
+
+import itertools
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import tiltpad
+from settings import ROOT, Scene
+
+#: Seconds after which a run is killed.
+LIMIT = 600
+#: A run shorter than this is timed several times, and the best counts.
+SHORT, REPEATS = 2.0, 3
+#: Core of the timed runs.
+CORE = 1
+LAUNCH = Path(__file__).with_name("launch.py")
+
+
+@dataclass
+class Row:
+    """One run, as docs/benchmarks.csv has it."""
+
+    part: str
+    scene: str
+    group: str
+    setting: str
+    overrides: str = ""
+    wall_seconds: float | None = None
+    steps: int = 0
+    rhs: int = 0
+    jacobians: int = 0
+    film_evaluations: int = 0
+    film_seconds: float = 0.0
+    finite_volumes: int = 0
+    memory_mb: float | None = None
+    error_journal_y: float | None = None
+    error_journal_z: float | None = None
+    error_pad_tilt: float | None = None
+    error_friction_moment: float | None = None
+    error: float | None = None
+    reference_moved: float | None = None
+    error_same_film: float | None = None
+    reference_finite_volumes: float | None = None
+    rotor_seconds: float = 0.0
+    march_seconds: float = 0.0
+    note: str = ""
+
+    def compare(self, found: dict[str, float]) -> None:
+        """Enters the deviations from the reference."""
+        for name, value in found.items():
+            setattr(self, f"error_{name}", value)
+        self.error = max(found.values())
+
+
+@dataclass
+class Launched:
+    """What launch.py says of a command."""
+
+    seconds: float
+    memory: float
+    status: int
+    said: str
+
+
+def launch(command: Iterable, core: int = CORE, limit: int = LIMIT) -> Launched:
+    """Runs a command by launch.py."""
+    words = [sys.executable, "-I", "-S", LAUNCH, str(core), str(limit), *map(str, command)]
+    quiet = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
+    done = subprocess.run(words, text=True, capture_output=True, env=quiet)
+    if done.returncode:
+        raise RuntimeError(done.stderr)
+    seconds, memory, status = done.stdout.split()
+    return Launched(float(seconds), float(memory), int(status), done.stderr.strip())
+
+
+@dataclass
+class Runner:
+    """The program, and a folder for its results."""
+
+    program: Path
+    folder: Path
+    part: str = ""
+    #: Finest run of a scene, by its name.
+    references: dict[str, Path] = field(default_factory=dict)
+    number: Callable[[], int] = field(default_factory=lambda: itertools.count().__next__)
+
+    def run(
+        self, scene: Scene, group: str, setting: str, overrides: tuple[str, ...] = (), timed: bool = True,
+        core: int = CORE,
+    ) -> tuple[Row, Path]:  # fmt: skip
+        """One run and its result file, which the caller removes; timed: the best of several if short."""
+        path = self.folder / f"{self.number()}.h5"
+        overrides = (*scene.overrides, *overrides)
+        options = [word for each in overrides for word in ("--set", each)]
+        command = [self.program, ROOT / scene.case, "--quiet", "--output", path, *options]
+        row = Row(self.part, scene.name, group, setting, " ".join(overrides))
+        done = launch(command, core)
+        for _ in range(REPEATS - 1 if timed and done.seconds < SHORT and done.status == 0 else 0):
+            again = launch(command, core)
+            done = min(done, again, key=lambda each: each.seconds)
+        row.memory_mb = done.memory
+        if timed:
+            row.wall_seconds = done.seconds
+        if done.status != 0:
+            row.note = done.said.removeprefix("tiltpad: error: ").partition(";")[0] or f"status {done.status}"
+            path.unlink(missing_ok=True)
+        else:
+            count(row, path)
+        return row, path
+
+    def many(self, runs: list[tuple], jobs: int = os.cpu_count()) -> list[tuple[Row, Path]]:
+        """Untimed runs, each the arguments of `run`, side by side, in the order given."""
+        cores = iter(itertools.cycle(range(jobs)))
+        with ThreadPoolExecutor(jobs) as pool:
+            waiting = [pool.submit(self.run, *each, timed=False, core=next(cores)) for each in runs]
+            return [each.result() for each in waiting]
+
+    def judged(self, reference: Path, *arguments, timed: bool = True) -> Row:
+        """A run against a reference file; the result file is removed."""
+        row, path = self.run(*arguments, timed=timed)
+        if not row.note:
+            row.compare(deviations(path, reference))
+            path.unlink()
+        return row
+
+
+def count(row: Row, path: Path) -> None:
+    """Enters what a result file says of its cost."""
+    with tiltpad.read(path) as run:
+        row.rotor_seconds = run.input["operation"]["duration"] if "statistics" in run else 0.0
+        if "statistics" in run:
+            counts = run.statistics
+            row.steps, row.rhs = int(counts["steps"]), int(counts["rhs_evaluations"])
+            row.jacobians = int(counts["jacobian_evaluations"])
+            row.finite_volumes = int(counts["film_sor"])
+            row.film_evaluations = int(counts["film_modal"]) + row.finite_volumes
+            row.film_seconds = float(counts["film_seconds"])
+            row.march_seconds = float(counts["wall_seconds"] - counts["output_seconds"])
+
+
+def deviations(path: Path, reference: Path, whole: bool = False) -> dict[str, float]:
+    """Deviations of one result file from another over the last revolution, or over the whole run."""
+    with tiltpad.read(path) as run, tiltpad.read(reference) as true:
+        if "time" in true:
+            return tiltpad.deviations(run, true, slice(0, None) if whole else None)
+        return resting(run.equilibrium, true)
+
+
+def resting(found: dict, true: tiltpad.Run) -> dict[str, float]:
+    """Deviations of an equilibrium, over 5 % of the natural scales."""
+    return {
+        name: float(abs(found[name] - true.equilibrium[name]).max())
+        / (tiltpad.errors.RESTING * tiltpad.errors.natural_scale(true, name))
+        for name in ("journal_y", "journal_z", "pad_tilt")
+    }
