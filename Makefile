@@ -55,6 +55,7 @@ main    := src_f90/app/tiltpad.f90
 objects := $(patsubst %.f90,$(B)/obj/%.o,$(notdir $(filter-out $(main),$(sources)))) $(B)/obj/build_info.o
 tests   := $(sort $(wildcard tests/unit/test_*.f90 tests/physics/test_*.f90))
 test_programs := $(patsubst %.f90,$(B)/tests/%,$(notdir $(tests)))
+film_bench := tests/bench/film_bench.f90
 # what the program says of itself; rewritten only when it changes
 commit := $(shell git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)
 define build_info
@@ -74,7 +75,7 @@ $(file >$(B)/flags.new,$(COMPILE) $(LIBS))
 $(shell for f in $(B)/obj/build_info.f90:$(B)/obj/build_info.new $(B)/flags:$(B)/flags.new; do \
    cmp -s $${f#*:} $${f%:*} && rm $${f#*:} || mv $${f#*:} $${f%:*}; done)
 
-vpath %.f90 $(sort $(dir $(sources) $(tests))) tests $(B)/obj
+vpath %.f90 $(sort $(dir $(sources) $(tests) $(film_bench))) tests $(B)/obj
 
 VENV := build/venv
 venv_python := $(VENV)/bin/python
@@ -114,7 +115,7 @@ stress: build python
 	$(venv_python) tests/stress/stress.py $(B)/bin/tiltpad --scenes $(SCENES) --seed $(SEED) --report docs/stability.md
 
 # PARTS='films pads' runs these alone and takes the others from their last run
-bench: build python $(VENV)/ready-bench
+bench: build python $(VENV)/ready-bench $(B)/bench/film_bench
 	$(venv_python) tests/bench/bench.py $(B)/bin/tiltpad $(if $(PARTS),--only $(PARTS))
 
 # ---- set-up ------------------------------------------------------------------------------------
@@ -173,13 +174,17 @@ $(B)/tests/%: $(B)/obj/%.o $(B)/obj/check.o $(B)/lib/libtiltpad.a
 
 test-programs: $(test_programs)
 
+$(B)/bench/film_bench: $(B)/obj/film_bench.o $(B)/lib/libtiltpad.a
+	@mkdir -p $(@D)
+	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
+
 # module order: an object depends on the objects of the modules it uses (file = module)
 $(shell awk -v b=$(B)/obj 'FNR == 1 { n = split(FILENAME, part, "/"); sub(/\.f90$$/, "", part[n]); \
    own[part[n]] = 1; this = part[n] } \
    tolower($$1) == "use" { used = tolower($$2); sub(/,.*/, "", used); uses[this] = uses[this] " " used } \
    END { own["build_info"] = 1; for (f in uses) { split(uses[f], m, " "); line = ""; \
    for (i in m) if (m[i] in own) line = line " " b "/" m[i] ".o"; if (line != "") print b "/" f ".o:" line } }' \
-   $(sources) $(tests) tests/check.f90 > $(B)/depend.mk)
+   $(sources) $(tests) $(film_bench) tests/check.f90 > $(B)/depend.mk)
 include $(B)/depend.mk
 
 fortran_style := --line-length 120 --ignore S241,C002,C061,C071

@@ -24,8 +24,18 @@ from page import page
 from peers import peers
 from runner import Row, Runner
 from settings import ROOT
+from skips import kernels, skips
 
-PARTS = {"ladder": ladder, "diagram": diagram, "cases": cases, "films": films, "pads": pads, "peers": peers}
+PARTS = {
+    "ladder": ladder,
+    "diagram": diagram,
+    "cases": cases,
+    "kernels": kernels,
+    "films": films,
+    "skips": skips,
+    "pads": pads,
+    "peers": peers,
+}
 
 
 def arguments() -> argparse.Namespace:

@@ -31,6 +31,37 @@ def films(rows: list[Row]) -> str:
     return table(head, lines) if lines else NOT_RUN
 
 
+def kernels(rows: list[Row]) -> str:
+    """One evaluation of a film."""
+    forces = [row for row in rows if row.setting == "force"]
+    slopes = {(row.scene, row.group): row for row in rows if row.setting != "force"}
+    lines = [
+        (
+            row.scene,
+            row.group,
+            short(1e6 * row.film_seconds),
+            short(1e6 * slopes[row.scene, row.group].film_seconds),
+            small(row.error),
+        )
+        for row in forces
+    ]
+    head = "film, condition", "solver, cells along the arc", "force, us", "force and slopes, us", "error"
+    return table(head, lines) if lines else NOT_RUN
+
+
+def skips(rows: list[Row]) -> str:
+    """What is left out, and what that saves."""
+    lines = []
+    for without, kept in zip(rows[::2], rows[1::2], strict=True):
+        saved = 1 - without.wall_seconds / kept.wall_seconds
+        steps = f"{without.steps}, {kept.steps}"
+        lines.append(
+            (without.scene, short(without.wall_seconds), short(kept.wall_seconds), f"{saved:.0%}", steps)
+        )
+    head = "left out", "wall s", "wall s with it", "saved", "steps, with it"
+    return table(head, lines) if lines else NOT_RUN
+
+
 def tolerances(rows: list[Row]) -> str:
     """Scaled and scalar absolute tolerances."""
     found = [row for row in rows if row.group == SCIPY and row.rotor_seconds == TOLERANCE_SPAN]
@@ -44,10 +75,11 @@ def tolerances_words(rows: list[Row]) -> str:
     scaled, scalar = found.get(SCALED), found.get(SCALAR)
     if not (scaled and scalar and scaled.wall_seconds and scalar.wall_seconds):
         return ""
+    longer = short(scalar.wall_seconds / scaled.wall_seconds, 2)
+    larger = short(scalar.error_same_film / scaled.error_same_film, 2)
     return (
-        f"With one scalar for all states the march takes {short(scalar.wall_seconds / scaled.wall_seconds, 2)} "
-        f"times as long, and its error is {short(scalar.error_same_film / scaled.error_same_film, 2)} times as "
-        "large."
+        f"With one scalar for all states the march takes {longer} times as long, and its error is {larger} "
+        "times as large."
     )
 
 
@@ -150,8 +182,9 @@ def peers_words(rows: list[Row]) -> str:
     base = next((row for row in rows if row.group == TILTPAD), None)
     if not (rate(own) and rate(other) and rate(base)):
         return ""
+    longer = short(rate(other) / rate(own), 2)
     return (
-        f"Left to difference the Jacobian itself, SciPy takes {short(rate(other) / rate(own), 2)} times as long "
-        f"again (measured over {other.rotor_seconds:g} s): its steps are near rounding, and what the warm-started "
-        "film leaves unsolved is as large as what they change."
+        f"Left to difference the Jacobian itself, SciPy takes {longer} times as long again (measured over "
+        f"{other.rotor_seconds:g} s): its steps are near rounding, and what the warm-started film leaves "
+        "unsolved is as large as what they change."
     )

@@ -66,8 +66,8 @@ RUPTURED_DURATION = 0.3
 
 #: Tolerance of the runs whose film is varied, and the cells of those whose modes are.
 FILM_TOLERANCE, MODE_CELLS = "1e-6", 48
-CELLS = tuple((f"{n} cells", film(n) + tolerance(FILM_TOLERANCE)) for n in (12, 16, 24, 32, 48, 64))
-MODES = tuple((f"{n} modes", film(MODE_CELLS, n) + tolerance(FILM_TOLERANCE)) for n in (2, 4, 8, 16))
+CELLS = tuple((f"{n} cells", film(n) + tolerance(FILM_TOLERANCE)) for n in (12, 16, 24, 32, 48))
+MODES = tuple((f"{n} modes", film(MODE_CELLS, n) + tolerance(FILM_TOLERANCE)) for n in (2, 4, 8))
 TOLERANCES = tuple((v, tolerance(v)) for v in ("1e-3", "1e-4", "3e-5", "1e-6", "1e-7", "1e-9"))
 TOGETHER = (
     together(16, 4, "3e-5"),

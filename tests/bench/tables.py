@@ -186,8 +186,8 @@ def choice(rows: list[Row]) -> str:
         return f"{words}, and are the cheapest below {ALLOWED:g} on all of them."
     group, setting, time, error, _ = good[0]
     return (
-        f"{words}. The cheapest below {ALLOWED:g} on all of them: {described(group, setting)}, {short(time)} s, "
-        f"{small(error)}."
+        f"{words}. The cheapest below {ALLOWED:g} on all of them: {described(group, setting)}, "
+        f"{short(time)} s, {small(error)}."
     )
 
 

@@ -1,0 +1,55 @@
+"""What a scene does not need and the program leaves out: each beside the same with it."""
+
+import csv
+import subprocess
+from collections.abc import Iterator
+
+from runner import Row, Runner
+from settings import MAIN, Scene
+
+LUGRE = MAIN[1].case
+#: Interval of the samples of `LUGRE` at 360 a revolution and 6500 rpm, s.
+SAMPLE = 60 / 6500 / 360
+#: (what is left out, scene, setting without it, setting with it)
+SKIPS = (
+    ("states: the pivot's two, in a scene that is tilting-only", "input/paper/steady_to.nml",
+     (), ("pads%motion=tilting_radial",)),
+    ("states: the bristles', in a scene without friction", "input/paper/steady_tr.nml",
+     (), ("friction%model=lugre", "friction%static_coefficient=1e-6", "friction%dynamic_coefficient=1e-6")),
+    ("axial modes that the pad's shape does not need", LUGRE,
+     ("film%cavitation=none",), ("film%cavitation=none", "film%axial_modes=24")),
+    ("the other half of the film (over-relaxation, 0.02 s)", LUGRE,
+     ("film%solver=sor", "operation%duration=0.02"),
+     ("film%solver=sor", "operation%duration=0.02", "film%axial_cells=30")),
+    ("rupture where the film is whole, or in a corner only", LUGRE,
+     ("operation%duration=0.02",), ("operation%duration=0.02", "film%solver=sor")),
+    ("steps that end at samples: CVODE interpolates", LUGRE, (), (f"integration%max_step={SAMPLE:.3g}",)),
+    ("revolutions that repeat: stop_when_periodic", LUGRE,
+     ("integration%stop_when_periodic=1e-4",), ()),
+)  # fmt: skip
+
+
+def skips(runner: Runner) -> Iterator[Row]:
+    """Every pair, timed one after the other."""
+    for what, case, without, including in SKIPS:
+        scene = Scene(what, what, case)
+        for setting, overrides in (("left out", without), ("kept", including)):
+            row, path = runner.run(scene, "skips", setting, overrides)
+            path.unlink(missing_ok=True)
+            yield row
+
+
+def kernels(runner: Runner) -> Iterator[Row]:
+    """One film evaluation by every solver, by the program film_bench."""
+    program = runner.program.parent.parent / "bench/film_bench"
+    done = subprocess.run(["taskset", "-c", "1", program], text=True, capture_output=True, check=True)
+    for line in csv.DictReader(done.stdout.splitlines()):
+        yield Row(
+            runner.part,
+            f"{line['state']}, {line['condition']}",
+            line["film"],
+            "with slopes" if line["slopes"] == "yes" else "force",
+            film_seconds=1e-6 * float(line["microseconds"]),
+            film_evaluations=1,
+            error=float(line["error"]),
+        )
