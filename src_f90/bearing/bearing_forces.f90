@@ -15,7 +15,7 @@ module bearing_forces
    use components, only: new_film, new_law, new_friction, new_places
    implicit none (type, external)
    private
-   public :: bearing_forces_type, pad_loads, init_forces
+   public :: bearing_forces_type, pad_loads, init_forces, pad_outputs
 
    !> Forces on one pad at one instant.
    type :: pad_loads
@@ -50,6 +50,9 @@ module bearing_forces
       procedure :: condition
       !> Sets frame, motion, response and loads at (t, y); film slopes on request.
       procedure :: evaluate
+      !> The same, but slopes, in a state y whose outputs are known: without the film solver.
+      procedure :: recall
+      procedure, private :: place
       procedure, private :: pad_forces
       procedure, private :: film_trouble
       !> Index before the first state of a pad; index of its bristle.
@@ -60,6 +63,8 @@ module bearing_forces
    integer(i8), parameter :: timing_stride = 16
    !> Film thickness over assembled clearance below which a failed march is put down to it.
    real(wp), parameter :: nearly_closed = 1e-2_wp
+   !> Outputs of a pad: force on the journal in its frame, least film thickness, highest pressure.
+   integer, parameter :: pad_outputs = 4
 
 contains
 
@@ -79,6 +84,7 @@ contains
       if (model%radial) model%contact = new_contact_table(new_law(scene))
       model%ball_radius = scene%pivot%socket_radius - scene%pivot%radius_difference
       model%unbalance = scene%unbalance()
+      model%outputs = pad_outputs*n
       allocate (model%frame(n), model%motion(n), model%response(n), model%loads(n))
    end subroutine init_forces
 
@@ -99,21 +105,10 @@ contains
       real(wp), intent(in) :: t, y(:)
       logical, intent(in) :: want_slopes
       logical, intent(out) :: ok
-      real(wp) :: penetration, penetration_rate
       integer(i8) :: start, finish, rate
-      integer :: i, o
+      integer :: i
 
-      penetration = 0
-      penetration_rate = 0
-      do i = 1, size(self%places)
-         o = self%offset(i)
-         if (self%radial) then
-            penetration = y(o + 3)
-            penetration_rate = y(o + 4)
-         end if
-         self%frame(i) = frame_of(self%places(i), y(1:2), y(o + 1), penetration)
-         self%motion(i) = motion_of(self%places(i), self%frame(i), y(3:4), y(o + 2), penetration_rate)
-      end do
+      call self%place(y)
       if (mod(self%evaluations, timing_stride) == 0) then
          call system_clock(start, rate)
          call self%film%evaluate(self%motion, self%scene%speed(t), want_slopes, self%response)
@@ -129,6 +124,40 @@ contains
          call self%pad_forces(i, y)
       end do
    end subroutine evaluate
+
+   !> Sets frame and motion.
+   subroutine place(self, y)
+      class(bearing_forces_type), intent(inout) :: self
+      real(wp), intent(in) :: y(:)
+      real(wp) :: penetration, penetration_rate
+      integer :: i, o
+      penetration = 0
+      penetration_rate = 0
+      do i = 1, size(self%places)
+         o = self%offset(i)
+         if (self%radial) then
+            penetration = y(o + 3)
+            penetration_rate = y(o + 4)
+         end if
+         self%frame(i) = frame_of(self%places(i), y(1:2), y(o + 1), penetration)
+         self%motion(i) = motion_of(self%places(i), self%frame(i), y(3:4), y(o + 2), penetration_rate)
+      end do
+   end subroutine place
+
+   subroutine recall(self, y, output)
+      class(bearing_forces_type), intent(inout) :: self
+      real(wp), intent(in) :: y(:), output(:)
+      integer :: i
+      call self%place(y)
+      do i = 1, size(self%places)
+         associate (film => output(pad_outputs*(i - 1) + 1:pad_outputs*i))
+            self%response(i)%force = film(1:2)
+            self%response(i)%min_film = film(3)
+            self%response(i)%max_pressure = film(4)
+         end associate
+         call self%pad_forces(i, y)
+      end do
+   end subroutine recall
 
    !> Refuses a state whose film is closed, did not converge, or whose pad has turned over.
    subroutine film_trouble(self, y, ok)

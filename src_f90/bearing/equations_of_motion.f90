@@ -4,7 +4,7 @@ module equations_of_motion
    use kinds, only: wp, degree
    use scene, only: scene_type
    use contact_law, only: contact_law_type
-   use bearing_forces, only: bearing_forces_type, init_forces
+   use bearing_forces, only: bearing_forces_type, init_forces, pad_outputs
    use arrow_system, only: arrow_matrix, new_arrow_matrix
    use kinematics, only: motion_slopes, to_global
    use components, only: new_law
@@ -22,13 +22,16 @@ module equations_of_motion
       !> moment and force. Tilting-only pads have no second row.
       real(wp), allocatable :: per_mass(:, :, :)
       !> From the last linearisation, without friction: slopes of the contact force (column, pad), of the
-      !> rates of tilt rate and penetration rate (2, column, pad), and the Jacobian.
-      real(wp), allocatable, private :: contact_slopes(:, :), rate_slopes(:, :, :)
+      !> film force and of the rates of tilt rate and penetration rate (2, column, pad), and the Jacobian.
+      real(wp), allocatable, private :: contact_slopes(:, :), film_slopes(:, :, :), rate_slopes(:, :, :)
+      !> What the last `solve` found: Newton's correction of the state evaluated last.
+      real(wp), allocatable, private :: correction(:)
       type(arrow_matrix), private :: matrix
    contains
       procedure :: rhs
       procedure :: linearize
       procedure :: solve
+      procedure :: output
       !> The whole Jacobian at (t, y).
       procedure :: jacobian
       procedure, private :: add_friction
@@ -54,7 +57,8 @@ contains
       n = scene%pad_count()
       model%matrix = new_arrow_matrix(model%states_per_pad, n)
       allocate (model%per_mass(2, 2, n), model%contact_slopes(columns, n), source=0.0_wp)
-      allocate (model%rate_slopes(2, columns, n), source=0.0_wp)
+      allocate (model%film_slopes(2, columns, n), model%rate_slopes(2, columns, n), source=0.0_wp)
+      allocate (model%correction(model%n), source=0.0_wp)
       do i = 1, n
          associate (mass => scene%pads%mass(i), inertia => scene%pads%inertia(i))
             if (model%radial) then
@@ -170,6 +174,7 @@ contains
                & pads => self%scene%pads, weight => self%scene%pads%mass(i)*self%scene%rotor%gravity, &
                & rate => y(self%offset(i) + 2))
                force = matmul(film%slope, motion_slopes(self%places(i), frame, self%motion(i), rate))
+               self%film_slopes(:, :, i) = force
                radial = -force(2, :)
                radial(tilt) = radial(tilt) + weight*frame%c
                radial(tilt_rate) = radial(tilt_rate) + 2*pads%mass(i)*pads%centre_radial(i)*rate
@@ -238,7 +243,27 @@ contains
       logical, intent(out) :: ok
       call self%add_friction()
       call self%matrix%solve(gamma, b, ok)
+      self%correction = b
    end subroutine solve
+
+   !> Of every pad film force, least film thickness and highest pressure as evaluated last, the force with
+   !> what Newton's last correction of that state adds: where the pivot is without friction the tangential
+   !> force is a small difference.
+   pure function output(self)
+      class(bearing_model), intent(in) :: self
+      real(wp) :: output(self%outputs), change(columns)
+      integer :: i, m
+      m = merge(4, 2, self%radial)
+      change = 0
+      change(:4) = self%correction(:4)
+      do i = 1, size(self%response)
+         associate (film => self%response(i), o => self%offset(i))
+            change(5:4 + m) = self%correction(o + 1:o + m)
+            output(pad_outputs*(i - 1) + 1:pad_outputs*i) = &
+               & [film%force + matmul(self%film_slopes(:, :, i), change), film%min_film, film%max_pressure]
+         end associate
+      end do
+   end function output
 
    subroutine jacobian(self, t, y, matrix, ok)
       class(bearing_model), intent(inout) :: self

@@ -128,29 +128,37 @@ contains
    pure real(wp) function weighted(m, weight, x)
       integer, intent(in) :: m
       real(wp), intent(in) :: weight(m), x(m)
-      integer :: k
-      weighted = 0
-      !$omp simd reduction(+:weighted)
-      do k = 1, m
-         weighted = weighted + weight(k)*x(k)
+      real(wp) :: part(lanes)
+      integer :: k, first
+      part = 0
+      do first = 0, m - 1, lanes
+         !$omp simd
+         do k = 1, lanes
+            part(k) = part(k) + weight(first + k)*x(first + k)
+         end do
       end do
+      weighted = ((part(1) + part(5)) + (part(2) + part(6))) + ((part(3) + part(7)) + (part(4) + part(8)))
    end function weighted
 
    !> Block (m, rows) times vector.
    pure function apply(m, rows, block, x)
       integer, intent(in) :: m, rows
       real(wp), intent(in) :: block(m, rows), x(rows)
-      real(wp) :: apply(m), part(lanes)
+      !> Sums over odd and even columns, so that one need not wait for the other.
+      real(wp) :: apply(m), odd(lanes), even(lanes)
       integer :: j, k, first
       do first = 0, m - 1, lanes
-         part = 0
-         do j = 1, rows
+         odd = 0
+         even = 0
+         do j = 1, rows - 1, 2
             !$omp simd
             do k = 1, lanes
-               part(k) = part(k) + block(first + k, j)*x(j)
+               odd(k) = odd(k) + block(first + k, j)*x(j)
+               even(k) = even(k) + block(first + k, j + 1)*x(j + 1)
             end do
          end do
-         apply(first + 1:first + lanes) = part
+         if (mod(rows, 2) == 1) odd = odd + block(first + 1:first + lanes, rows)*x(rows)
+         apply(first + 1:first + lanes) = odd + even
       end do
    end function apply
 

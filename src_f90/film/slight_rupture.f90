@@ -65,7 +65,7 @@ contains
          if (.not. few) return
          held(:k) = pack([(i, i=1, n)], ruptured(:n))
          call hold(grid, basis, per_pivot, cells(held(:k)), lambda)
-         call pressure_after(grid, basis, per_pivot, cells(held(:k)), lambda, cells(:n), after)
+         call pressure_after(grid, basis, per_pivot, cells(held(:k)), lambda, cells(:n), ruptured(:n), after)
          new(:n) = after(:n) < 0
          new(held(:k)) = lambda(:k) > 0
          few = all(new(:n) .eqv. ruptured(:n))
@@ -153,14 +153,16 @@ contains
       call solve_positive(size(cells), green, lambda)
    end subroutine hold
 
-   !> p + G lambda at the candidates, with lambda at the held cells: in along their columns and out again.
-   pure subroutine pressure_after(grid, basis, per_pivot, held, lambda, cells, after)
+   !> p + G lambda at the candidates that are not held, with lambda at the held ones: in along their columns
+   !> and out again.
+   pure subroutine pressure_after(grid, basis, per_pivot, held, lambda, cells, ruptured, after)
       type(film_grid_type), intent(in) :: grid
       type(grid_modes_type), intent(in) :: basis
       real(wp), intent(in) :: per_pivot(:, :), lambda(:)
       type(candidate), intent(in) :: held(:), cells(:)
+      logical, intent(in) :: ruptured(:)
       real(wp), intent(inout) :: after(:)
-      real(wp) :: y(basis%m, most_columns), p(basis%m)
+      real(wp) :: y(basis%m, most_columns)
       integer :: i, k, last
       last = cells(size(cells))%column
       y(:, :last) = 0
@@ -171,32 +173,38 @@ contains
          if (i < last) y(:, i) = y(:, i) + grid%along(i)*y(:, i + 1)
          y(:, i) = per_pivot(:, i)*y(:, i)
       end do
-      k = 1
-      do i = 1, last
-         if (i > 1) y(:, i) = y(:, i) + grid%along(i - 1)*per_pivot(:, i)*y(:, i - 1)
-         p = apply(basis%m, grid%rows, basis%modes, y(:, i))
-         do while (cells(k)%column == i)
-            after(k) = cells(k)%pressure + p(cells(k)%row)
-            k = k + 1
-            if (k > size(cells)) return
-         end do
+      do i = 2, last
+         y(:, i) = y(:, i) + grid%along(i - 1)*per_pivot(:, i)*y(:, i - 1)
+      end do
+      do k = 1, size(cells)
+         after(k) = 0
+         if (.not. ruptured(k)) after(k) = cells(k)%pressure &
+            & + weighted(basis%m, basis%transposed(:, cells(k)%row), y(:, cells(k)%column))
       end do
    end subroutine pressure_after
 
-   !> b := a^(-1) b for the leading k x k part of a symmetric positive definite matrix, by Cholesky's factors.
+   !> b := a^(-1) b for a symmetric positive definite k x k matrix, given below its diagonal: a = L D L'.
    pure subroutine solve_positive(k, a, b)
       integer, intent(in) :: k
-      real(wp), intent(inout) :: a(:, :), b(:)
-      integer :: i, j
+      real(wp), intent(inout) :: a(k, k), b(k)
+      real(wp) :: factor
+      integer :: i, j, l
       do j = 1, k
-         a(j, j) = sqrt(a(j, j) - dot_product(a(j, :j - 1), a(j, :j - 1)))
+         a(j, j) = 1/a(j, j)
          do i = j + 1, k
-            a(i, j) = (a(i, j) - dot_product(a(i, :j - 1), a(j, :j - 1)))/a(j, j)
+            factor = a(i, j)*a(j, j)
+            !$omp simd
+            do l = i, k
+               a(l, i) = a(l, i) - factor*a(l, j)
+            end do
+            b(i) = b(i) - factor*b(j)
          end do
-         b(j) = (b(j) - dot_product(a(j, :j - 1), b(:j - 1)))/a(j, j)
       end do
       do j = k, 1, -1
-         b(j) = (b(j) - dot_product(a(j + 1:k, j), b(j + 1:k)))/a(j, j)
+         do l = j + 1, k
+            b(j) = b(j) - a(l, j)*b(l)
+         end do
+         b(j) = b(j)*a(j, j)
       end do
    end subroutine solve_positive
 end module slight_rupture

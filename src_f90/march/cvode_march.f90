@@ -8,7 +8,7 @@ module cvode_march
       & fcvodesetnonlinconvcoef, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, &
       & fcvodeseterrfile, fcvode, fcvodegetdky, fcvodefree, fcvodegetnumrhsevals, &
       & fcvodegetnumjacevals, fcvodegetnumerrtestfails, fcvodegetnumnonlinsolvconvfails, &
-      & fcvodegetcurrentstep, cv_bdf, cv_one_step, cv_err_failure, cv_conv_failure, &
+      & fcvodegetcurrentstep, fcvodegetlastorder, cv_bdf, cv_one_step, cv_err_failure, cv_conv_failure, &
       & cv_too_much_acc, cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, &
       & cv_unrec_rhsfunc_err, cv_lsetup_fail
    use fsundials_context_mod, only: fsuncontext_create, fsuncontext_free
@@ -22,6 +22,7 @@ module cvode_march
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error
    use ode_model, only: ode_model_type, march_observer
+   use step_history, only: step_history_type, new_step_history
    implicit none (type, external)
    private
    public :: march, march_options, march_statistics, sample_plan
@@ -60,7 +61,7 @@ module cvode_march
    !> Steps after which the slopes are taken anew (CVODE: 51): they are cheap, and fresh they save steps.
    integer(c_long), parameter :: slopes_age = 5
    !> Steps between two calls of the observer's report.
-   integer(i8), parameter :: steps_per_report = 256
+   integer(i8), parameter :: steps_per_report = 64
 
 contains
 
@@ -73,7 +74,8 @@ contains
    end function sample_time
 
    !> Marches y from t_start to t_end, or until the observer is satisfied. Samples are CVODE's interpolation,
-   !> so they never shorten a step. Numerics errors say why, where and when; samples taken before them stand.
+   !> and the outputs' along with it: they never shorten a step, and nothing is evaluated for them. Numerics
+   !> errors say why, where and when; samples taken before them stand.
    subroutine march(model, options, t_start, t_end, plan, y, observer, statistics, error)
       class(ode_model_type), intent(inout), target :: model
       type(march_options), intent(in) :: options
@@ -91,9 +93,11 @@ contains
       type(sunlinearsolver), pointer :: linear_solver
       type(sunlinearsolver_ops), pointer :: operations
       real(wp), target :: sample(size(y)), tolerance(size(y))
-      real(c_double) :: t(1)
-      integer(c_int) :: flag
+      type(step_history_type) :: outputs
+      real(c_double) :: t(1), sample_time
+      integer(c_int) :: flag, order(1)
       integer(i8) :: k
+      logical :: ok
 
       user%model => model
       user%n = size(y)
@@ -130,13 +134,19 @@ contains
 
       t = t_start
       k = 0
+      order = 0
+      call model%rhs(t_start, y, sample, ok)
+      if (.not. ok) call raise(error, numerics_error, failure(cv_first_rhsfunc_err, model, memory, t_start, 0_i8))
+      outputs = new_step_history(model%outputs)
+      call outputs%add(t_start, model%output())
       sample = y
       do
-         do while (k < plan%count)
-            ! the last sample may lie a rounding error past the end
+         do while (ok .and. k < plan%count)
             if (plan%time(k) > t(1) .and. t(1) < t_end) exit
-            if (statistics%steps > 0) flag = fcvodegetdky(memory, min(plan%time(k), t(1)), 0_c_int, sample_vector)
-            call observer%sample(min(plan%time(k), t(1)), sample, error)
+            ! the last sample may lie a rounding error past the end
+            sample_time = min(plan%time(k), t(1))
+            if (statistics%steps > 0) flag = fcvodegetdky(memory, sample_time, 0_c_int, sample_vector)
+            call observer%sample(sample_time, sample, outputs%at(sample_time, order(1)), error)
             if (allocated(error) .or. observer%satisfied) exit
             k = k + 1
          end do
@@ -153,6 +163,8 @@ contains
             exit
          end if
          statistics%steps = statistics%steps + 1
+         flag = fcvodegetlastorder(memory, order)
+         call outputs%add(t(1), model%output())
          if (mod(statistics%steps, steps_per_report) == 0) call observer%report(t(1), statistics%steps)
       end do
 

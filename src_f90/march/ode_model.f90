@@ -8,10 +8,14 @@ module ode_model
    type, abstract :: ode_model_type
       !> Why the last evaluation was refused; not allocated after a good one.
       character(len=:), allocatable :: trouble
+      !> How many quantities are sampled beside the states.
+      integer :: outputs = 0
    contains
       procedure(right_hand_side), deferred :: rhs
       procedure(take_slopes), deferred :: linearize
       procedure(solve_system), deferred :: solve
+      !> These quantities, from the last evaluation of the right-hand side or the slopes.
+      procedure :: output
       !> What is remarkable in the state evaluated last, for the message of a march that cannot go on.
       procedure :: condition
    end type ode_model_type
@@ -55,12 +59,12 @@ module ode_model
    end type march_observer
 
    abstract interface
-      !> The state at a sample time; setting `error` ends the march.
-      subroutine take_sample(self, t, y, error)
+      !> The state at a sample time, and the model's outputs; setting `error` ends the march.
+      subroutine take_sample(self, t, y, output, error)
          use errors, only: error_type
          import :: march_observer, wp
          class(march_observer), intent(inout) :: self
-         real(wp), intent(in) :: t, y(:)
+         real(wp), intent(in) :: t, y(:), output(:)
          type(error_type), allocatable, intent(out) :: error
       end subroutine take_sample
 
@@ -75,6 +79,12 @@ module ode_model
    end interface
 
 contains
+
+   pure function output(self)
+      class(ode_model_type), intent(in) :: self
+      real(wp) :: output(self%outputs)
+      output = 0
+   end function output
 
    function condition(self)
       class(ode_model_type), intent(in) :: self

@@ -4,11 +4,14 @@ from figures import compared
 from films import exponent
 from peers import DIFFERENCED, OWN, SCALAR, SCALED, SCIPY, TILTPAD
 from runner import Row
-from settings import TOLERANCE_SPAN
+from settings import MAIN, TOLERANCE_SPAN
+from skips import SAMPLE, TABLE
 from tables import LABELS, NOT_RUN, film_time, short, small, table
 
-#: Seconds of the scene's whole march.
-OF = 2
+#: Seconds of the scene's whole march, and its pads.
+OF, PADS = 2, 2
+#: The film whose times stand for those of a march: scene and group of its rows.
+WHOLE_FILM = "whole, none", "modal 24"
 
 
 def films(rows: list[Row]) -> str:
@@ -16,23 +19,16 @@ def films(rows: list[Row]) -> str:
     lines = []
     for row in rows:
         first = next(other for other in rows if other.scene == row.scene)
-        lines.append(
-            (
-                LABELS[row.scene],
-                row.setting,
-                short(row.wall_seconds),
-                short(1e6 * film_time(row)),
-                f"{film_time(row) / film_time(first):.0f}",
-                small(row.error),
-                f"{row.finite_volumes / row.film_evaluations:.0%}",
-            )
-        )
+        time, share = film_time(row), f"{row.finite_volumes / row.film_evaluations:.0%}"
+        times = short(row.wall_seconds), short(1e6 * time), f"{time / film_time(first):.0f}"
+        lines.append((LABELS[row.scene], row.setting, *times, small(row.error), share))
     head = "scene", "film", "wall s", "film, us a pad", "over auto", "error", "finite volumes"
     return table(head, lines) if lines else NOT_RUN
 
 
 def kernels(rows: list[Row]) -> str:
     """One evaluation of a film."""
+    rows = [row for row in rows if row.group != TABLE]
     forces = [row for row in rows if row.setting == "force"]
     slopes = {(row.scene, row.group): row for row in rows if row.setting != "force"}
     lines = [
@@ -62,6 +58,25 @@ def skips(rows: list[Row]) -> str:
     return table(head, lines) if lines else NOT_RUN
 
 
+def skips_words(runs: list[Row], kernels: list[Row]) -> str:
+    """What is left out of a right-hand side and of a sample, from the times of one film."""
+    run = next((row for row in runs if row.group == "defaults" and row.scene == MAIN[1].name), None)
+    film = {row.setting: row.film_seconds for row in kernels if (row.scene, row.group) == WHOLE_FILM}
+    contact = next((row for row in kernels if row.group == TABLE), None)
+    if not (run and film and contact):
+        return ""
+    slopes = PADS * (run.rhs - run.jacobians) * (film["with slopes"] - film["force"])
+    samples = round(run.rotor_seconds / SAMPLE)
+    evaluated = PADS * samples * film["force"]
+    return (
+        f"In {run.rotor_seconds:g} s of `{run.scene}` the slopes of the film are taken for {run.jacobians} Jacobians; "
+        f"with each of the {run.rhs} right-hand sides they would cost {short(slopes, 2)} s more. Its {samples} samples "
+        f"take the film from the ends of the steps; evaluated there it would cost {short(evaluated, 2)} s more (times "
+        "of a whole film, below *One film*). A tilting-only scene tabulates no contact, which takes "
+        f"{short(1e3 * contact.film_seconds, 2)} ms."
+    )
+
+
 def tolerances(rows: list[Row]) -> str:
     """Scaled and scalar absolute tolerances."""
     found = [row for row in rows if row.group == SCIPY and row.rotor_seconds == TOLERANCE_SPAN]
@@ -87,29 +102,11 @@ def pads(rows: list[Row]) -> str:
     """Cost over the number of pads."""
     lines = []
     for row in rows:
-        a_side = 1e6 * row.march_seconds / row.rhs if row.rhs else None
-        lines.append(
-            (
-                row.setting,
-                short(row.wall_seconds),
-                row.steps,
-                row.rhs,
-                short(a_side),
-                short(a_side / int(row.setting) if a_side else None),
-                short(row.memory_mb, 2),
-                row.note,
-            )
-        )
-    head = (
-        "pads",
-        "wall s",
-        "steps",
-        "right-hand sides",
-        "us a right-hand side",
-        "us a side and pad",
-        "MB",
-        "",
-    )
+        side = 1e6 * row.march_seconds / row.rhs if row.rhs else None
+        times = short(side), short(side / int(row.setting) if side else None)
+        counts = row.setting, short(row.wall_seconds), row.steps, row.rhs
+        lines.append((*counts, *times, f"{row.memory_mb:.0f}", row.note))
+    head = "pads", "wall s", "steps", "right-hand sides", "us a right-hand side", "us of it a pad", "MB", ""
     return table(head, lines) if lines else NOT_RUN
 
 
@@ -128,36 +125,18 @@ def peers(rows: list[Row]) -> str:
     base = rate(next((row for row in rows if row.group == TILTPAD), None))
     shown = compared(rows)
     for row in rows:
-        if row in shown or row.note or row.setting == SCALED + DIFFERENCED:
-            each = rate(row)
-            name = f"{row.group.partition(',')[0]}, {row.setting}"
-            if row.note:
-                lines.append((name, row.note, *[""] * 7))
-                continue
-            lines.append(
-                (
-                    name,
-                    f"{row.rotor_seconds:g} s",
-                    short(row.wall_seconds),
-                    short(each),
-                    short(OF * each),
-                    short(each / base),
-                    small(error_of(row, rows)),
-                    small(row.error_same_film),
-                    short(row.memory_mb, 2),
-                )
-            )
-    head = (
-        "",
-        "marched",
-        "wall s",
-        "wall s a second",
-        f"{OF} s would take",
-        "over tiltpad",
-        "error",
-        "same film",
-        "MB",
-    )
+        if not (row in shown or row.note or row.setting == SCALED + DIFFERENCED):
+            continue
+        name = f"{row.group.partition(',')[0]}, {row.setting}"
+        if row.note:
+            lines.append((name, row.note, *[""] * 7))
+            continue
+        each = rate(row)
+        times = short(row.wall_seconds), short(each), short(OF * each), short(each / base)
+        errors = small(error_of(row, rows)), small(row.error_same_film)
+        lines.append((name, f"{row.rotor_seconds:g} s", *times, *errors, f"{row.memory_mb:.0f}"))
+    all_of_it = f"{OF} s would take"
+    head = "", "marched", "wall s", "wall s a second", all_of_it, "over tiltpad", "error", "same film", "MB"
     return table(head, lines) if lines else NOT_RUN
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from runner import Row, Runner, deviations
-from settings import DIAGRAM, LADDER, MAIN, Scene
+from settings import DIAGRAM, FINE, LADDERS, MAIN, UNRUPTURED, Scene
 
 #: Groups of the ladder's rows: what the deviations are taken over.
 LAST, WHOLE = "last revolution", "whole run"
@@ -11,10 +11,11 @@ LAST, WHOLE = "last revolution", "whole run"
 
 def ladder(runner: Runner) -> Iterator[Row]:
     """Every refinement against the finest, which stays as the reference; the finest, slowest, start first."""
-    runs = [(scene, LAST, *rung) for rung in reversed(LADDER) for scene in reversed(MAIN)]
+    runs = [(scene, LAST, *rung) for scene, rungs in LADDERS.items() for rung in rungs]
+    runs.sort(key=cells, reverse=True)
     found = {(row.scene, row.setting): (row, path) for row, path in runner.many(runs)}
-    for scene in MAIN:
-        rows = [found[scene.name, label] for label, _ in LADDER]
+    for scene, rungs in LADDERS.items():
+        rows = [found[scene.name, label] for label, _ in rungs]
         finest, reference = rows[-1]
         if finest.note:
             raise RuntimeError(f"no reference for {scene.label}: {finest.note}")
@@ -31,6 +32,11 @@ def ladder(runner: Runner) -> Iterator[Row]:
         yield finest
 
 
+def cells(run: tuple) -> int:
+    """Cells of a run of the ladder."""
+    return int(run[2].split()[0])
+
+
 def varies(scene: Scene) -> bool:
     """Whether a scene runs through different speeds, so that its last revolution does not stand for all."""
     return "runup" in scene.name
@@ -44,3 +50,5 @@ def diagram(runner: Runner) -> Iterator[Row]:
         for setting in settings:
             for scene in MAIN:
                 yield runner.judged(runner.references[scene.name], scene, group, *setting)
+    for scene in UNRUPTURED:
+        yield runner.judged(runner.references[scene.name], scene, "cavitation 'none'", *FINE)

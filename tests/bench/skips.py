@@ -10,6 +10,8 @@ from settings import MAIN, Scene
 LUGRE = MAIN[1].case
 #: Interval of the samples of `LUGRE` at 360 a revolution and 6500 rpm, s.
 SAMPLE = 60 / 6500 / 360
+#: Group of the row that times the contact table.
+TABLE = "table"
 #: (what is left out, scene, setting without it, setting with it)
 SKIPS = (
     ("states: the pivot's two, in a scene that is tilting-only", "input/paper/steady_to.nml",

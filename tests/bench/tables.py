@@ -6,18 +6,20 @@ from diagram import LAST, WHOLE
 from runner import Row
 from settings import (
     ALLOWED,
+    DIAGRAM,
     FIGURES,
     FILM_RATIO,
     FILM_SCENES,
     FINE,
     FINE_ALLOWED,
-    LADDER,
+    LADDERS,
     MAIN,
     MEMORY,
     RUPTURED_DURATION,
+    UNRUPTURED,
 )
 
-LABELS = {scene.name: scene.label for scene in (*MAIN, *FILM_SCENES)}
+LABELS = {scene.name: scene.label for scene in (*MAIN, *UNRUPTURED, *FILM_SCENES)}
 SIGNALS = ("journal y", "journal z", "tilt", "friction moment")
 NOT_RUN = "Not run."
 
@@ -71,33 +73,18 @@ def figures(rows: list[Row], film_rows: list[Row]) -> str:
     found, lines = defaults(rows), []
     for scene in MAIN:
         row, limit = found[scene.name], FIGURES[scene.name]
-        seconds = f"{row.rotor_seconds:g} s of `{scene.name}` ({scene.label})"
-        lines.append(
-            (
-                seconds,
-                f"{limit:g} s",
-                f"{short(row.wall_seconds)} s",
-                verdict(row.wall_seconds, limit),
-                small(row.error),
-                verdict(row.error, ALLOWED),
-            )
-        )
+        name = f"{row.rotor_seconds:g} s of `{scene.name}` ({scene.label})"
+        wall = f"{limit:g} s", f"{short(row.wall_seconds)} s", verdict(row.wall_seconds, limit)
+        lines.append((name, *wall, small(row.error), verdict(row.error, ALLOWED)))
     memory = max(row.memory_mb for row in found.values())
     lines.append(
         ("peak memory of these", f"{MEMORY} MB", f"{memory:.0f} MB", verdict(memory, MEMORY), "", "")
     )
-    if film_rows:
-        ratio = film_ratio(film_rows, FILM_SCENES[0].name)
-        lines.append(
-            (
-                "film time of a pad, sor 60 x 15 over auto",
-                f"{FILM_RATIO}",
-                f"{ratio:.0f}",
-                verdict(ratio, FILM_RATIO, least=True),
-                "",
-                "",
-            )
-        )
+    for scene in FILM_SCENES[: 2 if film_rows else 0]:
+        ratio = film_ratio(film_rows, scene.name)
+        reached = verdict(ratio, FILM_RATIO, least=True)
+        words = f"film time of a pad, sor 60 x 15 over auto ({scene.label})"
+        lines.append((words, FILM_RATIO, f"{ratio:.0f}", reached, "", ""))
     head = "default settings", "to reach", "measured", "", "error", f"error below {ALLOWED:g}"
     return table(head, lines)
 
@@ -115,47 +102,37 @@ def film_ratio(rows: list[Row], scene: str) -> float:
 
 def fine(rows: list[Row]) -> str:
     """The setting that is to reach a hundredth of the error allowed."""
-    found = [row for row in rows if row.setting == FINE[0]]
-    lines = [
-        (
-            LABELS[row.scene],
-            short(row.wall_seconds),
-            *signals(row),
-            small(row.error),
-            verdict(row.error, FINE_ALLOWED),
-        )
-        for row in found
-    ]
-    head = "scene", "wall s", *SIGNALS, "error", f"{FINE_ALLOWED:g} or better"
+    lines = []
+    for row in rows:
+        if row.setting == FINE[0]:
+            reached = verdict(row.error, FINE_ALLOWED)
+            lines.append((LABELS[row.scene], short(row.wall_seconds), *signals(row), reached))
+    head = "scene", "wall s", *SIGNALS, f"{FINE_ALLOWED:g} or better"
     return table(head, lines) if lines else NOT_RUN
 
 
 def ladder(rows: list[Row]) -> str:
     """Deviation of every rung from the finest."""
-    lines = [
-        (
-            LABELS[row.scene],
-            row.setting,
-            row.group,
-            row.steps or "",
-            *(signals(row) if row.error else ["0"] * 4),
-        )
-        for row in rows
-    ]
+    lines = []
+    for row in rows:
+        errors = [row.note or "reference", "", "", ""] if row.error is None else signals(row)
+        lines.append((LABELS[row.scene], row.setting, row.group, row.steps or "", *errors))
     return table(("scene", "film and tolerance", "over", "steps", *SIGNALS), lines) if lines else NOT_RUN
 
 
 def ladder_words(rows: list[Row]) -> str:
     """How good the references are."""
-    last = {(row.scene, row.group): row.error for row in rows if row.setting == LADDER[-2][0]}
+    second = {scene.name: rungs[-2][0] for scene, rungs in LADDERS.items()}
+    last = [row for row in rows if row.setting == second[row.scene] and row.error is not None]
     if not last:
         return ""
-    words = ", ".join(
-        f"{LABELS[scene]} {small(error)}" for (scene, over), error in last.items() if over == LAST
-    )
-    whole = [f"{LABELS[scene]} {small(error)}" for (scene, over), error in last.items() if over == WHOLE]
-    return f"So the references are good to about the deviation of the rung before the last: {words}" + (
-        f"; over the whole run, {', '.join(whole)}." if whole else "."
+
+    def errors(over: str) -> str:
+        return ", ".join(f"{small(row.error)} ({LABELS[row.scene]})" for row in last if row.group == over)
+
+    return (
+        "So the references are good to about the deviation of the rung before the last, or better: "
+        f"{errors(LAST)}; over the whole run, {errors(WHOLE)}."
     )
 
 
@@ -163,7 +140,8 @@ def totals(rows: list[Row]) -> list[tuple[str, str, float | None, float | None, 
     """Group, setting, run time and worst error over the scenes (None: one failed), and the runs."""
     found: dict[tuple[str, str], dict[str, Row]] = {}
     for row in rows:
-        found.setdefault((row.group, row.setting), {})[row.scene] = row
+        if row.group in DIAGRAM:
+            found.setdefault((row.group, row.setting), {})[row.scene] = row
     lines = []
     for (group, setting), runs in found.items():
         whole = len(runs) == len(MAIN) and all(row.error is not None for row in runs.values())
@@ -185,10 +163,8 @@ def choice(rows: list[Row]) -> str:
     if good[0] is own:
         return f"{words}, and are the cheapest below {ALLOWED:g} on all of them."
     group, setting, time, error, _ = good[0]
-    return (
-        f"{words}. The cheapest below {ALLOWED:g} on all of them: {described(group, setting)}, "
-        f"{short(time)} s, {small(error)}."
-    )
+    cheapest = f"{described(group, setting)}, {short(time)} s, {small(error)}"
+    return f"{words}. The cheapest below {ALLOWED:g} on all of them: {cheapest}."
 
 
 def described(group: str, setting: str) -> str:
@@ -214,18 +190,9 @@ def cases(rows: list[Row]) -> str:
         mark = "\\*" if row.rotor_seconds == RUPTURED_DURATION else ""
         share = row.finite_volumes / max(1, row.film_evaluations)
         both = f"{share:.1%}, {row.reference_finite_volumes or 0:.1%}"
-        lines.append(
-            (
-                f"`{row.scene}`{mark}",
-                short(row.wall_seconds),
-                row.steps or "",
-                short(row.memory_mb, 2),
-                *signals(row),
-                bold(row.error),
-                small(row.reference_moved),
-                both,
-            )
-        )
+        cost = short(row.wall_seconds), row.steps or "", short(row.memory_mb, 2)
+        errors = *signals(row), bold(row.error), small(row.reference_moved)
+        lines.append((f"`{row.scene}`{mark}", *cost, *errors, both))
     head = "scene", "wall s", "steps", "MB", *SIGNALS, "error", "reference moves", "ruptured"
     return table(head, lines) if lines else NOT_RUN
 

@@ -13,7 +13,7 @@ import pytest
 BRIEF = "&operation duration=0.002 /\n"
 # long enough in wall time for the progress line to show
 # some seconds, by the slow film
-LONG = "&operation duration=0.1 / &film solver='sor', cavitation='none' /\n"
+LONG = "&operation duration=0.2 / &film solver='sor', cavitation='none' /\n"
 
 # a case with something unusual in every kind of value
 RICH = """! comment
@@ -284,7 +284,7 @@ def test_a_terminal_has_a_line_that_renews_itself(program, tmp_path):
     lines = re.findall(r"\r(t = [^\r\n]*)", seen)
     assert len(lines) >= 2
     for line in lines:
-        assert re.match(r"t = \S+ s of 0.1 s, [0-9]+ %, [0-9]+ steps, [0-9]+ s left", line), line
+        assert re.match(r"t = \S+ s of 0.2 s, [0-9]+ %, [0-9]+ steps, [0-9]+ s left", line), line
     percent = [int(re.search(r"([0-9]+) %", line)[1]) for line in lines]
     assert percent == sorted(percent)
     # it renews itself in place and is gone at the end

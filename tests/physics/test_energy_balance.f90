@@ -123,9 +123,9 @@ contains
       end do
    end function stored
 
-   subroutine no_sample(self, t, y, error)
+   subroutine no_sample(self, t, y, output, error)
       class(silent), intent(inout) :: self
-      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(in) :: t, y(:), output(:)
       type(error_type), allocatable, intent(out) :: error
    end subroutine no_sample
 

@@ -135,9 +135,9 @@ contains
       matrix(2, :) = -matrix(1, :) - matrix(3, :)
    end function robertson_jacobian
 
-   subroutine keep_sample(self, t, y, error)
+   subroutine keep_sample(self, t, y, output, error)
       class(keeper), intent(inout) :: self
-      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(in) :: t, y(:), output(:)
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: grown(:, :)
       integer :: n
@@ -214,7 +214,7 @@ contains
       end do
       steps = statistics%steps
       call expect(statistics%rhs_evaluations >= steps .and. statistics%jacobian_evaluations > 0, 'work is counted')
-      call expect(observer%reports == steps/256, 'a report every 256 steps')
+      call expect(observer%reports == steps/64, 'a report every 64 steps')
    end subroutine sampled_error
 
    !> A step's error is at most the tolerance times (|y| + 1) sqrt(3), with |y| <= 2 (a weighted root mean
