@@ -18,7 +18,7 @@ module components
 
    !> Finite volumes along the arc and along half the width where the input leaves them to the solver: what
    !> rupture adds to the modes' force wants the finer grid (docs/benchmarks.md).
-   integer, parameter :: sor_volumes(2) = [60, 15], rupture_volumes(2) = [80, 24]
+   integer, parameter :: sor_volumes(2) = [60, 15], rupture_volumes(2) = [80, 8]
 
 contains
 

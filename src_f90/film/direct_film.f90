@@ -33,6 +33,7 @@ module direct_film
       integer :: first, last
       !> Reciprocal pivots outside them (mode, column); inverse blocks inside (row, row, column).
       real(wp), allocatable :: per_pivot(:, :), block(:, :, :)
+      !> Scaled (grid_modes), by rows in blocks and by modes outside.
       real(wp), allocatable :: pressure(:, :), adjoint(:, :)
    contains
       procedure :: evaluate
@@ -48,7 +49,7 @@ contains
       type(direct_film_type) :: self
       integer :: n
       self%grid = new_film_grid(film, columns, rows)
-      self%basis = new_grid_modes(rows, self%grid%edge)
+      self%basis = new_grid_modes(self%grid)
       n = self%basis%m
       allocate (self%film(n, columns), self%pressure(n, columns), self%adjoint(n, columns), source=0.0_wp)
       self%film(:rows, :) = 1
@@ -86,8 +87,7 @@ contains
          call sum_up(self, response)
          if (want_slopes) then
             call to_rows(self, self%pressure)
-            weight(:, 1) = grid%cell_weight()*grid%sin_cell
-            weight(:, 2) = grid%cell_weight()*grid%cos_cell
+            weight = grid%weight()
             do m = 1, 2
                call solve(self, weight(:, m), 0*weight(:, m), self%adjoint)
                call to_rows(self, self%adjoint)
@@ -121,13 +121,14 @@ contains
       associate (grid => self%grid, p => self%pressure)
          do i = 1, grid%columns
             if (i >= self%first .and. i <= self%last) then
-               sums(i) = sum(p(:, i))
+               sums(i) = weighted(m, self%basis%root, p(:, i))
                middle(i) = p(1, i)
             else
                sums(i) = weighted(m, self%basis%uniform, p(:, i))
                middle(i) = weighted(m, self%basis%transposed(:, 1), p(:, i))
             end if
          end do
+         middle = middle/self%basis%root(1)
          response%force = grid%force(sums)
          response%min_pressure = grid%film%cavitation_pressure + min(minval(middle), grid%ambient, grid%supply)
          response%max_pressure = grid%film%cavitation_pressure + max(maxval(middle), grid%ambient, grid%supply)
@@ -140,12 +141,13 @@ contains
    pure subroutine update_film(self, changed)
       type(direct_film_type), intent(inout) :: self
       logical, intent(out) :: changed
-      !> Pressure by rows, with a rim.
+      !> Pressure by rows, scaled, with a rim.
       real(wp) :: p(0:self%basis%m + 1, 0:self%grid%columns + 1)
       real(wp) :: floor, inflow, limit, new, changes
       integer :: i, k, m
       m = self%basis%m
-      associate (grid => self%grid, rows => self%grid%rows, first => self%first, last => self%last)
+      associate (grid => self%grid, rows => self%grid%rows, first => self%first, last => self%last, &
+         & across => self%basis%off_diagonal, root => self%basis%root)
          floor = 0
          p(:, 0) = 0
          p(:, grid%columns + 1) = 0
@@ -157,19 +159,19 @@ contains
             else
                p(1:m, i) = 0
             end if
-            ! the middle plane is symmetric, the side is a boundary
-            p(0, i) = p(1, i)
+            p(0, i) = 0
             p(rows + 1, i) = 0
             floor = max(floor, p(1, i))
          end do
          floor = -rounding*floor
          changes = 0
          do i = 1, grid%columns
-            limit = -floor*(grid%along(i - 1) + grid%along(i) + 2*grid%beside(i)) + grid%source(i)
+            limit = -floor*(grid%along(i - 1) + grid%along(i) + 2*grid%beside(i))
             !$omp simd private(inflow, new) reduction(+:changes)
             do k = 1, rows
                inflow = grid%along(i - 1)*p(k, i - 1) + grid%along(i)*p(k, i + 1) &
-                  & + grid%beside(i)*(p(k - 1, i) + p(k + 1, i)) - merge(grid%edge_source(i), 0.0_wp, k == rows)
+                  & - grid%beside(i)*(across(k - 1)*p(k - 1, i) + across(k)*p(k + 1, i)) &
+                  & - root(k)*(grid%source(i) + merge(grid%edge_source(i), 0.0_wp, k == rows))
                new = merge(1.0_wp, 0.0_wp, merge(p(k, i) >= floor, inflow > limit, self%film(k, i) > 0))
                changes = changes + abs(new - self%film(k, i))
                self%film(k, i) = new
@@ -179,13 +181,14 @@ contains
       end associate
    end subroutine update_film
 
-   !> Turns the columns outside first to last from modes to rows.
+   !> Turns the columns outside first to last from modes to rows, and all to what is not scaled.
    pure subroutine to_rows(self, x)
       type(direct_film_type), intent(in) :: self
       real(wp), intent(inout), contiguous :: x(:, :)
       integer :: i
       do i = 1, self%grid%columns
          if (i < self%first .or. i > self%last) x(:, i) = apply(size(x, 1), self%grid%rows, self%basis%modes, x(:, i))
+         x(:self%grid%rows, i) = x(:self%grid%rows, i)/self%basis%root(:self%grid%rows)
       end do
    end subroutine to_rows
 
@@ -195,7 +198,6 @@ contains
       type(direct_film_type), intent(inout) :: self
       logical, intent(in) :: ruptures
       logical :: touched(self%grid%columns)
-      real(wp) :: diagonal
       integer :: i, j, m
       m = self%basis%m
       associate (grid => self%grid, c => self%grid%along, n => self%grid%columns, rows => self%grid%rows)
@@ -226,15 +228,12 @@ contains
                   block = 0
                end if
                if (i == self%last .and. i < n) block = block + modal_block(self, -c(i)**2*self%per_pivot(:, i + 1))
-               diagonal = c(i - 1) + c(i) + 2*grid%beside(i)
                do j = 1, rows
-                  block(j, j) = block(j, j) + diagonal
+                  block(j, j) = block(j, j) + c(i - 1) + c(i) + grid%beside(i)*self%basis%diagonal(j)
                end do
-               block(1, 1) = block(1, 1) - grid%beside(i)
-               block(rows, rows) = block(rows, rows) + (grid%edge - 1)*grid%beside(i)
                do j = 1, rows - 1
-                  block(j, j + 1) = block(j, j + 1) - grid%beside(i)
-                  block(j + 1, j) = block(j + 1, j) - grid%beside(i)
+                  block(j, j + 1) = block(j, j + 1) + grid%beside(i)*self%basis%off_diagonal(j)
+                  block(j + 1, j) = block(j + 1, j) + grid%beside(i)*self%basis%off_diagonal(j)
                end do
                call invert(m, rows, self%film(:, i), block)
             end associate
@@ -253,8 +252,8 @@ contains
       end do
    end function modal_block
 
-   !> The solution, by rows from the first to the last column that rupture touches, by modes outside, for a
-   !> load per column in every row of the film, and one more in its edge row.
+   !> The scaled solution, by rows from the first to the last column that rupture touches, by modes outside, for
+   !> a load per column in every row of the film, and one more in its edge row.
    pure subroutine solve(self, load, edge_load, x)
       type(direct_film_type), intent(in) :: self
       real(wp), intent(in) :: load(:), edge_load(:)
@@ -269,8 +268,8 @@ contains
          call solve_chain(m, n, n, last + 1, c, self%per_pivot, load, self%basis%uniform, edge_load, &
             & self%basis%at_edge, x)
          do i = first, last
-            next = load(i)
-            next(rows) = next(rows) + edge_load(i)
+            next = load(i)*self%basis%root
+            next(rows) = next(rows) + edge_load(i)*self%basis%root(rows)
             if (i > first) then
                next = next + c(i - 1)*x(:, i - 1)
             else if (i > 1) then

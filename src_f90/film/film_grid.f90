@@ -5,7 +5,9 @@
 !>    d/dphi(h^3 dp/dphi) + R^2 h^3 d2p/dZ2 = R^2 (-6 mu omega R_J/R dh/dphi + 12 mu dh/dt).
 !>
 !> Columns of cells lie along the arc from the trailing to the leading edge, rows from the middle plane to
-!> the side. Pressures are those above the cavitation pressure. Fields are (row, column).
+!> the side, ever lower, as the film ruptures first and pressure bends most beside the edges. The equation of a
+!> cell is that of the mean pressure in it, divided by its height. Pressures are those above the cavitation
+!> pressure. Fields are (row, column).
 module film_grid
    use kinds, only: wp
    use film_solver, only: film_motion
@@ -14,29 +16,34 @@ module film_grid
    private
    public :: film_grid_type, new_film_grid
 
+   !> How much the rows' heights change, linearly: from 1 and this to 1 less this, over their mean. With uniform
+   !> rows it takes three times as many to come as close (docs/benchmarks.md has the errors of this grid).
+   real(wp), parameter :: grading = 0.85_wp
+
    type :: film_grid_type
       type(pad_film_type) :: film
       type(pad_directions) :: directions
       integer :: columns, rows
-      !> Angular and axial size of a cell, rad and m.
+      !> Angular and mean axial size of a cell, rad and m; heights of the rows over their mean.
       real(wp) :: d_phi, d_z
-      !> Conductance from an edge row to the pad's side over that between rows: 2 for half a cell, more
-      !> because the profile bends; so chosen that the parabola of a narrow pad comes out exactly.
-      real(wp) :: edge
+      real(wp), allocatable :: height(:)
+      !> Conductances of a row towards the middle plane and towards the side, over those of uniform rows and its
+      !> height: so chosen that the parabola of a narrow pad comes out exactly.
+      real(wp), allocatable :: inward(:), outward(:)
       !> Pressure at the leading edge and at the other edges, Pa.
       real(wp) :: supply, ambient
       !> Sine and cosine at the cell centres and at the cell faces (0:columns).
       real(wp), allocatable :: sin_cell(:), cos_cell(:), sin_face(:), cos_face(:)
       !> Film thickness at the same places, m.
       real(wp), allocatable :: h_cell(:), h_face(:)
-      !> Conductances through the faces along the arc (0:columns), and between the rows of a column.
+      !> Conductances through the faces along the arc (0:columns), and between uniform rows of a column.
       real(wp), allocatable :: along(:), beside(:)
       !> Right-hand side of a column: in every row, and what the side adds in the edge row.
       real(wp), allocatable :: source(:), edge_source(:)
    contains
       procedure :: set_motion
       procedure :: force
-      procedure :: cell_weight
+      procedure :: weight
       procedure :: slopes
    end type film_grid_type
 
@@ -47,6 +54,8 @@ contains
       type(pad_film_type), intent(in) :: film
       integer, intent(in) :: columns, rows
       type(film_grid_type) :: grid
+      !> Faces between the rows over their mean height; mean of the square from the middle plane in a row.
+      real(wp) :: face(0:rows), square(rows), conductance(0:rows)
       integer :: i
       grid%film = film
       grid%directions = film%directions()
@@ -54,7 +63,14 @@ contains
       grid%rows = rows
       grid%d_phi = film%arc()/columns
       grid%d_z = film%axial_length/(2*rows)
-      grid%edge = 2/(1 - 1/(3.0_wp*rows))
+      face = [(i*(1 + grading - grading*i/rows), i=0, rows)]
+      grid%height = face(1:) - face(:rows - 1)
+      square = (face(:rows - 1)**2 + face(:rows - 1)*face(1:) + face(1:)**2)/3
+      conductance(0) = 0
+      conductance(1:rows - 1) = 2*face(1:rows - 1)/(square(2:) - square(:rows - 1))
+      conductance(rows) = 2*face(rows)/(face(rows)**2 - square(rows))
+      grid%inward = conductance(:rows - 1)/grid%height
+      grid%outward = conductance(1:)/grid%height
       grid%supply = film%supply_pressure - film%cavitation_pressure
       grid%ambient = film%ambient_pressure - film%cavitation_pressure
       grid%sin_cell = [(sin((i - 0.5_wp)*grid%d_phi - film%trailing_angle), i=1, columns)]
@@ -82,7 +98,7 @@ contains
             & - squeeze(self)*(motion%velocity(1)*self%sin_cell + motion%velocity(2)*self%cos_cell)
          self%source(1) = self%source(1) - self%along(0)*self%ambient
          self%source(n) = self%source(n) - self%along(n)*self%supply
-         self%edge_source(:) = -self%edge*self%beside*self%ambient
+         self%edge_source(:) = -self%outward(self%rows)*self%beside*self%ambient
       end associate
    end subroutine set_motion
 
@@ -99,19 +115,24 @@ contains
       squeeze = 12*self%film%viscosity*self%film%pad_radius()**2
    end function squeeze
 
-   !> Area of two mirrored cells, m^2: what a cell's pressure counts in the force.
-   pure real(wp) function cell_weight(self)
+   !> What a row of mean height counts in the two forces, (column, force), m^2: area of two mirrored cells, in
+   !> that direction.
+   pure function weight(self)
       class(film_grid_type), intent(in) :: self
-      cell_weight = 2*self%film%pad_radius()*self%d_phi*self%d_z
-   end function cell_weight
+      real(wp) :: weight(self%columns, 2)
+      associate (area => 2*self%film%pad_radius()*self%d_phi*self%d_z)
+         weight(:, 1) = area*self%sin_cell
+         weight(:, 2) = area*self%cos_cell
+      end associate
+   end function weight
 
-   !> Force on the journal in the pad frame, N, of the pressure summed over the rows of each column.
+   !> Force on the journal in the pad frame, N, of the pressure times height summed over the rows of each column.
    pure function force(self, column_sums)
       class(film_grid_type), intent(in) :: self
       real(wp), intent(in) :: column_sums(:)
       real(wp) :: force(2)
       associate (sums => column_sums + self%film%cavitation_pressure*self%rows)
-         force = -self%cell_weight()*[dot_product(self%sin_cell, sums), dot_product(self%cos_cell, sums)]
+         force = -matmul(sums, self%weight())
       end associate
    end function force
 
@@ -126,17 +147,19 @@ contains
       real(wp) :: slopes(4)
       real(wp), dimension(0:self%columns) :: over_face
       real(wp), dimension(self%columns) :: over_side, total
+      real(wp) :: between(self%rows)
       real(wp) :: radius_over_d_z
       integer :: i
       radius_over_d_z = self%film%pad_radius()/self%d_z
-      associate (n => self%columns, rows => self%rows)
-         over_face(0) = 2*sum((p(:rows, 1) - self%ambient)*a(:rows, 1))
-         over_face(n) = 2*sum((p(:rows, n) - self%supply)*a(:rows, n))
+      associate (n => self%columns, rows => self%rows, height => self%height)
+         between = self%outward*height
+         over_face(0) = 2*sum(height*(p(:rows, 1) - self%ambient)*a(:rows, 1))
+         over_face(n) = 2*sum(height*(p(:rows, n) - self%supply)*a(:rows, n))
          do i = 1, n
-            if (i < n) over_face(i) = sum((p(:rows, i + 1) - p(:rows, i))*(a(:rows, i + 1) - a(:rows, i)))
-            over_side(i) = sum((p(2:rows, i) - p(:rows - 1, i))*(a(2:rows, i) - a(:rows - 1, i))) &
-               & + self%edge*(p(rows, i) - self%ambient)*a(rows, i)
-            total(i) = sum(a(:rows, i))
+            if (i < n) over_face(i) = sum(height*(p(:rows, i + 1) - p(:rows, i))*(a(:rows, i + 1) - a(:rows, i)))
+            over_side(i) = sum(between(:rows - 1)*(p(2:rows, i) - p(:rows - 1, i))*(a(2:rows, i) - a(:rows - 1, i))) &
+               & + between(rows)*(p(rows, i) - self%ambient)*a(rows, i)
+            total(i) = sum(height*a(:rows, i))
          end do
          over_face = over_face*3*self%h_face**2/self%d_phi**2
          over_side = over_side*3*(self%h_cell*radius_over_d_z)**2

@@ -1,8 +1,10 @@
 !> Axial eigenvectors ("modes") of the finite volumes of film_grid: where a column of cells is whole, the axial
-!> part of its equations is the same matrix for every column, up to a factor.
+!> part of its equations is the same matrix for every column, up to a factor. It is symmetric for pressures times
+!> the root of the rows' heights ("scaled").
 module grid_modes
    use kinds, only: wp
    use column_sweeps, only: padded
+   use film_grid, only: film_grid_type
    implicit none (type, external)
    private
    public :: grid_modes_type, new_grid_modes
@@ -12,7 +14,11 @@ module grid_modes
       integer :: m
       !> (row, mode) and (mode, row), and the eigenvalues.
       real(wp), allocatable :: modes(:, :), transposed(:, :), eigenvalue(:)
-      !> A load of 1 in every row and one of 1 in the edge row, by mode.
+      !> The matrix in rows: its diagonal, and what stands beside it, with zeros at both ends (0:m).
+      real(wp), allocatable :: diagonal(:), off_diagonal(:)
+      !> Root of the rows' heights over their mean.
+      real(wp), allocatable :: root(:)
+      !> A load of 1 in every row and one of 1 in the edge row, scaled, by mode.
       real(wp), allocatable :: uniform(:), at_edge(:)
    end type grid_modes_type
 
@@ -30,25 +36,29 @@ module grid_modes
 
 contains
 
-   !> For so many rows, with the conductance of the edge row to the side over that between rows.
-   function new_grid_modes(rows, edge) result(self)
-      integer, intent(in) :: rows
-      real(wp), intent(in) :: edge
+   !> For the rows of a grid.
+   function new_grid_modes(grid) result(self)
+      type(film_grid_type), intent(in) :: grid
       type(grid_modes_type) :: self
-      real(wp) :: diagonal(rows), beside(rows), vectors(rows, rows), work(2*rows)
-      integer :: info
-      diagonal = 2
-      diagonal(1) = 1
-      diagonal(rows) = 1 + edge
-      beside = -1
-      call dstev('V', rows, diagonal, beside, vectors, rows, work, info)
+      real(wp), dimension(grid%rows) :: diagonal, beside
+      real(wp) :: vectors(grid%rows, grid%rows), work(2*grid%rows)
+      integer :: info, rows
+      rows = grid%rows
+      diagonal = grid%inward + grid%outward
+      beside(:rows - 1) = -sqrt(grid%outward(:rows - 1)*grid%inward(2:))
+      beside(rows) = 0
       self%m = padded(rows)
+      allocate (self%diagonal(self%m), self%off_diagonal(0:self%m), self%root(self%m), source=0.0_wp)
+      self%diagonal(:rows) = diagonal
+      self%off_diagonal(1:rows) = beside
+      self%root(:rows) = sqrt(grid%height)
+      call dstev('V', rows, diagonal, beside, vectors, rows, work, info)
       allocate (self%modes(self%m, rows), self%transposed(self%m, rows), source=0.0_wp)
       allocate (self%eigenvalue(self%m), self%uniform(self%m), self%at_edge(self%m), source=0.0_wp)
       self%modes(:rows, :) = vectors
       self%transposed(:rows, :) = transpose(vectors)
       self%eigenvalue(:rows) = diagonal
-      self%uniform(:rows) = sum(vectors, dim=1)
-      self%at_edge(:rows) = vectors(rows, :)
+      self%uniform(:rows) = matmul(self%root(:rows), vectors)
+      self%at_edge(:rows) = self%root(rows)*vectors(rows, :)
    end function new_grid_modes
 end module grid_modes

@@ -23,7 +23,7 @@ module slight_rupture
    !> A cell that may rupture.
    type :: candidate
       integer :: row, column
-      !> Pressure of the whole film, Pa; G w for both forces.
+      !> Pressure of the whole film, Pa, scaled (grid_modes); G w for both forces.
       real(wp) :: pressure, influence(2)
    end type candidate
 
@@ -49,8 +49,7 @@ contains
       integer :: n, k, i, round
       force = 0
       load(1, :) = -grid%source
-      load(2, :) = -grid%cell_weight()*grid%sin_cell
-      load(3, :) = -grid%cell_weight()*grid%cos_cell
+      load(2:, :) = -transpose(grid%weight())
       call green_chain(basis%m, grid%columns, size(x, 3), grid%along, grid%beside, basis%eigenvalue, basis%uniform, &
          & basis%at_edge, load, -grid%edge_source, per_pivot, x)
       call find_cells(grid, basis, per_pivot, x, cells, n, few)

@@ -40,7 +40,7 @@ module sor_film
       real(wp) :: relaxation
       !> Conductances to the neighbours at lower and higher phi and on either side (pair, parity).
       real(wp), allocatable :: before(:, :), after(:, :), beside(:, :)
-      !> Reciprocal of the diagonal (pair, 1 middle row | 2 inner | 3 edge row, parity).
+      !> Reciprocal of the diagonal (pair, row, parity).
       real(wp), allocatable :: per_diagonal(:, :, :)
       !> 1 on the pad's cells, 0 on the rim and the idle ones.
       real(wp), allocatable :: cells(:, :, :)
@@ -86,7 +86,7 @@ contains
          if (.not. pad%relaxation > 0) pad%relaxation = best_relaxation(pad%grid)
          nk = vector_length*((nx/2 + vector_length - 1)/vector_length)
          allocate (pad%before(nk, 2), pad%after(nk, 2), pad%beside(nk, 2), source=0.0_wp)
-         allocate (pad%per_diagonal(nk, 3, 2), source=0.0_wp)
+         allocate (pad%per_diagonal(nk, nz, 2), source=0.0_wp)
          allocate (pad%cells(0:nk + 1, 0:nz + 1, 2), source=0.0_wp)
          allocate (pad%source, pad%pressure, source=pad%cells)
          allocate (pad%adjoint(0:nk + 1, 0:nz + 1, 2, 2), source=0.0_wp)
@@ -167,9 +167,9 @@ contains
          pad%after(:nk, :) = apart(grid%along(1:n))
          pad%beside(:nk, :) = apart(grid%beside)
          associate (around => pad%before(:nk, :) + pad%after(:nk, :), beside => pad%beside(:nk, :))
-            pad%per_diagonal(:nk, 1, :) = 1/(around + beside)
-            pad%per_diagonal(:nk, 2, :) = 1/(around + 2*beside)
-            pad%per_diagonal(:nk, 3, :) = 1/(around + (1 + grid%edge)*beside)
+            do j = 1, nz
+               pad%per_diagonal(:nk, j, :) = 1/(around + (grid%inward(j) + grid%outward(j))*beside)
+            end do
          end associate
          source = apart(grid%source)
          do j = 1, nz
@@ -194,9 +194,9 @@ contains
       nz = ubound(field, 2) - 1
       do sweeps = sweeps_per_look, self%options%max_sweeps + sweeps_per_look - 1, sweeps_per_look
          call relax(nk, nz, sweeps_per_look, pad%relaxation, floor, pad%before, pad%after, pad%beside, &
-            & pad%per_diagonal, source, whole, field)
-         residual = relative_residual(nk, nz, floor, pad%before, pad%after, pad%beside, pad%per_diagonal, &
-            & source, whole, field)
+            & pad%grid%inward, pad%grid%outward, pad%per_diagonal, source, whole, field)
+         residual = relative_residual(nk, nz, floor, pad%before, pad%after, pad%beside, pad%grid%inward, &
+            & pad%grid%outward, pad%per_diagonal, source, whole, field)
          self%counters%sweeps = self%counters%sweeps + sweeps_per_look
          ok = residual <= self%options%tolerance
          if (ok) return
@@ -211,6 +211,7 @@ contains
       type(film_response), intent(inout) :: response
       logical, intent(out) :: ok
       real(wp) :: weight(pad%grid%columns/2, 2), p(pad%grid%rows, pad%grid%columns), residual
+      real(wp) :: weights(pad%grid%columns, 2)
       real(wp), dimension(0:ubound(pad%cells, 1), 0:ubound(pad%cells, 2), 2) :: positive, region
       integer :: m, j
       positive = pad%cells
@@ -227,9 +228,9 @@ contains
       if (self%options%cavitation == cavitation_reynolds) region = positive
       associate (grid => pad%grid, nk => pad%grid%columns/2, nz => pad%grid%rows)
          p = natural(pad%pressure(1:nk, 1:nz, :))
+         weights = grid%weight()
          do m = 1, 2
-            if (m == 1) weight = -grid%cell_weight()*apart(grid%sin_cell)
-            if (m == 2) weight = -grid%cell_weight()*apart(grid%cos_cell)
+            weight = -apart(weights(:, m))
             do j = 1, nz
                pad%source(1:nk, j, :) = weight*positive(1:nk, j, :)
             end do
@@ -241,7 +242,7 @@ contains
       end associate
    end subroutine add_slopes
 
-   !> Sum over the rows of the pressure, not below the floor, by column, Pa.
+   !> Sum over the rows of the pressure, not below the floor, times height, by column, Pa.
    pure function column_sums(pad, floor) result(sums)
       type(sor_pad), intent(in) :: pad
       real(wp), intent(in) :: floor
@@ -250,7 +251,7 @@ contains
       do parity = 1, 2
          pair = 0
          do j = 1, pad%grid%rows
-            pair = pair + max(pad%pressure(1:size(pair), j, parity), floor)
+            pair = pair + pad%grid%height(j)*max(pad%pressure(1:size(pair), j, parity), floor)
          end do
          sums(parity::2) = pair
       end do

@@ -11,29 +11,29 @@ module sor_sweeps
 contains
 
    !> Red-black sweeps of projected over-relaxation (floor = -huge: plain).
-   pure subroutine relax(nk, nz, sweeps, relaxation, floor, before, after, beside, per_diagonal, source, &
-      & whole, p)
+   pure subroutine relax(nk, nz, sweeps, relaxation, floor, before, after, beside, inward, outward, per_diagonal, &
+      & source, whole, p)
       !> Pairs and rows; number of sweeps.
       integer, intent(in) :: nk, nz, sweeps
       real(wp), intent(in) :: relaxation, floor
-      !> Conductances and reciprocal diagonal by row class (middle, inner, edge).
-      real(wp), intent(in) :: before(nk, 2), after(nk, 2), beside(nk, 2), per_diagonal(nk, 3, 2)
+      !> Conductances along and across the arc, their factors by row; reciprocal diagonal.
+      real(wp), intent(in) :: before(nk, 2), after(nk, 2), beside(nk, 2), inward(nz), outward(nz)
+      real(wp), intent(in) :: per_diagonal(nk, nz, 2)
       real(wp), intent(in) :: source(0:nk + 1, 0:nz + 1, 2), whole(0:nk + 1, 0:nz + 1, 2)
       real(wp), intent(inout) :: p(0:nk + 1, 0:nz + 1, 2)
       real(wp) :: balance
-      integer :: sweep, colour, j, k, same, other, o, row
+      integer :: sweep, colour, j, k, same, other, o
       do sweep = 1, sweeps
          do colour = 0, 1
             do j = 1, nz
                same = 1 + mod(j + colour, 2)
                other = 3 - same
                o = same - 1
-               row = row_class(j, nz)
                !$omp simd
                do k = 1, nk
                   balance = (before(k, same)*p(k - 1 + o, j, other) + after(k, same)*p(k + o, j, other) &
-                     & + beside(k, same)*(p(k, j - 1, same) + p(k, j + 1, same)) &
-                     & - source(k, j, same))*per_diagonal(k, row, same)
+                     & + beside(k, same)*(inward(j)*p(k, j - 1, same) + outward(j)*p(k, j + 1, same)) &
+                     & - source(k, j, same))*per_diagonal(k, j, same)
                   p(k, j, same) = max(floor, p(k, j, same) &
                      & + relaxation*whole(k, j, same)*(balance - p(k, j, same)))
                end do
@@ -44,41 +44,32 @@ contains
 
    !> Root sum of squares over the cells of what one Jacobi step (projected) would change, over that of
    !> the source over the diagonal. Ruptured cells count only where the film wants to form again.
-   pure function relative_residual(nk, nz, floor, before, after, beside, per_diagonal, source, whole, p) &
-      & result(residual)
+   pure function relative_residual(nk, nz, floor, before, after, beside, inward, outward, per_diagonal, source, &
+      & whole, p) result(residual)
       integer, intent(in) :: nk, nz
       real(wp), intent(in) :: floor
-      real(wp), intent(in) :: before(nk, 2), after(nk, 2), beside(nk, 2), per_diagonal(nk, 3, 2)
+      real(wp), intent(in) :: before(nk, 2), after(nk, 2), beside(nk, 2), inward(nz), outward(nz)
+      real(wp), intent(in) :: per_diagonal(nk, nz, 2)
       real(wp), intent(in) :: source(0:nk + 1, 0:nz + 1, 2), whole(0:nk + 1, 0:nz + 1, 2)
       real(wp), intent(in) :: p(0:nk + 1, 0:nz + 1, 2)
       real(wp) :: residual, balance, change, scale
-      integer :: j, k, same, other, o, row
+      integer :: j, k, same, other, o
       change = 0
       scale = 0
       do same = 1, 2
          other = 3 - same
          o = same - 1
          do j = 1, nz
-            row = row_class(j, nz)
             !$omp simd reduction(+:change, scale)
             do k = 1, nk
                balance = (before(k, same)*p(k - 1 + o, j, other) + after(k, same)*p(k + o, j, other) &
-                  & + beside(k, same)*(p(k, j - 1, same) + p(k, j + 1, same)) &
-                  & - source(k, j, same))*per_diagonal(k, row, same)
+                  & + beside(k, same)*(inward(j)*p(k, j - 1, same) + outward(j)*p(k, j + 1, same)) &
+                  & - source(k, j, same))*per_diagonal(k, j, same)
                change = change + (whole(k, j, same)*(max(floor, balance) - p(k, j, same)))**2
-               scale = scale + (source(k, j, same)*per_diagonal(k, row, same))**2
+               scale = scale + (source(k, j, same)*per_diagonal(k, j, same))**2
             end do
          end do
       end do
       residual = sqrt(change/max(scale, tiny(scale)))
    end function relative_residual
-
-   !> 1 next to the middle plane, 3 next to the pad's side, 2 between. With a single row the middle
-   !> and the side meet, which is why the grid has at least two.
-   pure integer function row_class(j, nz)
-      integer, intent(in) :: j, nz
-      row_class = 2
-      if (j == 1) row_class = 1
-      if (j == nz) row_class = 3
-   end function row_class
 end module sor_sweeps

@@ -69,11 +69,11 @@ def skips_words(runs: list[Row], kernels: list[Row]) -> str:
     samples = round(run.rotor_seconds / SAMPLE)
     evaluated = PADS * samples * film["force"]
     return (
-        f"In {run.rotor_seconds:g} s of `{run.scene}` the slopes of the film are taken for {run.jacobians} Jacobians; "
-        f"with each of the {run.rhs} right-hand sides they would cost {short(slopes, 2)} s more. Its {samples} samples "
-        f"take the film from the ends of the steps; evaluated there it would cost {short(evaluated, 2)} s more (times "
-        "of a whole film, below *One film*). A tilting-only scene tabulates no contact, which takes "
-        f"{short(1e3 * contact.film_seconds, 2)} ms."
+        f"In {run.rotor_seconds:g} s of `{run.scene}` the slopes of the film are taken for {run.jacobians} "
+        f"Jacobians; with each of the {run.rhs} right-hand sides they would cost {short(slopes, 2)} s more. "
+        f"Its {samples} samples take the film from the ends of the steps; evaluated there it would cost "
+        f"{short(evaluated, 2)} s more (times of a whole film, below *One film*). A tilting-only scene "
+        f"tabulates no contact, which takes {short(1e3 * contact.film_seconds, 2)} ms."
     )
 
 

@@ -4,6 +4,7 @@ program test_cavitation
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_ok
    use pad_film, only: pad_film_type
+   use film_grid, only: film_grid_type, new_film_grid
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel, &
       & cavitation_reynolds
    use check, only: expect, expect_close, report
@@ -49,13 +50,16 @@ contains
    end function opening_motion
 
    !> Volume balance of every cell in natural order, Pa: what the neighbours and the source would make the
-   !> pressure, less the pressure. The plain finite volumes of the Reynolds equation, written out anew.
+   !> pressure, less the pressure. The plain finite volumes of the Reynolds equation on the grid's rows, written
+   !> out anew.
    function imbalance(film, motion, p) result(change)
       type(pad_film_type), intent(in) :: film
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: p(nx, nz)
       real(wp) :: change(nx, nz), d, dz, r, phi, left, right, side(2), here, flows, sum_of
+      type(film_grid_type) :: grid
       integer :: i, j
+      grid = new_film_grid(film, nx, nz)
       r = film%pad_radius()
       d = film%arc()/nx
       dz = film%axial_length/(2*nz)
@@ -67,8 +71,7 @@ contains
          if (i == 1) left = 2*left
          if (i == nx) right = 2*right
          do j = 1, nz
-            ! no flow across the middle plane
-            side = [merge(0.0_wp, here, j == 1), merge(2/(1 - 1/(3.0_wp*nz))*here, here, j == nz)]
+            side = [grid%inward(j), grid%outward(j)]*here
             sum_of = left + right + sum(side)
             flows = left*merge(film%ambient_pressure, p(max(1, i - 1), j), i == 1) &
                & + right*merge(film%supply_pressure, p(min(nx, i + 1), j), i == nx) + side(1)*p(i, max(1, j - 1)) &
