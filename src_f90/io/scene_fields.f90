@@ -162,7 +162,7 @@ contains
          call v%whole('circumferential_cells', m%circumferential_cells, between(0.0_wp, 2000.0_wp), &
             & 'cells along the arc, even; 0: enough for axial modes, 80 where a film ruptures, 60 for sor')
          call v%whole('axial_cells', m%axial_cells, between(0.0_wp, 1000.0_wp), &
-            & 'finite volumes: cells along half the width, 2 or more; 0: 24, 15 for sor')
+            & 'finite volumes: cells along half the width, 2 or more; 0: 8, 15 for sor')
          call v%whole('axial_modes', m%axial_modes, between(0.0_wp, 200.0_wp), &
             & 'most modes across the width; those too stiff for the cells go into the closed form; 0: enough')
          call v%number('relaxation', m%relaxation, between(0.0_wp, 1.999_wp), '1', &

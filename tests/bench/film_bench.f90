@@ -59,7 +59,7 @@ contains
       n = 12
       do while (n <= 48)
          if (cavitation == cavitation_reynolds) then
-            auto = new_auto_film(films, n, 8, 2*n, 2*n/3)
+            auto = new_auto_film(films, n, 8, 80*n/24, n/3)
             call measure('auto '//to_text(n), auto, clearance*centre, exact, condition, state)
          else
             modal = new_modal_film(films, n, 8, cavitation == cavitation_gumbel)

@@ -52,7 +52,7 @@ the tolerance with the default film. Where a curve is level, what it varies no l
 ### The references
 
 Film and tolerances are refined together, and with them the finite volumes that take over where a film
-ruptures (three rows for ten columns). Each rung's deviation from the finest:
+ruptures (a row for eight columns). Each rung's deviation from the finest:
 
 {ladder}
 

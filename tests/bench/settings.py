@@ -28,8 +28,8 @@ def tolerance(value: str) -> tuple[str, ...]:
 
 
 def together(cells: int, modes: int, value: str) -> tuple[str, tuple[str, ...]]:
-    """Label and overrides: film and tolerance refined together, three finite volumes across for ten along."""
-    return f"{cells} cells, {modes} modes, {value}", film(cells, modes, 3 * cells // 10) + tolerance(value)
+    """Label and overrides: film and tolerance refined together, a row of finite volumes for eight columns."""
+    return f"{cells} cells, {modes} modes, {value}", film(cells, modes, cells // 8) + tolerance(value)
 
 
 #: The scenes of the diagram, and the wall seconds that each is to stay below with the defaults.
@@ -57,9 +57,9 @@ UNRUPTURED = tuple(
 #: Refinements of the scenes of MAIN and of UNRUPTURED up to their references, the last.
 LADDER = (
     together(48, 12, "1e-7"),
-    together(64, 16, "1e-8"),
-    together(96, 24, "1e-8"),
-    together(144, 24, "1e-8"),
+    together(80, 16, "1e-8"),
+    together(112, 24, "1e-8"),
+    together(160, 24, "1e-8"),
 )
 UNRUPTURED_LADDER = (
     together(48, 12, "1e-8"),
@@ -73,7 +73,7 @@ REFINED = (together(32, 8, "1e-6"), together(48, 12, "1e-7"), together(64, 16, "
 #: The same where, in the second of them, more than so large a part of the film evaluations is ruptured:
 #: there the finite volumes decide, and the error is that of a march cut to so many seconds.
 RUPTURED_SHARE = 0.05
-RUPTURED_REFINED = (together(80, 16, "1e-7"), together(120, 24, "1e-8"))
+RUPTURED_REFINED = (together(96, 16, "1e-7"), together(160, 24, "1e-8"))
 RUPTURED_DURATION = 0.2
 
 #: Tolerance of the runs whose film is varied, and the cells of those whose modes are.
