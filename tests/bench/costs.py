@@ -4,14 +4,12 @@ from figures import compared
 from films import exponent
 from peers import DIFFERENCED, OWN, SCALAR, SCALED, SCIPY, TILTPAD
 from runner import Row
-from settings import MAIN, TOLERANCE_SPAN
+from settings import MAIN, MODAL, TOLERANCE_SPAN, WHOLE_FILM
 from skips import SAMPLE, TABLE
 from tables import LABELS, NOT_RUN, film_time, short, small, table
 
 #: Seconds of the scene's whole march, and its pads.
 OF, PADS = 2, 2
-#: The film whose times stand for those of a march: scene and group of its rows.
-WHOLE_FILM = "whole, none", "modal 24"
 
 
 def films(rows: list[Row]) -> str:
@@ -61,7 +59,7 @@ def skips(rows: list[Row]) -> str:
 def skips_words(runs: list[Row], kernels: list[Row]) -> str:
     """What is left out of a right-hand side and of a sample, from the times of one film."""
     run = next((row for row in runs if row.group == "defaults" and row.scene == MAIN[1].name), None)
-    film = {row.setting: row.film_seconds for row in kernels if (row.scene, row.group) == WHOLE_FILM}
+    film = {row.setting: row.film_seconds for row in kernels if (row.scene, row.group) == (WHOLE_FILM, MODAL)}
     contact = next((row for row in kernels if row.group == TABLE), None)
     if not (run and film and contact):
         return ""
@@ -92,10 +90,7 @@ def tolerances_words(rows: list[Row]) -> str:
         return ""
     longer = short(scalar.wall_seconds / scaled.wall_seconds, 2)
     larger = short(scalar.error_same_film / scaled.error_same_film, 2)
-    return (
-        f"With one scalar for all states the march takes {longer} times as long, and its error is {larger} "
-        "times as large."
-    )
+    return f"With one scalar for all states the march takes {longer} times as long, with {larger} times the error."
 
 
 def pads(rows: list[Row]) -> str:

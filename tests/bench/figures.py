@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from peers import OCTAVE, OWN, SCALED, SCIPY, SHORT, TILTPAD
 from runner import Row
 from settings import ALLOWED, DIAGRAM, FIGURES, FILM_SCENES, MAIN, MODE_CELLS
+from tables import film_time
 from tiltpad.figures import COLUMN, PAGE
 from tiltpad.plots import STYLE
 
@@ -53,6 +54,7 @@ def diagram(rows: list[Row]) -> None:
         ax.axhline(ALLOWED, **TARGET)
         ax.axvline(FIGURES[scene.name], **(TARGET | {"linestyle": ":"}))
         ax.set(xscale="log", yscale="log", title=scene.label, xlabel="run time, s", ylabel="error")
+        ax.margins(0.1)
         ax.xaxis.set_major_formatter("{x:g}")
         ax.xaxis.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "235" else "")
         ax.tick_params(axis="x", which="minor", labelsize=6)
@@ -92,20 +94,21 @@ def films(rows: list[Row]) -> None:
     """Time of a film against error, a colour a scene."""
     _, ax = plt.subplots(figsize=(PAGE, 2.8))
     for i, scene in enumerate(FILM_SCENES):
-        mine = [row for row in rows if row.scene == scene.name and row.error]
-        for auto in (False, True):
-            points = [row for row in mine if row.setting.startswith("auto") == auto]
-            times = [1e6 * row.film_seconds / row.film_evaluations for row in points]
-            mark = {"marker": "*" if auto else "o", "markersize": 10 if auto else 4}
-            words = f"{scene.label}: {'auto' if auto else 'sor'}"
-            ax.plot(times, [row.error for row in points], color=f"C{i}", label=words, **mark,
-                    linestyle="none" if auto else "-")  # fmt: skip
-            for row, time in zip(points, times, strict=True):
-                if not auto:
-                    place = {"textcoords": "offset points", "xytext": (5, 3), "fontsize": 6, "color": f"C{i}"}
-                    ax.annotate(row.setting.removeprefix("sor "), (time, row.error), **place)
+        points = [(1e6 * film_time(row), row) for row in rows if row.scene == scene.name and row.error]
+        sor = [(time, row.error) for time, row in points if row.setting.startswith("sor")]
+        auto = [(time, row.error) for time, row in points if row.setting.startswith("auto")]
+        ax.plot(*zip(*sor, strict=True), "o-", markersize=4, color=f"C{i}", label=scene.label)
+        ax.plot(*zip(*auto, strict=True), "*", markersize=10, color=f"C{i}")
+    # the lines lie close: the grids once, at the lowest
+    for time, row in points:
+        if row.setting.startswith("sor"):
+            place = {"textcoords": "offset points", "xytext": (-4, -9), "ha": "right", "fontsize": 7}
+            ax.annotate(row.setting.removeprefix("sor "), (time, row.error), **place)
+    ax.plot([], [], "o-", markersize=4, color="0.3", label="sor, three grids")
+    ax.plot([], [], "*", markersize=10, color="0.3", label="auto, default settings")
     ax.axhline(ALLOWED, **TARGET)
-    ax.set(xscale="log", yscale="log", xlabel="time of a pad's film, us", ylabel="error of the run")
+    ax.margins(0.08)
+    ax.set(xscale="log", yscale="log", xlabel="time of a pad's film, µs", ylabel="error of the run")
     ax.legend(loc="center left", bbox_to_anchor=(1, 0.5))
 
 

@@ -11,9 +11,7 @@ from settings import (
     PEER_ABSOLUTE,
     PEER_FILM_TOLERANCE,
     PEER_RELATIVE,
-    RUPTURED_DURATION,
-    RUPTURED_REFINED,
-    RUPTURED_SHARE,
+    REFINED,
     TOLERANCE_SPAN,
 )
 
@@ -79,9 +77,7 @@ All settings on all five scenes, by run time; {choice}
 
 "Reference moves" is the deviation of the second finest run from the reference. "Ruptured" is the part of the
 film evaluations that fell to finite volumes, with the defaults and in the reference; where the first is less,
-the coarser film did not see a rupture that the finer one does. Where more than {ruptured_share:.0%} ruptures
-on a finer film (\\*), the finite volumes decide: the reference has {ruptured_film}, and the error is that of
-a march of {ruptured_duration:g} s.
+the coarser film did not see a rupture that the finer one does. The reference has {reference}.
 
 {cases_notes}
 
@@ -169,7 +165,7 @@ def page(rows: dict[str, list[Row]], machine: str) -> str:
     return PAGE.format(
         machine=machine,
         allowed=ALLOWED,
-        figures=tables.figures(rows["diagram"], rows["films"]),
+        figures=tables.figures(rows["diagram"], rows["films"], rows["kernels"]),
         fine_intro=f"The setting {FINE[0]}:",
         fine=tables.fine(rows["diagram"]),
         film_tolerance=FILM_TOLERANCE,
@@ -181,9 +177,7 @@ def page(rows: dict[str, list[Row]], machine: str) -> str:
         cases=tables.cases(rows["cases"]),
         cases_words=tables.cases_words(rows["cases"]),
         cases_notes=tables.cases_notes(rows["cases"]),
-        ruptured_share=RUPTURED_SHARE,
-        ruptured_film=RUPTURED_REFINED[-1][0],
-        ruptured_duration=RUPTURED_DURATION,
+        reference=REFINED[-1][0],
         films=costs.films(rows["films"]),
         kernels=costs.kernels(rows["kernels"]),
         skips=costs.skips(rows["skips"]),
