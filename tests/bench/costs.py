@@ -90,7 +90,7 @@ def tolerances_words(rows: list[Row]) -> str:
         return ""
     longer = short(scalar.wall_seconds / scaled.wall_seconds, 2)
     larger = short(scalar.error_same_film / scaled.error_same_film, 2)
-    return f"With one scalar for all states the march takes {longer} times as long, the error is {larger} times."
+    return f"With one scalar for all the march takes {longer} times as long, at {larger} times the error."
 
 
 def pads(rows: list[Row]) -> str:
