@@ -23,7 +23,7 @@ def last_revolutions(run: Run, count: float = 1) -> slice:
     file: the shaft angle is not loaded.
     """
     if run.samples < 2:
-        reason = f"it has {run.samples} samples" if run.samples else run.why_not("time")
+        reason = "it has one sample" if run.samples else run.why_not("time")
         raise NotInRunError(f"{run.path}: no revolution in this run: {reason}")
     before, end = run.values("shaft_angle", slice(-2, None))
     # half a sample more, so that rounding loses none
@@ -52,7 +52,8 @@ def needs_revolutions(run: Run, what: str, count: float = 1) -> None:
     last_revolutions(run)
     if (there := turned(run)) < count * (1 - 1e-9):
         raise NotInRunError(
-            f"{run.path}: no {what} in this run: it has {there:.3g} shaft revolutions, and {count:g} are needed"
+            f"{run.path}: no {what} in this run: "
+            f"it has {there:.3g} shaft revolutions, and {count:g} are needed"
         )
 
 
@@ -121,8 +122,8 @@ def poincare(run: Run, last: float = 50, phase: float = 0.0) -> dict[str, np.nda
     part = last_revolutions(run, last)
     angle = run.values("shaft_angle", part)
     turns = (angle[[0, -1]] - phase) / (2 * np.pi)
-    # a section that the last sample meets but for rounding is there, the one a revolution before the first is not
-    whole = np.arange(np.ceil(turns[0] - 1e-9), np.floor(turns[1] + 1e-9) + 1)
+    # one that an end meets but for rounding is there; where both ends do, the last ones are those asked for
+    whole = np.arange(np.ceil(turns[0] - 1e-9), np.floor(turns[1] + 1e-9) + 1)[-max(1, int(last)) :]
     wanted = 2 * np.pi * whole + phase
     names = ["time", *(name for name in STATES if name in run)]
     return {"revolution": whole} | {name: at_angle(angle, run.values(name, part), wanted) for name in names}

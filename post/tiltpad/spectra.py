@@ -30,9 +30,9 @@ def full_spectrum(run: Run) -> tuple[np.ndarray, np.ndarray]:
 def one_sided(
     run: Run, name: str = "journal_y", last: float = 10, pad: int | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Frequency (k,), Hz, and one-sided amplitude of any dataset over the last revolutions, at constant speed.
+    """Frequency (k,), Hz, and one-sided amplitude of any dataset over the last revolutions.
 
-    Amplitudes, in the dataset's unit, are (k,), or (pad, k) of a dataset of all pads without `pad`. At
+    At constant speed. Amplitudes, in the dataset's unit, are (k,), or (pad, k) of a dataset of all pads without `pad`. At
     frequency 0 stands the magnitude of the mean.
     """
     part, interval = sampled_evenly(run, last)
@@ -100,9 +100,9 @@ def order_track(
     revolutions: int = 8,
     spans: int = 400,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Speed (n,), rad/s, amplitude (n,), in the dataset's unit, and phase (n,), rad, of one order of a run-up.
+    """Speed (n,), rad/s, amplitude (n,) and phase (n,), rad, of one order of a run whose speed changes.
 
-    The signal is amplitude * cos(order * shaft angle + phase), phase between -pi and pi. Windows as in
+    Amplitudes in the dataset's unit. The signal is amplitude * cos(order * shaft angle + phase), phase between -pi and pi. Windows as in
     waterfall.
     """
     needs_pad(run, name, pad)
