@@ -221,6 +221,7 @@ def size(runs: Sequence[Run], last: float | None = None, pad: int | None = None)
         for i, run in enumerate(runs):
             for k, name in enumerate(coordinates):
                 plots.orbit_size(run, ax, name, last or 1, **look(i, k, runs))
+        ax.set_ylim(bottom=0)
         legend(fig, runs, parts(["$y$", "$z$"], runs))
         return fig
     sizes = SHOWN["size"].factor * np.array([signals.orbit_size(run, last or 1) for run in runs]).T
@@ -228,8 +229,8 @@ def size(runs: Sequence[Run], last: float | None = None, pad: int | None = None)
     if varied:
         label, values = varied
         order = np.argsort(values)
-        for each in sizes:
-            ax.plot(np.array(values)[order], each[order], marker="o", markersize=3)
+        for each, dashes in zip(sizes, ("-", "--"), strict=True):
+            ax.plot(np.array(values)[order], each[order], dashes, marker="o", markersize=3)
         ax.set(xlabel=label, ylabel=SHOWN["size"].label, ylim=(0, 1.1 * sizes.max()))
     else:
         place = np.arange(len(runs))

@@ -52,7 +52,10 @@ def differences(inputs: list[dict[str, dict[str, Any]]]) -> list[str]:
 
 
 def varied(inputs: list[dict[str, dict[str, Any]]]) -> tuple[str, list[float]] | None:
-    """The one number in which inputs differ, each time another: its label with the unit, and its values."""
+    """The one number in which inputs differ, each time another: its label with the unit, and its values.
+
+    Lengths below a millimetre are in µm, all others as in the namelist.
+    """
     values = [
         {f"{group}%{name}": value for group in each for name, value in each[group].items()} for each in inputs
     ]
@@ -65,6 +68,8 @@ def varied(inputs: list[dict[str, dict[str, Any]]]) -> tuple[str, list[float]] |
     if not all(isinstance(each, int | float) for each in found) or len(set(found)) < len(found):
         return None
     text, unit = named(name)
+    if unit == "m" and max(map(abs, found)) < 1e-3:
+        unit, found = "µm", [1e6 * each for each in found]
     return f"{text} ({unit})" if unit else text, found
 
 

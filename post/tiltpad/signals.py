@@ -129,10 +129,10 @@ def poincare(run: Run, last: float = 50, phase: float = 0.0) -> dict[str, np.nda
     return {"revolution": whole} | {name: at_angle(angle, run.values(name, part), wanted) for name in names}
 
 
-def edges(run: Run, turns: np.ndarray) -> np.ndarray:
-    """For each number of revolutions (n,), the first sample that has turned so far, (n,)."""
+def edges(run: Run, angles: np.ndarray) -> np.ndarray:
+    """For each shaft angle (n,), rad, the first sample at or beyond it, (n,); the file is read in blocks."""
     blocks = (slice(start, start + BLOCK) for start in range(0, run.samples, BLOCK))
-    return sum(np.searchsorted(revolutions(run, block), turns) for block in blocks)
+    return sum(np.searchsorted(run.values("shaft_angle", block), angles) for block in blocks)
 
 
 def envelope(run: Run, name: str, spans: int = 800) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -142,11 +142,12 @@ def envelope(run: Run, name: str, spans: int = 800) -> tuple[np.ndarray, np.ndar
     vibration; there are at most `spans` of them. The run is read a span at a time.
     """
     last_revolutions(run)
-    first, final = ends(run, "shaft_angle") / (2 * np.pi)
-    count = max(1, min(spans, int(final - first + 1e-9)))
+    first, final = ends(run, "shaft_angle")
+    count = max(1, min(spans, int((final - first) / (2 * np.pi) + 1e-9)))
     starts = edges(run, np.linspace(first, final, count + 1)[:-1])
-    parts = [slice(*each) for each in zip(starts, [*starts[1:], run.samples], strict=True)]
-    time = np.array([ends(run, "time", part).mean() for part in parts])
-    values = [run.values(name, part) for part in parts]
-    low, high = (np.array([pick(each, axis=0) for each in values]) for pick in (np.min, np.max))
+    found = []
+    for part in (slice(*each) for each in zip(starts, [*starts[1:], run.samples], strict=True)):
+        values = run.values(name, part)
+        found.append((ends(run, "time", part).mean(), values.min(axis=0), values.max(axis=0)))
+    time, low, high = (np.array(each) for each in zip(*found, strict=True))
     return time, low, high
