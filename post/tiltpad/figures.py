@@ -54,6 +54,16 @@ def orbit(runs: Sequence[Run], last: float | None = None, pad: int | None = None
     return fig
 
 
+def equilibrium(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
+    """Equilibria of the journal in the clearance circle."""
+    fig = plt.figure(figsize=(COLUMN, 3.4))
+    ax = plots.clearance(max(runs, key=lambda run: run.clearance), fig.subplots())
+    for i, run in enumerate(runs):
+        plots.equilibrium(run, ax, color=f"C{i}")
+    legend(fig, runs, [])
+    return fig
+
+
 def spectrum(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Amplitudes of the journal: one-sided of y and z, and full of y + i z."""
     fig = plt.figure(figsize=(COLUMN, 4.6))
@@ -249,7 +259,7 @@ def size(runs: Sequence[Run], last: float | None = None, pad: int | None = None)
 FIGURES = {
     each.__name__: each
     for each in (
-        *(orbit, size, poincare, waveform, spectrum),
+        *(orbit, equilibrium, size, poincare, waveform, spectrum),
         *(hysteresis, friction, sticking, runup, orders, waterfall),
     )
 }

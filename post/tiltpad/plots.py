@@ -51,11 +51,19 @@ def orbit(run: Run, ax: Axes, last: float = 1, direction: bool = True, **line: A
     y, z = (shown.factor * each for each in signals.orbit(run, last))
     (path,) = ax.plot(z, y, **line)
     if signals.steady(run):
-        rest = [shown.factor * run["equilibrium/" + name] for name in ("journal_z", "journal_y")]
-        ax.plot(*rest, "+", color=path.get_color())
+        equilibrium(run, ax, color=path.get_color())
     if direction:
         direction_arrow(ax, z, y, path.get_color())
     ax.set(xlabel=SHOWN["journal_z"].label, ylabel=shown.label, aspect="equal")
+    return ax
+
+
+@on_axes
+def equilibrium(run: Run, ax: Axes, **line: Any) -> Axes:
+    """The journal's equilibrium, a cross; z to the right and y up."""
+    z, y = (SHOWN[name].factor * run["equilibrium/" + name] for name in ORBIT)
+    ax.plot(z, y, **{"linestyle": "", "marker": "+"} | line)
+    ax.set(xlabel=SHOWN["journal_z"].label, ylabel=SHOWN["journal_y"].label, aspect="equal")
     return ax
 
 
@@ -130,9 +138,10 @@ def spectrum(
 ) -> Axes:
     """One-sided amplitudes of journal_y or journal_z, without the mean, up to `orders` times the speed.
 
-    The spectrum in the file, or with `last` that of the last revolutions.
+    The spectrum in the file; with `last`, or where the file has none, that of the last revolutions.
     """
-    found = spectra.one_sided(run, name, last) if last else spectra.spectrum(run, name)
+    own = last is None and "spectrum" in run
+    found = spectra.spectrum(run, name) if own else spectra.one_sided(run, name, last or 10)
     draw_amplitude(ax, *found, (0, orders * shaft_frequency(run)), line)
     return ax
 
@@ -141,9 +150,9 @@ def spectrum(
 def full_spectrum(run: Run, ax: Axes, orders: float = 5, last: float | None = None, **line: Any) -> Axes:
     """Spectrum of y + i z, without the mean: forward whirl to the right, backward whirl to the left.
 
-    The spectrum in the file, or with `last` that of the last revolutions.
+    The spectrum in the file; with `last`, or where the file has none, that of the last revolutions.
     """
-    found = spectra.full(run, last) if last else spectra.full_spectrum(run)
+    found = spectra.full_spectrum(run) if last is None and "spectrum" in run else spectra.full(run, last or 10)
     span = orders * shaft_frequency(run)
     draw_amplitude(ax, *found, (-span, span), line)
     return ax

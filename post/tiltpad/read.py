@@ -53,7 +53,7 @@ class Run:
             self.file.close()
             raise
         if not self.attributes.get("complete", 0):
-            warnings.warn(f"{self.path}: incomplete run{self._end()}", IncompleteRunWarning, stacklevel=3)
+            warnings.warn(f"{self.path}: incomplete run{self.end()}", IncompleteRunWarning, stacklevel=3)
 
     def __getitem__(self, name: str) -> Any:
         return self.values(name)
@@ -123,14 +123,15 @@ class Run:
         """Number of samples in time; 0 where nothing was marched."""
         return len(self.file["time"]) if "time" in self.file else 0
 
-    def _end(self) -> str:
+    def end(self) -> str:
+        """Where an incomplete run ended, as the end of a sentence."""
         if not self.samples:
             return " without samples in time"
         duration = self.input["operation"]["duration"]
         return f", ended at {self.file['time'][-1]:g} s of {duration:g} s"
 
     def why_not(self, name: str) -> str:
-        """Why the scene has no such dataset."""
+        """Why the run has no such dataset."""
         friction, motion = self.input["friction"]["model"], self.input["pads"]["motion"]
         if name == "bristle_deflection" and friction != "lugre":
             return f"friction model is '{friction}'"
