@@ -152,7 +152,9 @@ def full_spectrum(run: Run, ax: Axes, orders: float = 5, last: float | None = No
 
     The spectrum in the file; with `last`, or where the file has none, that of the last revolutions.
     """
-    found = spectra.full_spectrum(run) if last is None and "spectrum" in run else spectra.full(run, last or 10)
+    found = (
+        spectra.full_spectrum(run) if last is None and "spectrum" in run else spectra.full(run, last or 10)
+    )
     span = orders * shaft_frequency(run)
     draw_amplitude(ax, *found, (-span, span), line)
     return ax

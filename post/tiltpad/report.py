@@ -16,7 +16,7 @@ from tiltpad.units import SHOWN
 
 #: Pictures and what is said of them; those that a run cannot have are left out.
 PICTURES = {
-    "orbit": "Journal in its clearance circle and enlarged, last revolution; the cross is the equilibrium.",
+    "orbit": "Journal in its clearance circle and enlarged, last revolution.",
     "equilibrium": "Equilibrium of the journal in its clearance circle.",
     "waveform": "The last revolutions.",
     "spectrum": "Amplitudes of the journal: one-sided, and full with backward and forward whirl.",
@@ -76,6 +76,8 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 def number(value: float, quantity: str) -> str:
     """A value in the unit that it is shown in, four digits."""
     value = SHOWN[quantity].factor * float(value)
+    if value == 0:
+        return "0"
     return f"{value:.0f}" if abs(value) >= 1000 else f"{value:#.4g}".rstrip(".")
 
 

@@ -39,6 +39,8 @@ def revolutions(run: Run, part: slice = slice(None)) -> np.ndarray:
 def ends(run: Run, name: str, part: slice = slice(None)) -> np.ndarray:
     """First and last value of a dataset, or of the samples `part` of it: (2,) or (2, pad)."""
     start, stop, _ = part.indices(run.samples)
+    if start >= stop:
+        raise NotInRunError(f"{run.path}: no {name} in this run: {run.why_not(name)}")
     return np.stack([run.values(name, i) for i in (start, stop - 1)])
 
 

@@ -83,7 +83,7 @@ def last_one(run: Run, name: str) -> np.ndarray:
 
 
 JOURNAL = [
-    ("speed at the end", "speed", lambda run: run.values("speed", slice(-1, None))[0]),
+    ("speed at the end", "speed", lambda run: signals.ends(run, "speed")[1]),
     ("time sampled", "time", lambda run: np.ptp(signals.ends(run, "time"))),
     ("shaft revolutions", "number", signals.turned),
     ("orbit, peak to peak of y", "size", lambda run: signals.orbit_size(run)[0]),
