@@ -95,7 +95,7 @@ help:
 	@echo 'make deps     install what is missing (root or sudo; otherwise print the list and stop)'
 	@echo 'make python   Python environment build/venv with the package tiltpad'
 	@echo 'make lint     style of Fortran and Python; make format mends what it can'
-	@echo 'make docs     write docs/inputs.md, docs/verification.md and docs/images from the program'
+	@echo 'make docs     write docs/inputs.md, docs/api.md, docs/verification.md and docs/images from the program'
 	@echo 'make install  program into PREFIX/bin    (PREFIX=$(PREFIX))'
 	@echo 'make clean    remove build/'
 
@@ -215,6 +215,7 @@ format: python
 
 docs: run
 	@{ cat docs/inputs_head.md; $(B)/bin/tiltpad --reference; } > docs/inputs.md
+	$(venv_python) docs/api.py > build/api.md && mv build/api.md docs/
 	@mkdir -p docs/images
 	cp build/run/*.png docs/images/
 	$(venv_python) docs/verify.py $(B)/bin/tiltpad > build/verification.md && mv build/verification.md docs/

@@ -1,7 +1,7 @@
-"""Friction of the pivots: sliding, sticking, work lost. Everything is in SI units.
+"""Friction of the pivots: sliding, sticking, work lost.
 
-`last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ... Where the scene has no
-friction all but `sliding_velocity` raise NotInRunError.
+Everything is in SI units; `last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ...
+Where the scene has no friction all but `sliding_velocity` raise NotInRunError.
 """
 
 import numpy as np

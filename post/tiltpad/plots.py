@@ -6,6 +6,7 @@ axes. Further keywords go to the line, so that runs can be laid over each other.
 
 from collections.abc import Callable
 from functools import wraps
+from inspect import signature
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -38,6 +39,9 @@ def on_axes(draw: Callable[..., Axes]) -> Callable[..., Axes]:
         with plt.style.context(STYLE):
             return draw(run, plt.subplots()[1], *arguments, **options)
 
+    parameters = signature(draw).parameters.values()
+    optional = [each.replace(default=None) if each.name == "ax" else each for each in parameters]
+    drawn.__signature__ = signature(draw).replace(parameters=optional)
     return drawn
 
 

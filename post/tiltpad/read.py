@@ -35,12 +35,14 @@ def read(path: str | os.PathLike) -> "Run":
 class Run:
     """One result file, open for reading; nothing is loaded before it is asked for.
 
-    run.journal_y, run["journal_y"]      dataset as an array, (time,) or (time, pad), SI units
-    run.values("journal_y", part)        the same, only the samples of the slice `part`
-    run.equilibrium                      group as a dictionary of arrays
-    run["equilibrium/journal_y"]         one of them
-    run.title, run.complete, ...         attributes of the file; run.attributes has all of them
-    run.input["bearing"]                 resolved namelist, a dictionary a group
+    What is in the file goes by its name:
+
+        run.journal_y, run["journal_y"]      dataset as an array, (time,) or (time, pad), SI units
+        run.values("journal_y", part)        the same, only the samples of the slice `part`
+        run.equilibrium                      group as a dictionary of arrays
+        run["equilibrium/journal_y"]         one of them
+        run.title, run.complete, ...         attributes of the file; run.attributes has all of them
+        run.input["bearing"]                 resolved namelist, a dictionary a group
     """
 
     def __init__(self, path: str | os.PathLike):
@@ -79,6 +81,7 @@ class Run:
         return f"<tiltpad run {self.path!r}: {self.title or self.task}, {', '.join(self.file)}>"
 
     def close(self) -> None:
+        """Closes the file; `with tiltpad.read(path) as run:` does it at its end."""
         self.file.close()
 
     def values(self, name: str, part: slice | int = slice(None)) -> Any:

@@ -1,4 +1,7 @@
-"""One HTML page about a run, whole in itself: no script, nothing from elsewhere."""
+"""A page about a run.
+
+It is whole in itself: no script, nothing from elsewhere.
+"""
 
 import base64
 import io

@@ -1,6 +1,6 @@
-"""Parts of a run, and what is calculated from its motion. Everything is in SI units.
+"""Parts of a run, and what is calculated from its motion.
 
-`last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ...
+Everything is in SI units; `last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ...
 """
 
 import numpy as np

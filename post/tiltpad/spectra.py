@@ -1,6 +1,6 @@
-"""Amplitudes over frequency and over order. Everything is in SI units.
+"""Amplitudes over frequency and over order.
 
-`last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ...
+Everything is in SI units; `last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ...
 """
 
 from collections.abc import Iterator

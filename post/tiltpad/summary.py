@@ -1,4 +1,7 @@
-"""The key figures of a run, as tiltpad-report shows them; values in SI units."""
+"""The key figures of a run, as tiltpad-report shows them.
+
+Values are in SI units.
+"""
 
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
