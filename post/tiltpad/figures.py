@@ -129,7 +129,7 @@ def sticking(runs: Sequence[Run], last: float | None = None, pad: int | None = N
 
 
 def poincare(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
-    """Journal, and tilt rate over tilt of a pad, once a revolution, on the last revolution's path."""
+    """Journal, and tilt rate over tilt of a pad, once a revolution, on the path of the last ones."""
     fig = plt.figure(figsize=(PAGE, 3.4))
     left, right = fig.subplots(1, 2)
     for i, run in enumerate(runs):
@@ -141,7 +141,7 @@ def poincare(runs: Sequence[Run], last: float | None = None, pad: int | None = N
     right.set_title(f"pad {pad or 1}")
     left.set_title("journal")
     points = {"color": "0.3" if len(runs) > 1 else "C0", "linestyle": "", "marker": ".", "markersize": 5}
-    legend(fig, runs, [("once a revolution", points), ("last revolution", {"color": "0.7"})])
+    legend(fig, runs, [("once a revolution", points), (f"last {plots.PATH} revolutions", {"color": "0.7"})])
     return fig
 
 

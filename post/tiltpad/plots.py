@@ -25,6 +25,8 @@ STYLE = "tiltpad.tiltpad"
 BAND_FROM = 60
 #: States that a Poincare section is drawn in: the journal's y over z, a pad's tilt rate over its tilt.
 ORBIT, PHASE = ("journal_z", "journal_y"), ("pad_tilt", "pad_tilt_rate")
+#: Revolutions of the path under a Poincare section.
+PATH = 4
 #: Line of a pivot that sticks.
 STUCK = {"linewidth": 3, "linestyle": "-", "solid_capstyle": "butt"}
 
@@ -102,14 +104,14 @@ def poincare(
     phase: float = 0.0,
     **line: Any,
 ) -> Axes:
-    """One state over another once a revolution, at a phase of the shaft, on the last revolution's path.
+    """One state over another once a revolution, at a phase of the shaft, on the path of the last PATH ones.
 
     ORBIT is the journal's y over its z, PHASE the tilt rate over the tilt of a pad.
     """
     column = {
         name: () if name.startswith("journal") else (..., signals.pad_column(run, pad)) for name in names
     }
-    section, part = signals.poincare(run, last, phase), signals.last_revolutions(run)
+    section, part = signals.poincare(run, last, phase), signals.last_revolutions(run, PATH)
     path = [SHOWN[name].factor * run.values(name, part)[column[name]] for name in names]
     ax.plot(*path, **{**line, "linewidth": 0.6, "alpha": 0.4})
     points = [SHOWN[name].factor * section[name][column[name]] for name in names]
@@ -225,9 +227,11 @@ def hysteresis(run: Run, ax: Axes, pad: int = 1, last: float = 1, **line: Any) -
 
 @on_axes
 def friction_coefficient(run: Run, ax: Axes, pad: int = 1, last: float = 1, **line: Any) -> Axes:
-    """Friction coefficient of a pivot over its sliding velocity."""
+    """Friction coefficient of a pivot over its sliding velocity, where it carries anything."""
     velocity, coefficient = pivots.friction_coefficient(run, pad, last)
     ax.plot(SHOWN["sliding_velocity"].factor * velocity, coefficient, **line)
+    if np.isnan(coefficient).all():
+        ax.text(0.5, 0.5, "carries nothing", transform=ax.transAxes, ha="center", va="center", color="0.3")
     ax.set(xlabel=SHOWN["sliding_velocity"].label, ylabel=SHOWN["friction_coefficient"].label)
     return ax
 

@@ -30,7 +30,7 @@ PICTURES = {
     "hysteresis": "Friction moment over tilt: the area is the work lost in the last revolution.",
     "friction": "Friction coefficient over sliding velocity, last revolution.",
     "sticking": "Tilt rate, bold where the pivot sticks, over the last two revolutions.",
-    "poincare": "Once a revolution, on the path of the last one.",
+    "poincare": "Once a revolution, on the path of the last ones.",
 }
 
 
