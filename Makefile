@@ -216,6 +216,7 @@ format: python
 docs: run
 	@{ cat docs/inputs_head.md; $(B)/bin/tiltpad --reference; } > docs/inputs.md
 	$(venv_python) docs/api.py > build/api.md && mv build/api.md docs/
+	$(venv_python) docs/gallery.py $(B)/bin/tiltpad build/gallery
 	@mkdir -p docs/images
 	cp build/run/*.png docs/images/
 	$(venv_python) docs/verify.py $(B)/bin/tiltpad > build/verification.md && mv build/verification.md docs/
