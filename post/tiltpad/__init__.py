@@ -13,6 +13,18 @@ from importlib import import_module
 from typing import Any
 
 from tiltpad.errors import deviations
+from tiltpad.library import (
+    Contact,
+    LibraryError,
+    MissingLibraryError,
+    Pressure,
+    bristle_rate,
+    contact,
+    contact_force,
+    contact_pressure,
+    friction_force,
+    pressure,
+)
 from tiltpad.read import IncompleteRunWarning, NotInRunError, Run, RunError, read
 from tiltpad.signals import (
     envelope,
@@ -27,17 +39,27 @@ from tiltpad.signals import (
 )
 
 __all__ = [
+    "Contact",
     "IncompleteRunWarning",
+    "LibraryError",
+    "MissingLibraryError",
     "NotInRunError",
+    "Pressure",
     "Run",
     "RunError",
+    "bristle_rate",
+    "contact",
+    "contact_force",
+    "contact_pressure",
     "deviations",
     "envelope",
+    "friction_force",
     "full_spectrum",
     "hysteresis",
     "last_revolutions",
     "loop_area",
     "orbit",
+    "pressure",
     "read",
     "revolutions",
     "spectrum",

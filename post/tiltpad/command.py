@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from contextlib import ExitStack, suppress
 from pathlib import Path
 
+from tiltpad.library import LibraryError, MissingLibraryError
 from tiltpad.read import IncompleteRunWarning, NotInRunError, RunError, read
 
 FORMATS = ("png", "pdf", "svg")
@@ -19,6 +20,7 @@ PLOTS = {
     "hysteresis": "friction moment over pad tilt, a panel a pad (last revolution)",
     "waveform": "journal, tilt and tilt rate over the last revolutions (5)",
     "runup": "journal and tilt over the whole run, with the speed",
+    "pressure": "film pressure over the unrolled pads at one instant (--time; else at the equilibrium)",
 }
 
 
@@ -36,10 +38,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         if output.suffix.lower().removeprefix(".") not in FORMATS:
             raise ValueError(f"{output}: the name must end in .png, .pdf or .svg")
+        if options.time is not None and options.plot != "pressure":
+            raise ValueError(f"--time: for the plot pressure, not for {options.plot}")
         draw(options, output)
     except (ValueError, NotInRunError) as error:
         return complain(error, INPUT_ERROR)
     except RunError as error:
+        return complain(error, FILE_ERROR)
+    except LibraryError as error:
+        return complain(error, error.status)
+    except MissingLibraryError as error:
         return complain(error, FILE_ERROR)
     except OSError as error:
         return complain(f"{output}: cannot be written: {error.strerror or error}", FILE_ERROR)
@@ -65,7 +73,8 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         for warning in caught:
             print(f"tiltpad-plot: warning: {warning.message}", file=sys.stderr)
         stack.enter_context(mpl.style.context(plots.STYLE))
-        figure = figures.FIGURES[options.plot](runs, options.last, options.pad)
+        when = {"time": options.time} if options.plot == "pressure" else {}
+        figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **when)
         stack.callback(plots.plt.close, figure)
         figure.savefig(output, format=output.suffix.lower().removeprefix("."))
 
@@ -94,6 +103,7 @@ def parser() -> Parser:
     )
     parser.add_argument("--last", type=positive, metavar="N", help="shaft revolutions at the end of the run")
     parser.add_argument("--pad", type=int, metavar="K", help="this pad only (1, 2, ...)")
+    parser.add_argument("--time", type=float, metavar="T", help="of the pressure: the sample next to T, s")
     return parser
 
 

@@ -131,7 +131,29 @@ def runup(runs: Sequence[Run], last: float | None = None, pad: int | None = None
     return fig
 
 
-FIGURES = {each.__name__: each for each in (orbit, spectrum, hysteresis, waveform, runup)}
+def pressure(
+    runs: Sequence[Run], last: float | None = None, pad: int | None = None, time: float | None = None
+) -> Figure:
+    """Film pressure over the unrolled pads, a panel each, at one instant (None: at the equilibrium)."""
+    pads = shown_pads(runs, pad)
+    columns = min(2, len(pads))
+    rows = -(-len(pads) // columns) * len(runs)
+    fig = plt.figure(figsize=(COLUMN if columns == 1 else PAGE, 0.3 + 2.5 * rows))
+    panels = fig.subplots(rows, columns, squeeze=False).reshape(len(runs), -1)
+    for run, name, axes in zip(runs, labels(runs), panels, strict=True):
+        for ax, k in zip(axes, pads, strict=False):
+            plots.pressure(run, ax, time, k)
+            ax.set_title(f"pad {k}" if len(runs) == 1 else f"pad {k}: {name}")
+        for ax in axes[len(pads) :]:
+            ax.remove()
+    title = runs[0].title if len(runs) == 1 else ""
+    fig.suptitle(
+        f"{title} at {'the equilibrium' if time is None else f'{time:g} s'}".lstrip().replace("$", r"\$")
+    )
+    return fig
+
+
+FIGURES = {each.__name__: each for each in (orbit, spectrum, hysteresis, waveform, runup, pressure)}
 
 
 def labels(runs: Sequence[Run]) -> list[str]:

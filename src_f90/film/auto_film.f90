@@ -155,7 +155,10 @@ contains
       call self%modal%field(motion, speed, phi, z, pressure)
       do i = 1, size(motion)
          associate (lowest => self%cavitation_pressure(i))
-            if (lowest - response(i)%min_pressure <= slight_tension*(response(i)%max_pressure - lowest)) cycle
+            if (lowest - response(i)%min_pressure <= slight_tension*(response(i)%max_pressure - lowest)) then
+               pressure(:, :, i) = max(lowest, pressure(:, :, i))
+               cycle
+            end if
             c = share_of_modes(self, i, response(i))
             call self%direct(i)%field(motion(i), speed, .true., phi(:, i), z, ruptured)
             call self%direct(i)%field(motion(i), speed, .false., phi(:, i), z, whole)
