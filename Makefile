@@ -151,6 +151,7 @@ python: $(VENV)/ready wrap
 
 # the library for Python, by f2py: objects of their own, of the modules that it uses
 wrap: $(VENV)/ready
+	@ls post/tiltpad/_library.* >/dev/null 2>&1 || rm -f build/wrap/library
 	@$(MAKE) --no-print-directory MODE=wrap build/wrap/library
 
 build/wrap/library: $(B)/obj/library.o $(B)/flags $(VENV)/ready
@@ -164,11 +165,22 @@ build/wrap/library: $(B)/obj/library.o $(B)/flags $(VENV)/ready
 	$(FC) -shared -Wl,--as-needed $(B)/f2py/*.o $(B)/obj/*.o $(LIBS) -o post/tiltpad/_library$$suffix
 	@touch $@
 
-$(VENV)/ready: post/pyproject.toml post/requirements.txt | build/deps-checked
+$(VENV)/ready: post/pyproject.toml post/setup.py post/requirements.txt | build/deps-checked
 	$(PYTHON) -m venv $(VENV)
 	$(venv_python) -m pip install -q --disable-pip-version-check -r post/requirements.txt
 	$(venv_python) -m pip install -q --disable-pip-version-check --no-build-isolation --no-deps -e post
 	@touch $@
+
+# from a copy, as setuptools leaves files beside what it packs
+wheel: build python
+	rm -rf build/wheel && mkdir -p build/wheel && cp -r post build/wheel/source
+	$(venv_python) -m pip wheel -q --disable-pip-version-check --no-build-isolation --no-deps \
+	   -w build/wheel build/wheel/source
+	$(PYTHON) -m venv build/wheel/venv
+	build/wheel/venv/bin/python -m pip install -q --disable-pip-version-check build/wheel/*.whl
+	cd build/wheel && echo "&case task='equilibrium' /" > case.nml && $(abspath $(B)/bin/tiltpad) --quiet case.nml && \
+	   venv/bin/python $(abspath tests/post/check_wheel.py) case.h5 && venv/bin/tiltpad-plot pressure case.h5
+	@ls build/wheel/*.whl
 
 $(VENV)/ready-bench: tests/bench/requirements.txt $(VENV)/ready
 	$(venv_python) -m pip install -q --disable-pip-version-check -r $<
@@ -233,4 +245,4 @@ install: build
 	install -m 755 $(B)/bin/tiltpad $(DESTDIR)$(PREFIX)/bin/tiltpad
 
 clean:
-	rm -rf build
+	rm -rf build post/tiltpad/_library.*
