@@ -224,12 +224,12 @@ fortran_style := --line-length 120 --ignore S241,C002,C061,C071
 
 # ---- house-keeping -----------------------------------------------------------------------------
 lint: python
-	$(VENV)/bin/fortitude check $(fortran_style) src_f90 tests
+	$(VENV)/bin/fortitude check $(fortran_style) src_f90 post/wrap tests
 	$(VENV)/bin/ruff check --config post/pyproject.toml post tests docs
 	$(VENV)/bin/ruff format --check --config post/pyproject.toml post tests docs
 
 format: python
-	-$(VENV)/bin/fortitude check --fix $(fortran_style) src_f90 tests
+	-$(VENV)/bin/fortitude check --fix $(fortran_style) src_f90 post/wrap tests
 	$(VENV)/bin/ruff check --fix --config post/pyproject.toml post tests docs
 	$(VENV)/bin/ruff format --config post/pyproject.toml post tests docs
 

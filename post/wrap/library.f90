@@ -196,7 +196,7 @@ contains
    subroutine tell(error, status, message)
       type(error_type), allocatable, intent(in) :: error
       integer(c_int), intent(out) :: status
-      character(len=*), intent(out) :: message
+      character(len=2000), intent(out) :: message
       status = 0
       message = ''
       if (.not. allocated(error)) return
