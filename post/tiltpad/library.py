@@ -99,7 +99,7 @@ def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple
         journal = np.array([rest["journal_y"], rest["journal_z"], 0, 0])
         return None, journal, (np.array([tilt, still]), np.array([penetration, still]))
     times = run.time
-    step = np.diff(times).max(initial=0)
+    step = np.ptp(times[:2])
     if not times[0] - step <= time <= times[-1] + step:
         raise NotInRunError(
             f"{run.path}: no time {time:g} s in this run: sampled from {times[0]:g} to {times[-1]:g} s"

@@ -12,7 +12,7 @@ module bearing_forces
    use contact_table, only: contact_table_type, new_contact_table
    use friction, only: friction_law, friction_response
    use kinematics, only: pad_place, pad_frame, frame_of, motion_of
-   use components, only: new_film, new_law, new_friction, new_places
+   use components, only: make_film, new_law, new_friction, new_places
    implicit none (type, external)
    private
    public :: bearing_forces_type, pad_loads, init_forces, pad_outputs
@@ -80,7 +80,7 @@ contains
       model%states_per_pad = merge(4, 2, model%radial) + merge(1, 0, model%friction%has_bristle)
       model%n = 4 + n*model%states_per_pad
       model%places = new_places(scene)
-      model%film = new_film(scene)
+      call make_film(scene, model%film)
       if (model%radial) model%contact = new_contact_table(new_law(scene))
       model%ball_radius = scene%pivot%socket_radius - scene%pivot%radius_difference
       model%unbalance = scene%unbalance()

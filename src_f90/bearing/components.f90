@@ -14,7 +14,7 @@ module components
    use kinematics, only: pad_place
    implicit none (type, external)
    private
-   public :: new_film, new_law, new_friction, new_places
+   public :: make_film, new_law, new_friction, new_places
 
    !> Finite volumes along the arc and along half the width where the input leaves them to the solver: what
    !> rupture adds to the modes' force wants the finer grid (docs/benchmarks.md).
@@ -22,10 +22,11 @@ module components
 
 contains
 
-   !> The film solver of all pads.
-   function new_film(scene) result(film)
+   !> The film solver of all pads. No function: gfortran never frees the result of one whose type is chosen within,
+   !> and Python makes a solver for every instant.
+   subroutine make_film(scene, film)
       type(scene_type), intent(in) :: scene
-      class(film_solver_type), allocatable :: film
+      class(film_solver_type), allocatable, intent(out) :: film
       type(pad_film_type) :: films(scene%pad_count())
       type(sor_options) :: options
       integer :: i, cavitation, cells, modes, volumes(2)
@@ -60,7 +61,7 @@ contains
             film = new_modal_film(films, cells, modes, cavitation == cavitation_gumbel)
          end if
       end associate
-   end function new_film
+   end subroutine make_film
 
    !> The contact law of the pivots.
    pure function new_law(scene) result(law)

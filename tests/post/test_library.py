@@ -1,7 +1,9 @@
 """The compiled part: pressure fields of archived instants, contact, friction and spectra by the library."""
 
+import resource
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -221,6 +223,21 @@ def test_a_closed_film_is_an_exception(changed):
         ) as caught:
             tiltpad.pressure(case, case.time[3])
         assert caught.value.status == 2
+
+
+def test_no_memory_is_lost(run):
+    """A film solver has a third of a megabyte; what is made for an instant is given back."""
+
+    def resident():
+        pages = int(Path("/proc/self/statm").read_text().split()[1])
+        return pages * resource.getpagesize()
+
+    case = run("four")
+    for calls in (20, 200):
+        before = resident()
+        for _ in range(calls):
+            tiltpad.pressure(case, 0.01, 3, 3)
+    assert resident() - before < 10e6
 
 
 def test_without_the_compiled_part(result):
