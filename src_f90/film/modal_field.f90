@@ -31,12 +31,12 @@ contains
       type(pad_film_type), intent(in) :: film
       integer, intent(in) :: modes
       real(wp), intent(in) :: place
-      real(wp) :: length
+      real(wp) :: unit
       integer :: k
-      length = film%axial_length/film%pad_radius()
-      left_out = length**2*(1 - place**2)/8
+      unit = film%axial_length/(pi*film%pad_radius())
+      left_out = (film%axial_length/film%pad_radius())**2*(1 - place**2)/8
       do k = 1, modes
-         left_out = left_out - axial_profile(k, place)*(length/((2*k - 1)*pi))**2
+         left_out = left_out - axial_profile(k, place)/((2*k - 1)/unit)**2
       end do
    end function left_out
 
