@@ -53,6 +53,8 @@ COMPILE = $(FC) -std=f2018 -fimplicit-none -fopenmp-simd $(FFLAGS) $(INCLUDE) -J
 # ---- system packages ---------------------------------------------------------------------------
 PACKAGES := gfortran libc6-dev libsundials-dev libsundials-fortran-dev libhdf5-dev libfftw3-dev \
             liblapack-dev python3 python3-venv python3-dev
+# for one test alone, which is skipped without it: a browser that opens a report
+TEST_PACKAGES := chromium-headless-shell
 
 sources := $(sort $(shell find src_f90 -name '*.f90'))
 main    := src_f90/app/tiltpad.f90
@@ -99,7 +101,7 @@ help:
 	@echo 'make python   Python environment build/venv with the package tiltpad and its compiled part'
 	@echo 'make wheel    build/wheel/tiltpad-*.whl with the compiled part, tried in an environment of its own'
 	@echo 'make lint     style of Fortran and Python; make format mends what it can'
-	@echo 'make docs     write docs/inputs.md, docs/verification.md and docs/images from the program'
+	@echo 'make docs     write docs/inputs.md, docs/api.md, docs/verification.md and docs/images from the program'
 	@echo 'make install  program into PREFIX/bin    (PREFIX=$(PREFIX))'
 	@echo 'make clean    remove build/'
 
@@ -110,7 +112,7 @@ run: build python
 	@for plot in orbit spectrum hysteresis; do \
 	   $(VENV)/bin/tiltpad-plot $$plot build/run/steady_lugre.h5 -o build/run/$$plot.png || exit 1; done
 
-test: build python
+test: build python build/deps-test
 	@$(MAKE) --no-print-directory MODE=debug test-programs
 	@TILTPAD=$(abspath $(B)/bin/tiltpad) tests/run_all $(VENV)/bin/python build/debug/tests
 
@@ -132,20 +134,31 @@ build/deps-checked:
 ifneq ($(strip $(prefixes)),)
 	@echo 'prefixes given: nothing is installed'
 else
-	@if command -v dpkg-query >/dev/null; then \
-	   missing=; for p in $(PACKAGES); do \
-	     dpkg-query -W -f '$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || missing="$$missing $$p"; done; \
-	   if [ -n "$$missing" ]; then \
-	     if [ "$$(id -u)" = 0 ]; then sudo=; \
-	     elif sudo -n true 2>/dev/null; then sudo=sudo; \
-	     else echo "missing packages; install them and call make again:"; echo "  apt-get install$$missing"; exit 1; fi; \
-	     echo "installing:$$missing"; \
-	     $$sudo apt-get update -qq && \
-	     $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends $$missing >/dev/null || exit 1; \
-	   fi; \
-	 else echo 'no Debian packages here: taking libraries from the compiler'"'"'s own paths'; fi
+	@$(call install_missing,$(PACKAGES))
 endif
 	@touch $@
+
+build/deps-test: build/deps-checked
+ifeq ($(strip $(prefixes)),)
+	@($(call install_missing,$(TEST_PACKAGES))) || echo 'tests that need them are skipped'
+endif
+	@touch $@
+
+# shell commands that install those of some Debian packages that are missing
+define install_missing
+if command -v dpkg-query >/dev/null; then \
+   missing=; for p in $(1); do \
+     dpkg-query -W -f '$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || missing="$$missing $$p"; done; \
+   if [ -n "$$missing" ]; then \
+     if [ "$$(id -u)" = 0 ]; then sudo=; \
+     elif sudo -n true 2>/dev/null; then sudo=sudo; \
+     else echo "missing packages; install them and call make again:"; echo "  apt-get install$$missing"; exit 1; fi; \
+     echo "installing:$$missing"; \
+     $$sudo apt-get update -qq && \
+     $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends $$missing >/dev/null || exit 1; \
+   fi; \
+else echo 'no Debian packages here: taking libraries from the compiler'"'"'s own paths'; fi
+endef
 
 python: $(VENV)/ready wrap
 
@@ -235,6 +248,7 @@ format: python
 
 docs: run
 	@{ cat docs/inputs_head.md; $(B)/bin/tiltpad --reference; } > docs/inputs.md
+	$(venv_python) docs/api.py > build/api.md && mv build/api.md docs/
 	@mkdir -p docs/images
 	cp build/run/*.png docs/images/
 	$(venv_python) docs/verify.py $(B)/bin/tiltpad > build/verification.md && mv build/verification.md docs/

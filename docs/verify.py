@@ -70,9 +70,9 @@ LUGRE = {
 }
 SCENES = ("steady_tr", "steady_to", "steady_to_ba", "steady_ba_10_05", "steady_lugre", "steady_lugre5")
 TIGHT = (
-    "film%circumferential_cells=64",
+    "film%circumferential_cells=120",
     "film%axial_modes=24",
-    "film%axial_cells=30",
+    "film%axial_cells=15",
     "film%tolerance=1e-8",
     "film%max_sweeps=100000",
     "integration%relative_tolerance=1e-8",

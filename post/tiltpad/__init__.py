@@ -25,18 +25,29 @@ from tiltpad.library import (
     friction_force,
     pressure,
 )
+from tiltpad.pivots import (
+    friction_coefficient,
+    friction_power,
+    friction_work,
+    hysteresis,
+    loop_area,
+    sliding_velocity,
+    stick_fraction,
+    stick_intervals,
+    stick_velocity,
+    sticking,
+)
 from tiltpad.read import IncompleteRunWarning, NotInRunError, Run, RunError, read
 from tiltpad.signals import (
     envelope,
-    full_spectrum,
-    hysteresis,
     last_revolutions,
-    loop_area,
     orbit,
+    orbit_size,
+    poincare,
     revolutions,
-    spectrum,
     waveform,
 )
+from tiltpad.spectra import full, full_spectrum, one_sided, order_track, spectrum, waterfall
 
 __all__ = [
     "Contact",
@@ -53,16 +64,30 @@ __all__ = [
     "contact_pressure",
     "deviations",
     "envelope",
+    "friction_coefficient",
     "friction_force",
+    "friction_power",
+    "friction_work",
+    "full",
     "full_spectrum",
     "hysteresis",
     "last_revolutions",
     "loop_area",
+    "one_sided",
     "orbit",
+    "orbit_size",
+    "order_track",
+    "poincare",
     "pressure",
     "read",
     "revolutions",
+    "sliding_velocity",
     "spectrum",
+    "stick_fraction",
+    "stick_intervals",
+    "stick_velocity",
+    "sticking",
+    "waterfall",
     "waveform",
 ]
 

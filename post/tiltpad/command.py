@@ -1,11 +1,12 @@
-"""The command tiltpad-plot."""
+"""The commands tiltpad-plot and tiltpad-report."""
 
 import argparse
 import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from pathlib import Path
+from typing import Any
 
 from tiltpad.library import LibraryError, MissingLibraryError
 from tiltpad.read import IncompleteRunWarning, NotInRunError, RunError, read
@@ -16,10 +17,17 @@ INPUT_ERROR, FILE_ERROR = 1, 3
 
 PLOTS = {
     "orbit": "path of the journal in its clearance circle, and enlarged (last revolution)",
-    "spectrum": "amplitudes of the journal's motion, one-sided and full (runs at constant speed)",
-    "hysteresis": "friction moment over pad tilt, a panel a pad (last revolution)",
+    "equilibrium": "rest of the journal in its clearance circle",
+    "size": "peak-to-peak of the journal: of one run, over what differs between runs, over speed",
+    "poincare": "journal and a pad once a revolution (last 50 revolutions, pad 1)",
     "waveform": "journal, tilt and tilt rate over the last revolutions (5)",
+    "spectrum": "amplitudes of the journal, one-sided and full, at constant speed (those in the file)",
+    "hysteresis": "friction moment over pad tilt, a panel a pad (last revolution)",
+    "friction": "friction coefficient over sliding velocity, a panel a pad (last revolution)",
+    "sticking": "tilt rate, bold where the pivot sticks, a panel a pad (last 2 revolutions)",
     "runup": "journal and tilt over the whole run, with the speed",
+    "orders": "amplitude and phase of the first orders over the speed of a run-up (with --pad: its tilt too)",
+    "waterfall": "amplitudes over speed and order of a run-up (journal, or with --pad its tilt)",
     "pressure": "film pressure over the unrolled pads at one instant (--time; else at the equilibrium)",
 }
 
@@ -28,63 +36,114 @@ class Parser(argparse.ArgumentParser):
     """One line and the program's own exit status for a wrong command line."""
 
     def error(self, message: str) -> None:
-        self.exit(complain(f"{message}; see {self.prog} --help", INPUT_ERROR))
+        self.exit(complain(self.prog, f"{message}; see {self.prog} --help", INPUT_ERROR))
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Draws what the command line asks for; gives the exit status."""
-    options = parser().parse_args(arguments)
+    """tiltpad-plot: draws what the command line asks for; gives the exit status."""
+    options = plot_parser().parse_args(arguments)
     output = Path(options.output or f"{Path(options.files[0]).stem}-{options.plot}.png")
+    return finished("tiltpad-plot", output, lambda: draw(options, output))
+
+
+def report(arguments: Sequence[str] | None = None) -> int:
+    """tiltpad-report: writes the page about a run; gives the exit status."""
+    options = report_parser().parse_args(arguments)
+    output = Path(options.output or f"{Path(options.file).stem}.html")
+    return finished("tiltpad-report", output, lambda: write_report(options.file, output))
+
+
+def finished(command: str, output: Path, work: Callable[[], None]) -> int:
+    """Does the work and gives the exit status; errors and warnings are a line each."""
     try:
-        if output.suffix.lower().removeprefix(".") not in FORMATS:
-            raise ValueError(f"{output}: the name must end in .png, .pdf or .svg")
-        if options.time is not None and options.plot != "pressure":
-            raise ValueError(f"--time: for the plot pressure, not for {options.plot}")
-        draw(options, output)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            warnings.simplefilter("always", IncompleteRunWarning)
+            warnings.showwarning = lambda message, *_: print(
+                f"{command}: warning: {message}", file=sys.stderr
+            )
+            work()
     except (ValueError, NotInRunError) as error:
-        return complain(error, INPUT_ERROR)
+        return complain(command, error, INPUT_ERROR)
     except RunError as error:
-        return complain(error, FILE_ERROR)
+        return complain(command, error, FILE_ERROR)
     except LibraryError as error:
-        return complain(error, error.status)
+        return complain(command, error, error.status)
     except MissingLibraryError as error:
-        return complain(error, FILE_ERROR)
+        return complain(command, error, FILE_ERROR)
     except OSError as error:
-        return complain(f"{output}: cannot be written: {error.strerror or error}", FILE_ERROR)
+        return complain(command, f"{output}: cannot be written: {error.strerror or error}", FILE_ERROR)
     except KeyboardInterrupt:
-        return complain("stopped", 130)
+        return complain(command, "stopped", 130)
     except Exception as error:
-        return complain(f"please report this fault: {type(error).__name__}: {error}", FILE_ERROR)
+        return complain(command, f"please report this fault: {type(error).__name__}: {error}", FILE_ERROR)
     return 0
 
 
 def draw(options: argparse.Namespace, output: Path) -> None:
     """Reads the runs, draws them and writes the picture."""
-    import matplotlib as mpl  # after --help and wrong options, which need not wait for it
-
-    mpl.use("agg")
+    form = needs_suffix(output, FORMATS)
+    if options.time is not None and options.plot != "pressure":
+        raise ValueError(f"--time: for the plot pressure, not for {options.plot}")
+    mpl = matplotlib_for_files()
     from tiltpad import figures, plots
 
     with ExitStack() as stack:
-        caught = stack.enter_context(warnings.catch_warnings(record=True))
-        warnings.simplefilter("ignore")
-        warnings.simplefilter("always", IncompleteRunWarning)
         runs = [stack.enter_context(read(path)) for path in options.files]
-        for warning in caught:
-            print(f"tiltpad-plot: warning: {warning.message}", file=sys.stderr)
         stack.enter_context(mpl.style.context(plots.STYLE))
+        if options.pad is not None:
+            figures.shown_pads(runs, options.pad)
         when = {"time": options.time} if options.plot == "pressure" else {}
         figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **when)
         stack.callback(plots.plt.close, figure)
-        figure.savefig(output, format=output.suffix.lower().removeprefix("."))
+        figure.savefig(output, format=form)
 
 
-def complain(message: object, status: int) -> int:
-    print(f"tiltpad-plot: error: {message}", file=sys.stderr)
+def write_report(path: str, output: Path) -> None:
+    """Reads the run and writes the page about it."""
+    needs_suffix(output, ("html", "htm"))
+    matplotlib_for_files()
+    from tiltpad.report import report
+
+    with read(path) as run:
+        page = report(run)
+    output.write_text(page, encoding="utf-8")
+
+
+def needs_suffix(output: Path, allowed: Sequence[str]) -> str:
+    """The suffix of a file's name in small letters; ValueError where it is not allowed."""
+    suffix = output.suffix.lower().removeprefix(".")
+    if suffix not in allowed:
+        *others, last = (f".{each}" for each in allowed)
+        raise ValueError(f"{output}: the name must end in {', '.join(others)} or {last}")
+    return suffix
+
+
+def matplotlib_for_files() -> Any:
+    """matplotlib without a display; loaded after --help and wrong options, which need not wait for it."""
+    import matplotlib as mpl
+
+    mpl.use("agg")
+    return mpl
+
+
+def complain(command: str, message: object, status: int) -> int:
+    print(f"{command}: error: {message}", file=sys.stderr)
     return status
 
 
-def parser() -> Parser:
+def report_parser() -> Parser:
+    parser = Parser(
+        prog="tiltpad-report",
+        description="Writes one HTML page about a result file of tiltpad: key figures, pictures, input.",
+        epilog="exit status: 0 done; 1 usage; 3 a file cannot be read or written",
+    )
+    parser.add_argument("file", metavar="FILE", help="result file (.h5)")
+    parser.add_argument("-o", "--output", metavar="HTML", help="default: FILE's name with .html, here")
+    return parser
+
+
+def plot_parser() -> Parser:
     plots = "\n".join(f"  {name:<12}{meaning}" for name, meaning in PLOTS.items())
     parser = Parser(
         prog="tiltpad-plot",

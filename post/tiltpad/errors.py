@@ -1,4 +1,7 @@
-"""How far a run is from a better one: the error that docs/benchmarks.md and docs/verification.md quote."""
+"""How far a run is from a better one.
+
+This is the error that docs/benchmarks.md and docs/verification.md quote.
+"""
 
 import numpy as np
 

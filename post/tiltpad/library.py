@@ -12,8 +12,8 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
+from tiltpad import signals
 from tiltpad.read import NotInRunError, Run
 
 try:
@@ -38,37 +38,47 @@ class LibraryError(RuntimeError):
 
 
 class Pressure(NamedTuple):
-    """Film pressure of all pads at one instant."""
+    """Film pressure of all pads at one instant.
 
-    #: s; None for the equilibrium.
+    Its fields:
+
+    time                  s; None for the equilibrium
+    pressure              (pad, phi, z), Pa
+    phi                   angle from the pivot, (pad, phi), rad: from the trailing edge up to the leading edge
+    z                     axial place from the middle plane, (z,), m
+    force                 on the journal along y' and z' of each pad, (pad, 2), N
+    max_pressure          highest pressure at the solver's own points, (pad,), Pa
+    min_film_thickness    (pad,), m
+    """
+
     time: float | None
-    #: Pressure, (pad, phi, z), Pa.
     pressure: np.ndarray
-    #: Angle from the pivot, (pad, phi), rad, from the trailing edge (negative) to the leading edge.
     phi: np.ndarray
-    #: Axial place from the middle plane, (z,), m.
     z: np.ndarray
-    #: Force on the journal along y' and z' of each pad, (pad, 2), N.
     force: np.ndarray
-    #: Highest pressure at the solver's own points, (pad,), Pa, and least film thickness, (pad,), m.
     max_pressure: np.ndarray
     min_film_thickness: np.ndarray
 
 
 class Contact(NamedTuple):
-    """Contact of ball and socket, arrays of the shape of the penetrations."""
+    """Contact of ball and socket, arrays of the shape of the penetrations.
 
-    #: Normal force, N, and its slope over the penetration, N/m.
+    Its fields:
+
+    force, slope              normal force, N, and its slope over the penetration, N/m
+    radius                    projected radius of the contact, m
+    exponent, peak_pressure   of the contact pressure, eq (11), 1 and Pa
+    """
+
     force: np.ndarray
     slope: np.ndarray
-    #: Projected radius of the contact, m; exponent and peak, Pa, of its pressure, eq (11).
     radius: np.ndarray
     exponent: np.ndarray
     peak_pressure: np.ndarray
 
 
 def pressure(
-    run: Run, time: float | None = None, along: int | ArrayLike = 121, across: int | ArrayLike = 41
+    run: Run, time: float | None = None, along: int | np.ndarray = 121, across: int | np.ndarray = 41
 ) -> Pressure:
     """Film pressure and force of every pad at the sample next to `time`, s; None: at the equilibrium.
 
@@ -98,26 +108,27 @@ def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple
         tilt, penetration = (rest.get(name, still) for name in ("pad_tilt", "pad_penetration"))
         journal = np.array([rest["journal_y"], rest["journal_z"], 0, 0])
         return None, journal, (np.array([tilt, still]), np.array([penetration, still]))
-    times = run.time
-    step = np.ptp(times[:2])
-    if not times[0] - step <= time <= times[-1] + step:
+    start, end = signals.ends(run, "time")
+    step = run.values("time", slice(0, 2))[-1] - start
+    if not start - step <= time <= end + step:
         raise NotInRunError(
-            f"{run.path}: no time {time:g} s in this run: sampled from {times[0]:g} to {times[-1]:g} s"
+            f"{run.path}: no time {time:g} s in this run: sampled from {start:g} to {end:g} s"
         )
-    k = int(np.argmin(np.abs(times - time)))
-    part = slice(k, k + 1)
+    after = run.first("time", time)
+    near = range(max(0, after - 1), min(after + 1, run.samples))
+    k = min(near, key=lambda i: abs(run.values("time", i) - time))
 
     def sample(*names: str) -> np.ndarray:
-        return np.array([run.values(name, part)[0] for name in names])
+        return np.array([run.values(name, k) for name in names])
 
     journal = sample("journal_y", "journal_z", "journal_vy", "journal_vz")
     tilt = sample("pad_tilt", "pad_tilt_rate")
     radial = "pad_penetration" in run
     penetration = sample("pad_penetration", "pad_penetration_rate") if radial else np.zeros_like(tilt)
-    return float(times[k]), journal, (tilt, penetration)
+    return float(run.values("time", k)), journal, (tilt, penetration)
 
 
-def shares(points: int | ArrayLike, first: float, outside: str) -> np.ndarray:
+def shares(points: int | np.ndarray, first: float, outside: str) -> np.ndarray:
     """So many evenly spaced from `first` to 1, or those that are given."""
     if isinstance(points, int | np.integer):
         return np.linspace(first, 1, points)
@@ -127,17 +138,19 @@ def shares(points: int | ArrayLike, first: float, outside: str) -> np.ndarray:
     return places
 
 
-def contact(penetration: ArrayLike, case: Run | str = PAPER) -> Contact:
+def contact(penetration: float | np.ndarray, case: Run | str = PAPER) -> Contact:
     """Contact of a pivot at penetrations, m; all zero where these are not positive."""
     return Contact(*elementwise("contact", case, penetration))
 
 
-def contact_force(penetration: ArrayLike, case: Run | str = PAPER) -> np.ndarray:
+def contact_force(penetration: float | np.ndarray, case: Run | str = PAPER) -> np.ndarray:
     """Normal force, N, of a pivot at penetrations, m."""
     return contact(penetration, case).force
 
 
-def contact_pressure(penetration: ArrayLike, r: ArrayLike, case: Run | str = PAPER) -> np.ndarray:
+def contact_pressure(
+    penetration: float | np.ndarray, r: float | np.ndarray, case: Run | str = PAPER
+) -> np.ndarray:
     """Contact pressure (11), Pa, at penetrations, m, and distances r from the contact's axis, m.
 
     The two broadcast. r is projected along the axis, as the radius of the contact is; beyond it the pressure
@@ -147,7 +160,10 @@ def contact_pressure(penetration: ArrayLike, r: ArrayLike, case: Run | str = PAP
 
 
 def friction_force(
-    velocity: ArrayLike, normal_force: ArrayLike, deflection: ArrayLike = 0.0, case: Run | str = PAPER
+    velocity: float | np.ndarray,
+    normal_force: float | np.ndarray,
+    deflection: float | np.ndarray = 0.0,
+    case: Run | str = PAPER,
 ) -> np.ndarray:
     """Friction force, N, at sliding velocities, m/s, normal forces, N, and bristle deflections, m (LuGre).
 
@@ -156,22 +172,24 @@ def friction_force(
     return elementwise("friction_force", case, velocity, deflection, normal_force)[0]
 
 
-def bristle_rate(velocity: ArrayLike, deflection: ArrayLike, case: Run | str = PAPER) -> np.ndarray:
+def bristle_rate(
+    velocity: float | np.ndarray, deflection: float | np.ndarray, case: Run | str = PAPER
+) -> np.ndarray:
     """Rate of the bristle deflection, m/s, eq (24); zero where the friction has no bristles."""
     return elementwise("friction_force", case, velocity, deflection, 0.0)[1]
 
 
-def one_sided_amplitude(signal: ArrayLike) -> np.ndarray:
+def one_sided_amplitude(signal: float | np.ndarray) -> np.ndarray:
     """Amplitudes (n//2 + 1,) of a signal (n,) at k/(n dt), k = 0, ..., n//2: that of a sine is its own."""
     return called_plain("one_sided", signal)
 
 
-def full_amplitude(y: ArrayLike, z: ArrayLike) -> np.ndarray:
+def full_amplitude(y: float | np.ndarray, z: float | np.ndarray) -> np.ndarray:
     """Amplitudes (n,) of y + i z at k/(n dt), k = -((n-1)//2), ..., n//2: forward whirl at positive k."""
     return called_plain("full", y, z)
 
 
-def elementwise(name: str, case: Run | str, *arguments: ArrayLike) -> list[np.ndarray]:
+def elementwise(name: str, case: Run | str, *arguments: float | np.ndarray) -> list[np.ndarray]:
     """The results of a routine that takes equally many of each argument, in their common shape."""
     arrays = np.broadcast_arrays(*(np.asarray(each, dtype=float) for each in arguments))
     if not arrays[0].size:
@@ -189,7 +207,7 @@ def called(name: str, case: Run | str, *arguments: Any) -> list[Any]:
     return results
 
 
-def called_plain(name: str, *signals: ArrayLike) -> np.ndarray:
+def called_plain(name: str, *signals: float | np.ndarray) -> np.ndarray:
     """The result of a routine that needs no case."""
     arrays = [np.asarray(each, dtype=float) for each in signals]
     if arrays[0].ndim != 1 or not arrays[0].size or len({each.shape for each in arrays}) > 1:

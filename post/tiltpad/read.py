@@ -2,6 +2,7 @@
 
 import os
 import warnings
+from bisect import bisect_left
 from functools import cached_property
 from typing import Any
 
@@ -34,12 +35,14 @@ def read(path: str | os.PathLike) -> "Run":
 class Run:
     """One result file, open for reading; nothing is loaded before it is asked for.
 
-    run.journal_y, run["journal_y"]      dataset as an array, (time,) or (time, pad), SI units
-    run.values("journal_y", part)        the same, only the samples of the slice `part`
-    run.equilibrium                      group as a dictionary of arrays
-    run["equilibrium/journal_y"]         one of them
-    run.title, run.complete, ...         attributes of the file; run.attributes has all of them
-    run.input["bearing"]                 resolved namelist, a dictionary a group
+    What is in the file goes by its name:
+
+        run.journal_y, run["journal_y"]      dataset as an array, (time,) or (time, pad), SI units
+        run.values("journal_y", part)        the same, only the samples of the slice `part`
+        run.equilibrium                      group as a dictionary of arrays
+        run["equilibrium/journal_y"]         one of them
+        run.title, run.complete, ...         attributes of the file; run.attributes has all of them
+        run.input["bearing"]                 resolved namelist, a dictionary a group
     """
 
     def __init__(self, path: str | os.PathLike):
@@ -52,7 +55,7 @@ class Run:
             self.file.close()
             raise
         if not self.attributes.get("complete", 0):
-            warnings.warn(f"{self.path}: incomplete run{self._end()}", IncompleteRunWarning, stacklevel=3)
+            warnings.warn(f"{self.path}: incomplete run{self.end()}", IncompleteRunWarning, stacklevel=3)
 
     def __getitem__(self, name: str) -> Any:
         return self.values(name)
@@ -78,14 +81,15 @@ class Run:
         return f"<tiltpad run {self.path!r}: {self.title or self.task}, {', '.join(self.file)}>"
 
     def close(self) -> None:
+        """Closes the file; `with tiltpad.read(path) as run:` does it at its end."""
         self.file.close()
 
-    def values(self, name: str, part: slice = slice(None)) -> Any:
+    def values(self, name: str, part: slice | int = slice(None)) -> Any:
         """A dataset as an array, or the samples `part` of it; a group as a dictionary of arrays."""
         if name not in self.file:
             group = name.split("/")[0]
             missing = name if group in self.file else group
-            raise NotInRunError(f"{self.path}: no {missing} in this run: {self._reason(missing)}")
+            raise NotInRunError(f"{self.path}: no {missing} in this run: {self.why_not(missing)}")
         found = self.file[name]
         try:
             if isinstance(found, h5py.Group):
@@ -93,6 +97,14 @@ class Run:
             return found[()] if found.ndim == 0 else found[part]
         except OSError as error:
             raise RunError(f"{self.path}: {name} cannot be read, the file is damaged ({error})") from error
+
+    def first(self, name: str, value: float) -> int:
+        """Index of the first sample at or above a value in a rising dataset; reads only a few of them."""
+        return bisect_left(range(self.samples), value, key=lambda i: self.values(name, i))
+
+    def dimensions(self, name: str) -> int:
+        """Number of dimensions of a dataset: 1 (time,), 2 (time, pad)."""
+        return np.ndim(self.values(name, slice(0, 1)))
 
     @cached_property
     def input(self) -> dict[str, dict[str, Any]]:
@@ -114,14 +126,15 @@ class Run:
         """Number of samples in time; 0 where nothing was marched."""
         return len(self.file["time"]) if "time" in self.file else 0
 
-    def _end(self) -> str:
+    def end(self) -> str:
+        """Where an incomplete run ended, as the end of a sentence."""
         if not self.samples:
             return " without samples in time"
         duration = self.input["operation"]["duration"]
         return f", ended at {self.file['time'][-1]:g} s of {duration:g} s"
 
-    def _reason(self, name: str) -> str:
-        """Why the scene has no such dataset."""
+    def why_not(self, name: str) -> str:
+        """Why the run has no such dataset."""
         friction, motion = self.input["friction"]["model"], self.input["pads"]["motion"]
         if name == "bristle_deflection" and friction != "lugre":
             return f"friction model is '{friction}'"
@@ -129,7 +142,10 @@ class Run:
             return f"pad motion is '{motion}'"
         if self.task == "equilibrium":
             return "its task is 'equilibrium', nothing was marched in time"
-        if name == "spectrum" and self.samples and np.ptp(self.values("speed")) > 0:
+        if not self.samples:
+            return "it ended before its first sample"
+        operation = self.input["operation"]
+        if name == "spectrum" and operation["speed_rpm"] != operation["final_speed_rpm"]:
             return "the speed changes"
         if name == "spectrum":
             return "less than one revolution was sampled, or the run is incomplete"

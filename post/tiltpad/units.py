@@ -13,7 +13,7 @@ class Shown(NamedTuple):
 
     @property
     def label(self) -> str:
-        return f"{self.text} ({self.unit})"
+        return f"{self.text} ({self.unit})" if self.unit else self.text
 
 
 SHOWN = {
@@ -22,6 +22,9 @@ SHOWN = {
     "speed": Shown("speed", 30 / pi, "rpm"),
     "frequency": Shown("frequency", 1, "Hz"),
     "amplitude": Shown("amplitude", 1e6, "µm"),
+    "size": Shown("peak to peak", 1e6, "µm"),
+    "sliding_velocity": Shown("sliding velocity", 1e3, "mm/s"),
+    "friction_coefficient": Shown("friction coefficient", 1, ""),
     "journal_y": Shown("journal $y$", 1e6, "µm"),
     "journal_z": Shown("journal $z$", 1e6, "µm"),
     "journal_vy": Shown("journal velocity, $y$", 1e3, "mm/s"),
@@ -34,6 +37,9 @@ SHOWN = {
     "contact_force": Shown("contact force", 1e-3, "kN"),
     "friction_moment": Shown("friction moment", 1, "N m"),
     "work": Shown("work", 1e3, "mJ"),
+    "power": Shown("power", 1e3, "mW"),
+    "share": Shown("share", 100, "%"),
+    "number": Shown("number", 1, ""),
     "film_force_tangential": Shown("film force, tangential", 1e-3, "kN"),
     "film_force_radial": Shown("film force, radial", 1e-3, "kN"),
     "min_film_thickness": Shown("least film thickness", 1e6, "µm"),

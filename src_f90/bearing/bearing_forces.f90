@@ -12,7 +12,8 @@ module bearing_forces
    use contact_table, only: contact_table_type, new_contact_table
    use friction, only: friction_law, friction_response
    use kinematics, only: pad_place, pad_frame, frame_of, motion_of
-   use components, only: make_film, new_law, new_friction, new_places
+   use pad_film, only: pad_film_type, pad_directions
+   use components, only: make_film, new_gaps, new_law, new_friction, new_places
    implicit none (type, external)
    private
    public :: bearing_forces_type, pad_loads, init_forces, pad_outputs
@@ -33,6 +34,8 @@ module bearing_forces
       integer :: states_per_pad, n
       logical :: radial
       type(pad_place), allocatable :: places(:)
+      type(pad_film_type), allocatable :: gaps(:)
+      type(pad_directions), allocatable :: directions(:)
       class(film_solver_type), allocatable :: film
       type(contact_table_type) :: contact
       class(friction_law), allocatable :: friction
@@ -63,8 +66,8 @@ module bearing_forces
    integer(i8), parameter :: timing_stride = 16
    !> Film thickness over assembled clearance below which a failed march is put down to it.
    real(wp), parameter :: nearly_closed = 1e-2_wp
-   !> Outputs of a pad: force on the journal in its frame, least film thickness, highest pressure.
-   integer, parameter :: pad_outputs = 4
+   !> Outputs of a pad: force on the journal in its frame, highest pressure.
+   integer, parameter :: pad_outputs = 3
 
 contains
 
@@ -72,7 +75,7 @@ contains
    subroutine init_forces(model, scene)
       class(bearing_forces_type), intent(inout) :: model
       type(scene_type), intent(in) :: scene
-      integer :: n
+      integer :: i, n
       n = scene%pad_count()
       model%scene = scene
       model%radial = scene%tilting_radial()
@@ -80,6 +83,11 @@ contains
       model%states_per_pad = merge(4, 2, model%radial) + merge(1, 0, model%friction%has_bristle)
       model%n = 4 + n*model%states_per_pad
       model%places = new_places(scene)
+      model%gaps = new_gaps(scene)
+      allocate (model%directions(n))
+      do i = 1, n
+         model%directions(i) = model%gaps(i)%directions()
+      end do
       call make_film(scene, model%film)
       if (model%radial) model%contact = new_contact_table(new_law(scene))
       model%ball_radius = scene%pivot%socket_radius - scene%pivot%radius_difference
@@ -152,8 +160,9 @@ contains
       do i = 1, size(self%places)
          associate (film => output(pad_outputs*(i - 1) + 1:pad_outputs*i))
             self%response(i)%force = film(1:2)
-            self%response(i)%min_film = film(3)
-            self%response(i)%max_pressure = film(4)
+            self%response(i)%min_film = self%gaps(i)%least_thickness(self%motion(i), self%directions(i))
+            ! between steps at which it leaps a polynomial may undershoot
+            self%response(i)%max_pressure = max(film(3), self%gaps(i)%supply_pressure, self%gaps(i)%ambient_pressure)
          end associate
          call self%pad_forces(i, y)
       end do

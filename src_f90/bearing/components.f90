@@ -14,10 +14,10 @@ module components
    use kinematics, only: pad_place
    implicit none (type, external)
    private
-   public :: make_film, new_law, new_friction, new_places
+   public :: make_film, new_gaps, new_law, new_friction, new_places
 
-   !> Finite volumes along the arc and along half the width where the input leaves them to the solver: what
-   !> rupture adds to the modes' force wants the finer grid (docs/benchmarks.md).
+   !> Finite volumes along the arc and along half the width where the input leaves them to the solver, by the
+   !> errors in docs/benchmarks.md.
    integer, parameter :: sor_volumes(2) = [60, 15], rupture_volumes(2) = [80, 8]
 
 contains
@@ -29,13 +29,9 @@ contains
       class(film_solver_type), allocatable, intent(out) :: film
       type(pad_film_type) :: films(scene%pad_count())
       type(sor_options) :: options
-      integer :: i, cavitation, cells, modes, volumes(2)
-      associate (b => scene%bearing, p => scene%pads, f => scene%film)
-         do i = 1, size(films)
-            films(i) = pad_film_type(b%journal_radius, b%machined_clearance, b%axial_length, &
-               & p%pivot_ratio(i)*p%arc_deg(i)*degree, (1 - p%pivot_ratio(i))*p%arc_deg(i)*degree, &
-               & b%viscosity, b%supply_pressure, b%ambient_pressure, b%cavitation_pressure)
-         end do
+      integer :: cavitation, cells, modes, volumes(2)
+      films = new_gaps(scene)
+      associate (f => scene%film)
          select case (f%cavitation)
          case ('none')
             cavitation = cavitation_none
@@ -62,6 +58,20 @@ contains
          end if
       end associate
    end subroutine make_film
+
+   !> The gaps between pads and journal.
+   pure function new_gaps(scene) result(gaps)
+      type(scene_type), intent(in) :: scene
+      type(pad_film_type) :: gaps(scene%pad_count())
+      integer :: i
+      associate (b => scene%bearing, p => scene%pads)
+         do i = 1, size(gaps)
+            gaps(i) = pad_film_type(b%journal_radius, b%machined_clearance, b%axial_length, &
+               & p%pivot_ratio(i)*p%arc_deg(i)*degree, (1 - p%pivot_ratio(i))*p%arc_deg(i)*degree, &
+               & b%viscosity, b%supply_pressure, b%ambient_pressure, b%cavitation_pressure)
+         end do
+      end associate
+   end function new_gaps
 
    !> The contact law of the pivots.
    pure function new_law(scene) result(law)

@@ -246,9 +246,9 @@ contains
       self%correction = b
    end subroutine solve
 
-   !> Of every pad film force, least film thickness and highest pressure as evaluated last, the force with
-   !> what Newton's last correction of that state adds: where the pivot is without friction the tangential
-   !> force is a small difference.
+   !> Of every pad film force and highest pressure as evaluated last, the force with what Newton's last
+   !> correction of that state adds: where the pivot is without friction the tangential force is a small
+   !> difference.
    pure function output(self)
       class(bearing_model), intent(in) :: self
       real(wp) :: output(self%outputs), change(columns)
@@ -260,7 +260,7 @@ contains
          associate (film => self%response(i), o => self%offset(i))
             change(5:4 + m) = self%correction(o + 1:o + m)
             output(pad_outputs*(i - 1) + 1:pad_outputs*i) = &
-               & [film%force + matmul(self%film_slopes(:, :, i), change), film%min_film, film%max_pressure]
+               & [film%force + matmul(self%film_slopes(:, :, i), change), film%max_pressure]
          end associate
       end do
    end function output

@@ -1,0 +1,89 @@
+"""Writes docs/api.md: the Python package's functions from their docstrings (make docs)."""
+
+import inspect
+import re
+import sys
+import types
+
+import tiltpad
+from tiltpad import figures, plots, report, summary
+
+HEAD = """# Python package
+
+Written by `make docs` from the docstrings; `help(tiltpad.orbit)` says the same.
+
+    import tiltpad
+    run = tiltpad.read("case.h5")                 # nothing is loaded yet
+    run.journal_y                                 # a dataset, as an array in SI units
+    y, z = tiltpad.orbit(run, last=2)             # the functions below: take a run, give arrays
+    ax = tiltpad.plots.orbit(run)                 # one run on one pair of axes
+    fig = tiltpad.figures.orbit([run, other])     # a whole picture, as tiltpad-plot makes it
+
+Names, dimensions and units of the datasets: [results.md](results.md). `(time,)`, `(pad,)`, `(time, pad)` are
+shapes of arrays; where a run does not have what is asked for, `NotInRunError` says why.
+"""
+
+
+def main() -> None:
+    public = [getattr(tiltpad, name) for name in tiltpad.__all__]
+    # reading first, then in the order of the alphabet
+    modules = sorted({each.__module__ for each in public}, key=lambda name: (name != "tiltpad.read", name))
+    print(HEAD)
+    for name in modules:
+        section("tiltpad", sys.modules[name], [each for each in public if each.__module__ == name])
+    section(
+        "tiltpad.plots", plots, own_functions(plots, "on_axes", "draw_amplitude", "direction_arrow", "polar")
+    )
+    section("tiltpad.figures", figures, [])
+    for name, each in figures.FIGURES.items():
+        print(f"- `tiltpad.figures.{name}(runs, last=None, pad=None)`: {inspect.getdoc(each)}")
+    print()
+    section(
+        "tiltpad.summary",
+        summary,
+        [summary.journal, summary.pads, summary.peaks, summary.Figure, summary.Peak],
+    )
+    section("tiltpad.report", report, [report.report])
+
+
+def own_functions(module: types.ModuleType, *helpers: str) -> list[types.FunctionType]:
+    """Functions that a module defines, in its order, without its helpers."""
+    found = inspect.getmembers(module, inspect.isfunction)
+    own = [each for name, each in found if each.__module__ == module.__name__ and name not in helpers]
+    return sorted(own, key=lambda each: inspect.unwrap(each).__code__.co_firstlineno)
+
+
+def section(prefix: str, module: types.ModuleType, members: list) -> None:
+    """A module: what it is about, and its members."""
+    first, _, more = inspect.getdoc(module).partition("\n")
+    print(f"## {first.rstrip('.')}\n")
+    if more.strip() and module is not plots:
+        print(more.strip() + "\n")
+    for each in members:
+        entry(prefix, each)
+
+
+def entry(prefix: str, member: type | types.FunctionType) -> None:
+    """A function with its signature and docstring, or a class with its public methods and properties."""
+    print(f"### `{prefix}.{member.__name__}`\n")
+    if inspect.isfunction(member):
+        print(f"```python\n{signature(member)}\n```\n")
+    print(inspect.getdoc(member) + "\n")
+    if member is tiltpad.Run:
+        for name, each in vars(member).items():
+            if not name.startswith("_"):
+                call = signature(each) if inspect.isfunction(each) else name
+                call = call.replace("(self, ", "(").replace("(self)", "()")
+                print(f"- `run.{call}`: {inspect.getdoc(each)}")
+        print()
+
+
+def signature(function: types.FunctionType) -> str:
+    """Name and parameters with their types, without the modules that these are from."""
+    return function.__name__ + re.sub(
+        r"\b(?:[a-z_]+\.)+(?=[A-Za-z])", "", str(inspect.signature(function)).replace("'Run'", "Run")
+    )
+
+
+if __name__ == "__main__":
+    main()

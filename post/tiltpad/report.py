@@ -1,0 +1,167 @@
+"""A page about a run.
+
+It is whole in itself: no script, nothing from elsewhere.
+"""
+
+import base64
+import io
+from collections.abc import Iterable, Sequence
+from html import escape
+from importlib.resources import files
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from tiltpad import figures, plots, signals, summary
+from tiltpad.library import MissingLibraryError
+from tiltpad.read import NotInRunError, Run
+from tiltpad.units import SHOWN
+
+#: Pictures and what is said of them; those that a run cannot have are left out.
+PICTURES = {
+    "orbit": "Journal in its clearance circle and enlarged, last revolution.",
+    "equilibrium": "Equilibrium of the journal in its clearance circle.",
+    "waveform": "The last revolutions.",
+    "spectrum": "Amplitudes of the journal: one-sided, and full with backward and forward whirl.",
+    "runup": "The whole run; of many revolutions the band that they fill.",
+    "size": "Peak to peak of the journal over the speed.",
+    "orders": "Amplitude of the first orders over the speed, and the phase of the first.",
+    "waterfall": "Amplitudes over speed and order.",
+    "hysteresis": "Friction moment over tilt: the area is the work lost in the last revolution.",
+    "friction": "Friction coefficient over sliding velocity, last revolution.",
+    "sticking": "Tilt rate, bold where the pivot sticks, over the last two revolutions.",
+    "poincare": "Once a revolution, on the path of the last ones.",
+    "pressure": "Film pressure over the unrolled pads at the equilibrium.",
+}
+
+
+def report(run: Run) -> str:
+    """The page as text; what the run does not have is not on it."""
+    title = run.title or Path(run.path).stem
+    parts = [
+        f"<h1>{escape(title)}</h1>",
+        f"<p class=origin>{escape(origin(run))}</p>",
+        incomplete(run),
+        section("Key figures", key_figures(run)),
+        section("Pads", pad_figures(run)),
+        section("Spectrum", spectrum_peaks(run)),
+        section("Pictures", "".join(pictures(run))),
+        section("Input", f"<pre>{escape(run.attributes['input'].strip())}</pre>"),
+        section("Cost", statistics(run)),
+    ]
+    style = files("tiltpad").joinpath("report.css").read_text(encoding="utf-8")
+    head = f'<meta charset="utf-8"><title>{escape(title)}</title><style>{style}</style>'
+    page = "\n".join(part for part in parts if part)
+    return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head>\n<body>\n{page}\n</body></html>\n'
+
+
+def origin(run: Run) -> str:
+    """File, and what wrote it when."""
+    told = run.attributes
+    written = f"written by {told['program']} {told['version']} ({told['commit']}), {told['created']}"
+    return f"{Path(run.path).name}: {written}"
+
+
+def incomplete(run: Run) -> str:
+    return "" if run.complete else f"<p class=warning>Incomplete run{escape(run.end())}.</p>"
+
+
+def section(title: str, content: str) -> str:
+    return f"<section><h2>{title}</h2>{content}</section>" if content else ""
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table whose first column is text and whose others are numbers."""
+    lines = ["<tr>" + "".join(f"<th>{escape(each)}</th>" for each in head) + "</tr>"]
+    lines += ["<tr>" + "".join(f"<td>{escape(each)}</td>" for each in row) + "</tr>" for row in rows]
+    return f"<table>{''.join(lines)}</table>" if len(lines) > 1 else ""
+
+
+def number(value: float, quantity: str) -> str:
+    """A value in the unit that it is shown in, four digits."""
+    value = SHOWN[quantity].factor * float(value)
+    if value == 0:
+        return "0"
+    return f"{value:.0f}" if abs(value) >= 1000 else f"{value:#.4g}".rstrip(".")
+
+
+def key_figures(run: Run) -> str:
+    rows = [(text, number(value, q), SHOWN[q].unit) for text, q, value in summary.journal(run)]
+    return table(("journal and film", "value", "unit"), rows)
+
+
+def pad_figures(run: Run) -> str:
+    head = ("pad", *(f"{pad}" for pad in range(1, run.pads + 1)), "unit")
+    angles = ("pivot angle", *(f"{angle:g}" for angle in np.round(np.degrees(run.pivot_angle), 6)), "deg")
+    rows = [
+        (text, *(number(each, q) for each in values), SHOWN[q].unit) for text, q, values in summary.pads(run)
+    ]
+    note = (
+        f"Last revolution; friction and sticking over the last {summary.LAST}, or all where there are fewer."
+    )
+    return table(head, [angles, *rows]) + (f"<p>{note}</p>" if run.samples else "")
+
+
+def spectrum_peaks(run: Run) -> str:
+    try:
+        found = summary.peaks(run)
+    except NotInRunError:
+        return ""
+    unit = SHOWN["amplitude"].unit
+    head = ("order", "frequency (Hz)", f"amplitude of y ({unit})", f"amplitude of z ({unit})")
+    rows = [
+        (
+            f"{each.order:.3g}",
+            f"{each.frequency:.5g}",
+            number(each.y, "amplitude"),
+            number(each.z, "amplitude"),
+        )
+        for each in found
+    ]
+    note = f"Highest peaks of the last {summary.LAST} revolutions, or of all where there are fewer."
+    return table(head, rows) + f"<p>{note}</p>" if rows else ""
+
+
+def pictures(run: Run) -> Iterable[str]:
+    """The pictures that this run can have, with their captions."""
+    for name, caption in PICTURES.items():
+        if (name == "size" and signals.steady(run)) or (name == "equilibrium" and run.samples):
+            continue
+        try:
+            yield f"<figure>{image(run, name)}<figcaption>{escape(caption)}</figcaption></figure>"
+        except (NotInRunError, MissingLibraryError):
+            continue
+
+
+def image(run: Run, name: str) -> str:
+    """A picture inside the page, without the run's title."""
+    with plt.style.context(plots.STYLE):
+        figure = figures.FIGURES[name]([run])
+        try:
+            stream = io.BytesIO()
+            figure.savefig(stream, format="svg", metadata={"Date": None})
+        finally:
+            plt.close(figure)
+    data = base64.b64encode(stream.getvalue()).decode("ascii")
+    inches = figure.get_figwidth()
+    return f'<img alt="{name}" style="width: {inches}in" src="data:image/svg+xml;base64,{data}">'
+
+
+def statistics(run: Run) -> str:
+    """Every number of the group `statistics`, with its meaning and unit."""
+    group = run.file["statistics"]
+    rows = [
+        (
+            item.attrs.get("long_name", name),
+            f"{item[()]:.4g}" if item.dtype.kind == "f" else f"{item[()]}",
+            unit(item),
+        )
+        for name, item in group.items()
+    ]
+    return table(("of the computation", "value", "unit"), rows)
+
+
+def unit(item) -> str:
+    found = item.attrs.get("units", "")
+    return "" if found == "1" else found

@@ -1,0 +1,126 @@
+"""The key figures of a run, as tiltpad-report shows them.
+
+Values are in SI units.
+"""
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from tiltpad import pivots, signals, spectra
+from tiltpad.read import NotInRunError, Run
+
+#: Revolutions at the end that friction and sticking are averaged over, and spectra taken of.
+LAST = 20
+
+
+class Figure(NamedTuple):
+    """A number, or one a pad: what it is, its quantity in tiltpad.units.SHOWN, its value or values."""
+
+    text: str
+    quantity: str
+    value: float | np.ndarray
+
+
+class Peak(NamedTuple):
+    """A peak of the journal's spectrum: order, frequency in Hz, amplitudes of y and z in m."""
+
+    order: float
+    frequency: float
+    y: float
+    z: float
+
+
+def journal(run: Run) -> list[Figure]:
+    """Key figures of the run as a whole, as far as it has them."""
+    return list(those_there(run, JOURNAL))
+
+
+def pads(run: Run) -> list[Figure]:
+    """Key figures of the pads, (pad,) each, as far as the run has them."""
+    return list(those_there(run, PADS))
+
+
+def peaks(run: Run, count: int = 8) -> list[Peak]:
+    """The highest peaks of the journal over the last revolutions, at constant speed, down to a thousandth."""
+    frequency, y = spectra.one_sided(run, "journal_y", LAST)
+    z = spectra.one_sided(run, "journal_z", LAST)[1]
+    size = np.hypot(y, z)
+    size[0] = 0
+    inner = size[1:-1]
+    top = 1 + np.flatnonzero((inner > size[:-2]) & (inner >= size[2:]) & (inner > 1e-3 * size.max()))
+    highest = top[np.argsort(size[top])[::-1][:count]]
+    shaft = float(run.values("speed", -1)) / (2 * np.pi)
+    return [Peak(*map(float, (frequency[k] / shaft, frequency[k], y[k], z[k]))) for k in highest]
+
+
+def extremes(run: Run, name: str) -> tuple[np.ndarray, np.ndarray]:
+    """Least and greatest value of a dataset over the whole run, () or (pad,); it is read in blocks."""
+    signals.last_revolutions(run)
+    starts = range(0, run.samples, signals.BLOCK)
+    found = [run.values(name, slice(start, start + signals.BLOCK)) for start in starts]
+    low, high = ([pick(each, axis=0) for each in found] for pick in (np.min, np.max))
+    return np.min(low, axis=0), np.max(high, axis=0)
+
+
+def those_there(
+    run: Run, wanted: list[tuple[str, str, Callable[[Run], float | np.ndarray]]]
+) -> Iterator[Figure]:
+    """The figures that can be had of this run."""
+    for text, quantity, calculate in wanted:
+        try:
+            yield Figure(text, quantity, calculate(run))
+        except NotInRunError:
+            continue
+
+
+def each_pad(calculate: Callable[..., float]) -> Callable[[Run], np.ndarray]:
+    """A function of a run and a pad, over the last revolutions, as one of all pads."""
+    return lambda run: np.array([calculate(run, pad, LAST) for pad in range(1, run.pads + 1)])
+
+
+def last_one(run: Run, name: str) -> np.ndarray:
+    """A dataset over the last revolution."""
+    return run.values(name, signals.last_revolutions(run))
+
+
+JOURNAL = [
+    ("speed at the end", "speed", lambda run: signals.ends(run, "speed")[1]),
+    ("time sampled", "time", lambda run: np.ptp(signals.ends(run, "time"))),
+    ("shaft revolutions", "number", signals.turned),
+    ("orbit, peak to peak of y", "size", lambda run: signals.orbit_size(run)[0]),
+    ("orbit, peak to peak of z", "size", lambda run: signals.orbit_size(run)[1]),
+    ("orbit, mean y", "size", lambda run: last_one(run, "journal_y").mean()),
+    ("orbit, mean z", "size", lambda run: last_one(run, "journal_z").mean()),
+    ("least film thickness, last revolution", "size", lambda run: last_one(run, "min_film_thickness").min()),
+    ("least film thickness, whole run", "size", lambda run: extremes(run, "min_film_thickness")[0].min()),
+    ("highest pressure, last revolution", "max_pressure", lambda run: last_one(run, "max_pressure").max()),
+    ("highest pressure, whole run", "max_pressure", lambda run: extremes(run, "max_pressure")[1].max()),
+    ("equilibrium, speed", "speed", lambda run: run.input["operation"]["speed_rpm"] * np.pi / 30),
+    ("equilibrium y", "size", lambda run: run["equilibrium/journal_y"]),
+    ("equilibrium z", "size", lambda run: run["equilibrium/journal_z"]),
+]
+
+PADS = [
+    ("tilt, peak to peak", "pad_tilt", lambda run: np.ptp(last_one(run, "pad_tilt"), axis=0)),
+    ("mean tilt", "pad_tilt", lambda run: last_one(run, "pad_tilt").mean(axis=0)),
+    ("least film thickness", "size", lambda run: last_one(run, "min_film_thickness").min(axis=0)),
+    ("highest pressure", "max_pressure", lambda run: last_one(run, "max_pressure").max(axis=0)),
+    ("mean contact force", "contact_force", lambda run: last_one(run, "contact_force").mean(axis=0)),
+    ("greatest friction moment", "friction_moment", lambda run: greatest_moment(run)),
+    ("friction work per revolution", "work", each_pad(pivots.friction_work)),
+    ("mean friction power", "power", each_pad(pivots.friction_power)),
+    ("sticks, share of the time", "share", each_pad(pivots.stick_fraction)),
+    ("equilibrium tilt", "pad_tilt", lambda run: run["equilibrium/pad_tilt"]),
+    ("equilibrium penetration", "pad_penetration", lambda run: run["equilibrium/pad_penetration"]),
+    ("equilibrium contact force", "contact_force", lambda run: run["equilibrium/contact_force"]),
+    ("equilibrium film thickness", "size", lambda run: run["equilibrium/min_film_thickness"]),
+    ("equilibrium highest pressure", "max_pressure", lambda run: run["equilibrium/max_pressure"]),
+]
+
+
+def greatest_moment(run: Run) -> np.ndarray:
+    """Greatest friction moment over the last revolution, (pad,), N m."""
+    pivots.friction_model(run)
+    return np.abs(last_one(run, "friction_moment")).max(axis=0)

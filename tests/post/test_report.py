@@ -1,0 +1,191 @@
+"""tiltpad-report: what is on the page, and that a browser shows it."""
+
+import json
+import re
+import shutil
+import subprocess
+from html.parser import HTMLParser
+from urllib.parse import unquote
+
+import numpy as np
+import pytest
+import tiltpad
+from tiltpad import command, summary
+
+BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
+#: Run by the browser in a copy of the page: what it made of it.
+PROBE = """<pre id=probe></pre><script>addEventListener('load', () => {
+  const images = [...document.images].map(i => [i.alt, i.complete, i.naturalWidth, i.naturalHeight, i.width]);
+  const page = document.documentElement;
+  const found = {title: document.title, text: document.body.innerText, images: images,
+                 wide: page.scrollWidth - page.clientWidth};
+  const told = encodeURIComponent(JSON.stringify(found));
+  document.getElementById('probe').textContent = 'PROBE' + told + 'PROBE';
+});</script>"""
+
+
+@pytest.fixture(scope="module")
+def page(result, tmp_path_factory):
+    """page("lugre"): text of the report about that scene's result."""
+    folder = tmp_path_factory.mktemp("pages")
+
+    def text(scene):
+        output = folder / f"{scene}.html"
+        if not output.exists():
+            assert command.report([str(result(scene)), "-o", str(output)]) == 0
+        return output.read_text(encoding="utf-8")
+
+    return text
+
+
+class Outline(HTMLParser):
+    """Headings, pictures and the tables' rows; every element that is opened is closed."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.headings, self.images, self.rows, self.sources = [], [], [], {}, []
+        self.feed(text)
+        assert self.open == []
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        self.sources += [attributes[name] for name in ("src", "href") if name in attributes]
+        if tag == "img":
+            self.images.append(attributes["alt"])
+        if tag not in ("img", "meta"):
+            self.open.append(tag)
+        if tag == "tr":
+            self.row = []
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+        if tag == "tr":
+            self.rows[self.row[0]] = self.row[1:]
+
+    def handle_data(self, data):
+        if self.open[-1:] in (["h1"], ["h2"]):
+            self.headings.append(data)
+        if self.open[-1:] in (["td"], ["th"]):
+            self.row.append(data)
+
+
+STEADY = ["orbit", "waveform", "spectrum", "runup", "poincare"]
+FRICTION = ["hysteresis", "friction", "sticking"]
+
+
+@pytest.mark.parametrize(
+    ("scene", "pictures"),
+    [
+        ("lugre", STEADY + FRICTION),
+        ("none", STEADY),
+        ("tilting", STEADY + FRICTION),
+        ("four", STEADY + FRICTION),
+        ("runup", ["orbit", "waveform", "runup", "size", "poincare", *FRICTION]),
+        ("equilibrium", ["equilibrium"]),
+    ],
+)
+def test_the_page_has_what_the_run_has(page, scene, pictures):
+    text = page(scene)
+    outline = Outline(text)
+    assert sorted(outline.images) == sorted([*pictures, "pressure"])
+    assert all(source.startswith("data:image/svg+xml;base64,") for source in outline.sources)
+    assert "<script" not in text
+    assert "url(" not in text
+    assert outline.headings[0] == ("Steady, it's LuGre" if scene == "lugre" else scene)
+    assert ("Spectrum" in outline.headings) == (scene not in ("runup", "equilibrium"))
+    assert ("friction work per revolution" in outline.rows) == ("friction" in pictures)
+    assert "equilibrium y" in outline.rows
+
+
+def test_its_numbers_are_those_of_the_run(page, run):
+    rows, case = Outline(page("lugre")).rows, run("lugre")
+    y, z = tiltpad.orbit_size(case)
+    assert rows["orbit, peak to peak of y"] == [f"{1e6 * y:.4g}", "µm"]
+    assert rows["orbit, peak to peak of z"] == [f"{1e6 * z:.4g}", "µm"]
+    work = [f"{1e3 * tiltpad.friction_work(case, pad, 20):.4g}" for pad in (1, 2)]
+    assert rows["friction work per revolution"] == [*work, "mJ"]
+    share = [f"{100 * tiltpad.stick_fraction(case, pad, 20):.4g}" for pad in (1, 2)]
+    assert [float(each) for each in rows["sticks, share of the time"][:2]] == [float(each) for each in share]
+    assert float(rows["least film thickness, whole run"][0]) == pytest.approx(
+        1e6 * case.min_film_thickness.min(), rel=1e-3
+    )
+    assert float(rows["highest pressure, last revolution"][0]) == pytest.approx(
+        1e-6 * case.max_pressure[-361:].max(), rel=1e-3
+    )
+    assert rows["time steps"][0] == str(case["statistics/steps"])
+    assert "bristle_stiffness = 1e6" in page("lugre")
+
+
+def test_peaks_of_a_spectrum(made):
+    case = made(
+        "lugre",
+        0.25,
+        interval=60 / 6500 / 100,
+        journal_y=lambda time, angle: -5e-5 + 1e-6 * np.cos(angle) + 3e-7 * np.cos(angle / 2),
+        journal_z=lambda time, angle: 2e-6 * np.sin(angle) + 1e-10 * np.sin(5 * angle),
+    )
+    first, second = summary.peaks(case)
+    assert first == pytest.approx((1, 6500 / 60, 1e-6, 2e-6), rel=1e-6)
+    assert second[:3] == pytest.approx((0.5, 6500 / 120, 3e-7), rel=1e-6)
+
+
+def shorten(file, samples=700):
+    """Makes a result one that ended after so many samples."""
+    file.attrs["complete"] = 0
+    del file["spectrum"]
+    for name in [name for name, each in file.items() if getattr(each, "maxshape", ())[:1] == (None,)]:
+        file[name].resize(samples, axis=0)
+
+
+def test_a_run_that_ended_early(changed, tmp_path, capsys):
+    output = tmp_path / "a.html"
+    assert command.report([str(changed("lugre", shorten)), "-o", str(output)]) == 0
+    assert capsys.readouterr().err.count("\n") == 1
+    text = output.read_text()
+    assert "Incomplete run, ended at 0.0179231 s of 0.06 s." in text
+    assert sorted(Outline(text).images) == sorted([*STEADY, *FRICTION, "pressure"])
+
+
+def test_a_run_that_ended_at_once(changed, tmp_path):
+    output = tmp_path / "a.html"
+    assert command.report([str(changed("lugre", lambda file: shorten(file, 0))), "-o", str(output)]) == 0
+    assert Outline(output.read_text()).images == ["equilibrium", "pressure"]
+    assert "Incomplete run without samples in time." in output.read_text()
+
+
+def test_errors_are_one_line_and_a_status(result, tmp_path, capsys):
+    for arguments, status, message in (
+        (["missing.h5"], 3, "missing.h5: no such file"),
+        ([str(result("none")), "-o", "a.pdf"], 1, "a.pdf: the name must end in .html or .htm"),
+        ([str(result("none")), "-o", str(tmp_path / "no/a.html")], 3, "cannot be written: No such file"),
+    ):
+        assert command.report(arguments) == status
+        said = capsys.readouterr().err
+        assert said.startswith("tiltpad-report: error: ")
+        assert message in said
+        assert said.count("\n") == 1
+
+
+@pytest.mark.parametrize("scene", ["lugre", "runup", "equilibrium"])
+def test_a_browser_shows_it(page, run, tmp_path, scene):
+    browser = next((path for path in map(shutil.which, BROWSERS) if path), None)
+    if browser is None:
+        pytest.skip("no Chromium here (Debian: chromium-headless-shell)")
+    copy = tmp_path / "probed.html"
+    copy.write_text(page(scene).replace("</body>", PROBE + "</body>"), encoding="utf-8")
+    options = ["--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=5000", "--dump-dom"]
+    home = ["--window-size=900,1200", f"--user-data-dir={tmp_path / 'browser'}"]
+    done = subprocess.run(
+        [browser, *options, *home, copy.as_uri()], capture_output=True, text=True, timeout=120, check=True
+    )
+    found = json.loads(unquote(re.search("<pre id=.probe.>PROBE(.*?)PROBE", done.stdout)[1]))
+    assert found["title"] == ("Steady, it's LuGre" if scene == "lugre" else scene)
+    assert found["wide"] == 0
+    assert len(found["images"]) == len(Outline(page(scene)).images)
+    for name, complete, width, height, shown in found["images"]:
+        assert complete, name
+        assert min(width, height, shown) > 100, name
+    for text in ("Key figures", "equilibrium y", "Input", "samples_per_revolution = 360"):
+        assert text in found["text"]
+    if scene != "equilibrium":
+        assert f"{1e6 * tiltpad.orbit_size(run(scene))[0]:.4g}\tµm" in found["text"]
