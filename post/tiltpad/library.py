@@ -42,13 +42,13 @@ class Pressure(NamedTuple):
 
     Its fields:
 
-    time                  s; None for the equilibrium
-    pressure              (pad, phi, z), Pa
-    phi                   angle from the pivot, (pad, phi), rad: from the trailing edge up to the leading edge
-    z                     axial place from the middle plane, (z,), m
-    force                 on the journal along y' and z' of each pad, (pad, 2), N
-    max_pressure          highest pressure at the solver's own points, (pad,), Pa
-    min_film_thickness    (pad,), m
+        time                  s; None for the equilibrium
+        pressure              (pad, phi, z), Pa
+        phi                   angle from the pivot, (pad, phi), rad, from the trailing to the leading edge
+        z                     axial place from the middle plane, (z,), m
+        force                 on the journal along y' and z' of each pad, (pad, 2), N
+        max_pressure          highest pressure at the solver's own points, (pad,), Pa
+        min_film_thickness    (pad,), m
     """
 
     time: float | None
@@ -65,9 +65,9 @@ class Contact(NamedTuple):
 
     Its fields:
 
-    force, slope              normal force, N, and its slope over the penetration, N/m
-    radius                    projected radius of the contact, m
-    exponent, peak_pressure   of the contact pressure, eq (11), 1 and Pa
+        force, slope              normal force, N, and its slope over the penetration, N/m
+        radius                    projected radius of the contact, m
+        exponent, peak_pressure   of the contact pressure, eq (11), 1 and Pa
     """
 
     force: np.ndarray
