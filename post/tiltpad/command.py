@@ -8,6 +8,7 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import Any
 
+from tiltpad.library import LibraryError, MissingLibraryError
 from tiltpad.read import IncompleteRunWarning, NotInRunError, RunError, read
 
 FORMATS = ("png", "pdf", "svg")
@@ -27,6 +28,7 @@ PLOTS = {
     "runup": "journal and tilt over the whole run, with the speed",
     "orders": "amplitude and phase of the first orders over the speed of a run-up (with --pad: its tilt too)",
     "waterfall": "amplitudes over speed and order of a run-up (journal, or with --pad its tilt)",
+    "pressure": "film pressure over the unrolled pads at one instant (--time; else at the equilibrium)",
 }
 
 
@@ -65,6 +67,10 @@ def finished(command: str, output: Path, work: Callable[[], None]) -> int:
         return complain(command, error, INPUT_ERROR)
     except RunError as error:
         return complain(command, error, FILE_ERROR)
+    except LibraryError as error:
+        return complain(command, error, error.status)
+    except MissingLibraryError as error:
+        return complain(command, error, FILE_ERROR)
     except OSError as error:
         return complain(command, f"{output}: cannot be written: {error.strerror or error}", FILE_ERROR)
     except KeyboardInterrupt:
@@ -77,6 +83,8 @@ def finished(command: str, output: Path, work: Callable[[], None]) -> int:
 def draw(options: argparse.Namespace, output: Path) -> None:
     """Reads the runs, draws them and writes the picture."""
     form = needs_suffix(output, FORMATS)
+    if options.time is not None and options.plot != "pressure":
+        raise ValueError(f"--time: for the plot pressure, not for {options.plot}")
     mpl = matplotlib_for_files()
     from tiltpad import figures, plots
 
@@ -85,7 +93,8 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         stack.enter_context(mpl.style.context(plots.STYLE))
         if options.pad is not None:
             figures.shown_pads(runs, options.pad)
-        figure = figures.FIGURES[options.plot](runs, options.last, options.pad)
+        when = {"time": options.time} if options.plot == "pressure" else {}
+        figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **when)
         stack.callback(plots.plt.close, figure)
         figure.savefig(output, format=form)
 
@@ -153,6 +162,7 @@ def plot_parser() -> Parser:
     )
     parser.add_argument("--last", type=positive, metavar="N", help="shaft revolutions at the end of the run")
     parser.add_argument("--pad", type=int, metavar="K", help="this pad only (1, 2, ...)")
+    parser.add_argument("--time", type=float, metavar="T", help="of the pressure: the sample next to T, s")
     return parser
 
 

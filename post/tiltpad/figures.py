@@ -28,6 +28,7 @@ from tiltpad.layout import (
     shown_pads,
     stacked,
     top_axis,
+    width,
 )
 from tiltpad.read import Run
 from tiltpad.units import SHOWN
@@ -185,6 +186,27 @@ def runup(runs: Sequence[Run], last: float | None = None, pad: int | None = None
     return fig
 
 
+def pressure(
+    runs: Sequence[Run], last: float | None = None, pad: int | None = None, time: float | None = None
+) -> Figure:
+    """Film pressure over the unrolled pads, a panel each, at one instant (None: at the equilibrium)."""
+    pads = shown_pads(runs, pad)
+    columns = min(2, len(pads))
+    rows = -(-len(pads) // columns) * len(runs)
+    fig = plt.figure(figsize=(COLUMN if columns == 1 else PAGE, 0.3 + 2.5 * rows))
+    panels = fig.subplots(rows, columns, squeeze=False).reshape(len(runs), -1)
+    for run, name, axes in zip(runs, labels(runs), panels, strict=True):
+        for ax, k in zip(axes, pads, strict=False):
+            plots.pressure(run, ax, time, k)
+            ax.set_title(f"pad {k}" if len(runs) == 1 else f"pad {k}: {name}")
+        for ax in axes[len(pads) :]:
+            ax.remove()
+    title = runs[0].title if len(runs) == 1 else ""
+    instant = "the equilibrium" if time is None else f"{time:g} s"
+    fig.suptitle(plain(f"{title} at {instant}".lstrip(), width(fig)))
+    return fig
+
+
 def orders(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Amplitudes of the first three orders over the speed, and the phase of the first, of a run-up."""
     names = [("journal_y", None), ("journal_z", None), *([("pad_tilt", pad)] if pad else [])]
@@ -260,6 +282,6 @@ FIGURES = {
     each.__name__: each
     for each in (
         *(orbit, equilibrium, size, poincare, waveform, spectrum),
-        *(hysteresis, friction, sticking, runup, orders, waterfall),
+        *(hysteresis, friction, sticking, runup, orders, waterfall, pressure),
     )
 }

@@ -14,6 +14,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from tiltpad import figures, plots, signals, summary
+from tiltpad.library import MissingLibraryError
 from tiltpad.read import NotInRunError, Run
 from tiltpad.units import SHOWN
 
@@ -31,6 +32,7 @@ PICTURES = {
     "friction": "Friction coefficient over sliding velocity, last revolution.",
     "sticking": "Tilt rate, bold where the pivot sticks, over the last two revolutions.",
     "poincare": "Once a revolution, on the path of the last ones.",
+    "pressure": "Film pressure over the unrolled pads at the equilibrium.",
 }
 
 
@@ -128,7 +130,7 @@ def pictures(run: Run) -> Iterable[str]:
             continue
         try:
             yield f"<figure>{image(run, name)}<figcaption>{escape(caption)}</figcaption></figure>"
-        except NotInRunError:
+        except (NotInRunError, MissingLibraryError):
             continue
 
 

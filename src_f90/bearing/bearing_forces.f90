@@ -13,7 +13,7 @@ module bearing_forces
    use friction, only: friction_law, friction_response
    use kinematics, only: pad_place, pad_frame, frame_of, motion_of
    use pad_film, only: pad_film_type, pad_directions
-   use components, only: new_film, new_gaps, new_law, new_friction, new_places
+   use components, only: make_film, new_gaps, new_law, new_friction, new_places
    implicit none (type, external)
    private
    public :: bearing_forces_type, pad_loads, init_forces, pad_outputs
@@ -88,7 +88,7 @@ contains
       do i = 1, n
          model%directions(i) = model%gaps(i)%directions()
       end do
-      model%film = new_film(scene)
+      call make_film(scene, model%film)
       if (model%radial) model%contact = new_contact_table(new_law(scene))
       model%ball_radius = scene%pivot%socket_radius - scene%pivot%radius_difference
       model%unbalance = scene%unbalance()

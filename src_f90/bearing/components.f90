@@ -14,7 +14,7 @@ module components
    use kinematics, only: pad_place
    implicit none (type, external)
    private
-   public :: new_film, new_gaps, new_law, new_friction, new_places
+   public :: make_film, new_gaps, new_law, new_friction, new_places
 
    !> Finite volumes along the arc and along half the width where the input leaves them to the solver, by the
    !> errors in docs/benchmarks.md.
@@ -22,10 +22,11 @@ module components
 
 contains
 
-   !> The film solver of all pads.
-   function new_film(scene) result(film)
+   !> The film solver of all pads. No function: gfortran never frees the result of one whose type is chosen within,
+   !> and Python makes a solver for every instant.
+   subroutine make_film(scene, film)
       type(scene_type), intent(in) :: scene
-      class(film_solver_type), allocatable :: film
+      class(film_solver_type), allocatable, intent(out) :: film
       type(pad_film_type) :: films(scene%pad_count())
       type(sor_options) :: options
       integer :: cavitation, cells, modes, volumes(2)
@@ -56,7 +57,7 @@ contains
             film = new_modal_film(films, cells, modes, cavitation == cavitation_gumbel)
          end if
       end associate
-   end function new_film
+   end subroutine make_film
 
    !> The gaps between pads and journal.
    pure function new_gaps(scene) result(gaps)

@@ -15,6 +15,10 @@ SCENES = {
     "none": "&operation duration=0.06 /",
     "tilting": "&operation duration=0.06 / &friction model='lugre' / &pads motion='tilting_only' /",
     "four": "&operation duration=0.02 / &friction model='lugre' / &pads pivot_angle_deg=-45,225,45,135 /",
+    "gumbel": "&operation duration=0.02 / &pads pivot_angle_deg=-45,225,45,135 / &film cavitation='gumbel' /",
+    "sor": "&operation duration=0.02 / &pads pivot_angle_deg=-45,225,45,135 / &film solver='sor' /",
+    "flooded": "&operation duration=0.02 / &bearing supply_pressure=3e5, ambient_pressure=1e5 / "
+    "&pads pivot_angle_deg=-45,225,45,135, pivot_ratio=0.5,0.6,0.5,0.5, motion='tilting_only' /",
     "runup": "&operation speed_rpm=1500, final_speed_rpm=6500, duration=0.1 / &friction model='lugre' /",
     "equilibrium": "&case task='equilibrium' /",
 }

@@ -87,7 +87,7 @@ FRICTION = ["hysteresis", "friction", "sticking"]
 def test_the_page_has_what_the_run_has(page, scene, pictures):
     text = page(scene)
     outline = Outline(text)
-    assert sorted(outline.images) == sorted(pictures)
+    assert sorted(outline.images) == sorted([*pictures, "pressure"])
     assert all(source.startswith("data:image/svg+xml;base64,") for source in outline.sources)
     assert "<script" not in text
     assert "url(" not in text
@@ -143,13 +143,13 @@ def test_a_run_that_ended_early(changed, tmp_path, capsys):
     assert capsys.readouterr().err.count("\n") == 1
     text = output.read_text()
     assert "Incomplete run, ended at 0.0179231 s of 0.06 s." in text
-    assert sorted(Outline(text).images) == sorted(STEADY + FRICTION)
+    assert sorted(Outline(text).images) == sorted([*STEADY, *FRICTION, "pressure"])
 
 
 def test_a_run_that_ended_at_once(changed, tmp_path):
     output = tmp_path / "a.html"
     assert command.report([str(changed("lugre", lambda file: shorten(file, 0))), "-o", str(output)]) == 0
-    assert Outline(output.read_text()).images == ["equilibrium"]
+    assert Outline(output.read_text()).images == ["equilibrium", "pressure"]
     assert "Incomplete run without samples in time." in output.read_text()
 
 

@@ -1,0 +1,88 @@
+"""The picture of the film pressure: what is on the axes, and what the command draws and says."""
+
+import matplotlib.image
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+import tiltpad
+from tiltpad import command, figures
+
+
+@pytest.fixture(autouse=True)
+def closed_figures():
+    yield
+    plt.close("all")
+
+
+def test_the_pressure_over_the_unrolled_pad(run):
+    case = run("four")
+    ax = tiltpad.plots.pressure(case, time=0.01, pad=2)
+    film = tiltpad.pressure(case, 0.01)
+    np.testing.assert_allclose(ax.get_xlim(), np.degrees(film.phi[1, [0, -1]]))
+    np.testing.assert_allclose(ax.get_ylim(), [-50, 50])
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("angle from pivot (deg)", "axial place (mm)")
+    levels = ax.collections[0].levels
+    assert levels[0] == 0
+    assert levels[-2] < film.pressure[1].max() / 1e6 <= levels[-1]
+    bar = next(each for each in ax.figure.axes if each is not ax)
+    assert bar.get_ylabel() == "film pressure (MPa)"
+    # the highest contour surrounds the highest point
+    k = np.unravel_index(film.pressure[1].argmax(), film.pressure[1].shape)
+    top = ax.collections[0].get_paths()[-1]
+    assert top.contains_point((np.degrees(film.phi[1, k[0]]), 1e3 * film.z[k[1]]))
+    # the journal's surface moves from the leading edge, at the right, to the trailing edge
+    places = {each.get_text(): each.get_position()[0] for each in ax.texts}
+    assert places["trailing edge"] < 0.5 < places["leading edge"]
+
+
+def test_a_film_without_pressure_is_drawn(changed):
+    """Pads that leave the journal at 10 m/s: nothing but rupture."""
+
+    def leaving(file):
+        file["pad_penetration_rate"][3] = 10.0
+
+    with tiltpad.read(changed("lugre", leaving)) as case:
+        assert not tiltpad.pressure(case, case.time[3]).pressure.any()
+        tiltpad.plots.pressure(case, time=case.time[3]).figure.draw_without_rendering()
+
+
+def test_a_panel_a_pad(run):
+    runs = [run("four"), run("gumbel"), run("lugre")]
+    titles = [ax.get_title() for ax in figures.pressure(runs[:1], time=0.01).axes if ax.get_title()]
+    assert titles == [f"pad {k}" for k in (1, 2, 3, 4)]
+    titles = [ax.get_title() for ax in figures.pressure(runs[:2], pad=3).axes if ax.get_title()]
+    assert titles == ["pad 3: LuGre, reynolds", "pad 3: no friction, gumbel"]
+    title = figures.pressure(runs[2:], time=0.01).get_suptitle()
+    assert title == "Steady, it's LuGre at 0.01 s"
+
+
+def test_the_command_draws_it(result, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert command.main(["pressure", str(result("four")), "--time", "0.01"]) == 0
+    pixels = matplotlib.image.imread(tmp_path / "four-pressure.png")[..., :3]
+    assert (pixels.min(axis=2) < 0.9).mean() > 0.4
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["pressure", "none", "--time", "1"], "no time 1 s in this run: sampled from 0 to 0.06 s"),
+        (["pressure", "none", "--time", "soon"], "argument --time: invalid float value: 'soon'"),
+        (["pressure", "none", "--pad", "3"], "no pad 3 in this run: pads are 1 to 2"),
+        (["pressure", "equilibrium", "--time", "0"], "nothing was marched in time"),
+        (["orbit", "none", "--time", "0.01"], "--time: for the plot pressure, not for orbit"),
+    ],
+)
+def test_errors_are_one_line(result, tmp_path, monkeypatch, capsys, arguments, message):
+    monkeypatch.chdir(tmp_path)
+    given = [str(result(each)) if each in ("none", "equilibrium") else each for each in arguments]
+    try:
+        status = command.main(given)
+    except SystemExit as stop:
+        status = stop.code
+    said = capsys.readouterr().err
+    assert status == 1
+    assert said.startswith("tiltpad-plot: error: ")
+    assert said.count("\n") == 1
+    assert message in said
+    assert not list(tmp_path.iterdir())
