@@ -1,0 +1,94 @@
+"""What is run and what counts: scenes, windows and limits, all in one place."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A case of input/, with what is changed in it."""
+
+    name: str
+    case: str
+    overrides: tuple[str, ...] = ()
+
+
+#: Pad that is shown and measured, the paper's first; revolutions that numbers are taken over.
+PAD, LAST = 1, 5
+#: Revolutions shown of the run-up in detail.
+DETAIL = 3
+
+#: Every case of input/paper, by its file's name.
+PAPER = tuple(Scene(path.stem, str(path.relative_to(ROOT))) for path in sorted(ROOT.glob("input/paper/*.nml")))
+
+BA, LUGRE, FRICTIONLESS = (f"input/paper/{name}.nml" for name in ("steady_ba_10_05", "steady_lugre", "steady_tr"))
+#: Bengisu-Akay f = 0.1, the friction of Figs. 9 and 10.
+BA_10_10 = "input/paper/steady_tr_ba.nml"
+
+#: Friction pairs f_s/f_d of Figs. 11 to 13, and the runs of a pair: Bengisu-Akay, LuGre 1e6, LuGre 5e6.
+PAIRS = ("0.1/0.05", "0.1/0.1", "0.2/0.1", "0.2/0.2")
+MODELS = {
+    "Bengisu-Akay": ("steady_ba_10_05", "steady_tr_ba", "steady_ba_20_10", "steady_ba_20_20"),
+    "LuGre 1e6": ("steady_lugre", "steady_lugre_10_10", "steady_lugre_20_10", "steady_lugre_20_20"),
+    "LuGre 5e6": ("steady_lugre5", "steady_lugre5_10_10", "steady_lugre5_20_10", "steady_lugre5_20_20"),
+}
+
+#: Critical velocities of Fig. 7, m/s, and bristle stiffnesses of Fig. 8, 1/m, with their runs.
+VELOCITIES = {"1e-3": "steady_ba_vc3", "1e-4": "ba_vc4", "1e-5": "steady_ba_10_05"}
+STIFFNESSES = {
+    "1e5": "steady_lugre01",
+    "1e6": "steady_lugre",
+    "5e6": "steady_lugre5",
+    "2e7": "lugre20",
+    "1e8": "lugre100",
+}
+FIGURES_7_8 = (
+    Scene("ba_vc4", BA, ("friction%critical_velocity=1e-4",)),
+    Scene("lugre20", LUGRE, ("friction%bristle_stiffness=2e7",)),
+    Scene("lugre100", LUGRE, ("friction%bristle_stiffness=1e8",)),
+)
+
+#: Radius differences of Fig. 10, um, with their runs without and with friction; tilting-only stands beside.
+DIFFERENCES = {
+    "0": ("steady_dr0", "steady_dr0_ba"),
+    "15": ("steady_tr", "steady_tr_ba"),
+    "30": ("steady_dr30", "steady_dr30_ba"),
+}
+TILTING_ONLY = ("steady_to", "steady_to_ba")
+
+#: Run-ups of Fig. 15, by the words of the legend.
+RUNUPS = {"Bengisu-Akay": "runup_ba", "LuGre 1e6": "runup_lugre", "LuGre 5e6": "runup_lugre5"}
+#: Speeds of the run-up, rpm, whose revolutions are looked at closely: low, and the last ones.
+LOW_SPEED, HIGH_SPEED = 2000, 6500
+
+#: The quality grade of section 3, with which rule (26) gives the unbalance of each speed.
+GRADE = 6.3
+LOW_SPEEDS = (1500, 3000)
+
+
+def at_speed(speed: float, grade: float = GRADE) -> tuple[str, ...]:
+    """Overrides: a steady speed with the unbalance that rule (26) gives for it."""
+    return f"operation%speed_rpm={speed:g}", f"rotor%balance_grade={grade:g}"
+
+
+SLOW = tuple(
+    Scene(f"{model}_{speed}", case, at_speed(speed))
+    for model, case in (("ba", BA), ("lugre", LUGRE))
+    for speed in LOW_SPEEDS
+)
+
+#: The upper pads: four against two, with Guembel's condition.
+UPPER_PADS = (
+    Scene("two_pads", LUGRE, ("film%cavitation=gumbel",)),
+    Scene("four_pads", "input/examples/four_pads.nml"),
+    Scene("two_pads_none", FRICTIONLESS, ("film%cavitation=gumbel",)),
+    Scene("four_pads_none", "input/examples/four_pads.nml", ("friction%model=none",)),
+)
+
+def everything() -> Iterator[Scene]:
+    """All scenes."""
+    for group in (PAPER, FIGURES_7_8, SLOW, UPPER_PADS):
+        yield from group
