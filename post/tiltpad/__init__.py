@@ -13,18 +13,29 @@ from importlib import import_module
 from typing import Any
 
 from tiltpad.errors import deviations
+from tiltpad.pivots import (
+    friction_coefficient,
+    friction_power,
+    friction_work,
+    hysteresis,
+    loop_area,
+    sliding_velocity,
+    stick_fraction,
+    stick_intervals,
+    stick_velocity,
+    sticking,
+)
 from tiltpad.read import IncompleteRunWarning, NotInRunError, Run, RunError, read
 from tiltpad.signals import (
     envelope,
-    full_spectrum,
-    hysteresis,
     last_revolutions,
-    loop_area,
     orbit,
+    orbit_size,
+    poincare,
     revolutions,
-    spectrum,
     waveform,
 )
+from tiltpad.spectra import full, full_spectrum, one_sided, order_track, spectrum, waterfall
 
 __all__ = [
     "IncompleteRunWarning",
@@ -33,14 +44,28 @@ __all__ = [
     "RunError",
     "deviations",
     "envelope",
+    "friction_coefficient",
+    "friction_power",
+    "friction_work",
+    "full",
     "full_spectrum",
     "hysteresis",
     "last_revolutions",
     "loop_area",
+    "one_sided",
     "orbit",
+    "orbit_size",
+    "order_track",
+    "poincare",
     "read",
     "revolutions",
+    "sliding_velocity",
     "spectrum",
+    "stick_fraction",
+    "stick_intervals",
+    "stick_velocity",
+    "sticking",
+    "waterfall",
     "waveform",
 ]
 

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import ConnectionPatch, Rectangle
 
-from tiltpad import namelist, plots, signals
+from tiltpad import namelist, pivots, plots, signals
 from tiltpad.read import Run
 from tiltpad.units import SHOWN
 
@@ -80,7 +80,7 @@ def hysteresis(runs: Sequence[Run], last: float | None = None, pad: int | None =
         work = []
         for i, run in enumerate(runs):
             plots.hysteresis(run, ax, k, last, **look(i, 0, runs))
-            work.append(signals.loop_area(*signals.hysteresis(run, k, 1)))
+            work.append(pivots.loop_area(*pivots.hysteresis(run, k, 1)))
         ax.margins(y=0.1)
         ax.locator_params(axis="x", nbins=6)
         text = ", ".join(f"{SHOWN['work'].factor * each:#.3g}" for each in work)

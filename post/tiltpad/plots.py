@@ -13,7 +13,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Circle, FancyArrowPatch
 
-from tiltpad import signals
+from tiltpad import pivots, signals, spectra
 from tiltpad.read import Run
 from tiltpad.units import SHOWN
 
@@ -78,7 +78,7 @@ def clearance(run: Run, ax: Axes) -> Axes:
 @on_axes
 def spectrum(run: Run, ax: Axes, name: str = "journal_y", orders: float = 10, **line: Any) -> Axes:
     """One-sided amplitudes of journal_y or journal_z, without the mean, up to `orders` times the speed."""
-    frequency, amplitude = signals.spectrum(run, name)
+    frequency, amplitude = spectra.spectrum(run, name)
     draw_amplitude(ax, frequency, amplitude, (0, orders * shaft_frequency(run)), line)
     return ax
 
@@ -86,7 +86,7 @@ def spectrum(run: Run, ax: Axes, name: str = "journal_y", orders: float = 10, **
 @on_axes
 def full_spectrum(run: Run, ax: Axes, orders: float = 5, **line: Any) -> Axes:
     """Spectrum of y + i z, without the mean: forward whirl to the right, backward whirl to the left."""
-    frequency, amplitude = signals.full_spectrum(run)
+    frequency, amplitude = spectra.full_spectrum(run)
     span = orders * shaft_frequency(run)
     draw_amplitude(ax, frequency, amplitude, (-span, span), line)
     return ax
@@ -95,7 +95,7 @@ def full_spectrum(run: Run, ax: Axes, orders: float = 5, **line: Any) -> Axes:
 @on_axes
 def hysteresis(run: Run, ax: Axes, pad: int = 1, last: float = 1, **line: Any) -> Axes:
     """Friction moment over the tilt of a pad; the loop's area is the work lost."""
-    tilt, moment = signals.hysteresis(run, pad, last)
+    tilt, moment = pivots.hysteresis(run, pad, last)
     x, y = SHOWN["pad_tilt"].factor * tilt, SHOWN["friction_moment"].factor * moment
     (path,) = ax.plot(x, y, **line)
     direction_arrow(ax, x, y, path.get_color())

@@ -2,6 +2,7 @@
 
 import os
 import warnings
+from bisect import bisect_left
 from functools import cached_property
 from typing import Any
 
@@ -80,12 +81,12 @@ class Run:
     def close(self) -> None:
         self.file.close()
 
-    def values(self, name: str, part: slice = slice(None)) -> Any:
+    def values(self, name: str, part: slice | int = slice(None)) -> Any:
         """A dataset as an array, or the samples `part` of it; a group as a dictionary of arrays."""
         if name not in self.file:
             group = name.split("/")[0]
             missing = name if group in self.file else group
-            raise NotInRunError(f"{self.path}: no {missing} in this run: {self._reason(missing)}")
+            raise NotInRunError(f"{self.path}: no {missing} in this run: {self.why_not(missing)}")
         found = self.file[name]
         try:
             if isinstance(found, h5py.Group):
@@ -93,6 +94,14 @@ class Run:
             return found[()] if found.ndim == 0 else found[part]
         except OSError as error:
             raise RunError(f"{self.path}: {name} cannot be read, the file is damaged ({error})") from error
+
+    def first(self, name: str, value: float) -> int:
+        """Index of the first sample at or above a value in a rising dataset; reads only a few of them."""
+        return bisect_left(range(self.samples), value, key=lambda i: self.values(name, i))
+
+    def dimensions(self, name: str) -> int:
+        """Number of dimensions of a dataset: 1 (time,), 2 (time, pad)."""
+        return np.ndim(self.values(name, slice(0, 1)))
 
     @cached_property
     def input(self) -> dict[str, dict[str, Any]]:
@@ -120,7 +129,7 @@ class Run:
         duration = self.input["operation"]["duration"]
         return f", ended at {self.file['time'][-1]:g} s of {duration:g} s"
 
-    def _reason(self, name: str) -> str:
+    def why_not(self, name: str) -> str:
         """Why the scene has no such dataset."""
         friction, motion = self.input["friction"]["model"], self.input["pads"]["motion"]
         if name == "bristle_deflection" and friction != "lugre":
@@ -129,7 +138,8 @@ class Run:
             return f"pad motion is '{motion}'"
         if self.task == "equilibrium":
             return "its task is 'equilibrium', nothing was marched in time"
-        if name == "spectrum" and self.samples and np.ptp(self.values("speed")) > 0:
+        operation = self.input["operation"]
+        if name == "spectrum" and operation["speed_rpm"] != operation["final_speed_rpm"]:
             return "the speed changes"
         if name == "spectrum":
             return "less than one revolution was sampled, or the run is incomplete"

@@ -1,21 +1,34 @@
-"""What is calculated from a run: functions that take a run and return arrays, all in SI units."""
+"""Parts of a run, and what is calculated from its motion. Everything is in SI units.
+
+`last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ...
+"""
 
 import numpy as np
 
 from tiltpad.read import NotInRunError, Run
 
+#: Samples that are read at once where a whole run is gone through.
+BLOCK = 1 << 16
+#: States of the motion, as far as the scene has them.
+STATES = (
+    *("journal_y", "journal_z", "journal_vy", "journal_vz", "pad_tilt", "pad_tilt_rate"),
+    *("pad_penetration", "pad_penetration_rate", "bristle_deflection"),
+)
+
 
 def last_revolutions(run: Run, count: float = 1) -> slice:
     """Samples of the last `count` shaft revolutions, both ends included; all where there are fewer.
 
-    At constant speed and n samples a revolution these are count * n + 1 samples.
+    At constant speed and n samples a revolution these are count * n + 1 samples. They are searched for in the
+    file: the shaft angle is not loaded.
     """
-    angle = run.shaft_angle
-    if len(angle) < 2:
-        raise NotInRunError(f"{run.path}: no revolution in this run: it has {len(angle)} samples")
+    if run.samples < 2:
+        reason = f"it has {run.samples} samples" if run.samples else run.why_not("time")
+        raise NotInRunError(f"{run.path}: no revolution in this run: {reason}")
+    before, end = run.values("shaft_angle", slice(-2, None))
     # half a sample more, so that rounding loses none
-    step = (angle[-1] - angle[-2]) / 2
-    return slice(int(np.searchsorted(angle, angle[-1] - 2 * np.pi * count - step)), len(angle))
+    start = run.first("shaft_angle", end - 2 * np.pi * count - (end - before) / 2)
+    return slice(start, run.samples)
 
 
 def revolutions(run: Run, part: slice = slice(None)) -> np.ndarray:
@@ -23,44 +36,30 @@ def revolutions(run: Run, part: slice = slice(None)) -> np.ndarray:
     return run.values("shaft_angle", part) / (2 * np.pi)
 
 
+def ends(run: Run, name: str, part: slice = slice(None)) -> np.ndarray:
+    """First and last value of a dataset, or of the samples `part` of it: (2,) or (2, pad)."""
+    start, stop, _ = part.indices(run.samples)
+    return np.stack([run.values(name, i) for i in (start, stop - 1)])
+
+
+def turned(run: Run, part: slice = slice(None)) -> float:
+    """Shaft revolutions from the first to the last of the samples `part`."""
+    return float(np.ptp(ends(run, "shaft_angle", part))) / (2 * np.pi)
+
+
+def needs_revolutions(run: Run, what: str, count: float = 1) -> None:
+    """Raises NotInRunError where the run has fewer than `count` revolutions, less a sample."""
+    last_revolutions(run)
+    if (there := turned(run)) < count * (1 - 1e-9):
+        raise NotInRunError(
+            f"{run.path}: no {what} in this run: it has {there:.3g} shaft revolutions, and {count:g} are needed"
+        )
+
+
 def steady(run: Run) -> bool:
     """True where the speed stays the same."""
     operation = run.input["operation"]
     return operation["speed_rpm"] == operation["final_speed_rpm"]
-
-
-def orbit(run: Run, last: float = 1) -> tuple[np.ndarray, np.ndarray]:
-    """Journal centre y (up) and z over the last revolutions, each (time,), m."""
-    part = last_revolutions(run, last)
-    return run.values("journal_y", part), run.values("journal_z", part)
-
-
-def waveform(run: Run, name: str, last: float = 5) -> tuple[np.ndarray, np.ndarray]:
-    """Time (time,), s, and a dataset, (time,) or (time, pad), over the last revolutions."""
-    part = last_revolutions(run, last)
-    return run.values("time", part), run.values(name, part)
-
-
-def spectrum(run: Run, name: str = "journal_y") -> tuple[np.ndarray, np.ndarray]:
-    """Frequency (k,), Hz, and one-sided amplitude of journal_y, journal_z (k,), m, or pad_tilt (pad, k), rad.
-
-    At frequency 0 stands the magnitude of the mean.
-    """
-    return run["spectrum/frequency"], run["spectrum/" + name]
-
-
-def full_spectrum(run: Run) -> tuple[np.ndarray, np.ndarray]:
-    """Frequency (k,), Hz, and amplitude (k,), m, of y + i z: forward whirl at positive frequencies."""
-    return run["spectrum/full_frequency"], run["spectrum/journal_full"]
-
-
-def hysteresis(run: Run, pad: int = 1, last: float = 1) -> tuple[np.ndarray, np.ndarray]:
-    """Tilt, rad, and friction moment, N m, of a pad (1, 2, ...) over the last revolutions, each (time,)."""
-    if run.input["friction"]["model"] == "none":
-        raise NotInRunError(f"{run.path}: no hysteresis in this run: friction model is 'none'")
-    column = pad_column(run, pad)
-    part = last_revolutions(run, last)
-    return run.values("pad_tilt", part)[:, column], run.values("friction_moment", part)[:, column]
 
 
 def pad_column(run: Run, pad: int) -> int:
@@ -70,23 +69,83 @@ def pad_column(run: Run, pad: int) -> int:
     return pad - 1
 
 
-def loop_area(x: np.ndarray, y: np.ndarray) -> float:
-    """Area of the closed loop through the points, positive when it runs clockwise.
+def series(run: Run, name: str, part: slice = slice(None), pad: int | None = None) -> np.ndarray:
+    """The samples `part` of a dataset, (time,) or (time, pad); of one pad, (time,), where `pad` is given."""
+    return run.values(name, part) if pad is None else run.values(name, part)[:, pad_column(run, pad)]
 
-    Of friction moment over tilt: the work lost in the loop, J.
+
+def orbit(run: Run, last: float = 1) -> tuple[np.ndarray, np.ndarray]:
+    """Journal centre y (up) and z over the last revolutions, each (time,), m."""
+    part = last_revolutions(run, last)
+    return run.values("journal_y", part), run.values("journal_z", part)
+
+
+def orbit_size(run: Run, last: float = 1) -> tuple[float, float]:
+    """Peak-to-peak of the journal's y and z over the last revolutions, m."""
+    y, z = orbit(run, last)
+    return float(np.ptp(y)), float(np.ptp(z))
+
+
+def waveform(run: Run, name: str, last: float = 5) -> tuple[np.ndarray, np.ndarray]:
+    """Time (time,), s, and a dataset, (time,) or (time, pad), over the last revolutions."""
+    part = last_revolutions(run, last)
+    return run.values("time", part), run.values(name, part)
+
+
+def at_angle(angle: np.ndarray, values: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Values, (time,) or (time, pad), where the rising `angle` (time,) has the `wanted` values (n,).
+
+    The cubic through the four samples around.
     """
-    return float(0.5 * np.sum((np.roll(x, -1) - x) * (np.roll(y, -1) + y)))
+    count = min(4, len(angle))
+    first = np.clip(np.searchsorted(angle, wanted) - count // 2, 0, len(angle) - count)
+    nodes = [first + k for k in range(count)]
+    result = np.zeros((len(wanted), *values.shape[1:]))
+    for k in nodes:
+        weight = np.ones(len(wanted))
+        for other in nodes:
+            if other is not k:
+                weight *= (wanted - angle[other]) / (angle[k] - angle[other])
+        result += (weight * values[k].T).T
+    return result
+
+
+def poincare(run: Run, last: float = 50, phase: float = 0.0) -> dict[str, np.ndarray]:
+    """States once a revolution, where the shaft has turned by whole revolutions and `phase`, rad.
+
+    A dictionary of arrays, (n,) or (n, pad), in SI units: "revolution" (whole revolutions since the start),
+    "time" and every state the scene has, journal_y to bristle_deflection. A periodic motion is one point,
+    one that repeats after k revolutions is k points.
+    """
+    needs_revolutions(run, "Poincare section")
+    part = last_revolutions(run, last)
+    angle = run.values("shaft_angle", part)
+    turns = (angle[[0, -1]] - phase) / (2 * np.pi)
+    # a section that the last sample meets but for rounding is there, the one a revolution before the first is not
+    whole = np.arange(np.ceil(turns[0] - 1e-9), np.floor(turns[1] + 1e-9) + 1)
+    wanted = 2 * np.pi * whole + phase
+    names = ["time", *(name for name in STATES if name in run)]
+    return {"revolution": whole} | {name: at_angle(angle, run.values(name, part), wanted) for name in names}
+
+
+def edges(run: Run, turns: np.ndarray) -> np.ndarray:
+    """For each number of revolutions (n,), the first sample that has turned so far, (n,)."""
+    blocks = (slice(start, start + BLOCK) for start in range(0, run.samples, BLOCK))
+    return sum(np.searchsorted(revolutions(run, block), turns) for block in blocks)
 
 
 def envelope(run: Run, name: str, spans: int = 800) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Time (k,), s, and least and greatest value of a dataset, (k,) or (k, pad), in each of k spans.
 
     The spans turn the shaft by equal angles of at least one revolution, so that the band is that of the
-    vibration; there are at most `spans` of them.
+    vibration; there are at most `spans` of them. The run is read a span at a time.
     """
-    turns, values, time = revolutions(run), run[name], run.time
-    count = max(1, min(spans, int(turns[-1] - turns[0])))
-    edges = np.searchsorted(turns, np.linspace(turns[0], turns[-1], count + 1)[:-1])
-    last = np.append(edges[1:], len(turns)) - 1
-    low, high = (pick.reduceat(values, edges, axis=0) for pick in (np.minimum, np.maximum))
-    return (time[edges] + time[last]) / 2, low, high
+    last_revolutions(run)
+    first, final = ends(run, "shaft_angle") / (2 * np.pi)
+    count = max(1, min(spans, int(final - first + 1e-9)))
+    starts = edges(run, np.linspace(first, final, count + 1)[:-1])
+    parts = [slice(*each) for each in zip(starts, [*starts[1:], run.samples], strict=True)]
+    time = np.array([ends(run, "time", part).mean() for part in parts])
+    values = [run.values(name, part) for part in parts]
+    low, high = (np.array([pick(each, axis=0) for each in values]) for pick in (np.min, np.max))
+    return time, low, high

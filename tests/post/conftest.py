@@ -66,3 +66,40 @@ def changed(result, tmp_path):
         return path
 
     return copy
+
+
+@pytest.fixture
+def made(result, tmp_path):
+    """made("runup", seconds=2, journal_y=...): a run with a scene's input and signals of the test's own.
+
+    Signals are arrays over the time, or functions of (time, shaft angle); what is not given is 0. The speed
+    is that of the input, or rises to its final speed over the duration.
+    """
+    import h5py
+    import numpy as np
+
+    opened = []
+
+    def run(scene: str, seconds: float, interval: float = 1e-4, **signals) -> package.Run:
+        path = tmp_path / f"made{len(opened)}.h5"
+        with h5py.File(result(scene), "r") as source, h5py.File(path, "w") as file:
+            file.attrs.update(source.attrs)
+            time = interval * np.arange(round(seconds / interval) + 1)
+            first, final = (source["speed"][i] for i in (0, -1))
+            acceleration = (final - first) / time[-1]
+            angle = first * time + acceleration * time**2 / 2
+            own = {"time": time, "shaft_angle": angle, "speed": first + acceleration * time} | signals
+            datasets = {name: each for name, each in source.items() if isinstance(each, h5py.Dataset)}
+            for name, dataset in datasets.items():
+                if len(dataset) != len(source["time"]):
+                    file[name] = dataset[()]
+                    continue
+                values = own.get(name, 0.0)
+                values = np.transpose(values(time, angle) if callable(values) else values)
+                file[name] = np.broadcast_to(values, dataset.shape[:0:-1] + time.shape).T
+        opened.append(package.read(path))
+        return opened[-1]
+
+    yield run
+    for each in opened:
+        each.close()

@@ -251,7 +251,7 @@ def test_the_installed_command_needs_no_display(result, tmp_path):
         (["orbit", "none", "--last", "0"], 1, "argument --last: 0: must be a positive number"),
         (["orbit", "none", "--last", "two"], 1, "argument --last: two: must be a positive number"),
         (["waveform", "none", "--pad", "3"], 1, "no pad 3 in this run: pads are 1 to 2"),
-        (["hysteresis", "none"], 1, "no hysteresis in this run: friction model is 'none'"),
+        (["hysteresis", "none"], 1, "no friction in this run: friction model is 'none'"),
         (["spectrum", "runup"], 1, "no spectrum in this run: the speed changes"),
         (["waveform", "equilibrium"], 1, "its task is 'equilibrium', nothing was marched in time"),
         (["picture", "none"], 1, "invalid choice: 'picture'"),

@@ -48,7 +48,7 @@ def test_hysteresis(run):
     np.testing.assert_array_equal(moment, case.friction_moment[-361:, 1])
     with pytest.raises(tiltpad.NotInRunError, match="no pad 5 in this run: pads are 1 to 4"):
         tiltpad.hysteresis(case, 5)
-    with pytest.raises(tiltpad.NotInRunError, match="no hysteresis in this run: friction model is 'none'"):
+    with pytest.raises(tiltpad.NotInRunError, match="no friction in this run: friction model is 'none'"):
         tiltpad.hysteresis(run("none"))
 
 
@@ -91,3 +91,44 @@ def test_deviations_are_over_peak_to_peak_or_natural_scale(run):
 def test_deviations_need_the_same_samples(run):
     with pytest.raises(tiltpad.RunError, match="not the same samples"):
         tiltpad.deviations(run("runup"), run("lugre"), slice(0, None))
+
+
+def test_orbit_size(run):
+    case = run("lugre")
+    assert tiltpad.orbit_size(case, 2) == (np.ptp(case.journal_y[-721:]), np.ptp(case.journal_z[-721:]))
+
+
+def test_the_poincare_section_of_a_periodic_motion_is_a_point(made):
+    """Order 1 meets every section at one point, order 1/2 at two; the samples lie between the sections."""
+    case = made(
+        "lugre",
+        1,
+        journal_y=lambda time, angle: 1e-6 * np.cos(angle),
+        journal_z=lambda time, angle: 1e-6 * np.cos(angle / 2),
+        pad_tilt=lambda time, angle: np.stack([np.sin(angle), angle], axis=1),
+    )
+    section = tiltpad.poincare(case, 20, phase=0.3)
+    assert len(section["revolution"]) == 20
+    turns = 2 * np.pi * section["revolution"] + 0.3
+    np.testing.assert_allclose(section["time"] * 6500 * np.pi / 30, turns, rtol=1e-12)
+    np.testing.assert_allclose(section["journal_y"], 1e-6 * np.cos(0.3), rtol=1e-5)
+    np.testing.assert_allclose(section["journal_z"][::2], section["journal_z"][0], rtol=1e-5)
+    assert section["journal_z"][0] == pytest.approx(-section["journal_z"][1], rel=1e-4)
+    np.testing.assert_allclose(section["pad_tilt"][:, 1], turns, rtol=1e-12)
+    assert set(section) == {"revolution", "time", *tiltpad.signals.STATES}
+    with pytest.raises(tiltpad.NotInRunError, match="no Poincare section in this run: it has 0.542 shaft"):
+        tiltpad.poincare(made("lugre", 0.005))
+
+
+def test_the_poincare_section_of_a_run(run):
+    section = tiltpad.poincare(run("tilting"), 5)
+    assert len(section["revolution"]) == 5
+    assert "pad_penetration" not in section
+    case = run("tilting")
+    np.testing.assert_allclose(section["journal_y"], case.journal_y[720:-1:360], rtol=1e-12)
+
+
+def test_nothing_was_marched(run):
+    for calculate in (tiltpad.orbit, tiltpad.orbit_size, tiltpad.poincare):
+        with pytest.raises(tiltpad.NotInRunError, match="task is 'equilibrium', nothing was marched"):
+            calculate(run("equilibrium"))

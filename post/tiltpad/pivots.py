@@ -1,0 +1,138 @@
+"""Friction of the pivots: sliding, sticking, work lost. Everything is in SI units.
+
+`last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ... Where the scene has no
+friction all but `sliding_velocity` raise NotInRunError.
+"""
+
+import numpy as np
+
+from tiltpad.read import NotInRunError, Run
+from tiltpad.signals import ends, last_revolutions, needs_revolutions, series, turned
+
+#: A pivot sticks below this share of the velocity over which its friction falls from static to dynamic.
+STICKING = 0.05
+
+
+def ball_radius(run: Run) -> float:
+    """R1, m: socket radius less the radius difference."""
+    return run.input["pivot"]["socket_radius"] - run.input["pivot"]["radius_difference"]
+
+
+def friction_model(run: Run) -> str:
+    """'bengisu_akay' or 'lugre'. Raises NotInRunError where there is no friction."""
+    model = run.input["friction"]["model"]
+    if model == "none":
+        raise NotInRunError(f"{run.path}: no friction in this run: friction model is 'none'")
+    return model
+
+
+def hysteresis(run: Run, pad: int = 1, last: float = 1) -> tuple[np.ndarray, np.ndarray]:
+    """Tilt, rad, and friction moment, N m, of a pad over the last revolutions, each (time,)."""
+    friction_model(run)
+    part = last_revolutions(run, last)
+    return series(run, "pad_tilt", part, pad), series(run, "friction_moment", part, pad)
+
+
+def loop_area(x: np.ndarray, y: np.ndarray) -> float:
+    """Area of the closed loop through the points, positive when it runs clockwise.
+
+    Of friction moment over tilt: the work lost in the loop, J.
+    """
+    return path_integral(np.append(x, x[0]), np.append(y, y[0]))
+
+
+def path_integral(x: np.ndarray, y: np.ndarray) -> float:
+    """Integral of y over x along the path through the points (trapezoidal rule)."""
+    return float(0.5 * np.sum(np.diff(x) * (y[1:] + y[:-1])))
+
+
+def friction_work(run: Run, pad: int = 1, last: float = 1) -> float:
+    """Work that friction in a pad's pivot takes out in a shaft revolution, J; the mean over the last ones.
+
+    The integral of the friction moment over the tilt. At least one revolution is needed.
+    """
+    tilt, moment = hysteresis(run, pad, last)
+    needs_revolutions(run, "friction work per revolution")
+    return path_integral(tilt, moment) / turned(run, last_revolutions(run, last))
+
+
+def friction_power(run: Run, pad: int = 1, last: float = 1) -> float:
+    """Mean power that friction in a pad's pivot takes out over the last revolutions, W."""
+    duration = np.ptp(ends(run, "time", last_revolutions(run, last)))
+    return path_integral(*hysteresis(run, pad, last)) / float(duration)
+
+
+def sliding_velocity(run: Run, pad: int = 1, last: float = 1) -> np.ndarray:
+    """Velocity of the ball's surface in the socket, eq (21): R1 times the tilt rate, (time,), m/s."""
+    return ball_radius(run) * series(run, "pad_tilt_rate", last_revolutions(run, last), pad)
+
+
+def friction_coefficient(run: Run, pad: int = 1, last: float = 1) -> tuple[np.ndarray, np.ndarray]:
+    """Sliding velocity, m/s, and friction coefficient of a pivot, each (time,).
+
+    The coefficient is the friction moment over contact force and R1, of the sign of the moment; nan where
+    the pivot carries nothing.
+    """
+    moment, part = hysteresis(run, pad, last)[1], last_revolutions(run, last)
+    limit = ball_radius(run) * series(run, "contact_force", part, pad)
+    coefficient = np.divide(moment, limit, out=np.full_like(moment, np.nan), where=limit > 0)
+    return sliding_velocity(run, pad, last), coefficient
+
+
+def stick_velocity(run: Run) -> float:
+    """Sliding velocity below which a pivot is said to stick, m/s.
+
+    5 % of the law's Stribeck velocity, over which its friction falls from static to dynamic: v_s of LuGre,
+    1/chi of Bengisu-Akay (v_c where chi is 0). The paper's values give 5e-5 m/s for both. It is neither v_c,
+    which says how a law is smoothed, nor a share of the motion, which a pad at rest has too.
+    """
+    law = run.input["friction"]
+    if friction_model(run) == "lugre":
+        return STICKING * law["stribeck_velocity"]
+    return STICKING / law["decay"] if law["decay"] > 0 else law["critical_velocity"]
+
+
+def sticking(run: Run, pad: int = 1, last: float = 1, below: float | None = None) -> np.ndarray:
+    """True in the samples where a pivot sticks, (time,): it slides slower than `below`, m/s.
+
+    Without `below`, slower than stick_velocity(run).
+    """
+    limit = stick_velocity(run) if below is None else below
+    return np.abs(sliding_velocity(run, pad, last)) < limit
+
+
+def stick_intervals(run: Run, pad: int = 1, last: float = 1, below: float | None = None) -> np.ndarray:
+    """Times between which a pivot sticks, (k, 2), s, cut off at the ends of the last revolutions.
+
+    Between samples the velocity is taken as a straight line, so that the times do not hang on the sampling:
+    a pad that merely turns round has a short interval too. `below` as in sticking.
+    """
+    limit = stick_velocity(run) if below is None else below
+    time = run.values("time", last_revolutions(run, last))
+    return slow_intervals(time, sliding_velocity(run, pad, last), limit)
+
+
+def slow_intervals(time: np.ndarray, velocity: np.ndarray, limit: float) -> np.ndarray:
+    """Times between which a velocity (time,), straight between samples, stays within +-limit: (k, 2)."""
+    start, stop = velocity[:-1], velocity[1:]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # where the straight line from 0 to 1 meets the two limits; resting ones are slow throughout or never
+        meets = (np.array([[-limit], [limit]]) - start) / (stop - start)
+    low, high = np.clip(np.sort(meets, axis=0), 0, 1)
+    resting = start == stop
+    low = np.where(resting, 0.0, low)
+    high = np.where(resting, np.where(np.abs(start) < limit, 1.0, 0.0), high)
+    slow = high > low
+    step = np.diff(time)
+    begin, end = time[:-1] + low * step, time[:-1] + high * step
+    # an interval goes on where a line ends slow and the next one begins so
+    goes_on = slow[:-1] & slow[1:] & (high[:-1] == 1) & (low[1:] == 0)
+    first = slow & ~np.append(False, goes_on)
+    final = slow & ~np.append(goes_on, False)
+    return np.column_stack([begin[first], end[final]])
+
+
+def stick_fraction(run: Run, pad: int = 1, last: float = 1, below: float | None = None) -> float:
+    """Share of the time of the last revolutions in which a pivot sticks; `below` as in sticking."""
+    duration = np.ptp(ends(run, "time", last_revolutions(run, last)))
+    return float(np.diff(stick_intervals(run, pad, last, below)).sum() / duration)

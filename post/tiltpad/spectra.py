@@ -1,0 +1,147 @@
+"""Amplitudes over frequency and over order. Everything is in SI units.
+
+`last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ...
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from tiltpad.read import NotInRunError, Run
+from tiltpad.signals import at_angle, ends, last_revolutions, needs_revolutions, series, steady
+
+
+def spectrum(run: Run, name: str = "journal_y") -> tuple[np.ndarray, np.ndarray]:
+    """Frequency (k,), Hz, and one-sided amplitude of journal_y, journal_z (k,), m, or pad_tilt (pad, k), rad.
+
+    The spectrum that is in the file. At frequency 0 stands the magnitude of the mean.
+    """
+    return run["spectrum/frequency"], run["spectrum/" + name]
+
+
+def full_spectrum(run: Run) -> tuple[np.ndarray, np.ndarray]:
+    """Frequency (k,), Hz, and amplitude (k,), m, of y + i z: forward whirl at positive frequencies.
+
+    The spectrum that is in the file.
+    """
+    return run["spectrum/full_frequency"], run["spectrum/journal_full"]
+
+
+def one_sided(
+    run: Run, name: str = "journal_y", last: float = 10, pad: int | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Frequency (k,), Hz, and one-sided amplitude of any dataset over the last revolutions, at constant speed.
+
+    Amplitudes, in the dataset's unit, are (k,), or (pad, k) of a dataset of all pads without `pad`. At
+    frequency 0 stands the magnitude of the mean.
+    """
+    part, interval = sampled_evenly(run, last)
+    values = series(run, name, part, pad).T
+    count = values.shape[-1]
+    amplitude = 2 / count * np.abs(np.fft.rfft(values))
+    amplitude[..., 0] /= 2
+    if count % 2 == 0:
+        amplitude[..., -1] /= 2
+    return np.fft.rfftfreq(count, interval), amplitude
+
+
+def full(run: Run, last: float = 10) -> tuple[np.ndarray, np.ndarray]:
+    """Frequency (k,), Hz, rising, and amplitude (k,), m, of y + i z over the last revolutions.
+
+    At constant speed. Forward whirl is at positive frequencies, backward whirl at negative ones.
+    """
+    part, interval = sampled_evenly(run, last)
+    values = run.values("journal_y", part) + 1j * run.values("journal_z", part)
+    amplitude = np.abs(np.fft.fft(values)) / len(values)
+    return np.fft.fftshift(np.fft.fftfreq(len(values), interval)), np.fft.fftshift(amplitude)
+
+
+def sampled_evenly(run: Run, last: float) -> tuple[slice, float]:
+    """Samples of the last revolutions without the one that begins the next, and their interval, s."""
+    if not steady(run):
+        raise NotInRunError(f"{run.path}: no spectrum in this run: the speed changes; see waterfall")
+    needs_revolutions(run, "spectrum")
+    part = last_revolutions(run, last)
+    time = ends(run, "time", part)
+    return slice(part.start, part.stop - 1), float(np.ptp(time)) / (part.stop - part.start - 1)
+
+
+def waterfall(
+    run: Run,
+    name: str = "journal_y",
+    pad: int | None = None,
+    orders: float = 5,
+    revolutions: int = 8,
+    spans: int = 200,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Speed (n,), rad/s, order (k,), and amplitudes (n, k) of a run whose speed changes.
+
+    Short spectra over the shaft angle, of `revolutions` revolutions each, up to `orders` times the speed and
+    at most `spans` of them along the run; amplitudes in the dataset's unit. Order 0 stands for the mean. A
+    dataset of all pads needs `pad`. The windows are Hann's, read one at a time.
+    """
+    needs_pad(run, name, pad)
+    speed, found = [], []
+    for at, _, weighted in windows(run, name, pad, revolutions, spans, "waterfall"):
+        amplitude = 2 * np.abs(np.fft.rfft(weighted))[: int(orders * revolutions) + 1]
+        amplitude[0] /= 2
+        speed.append(at)
+        found.append(amplitude)
+    shortest = min(len(each) for each in found)
+    amplitudes = np.array([each[:shortest] for each in found])
+    return np.array(speed), np.arange(shortest) / revolutions, amplitudes
+
+
+def order_track(
+    run: Run,
+    name: str = "journal_y",
+    order: float = 1,
+    pad: int | None = None,
+    revolutions: int = 8,
+    spans: int = 400,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Speed (n,), rad/s, amplitude (n,), in the dataset's unit, and phase (n,), rad, of one order of a run-up.
+
+    The signal is amplitude * cos(order * shaft angle + phase), phase between -pi and pi. Windows as in
+    waterfall.
+    """
+    needs_pad(run, name, pad)
+    found = [
+        (speed, 2 * np.sum(weighted * np.exp(-1j * order * angle)))
+        for speed, angle, weighted in windows(run, name, pad, revolutions, spans, "order track")
+    ]
+    speed, amplitude = (np.array(each) for each in zip(*found, strict=True))
+    return speed, np.abs(amplitude), np.angle(amplitude)
+
+
+def windows(
+    run: Run, name: str, pad: int | None, revolutions: int, spans: int, what: str
+) -> Iterator[tuple[float, np.ndarray, np.ndarray]]:
+    """Windows along a run whose speed changes: speed in the middle, shaft angles, values times weights.
+
+    The values are at equal steps of the shaft angle over whole revolutions; the weights (Hann) sum to 1.
+    """
+    if steady(run):
+        raise NotInRunError(
+            f"{run.path}: no {what} in this run: its speed stays the same, a run-up is needed"
+        )
+    needs_revolutions(run, what, revolutions)
+    first, final = ends(run, "shaft_angle")
+    length = 2 * np.pi * revolutions
+    count = max(1, min(spans, int((final - first) / length * 2)))
+    for start in np.linspace(first, final - length, count):
+        part = slice(
+            max(0, run.first("shaft_angle", start) - 2), run.first("shaft_angle", start + length) + 2
+        )
+        angle = run.values("shaft_angle", part)
+        steps = len(angle) - 4
+        even = start + length * np.arange(steps) / steps
+        weight = np.sin(np.pi * np.arange(steps) / steps) ** 2
+        speed = at_angle(angle, run.values("speed", part), np.array([start + length / 2]))[0]
+        yield speed, even, weight / weight.sum() * at_angle(angle, series(run, name, part, pad), even)
+
+
+def needs_pad(run: Run, name: str, pad: int | None) -> None:
+    """Raises ValueError where a dataset of all pads is asked for without a pad, or the other way round."""
+    if (run.dimensions(name) == 2) != (pad is not None):
+        raise ValueError(f"{name}: {'pad must be given' if pad is None else 'has no pads'}")
