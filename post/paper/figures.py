@@ -125,8 +125,10 @@ def figure_15(runs: Runs) -> Figure:
             tiltpad.plots.history(run, ax, name, PAD, **look)
         speed = SHOWN["speed"].factor * run.values("speed")[[0, -1]]
         top_axis(ax, run.time[[0, -1]], speed, SHOWN["speed"].label)
+    trajectory(lines[0][1], axes[0][0], slice(None, None, 4), linewidth=0.2, color="0.85")
     for _, run, look in lines:
-        trajectory(run, axes[0][0], slice(None, None, 4), linewidth=0.3, **look)
+        axes[0][0].plot(*(SHOWN["journal_y"].factor * each for each in orbit_centres(run)), **look)
+    axes[0][0].set_title("centres of the orbits")
     for row, rpm in ((1, LOW_SPEED), (2, HIGH_SPEED)):
         for _, run, look in lines:
             part = speed_window(run, rpm, DETAIL)
@@ -175,6 +177,14 @@ def trajectory(run: tiltpad.Run, ax: Axes, part: slice, **look: Any) -> None:
     ax.plot(shown.factor * run.values("journal_z", part), shown.factor * run.values("journal_y", part), **look)
     ax.set(xlabel=SHOWN["journal_z"].label, ylabel=shown.label, box_aspect=1)
     ax.set_aspect("equal", adjustable="datalim")
+
+
+def orbit_centres(run: tiltpad.Run) -> tuple[np.ndarray, np.ndarray]:
+    """Mean z and y of every revolution, each (revolution,), m."""
+    turns = tiltpad.revolutions(run)
+    starts = np.searchsorted(turns, np.arange(np.floor(turns[-1]) + 1))
+    means = (np.add.reduceat(run["journal_" + axis], starts)[:-1] / np.diff(starts) for axis in "zy")
+    return tuple(means)
 
 
 def panels(rows: int) -> tuple[Figure, Any]:

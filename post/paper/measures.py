@@ -64,7 +64,7 @@ def rms_deviation(run: Run, other: Run, name: str) -> float:
     return float(np.sqrt(np.mean((values - true) ** 2) / np.mean((true - true.mean()) ** 2)))
 
 
-def jerkiness(run: Run) -> float:
+def acceleration(run: Run) -> float:
     """Highest angular acceleration of the first pad between two samples, rad/s^2."""
     part = tiltpad.last_revolutions(run, LAST)
     return float(np.abs(np.diff(of_pad(run, "pad_tilt_rate", part)) / np.diff(run.values("time", part))).max())
@@ -81,6 +81,13 @@ def stribeck_curve(run: Run, velocity: np.ndarray) -> np.ndarray:
     rising = static - static * (speed / critical - 1) ** 2
     falling = dynamic + (static - dynamic) * np.exp(-law["decay"] * np.maximum(0, speed - critical))
     return np.where(speed < critical, rising, falling) * np.sign(velocity)
+
+
+def off_curve(run: Run) -> float:
+    """Greatest distance of the friction coefficient of the first pad from the steady law, over f_s."""
+    velocity, coefficient = tiltpad.friction_coefficient(run, PAD, LAST)
+    gap = np.abs(coefficient - stribeck_curve(run, velocity)).max()
+    return float(gap) / run.input["friction"]["static_coefficient"]
 
 
 def loop_width(run: Run) -> float:

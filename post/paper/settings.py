@@ -74,7 +74,12 @@ def at_speed(speed: float, grade: float = GRADE) -> tuple[str, ...]:
     return f"operation%speed_rpm={speed:g}", f"rotor%balance_grade={grade:g}"
 
 
-SLOW = tuple(
+#: The balance grade of a well balanced rotor, whose pads stay stuck at full speed.
+FINE_GRADE = 1
+SLOW = (
+    Scene("ba_fine", BA, at_speed(6500, FINE_GRADE)),
+    Scene("lugre_fine", LUGRE, at_speed(6500, FINE_GRADE)),
+) + tuple(
     Scene(f"{model}_{speed}", case, at_speed(speed))
     for model, case in (("ba", BA), ("lugre", LUGRE))
     for speed in LOW_SPEEDS
@@ -87,6 +92,29 @@ UPPER_PADS = (
     Scene("two_pads_none", FRICTIONLESS, ("film%cavitation=gumbel",)),
     Scene("four_pads_none", "input/examples/four_pads.nml", ("friction%model=none",)),
 )
+
+#: What a comparison must exceed to count, ten times the error that the default settings are held to.
+RESOLUTION = 0.01
+#: Journal paths closer than this part of the orbit's size agree.
+AGREEMENT = 0.1
+#: A pad that is slow so many times as long as a sinusoid of its amplitude comes to rest.
+RESTS = 2.0
+#: Part of f_s within which friction coefficients lie on one curve.
+ON_CURVE = 0.01
+#: The same runs again, to tell numerics from physics: finer film, tighter tolerance, and a shorter march.
+REFINED = (
+    "film%circumferential_cells=32",
+    "film%axial_modes=8",
+    "integration%relative_tolerance=1e-6",
+)
+REFINED_DURATION = 0.6
+
+
+def refined(scene: Scene) -> Scene:
+    """The scene with the settings REFINED; a steady one also marches for a shorter time."""
+    shorter = () if scene.name in RUNUPS.values() else (f"operation%duration={REFINED_DURATION}",)
+    return Scene(scene.name, scene.case, (*scene.overrides, *REFINED, *shorter))
+
 
 def everything() -> Iterator[Scene]:
     """All scenes."""
