@@ -193,10 +193,10 @@ def panels(rows: int) -> tuple[Figure, Any]:
     return fig, fig.subplots(rows, 3, squeeze=False)
 
 
-def legend(fig: Figure, lines: Sequence[Line]) -> Figure:
+def legend(fig: Figure, lines: Sequence[Line], columns: int = 4) -> Figure:
     """The lines above the panels."""
     handles = [plt.Line2D([], [], label=text, **look) for text, _, look in lines]
-    fig.legend(handles=handles, loc="outside upper center", ncols=4)
+    fig.legend(handles=handles, loc="outside upper center", ncols=columns)
     return fig
 
 

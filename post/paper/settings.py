@@ -1,7 +1,7 @@
 """What is run and what counts: scenes, windows and limits, all in one place."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
+from math import pi
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -107,16 +107,92 @@ REFINED = (
     "film%axial_modes=8",
     "integration%relative_tolerance=1e-6",
 )
-REFINED_DURATION = 0.6
+#: Rule (26) with the grade of section 3 instead of the unbalance of Table 1.
+RULE = f"rotor%balance_grade={GRADE:g}"
+#: Long enough to be periodic.
+SHORT = "operation%duration=0.6"
 
 
 def refined(scene: Scene) -> Scene:
-    """The scene with the settings REFINED; a steady one also marches for a shorter time."""
-    shorter = () if scene.name in RUNUPS.values() else (f"operation%duration={REFINED_DURATION}",)
-    return Scene(scene.name, scene.case, (*scene.overrides, *REFINED, *shorter))
+    """The scene with the settings REFINED."""
+    return shorter(Scene(scene.name, scene.case, (*scene.overrides, *REFINED)))
 
 
-def everything() -> Iterator[Scene]:
-    """All scenes."""
-    for group in (PAPER, FIGURES_7_8, SLOW, UPPER_PADS):
-        yield from group
+def balanced(scene: Scene) -> Scene:
+    """The scene with the unbalance of rule (26)."""
+    own = any("balance_grade" in word for word in scene.overrides)
+    return shorter(Scene(scene.name, scene.case, scene.overrides if own else (*scene.overrides, RULE)))
+
+
+def shorter(scene: Scene) -> Scene:
+    """The scene with the duration SHORT, unless it is a run-up."""
+    return scene if scene.name in RUNUPS.values() else Scene(scene.name, scene.case, (*scene.overrides, SHORT))
+
+
+# ---- beyond the paper ------------------------------------------------------------------------------------
+#: Map of the stick fraction: speeds, rpm, and static friction coefficients, the dynamic ones half as large.
+MAP_SPEEDS = tuple(range(1500, 6501, 500))
+MAP_COEFFICIENTS = (0.01, 0.02, 0.035, 0.05, 0.075, 0.1, 0.15, 0.2)
+#: Only the last revolutions are kept.
+MAP_TIME = ("operation%duration=0.5", "output%start_time=0.25")
+
+
+def map_name(speed: float, coefficient: float) -> str:
+    return f"map_{speed:g}_{coefficient:g}"
+
+
+MAP = tuple(
+    Scene(map_name(speed, f), BA, (
+        f"friction%static_coefficient={f:g}", f"friction%dynamic_coefficient={f / 2:g}", *at_speed(speed), *MAP_TIME
+    ))
+    for speed in MAP_SPEEDS
+    for f in MAP_COEFFICIENTS
+)  # fmt: skip
+
+#: Contact laws beside the paper's, by their overrides.
+LAWS = {
+    "Fang, factor 4": (),
+    r"Fang, factor 2 pi": (f"pivot%penetration_factor={2 * pi:.15g}",),
+    "Hertz": ("pivot%law=hertz",),
+}
+LAW_DIFFERENCES = (15, 30)
+
+
+def law_name(law: str, difference: int, friction: bool) -> str:
+    return f"law_{list(LAWS).index(law)}_{difference}_{'ba' if friction else 'none'}"
+
+
+LAW_SCENES = tuple(
+    shorter(Scene(law_name(law, difference, friction), BA_10_10 if friction else FRICTIONLESS,
+                  (*overrides, f"pivot%radius_difference={difference}e-6")))
+    for law, overrides in LAWS.items()
+    for difference in LAW_DIFFERENCES
+    for friction in (False, True)
+)  # fmt: skip
+
+#: Balance grades at 6500 rpm, and speeds at which rule (26) takes that speed or the highest.
+GRADES = (0.4, 1, 2.5, 4, 6.3, 10)
+RULE_SPEEDS = tuple(range(1500, 6501, 1000))
+RULE_SCENES = tuple(
+    shorter(Scene(f"rule_{model}_{kind}_{value:g}", case, overrides))
+    for model, case in (("none", FRICTIONLESS), ("lugre", LUGRE))
+    for kind, values, make in (
+        ("grade", GRADES, lambda grade: at_speed(6500, grade)),
+        ("own", RULE_SPEEDS, at_speed),
+        ("highest", RULE_SPEEDS, lambda speed: (*at_speed(speed), "rotor%balance_speed_rpm=6500")),
+    )
+    for value in values
+    for overrides in [make(value)]
+)
+
+
+#: The runs of the figures and claims; again with a finer film and by rule (26); and the studies'.
+SCENES = (*PAPER, *FIGURES_7_8, *SLOW, *UPPER_PADS)
+STUDIES = (*MAP, *LAW_SCENES, *RULE_SCENES)
+#: Folders of the runs, with their scenes.
+FOLDERS = {
+    "paper": SCENES,
+    "refined": tuple(map(refined, SCENES)),
+    "rule": tuple(map(balanced, SCENES)),
+    "studies": STUDIES,
+}
