@@ -141,6 +141,21 @@ def figure_15(runs: Runs) -> Figure:
     return legend(fig, lines)
 
 
+def figure_pads(runs: Runs) -> Figure:
+    """Four pads against two: orbit, tilt of the upper pads, and their contact force."""
+    fig, (axes,) = panels(1)
+    two, four = runs["two_pads"], runs["four_pads"]
+    lines = [("two pads", two, {"color": "C0"}), ("four pads", four, {"color": "C1", "linestyle": "--"})]
+    for _, run, look in lines:
+        orbit(run, axes[0], **look)
+    for pad, color in ((1, "C1"), (3, "C2"), (4, "C3")):
+        look = {"color": color}
+        for ax, name in zip(axes[1:], ("pad_tilt", "contact_force"), strict=True):
+            tiltpad.plots.waveform(four, ax, name, 5, pad, **look)
+        lines.append((f"pad {pad} of four" + (" (upper)" if pad > 2 else ""), four, look))
+    return legend(fig, lines, 5)
+
+
 #: Pictures of this module by the paper's numbers.
 FIGURES = {
     name.partition("_")[2]: draw for name, draw in list(globals().items()) if name.startswith("figure_")

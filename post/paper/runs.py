@@ -35,14 +35,15 @@ class Runs:
             run.close()
 
 
-def run_all(program: Path, scenes: Iterable[Scene], folder: Path, jobs: int | None = None) -> None:
-    """Runs all scenes, a process each, as many at once as there are cores; raises RuntimeError for one that
-    fails.
+def run_all(program: Path, jobs: Iterable[tuple[Scene, Path]], cores: int | None = None) -> None:
+    """Runs scenes, each into its folder and a process of its own, as many at once as there are cores; raises
+    RuntimeError for one that fails.
     """
-    folder.mkdir(parents=True, exist_ok=True)
-    queue = sorted(scenes, key=lambda scene: SLOWEST.index(scene.name) if scene.name in SLOWEST else 99)
-    with ThreadPoolExecutor(jobs or os.cpu_count()) as pool:
-        list(pool.map(lambda scene: run(program, scene, folder), queue))
+    queue = sorted(jobs, key=lambda job: SLOWEST.index(job[0].name) if job[0].name in SLOWEST else len(SLOWEST))
+    for folder in {folder for _, folder in queue}:
+        folder.mkdir(parents=True, exist_ok=True)
+    with ThreadPoolExecutor(cores or os.cpu_count()) as pool:
+        list(pool.map(lambda job: run(program, *job), queue))
 
 
 def run(program: Path, scene: Scene, folder: Path) -> Path:

@@ -47,18 +47,17 @@ def work_figure(runs: Runs) -> Figure:
     axes[1].set(ylabel="mean friction power (W)")
     for ax in axes:
         ax.set(xlabel=RPM, xlim=(speed[0], speed[-1]))
-    return legend(fig, lines, 2)
+    return legend(fig, lines, 3)
 
 
 def work_by_revolution(run: tiltpad.Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Mean speed, rpm, duration, s, and friction work of each pad, J, (revolution, pad), of every revolution."""
-    turns, time = tiltpad.revolutions(run), run.time
-    starts = np.searchsorted(turns, np.arange(np.floor(turns[-1]) + 1))
-    tilt, moment = run.pad_tilt, run.friction_moment
+    turns, tilt, moment = tiltpad.revolutions(run), run.pad_tilt, run.friction_moment
     pieces = 0.5 * (moment[1:] + moment[:-1]) * np.diff(tilt, axis=0)
-    work = np.add.reduceat(pieces, starts[:-1], axis=0)
-    work[-1] -= pieces[starts[-1] :].sum(axis=0)
-    duration = np.diff(time[starts])
+    done = np.vstack([np.zeros(run.pads), np.cumsum(pieces, axis=0)])
+    whole = np.arange(np.floor(turns[-1]) + 1)
+    duration = np.diff(np.interp(whole, turns, run.time))
+    work = np.column_stack([np.diff(np.interp(whole, turns, each)) for each in done.T])
     return 60 / duration, duration, work
 
 
@@ -173,6 +172,31 @@ def rule_figure(runs: Runs) -> Figure:
     for ax in axes:
         ax.legend()
     return fig
+
+
+def rule_table(runs: Runs) -> str:
+    """Size of the orbit over the speed, um, and how much of it is friction's."""
+    rows = []
+    for kind, words in (("own", "its own"), ("highest", "6500 rpm")):
+        for speed in RULE_SPEEDS:
+            none, lugre = (size(runs[f"rule_{model}_{kind}_{speed:g}"]) for model in ("none", "lugre"))
+            rows.append((words, speed, digits(1e6 * none), digits(1e6 * lugre), digits(lugre / none)))
+    return table(("speed of rule (26)", "speed, rpm", "frictionless, um", "LuGre 0.1/0.05, um", "ratio"), rows)
+
+
+def rule_words(runs: Runs) -> str:
+    """Where friction enlarges the orbit and where it does not."""
+    ratios = {
+        speed: size(runs[f"rule_lugre_own_{speed:g}"]) / size(runs[f"rule_none_own_{speed:g}"]) for speed in RULE_SPEEDS
+    }
+    smaller = [f"{speed:g}" for speed, ratio in ratios.items() if ratio < 1]
+    if not smaller:
+        return "Friction enlarges the orbit at all these speeds."
+    return (
+        f"Friction makes the orbit smaller at {', '.join(smaller)} rpm: the paper's statement that it enlarges the "
+        "orbit is one of its speed, above the resonance of rotor and film; below it, pads that are held make the "
+        "bearing stiffer."
+    )
 
 
 def equivalent_grade(run: tiltpad.Run) -> float:
