@@ -15,10 +15,16 @@ INPUT_ERROR, FILE_ERROR = 1, 3
 
 PLOTS = {
     "orbit": "path of the journal in its clearance circle, and enlarged (last revolution)",
-    "spectrum": "amplitudes of the journal's motion, one-sided and full (runs at constant speed)",
-    "hysteresis": "friction moment over pad tilt, a panel a pad (last revolution)",
+    "size": "peak-to-peak of the journal: of one run, over what differs between runs, over speed",
+    "poincare": "journal and a pad once a revolution (last 50 revolutions, pad 1)",
     "waveform": "journal, tilt and tilt rate over the last revolutions (5)",
+    "spectrum": "amplitudes of the journal, one-sided and full, at constant speed (those in the file)",
+    "hysteresis": "friction moment over pad tilt, a panel a pad (last revolution)",
+    "friction": "friction coefficient over sliding velocity, a panel a pad (last revolution)",
+    "sticking": "tilt rate, bold where the pivot sticks, a panel a pad (last 2 revolutions)",
     "runup": "journal and tilt over the whole run, with the speed",
+    "orders": "amplitude and phase of the first orders over the speed of a run-up (with --pad: its tilt too)",
+    "waterfall": "amplitudes over speed and order of a run-up (journal, or with --pad its tilt)",
 }
 
 
@@ -65,6 +71,8 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         for warning in caught:
             print(f"tiltpad-plot: warning: {warning.message}", file=sys.stderr)
         stack.enter_context(mpl.style.context(plots.STYLE))
+        if options.pad is not None:
+            figures.shown_pads(runs, options.pad)
         figure = figures.FIGURES[options.plot](runs, options.last, options.pad)
         stack.callback(plots.plt.close, figure)
         figure.savefig(output, format=output.suffix.lower().removeprefix("."))

@@ -4,25 +4,33 @@ Every function takes the runs, the number of revolutions at the end (None: its o
 (None: all of them), and returns the figure.
 """
 
-import textwrap
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import ConnectionPatch, Rectangle
 
 from tiltpad import namelist, pivots, plots, signals
+from tiltpad.layout import (
+    COLUMN,
+    PAGE,
+    drawn,
+    heading,
+    labels,
+    legend,
+    look,
+    mark_enlarged,
+    order_axis,
+    panel_a_pad,
+    parts,
+    plain,
+    shown_pads,
+    stacked,
+    top_axis,
+)
 from tiltpad.read import Run
 from tiltpad.units import SHOWN
-
-COLUMN, PAGE = 3.35, 6.9  # widths in a paper, inches
-LONGEST_LABEL = 90  # characters
-DASHES = ("-", "--", ":", "-.")
 
 
 def orbit(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
@@ -51,9 +59,10 @@ def spectrum(runs: Sequence[Run], last: float | None = None, pad: int | None = N
     fig = plt.figure(figsize=(COLUMN, 4.6))
     upper, lower = fig.subplots(2, 1)
     for i, run in enumerate(runs):
-        plots.spectrum(run, upper, "journal_y", **look(i, 0, runs), linewidth=2 if len(runs) == 1 else 1)
-        plots.spectrum(run, upper, "journal_z", **look(i, 1, runs))
-        plots.full_spectrum(run, lower, **look(i, 0, runs))
+        wide = {"linewidth": 2 if len(runs) == 1 else 1}
+        plots.spectrum(run, upper, "journal_y", last=last, **look(i, 0, runs), **wide)
+        plots.spectrum(run, upper, "journal_z", last=last, **look(i, 1, runs))
+        plots.full_spectrum(run, lower, last=last, **look(i, 0, runs))
     frequency = {plots.shaft_frequency(run) for run in runs}
     upper.set_xlim(0, 10 * max(frequency))
     lower.set_xlim(-5 * max(frequency), 5 * max(frequency))
@@ -70,24 +79,59 @@ def spectrum(runs: Sequence[Run], last: float | None = None, pad: int | None = N
 
 def hysteresis(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Friction moment over tilt, a panel a pad, with the work lost in a revolution."""
-    last = last or 1
-    pads = shown_pads(runs, pad)
-    columns = min(2, len(pads))
-    rows = -(-len(pads) // columns)
-    fig = plt.figure(figsize=(COLUMN if columns == 1 else PAGE, 2.8 * rows))
-    panels = fig.subplots(rows, columns, squeeze=False).ravel()
-    for ax, k in zip(panels, pads, strict=False):
+    fig, panels = panel_a_pad(runs, pad)
+    for k, ax in panels.items():
         work = []
         for i, run in enumerate(runs):
-            plots.hysteresis(run, ax, k, last, **look(i, 0, runs))
-            work.append(pivots.loop_area(*pivots.hysteresis(run, k, 1)))
+            plots.hysteresis(run, ax, k, last or 1, **look(i, 0, runs))
+            work.append(pivots.friction_work(run, k))
         ax.margins(y=0.1)
-        ax.locator_params(axis="x", nbins=6)
         text = ", ".join(f"{SHOWN['work'].factor * each:#.3g}" for each in work)
         ax.set_title(f"pad {k}: {text} {SHOWN['work'].unit} per revolution")
-    for ax in panels[len(pads) :]:
-        ax.remove()
     legend(fig, runs, [])
+    return fig
+
+
+def friction(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
+    """Friction coefficient over sliding velocity, a panel a pad."""
+    fig, panels = panel_a_pad(runs, pad)
+    for k, ax in panels.items():
+        for i, run in enumerate(runs):
+            plots.friction_coefficient(run, ax, k, last or 1, **look(i, 0, runs))
+        ax.set_title(f"pad {k}")
+    legend(fig, runs, [])
+    return fig
+
+
+def sticking(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
+    """Tilt rate, bold where the pivot sticks, a panel a pad, with the share of the time that it does."""
+    last = last or 2
+    fig, panels = panel_a_pad(runs, pad)
+    for k, ax in panels.items():
+        share = []
+        for i, run in enumerate(runs):
+            plots.sticking(run, ax, k, last, **look(i, 0, runs))
+            share.append(100 * pivots.stick_fraction(run, k, last))
+        ax.set_title(f"pad {k}: sticks {', '.join(f'{each:.1f}' for each in share)} % of the time")
+    neutral = look(0, 0, runs) | ({"color": "0.3"} if len(runs) > 1 else {})
+    legend(fig, runs, [("slides", neutral), ("sticks", neutral | plots.STUCK)])
+    return fig
+
+
+def poincare(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
+    """Journal, and tilt rate over tilt of a pad, once a revolution, on the last revolution's path."""
+    fig = plt.figure(figsize=(PAGE, 3.4))
+    left, right = fig.subplots(1, 2)
+    for i, run in enumerate(runs):
+        for ax, names in ((left, plots.ORBIT), (right, plots.PHASE)):
+            plots.poincare(run, ax, last or 50, names, pad or 1, **look(i, 0, runs))
+    left.set(box_aspect=1, adjustable="datalim")
+    left.margins(0.1)
+    right.set(box_aspect=1)
+    right.set_title(f"pad {pad or 1}")
+    left.set_title("journal")
+    points = {"color": "0.3" if len(runs) > 1 else "C0", "linestyle": "", "marker": ".", "markersize": 5}
+    legend(fig, runs, [("once a revolution", points), ("last revolution", {"color": "0.7"})])
     return fig
 
 
@@ -100,7 +144,7 @@ def waveform(runs: Sequence[Run], last: float | None = None, pad: int | None = N
         for name, ax in panels.items():
             for k, p in drawn(name, pads):
                 plots.waveform(run, ax, name, last, pad=p, **look(i, k, runs))
-    longest = max(np.ptp(signals.revolutions(run, signals.last_revolutions(run, last))) for run in runs)
+    longest = max(signals.turned(run, signals.last_revolutions(run, last)) for run in runs)
     for ax in panels.values():
         ax.set_xlim(0, longest)
     if len(runs) == 1:
@@ -119,7 +163,7 @@ def runup(runs: Sequence[Run], last: float | None = None, pad: int | None = None
         for name, ax in panels.items():
             for k, p in drawn(name, pads):
                 plots.history(run, ax, name, pad=p, **look(i, k, runs))
-    ends = {tuple(run.values("time")[[0, -1]]) + tuple(run.values("speed")[[0, -1]]) for run in runs}
+    ends = {(*signals.ends(run, "time"), *signals.ends(run, "speed")) for run in runs}
     for ax in panels.values():
         ax.set_xlim(min(end[0] for end in ends), max(end[1] for end in ends))
     if len(ends) == 1:
@@ -131,101 +175,81 @@ def runup(runs: Sequence[Run], last: float | None = None, pad: int | None = None
     return fig
 
 
-FIGURES = {each.__name__: each for each in (orbit, spectrum, hysteresis, waveform, runup)}
+def orders(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
+    """Amplitudes of the first three orders over the speed, and the phase of the first, of a run-up."""
+    names = [("journal_y", None), ("journal_z", None), *([("pad_tilt", pad)] if pad else [])]
+    fig, panels = stacked([*names, "phase"])
+    shown = (1, 2, 3)
+    for i, run in enumerate(runs):
+        for k, order in enumerate(shown):
+            for name, column in names:
+                plots.order_track(run, panels[name, column], name, order, column, **look(i, k, runs))
+        plots.order_phase(run, panels["phase"], **look(i, 0, runs))
+    for name, column in names:
+        panels[name, column].set_ylabel(SHOWN[name].label + (f", pad {pad}" if column else ""))
+    panels["phase"].set_ylabel("phase of $y$,\norder 1 (deg)")
+    legend(fig, runs, parts([f"order {order}" for order in shown], runs))
+    return fig
 
 
-def labels(runs: Sequence[Run]) -> list[str]:
-    """Names to tell runs apart: their titles, else what differs in their inputs, else their files."""
-    titles = [run.title for run in runs]
-    stems = [Path(run.path).stem for run in runs]
-    for texts in (titles, namelist.differences([run.input for run in runs]), stems):
-        if all(0 < len(text) <= LONGEST_LABEL for text in texts) and len(set(texts)) == len(runs):
-            return texts
-    return [run.path for run in runs]
-
-
-def look(run: int, part: int | None, runs: Sequence[Run]) -> dict[str, Any]:
-    """Colour and dashes of a line: colours tell parts (y, z; pads) of one run apart, or else runs."""
+def waterfall(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
+    """Amplitudes over speed and order of a run-up: a column of the journal's y and z (a pad's tilt) a run."""
+    names = ["pad_tilt"] if pad else ["journal_y", "journal_z"]
+    fig = plt.figure(figsize=(COLUMN if len(runs) == 1 else PAGE, 0.5 + 2.1 * len(names)))
+    panels = fig.subplots(len(names), len(runs), squeeze=False, sharex=len(runs) == 1)
+    for column, run, label in zip(panels.T, runs, labels(runs), strict=True):
+        for ax, name in zip(column, names, strict=True):
+            plots.waterfall(run, ax, name, pad)
+        if len(runs) > 1:
+            column[0].set_title(label, wrap=True)
     if len(runs) == 1:
-        return {"color": "0.2" if part is None else f"C{part}"}
-    return {"color": f"C{run}", "linestyle": DASHES[(part or 0) % len(DASHES)]}
+        legend(fig, runs, [])
+        for ax in panels[:-1, 0]:
+            ax.xaxis.label.set_visible(False)
+    return fig
 
 
-def parts(texts: Sequence[str], runs: Sequence[Run]) -> list[tuple[str, dict[str, Any]]]:
-    """Legend entries of the parts of every run; none where there is one part."""
-    neutral = {"color": "0.3"} if len(runs) > 1 else {}
-    return [(text, look(0, k, runs) | neutral) for k, text in enumerate(texts) if len(texts) > 1]
+def size(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
+    """Peak-to-peak of the journal's y and z.
+
+    With a run-up over the speed; of runs in which one number differs over that number; else a bar a run.
+    """
+    fig = plt.figure(figsize=(COLUMN, 2.6))
+    ax = fig.subplots()
+    coordinates = ("journal_y", "journal_z")
+    if not all(signals.steady(run) for run in runs):
+        for i, run in enumerate(runs):
+            for k, name in enumerate(coordinates):
+                plots.orbit_size(run, ax, name, last or 1, **look(i, k, runs))
+        ax.set_ylim(bottom=0)
+        legend(fig, runs, parts(["$y$", "$z$"], runs))
+        return fig
+    sizes = SHOWN["size"].factor * np.array([signals.orbit_size(run, last or 1) for run in runs]).T
+    varied = namelist.varied([run.input for run in runs])
+    if varied:
+        label, values = varied
+        order = np.argsort(values)
+        for each, dashes in zip(sizes, ("-", "--"), strict=True):
+            ax.plot(np.array(values)[order], each[order], dashes, marker="o", markersize=3)
+        ax.set(xlabel=label, ylabel=SHOWN["size"].label, ylim=(0, 1.1 * sizes.max()))
+    else:
+        place = np.arange(len(runs))
+        names = labels(runs) if len(runs) > 1 else [runs[0].title or Path(runs[0].path).stem]
+        for k, each in enumerate(sizes):
+            ax.barh(place + 0.4 * k, each, 0.38)
+        ax.set_yticks(place + 0.2, [plain(name, 24) for name in names])
+        ax.grid(visible=False, axis="y")
+        ax.invert_yaxis()
+        ax.set(xlabel=SHOWN["size"].label)
+        fig.set_figheight(1.2 + 0.4 * len(runs))
+    heading(fig, [("$y$", {"color": "C0"}), ("$z$", {"color": "C1"})], "")
+    return fig
 
 
-def legend(fig: Figure, runs: Sequence[Run], marks: Sequence[tuple[str, dict[str, Any]]]) -> None:
-    """Above the panels: the runs (of one run its title), and what the lines and marks are."""
-    names = labels(runs) if len(runs) > 1 else [runs[0].title]
-    # a dollar sign is one, not the start of a formula
-    names = [textwrap.fill(name.replace("$", r"\$"), width(fig)) for name in names]
-    entries, title = [*marks], names[0]
-    if len(runs) > 1:
-        entries, title = [*((name, {"color": f"C{i}"}) for i, name in enumerate(names)), *marks], ""
-    if not entries:
-        fig.suptitle(title)
-        return
-    handles = [Line2D([], [], label=text, **style) for text, style in entries]
-    longest = max(len(line) for text, _ in entries for line in text.splitlines())
-    columns = max(1, width(fig) // (longest + 6))
-    fig.legend(handles=handles, title=title or None, loc="outside upper center", ncols=columns)
-    lines = len(title.splitlines()) + sum(len(text.splitlines()) for text, _ in entries) / columns
-    fig.set_figheight(fig.get_figheight() + 0.15 * max(0, lines - 1))
-
-
-def width(fig: Figure) -> int:
-    """Characters that fit beside each other."""
-    return int(15 * fig.get_figwidth())
-
-
-def shown_pads(runs: Sequence[Run], pad: int | None) -> list[int]:
-    """The pad asked for, or all pads that every run has."""
-    if pad is None:
-        return list(range(1, min(run.pads for run in runs) + 1))
-    for run in runs:
-        signals.pad_column(run, pad)
-    return [pad]
-
-
-def drawn(name: str, pads: Sequence[int]) -> Iterable[tuple[int | None, int | None]]:
-    """Number among the parts and pad of every line of a dataset; nothing of both for the journal."""
-    return enumerate(pads) if name.startswith("pad") else [(None, None)]
-
-
-def stacked(names: Sequence[str]) -> tuple[Figure, dict[str, Axes]]:
-    """Panels above each other that share the horizontal axis, one a dataset."""
-    fig = plt.figure(figsize=(COLUMN, 0.6 + 1.2 * len(names)))
-    panels = fig.subplots(len(names), 1, sharex=True)
-    fig.align_ylabels(panels)
-    for ax in panels[:-1]:
-        ax.xaxis.label.set_visible(False)
-    panels[-1].locator_params(axis="x", nbins=6)
-    return fig, dict(zip(names, panels, strict=True))
-
-
-def mark_enlarged(whole: Axes, part: Axes) -> None:
-    """Frames in `whole` what `part`, to its right, enlarges, and leads from one to the other."""
-    part.figure.draw_without_rendering()  # equal axes settle their limits when drawn
-    (left, right), (low, high) = part.get_xlim(), part.get_ylim()
-    line = {"edgecolor": "0.65", "linewidth": 0.6, "in_layout": False}
-    whole.add_patch(Rectangle((left, low), right - left, high - low, facecolor="none", **line))
-    for y, corner in ((low, (0, 0)), (high, (0, 1))):
-        whole.add_artist(ConnectionPatch((right, y), corner, whole.transData, part.transAxes, **line))
-
-
-def order_axis(ax: Axes, frequency: float, step: int) -> None:
-    """Along the top: frequency over shaft frequency."""
-    top = ax.secondary_xaxis("top", functions=(lambda x: x / frequency, lambda x: x * frequency))
-    top.set_xlabel("order (multiples of shaft speed)")
-    top.xaxis.set_major_locator(plt.MultipleLocator(step))
-
-
-def top_axis(ax: Axes, x: np.ndarray, value: np.ndarray, label: str) -> None:
-    """Along the top: what `value` is at x, straight on beyond the ends; both rise or fall throughout."""
-    x, value = (np.concatenate([[2 * a[0] - a[1]], a, [2 * a[-1] - a[-2]]]) for a in (x, value))
-    order = np.argsort(value)
-    functions = (lambda at: np.interp(at, x, value), lambda at: np.interp(at, value[order], x[order]))
-    ax.secondary_xaxis("top", functions=functions).set_xlabel(label)
+FIGURES = {
+    each.__name__: each
+    for each in (
+        *(orbit, size, poincare, waveform, spectrum),
+        *(hysteresis, friction, sticking, runup, orders, waterfall),
+    )
+}

@@ -6,7 +6,13 @@ from typing import Any
 ASSIGNMENT = re.compile(r"^&(?P<group>\w+)|^\s+(?P<name>\w+) = (?P<value>.*)$", re.MULTILINE)
 
 WORDS = {"none": "no friction", "bengisu_akay": "Bengisu-Akay", "lugre": "LuGre"}
-UNITS = {"duration": "s", "mass": "kg", "unbalance": "kg m", "viscosity": "Pa s", "radius_difference": "m"}
+UNITS = {
+    **{"duration": "s", "mass": "kg", "unbalance": "kg m", "gravity": "m/s²", "viscosity": "Pa s"},
+    **dict.fromkeys(("radius_difference", "socket_radius", "journal_radius", "axial_length"), "m"),
+    **dict.fromkeys(("machined_clearance", "assembled_clearance", "pivot_distance"), "m"),
+    **dict.fromkeys(("critical_velocity", "stribeck_velocity"), "m/s"),
+    **{"decay": "s/m", "bristle_stiffness": "1/m", "bristle_damping": "s/m", "viscous_coefficient": "s/m"},
+}
 
 
 def parse(text: str) -> dict[str, dict[str, Any]]:
@@ -45,6 +51,42 @@ def differences(inputs: list[dict[str, dict[str, Any]]]) -> list[str]:
     return [", ".join(described(name, each.get(name)) for name in varying) for each in values]
 
 
+def varied(inputs: list[dict[str, dict[str, Any]]]) -> tuple[str, list[float]] | None:
+    """The one number in which inputs differ, each time another: its label with the unit, and its values.
+
+    Lengths below a millimetre are in µm, all others as in the namelist.
+    """
+    values = [
+        {f"{group}%{name}": value for group in each for name, value in each[group].items()} for each in inputs
+    ]
+    names = {name for each in values for name in each if len({other.get(name) for other in values}) > 1}
+    names -= {"case%title", "operation%final_speed_rpm"}
+    if len(names) != 1:
+        return None
+    name = names.pop()
+    found = [shared(each.get(name)) for each in values]
+    if not all(isinstance(each, int | float) for each in found) or len(set(found)) < len(found):
+        return None
+    text, unit = named(name)
+    if unit == "m" and max(map(abs, found)) < 1e-3:
+        unit, found = "µm", [1e6 * each for each in found]
+    return f"{text} ({unit})" if unit else text, found
+
+
+def shared(value: Any) -> Any:
+    """The value that a tuple repeats, or the value itself."""
+    return value[0] if isinstance(value, tuple) and len(set(value)) == 1 else value
+
+
+def named(name: str) -> tuple[str, str]:
+    """Text and unit (may be empty) of "group%name"."""
+    name = name.split("%")[-1]
+    for ending in ("deg", "rpm"):
+        if name.endswith("_" + ending):
+            return name.removesuffix("_" + ending).replace("_", " "), ending
+    return name.replace("_", " "), UNITS.get(name, "")
+
+
 def flattened(groups: dict[str, dict[str, Any]]) -> dict[str, Any]:
     """Values by "group%name" as a reader would tell them: no title, one speed or a range, pads alike once."""
     values = {f"{group}%{name}": value for group in groups for name, value in groups[group].items()}
@@ -54,17 +96,15 @@ def flattened(groups: dict[str, dict[str, Any]]) -> dict[str, Any]:
     said = {"speed": f"{first:g} rpm" if first == last else f"{first:g} to {last:g} rpm"}
     said["pads"] = f"{len(angles) if isinstance(angles, tuple) else 1} pads"
     for name, value in values.items():
-        alike = name.startswith("pads%") and isinstance(value, tuple) and len(set(value)) == 1
-        said[name] = value[0] if alike else value
+        said[name] = shared(value) if name.startswith("pads%") else value
     return said
 
 
 def described(name: str, value: Any) -> str:
-    name = name.split("%")[-1]
+    text, unit = named(name)
     if value is None:
-        return f"no {name}"
+        return f"no {text}"
     if isinstance(value, str):
-        return WORDS.get(value, value.replace("_", " ")) if name == "model" else value.replace("_", " ")
+        return WORDS.get(value, value) if text == "model" else value.replace("_", " ")
     numbers = value if isinstance(value, tuple) else (value,)
-    name, unit = (name[:-4], "deg") if name.endswith("_deg") else (name, UNITS.get(name, ""))
-    return f"{name.replace('_', ' ')} = {', '.join(f'{number:g}' for number in numbers)} {unit}".rstrip()
+    return f"{text} = {', '.join(f'{number:g}' for number in numbers)} {unit}".rstrip()

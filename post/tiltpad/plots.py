@@ -11,6 +11,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
 from matplotlib.patches import Arc, Circle, FancyArrowPatch
 
 from tiltpad import pivots, signals, spectra
@@ -21,6 +22,10 @@ from tiltpad.units import SHOWN
 STYLE = "tiltpad.tiltpad"
 #: A history of more revolutions is drawn as a band.
 BAND_FROM = 60
+#: States that a Poincare section is drawn in: the journal's y over z, a pad's tilt rate over its tilt.
+ORBIT, PHASE = ("journal_z", "journal_y"), ("pad_tilt", "pad_tilt_rate")
+#: Line of a pivot that sticks.
+STUCK = {"linewidth": 3, "linestyle": "-", "solid_capstyle": "butt"}
 
 
 def on_axes(draw: Callable[..., Axes]) -> Callable[..., Axes]:
@@ -76,19 +81,119 @@ def clearance(run: Run, ax: Axes) -> Axes:
 
 
 @on_axes
-def spectrum(run: Run, ax: Axes, name: str = "journal_y", orders: float = 10, **line: Any) -> Axes:
-    """One-sided amplitudes of journal_y or journal_z, without the mean, up to `orders` times the speed."""
-    frequency, amplitude = spectra.spectrum(run, name)
-    draw_amplitude(ax, frequency, amplitude, (0, orders * shaft_frequency(run)), line)
+def poincare(
+    run: Run,
+    ax: Axes,
+    last: float = 50,
+    names: tuple[str, str] = ORBIT,
+    pad: int = 1,
+    phase: float = 0.0,
+    **line: Any,
+) -> Axes:
+    """One state over another once a revolution, at a phase of the shaft, on the last revolution's path.
+
+    ORBIT is the journal's y over its z, PHASE the tilt rate over the tilt of a pad.
+    """
+    column = {
+        name: () if name.startswith("journal") else (..., signals.pad_column(run, pad)) for name in names
+    }
+    section, part = signals.poincare(run, last, phase), signals.last_revolutions(run)
+    path = [SHOWN[name].factor * run.values(name, part)[column[name]] for name in names]
+    ax.plot(*path, **{**line, "linewidth": 0.6, "alpha": 0.4})
+    points = [SHOWN[name].factor * section[name][column[name]] for name in names]
+    ax.plot(*points, **{**line, "linestyle": "", "marker": ".", "markersize": 5})
+    ax.set(xlabel=SHOWN[names[0]].label, ylabel=SHOWN[names[1]].label)
+    if names == ORBIT:
+        ax.set_aspect("equal")
     return ax
 
 
 @on_axes
-def full_spectrum(run: Run, ax: Axes, orders: float = 5, **line: Any) -> Axes:
-    """Spectrum of y + i z, without the mean: forward whirl to the right, backward whirl to the left."""
-    frequency, amplitude = spectra.full_spectrum(run)
+def orbit_size(run: Run, ax: Axes, name: str = "journal_y", last: float = 1, **line: Any) -> Axes:
+    """Peak-to-peak of journal_y or journal_z over the speed; of a run at constant speed a point."""
+    shown, speed = SHOWN["size"], SHOWN["speed"]
+    if signals.steady(run):
+        at, size = run.values("speed", slice(-1, None)), np.ptp(signals.waveform(run, name, last)[1])
+        line |= {"marker": "o", "markersize": 3}
+    else:
+        time, low, high = signals.envelope(run, name)
+        start, end = signals.ends(run, "time")
+        at, size = np.interp(time, (start, end), signals.ends(run, "speed")), high - low
+    ax.plot(speed.factor * at, shown.factor * size, **line)
+    ax.set(xlabel=speed.label, ylabel=shown.label)
+    return ax
+
+
+@on_axes
+def spectrum(
+    run: Run, ax: Axes, name: str = "journal_y", orders: float = 10, last: float | None = None, **line: Any
+) -> Axes:
+    """One-sided amplitudes of journal_y or journal_z, without the mean, up to `orders` times the speed.
+
+    The spectrum in the file, or with `last` that of the last revolutions.
+    """
+    found = spectra.one_sided(run, name, last) if last else spectra.spectrum(run, name)
+    draw_amplitude(ax, *found, (0, orders * shaft_frequency(run)), line)
+    return ax
+
+
+@on_axes
+def full_spectrum(run: Run, ax: Axes, orders: float = 5, last: float | None = None, **line: Any) -> Axes:
+    """Spectrum of y + i z, without the mean: forward whirl to the right, backward whirl to the left.
+
+    The spectrum in the file, or with `last` that of the last revolutions.
+    """
+    found = spectra.full(run, last) if last else spectra.full_spectrum(run)
     span = orders * shaft_frequency(run)
-    draw_amplitude(ax, frequency, amplitude, (-span, span), line)
+    draw_amplitude(ax, *found, (-span, span), line)
+    return ax
+
+
+@on_axes
+def order_track(
+    run: Run, ax: Axes, name: str = "journal_y", order: float = 1, pad: int | None = None, **line: Any
+) -> Axes:
+    """Amplitude of one order of a dataset over the speed of a run-up, on a logarithmic axis."""
+    speed, amplitude, _ = spectra.order_track(run, name, order, pad)
+    ax.semilogy(SHOWN["speed"].factor * speed, SHOWN[name].factor * amplitude, **line)
+    ax.set(xlabel=SHOWN["speed"].label, ylabel=SHOWN[name].label)
+    return ax
+
+
+@on_axes
+def order_phase(
+    run: Run, ax: Axes, name: str = "journal_y", order: float = 1, pad: int | None = None, **line: Any
+) -> Axes:
+    """Phase of one order of a dataset, ahead of as many shaft angles, over the speed of a run-up."""
+    speed, _, phase = spectra.order_track(run, name, order, pad)
+    ax.plot(SHOWN["speed"].factor * speed, np.degrees(np.unwrap(phase)), **line)
+    ax.set(xlabel=SHOWN["speed"].label, ylabel="phase (deg)")
+    return ax
+
+
+@on_axes
+def waterfall(
+    run: Run, ax: Axes, name: str = "journal_y", pad: int | None = None, orders: float = 5, **mesh: Any
+) -> Axes:
+    """Amplitudes of a dataset over the speed of a run-up and the order, four decades of colours."""
+    speed, order, amplitude = spectra.waterfall(run, name, pad, orders)
+    shown = SHOWN[name]
+    # the mean and what of it Hann's window lays beside it would hide the motion
+    moving = order >= 2 * order[1]
+    table = shown.factor * amplitude[:, moving].T
+    peak = max(table.max(), 1e-12)
+    colours = {
+        "norm": LogNorm(1e-4 * peak, peak),
+        "shading": "gouraud",
+        "cmap": "viridis",
+        "rasterized": True,
+    }
+    image = ax.pcolormesh(
+        SHOWN["speed"].factor * speed, order[moving], np.maximum(table, 1e-4 * peak), **colours | mesh
+    )
+    ax.figure.colorbar(image, ax=ax, label=shown.label)
+    ax.set(xlabel=SHOWN["speed"].label, ylabel="order", ylim=(order[moving][0], order[-1]))
+    ax.grid(visible=False)
     return ax
 
 
@@ -104,14 +209,31 @@ def hysteresis(run: Run, ax: Axes, pad: int = 1, last: float = 1, **line: Any) -
 
 
 @on_axes
+def friction_coefficient(run: Run, ax: Axes, pad: int = 1, last: float = 1, **line: Any) -> Axes:
+    """Friction coefficient of a pivot over its sliding velocity."""
+    velocity, coefficient = pivots.friction_coefficient(run, pad, last)
+    ax.plot(SHOWN["sliding_velocity"].factor * velocity, coefficient, **line)
+    ax.set(xlabel=SHOWN["sliding_velocity"].label, ylabel=SHOWN["friction_coefficient"].label)
+    return ax
+
+
+@on_axes
+def sticking(run: Run, ax: Axes, pad: int = 1, last: float = 2, **line: Any) -> Axes:
+    """Tilt rate of a pad over the last revolutions, bold where its pivot sticks."""
+    waveform(run, ax, "pad_tilt_rate", last, pad, **line)
+    (path,) = ax.get_lines()[-1:]
+    stuck = np.where(pivots.sticking(run, pad, last), path.get_ydata(), np.nan)
+    ax.plot(path.get_xdata(), stuck, **{**line, "color": path.get_color(), **STUCK})
+    return ax
+
+
+@on_axes
 def waveform(
     run: Run, ax: Axes, name: str = "journal_y", last: float = 5, pad: int | None = None, **line: Any
 ) -> Axes:
     """A dataset over the last revolutions, counted from their start; of one pad where it has pads."""
     part = signals.last_revolutions(run, last)
-    turns, values = signals.revolutions(run, part), run.values(name, part)
-    if pad is not None:
-        values = values[:, signals.pad_column(run, pad)]
+    turns, values = signals.revolutions(run, part), signals.series(run, name, part, pad)
     ax.plot(turns - turns[0], SHOWN[name].factor * values, **line)
     ax.set(xlabel="shaft revolutions", ylabel=SHOWN[name].label, xlim=(0, turns[-1] - turns[0]))
     return ax
@@ -120,11 +242,12 @@ def waveform(
 @on_axes
 def history(run: Run, ax: Axes, name: str = "journal_y", pad: int | None = None, **line: Any) -> Axes:
     """A dataset over the time of the whole run; of many revolutions, the band that they fill."""
-    shown, time = SHOWN[name], run.time
+    shown = SHOWN[name]
     column = () if pad is None else (slice(None), signals.pad_column(run, pad))
-    if np.ptp(run.shaft_angle) <= 2 * np.pi * BAND_FROM:
-        part = slice(None, None, max(1, len(time) // (64 * BAND_FROM)))
-        ax.plot(time[part], shown.factor * run[name][column][part], **line)
+    signals.last_revolutions(run)
+    if signals.turned(run) <= BAND_FROM:
+        part = slice(None, None, max(1, run.samples // (64 * BAND_FROM)))
+        ax.plot(run.values("time", part), shown.factor * run.values(name, part)[column], **line)
     else:
         middle, *band = signals.envelope(run, name)
         low, high = (np.atleast_2d((shown.factor * each[column]).T) for each in band)
@@ -132,7 +255,7 @@ def history(run: Run, ax: Axes, name: str = "journal_y", pad: int | None = None,
             (edge,) = ax.plot(middle, least, **{**line, "linewidth": 0.6})
             ax.plot(middle, most, **{**line, "color": edge.get_color(), "linewidth": 0.6})
             ax.fill_between(middle, least, most, facecolor=edge.get_color(), alpha=0.35, linewidth=0)
-    ax.set(xlabel=SHOWN["time"].label, ylabel=shown.label, xlim=(time[0], time[-1]))
+    ax.set(xlabel=SHOWN["time"].label, ylabel=shown.label, xlim=signals.ends(run, "time"))
     return ax
 
 

@@ -138,6 +138,8 @@ class Run:
             return f"pad motion is '{motion}'"
         if self.task == "equilibrium":
             return "its task is 'equilibrium', nothing was marched in time"
+        if not self.samples:
+            return "it ended before its first sample"
         operation = self.input["operation"]
         if name == "spectrum" and operation["speed_rpm"] != operation["final_speed_rpm"]:
             return "the speed changes"

@@ -23,7 +23,7 @@ def last_revolutions(run: Run, count: float = 1) -> slice:
     file: the shaft angle is not loaded.
     """
     if run.samples < 2:
-        reason = f"it has {run.samples} samples" if run.samples else run.why_not("time")
+        reason = "it has one sample" if run.samples else run.why_not("time")
         raise NotInRunError(f"{run.path}: no revolution in this run: {reason}")
     before, end = run.values("shaft_angle", slice(-2, None))
     # half a sample more, so that rounding loses none
@@ -52,7 +52,8 @@ def needs_revolutions(run: Run, what: str, count: float = 1) -> None:
     last_revolutions(run)
     if (there := turned(run)) < count * (1 - 1e-9):
         raise NotInRunError(
-            f"{run.path}: no {what} in this run: it has {there:.3g} shaft revolutions, and {count:g} are needed"
+            f"{run.path}: no {what} in this run: "
+            f"it has {there:.3g} shaft revolutions, and {count:g} are needed"
         )
 
 
@@ -121,17 +122,17 @@ def poincare(run: Run, last: float = 50, phase: float = 0.0) -> dict[str, np.nda
     part = last_revolutions(run, last)
     angle = run.values("shaft_angle", part)
     turns = (angle[[0, -1]] - phase) / (2 * np.pi)
-    # a section that the last sample meets but for rounding is there, the one a revolution before the first is not
-    whole = np.arange(np.ceil(turns[0] - 1e-9), np.floor(turns[1] + 1e-9) + 1)
+    # one that an end meets but for rounding is there; where both ends do, the last ones are those asked for
+    whole = np.arange(np.ceil(turns[0] - 1e-9), np.floor(turns[1] + 1e-9) + 1)[-max(1, int(last)) :]
     wanted = 2 * np.pi * whole + phase
     names = ["time", *(name for name in STATES if name in run)]
     return {"revolution": whole} | {name: at_angle(angle, run.values(name, part), wanted) for name in names}
 
 
-def edges(run: Run, turns: np.ndarray) -> np.ndarray:
-    """For each number of revolutions (n,), the first sample that has turned so far, (n,)."""
+def edges(run: Run, angles: np.ndarray) -> np.ndarray:
+    """For each shaft angle (n,), rad, the first sample at or beyond it, (n,); the file is read in blocks."""
     blocks = (slice(start, start + BLOCK) for start in range(0, run.samples, BLOCK))
-    return sum(np.searchsorted(revolutions(run, block), turns) for block in blocks)
+    return sum(np.searchsorted(run.values("shaft_angle", block), angles) for block in blocks)
 
 
 def envelope(run: Run, name: str, spans: int = 800) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -141,11 +142,12 @@ def envelope(run: Run, name: str, spans: int = 800) -> tuple[np.ndarray, np.ndar
     vibration; there are at most `spans` of them. The run is read a span at a time.
     """
     last_revolutions(run)
-    first, final = ends(run, "shaft_angle") / (2 * np.pi)
-    count = max(1, min(spans, int(final - first + 1e-9)))
+    first, final = ends(run, "shaft_angle")
+    count = max(1, min(spans, int((final - first) / (2 * np.pi) + 1e-9)))
     starts = edges(run, np.linspace(first, final, count + 1)[:-1])
-    parts = [slice(*each) for each in zip(starts, [*starts[1:], run.samples], strict=True)]
-    time = np.array([ends(run, "time", part).mean() for part in parts])
-    values = [run.values(name, part) for part in parts]
-    low, high = (np.array([pick(each, axis=0) for each in values]) for pick in (np.min, np.max))
+    found = []
+    for part in (slice(*each) for each in zip(starts, [*starts[1:], run.samples], strict=True)):
+        values = run.values(name, part)
+        found.append((ends(run, "time", part).mean(), values.min(axis=0), values.max(axis=0)))
+    time, low, high = (np.array(each) for each in zip(*found, strict=True))
     return time, low, high

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from tiltpad.read import NotInRunError, Run
-from tiltpad.signals import at_angle, ends, last_revolutions, needs_revolutions, series, steady
+from tiltpad.signals import at_angle, edges, ends, last_revolutions, needs_revolutions, series, steady
 
 
 def spectrum(run: Run, name: str = "journal_y") -> tuple[np.ndarray, np.ndarray]:
@@ -30,10 +30,10 @@ def full_spectrum(run: Run) -> tuple[np.ndarray, np.ndarray]:
 def one_sided(
     run: Run, name: str = "journal_y", last: float = 10, pad: int | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Frequency (k,), Hz, and one-sided amplitude of any dataset over the last revolutions, at constant speed.
+    """Frequency (k,), Hz, and one-sided amplitude of any dataset over the last revolutions.
 
-    Amplitudes, in the dataset's unit, are (k,), or (pad, k) of a dataset of all pads without `pad`. At
-    frequency 0 stands the magnitude of the mean.
+    At constant speed. Amplitudes, in the dataset's unit, are (k,), or (pad, k) of a dataset of all pads
+    without `pad`. At frequency 0 stands the magnitude of the mean.
     """
     part, interval = sampled_evenly(run, last)
     values = series(run, name, part, pad).T
@@ -100,10 +100,10 @@ def order_track(
     revolutions: int = 8,
     spans: int = 400,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Speed (n,), rad/s, amplitude (n,), in the dataset's unit, and phase (n,), rad, of one order of a run-up.
+    """Speed (n,), rad/s, amplitude (n,) and phase (n,), rad, of one order of a run whose speed changes.
 
-    The signal is amplitude * cos(order * shaft angle + phase), phase between -pi and pi. Windows as in
-    waterfall.
+    Amplitudes in the dataset's unit. The signal is amplitude * cos(order * shaft angle + phase), the phase
+    between -pi and pi. Windows as in waterfall.
     """
     needs_pad(run, name, pad)
     found = [
@@ -129,10 +129,9 @@ def windows(
     first, final = ends(run, "shaft_angle")
     length = 2 * np.pi * revolutions
     count = max(1, min(spans, int((final - first) / length * 2)))
-    for start in np.linspace(first, final - length, count):
-        part = slice(
-            max(0, run.first("shaft_angle", start) - 2), run.first("shaft_angle", start + length) + 2
-        )
+    starts = np.linspace(first, final - length, count)
+    parts = zip(edges(run, starts) - 2, edges(run, starts + length) + 2, strict=True)
+    for start, part in zip(starts, (slice(max(0, i), j) for i, j in parts), strict=True):
         angle = run.values("shaft_angle", part)
         steps = len(angle) - 4
         even = start + length * np.arange(steps) / steps

@@ -13,7 +13,7 @@ class Shown(NamedTuple):
 
     @property
     def label(self) -> str:
-        return f"{self.text} ({self.unit})"
+        return f"{self.text} ({self.unit})" if self.unit else self.text
 
 
 SHOWN = {
@@ -22,6 +22,9 @@ SHOWN = {
     "speed": Shown("speed", 30 / pi, "rpm"),
     "frequency": Shown("frequency", 1, "Hz"),
     "amplitude": Shown("amplitude", 1e6, "µm"),
+    "size": Shown("peak to peak", 1e6, "µm"),
+    "sliding_velocity": Shown("sliding velocity", 1e3, "mm/s"),
+    "friction_coefficient": Shown("friction coefficient", 1, ""),
     "journal_y": Shown("journal $y$", 1e6, "µm"),
     "journal_z": Shown("journal $z$", 1e6, "µm"),
     "journal_vy": Shown("journal velocity, $y$", 1e3, "mm/s"),

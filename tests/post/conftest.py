@@ -54,6 +54,24 @@ def run(result):
 
 
 @pytest.fixture
+def tiltpad_set(tiltpad, result, tmp_path):
+    """tiltpad_set("none", "rotor%unbalance=0.02"): the result of that scene with that value changed."""
+    opened = []
+
+    def run(scene: str, change: str) -> package.Run:
+        output = tmp_path / f"set{len(opened)}.h5"
+        case = result(scene).with_suffix(".nml")
+        done = tiltpad("--quiet", case, "--set", change, "--output", output)
+        assert done.returncode == 0, done.stderr
+        opened.append(package.read(output))
+        return opened[-1]
+
+    yield run
+    for each in opened:
+        each.close()
+
+
+@pytest.fixture
 def changed(result, tmp_path):
     """changed("lugre", edit): path of a copy of that result that the function `edit` changed."""
     import h5py
@@ -89,6 +107,7 @@ def made(result, tmp_path):
             acceleration = (final - first) / time[-1]
             angle = first * time + acceleration * time**2 / 2
             own = {"time": time, "shaft_angle": angle, "speed": first + acceleration * time} | signals
+            source.copy("equilibrium", file)
             datasets = {name: each for name, each in source.items() if isinstance(each, h5py.Dataset)}
             for name, dataset in datasets.items():
                 if len(dataset) != len(source["time"]):

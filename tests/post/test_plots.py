@@ -15,7 +15,25 @@ import pytest
 import tiltpad
 from tiltpad import command
 
-PLOTS = ["orbit", "spectrum", "hysteresis", "waveform", "runup"]
+STEADY = [
+    *("orbit", "size", "poincare", "waveform", "spectrum", "hysteresis", "friction", "sticking", "runup"),
+]
+RUNUP = ["orbit", "size", "poincare", "waveform", "hysteresis", "friction", "sticking", "runup"]
+RUNUP += ["orders", "waterfall"]
+PLOTS = [*STEADY, "orders", "waterfall"]
+
+
+@pytest.fixture(scope="module")
+def longer(tiltpad, tmp_path_factory):
+    """A run-up of enough revolutions for order tracks."""
+    folder = tmp_path_factory.mktemp("longer")
+    (folder / "a.nml").write_text(
+        "&operation speed_rpm=4000, final_speed_rpm=6500, duration=0.5 /\n&friction model='lugre' /\n"
+        "&output samples_per_revolution=90 /\n"
+    )
+    done = tiltpad("--quiet", "a.nml", cwd=folder)
+    assert done.returncode == 0, done.stderr
+    return folder / "a.h5"
 
 
 @pytest.fixture(autouse=True)
@@ -96,6 +114,64 @@ def test_units_and_values_of_the_others(run):
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("time (s)", "journal $z$ (µm)")
 
 
+def test_pictures_of_the_pivots(run):
+    case = run("lugre")
+    ax = tiltpad.plots.friction_coefficient(case, pad=2)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("sliding velocity (mm/s)", "friction coefficient")
+    velocity, coefficient = tiltpad.friction_coefficient(case, 2)
+    np.testing.assert_allclose(ax.get_lines()[0].get_xydata(), np.column_stack([1e3 * velocity, coefficient]))
+    slides, sticks = tiltpad.plots.sticking(case, pad=1).get_lines()
+    stuck = tiltpad.sticking(case, 1, 2)
+    np.testing.assert_array_equal(np.isfinite(sticks.get_ydata()), stuck)
+    np.testing.assert_array_equal(sticks.get_ydata()[stuck], slides.get_ydata()[stuck])
+    assert sticks.get_linewidth() > slides.get_linewidth()
+
+
+def test_a_poincare_section_lies_on_the_path(run):
+    ax = tiltpad.plots.poincare(run("lugre"), last=5)
+    path, points = (line.get_xydata() for line in ax.get_lines())
+    assert ax.get_aspect() == 1
+    assert points.shape == (5, 2)
+    assert np.abs(path - points[-1]).max(axis=1).min() < 0.1
+    ax = tiltpad.plots.poincare(run("lugre"), last=5, names=tiltpad.plots.PHASE, pad=2)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("tilt (mrad)", "tilt rate (mrad/s)")
+
+
+def test_orbit_size_over_what_differs(run, result, tiltpad_set):
+    from tiltpad import figures
+
+    more = tiltpad_set("none", "rotor%unbalance=0.02")
+    ax = figures.size([more, run("none")]).axes[0]
+    y, z = (line.get_xydata() for line in ax.get_lines())
+    np.testing.assert_allclose(y[:, 0], [0.01, 0.02])
+    assert y[0, 1] == pytest.approx(1e6 * tiltpad.orbit_size(run("none"))[0])
+    assert z[1, 1] == pytest.approx(1e6 * tiltpad.orbit_size(more)[1])
+    assert ax.get_xlabel() == "unbalance (kg m)"
+    bars = figures.size([run("none"), run("bengisu")]).axes[0]
+    assert [text.get_text() for text in bars.get_yticklabels()] == ["no friction", "Bengisu-Akay"]
+    assert len(bars.patches) == 4
+
+
+def test_orbit_size_of_a_runup_is_over_its_speed(longer):
+    with tiltpad.read(longer) as case:
+        x, y = tiltpad.plots.orbit_size(case).get_lines()[0].get_xydata().T
+        assert 4000 < x[0] < x[-1] < 6500
+        assert y[-1] == pytest.approx(1e6 * tiltpad.orbit_size(case)[0], rel=0.05)
+
+
+def test_orders_of_a_runup(longer):
+    with tiltpad.read(longer) as case:
+        line = tiltpad.plots.order_track(case, name="pad_tilt", pad=2).get_lines()[0]
+        speed, amplitude, phase = tiltpad.order_track(case, "pad_tilt", 1, 2)
+        np.testing.assert_allclose(line.get_xdata(), speed * 30 / np.pi)
+        np.testing.assert_allclose(line.get_ydata(), 1e3 * amplitude)
+        ax = tiltpad.plots.order_phase(case)
+        assert ax.get_ylabel() == "phase (deg)"
+        ax = tiltpad.plots.waterfall(case)
+        assert (ax.get_xlabel(), ax.get_ylabel()) == ("speed (rpm)", "order")
+        assert ax.figure.axes[1].get_ylabel() == "journal $y$ (µm)"
+
+
 def test_every_series_can_be_drawn_and_has_a_unit(run):
     case = run("lugre")
     series = [name for name in case.file if getattr(case.file[name], "shape", ())[:1] == (case.samples,)]
@@ -148,21 +224,21 @@ def test_runs_are_told_apart(run):
 
 
 @pytest.mark.parametrize(
-    ("plot", "scene"),
-    [*((plot, "lugre") for plot in PLOTS), ("orbit", "runup"), ("runup", "runup"), ("waveform", "runup")],
+    ("plot", "scene"), [*((plot, "lugre") for plot in STEADY), *((plot, "runup") for plot in RUNUP)]
 )
-def test_nothing_is_cut_off(run, plot, scene):
+def test_nothing_is_cut_off(run, longer, plot, scene):
     """Every text lies within the picture, and no two tick labels of an axis lie on each other."""
     from tiltpad import figures
 
-    with plt.style.context(tiltpad.plots.STYLE):
-        fig = figures.FIGURES[plot]([run(scene)])
+    with plt.style.context(tiltpad.plots.STYLE), tiltpad.read(longer) as rising:
+        fig = figures.FIGURES[plot]([run(scene) if scene == "lugre" else rising])
         fig.draw_without_rendering()
     page = fig.bbox.padded(0.5)
     panels = [ax.get_tightbbox() for ax in fig.axes]
     heading = fig.legends[0] if fig.legends else fig.get_suptitle() and fig._suptitle
     above = [heading.get_window_extent()] if heading else []
-    assert bool(above) == (scene == "lugre" or plot != "orbit")
+    untitled = scene == "runup" and plot in ("orbit", "hysteresis", "friction", "waterfall")
+    assert bool(above) != untitled
     assert not any(box.overlaps(panel) for box in above for panel in panels)
     assert not (fig.legends and fig.get_suptitle())
     for ax in [*fig.axes, *(child for each in fig.axes for child in each.child_axes)]:
@@ -200,11 +276,20 @@ def drawn(path: Path) -> float:
 
 
 @pytest.mark.parametrize("plot", PLOTS)
-def test_the_command_draws_every_plot(result, tmp_path, monkeypatch, plot):
+def test_the_command_draws_every_plot(result, longer, tmp_path, monkeypatch, plot):
     monkeypatch.chdir(tmp_path)
-    assert command.main([plot, str(result("lugre"))]) == 0
-    assert [path.name for path in tmp_path.iterdir()] == [f"lugre-{plot}.png"]
-    assert 0.01 < drawn(tmp_path / f"lugre-{plot}.png") < 0.5
+    file = result("lugre") if plot in STEADY else longer
+    assert command.main([plot, str(file)]) == 0
+    assert [path.name for path in tmp_path.iterdir()] == [f"{file.stem}-{plot}.png"]
+    assert 0.01 < drawn(tmp_path / f"{file.stem}-{plot}.png") < 0.7
+
+
+@pytest.mark.parametrize("plot", PLOTS)
+def test_every_plot_lays_runs_over_each_other(result, longer, tmp_path, plot):
+    files = [result("lugre"), result("tilting")] if plot in STEADY else [longer, longer]
+    output = tmp_path / "both.png"
+    assert command.main([plot, *map(str, files), "--pad", "2", "-o", str(output)]) == 0
+    assert 0.01 < drawn(output) < 0.7
 
 
 @pytest.mark.parametrize("form", ["pdf", "svg", "PNG"])
@@ -250,6 +335,13 @@ def test_the_installed_command_needs_no_display(result, tmp_path):
         (["orbit", "none", "-o", "no/such/a.png"], 3, "no/such/a.png: cannot be written: No such file"),
         (["orbit", "none", "--last", "0"], 1, "argument --last: 0: must be a positive number"),
         (["orbit", "none", "--last", "two"], 1, "argument --last: two: must be a positive number"),
+        (["orbit", "none", "--pad", "3"], 1, "no pad 3 in this run: pads are 1 to 2"),
+        (["friction", "none"], 1, "no friction in this run: friction model is 'none'"),
+        (["sticking", "none"], 1, "no friction in this run: friction model is 'none'"),
+        (["orders", "none"], 1, "no order track in this run: its speed stays the same, a run-up is needed"),
+        (["waterfall", "none"], 1, "no waterfall in this run: its speed stays the same, a run-up is needed"),
+        (["waterfall", "runup"], 1, "it has 6.67 shaft revolutions, and 8 are needed"),
+        (["orbit", "equilibrium"], 1, "nothing was marched in time"),
         (["waveform", "none", "--pad", "3"], 1, "no pad 3 in this run: pads are 1 to 2"),
         (["hysteresis", "none"], 1, "no friction in this run: friction model is 'none'"),
         (["spectrum", "runup"], 1, "no spectrum in this run: the speed changes"),
