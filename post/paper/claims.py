@@ -148,8 +148,12 @@ def stiff_bristles_stick(runs: Runs) -> Verdict:
 
 @claim("Sec. 3.1", "With a further increase of sigma_0 the results do not differ significantly")
 def stiffness_saturates(runs: Runs) -> Verdict:
-    """Root mean square of the difference of the tilt rates at the two highest sigma_0, over the tilt rate's."""
-    return Verdict(rms_deviation(*(runs[name] for name in list(STIFFNESSES.values())[-2:]), "pad_tilt_rate"), "<", 0.1)
+    """Root mean square of the difference of the tilt rates at the two highest sigma_0, over the tilt
+    rate's.
+    """
+    return Verdict(
+        rms_deviation(*(runs[name] for name in list(STIFFNESSES.values())[-2:]), "pad_tilt_rate"), "<", 0.1
+    )
 
 
 @claim("Sec. 3.1", "and only the required CPU time increases")
@@ -169,7 +173,9 @@ def tilting_only_smaller(runs: Runs) -> Verdict:
 @claim("Fig. 9", "TO orbits lie higher than TR")
 def tilting_only_higher(runs: Runs) -> Verdict:
     """Mean height of TO above TR over the assembled clearance, frictionless."""
-    return Verdict((height(runs["steady_to"]) - height(runs["steady_tr"])) / runs["steady_tr"].clearance, ">", RESOLUTION)
+    return Verdict(
+        (height(runs["steady_to"]) - height(runs["steady_tr"])) / runs["steady_tr"].clearance, ">", RESOLUTION
+    )
 
 
 @claim("Sec. 4.1", "Radial motion imposes a more significant tilting motion")
@@ -193,7 +199,9 @@ def friction_enlarges_tilting_radial(runs: Runs) -> Verdict:
 @claim("Fig. 9", "The larger influence of friction occurs in TR")
 def friction_more_in_tilting_radial(runs: Runs) -> Verdict:
     """What friction adds to the size of the orbit (with friction over frictionless, less 1), TR over TO."""
-    only, radial = (size(runs[f"steady_{each}_ba"]) / size(runs[f"steady_{each}"]) - 1 for each in ("to", "tr"))
+    only, radial = (
+        size(runs[f"steady_{each}_ba"]) / size(runs[f"steady_{each}"]) - 1 for each in ("to", "tr")
+    )
     return larger(radial / only)
 
 
@@ -230,7 +238,9 @@ for column, words in enumerate(("frictionless", "with friction")):
 
 @claim("Fig. 10", "With friction the waveforms flatten due to sticking")
 def friction_flattens(runs: Runs) -> Verdict:
-    """Time below the stick velocity, over that of a sinusoid of the same amplitude; the least of the three dR."""
+    """Time below the stick velocity, over that of a sinusoid of the same amplitude; the least of the three
+    dR.
+    """
     return Verdict(min(sticking(run) for run in by_difference(runs, 1)), ">", RESTS)
 
 
@@ -244,7 +254,7 @@ for words in MODELS:
 
     @claim("Figs. 11-13", f"With increasing friction coefficients the orbit is larger, {words}")
     def orbit_grows(runs: Runs, model: str = words) -> Verdict:
-        """Least ratio of the orbit's size to that of the pair before with one or both coefficients smaller."""
+        """Least ratio of the orbit's size to that of the pair before, one or both smaller."""
         sizes = [size(runs[name]) for name in MODELS[model]]
         return larger(min(sizes[b] / sizes[a] for a, b in DOUBLED + DYNAMIC))
 
@@ -262,8 +272,8 @@ for words in MODELS:
 
 @claim("Figs. 11-12", "The orbits for both models are comparable in size and shape")
 def orbits_comparable(runs: Runs) -> Verdict:
-    """Greatest distance of the paths of LuGre and Bengisu-Akay at the same shaft angle, over the orbit's size;
-    the greatest of all pairs and both sigma_0.
+    """Greatest distance of the paths of LuGre and Bengisu-Akay at the same shaft angle, over the orbit's
+    size; the greatest of all pairs and both sigma_0.
     """
     others = MODELS["LuGre 1e6"] + MODELS["LuGre 5e6"]
     both = zip(others, 2 * MODELS["Bengisu-Akay"], strict=True)
@@ -310,8 +320,8 @@ def sticking_more_distinct(runs: Runs) -> Verdict:
 
 @claim("Fig. 13", "As sigma_0 grows, LuGre tends to Bengisu-Akay in steady state")
 def lugre_tends_to_bengisu_akay(runs: Runs) -> Verdict:
-    """Root mean square deviation of the tilt rate from that of Bengisu-Akay: greatest ratio to that of the next
-    lower sigma_0.
+    """Root mean square deviation of the tilt rate from that of Bengisu-Akay: greatest ratio to that of the
+    next lower sigma_0.
     """
     true = runs[MODELS["Bengisu-Akay"][0]]
     return smaller(fall(rms_deviation(runs[name], true, "pad_tilt_rate") for name in STIFFNESSES.values()))
@@ -342,10 +352,12 @@ def loops_with_stiff_bristles(runs: Runs) -> Verdict:
 # ---- operating conditions --------------------------------------------------------------------------------
 @claim("Sec. 4", "At low speed, with the unbalance of that speed, the pads stay stuck")
 def stuck_at_low_speed(runs: Runs) -> Verdict:
-    """Greatest part of the static friction used, both pads and models, at the lowest speed of the paper; where
-    it stays below 1 no pivot breaks away.
+    """Greatest part of the static friction used, both pads and models, at the lowest speed of the paper;
+    where it stays below 1 no pivot breaks away.
     """
-    return Verdict(max(breakaway(runs[f"{model}_{LOW_SPEEDS[0]}"]) for model in ("ba", "lugre")), "<", 1 - RESOLUTION)
+    return Verdict(
+        max(breakaway(runs[f"{model}_{LOW_SPEEDS[0]}"]) for model in ("ba", "lugre")), "<", 1 - RESOLUTION
+    )
 
 
 @claim("Sec. 4", "A lower unbalance causes a stick at the nominal speed")
@@ -366,8 +378,8 @@ for suffix, words in (("", "LuGre"), ("_none", "frictionless")):
 
     @claim("Sec. 3", f"The upper pads change the orbit little, {words}")
     def upper_pads_matter_little(runs: Runs, end: str = suffix) -> Verdict:
-        """Greatest distance of the paths with four and two pads at the same shaft angle, over the orbit's size;
-        cavitation 'gumbel'.
+        """Greatest distance of the paths with four and two pads at the same shaft angle, over the orbit's
+        size; cavitation 'gumbel'.
         """
         return Verdict(distance(runs[f"four_pads{end}"], runs[f"two_pads{end}"]), "<", AGREEMENT)
 
@@ -399,7 +411,10 @@ def runups_agree_at_high_speed(runs: Runs) -> Verdict:
     return Verdict(max(runup_distance(runs, model, HIGH_SPEED) for model in list(RUNUPS)[1:]), "<", AGREEMENT)
 
 
-@claim("Fig. 15", "At low speed the tilt velocity with sigma_0 = 1e6 differs from Bengisu-Akay and higher sigma_0")
+@claim(
+    "Fig. 15",
+    "At low speed the tilt velocity with sigma_0 = 1e6 differs from Bengisu-Akay and higher sigma_0",
+)
 def soft_bristles_differ_at_low_speed(runs: Runs) -> Verdict:
     """Peak-to-peak tilt rate in five revolutions from 2000 rpm, sigma_0 = 1e6 1/m over the greater of the two
     others.
@@ -413,13 +428,19 @@ def soft_bristles_differ_at_low_speed(runs: Runs) -> Verdict:
 
 @claim("Fig. 15", "The run-up does not greatly affect the influence of the friction models")
 def runup_ends_as_steady_state(runs: Runs) -> Verdict:
-    """Greatest distance of the last five revolutions from the steady run's over the orbit's size, all models."""
+    """Greatest distance of the last five revolutions from the steady run's over the orbit's size, all
+    models.
+    """
     names = [MODELS[model][0] for model in RUNUPS]
-    return Verdict(max(aligned_distance(runs[a], runs[b]) for a, b in zip(RUNUPS.values(), names, strict=True)), "<", AGREEMENT)
+    return Verdict(
+        max(aligned_distance(runs[a], runs[b]) for a, b in zip(RUNUPS.values(), names, strict=True)),
+        "<",
+        AGREEMENT,
+    )
 
 
 def aligned_distance(run: tiltpad.Run, steady: tiltpad.Run) -> float:
-    """Greatest distance of the last orbit of a run from the nearest point of a steady orbit, over its size."""
+    """Greatest distance of a run's last orbit from the nearest point of a steady orbit, over its size."""
     path, true = (np.column_stack(tiltpad.orbit(each, 1)) for each in (run, steady))
     gap = np.linalg.norm(path[:, None] - true[None], axis=2).min(axis=1)
     return float(gap.max() / size(steady))
@@ -429,16 +450,18 @@ def aligned_distance(run: tiltpad.Run, steady: tiltpad.Run) -> float:
 def why_amplitude(runs: Runs) -> str:
     """Evidence for amplitude_below_frictionless."""
     free, equal, half = (runs[name] for name in ("steady_tr", "steady_tr_ba", "steady_ba_10_05"))
-    rates = [peak_to_peak(run, "pad_tilt_rate") / peak_to_peak(free, "pad_tilt_rate") for run in (equal, half)]
+    rates = [
+        peak_to_peak(run, "pad_tilt_rate") / peak_to_peak(free, "pad_tilt_rate") for run in (equal, half)
+    ]
     sizes = [size(run) / size(free) for run in (equal, half)]
     return (
-        "The model, not the numerics. Friction holds the pad, but it also enlarges the orbit that drives it "
-        f"({sizes[0]:.3f} and {sizes[1]:.3f} times the frictionless one for Bengisu-Akay 0.1/0.1 and 0.1/0.05). "
-        f"With f_d = f_s the amplitude of the tilt velocity is {rates[0]:.3f} times the frictionless one; with "
-        "f_d = f_s/2 the friction that falls away at break-away drives the pad as well, and it is "
-        f"{rates[1]:.3f} times. Over the size of the orbit both fall ({rates[0] / sizes[0]:.3f} and "
-        f"{rates[1] / sizes[1]:.3f}). The paper compares with the frictionless case only for f_d = f_s (Figs. 9, 10), "
-        "where it holds here too."
+        "The model, not the numerics. Friction holds the pad, but it also enlarges the orbit that drives "
+        f"it ({sizes[0]:.3f} and {sizes[1]:.3f} times the frictionless one for Bengisu-Akay 0.1/0.1 and "
+        f"0.1/0.05). With f_d = f_s the amplitude of the tilt velocity is {rates[0]:.3f} times the "
+        "frictionless one; with f_d = f_s/2 the friction that falls away at break-away drives the pad as "
+        f"well, and it is {rates[1]:.3f} times. Over the size of the orbit both fall "
+        f"({rates[0] / sizes[0]:.3f} and {rates[1] / sizes[1]:.3f}). The paper compares with the "
+        "frictionless case only for f_d = f_s (Figs. 9, 10), where it holds here too."
     )
 
 
@@ -448,10 +471,11 @@ def why_sticking(runs: Runs) -> str:
     slip = [100 * (1 - tiltpad.stick_fraction(run, 1, LAST)) for run in (low, high)]
     ratio = peak_to_peak(high, "pad_tilt_rate") / peak_to_peak(low, "pad_tilt_rate")
     return (
-        "The model, not the numerics, and a matter of reading. f_s decides when a pad breaks away, f_d only acts "
-        f"while it slides: with 0.1/0.1 it slides more slowly than with 0.1/0.05 ({ratio:.3f} times) and so takes "
-        f"longer to come to rest, {slip[1]:.1f} instead of {slip[0]:.1f} % of the time. The paper does not print its "
-        "friction pairs; where both coefficients grow the statement holds."
+        "The model, not the numerics, and a matter of reading. f_s decides when a pad breaks away, f_d "
+        f"only acts while it slides: with 0.1/0.1 it slides more slowly than with 0.1/0.05 ({ratio:.3f} "
+        f"times) and so takes longer to come to rest, {slip[1]:.1f} instead of {slip[0]:.1f} % of the "
+        "time. The paper does not print its friction pairs; where both coefficients grow the statement "
+        "holds."
     )
 
 
@@ -459,11 +483,11 @@ def why_loops(runs: Runs) -> str:
     """Evidence for loops_with_stiff_bristles."""
     widths = ", ".join(f"{loop_width(runs[name]):.3f} ({text} 1/m)" for text, name in STIFFNESSES.items())
     return (
-        "The model, not the numerics: when the direction changes, the bristles must bend by 2 f_s/sigma_0 before "
-        "the pivot slides, and the pad moves meanwhile. So the loop is wide where the bristles are soft and "
-        f"closes as they stiffen; widths for 0.1/0.05: {widths}. With sigma_0 = 1e6 the larger friction pairs never "
-        "reach the steady law (see the picture): what lacks there is the sliding part, with the shape known from "
-        "textbooks, which the paper may mean by a typical loop."
+        "The model, not the numerics: when the direction changes, the bristles must bend by 2 "
+        "f_s/sigma_0 before the pivot slides, and the pad moves meanwhile. So the loop is wide where the "
+        f"bristles are soft and closes as they stiffen; widths for 0.1/0.05: {widths}. With sigma_0 = 1e6 "
+        "the larger friction pairs never reach the steady law (see the picture): what lacks there is the "
+        "sliding part, with the shape known from textbooks, which the paper may mean by a typical loop."
     )
 
 

@@ -38,7 +38,9 @@ def figure_7(runs: Runs) -> Figure:
 
 def figure_8(runs: Runs) -> Figure:
     """Tilt rate for several bristle stiffnesses."""
-    return tilt_rates([(f"$\\sigma_0$ = {scientific(text)} 1/m", runs[name]) for text, name in STIFFNESSES.items()])
+    return tilt_rates(
+        [(f"$\\sigma_0$ = {scientific(text)} 1/m", runs[name]) for text, name in STIFFNESSES.items()]
+    )
 
 
 def figure_9(runs: Runs) -> Figure:
@@ -108,7 +110,14 @@ def figure_14(runs: Runs) -> Figure:
             span = np.abs(velocity).max()
             steady = np.concatenate([-np.geomspace(span, 1e-9, 300), np.geomspace(1e-9, span, 300)])
             label = "steady law" if color == len(PAIRS) - 1 else None
-            ax.plot(1e3 * steady, stribeck_curve(run, steady), color="black", linestyle=":", linewidth=0.7, label=label)
+            ax.plot(
+                1e3 * steady,
+                stribeck_curve(run, steady),
+                color="black",
+                linestyle=":",
+                linewidth=0.7,
+                label=label,
+            )
         ax.set(title=named(model), xlabel=VELOCITY)
         ax.sharey(axes[0])
     axes[0].set_ylabel(r"friction coefficient $M_f/(F_{bs} R_1)$")
@@ -189,7 +198,9 @@ def orbit(run: tiltpad.Run, ax: Axes, **look: Any) -> None:
 def trajectory(run: tiltpad.Run, ax: Axes, part: slice, **look: Any) -> None:
     """Path of the journal, axes equal."""
     shown = SHOWN["journal_y"]
-    ax.plot(shown.factor * run.values("journal_z", part), shown.factor * run.values("journal_y", part), **look)
+    ax.plot(
+        shown.factor * run.values("journal_z", part), shown.factor * run.values("journal_y", part), **look
+    )
     ax.set(xlabel=SHOWN["journal_z"].label, ylabel=shown.label, box_aspect=1)
     ax.set_aspect("equal", adjustable="datalim")
 

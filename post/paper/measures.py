@@ -32,8 +32,8 @@ def ball(run: Run) -> float:
 
 
 def sticking(run: Run) -> float:
-    """Time for which the first pad is slower than tiltpad calls sticking, over the time for which a sinusoid of
-    the same amplitude is: 1 where the pad swings freely, more where it comes to rest.
+    """Time for which the first pad is slower than tiltpad calls sticking, over the time for which a
+    sinusoid of the same amplitude is: 1 where the pad swings freely, more where it comes to rest.
     """
     velocity = np.abs(tiltpad.sliding_velocity(run, PAD, LAST)).max()
     harmonic = 2 / np.pi * np.arcsin(min(1.0, tiltpad.pivots.stick_velocity(run) / velocity))
@@ -41,7 +41,9 @@ def sticking(run: Run) -> float:
 
 
 def breakaway(run: Run) -> float:
-    """Largest part of the static friction that either pad's pivot uses; a pivot that stays below 1 never slides."""
+    """Largest part of the static friction that either pad's pivot uses; a pivot that stays below 1 never
+    slides.
+    """
     law = run.input["friction"]
     parts = [tiltpad.friction_coefficient(run, pad, LAST)[1] for pad in (1, 2)]
     return float(np.nanmax(np.abs(parts)) / law["static_coefficient"])
@@ -67,7 +69,9 @@ def rms_deviation(run: Run, other: Run, name: str) -> float:
 def acceleration(run: Run) -> float:
     """Highest angular acceleration of the first pad between two samples, rad/s^2."""
     part = tiltpad.last_revolutions(run, LAST)
-    return float(np.abs(np.diff(of_pad(run, "pad_tilt_rate", part)) / np.diff(run.values("time", part))).max())
+    return float(
+        np.abs(np.diff(of_pad(run, "pad_tilt_rate", part)) / np.diff(run.values("time", part))).max()
+    )
 
 
 def stribeck_curve(run: Run, velocity: np.ndarray) -> np.ndarray:
@@ -75,7 +79,9 @@ def stribeck_curve(run: Run, velocity: np.ndarray) -> np.ndarray:
     law, speed = run.input["friction"], np.abs(velocity)
     static, dynamic = law["static_coefficient"], law["dynamic_coefficient"]
     if law["model"] == "lugre":
-        curve = dynamic + (static - dynamic) * np.exp(-((speed / law["stribeck_velocity"]) ** law["stribeck_exponent"]))
+        curve = dynamic + (static - dynamic) * np.exp(
+            -((speed / law["stribeck_velocity"]) ** law["stribeck_exponent"])
+        )
         return curve * np.sign(velocity)
     critical = law["critical_velocity"]
     rising = static - static * (speed / critical - 1) ** 2
@@ -91,8 +97,9 @@ def off_curve(run: Run) -> float:
 
 
 def loop_width(run: Run) -> float:
-    """Greatest difference of the friction coefficient at the same sliding velocity, speeding up and slowing down,
-    over f_s; of the first pad, both directions of sliding, from the stick velocity to 95 % of the greatest.
+    """Greatest difference of the friction coefficient at the same sliding velocity, speeding up and slowing
+    down, over f_s; of the first pad, both directions of sliding, from the stick velocity to 95 % of the
+    greatest.
     """
     velocity, coefficient = tiltpad.friction_coefficient(run, PAD, 1)
     widest = 0.0
@@ -111,7 +118,9 @@ def loop_width(run: Run) -> float:
 
 
 def speed_window(run: Run, rpm: float, turns: float) -> slice:
-    """Samples of the revolutions from the instant at which a run-up reaches a speed; the last ones at its end."""
+    """Samples of the revolutions from the instant at which a run-up reaches a speed; the last ones at its
+    end.
+    """
     speed = run.values("speed") * 30 / np.pi
     angle = run.shaft_angle
     if rpm >= speed[-1]:

@@ -29,121 +29,129 @@ SECTIONS = (
     Section(
         "Figs. 3 and 4: contact",
         ("3", "4"),
-        "the pressure field generated in the BS coupling is shown in Fig. 3. [...] The resulting force generated in "
-        "the BS coupling for various radius differences is shown in Fig. 4. [...] It is supposed that the snug fit "
-        "[...] is the stiffest option.",
+        "the pressure field generated in the BS coupling is shown in Fig. 3. [...] The resulting force "
+        "generated in the BS coupling for various radius differences is shown in Fig. 4. [...] It is "
+        "supposed that the snug fit [...] is the stiffest option.",
         ("Fig. 4",),
-        "Steel on steel, R_2 = 100 mm. The paper does not print the load of Fig. 3 and the radius differences of "
-        "Fig. 4.",
+        "Steel on steel, R_2 = 100 mm. The paper does not print the load of Fig. 3 and the radius "
+        "differences of Fig. 4.",
     ),
     Section(
         "Fig. 6: friction laws",
         ("6",),
-        "for gamma = 1, which is our setting, the resulting Stribeck curve is equal for both studied models, so the "
-        "results are comparable.",
+        "for gamma = 1, which is our setting, the resulting Stribeck curve is equal for both studied "
+        "models, so the results are comparable.",
         ("Fig. 6",),
     ),
     Section(
         "Fig. 7: critical velocity",
         ("7",),
-        "For v_c = 0.001 m/s only sliding friction occurs, while with lower values the friction sticking is more "
-        "apparent.",
+        "For v_c = 0.001 m/s only sliding friction occurs, while with lower values the friction sticking "
+        "is more apparent.",
         ("Fig. 7",),
     ),
     Section(
         "Fig. 8: bristle stiffness",
         ("8",),
-        "For lower sigma_0 almost no sticking occurs, while with higher sigma_0 the sticking phenomena together with "
-        "presliding behaviour appear. [...] with a further increase of sigma_0 the results do not differ "
-        "significantly and only the required CPU time increases.",
+        "For lower sigma_0 almost no sticking occurs, while with higher sigma_0 the sticking phenomena "
+        "together with presliding behaviour appear. [...] with a further increase of sigma_0 the results "
+        "do not differ significantly and only the required CPU time increases.",
         ("Fig. 8", "Sec. 3.1"),
     ),
     Section(
         "Fig. 9: radial motion of the pads",
         ("9",),
-        "the TO model yields smaller journal orbits than the TR model. At the same time, the orbits are located "
-        "higher compared to the TR model. [...] the journal orbit gets larger in both cases [with friction]. [...] "
-        "the larger influence of friction occurs in the TR case",
+        "the TO model yields smaller journal orbits than the TR model. At the same time, the orbits are "
+        "located higher compared to the TR model. [...] the journal orbit gets larger in both cases "
+        "[with friction]. [...] the larger influence of friction occurs in the TR case",
         ("Fig. 9", "Sec. 4.1"),
     ),
     Section(
         "Fig. 10: radius difference",
         ("10",),
-        "the journal moves downwards significantly with the increasing radius difference [...] The peak-to-peak "
-        "amplitudes of the tilting angle and velocity displacement increase with the radius difference [...] "
-        "Therefore, the journal can perform larger orbital motions when the radius difference increases. [...] When "
-        "friction is applied using the Bengisu-Akay model, the waveforms flatten due to the sticking phenomenon",
+        "the journal moves downwards significantly with the increasing radius difference [...] The "
+        "peak-to-peak amplitudes of the tilting angle and velocity displacement increase with the radius "
+        "difference [...] Therefore, the journal can perform larger orbital motions when the radius "
+        "difference increases. [...] When friction is applied using the Bengisu-Akay model, the "
+        "waveforms flatten due to the sticking phenomenon",
         ("Fig. 10",),
     ),
     Section(
         "Figs. 11, 12 and 13: friction coefficients",
         ("11", "12", "13"),
-        "with the increasing values of friction coefficients, the journal orbit is slightly larger. [...] The "
-        "journal orbits for both friction models are comparable in size and shape. [...] With the increase in "
-        "friction coefficients, the sticking phenomenon areas are wider, and the amplitudes of the pad tilting "
-        "velocities decrease. [...] the amplitude of the pad tilting velocity decreases more than in the case of the "
-        "Bengisu-Akay friction model. [...] With a further increase of sigma_0, the resulting pad tilting velocity "
-        "curve shape is getting closer to the results obtained using the Bengisu-Akay model.",
+        "with the increasing values of friction coefficients, the journal orbit is slightly larger. "
+        "[...] The journal orbits for both friction models are comparable in size and shape. [...] With "
+        "the increase in friction coefficients, the sticking phenomenon areas are wider, and the "
+        "amplitudes of the pad tilting velocities decrease. [...] the amplitude of the pad tilting "
+        "velocity decreases more than in the case of the Bengisu-Akay friction model. [...] With a "
+        "further increase of sigma_0, the resulting pad tilting velocity curve shape is getting closer "
+        "to the results obtained using the Bengisu-Akay model.",
         ("Figs. 11-13", "Figs. 11-12", "Fig. 11", "Fig. 12", "Fig. 13"),
-        "Above Bengisu-Akay, then LuGre with 1e6 1/m, then with 5e6 1/m. The paper does not print its friction "
-        "pairs; these span its range.",
+        "Above Bengisu-Akay, then LuGre with 1e6 1/m, then with 5e6 1/m. The paper does not print its "
+        "friction pairs; these span its range.",
     ),
     Section(
         "Fig. 14: friction characteristics",
         ("14",),
-        "The resulting curve exactly corresponds to the used Stribeck curve in the case of the Bengisu-Akay model, "
-        "while in the case of the LuGre model, the hysteresis behaviour is present. The typical friction curve loops "
-        "appear in the case of a higher sigma_0, while with the lower sigma_0 this phenomenon is not significant.",
+        "The resulting curve exactly corresponds to the used Stribeck curve in the case of the "
+        "Bengisu-Akay model, while in the case of the LuGre model, the hysteresis behaviour is present. "
+        "The typical friction curve loops appear in the case of a higher sigma_0, while with the lower "
+        "sigma_0 this phenomenon is not significant.",
         ("Fig. 14",),
     ),
     Section(
         "Section 4: low speed and small unbalance",
         (),
-        "For lower speeds, small unbalance forces generate a small journal orbit and a small tilting motion of the "
-        "pad. Hence, the pads remain in the sticking regime. Similarly, the lower unbalance causes a stick in the BS "
-        "coupling concerning the given nominal rotor speed.",
+        "For lower speeds, small unbalance forces generate a small journal orbit and a small tilting "
+        "motion of the pad. Hence, the pads remain in the sticking regime. Similarly, the lower "
+        "unbalance causes a stick in the BS coupling concerning the given nominal rotor speed.",
         ("Sec. 4",),
         "Up to which speed they stay stuck, by friction coefficient: the map further down.",
     ),
     Section(
         "Section 3: the upper pads",
         ("pads",),
-        "only two lower pads are considered, and we neglect the influence of upper pads. [...] the upper pads do not "
-        "have a load-carrying function [...] and they are, under some conditions, even subjected to pad fluttering.",
+        "only two lower pads are considered, and we neglect the influence of upper pads. [...] the upper "
+        "pads do not have a load-carrying function [...] and they are, under some conditions, even "
+        "subjected to pad fluttering.",
         ("Sec. 3",),
         "LuGre 0.1/0.05, cavitation 'gumbel' in both runs.",
     ),
     Section(
         "Fig. 15: run-up",
         ("15",),
-        "There is an apparent deviation in the journal trajectory for the LuGre model compared to the Bengisu-Akay "
-        "model at lower rotor speed. A higher parameter value sigma_0 strengthens the deviation [...] However, the "
-        "journal orbits at 6500 rpm are comparable. [...] the results for sigma_0 = 1e6 1/m are different from the "
-        "Bengisu-Akay model and higher sigma_0 at lower rotor speed.",
+        "There is an apparent deviation in the journal trajectory for the LuGre model compared to the "
+        "Bengisu-Akay model at lower rotor speed. A higher parameter value sigma_0 strengthens the "
+        "deviation [...] However, the journal orbits at 6500 rpm are comparable. [...] the results for "
+        "sigma_0 = 1e6 1/m are different from the Bengisu-Akay model and higher sigma_0 at lower rotor "
+        "speed.",
         ("Fig. 15",),
-        "Above the whole run (grey: the path with Bengisu-Akay friction), below it revolutions at low and at high speed.",
+        "Above the whole run (grey: the path with Bengisu-Akay friction), below it revolutions at low "
+        "and at high speed.",
     ),
 )
 
 PAGE = """\
 # The paper, reproduced
 
-Š. Dyk, J. Rendl, R. Bulín, L. Smolík, *Influence of detailed ball-and-socket modelling on tilting pad journal
-bearings dynamics*, Nonlinear Dynamics (2023), CC BY 4.0. Written by `make paper` from the program's own runs; no
-number on this page was typed in but those that the paper says. All checks: [checks.csv](checks.csv).
+Š. Dyk, J. Rendl, R. Bulín, L. Smolík, *Influence of detailed ball-and-socket modelling on tilting pad
+journal bearings dynamics*, Nonlinear Dynamics (2023), CC BY 4.0. Written by `make paper` from the program's
+own runs; no number on this page was typed in but those that the paper says. All checks:
+[checks.csv](checks.csv).
 
 {machine}
 
 **{count} claims checked: {good} hold, {bad} do not.** {failed}
 
-Every claim is decided by one number over the last {last} revolutions (of 2 s at 6500 rpm, or as said) of pad 1. A
-number is larger or smaller if it is so by {resolution}, ten times the error that the default settings are held to
-([benchmarks](../benchmarks.md)). Orbits whose greatest distance at the same shaft angle is below {agreement} of their
-size agree. A pad sticks while its pivot slides slower than 5 % of the Stribeck velocity; it comes to rest where it
-does so {rests:g} times as long as a sinusoid of the same amplitude would. Beside the number stand two more, from the
-same runs again: *refined* with {refined} and, but for the run-ups, {short}; and *rule (26)* with the unbalance that the
-paper's rule gives for G 6.3, where the paper's Table 1, which all pictures and verdicts here take, says 0.010 kg m
-(the rule: 0.0185 kg m at 6500 rpm).
+Every claim is decided by one number over the last {last} revolutions (of 2 s at 6500 rpm, or as said) of
+pad 1. A number is larger or smaller if it is so by {resolution}, ten times the error that the default
+settings are held to ([benchmarks](../benchmarks.md)). Orbits whose greatest distance at the same shaft
+angle is below {agreement} of their size agree. A pad sticks while its pivot slides slower than 5 % of the
+Stribeck velocity; it comes to rest where it does so {rests:g} times as long as a sinusoid of the same
+amplitude would. Beside the number stand two more, from the same runs again: *refined* with {refined} and,
+but for the run-ups, {short}; and *rule (26)* with the unbalance that the paper's rule gives for G 6.3,
+where the paper's Table 1, which all pictures and verdicts here take, says 0.010 kg m (the rule: 0.0185 kg m
+at 6500 rpm).
 
 {sections}
 
@@ -157,8 +165,8 @@ paper's rule gives for G 6.3, where the paper's Table 1, which all pictures and 
 
 ## Friction work
 
-Friction takes energy out of the tilting motion: work per revolution and mean power over each pivot, what fretting is
-judged by. The run-ups (unbalance of Table 1):
+Friction takes energy out of the tilting motion: work per revolution and mean power over each pivot, what
+fretting is judged by. The run-ups (unbalance of Table 1):
 
 ![Friction work per revolution and mean power over speed](work.png)
 
@@ -168,8 +176,8 @@ At 6500 rpm:
 
 ## Stick map
 
-Bengisu-Akay, f_d = f_s/2, unbalance by rule (26) for each speed: the time in which pad 1 sticks, and the friction power
-of both pads. White points are runs.
+Bengisu-Akay, f_d = f_s/2, unbalance by rule (26) for each speed: the time in which pad 1 sticks, and the
+friction power of both pads. White points are runs.
 
 ![Stick fraction and friction power over speed and friction coefficient](map.png)
 
@@ -179,8 +187,8 @@ Time in which pad 1 sticks, %:
 
 ## Penetration factor and Hertz's law
 
-Eq. (13) as printed has the factor 4; 2 pi meets Hertz's approach for small contacts. What this changes in Fig. 4, and
-in Fig. 10 (Hertz's law knows no dR = 0):
+Eq. (13) as printed has the factor 4; 2 pi meets Hertz's approach for small contacts. What this changes in
+Fig. 4, and in Fig. 10 (Hertz's law knows no dR = 0):
 
 ![Force over penetration by contact law](laws4.png)
 
@@ -190,8 +198,8 @@ in Fig. 10 (Hertz's law knows no dR = 0):
 
 ## Unbalance rule
 
-Rule (26) with the grade of the balance, and with the speed that it takes: each speed its own, or the highest one of the
-machine. Table 1 of the paper stands at G {grade}.
+Rule (26) with the grade of the balance, and with the speed that it takes: each speed its own, or the
+highest one of the machine. Table 1 of the paper stands at G {grade}.
 
 ![Size of the orbit over balance grade and over speed](rule.png)
 
@@ -199,6 +207,11 @@ machine. Table 1 of the paper stands at G {grade}.
 
 {rule_words}
 """
+
+#: What is said before the claims that change with the unbalance.
+RULE_WORDS = """\
+With the unbalance of rule (26) the orbits are larger (*Unbalance rule* below), the pads are driven harder, and
+the upper pads are closer to the journal. These verdicts change:"""
 
 #: What the pictures show, for those who cannot see them.
 CAPTIONS = {
@@ -257,7 +270,13 @@ def section_text(section: Section, checked: Sequence[Checked]) -> str:
     pictures = [f"![{CAPTIONS[name]}](fig{name}.png)" for name in section.pictures]
     rows = [row(each) for each in checked if each.claim.where in section.where]
     head = "claim", "measured", "number", "must be", "holds", "refined", "rule (26)"
-    parts = [f"## {section.title}", *pictures, f"> {section.quote}", section.note, table(head, rows) if rows else ""]
+    parts = [
+        f"## {section.title}",
+        *pictures,
+        f"> {section.quote}",
+        section.note,
+        table(head, rows) if rows else "",
+    ]
     return "\n\n".join(part for part in parts if part)
 
 
@@ -266,7 +285,14 @@ def row(each: Checked) -> tuple[str, ...]:
     verdict = each.verdict
     limit = f"{verdict.sense} {verdict.limit:g}"
     others = (f"{digits(other.value)}{'' if other.holds else ' (no)'}" for other in (each.refined, each.rule))
-    return each.claim.statement, each.claim.measure, digits(verdict.value), limit, said(verdict.holds), *others
+    return (
+        each.claim.statement,
+        each.claim.measure,
+        digits(verdict.value),
+        limit,
+        said(verdict.holds),
+        *others,
+    )
 
 
 def said(holds: bool) -> str:
@@ -280,12 +306,17 @@ def why(failed: Sequence[Checked], runs: Runs) -> str:
     texts = []
     for name in dict.fromkeys(each.claim.name for each in failed):
         same = [each for each in failed if each.claim.name == name]
-        numerics = all(not each.refined.holds for each in same)
-        texts.append("\n".join(f"- {each.claim.where}: {each.claim.statement}: {digits(each.verdict.value)}, refined "
-                               f"{digits(each.refined.value)}." for each in same))  # fmt: skip
-        reason = WHY[name](runs) if name in WHY else "Not explained yet."
-        texts.append(reason if numerics else "The refined runs say otherwise: the numerics.")
+        texts.append("\n".join(f"- {short(each)}; refined {digits(each.refined.value)}" for each in same))
+        if any(each.refined.holds for each in same):
+            texts.append("The refined runs say otherwise: the numerics.")
+        else:
+            texts.append(WHY[name](runs) if name in WHY else "Not explained yet.")
     return "\n\n".join(texts)
+
+
+def short(each: Checked) -> str:
+    """A claim with its number."""
+    return f"{each.claim.where}: {each.claim.statement}: {digits(each.verdict.value)}"
 
 
 def rule_changes(checked: Sequence[Checked]) -> str:
@@ -293,11 +324,12 @@ def rule_changes(checked: Sequence[Checked]) -> str:
     changed = [each for each in checked if each.rule.holds != each.verdict.holds]
     if not changed:
         return "With the unbalance of rule (26) no verdict changes."
-    lines = [f"- {each.claim.where}: {each.claim.statement}: {digits(each.verdict.value)}, by the rule "
-             f"{digits(each.rule.value)} (must be {each.rule.sense} {each.rule.limit:g})." for each in changed]  # fmt: skip
-    head = ("With the larger unbalance of rule (26) the orbit is almost twice as large, the film ruptures, and the "
-            "journal comes near the upper pads; these verdicts change:")  # fmt: skip
-    return "\n".join([head, "", *lines])
+    lines = [
+        f"- {short(each)}, by the rule {digits(each.rule.value)} "
+        f"(must be {each.rule.sense} {each.rule.limit:g})"
+        for each in changed
+    ]
+    return "\n".join([RULE_WORDS, "", *lines])
 
 
 def machine(version: str, seconds: float) -> str:

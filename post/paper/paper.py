@@ -1,6 +1,8 @@
-"""The paper, reproduced: runs all scenes, draws counterparts of its figures, checks its claims, writes the page.
+"""The paper, reproduced: runs all scenes, draws counterparts of its figures, checks its claims.
 
 usage: paper.py TILTPAD [--folder FOLDER] [--docs FOLDER] [--keep]
+
+Writes the pictures, checks.csv and README.md, the page, into the docs folder.
 """
 
 import argparse
@@ -22,9 +24,9 @@ from studies import STUDIES
 from tiltpad.plots import STYLE
 
 #: Pictures by their file's name, with the folder of their runs.
-PICTURES: dict[str, tuple[Callable, str]] = {f"fig{name}": (draw, "paper") for name, draw in FIGURES.items()} | {
-    name: (draw, "paper" if name == "work" else "studies") for name, draw in STUDIES.items()
-}
+PICTURES: dict[str, tuple[Callable, str]] = {
+    f"fig{name}": (draw, "paper") for name, draw in FIGURES.items()
+} | {name: (draw, "paper" if name == "work" else "studies") for name, draw in STUDIES.items()}
 
 
 def arguments() -> argparse.Namespace:
@@ -33,7 +35,9 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("program", type=lambda word: Path(word).resolve())
     parser.add_argument("--folder", type=Path, default=Path("build/paper"), help="for the result files")
     parser.add_argument("--docs", type=Path, default=ROOT / "docs/paper", help="where page and pictures go")
-    parser.add_argument("--keep", action="store_true", help="take the result files that are there, run nothing")
+    parser.add_argument(
+        "--keep", action="store_true", help="take the result files that are there, run nothing"
+    )
     return parser.parse_args()
 
 
@@ -51,10 +55,17 @@ def write_checks(checked: list[Checked], path: Path) -> None:
     """The check table, a row a claim."""
     with path.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["where", "claim", "measured", "number", "sense", "limit", "holds", "refined", "rule_26"])
+        writer.writerow(
+            ["where", "claim", "measured", "number", "sense", "limit", "holds", "refined", "rule_26"]
+        )
         for each in checked:
             claim, verdict = each.claim, each.verdict
-            numbers = (f"{verdict.value:.6g}", verdict.sense, f"{verdict.limit:g}", "pass" if verdict.holds else "fail")
+            numbers = (
+                f"{verdict.value:.6g}",
+                verdict.sense,
+                f"{verdict.limit:g}",
+                "pass" if verdict.holds else "fail",
+            )
             others = (f"{other.value:.6g}" for other in (each.refined, each.rule))
             writer.writerow([claim.where, claim.statement, claim.measure, *numbers, *others])
 
@@ -74,7 +85,9 @@ def main() -> None:
         for each in drawn:
             each.result()
     write_checks(checked, options.docs / "checks.csv")
-    version = subprocess.run([options.program, "--version"], text=True, capture_output=True, check=True).stdout.strip()
+    version = subprocess.run(
+        [options.program, "--version"], text=True, capture_output=True, check=True
+    ).stdout.strip()
     text = page(checked, paper, studied, machine(version, time.monotonic() - started))
     (options.docs / "README.md").write_text(text)
     failed = [each for each in checked if not each.verdict.holds]

@@ -39,7 +39,9 @@ def run_all(program: Path, jobs: Iterable[tuple[Scene, Path]], cores: int | None
     """Runs scenes, each into its folder and a process of its own, as many at once as there are cores; raises
     RuntimeError for one that fails.
     """
-    queue = sorted(jobs, key=lambda job: SLOWEST.index(job[0].name) if job[0].name in SLOWEST else len(SLOWEST))
+    queue = sorted(
+        jobs, key=lambda job: SLOWEST.index(job[0].name) if job[0].name in SLOWEST else len(SLOWEST)
+    )
     for folder in {folder for _, folder in queue}:
         folder.mkdir(parents=True, exist_ok=True)
     with ThreadPoolExecutor(cores or os.cpu_count()) as pool:

@@ -22,9 +22,13 @@ PAD, LAST = 1, 5
 DETAIL = 3
 
 #: Every case of input/paper, by its file's name.
-PAPER = tuple(Scene(path.stem, str(path.relative_to(ROOT))) for path in sorted(ROOT.glob("input/paper/*.nml")))
+PAPER = tuple(
+    Scene(path.stem, str(path.relative_to(ROOT))) for path in sorted(ROOT.glob("input/paper/*.nml"))
+)
 
-BA, LUGRE, FRICTIONLESS = (f"input/paper/{name}.nml" for name in ("steady_ba_10_05", "steady_lugre", "steady_tr"))
+BA, LUGRE, FRICTIONLESS = (
+    f"input/paper/{name}.nml" for name in ("steady_ba_10_05", "steady_lugre", "steady_tr")
+)
 #: Bengisu-Akay f = 0.1, the friction of Figs. 9 and 10.
 BA_10_10 = "input/paper/steady_tr_ba.nml"
 
@@ -126,7 +130,9 @@ def balanced(scene: Scene) -> Scene:
 
 def shorter(scene: Scene) -> Scene:
     """The scene with the duration SHORT, unless it is a run-up."""
-    return scene if scene.name in RUNUPS.values() else Scene(scene.name, scene.case, (*scene.overrides, SHORT))
+    return (
+        scene if scene.name in RUNUPS.values() else Scene(scene.name, scene.case, (*scene.overrides, SHORT))
+    )
 
 
 # ---- beyond the paper ------------------------------------------------------------------------------------
@@ -137,17 +143,19 @@ MAP_COEFFICIENTS = (0.01, 0.02, 0.035, 0.05, 0.075, 0.1, 0.15, 0.2)
 MAP_TIME = ("operation%duration=0.5", "output%start_time=0.25")
 
 
+def coefficients(static: float, dynamic: float) -> tuple[str, ...]:
+    return f"friction%static_coefficient={static:g}", f"friction%dynamic_coefficient={dynamic:g}"
+
+
 def map_name(speed: float, coefficient: float) -> str:
     return f"map_{speed:g}_{coefficient:g}"
 
 
 MAP = tuple(
-    Scene(map_name(speed, f), BA, (
-        f"friction%static_coefficient={f:g}", f"friction%dynamic_coefficient={f / 2:g}", *at_speed(speed), *MAP_TIME
-    ))
+    Scene(map_name(speed, f), BA, (*coefficients(f, f / 2), *at_speed(speed), *MAP_TIME))
     for speed in MAP_SPEEDS
     for f in MAP_COEFFICIENTS
-)  # fmt: skip
+)
 
 #: Contact laws beside the paper's, by their overrides.
 LAWS = {
@@ -170,9 +178,9 @@ LAW_SCENES = tuple(
     for friction in (False, True)
 )  # fmt: skip
 
-#: Balance grades at 6500 rpm, and speeds at which rule (26) takes that speed or the highest.
+#: Balance grades at 6500 rpm, and speeds at which rule (26) takes that speed or 6500 rpm.
 GRADES = (0.4, 1, 2.5, 4, 6.3, 10)
-RULE_SPEEDS = tuple(range(1500, 6501, 1000))
+RULE_SPEEDS = tuple(range(1500, 8501, 500))
 RULE_SCENES = tuple(
     shorter(Scene(f"rule_{model}_{kind}_{value:g}", case, overrides))
     for model, case in (("none", FRICTIONLESS), ("lugre", LUGRE))

@@ -51,7 +51,9 @@ def work_figure(runs: Runs) -> Figure:
 
 
 def work_by_revolution(run: tiltpad.Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Mean speed, rpm, duration, s, and friction work of each pad, J, (revolution, pad), of every revolution."""
+    """Mean speed, rpm, duration, s, and friction work of each pad, J, (revolution, pad), of every
+    revolution.
+    """
     turns, tilt, moment = tiltpad.revolutions(run), run.pad_tilt, run.friction_moment
     pieces = 0.5 * (moment[1:] + moment[:-1]) * np.diff(tilt, axis=0)
     done = np.vstack([np.zeros(run.pads), np.cumsum(pieces, axis=0)])
@@ -72,7 +74,16 @@ def work_table(runs: Runs) -> str:
             power = [digits(tiltpad.friction_power(run, pad, LAST)) for pad in pads]
             share = [f"{100 * tiltpad.stick_fraction(run, pad, LAST):.0f}" for pad in pads]
             rows.append((model, pair, *work, *power, *share))
-    head = ("model", "f_s/f_d", "work, pad 1, mJ", "pad 2", "power, pad 1, W", "pad 2", "stick, pad 1, %", "pad 2")
+    head = (
+        "model",
+        "f_s/f_d",
+        "work, pad 1, mJ",
+        "pad 2",
+        "power, pad 1, W",
+        "pad 2",
+        "stick, pad 1, %",
+        "pad 2",
+    )
     return table(head, rows)
 
 
@@ -80,7 +91,9 @@ def work_table(runs: Runs) -> str:
 def map_figure(runs: Runs) -> Figure:
     """Stick fraction and friction power over speed and friction coefficient."""
     fig, axes = plt.subplots(1, 2, figsize=(PAGE, 2.9))
-    power = sum(map_values(runs, lambda run, pad=pad: tiltpad.friction_power(run, pad, LAST)) for pad in (1, 2))
+    power = sum(
+        map_values(runs, lambda run, pad=pad: tiltpad.friction_power(run, pad, LAST)) for pad in (1, 2)
+    )
     draw_map(axes[0], 100 * stick_map(runs), f"time in which pad {PAD} sticks (%)", np.arange(0, 101, 10))
     draw_map(axes[1], power, "friction power, both pads (W)", 10)
     return fig
@@ -99,7 +112,12 @@ def stick_map(runs: Runs) -> np.ndarray:
 def draw_map(ax: Axes, values: np.ndarray, label: str, levels: int | np.ndarray) -> None:
     """Filled contours, with the runs as points."""
     shades = ax.contourf(MAP_SPEEDS, MAP_COEFFICIENTS, values, levels=levels, cmap="viridis")
-    ax.plot(*(each.ravel() for each in np.meshgrid(MAP_SPEEDS, MAP_COEFFICIENTS)), ".", color="white", markersize=1.5)
+    ax.plot(
+        *(each.ravel() for each in np.meshgrid(MAP_SPEEDS, MAP_COEFFICIENTS)),
+        ".",
+        color="white",
+        markersize=1.5,
+    )
     ax.figure.colorbar(shades, ax=ax, label=label)
     ax.set(xlabel=RPM, ylabel=r"static friction coefficient $f_s$")
     ax.grid(visible=False)
@@ -147,7 +165,12 @@ def laws_table(runs: Runs) -> str:
                 run = runs[law_name(law, difference, friction)]
                 part = tiltpad.last_revolutions(run, LAST)
                 penetration = of_pad(run, "pad_penetration", part).mean()
-                numbers = (1e6 * penetration, 1e6 * height(run), 1e6 * size(run), 1e3 * peak_to_peak(run, "pad_tilt"))
+                numbers = (
+                    1e6 * penetration,
+                    1e6 * height(run),
+                    1e6 * size(run),
+                    1e3 * peak_to_peak(run, "pad_tilt"),
+                )
                 words = law, difference, "0.1" if friction else "none"
                 rows.append((*words, *map(digits, numbers), digits(1e3 * peak_to_peak(run, "pad_tilt_rate"))))
     head = ("law", "dR, um", "friction", "mean penetration, um", "mean journal y, um", "orbit size, um",
@@ -163,39 +186,65 @@ def rule_figure(runs: Runs) -> Figure:
         sizes = [1e6 * size(runs[f"rule_{model}_grade_{grade:g}"]) for grade in GRADES]
         axes[0].plot(GRADES, sizes, "o-", color=f"C{color}", markersize=3, label=words)
         for kind, dash, which in (("own", "-", "own speed"), ("highest", "--", "6500 rpm")):
-            sizes = [1e6 * size(runs[f"rule_{model}_{kind}_{speed:g}"]) for speed in RULE_SPEEDS]
-            axes[1].plot(RULE_SPEEDS, sizes, "o", linestyle=dash, color=f"C{color}", markersize=3, label=f"{words}, {which}")
+            sizes = rule_sizes(runs, model, kind)
+            axes[1].plot(
+                RULE_SPEEDS,
+                1e6 * sizes,
+                "o",
+                linestyle=dash,
+                color=f"C{color}",
+                markersize=3,
+                label=f"{words}, {which}",
+            )
     table_1 = equivalent_grade(runs["rule_none_grade_1"])
     axes[0].axvline(table_1, color="0.4", linestyle=":", linewidth=0.8, label="Table 1")
-    axes[0].set(xlabel="balance grade G (mm/s), at 6500 rpm", ylabel="orbit size (µm)", ylim=(0, None), xlim=(0, None))
+    axes[0].set(
+        xlabel="balance grade G (mm/s), at 6500 rpm", ylabel="orbit size (µm)", ylim=(0, None), xlim=(0, None)
+    )
     axes[1].set(xlabel=RPM, ylabel="orbit size (µm)", ylim=(0, None))
     for ax in axes:
         ax.legend()
     return fig
 
 
+def rule_sizes(runs: Runs, model: str, kind: str) -> np.ndarray:
+    """Size of the orbit at RULE_SPEEDS, m; model: none or lugre; kind: rule (26) takes its own or the
+    highest speed.
+    """
+    return np.array([size(runs[f"rule_{model}_{kind}_{speed:g}"]) for speed in RULE_SPEEDS])
+
+
 def rule_table(runs: Runs) -> str:
-    """Size of the orbit over the speed, um, and how much of it is friction's."""
-    rows = []
-    for kind, words in (("own", "its own"), ("highest", "6500 rpm")):
-        for speed in RULE_SPEEDS:
-            none, lugre = (size(runs[f"rule_{model}_{kind}_{speed:g}"]) for model in ("none", "lugre"))
-            rows.append((words, speed, digits(1e6 * none), digits(1e6 * lugre), digits(lugre / none)))
-    return table(("speed of rule (26)", "speed, rpm", "frictionless, um", "LuGre 0.1/0.05, um", "ratio"), rows)
+    """Size of the orbit over the speed, um, and what friction makes of it."""
+    sizes = {
+        (kind, model): rule_sizes(runs, model, kind)
+        for kind in ("own", "highest")
+        for model in ("none", "lugre")
+    }
+    rows = [
+        (
+            speed,
+            *(digits(1e6 * each[i]) for each in sizes.values()),
+            digits(sizes["own", "lugre"][i] / sizes["own", "none"][i]),
+        )
+        for i, speed in enumerate(RULE_SPEEDS)
+    ]
+    head = ("speed, rpm", "its own: frictionless, um", "LuGre 0.1/0.05, um", "6500 rpm: frictionless, um",
+            "LuGre 0.1/0.05, um", "its own: LuGre over frictionless")  # fmt: skip
+    return table(head, rows)
 
 
 def rule_words(runs: Runs) -> str:
-    """Where friction enlarges the orbit and where it does not."""
-    ratios = {
-        speed: size(runs[f"rule_lugre_own_{speed:g}"]) / size(runs[f"rule_none_own_{speed:g}"]) for speed in RULE_SPEEDS
-    }
-    smaller = [f"{speed:g}" for speed, ratio in ratios.items() if ratio < 1]
+    """Where friction enlarges the orbit and where it does not, and where the orbits are largest."""
+    none, lugre = (rule_sizes(runs, model, "own") for model in ("none", "lugre"))
+    smaller = [speed for speed, ratio in zip(RULE_SPEEDS, lugre / none, strict=True) if ratio < 1]
     if not smaller:
         return "Friction enlarges the orbit at all these speeds."
+    peaks = [RULE_SPEEDS[int(np.argmax(each))] for each in (none, lugre)]
     return (
-        f"Friction makes the orbit smaller at {', '.join(smaller)} rpm: the paper's statement that it enlarges the "
-        "orbit is one of its speed, above the resonance of rotor and film; below it, pads that are held make the "
-        "bearing stiffer."
+        f"The orbit is largest at {peaks[0]} rpm without friction and at {peaks[1]} rpm with it. Friction "
+        f"makes it smaller up to {max(smaller)} rpm and larger above: the paper's statement that friction "
+        "enlarges the orbit is one about its speed of 6500 rpm."
     )
 
 
