@@ -156,7 +156,8 @@ def figure_pads(runs: Runs) -> Figure:
     two, four = runs["two_pads"], runs["four_pads"]
     lines = [("two pads", two, {"color": "C0"}), ("four pads", four, {"color": "C1", "linestyle": "--"})]
     for _, run, look in lines:
-        orbit(run, axes[0], **look)
+        # two revolutions, as the flutter repeats after two
+        trajectory(run, axes[0], tiltpad.last_revolutions(run, 2), **look)
     for pad, color in ((1, "C1"), (3, "C2"), (4, "C3")):
         look = {"color": color}
         for ax, name in zip(axes[1:], ("pad_tilt", "contact_force"), strict=True):

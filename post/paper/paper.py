@@ -13,6 +13,7 @@ from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
+import laws
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 from claims import Checked, check
@@ -20,13 +21,13 @@ from figures import FIGURES
 from page import machine, page
 from runs import Runs, run_all
 from settings import FOLDERS, ROOT
-from studies import STUDIES
+from studies import REUSED, STUDIES
 from tiltpad.plots import STYLE
 
 #: Pictures by their file's name, with the folder of their runs.
 PICTURES: dict[str, tuple[Callable, str]] = {
-    f"fig{name}": (draw, "paper") for name, draw in FIGURES.items()
-} | {name: (draw, "paper" if name == "work" else "studies") for name, draw in STUDIES.items()}
+    f"fig{name}": (draw, "paper") for name, draw in (laws.FIGURES | FIGURES).items()
+} | {name: (draw, "paper" if name in REUSED else "studies") for name, draw in STUDIES.items()}
 
 
 def arguments() -> argparse.Namespace:

@@ -12,7 +12,7 @@ from settings import ROOT, Scene
 #: Seconds after which a run is killed.
 LIMIT = 120
 #: The longest runs come first, so that no core idles at the end.
-SLOWEST = ("runup_ba", "runup_lugre5", "runup_lugre", "lugre100", "ba_1500", "ba_3000", "four_pads")
+SLOWEST = ("runup_ba", "runup_lugre5", "runup_lugre", "lugre100", "ba_slow", "four_pads")
 
 
 class Runs:

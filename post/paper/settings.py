@@ -40,6 +40,10 @@ MODELS = {
     "LuGre 5e6": ("steady_lugre5", "steady_lugre5_10_10", "steady_lugre5_20_10", "steady_lugre5_20_20"),
 }
 
+#: The example of Figs. 3 and 4: socket radius, m, load of Fig. 3, N, radius differences, um, and penetrations
+#: up to, m, of Fig. 4. The paper prints the first of them only.
+FANG_PIVOT, FANG_LOAD, FANG_DIFFERENCES, FANG_PENETRATION = 0.1, 1e4, (0, 15, 30, 60), 20e-6
+
 #: Critical velocities of Fig. 7, m/s, and bristle stiffnesses of Fig. 8, 1/m, with their runs.
 VELOCITIES = {"1e-3": "steady_ba_vc3", "1e-4": "ba_vc4", "1e-5": "steady_ba_10_05"}
 STIFFNESSES = {
@@ -70,7 +74,8 @@ LOW_SPEED, HIGH_SPEED = 2000, 6500
 
 #: The quality grade of section 3, with which rule (26) gives the unbalance of each speed.
 GRADE = 6.3
-LOW_SPEEDS = (1500, 3000)
+#: The lowest speed of the paper, rpm.
+LOWEST = 1500
 
 
 def at_speed(speed: float, grade: float = GRADE) -> tuple[str, ...]:
@@ -80,13 +85,10 @@ def at_speed(speed: float, grade: float = GRADE) -> tuple[str, ...]:
 
 #: The balance grade of a well balanced rotor, whose pads stay stuck at full speed.
 FINE_GRADE = 1
-SLOW = (
-    Scene("ba_fine", BA, at_speed(6500, FINE_GRADE)),
-    Scene("lugre_fine", LUGRE, at_speed(6500, FINE_GRADE)),
-) + tuple(
-    Scene(f"{model}_{speed}", case, at_speed(speed))
+SLOW = tuple(
+    Scene(f"{model}_{words}", case, overrides)
     for model, case in (("ba", BA), ("lugre", LUGRE))
-    for speed in LOW_SPEEDS
+    for words, overrides in (("slow", at_speed(LOWEST)), ("fine", at_speed(6500, FINE_GRADE)))
 )
 
 #: The upper pads: four against two, with Guembel's condition.

@@ -4,6 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import tiltpad
 from figures import legend, named, orbit, panels
+from laws import law_text, laws4
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from measures import height, of_pad, peak_to_peak, size
@@ -151,11 +152,6 @@ def laws_figure(runs: Runs) -> Figure:
     return legend(fig, lines[: len(lines) // 2], 3)
 
 
-def law_text(law: str) -> str:
-    """A law's name in a picture."""
-    return law.replace("2 pi", r"2$\pi$")
-
-
 def laws_table(runs: Runs) -> str:
     """What the laws change in Fig. 10."""
     rows = []
@@ -254,4 +250,6 @@ def equivalent_grade(run: tiltpad.Run) -> float:
     return 1e6 * rotor["unbalance"] * speed / (9549 * rotor["mass"])
 
 
-STUDIES = {"work": work_figure, "map": map_figure, "laws": laws_figure, "rule": rule_figure}
+#: Pictures of this module; those of REUSED take the runs of the figures.
+STUDIES = {"work": work_figure, "map": map_figure, "laws4": laws4, "laws": laws_figure, "rule": rule_figure}
+REUSED = ("work", "laws4")
