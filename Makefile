@@ -3,7 +3,7 @@
 VERSION := 0.1.0
 
 # ---- what can be set ---------------------------------------------------------------------------
-# MODE=release|debug   debug: bounds, floating-point traps, all warnings
+# MODE=release|debug   debug: bounds, floating-point traps, all warnings (wrap: for Python, set by make python)
 # FC, FFLAGS           compiler and its optimisation flags
 # PREFIX               where make install puts things
 # SUNDIALS_PREFIX, HDF5_PREFIX, FFTW_PREFIX   libraries of a cluster; nothing is installed then
@@ -22,6 +22,10 @@ B := build/debug
 else ifeq ($(MODE),release)
 FFLAGS ?= -O3 -march=native -mprefer-vector-width=256 -fstack-arrays
 B := build
+else ifeq ($(MODE),wrap)
+# for Python: position-independent, and for any machine of its kind, as a wheel travels
+override FFLAGS := -O2 -fPIC
+B := build/wrap
 else
 $(error MODE=$(MODE): must be release or debug)
 endif
@@ -48,7 +52,7 @@ COMPILE = $(FC) -std=f2018 -fimplicit-none -fopenmp-simd $(FFLAGS) $(INCLUDE) -J
 
 # ---- system packages ---------------------------------------------------------------------------
 PACKAGES := gfortran libc6-dev libsundials-dev libsundials-fortran-dev libhdf5-dev libfftw3-dev \
-            liblapack-dev python3 python3-venv
+            liblapack-dev python3 python3-venv python3-dev
 
 sources := $(sort $(shell find src_f90 -name '*.f90'))
 main    := src_f90/app/tiltpad.f90
@@ -56,6 +60,7 @@ objects := $(patsubst %.f90,$(B)/obj/%.o,$(notdir $(filter-out $(main),$(sources
 tests   := $(sort $(wildcard tests/unit/test_*.f90 tests/physics/test_*.f90))
 test_programs := $(patsubst %.f90,$(B)/tests/%,$(notdir $(tests)))
 film_bench := tests/bench/film_bench.f90
+wrapper := post/wrap/library.f90
 # what the program says of itself; rewritten only when it changes
 commit := $(shell git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)
 define build_info
@@ -75,12 +80,12 @@ $(file >$(B)/flags.new,$(COMPILE) $(LIBS))
 $(shell for f in $(B)/obj/build_info.f90:$(B)/obj/build_info.new $(B)/flags:$(B)/flags.new; do \
    cmp -s $${f#*:} $${f%:*} && rm $${f#*:} || mv $${f#*:} $${f%:*}; done)
 
-vpath %.f90 $(sort $(dir $(sources) $(tests) $(film_bench))) tests $(B)/obj
+vpath %.f90 $(sort $(dir $(sources) $(tests) $(film_bench) $(wrapper))) tests $(B)/obj
 
 VENV := build/venv
 venv_python := $(VENV)/bin/python
 
-.PHONY: help run build deps python test stress bench paper test-programs lint format docs install clean
+.PHONY: help run build deps python wrap wheel test stress bench paper test-programs lint format docs install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -92,7 +97,8 @@ help:
 	@echo 'make paper    the figures and claims of the paper, a minute or two; writes docs/paper'
 	@echo 'make build    build/bin/tiltpad          (MODE=debug: build/debug/bin/tiltpad)'
 	@echo 'make deps     install what is missing (root or sudo; otherwise print the list and stop)'
-	@echo 'make python   Python environment build/venv with the package tiltpad'
+	@echo 'make python   Python environment build/venv with the package tiltpad and its compiled part'
+	@echo 'make wheel    build/wheel/tiltpad-*.whl with the compiled part, tried in an environment of its own'
 	@echo 'make lint     style of Fortran and Python; make format mends what it can'
 	@echo 'make docs     write docs/inputs.md, docs/verification.md and docs/images from the program'
 	@echo 'make install  program into PREFIX/bin    (PREFIX=$(PREFIX))'
@@ -146,7 +152,22 @@ else
 endif
 	@touch $@
 
-python: $(VENV)/ready
+python: $(VENV)/ready wrap
+
+# the library for Python, by f2py: objects of their own, of the modules that it uses
+wrap: $(VENV)/ready
+	@$(MAKE) --no-print-directory MODE=wrap build/wrap/library
+
+build/wrap/library: $(B)/obj/library.o $(B)/flags $(VENV)/ready
+	@mkdir -p $(B)/f2py
+	@rm -f post/tiltpad/_library.*
+	cd $(B)/f2py && $(abspath $(venv_python)) -m numpy.f2py --quiet -m _library $(abspath $(wrapper)) >log 2>&1 || { cat log; exit 1; }
+	set -e; eval "$$($(venv_python) post/wrap/paths.py)"; \
+	$(COMPILE) -c $(B)/f2py/_library-f2pywrappers2.f90 -o $(B)/f2py/wrappers.o; \
+	$(CC) -O2 -fPIC -w -I$$python -I$$numpy -I$$f2py -c $(B)/f2py/_librarymodule.c -o $(B)/f2py/module.o; \
+	$(CC) -O2 -fPIC -w -I$$python -I$$numpy -I$$f2py -c $$f2py/fortranobject.c -o $(B)/f2py/fortranobject.o; \
+	$(FC) -shared -Wl,--as-needed $(B)/f2py/*.o $(B)/obj/*.o $(LIBS) -o post/tiltpad/_library$$suffix
+	@touch $@
 
 $(VENV)/ready: post/pyproject.toml post/requirements.txt | build/deps-checked
 	$(PYTHON) -m venv $(VENV)
@@ -189,7 +210,7 @@ $(shell awk -v b=$(B)/obj 'FNR == 1 { n = split(FILENAME, part, "/"); sub(/\.f90
    tolower($$1) == "use" { used = tolower($$2); sub(/,.*/, "", used); uses[this] = uses[this] " " used } \
    END { own["build_info"] = 1; for (f in uses) { split(uses[f], m, " "); line = ""; \
    for (i in m) if (m[i] in own) line = line " " b "/" m[i] ".o"; if (line != "") print b "/" f ".o:" line } }' \
-   $(sources) $(tests) $(film_bench) tests/check.f90 > $(B)/depend.mk)
+   $(sources) $(tests) $(film_bench) $(wrapper) tests/check.f90 > $(B)/depend.mk)
 include $(B)/depend.mk
 
 fortran_style := --line-length 120 --ignore S241,C002,C061,C071

@@ -13,6 +13,18 @@ from importlib import import_module
 from typing import Any
 
 from tiltpad.errors import deviations
+from tiltpad.library import (
+    Contact,
+    LibraryError,
+    MissingLibraryError,
+    Pressure,
+    bristle_rate,
+    contact,
+    contact_force,
+    contact_pressure,
+    friction_force,
+    pressure,
+)
 from tiltpad.pivots import (
     friction_coefficient,
     friction_power,
@@ -38,16 +50,25 @@ from tiltpad.signals import (
 from tiltpad.spectra import full, full_spectrum, one_sided, order_track, spectrum, waterfall
 
 __all__ = [
+    "Contact",
     "IncompleteRunWarning",
+    "LibraryError",
+    "MissingLibraryError",
     "NotInRunError",
+    "Pressure",
     "Run",
     "RunError",
+    "bristle_rate",
+    "contact",
+    "contact_force",
+    "contact_pressure",
     "deviations",
     "envelope",
     "friction_coefficient",
     "friction_power",
     "friction_work",
     "full",
+    "friction_force",
     "full_spectrum",
     "hysteresis",
     "last_revolutions",
@@ -57,6 +78,7 @@ __all__ = [
     "orbit_size",
     "order_track",
     "poincare",
+    "pressure",
     "read",
     "revolutions",
     "sliding_velocity",

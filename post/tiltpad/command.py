@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from contextlib import ExitStack, suppress
 from pathlib import Path
 
+from tiltpad.library import LibraryError, MissingLibraryError
 from tiltpad.read import IncompleteRunWarning, NotInRunError, RunError, read
 
 FORMATS = ("png", "pdf", "svg")
@@ -25,6 +26,7 @@ PLOTS = {
     "runup": "journal and tilt over the whole run, with the speed",
     "orders": "amplitude and phase of the first orders over the speed of a run-up (with --pad: its tilt too)",
     "waterfall": "amplitudes over speed and order of a run-up (journal, or with --pad its tilt)",
+    "pressure": "film pressure over the unrolled pads at one instant (--time; else at the equilibrium)",
 }
 
 
@@ -42,10 +44,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         if output.suffix.lower().removeprefix(".") not in FORMATS:
             raise ValueError(f"{output}: the name must end in .png, .pdf or .svg")
+        if options.time is not None and options.plot != "pressure":
+            raise ValueError(f"--time: for the plot pressure, not for {options.plot}")
         draw(options, output)
     except (ValueError, NotInRunError) as error:
         return complain(error, INPUT_ERROR)
     except RunError as error:
+        return complain(error, FILE_ERROR)
+    except LibraryError as error:
+        return complain(error, error.status)
+    except MissingLibraryError as error:
         return complain(error, FILE_ERROR)
     except OSError as error:
         return complain(f"{output}: cannot be written: {error.strerror or error}", FILE_ERROR)
@@ -73,7 +81,8 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         stack.enter_context(mpl.style.context(plots.STYLE))
         if options.pad is not None:
             figures.shown_pads(runs, options.pad)
-        figure = figures.FIGURES[options.plot](runs, options.last, options.pad)
+        when = {"time": options.time} if options.plot == "pressure" else {}
+        figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **when)
         stack.callback(plots.plt.close, figure)
         figure.savefig(output, format=output.suffix.lower().removeprefix("."))
 
@@ -102,6 +111,7 @@ def parser() -> Parser:
     )
     parser.add_argument("--last", type=positive, metavar="N", help="shaft revolutions at the end of the run")
     parser.add_argument("--pad", type=int, metavar="K", help="this pad only (1, 2, ...)")
+    parser.add_argument("--time", type=float, metavar="T", help="of the pressure: the sample next to T, s")
     return parser
 
 

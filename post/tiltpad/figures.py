@@ -192,6 +192,28 @@ def orders(runs: Sequence[Run], last: float | None = None, pad: int | None = Non
     return fig
 
 
+def pressure(
+    runs: Sequence[Run], last: float | None = None, pad: int | None = None, time: float | None = None
+) -> Figure:
+    """Film pressure over the unrolled pads, a panel each, at one instant (None: at the equilibrium)."""
+    pads = shown_pads(runs, pad)
+    columns = min(2, len(pads))
+    rows = -(-len(pads) // columns) * len(runs)
+    fig = plt.figure(figsize=(COLUMN if columns == 1 else PAGE, 0.3 + 2.5 * rows))
+    panels = fig.subplots(rows, columns, squeeze=False).reshape(len(runs), -1)
+    for run, name, axes in zip(runs, labels(runs), panels, strict=True):
+        for ax, k in zip(axes, pads, strict=False):
+            plots.pressure(run, ax, time, k)
+            ax.set_title(f"pad {k}" if len(runs) == 1 else f"pad {k}: {name}")
+        for ax in axes[len(pads) :]:
+            ax.remove()
+    title = runs[0].title if len(runs) == 1 else ""
+    fig.suptitle(
+        f"{title} at {'the equilibrium' if time is None else f'{time:g} s'}".lstrip().replace("$", r"\$")
+    )
+    return fig
+
+
 def waterfall(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Amplitudes over speed and order of a run-up: a column of the journal's y and z (a pad's tilt) a run."""
     names = ["pad_tilt"] if pad else ["journal_y", "journal_z"]
@@ -250,6 +272,6 @@ FIGURES = {
     each.__name__: each
     for each in (
         *(orbit, size, poincare, waveform, spectrum),
-        *(hysteresis, friction, sticking, runup, orders, waterfall),
+        *(hysteresis, friction, sticking, runup, orders, waterfall, pressure),
     )
 }

@@ -13,8 +13,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.patches import Arc, Circle, FancyArrowPatch
+from matplotlib.ticker import MaxNLocator
 
-from tiltpad import pivots, signals, spectra
+from tiltpad import library, pivots, signals, spectra
 from tiltpad.read import Run
 from tiltpad.units import SHOWN
 
@@ -256,6 +257,26 @@ def history(run: Run, ax: Axes, name: str = "journal_y", pad: int | None = None,
             ax.plot(middle, most, **{**line, "color": edge.get_color(), "linewidth": 0.6})
             ax.fill_between(middle, least, most, facecolor=edge.get_color(), alpha=0.35, linewidth=0)
     ax.set(xlabel=SHOWN["time"].label, ylabel=shown.label, xlim=signals.ends(run, "time"))
+    return ax
+
+
+@on_axes
+def pressure(run: Run, ax: Axes, time: float | None = None, pad: int = 1, **contours: Any) -> Axes:
+    """Film pressure over an unrolled pad, with its colour bar, at the sample next to `time`, s.
+
+    None is the equilibrium. The journal's surface moves from right to left, from the leading to the trailing
+    edge.
+    """
+    column, film, shown = signals.pad_column(run, pad), library.pressure(run, time), SHOWN["pressure"]
+    field = shown.factor * film.pressure[column].T
+    levels = MaxNLocator(12).tick_values(field.min(), max(field.max(), field.min() + 1e-6))
+    x, y = SHOWN["phi"].factor * film.phi[column], SHOWN["axial"].factor * film.z
+    filled = ax.contourf(x, y, field, **{"levels": levels, **contours})
+    ax.figure.colorbar(filled, ax=ax, label=shown.label)
+    for place, edge in ((0.025, "trailing edge"), (0.975, "leading edge")):
+        note = {"rotation": 90, "ha": "center", "va": "center", "fontsize": "x-small", "color": "white"}
+        ax.text(place, 0.5, edge, transform=ax.transAxes, **note)
+    ax.set(xlabel=SHOWN["phi"].label, ylabel=SHOWN["axial"].label)
     return ax
 
 

@@ -41,4 +41,7 @@ SHOWN = {
     "film_force_radial": Shown("film force, radial", 1e-3, "kN"),
     "min_film_thickness": Shown("least film thickness", 1e6, "µm"),
     "max_pressure": Shown("highest pressure", 1e-6, "MPa"),
+    "pressure": Shown("film pressure", 1e-6, "MPa"),
+    "phi": Shown("angle from pivot", 180 / pi, "deg"),
+    "axial": Shown("axial place", 1e3, "mm"),
 }

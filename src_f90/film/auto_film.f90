@@ -31,6 +31,7 @@ module auto_film
       type(direct_film_type), allocatable :: direct(:)
    contains
       procedure :: evaluate
+      procedure :: field
    end type auto_film_type
 
 contains
@@ -117,15 +118,53 @@ contains
       type(film_response), intent(in) :: modal
       type(film_response), intent(out) :: ruptured
       type(film_response) :: whole
-      real(wp) :: tension, height, c
-      tension = self%cavitation_pressure(i) - modal%min_pressure
-      height = modal%max_pressure - self%cavitation_pressure(i)
+      real(wp) :: c
+      c = share_of_modes(self, i, modal)
       call self%direct(i)%evaluate(motion, speed, .true., want_slopes, self%counters, ruptured)
-      if (ruptured%status /= film_ok .or. tension >= height) return
-      c = min(1.0_wp, (1 - tension/height)/(1 - loaded_tension))
+      if (ruptured%status /= film_ok .or. .not. c > 0) return
       call self%direct(i)%evaluate(motion, speed, .false., want_slopes, self%counters, whole)
       ruptured%force = ruptured%force + c*(modal%force - whole%force)
       ruptured%slope = ruptured%slope + c*(modal%slope - whole%slope)
       ruptured%max_pressure = ruptured%max_pressure + c*(modal%max_pressure - whole%max_pressure)
    end subroutine change_of_rupture
+
+   !> c of a pad whose whole film has the response `modal`.
+   pure real(wp) function share_of_modes(self, i, modal) result(c)
+      class(auto_film_type), intent(in) :: self
+      integer, intent(in) :: i
+      type(film_response), intent(in) :: modal
+      real(wp) :: tension, height
+      tension = self%cavitation_pressure(i) - modal%min_pressure
+      height = modal%max_pressure - self%cavitation_pressure(i)
+      c = 0
+      if (tension < height) c = min(1.0_wp, (1 - tension/height)/(1 - loaded_tension))
+   end function share_of_modes
+
+   !> As the force: where the film ruptures the field of the finite volumes with rupture and, outside the rupture,
+   !> c times (modes - finite volumes without rupture).
+   subroutine field(self, motion, speed, phi, z, pressure)
+      class(auto_film_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion(:)
+      real(wp), intent(in) :: speed, phi(:, :), z(:)
+      real(wp), intent(out) :: pressure(:, :, :)
+      type(film_response) :: response(size(motion))
+      real(wp), dimension(size(z), size(phi, 1)) :: ruptured, whole
+      real(wp) :: c
+      integer :: i
+      call self%modal%evaluate(motion, speed, .false., response)
+      call self%modal%field(motion, speed, phi, z, pressure)
+      do i = 1, size(motion)
+         associate (lowest => self%cavitation_pressure(i))
+            if (lowest - response(i)%min_pressure <= slight_tension*(response(i)%max_pressure - lowest)) then
+               pressure(:, :, i) = max(lowest, pressure(:, :, i))
+               cycle
+            end if
+            c = share_of_modes(self, i, response(i))
+            call self%direct(i)%field(motion(i), speed, .true., phi(:, i), z, ruptured)
+            call self%direct(i)%field(motion(i), speed, .false., phi(:, i), z, whole)
+            where (ruptured > lowest) ruptured = max(lowest, ruptured + c*(pressure(:, :, i) - whole))
+            pressure(:, :, i) = ruptured
+         end associate
+      end do
+   end subroutine field
 end module auto_film

@@ -38,6 +38,7 @@ module direct_film
    contains
       procedure :: evaluate
       procedure :: force_of_rupture
+      procedure :: field
    end type direct_film_type
 
 contains
@@ -96,6 +97,26 @@ contains
          end if
       end associate
    end subroutine evaluate
+
+   !> Pressure, Pa, (axial place, angle), at a motion that leaves the film open and a journal speed, rad/s, with the
+   !> Reynolds condition or without rupture.
+   subroutine field(self, motion, speed, ruptures, phi, z, pressure)
+      class(direct_film_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      logical, intent(in) :: ruptures
+      !> Angles from the pivot, rad, and distances from the middle plane, m, within the pad.
+      real(wp), intent(in) :: phi(:), z(:)
+      real(wp), intent(out) :: pressure(:, :)
+      type(film_counters) :: counters
+      type(film_response) :: response
+      real(wp) :: p(self%basis%m, self%grid%columns), floor
+      call self%evaluate(motion, speed, ruptures, .false., counters, response)
+      p = self%pressure
+      call to_rows(self, p)
+      floor = merge(0.0_wp, -huge(floor), ruptures)
+      pressure = self%grid%pressure_at(p, floor, phi, z)
+   end subroutine field
 
    !> Force with the Reynolds condition less force without rupture, N, where only a few cells rupture; else
    !> `few` is false, and `evaluate` has to be asked.

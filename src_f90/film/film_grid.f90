@@ -30,6 +30,8 @@ module film_grid
       !> Conductances of a row towards the middle plane and towards the side, over those of uniform rows and its
       !> height: so chosen that the parabola of a narrow pad comes out exactly.
       real(wp), allocatable :: inward(:), outward(:)
+      !> Mean in a row of the squared distance from the middle plane over half the width.
+      real(wp), allocatable :: square(:)
       !> Pressure at the leading edge and at the other edges, Pa.
       real(wp) :: supply, ambient
       !> Sine and cosine at the cell centres and at the cell faces (0:columns).
@@ -45,6 +47,7 @@ module film_grid
       procedure :: force
       procedure :: weight
       procedure :: slopes
+      procedure :: pressure_at
    end type film_grid_type
 
 contains
@@ -69,6 +72,7 @@ contains
       conductance(0) = 0
       conductance(1:rows - 1) = 2*face(1:rows - 1)/(square(2:) - square(:rows - 1))
       conductance(rows) = 2*face(rows)/(face(rows)**2 - square(rows))
+      grid%square = square/rows**2
       grid%inward = conductance(:rows - 1)/grid%height
       grid%outward = conductance(1:)/grid%height
       grid%supply = film%supply_pressure - film%cavitation_pressure
@@ -176,4 +180,49 @@ contains
             & - dot_product(at_face, over_face) - dot_product(at_cell, over_side)
       end function over_position
    end function slopes
+
+   !> Pressure, Pa, (axial place, angle), from that of the cells: linear over phi between their centres and the
+   !> edges, linear over Z^2 across the width, where a cell's mean stands at the mean of Z^2 in its row. So the
+   !> parabola across a narrow pad comes out exactly.
+   pure function pressure_at(self, p, floor, phi, z) result(pressure)
+      class(film_grid_type), intent(in) :: self
+      !> Mean pressures, (row, column), and the pressure below which none falls, above the cavitation pressure, Pa.
+      real(wp), intent(in) :: p(:, :), floor
+      !> Angles from the pivot, rad, and distances from the middle plane, m, within the pad.
+      real(wp), intent(in) :: phi(:), z(:)
+      real(wp) :: pressure(size(z), size(phi))
+      real(wp) :: line(self%rows + 1), square(self%rows + 1), before(self%rows), after(self%rows), x, t
+      integer :: i, j, k
+      associate (n => self%columns, rows => self%rows)
+         square = [self%square, 1.0_wp]
+         do j = 1, size(phi)
+            ! cell centres at 1, 2, ..., n; edges at 1/2 and n + 1/2
+            x = (phi(j) + self%film%trailing_angle)/self%d_phi + 0.5_wp
+            i = min(max(int(x), 0), n)
+            before = self%ambient
+            after = self%supply
+            t = x - i
+            if (i > 0) then
+               before = p(:rows, i)
+            else
+               t = 2*t - 1
+            end if
+            if (i < n) then
+               after = p(:rows, i + 1)
+            else
+               t = 2*t
+            end if
+            line(:rows) = (1 - t)*before + t*after
+            line(rows + 1) = self%ambient
+            do k = 1, size(z)
+               associate (q => (2*z(k)/self%film%axial_length)**2)
+                  i = min(max(count(square <= q), 1), rows)
+                  t = (q - square(i))/(square(i + 1) - square(i))
+                  pressure(k, j) = max(floor, (1 - t)*line(i) + t*line(i + 1))
+               end associate
+            end do
+         end do
+         pressure = pressure + self%film%cavitation_pressure
+      end associate
+   end function pressure_at
 end module film_grid

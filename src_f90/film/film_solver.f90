@@ -38,6 +38,7 @@ module film_solver
       type(film_counters) :: counters
    contains
       procedure(evaluate_film), deferred :: evaluate
+      procedure(evaluate_field), deferred :: field
    end type film_solver_type
 
    abstract interface
@@ -50,5 +51,16 @@ module film_solver
          logical, intent(in) :: want_slopes
          type(film_response), intent(out) :: response(:)
       end subroutine evaluate_film
+
+      !> Pressure of every pad's film, Pa, (axial place, angle, pad), at a motion each that leaves the film open,
+      !> and a journal speed, rad/s.
+      subroutine evaluate_field(self, motion, speed, phi, z, pressure)
+         import :: film_solver_type, film_motion, wp
+         class(film_solver_type), intent(inout) :: self
+         type(film_motion), intent(in) :: motion(:)
+         !> Angles from the pivot of a pad, rad, (angle, pad), and distances from the middle plane, m, on the pads.
+         real(wp), intent(in) :: speed, phi(:, :), z(:)
+         real(wp), intent(out) :: pressure(:, :, :)
+      end subroutine evaluate_field
    end interface
 end module film_solver

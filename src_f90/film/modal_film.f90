@@ -14,6 +14,7 @@ module modal_film
    use film_solver, only: film_solver_type, film_motion, film_response, film_closed
    use pad_film, only: pad_film_type, pad_directions
    use clipped_quadrature, only: gregory_weights, clipped_weights
+   use modal_field, only: axial_profile, left_out, field_of_modes
    use modal_sweeps, only: lanes, weigh_nodes, solve_modes, solve_adjoints, sum_modes, &
       & sum_adjoint, looks, lowest_pressure
    implicit none (type, external)
@@ -42,7 +43,7 @@ module modal_film
    type :: modal_pad
       type(pad_film_type) :: film
       type(pad_directions) :: directions
-      integer :: n, blocks
+      integer :: n, modes, blocks
       real(wp) :: d, radius
       !> Sine, cosine and weight of the quadrature at the nodes; the weight times either.
       real(wp), allocatable :: sine(:), cosine(:), weight(:), along(:), outward(:)
@@ -67,6 +68,7 @@ module modal_film
       type(modal_pad), allocatable :: pads(:)
    contains
       procedure :: evaluate => evaluate_all
+      procedure :: field => field_all
    end type modal_film_type
 
 contains
@@ -113,7 +115,7 @@ contains
       integer, intent(in) :: n, most
       logical, intent(in) :: gumbel
       real(wp) :: phi(0:n), lambda(most), unit, profile(all_places)
-      integer :: i, k, modes
+      integer :: i, k
       pad%film = film
       pad%directions = film%directions()
       pad%n = n
@@ -121,22 +123,21 @@ contains
       pad%d = film%arc()/n
       unit = film%axial_length/(pi*pad%radius)
       lambda = [((2*k - 1)/unit, k=1, most)]
-      modes = count((lambda*pad%d)**2/12 <= stiffest_mode)
-      pad%blocks = (modes + lanes - 1)/lanes
+      pad%modes = count((lambda*pad%d)**2/12 <= stiffest_mode)
+      pad%blocks = (pad%modes + lanes - 1)/lanes
       allocate (pad%c(lanes*pad%blocks), pad%stiffness(lanes*pad%blocks), source=0.0_wp)
       allocate (pad%across(gauss, lanes*pad%blocks), source=0.0_wp)
       allocate (pad%at_middle(lanes*pad%blocks), pad%look(looks, lanes*pad%blocks), source=0.0_wp)
       pad%tail = 8*film%axial_length/pi**2*odd_sums*[unit, unit**2, unit**3]
-      pad%place_tail = (film%axial_length/pad%radius)**2*(1 - places**2)/8
-      do k = 1, modes
+      pad%place_tail = left_out(film, pad%modes, places)
+      do k = 1, pad%modes
          pad%c(k) = 8*film%axial_length/((2*k - 1)*pi)**2
          pad%stiffness(k) = (lambda(k)*pad%d)**2/12
-         profile = -4*(-1)**k/((2*k - 1)*pi)*cos((2*k - 1)*pi/2*places)
+         profile = axial_profile(k, places)
          pad%across(:, k) = profile(:gauss)
          pad%at_middle(k) = profile(middle)
          pad%look(:, k) = profile(gauss + 1:)
          pad%tail = pad%tail - pad%c(k)/[lambda(k), lambda(k)**2, lambda(k)**3]
-         pad%place_tail = pad%place_tail - profile/lambda(k)**2
       end do
       phi = [(i*pad%d - film%trailing_angle, i=0, n)]
       allocate (pad%sine(0:n), pad%cosine(0:n), pad%weight(0:n), pad%along(0:n), pad%outward(0:n))
@@ -189,6 +190,22 @@ contains
          end associate
       end do
    end subroutine evaluate_all
+
+   subroutine field_all(self, motion, speed, phi, z, pressure)
+      class(modal_film_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion(:)
+      real(wp), intent(in) :: speed, phi(:, :), z(:)
+      real(wp), intent(out) :: pressure(:, :, :)
+      type(film_response) :: response(size(motion))
+      integer :: i
+      call self%evaluate(motion, speed, .false., response)
+      do i = 1, size(motion)
+         associate (pad => self%pads(i))
+            pressure(:, :, i) = field_of_modes(pad%film, motion(i), pad%modes, pad%per_g, pad%s, pad%q, phi(:, i), z)
+            if (self%gumbel) pressure(:, :, i) = max(pressure(:, :, i), pad%film%cavitation_pressure)
+         end associate
+      end do
+   end subroutine field_all
 
    !> Factors of dh/dphi (wedge) and dh/dt (squeeze) in r.
    pure function source_factors(pad, speed) result(factors)

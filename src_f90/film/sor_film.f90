@@ -54,6 +54,7 @@ module sor_film
       type(sor_pad), allocatable :: pads(:)
    contains
       procedure :: evaluate => evaluate_all
+      procedure :: field => field_all
       !> One pad only.
       procedure, public :: evaluate_pad
       !> Pressure of the last evaluation of a pad, (circumferential, axial half), Pa.
@@ -116,6 +117,24 @@ contains
          call self%evaluate_pad(i, motion(i), speed, want_slopes, response(i))
       end do
    end subroutine evaluate_all
+
+   subroutine field_all(self, motion, speed, phi, z, pressure)
+      class(sor_film_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion(:)
+      real(wp), intent(in) :: speed, phi(:, :), z(:)
+      real(wp), intent(out) :: pressure(:, :, :)
+      type(film_response) :: response(size(motion))
+      real(wp) :: floor
+      integer :: i
+      floor = merge(-huge(floor), 0.0_wp, self%options%cavitation == cavitation_none)
+      call self%evaluate(motion, speed, .false., response)
+      do i = 1, size(motion)
+         associate (pad => self%pads(i), grid => self%pads(i)%grid)
+            pressure(:, :, i) = grid%pressure_at(natural(pad%pressure(1:grid%columns/2, 1:grid%rows, :)), floor, &
+               & phi(:, i), z)
+         end associate
+      end do
+   end subroutine field_all
 
    subroutine evaluate_pad(self, i, motion, speed, want_slopes, response)
       class(sor_film_type), intent(inout) :: self

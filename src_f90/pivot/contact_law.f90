@@ -15,6 +15,8 @@ module contact_law
       real(wp) :: force = 0, slope = 0
       !> Projected contact radius, m; exponent of the pressure distribution (11); its peak (12), Pa.
       real(wp) :: radius = 0, exponent = 0.5_wp, peak_pressure = 0
+   contains
+      procedure :: pressure
    end type contact_point
 
    !> A law for one ball-and-socket pivot.
@@ -198,6 +200,14 @@ contains
       real(wp), parameter :: d = 1e-3_wp
       slope = (8*(log_b(n + d) - log_b(n - d)) - (log_b(n + 2*d) - log_b(n - 2*d)))/(12*d)
    end function log_b_slope
+
+   !> Contact pressure (11), Pa, at a distance from the contact's axis, m, projected along it as the radius is.
+   elemental real(wp) function pressure(self, r)
+      class(contact_point), intent(in) :: self
+      real(wp), intent(in) :: r
+      pressure = 0
+      if (abs(r) < self%radius) pressure = self%peak_pressure*(1 - (r/self%radius)**2)**self%exponent
+   end function pressure
 
    !> Penetration, m, that carries a force > 0, N, by bisection on the logarithm.
    pure function penetration(self, force) result(eta)

@@ -1,0 +1,207 @@
+"""What the solver's own library calculates: film pressure, contact, friction, spectra; all in SI units.
+
+It is the Fortran library of the program itself, compiled into this package; without that part the functions
+raise MissingLibraryError, and everything else of the package works.
+
+`case` is a run, whose resolved input then counts, or the text of a namelist ("&pivot law='hertz' /"; what it
+leaves out is the paper's), read and checked as the program reads it. What the library refuses raises
+LibraryError with the program's message.
+"""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tiltpad.read import NotInRunError, Run
+
+try:
+    from tiltpad._library import tiltpad_library as compiled
+except ImportError as failure:
+    compiled, missing = None, str(failure)
+
+#: The paper's bearing: every variable has its default.
+PAPER = "&case /"
+
+
+class MissingLibraryError(ImportError):
+    """The package has no compiled part, or one that does not fit this machine or this Python."""
+
+
+class LibraryError(RuntimeError):
+    """The library refused its input (status 1) or its numerics failed (status 2); the message says why."""
+
+    def __init__(self, message: str, status: int):
+        super().__init__(message)
+        self.status = status
+
+
+class Pressure(NamedTuple):
+    """Film pressure of all pads at one instant."""
+
+    #: s; None for the equilibrium.
+    time: float | None
+    #: Pressure, (pad, phi, z), Pa.
+    pressure: np.ndarray
+    #: Angle from the pivot, (pad, phi), rad, from the trailing edge (negative) to the leading edge.
+    phi: np.ndarray
+    #: Axial place from the middle plane, (z,), m.
+    z: np.ndarray
+    #: Force on the journal along y' and z' of each pad, (pad, 2), N.
+    force: np.ndarray
+    #: Highest pressure at the solver's own points, (pad,), Pa, and least film thickness, (pad,), m.
+    max_pressure: np.ndarray
+    min_film_thickness: np.ndarray
+
+
+class Contact(NamedTuple):
+    """Contact of ball and socket, arrays of the shape of the penetrations."""
+
+    #: Normal force, N, and its slope over the penetration, N/m.
+    force: np.ndarray
+    slope: np.ndarray
+    #: Projected radius of the contact, m; exponent and peak, Pa, of its pressure, eq (11).
+    radius: np.ndarray
+    exponent: np.ndarray
+    peak_pressure: np.ndarray
+
+
+def pressure(
+    run: Run, time: float | None = None, along: int | ArrayLike = 121, across: int | ArrayLike = 41
+) -> Pressure:
+    """Film pressure and force of every pad at the sample next to `time`, s; None: at the equilibrium.
+
+    The points are so many, evenly spread along the arc and across the width, edges included; or they are
+    given: shares of the arc, 0 at the trailing edge to 1 at the leading edge, and of half the width, -1 to 1.
+    Raises NotInRunError for a time that the run does not reach, LibraryError where a film is closed.
+    """
+    at, journal, pads = state(run, time)
+    outside = "shares of the arc must be between 0 and 1", "shares of half the width must be between -1 and 1"
+    phi, z, field, force, highest, least = called(
+        "film_pressure",
+        run,
+        0.0 if at is None else at,
+        journal,
+        *pads,
+        shares(along, 0, outside[0]),
+        shares(across, -1, outside[1]),
+    )
+    return Pressure(at, field.T, phi.T, z, force.T, highest, least)
+
+
+def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple[np.ndarray, np.ndarray]]:
+    """Time of the sample next to `time`, journal (4,), tilts and penetrations with their rates, (2, pad)."""
+    if time is None:
+        rest = run["equilibrium"]
+        still = np.zeros(run.pads)
+        tilt, penetration = (rest.get(name, still) for name in ("pad_tilt", "pad_penetration"))
+        journal = np.array([rest["journal_y"], rest["journal_z"], 0, 0])
+        return None, journal, (np.array([tilt, still]), np.array([penetration, still]))
+    times = run.time
+    step = np.diff(times).max(initial=0)
+    if not times[0] - step <= time <= times[-1] + step:
+        raise NotInRunError(
+            f"{run.path}: no time {time:g} s in this run: sampled from {times[0]:g} to {times[-1]:g} s"
+        )
+    k = int(np.argmin(np.abs(times - time)))
+    part = slice(k, k + 1)
+
+    def sample(*names: str) -> np.ndarray:
+        return np.array([run.values(name, part)[0] for name in names])
+
+    journal = sample("journal_y", "journal_z", "journal_vy", "journal_vz")
+    tilt = sample("pad_tilt", "pad_tilt_rate")
+    radial = "pad_penetration" in run
+    penetration = sample("pad_penetration", "pad_penetration_rate") if radial else np.zeros_like(tilt)
+    return float(times[k]), journal, (tilt, penetration)
+
+
+def shares(points: int | ArrayLike, first: float, outside: str) -> np.ndarray:
+    """So many evenly spaced from `first` to 1, or those that are given."""
+    if isinstance(points, int | np.integer):
+        return np.linspace(first, 1, points)
+    places = np.atleast_1d(np.asarray(points, dtype=float))
+    if not np.all((places >= first) & (places <= 1)):
+        raise ValueError(outside)
+    return places
+
+
+def contact(penetration: ArrayLike, case: Run | str = PAPER) -> Contact:
+    """Contact of a pivot at penetrations, m; all zero where these are not positive."""
+    return Contact(*elementwise("contact", case, penetration))
+
+
+def contact_force(penetration: ArrayLike, case: Run | str = PAPER) -> np.ndarray:
+    """Normal force, N, of a pivot at penetrations, m."""
+    return contact(penetration, case).force
+
+
+def contact_pressure(penetration: ArrayLike, r: ArrayLike, case: Run | str = PAPER) -> np.ndarray:
+    """Contact pressure (11), Pa, at penetrations, m, and distances r from the contact's axis, m.
+
+    The two broadcast. r is projected along the axis, as the radius of the contact is; beyond it the pressure
+    is zero.
+    """
+    return elementwise("contact_pressure", case, penetration, r)[0]
+
+
+def friction_force(
+    velocity: ArrayLike, normal_force: ArrayLike, deflection: ArrayLike = 0.0, case: Run | str = PAPER
+) -> np.ndarray:
+    """Friction force, N, at sliding velocities, m/s, normal forces, N, and bristle deflections, m (LuGre).
+
+    The arguments broadcast. Times the ball's radius it is the moment on the pad, eq (20).
+    """
+    return elementwise("friction_force", case, velocity, deflection, normal_force)[0]
+
+
+def bristle_rate(velocity: ArrayLike, deflection: ArrayLike, case: Run | str = PAPER) -> np.ndarray:
+    """Rate of the bristle deflection, m/s, eq (24); zero where the friction has no bristles."""
+    return elementwise("friction_force", case, velocity, deflection, 0.0)[1]
+
+
+def one_sided_amplitude(signal: ArrayLike) -> np.ndarray:
+    """Amplitudes (n//2 + 1,) of a signal (n,) at k/(n dt), k = 0, ..., n//2: that of a sine is its own."""
+    return called_plain("one_sided", signal)
+
+
+def full_amplitude(y: ArrayLike, z: ArrayLike) -> np.ndarray:
+    """Amplitudes (n,) of y + i z at k/(n dt), k = -((n-1)//2), ..., n//2: forward whirl at positive k."""
+    return called_plain("full", y, z)
+
+
+def elementwise(name: str, case: Run | str, *arguments: ArrayLike) -> list[np.ndarray]:
+    """The results of a routine that takes equally many of each argument, in their common shape."""
+    arrays = np.broadcast_arrays(*(np.asarray(each, dtype=float) for each in arguments))
+    if not arrays[0].size:
+        raise ValueError(f"{name}: empty arrays")
+    results = called(name, case, *(each.ravel() for each in arrays))
+    return [each.reshape(arrays[0].shape) for each in results]
+
+
+def called(name: str, case: Run | str, *arguments: Any) -> list[Any]:
+    """The results of a routine of the library for a case; its error, if it has one, as an exception."""
+    text, source = (case.attributes["input"], case.path) if isinstance(case, Run) else (case, "case")
+    *results, status, message = routine(name)(text.encode(), source.encode(), *arguments)
+    if status:
+        raise LibraryError(message.decode(errors="replace").strip(), int(status))
+    return results
+
+
+def called_plain(name: str, *signals: ArrayLike) -> np.ndarray:
+    """The result of a routine that needs no case."""
+    arrays = [np.asarray(each, dtype=float) for each in signals]
+    if arrays[0].ndim != 1 or not arrays[0].size or len({each.shape for each in arrays}) > 1:
+        raise ValueError(f"a signal must be an array (n,) with n > 0, not {arrays[0].shape}")
+    return routine(name)(*arrays)
+
+
+def routine(name: str) -> Callable[..., Any]:
+    """A routine of the library by its name."""
+    if compiled is None:
+        raise MissingLibraryError(
+            f"the compiled part of the package tiltpad is missing ({missing}): "
+            "`make python` builds it, and `make wheel` packs it"
+        )
+    return getattr(compiled, name)

@@ -1,0 +1,206 @@
+!> What Python calls of the library (post/tiltpad/library.py): numbers, texts and arrays of explicit shape, by f2py.
+!>
+!> A scene comes as the text of a namelist, read and checked as the program reads it; `name` stands for it in
+!> messages. `status` is 0, or the exit status of the program for the `message`. SI units.
+module tiltpad_library
+   use, intrinsic :: iso_c_binding, only: c_double, c_int
+   use errors, only: error_type, raise, input_error, numerics_error
+   use text, only: to_text
+   use scene, only: scene_type
+   use scene_namelist, only: scene_from_text
+   use components, only: new_law, new_friction
+   use equations_of_motion, only: bearing_model, new_bearing_model
+   use contact_law, only: contact_law_type, contact_point
+   use friction, only: friction_law, friction_response
+   use kinds, only: degree
+   use spectra, only: one_sided_amplitude, full_amplitude
+   implicit none (type, external)
+   private
+   public :: film_pressure, contact, contact_pressure, friction_force, one_sided, full
+
+contains
+
+   !> Pressure of every pad's film, and what the program samples of it, in one state of the bearing.
+   subroutine film_pressure(text, name, time, journal, tilt, penetration, along, across, phi, z, pressure, force, &
+      & max_pressure, min_film, status, message, pads, n, m)
+      integer(c_int), intent(in) :: pads, n, m
+      character(len=*), intent(in) :: text, name
+      !> s, of which the speed follows; y, z of the journal, m, and their rates, m/s.
+      real(c_double), intent(in) :: time, journal(4)
+      !> Tilt, rad, and penetration, m (tilting-only: no matter), each with its rate.
+      real(c_double), intent(in) :: tilt(2, pads), penetration(2, pads)
+      !> Points: share of the arc from the trailing edge (0) to the leading one (1); share of half the width from the
+      !> middle plane.
+      real(c_double), intent(in) :: along(n), across(m)
+      !> Angles from the pivot, rad; axial places, m; pressure there, Pa.
+      real(c_double), intent(out) :: phi(n, pads), z(m), pressure(m, n, pads)
+      !> Force on the journal in the pad frame, N; highest pressure at the solver's own points, Pa; least film
+      !> thickness, m.
+      real(c_double), intent(out) :: force(2, pads), max_pressure(pads), min_film(pads)
+      integer(c_int), intent(out) :: status
+      character(len=2000), intent(out) :: message
+      type(error_type), allocatable :: error
+      type(scene_type) :: scene
+      type(bearing_model) :: model
+      real(c_double), allocatable :: y(:)
+      integer :: i
+      logical :: ok
+      phi = 0
+      z = 0
+      pressure = 0
+      force = 0
+      max_pressure = 0
+      min_film = 0
+      call read_case(text, name, scene, error)
+      if (.not. allocated(error)) then
+         if (scene%pad_count() /= pads) call raise(error, input_error, name//': '//to_text(scene%pad_count()) &
+            & //' pads, but states of '//to_text(int(pads)))
+      end if
+      if (.not. allocated(error)) then
+         model = new_bearing_model(scene)
+         y = model%at_rest(journal(:2), tilt(1, :), penetration(1, :))
+         y(3:4) = journal(3:4)
+         do i = 1, pads
+            associate (o => model%offset(i))
+               y(o + 2) = tilt(2, i)
+               if (model%radial) y(o + 4) = penetration(2, i)
+            end associate
+         end do
+         call model%evaluate(time, y, .false., ok)
+         if (.not. ok) call raise(error, numerics_error, name//': '//model%trouble)
+      end if
+      if (.not. allocated(error)) then
+         associate (arc => scene%pads%arc_deg*degree)
+            do i = 1, pads
+               phi(:, i) = (along - 1 + scene%pads%pivot_ratio(i))*arc(i)
+               force(:, i) = model%response(i)%force
+            end do
+         end associate
+         max_pressure = model%response%max_pressure
+         min_film = model%response%min_film
+         z = 0.5_c_double*scene%bearing%axial_length*across
+         call model%film%field(model%motion, scene%speed(time), phi, z, pressure)
+      end if
+      call tell(error, status, message)
+   end subroutine film_pressure
+
+   !> Contact of a pivot at penetrations, m; all zero where these are not positive.
+   subroutine contact(text, name, penetration, force, slope, radius, exponent, peak_pressure, status, message, n)
+      integer(c_int), intent(in) :: n
+      character(len=*), intent(in) :: text, name
+      real(c_double), intent(in) :: penetration(n)
+      !> N; N/m; projected radius of the contact, m; exponent and peak, Pa, of the pressure (11).
+      real(c_double), intent(out) :: force(n), slope(n), radius(n), exponent(n), peak_pressure(n)
+      integer(c_int), intent(out) :: status
+      character(len=2000), intent(out) :: message
+      type(error_type), allocatable :: error
+      type(contact_point) :: points(n)
+      call find_contacts(text, name, penetration, points, error)
+      force = points%force
+      slope = points%slope
+      radius = points%radius
+      exponent = points%exponent
+      peak_pressure = points%peak_pressure
+      call tell(error, status, message)
+   end subroutine contact
+
+   !> Contact pressure (11), Pa, at penetrations, m, and projected distances r from the axis, m, one each.
+   subroutine contact_pressure(text, name, penetration, r, pressure, status, message, n)
+      integer(c_int), intent(in) :: n
+      character(len=*), intent(in) :: text, name
+      real(c_double), intent(in) :: penetration(n), r(n)
+      real(c_double), intent(out) :: pressure(n)
+      integer(c_int), intent(out) :: status
+      character(len=2000), intent(out) :: message
+      type(error_type), allocatable :: error
+      type(contact_point) :: points(n)
+      integer :: i
+      call find_contacts(text, name, penetration, points, error)
+      do i = 1, n
+         pressure(i) = points(i)%pressure(r(i))
+      end do
+      call tell(error, status, message)
+   end subroutine contact_pressure
+
+   !> Friction force, N, and rate of the bristle deflection, m/s, at sliding velocities, m/s, bristle deflections, m
+   !> (LuGre), and normal forces, N.
+   subroutine friction_force(text, name, velocity, deflection, normal, force, rate, status, message, n)
+      integer(c_int), intent(in) :: n
+      character(len=*), intent(in) :: text, name
+      real(c_double), intent(in) :: velocity(n), deflection(n), normal(n)
+      real(c_double), intent(out) :: force(n), rate(n)
+      integer(c_int), intent(out) :: status
+      character(len=2000), intent(out) :: message
+      type(error_type), allocatable :: error
+      type(scene_type) :: scene
+      class(friction_law), allocatable :: law
+      type(friction_response) :: response
+      integer :: i
+      force = 0
+      rate = 0
+      call read_case(text, name, scene, error)
+      if (.not. allocated(error)) then
+         law = new_friction(scene)
+         do i = 1, n
+            call law%evaluate(velocity(i), deflection(i), normal(i), response)
+            force(i) = response%force
+            rate(i) = response%rate
+         end do
+      end if
+      call tell(error, status, message)
+   end subroutine friction_force
+
+   !> Amplitudes of a real signal of n samples at the frequencies k/(n dt), k = 0 .. n/2.
+   subroutine one_sided(signal, amplitude, n)
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(in) :: signal(n)
+      real(c_double), intent(out) :: amplitude(n/2 + 1)
+      amplitude = one_sided_amplitude(signal)
+   end subroutine one_sided
+
+   !> Amplitudes of y + i z at the frequencies k/(n dt), k = -((n-1)/2) .. n/2.
+   subroutine full(y, z, amplitude, n)
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(in) :: y(n), z(n)
+      real(c_double), intent(out) :: amplitude(n)
+      amplitude = full_amplitude(cmplx(y, z, c_double))
+   end subroutine full
+
+   !> The scene of a namelist text.
+   subroutine read_case(text, name, scene, error)
+      character(len=*), intent(in) :: text, name
+      type(scene_type), intent(out) :: scene
+      type(error_type), allocatable, intent(out) :: error
+      character(len=1) :: no_overrides(0)
+      call scene_from_text(text, name, no_overrides, scene, error)
+   end subroutine read_case
+
+   !> The contact at each penetration, m; that of no force where it is not positive.
+   subroutine find_contacts(text, name, penetration, points, error)
+      character(len=*), intent(in) :: text, name
+      real(c_double), intent(in) :: penetration(:)
+      type(contact_point), intent(out) :: points(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(scene_type) :: scene
+      class(contact_law_type), allocatable :: law
+      integer :: i
+      call read_case(text, name, scene, error)
+      if (allocated(error)) return
+      law = new_law(scene)
+      do i = 1, size(points)
+         if (penetration(i) > 0) points(i) = law%at(penetration(i))
+      end do
+   end subroutine find_contacts
+
+   !> An error as status and message, or neither.
+   subroutine tell(error, status, message)
+      type(error_type), allocatable, intent(in) :: error
+      integer(c_int), intent(out) :: status
+      character(len=*), intent(out) :: message
+      status = 0
+      message = ''
+      if (.not. allocated(error)) return
+      status = int(error%status, c_int)
+      message = error%message
+   end subroutine tell
+end module tiltpad_library

@@ -1,0 +1,241 @@
+!> Pressure fields of the film solvers: their integral is the force, solvers agree, rupture, layers at the edges.
+program test_film_field
+   use kinds, only: wp, pi, degree
+   use text, only: to_text
+   use film_solver, only: film_solver_type, film_motion, film_response
+   use pad_film, only: pad_film_type
+   use modal_film, only: modal_film_type, new_modal_film
+   use sor_film, only: sor_film_type, new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
+   use auto_film, only: auto_film_type, new_auto_film
+   use check, only: expect, expect_close, report
+   implicit none (type, external)
+
+   real(wp), parameter :: speed = 680, clearance = 100e-6_wp, theta_1 = 40*degree, theta_2 = 30*degree
+   real(wp), parameter :: length = 0.1_wp, um = 1e-6_wp
+   !> Points along the arc and across half the width, in the middle of equal parts: what the midpoint rule leaves
+   !> of an integral is a few 1e-6 of it.
+   integer, parameter :: along = 400, across = 200
+   type(film_motion), parameter :: whole = film_motion([-30*um, 50*um], [0.0_wp, 2e-3_wp])
+   type(film_motion), parameter :: slight = film_motion([-10*um, 50*um], [0.0_wp, 0.0_wp])
+   type(film_motion), parameter :: torn = film_motion([10*um, 50*um], [0.0_wp, 0.0_wp])
+   type(film_motion), parameter :: unloaded = film_motion([10*um, -30*um], [0.0_wp, 0.0_wp])
+
+   call force_of_modes()
+   call force_of_volumes()
+   call force_of_auto()
+   call solvers_agree()
+   call uniform_pressure()
+   call heated_edge()
+   call pads_apart()
+   call report()
+
+contains
+
+   !> The paper's pad with its pivot off the middle; pressures at the leading edge, and at the others.
+   pure type(pad_film_type) function pad(supply, ambient)
+      real(wp), intent(in) :: supply, ambient
+      pad = pad_film_type(49.9e-3_wp, clearance, length, theta_1, theta_2, 19e-3_wp, supply, ambient, 0.0_wp)
+   end function pad
+
+   !> Angles in the middle of equal parts of the arc, (angle, 1).
+   pure function angles()
+      real(wp) :: angles(along, 1)
+      integer :: i
+      angles(:, 1) = [((i - 0.5_wp)/along*(theta_1 + theta_2) - theta_2, i=1, along)]
+   end function angles
+
+   pure function places()
+      real(wp) :: places(across)
+      integer :: i
+      places = [((i - 0.5_wp)/across*length/2, i=1, across)]
+   end function places
+
+   !> A pad's field on these points, (axial place, angle).
+   function field_of(solver, motion) result(p)
+      class(film_solver_type), intent(inout) :: solver
+      type(film_motion), intent(in) :: motion
+      real(wp), allocatable :: p(:, :), all(:, :, :)
+      allocate (all(across, along, 1))
+      call solver%field([motion], speed, angles(), places(), all)
+      p = all(:, :, 1)
+   end function field_of
+
+   !> Difference of the field's integral and the solver's force, over the latter.
+   real(wp) function missing(solver, motion)
+      class(film_solver_type), intent(inout) :: solver
+      type(film_motion), intent(in) :: motion
+      type(film_response) :: response(1)
+      real(wp) :: phi(along, 1), force(2), area
+      real(wp), allocatable :: p(:, :)
+      phi = angles()
+      area = 50e-3_wp*(theta_1 + theta_2)/along*length/across
+      p = field_of(solver, motion)
+      force = -area*[sum(matmul(p, sin(phi))), sum(matmul(p, cos(phi)))]
+      call solver%evaluate([motion], speed, .false., response)
+      missing = norm2(force - response(1)%force)/norm2(response(1)%force)
+   end function missing
+
+   !> A few 1e-6 where no pressure jumps at an edge, 1e-4 where it does, and where the field is clipped: the force
+   !> is that of eight places across. Half the cells come less close.
+   subroutine force_of_modes()
+      type(modal_film_type) :: solver
+      real(wp) :: coarse
+      solver = new_modal_film([pad(0.0_wp, 0.0_wp)], 8, 8, gumbel=.false.)
+      coarse = missing(solver, whole)
+      solver = new_modal_film([pad(0.0_wp, 0.0_wp)], 24, 8, gumbel=.false.)
+      call expect_close(missing(solver, whole), 0.0_wp, 1e-5_wp, 'integral of the modes')
+      call expect(missing(solver, whole) < 0.1_wp*coarse, 'integral with a third of the cells')
+      solver = new_modal_film([pad(3e5_wp, 1e5_wp)], 24, 16, gumbel=.false.)
+      call expect_close(missing(solver, whole), 0.0_wp, 1e-4_wp, 'integral of the modes, flooded')
+      call expect_close(missing(solver, torn), 0.0_wp, 1e-3_wp, 'integral of the modes, tension')
+      solver = new_modal_film([pad(0.0_wp, 0.0_wp)], 24, 8, gumbel=.true.)
+      call expect_close(missing(solver, torn), 0.0_wp, 1e-3_wp, 'integral of the clipped modes')
+      call expect(minval(field_of(solver, torn)) >= 0, 'nothing below the pressure of rupture')
+      call expect(any(field_of(solver, torn) <= 0), 'and some at it')
+   end subroutine force_of_modes
+
+   !> The lines between cells and edges leave out what the pressure rises above them: second order, so that a
+   !> quarter is left with twice the volumes. Of the little force of the torn pad it is more than of the other.
+   subroutine force_of_volumes()
+      type(sor_film_type) :: solver
+      character(len=8), parameter :: names(0:2) = [character(len=8) :: 'none', 'gumbel', 'reynolds']
+      integer, parameter :: kinds(0:2) = [cavitation_none, cavitation_gumbel, cavitation_reynolds]
+      type(film_motion) :: motions(2)
+      real(wp) :: error(2)
+      integer :: i, k, level
+      motions = [whole, torn]
+      do k = 0, 2
+         do i = 1, 2
+            do level = 1, 2
+               solver = new_sor_film([pad(0.0_wp, 0.0_wp)], sor_options(30*level, 8*level, tolerance=1e-10_wp, &
+                  & cavitation=kinds(k)))
+               error(level) = missing(solver, motions(i))
+            end do
+            call expect_close(error(2), 0.0_wp, merge(2e-3_wp, 1e-2_wp, i == 1), 'integral of volumes, ' &
+               & //trim(names(k)))
+            call expect(error(2) < 0.3_wp*error(1), 'integral of twice the volumes, '//trim(names(k)))
+         end do
+      end do
+   end subroutine force_of_volumes
+
+   !> The solver that chooses, from no rupture to an all but empty pad: there the error of the volumes (80 x 8) is left.
+   subroutine force_of_auto()
+      type(auto_film_type) :: solver
+      type(film_motion) :: motions(4)
+      real(wp), parameter :: tolerances(4) = [1e-5_wp, 1e-3_wp, 1e-2_wp, 2e-2_wp]
+      real(wp), allocatable :: p(:, :)
+      integer :: i
+      motions = [whole, slight, torn, unloaded]
+      solver = new_auto_film([pad(0.0_wp, 0.0_wp)], 24, 8, 80, 8)
+      do i = 1, size(motions)
+         p = field_of(solver, motions(i))
+         call expect_close(missing(solver, motions(i)), 0.0_wp, tolerances(i), 'integral of auto, motion '//to_text(i))
+         call expect(minval(p) >= 0, 'no tension, motion '//to_text(i))
+         call expect(any(p <= 0) .eqv. i > 1, 'rupture, motion '//to_text(i))
+      end do
+   end subroutine force_of_auto
+
+   !> Modes, and the solver that chooses, against fine over-relaxation in every point, over the highest pressure;
+   !> with a pressure at the leading edge but for a cell of the latter around the corner where the pressure jumps.
+   subroutine solvers_agree()
+      real(wp), parameter :: tolerances(3) = [2e-3_wp, 1e-2_wp, 3e-2_wp]
+      type(modal_film_type) :: modes
+      type(sor_film_type) :: volumes
+      type(auto_film_type) :: auto
+      real(wp), allocatable :: p(:, :), q(:, :)
+      type(film_motion) :: motions(3)
+      integer :: i
+      modes = new_modal_film([pad(0.0_wp, 0.0_wp)], 24, 8, gumbel=.false.)
+      volumes = new_sor_film([pad(0.0_wp, 0.0_wp)], fine(cavitation_none))
+      p = field_of(modes, whole)
+      q = field_of(volumes, whole)
+      call expect_close(maxval(abs(p - q)), 0.0_wp, 1e-3_wp*maxval(q), 'modes against over-relaxation')
+      modes = new_modal_film([pad(4e6_wp, 1e6_wp)], 24, 16, gumbel=.false.)
+      volumes = new_sor_film([pad(4e6_wp, 1e6_wp)], fine(cavitation_none))
+      p = field_of(modes, whole)
+      q = field_of(volumes, whole)
+      p(175:, 392:) = q(175:, 392:)
+      call expect_close(maxval(abs(p - q)), 0.0_wp, 3e-3_wp*maxval(q), 'modes against over-relaxation, flooded')
+      auto = new_auto_film([pad(0.0_wp, 0.0_wp)], 24, 8, 80, 8)
+      volumes = new_sor_film([pad(0.0_wp, 0.0_wp)], fine(cavitation_reynolds))
+      motions = [slight, torn, unloaded]
+      do i = 1, size(motions)
+         p = field_of(auto, motions(i))
+         q = field_of(volumes, motions(i))
+         call expect_close(maxval(abs(p - q)), 0.0_wp, tolerances(i)*maxval(q), 'auto against volumes, ' &
+            & //to_text(i))
+      end do
+   end subroutine solvers_agree
+
+   pure type(sor_options) function fine(cavitation)
+      integer, intent(in) :: cavitation
+      fine = sor_options(160, 40, tolerance=1e-10_wp, cavitation=cavitation)
+   end function fine
+
+   !> At rest in one pressure every solver has that pressure, at the edges too.
+   subroutine uniform_pressure()
+      type(modal_film_type) :: modes
+      type(sor_film_type) :: volumes
+      type(auto_film_type) :: auto
+      modes = new_modal_film([pad(3e5_wp, 3e5_wp)], 24, 8, gumbel=.false.)
+      volumes = new_sor_film([pad(3e5_wp, 3e5_wp)], sor_options(24, 8, tolerance=1e-13_wp))
+      auto = new_auto_film([pad(3e5_wp, 3e5_wp)], 24, 8, 24, 8)
+      call expect_close(unevenness(modes), 0.0_wp, 1e-9_wp, 'uniform pressure, modes')
+      call expect_close(unevenness(volumes), 0.0_wp, 1e-9_wp, 'uniform pressure, volumes')
+      call expect_close(unevenness(auto), 0.0_wp, 1e-9_wp, 'uniform pressure, auto')
+   end subroutine uniform_pressure
+
+   real(wp) function unevenness(solver)
+      class(film_solver_type), intent(inout) :: solver
+      real(wp) :: p(3, 3, 1), phi(3, 1)
+      phi(:, 1) = [-theta_2, 0.1_wp, theta_1]
+      call solver%field([film_motion([-20*um, 40*um])], 0.0_wp, phi, [0.0_wp, length/3, length/2], p)
+      unevenness = maxval(abs(p/3e5_wp - 1))
+   end function unevenness
+
+   !> A higher pressure at the leading edge, nothing else, on an even film: like heat in a long plate, in closed form
+   !> with its images in both edges. Some points lie closer to the edge than any node.
+   subroutine heated_edge()
+      real(wp), parameter :: rise = 3e5_wp, z(3) = [0.0_wp, 0.3_wp*length, 0.499_wp*length]
+      type(modal_film_type) :: solver
+      real(wp) :: p(3, 4, 1), phi(4, 1), x(4), exact(3), arc
+      integer :: i, k
+      arc = theta_1 + theta_2
+      x = [0.0_wp, 1e-4_wp, 0.01_wp, 0.2_wp]*arc
+      phi(:, 1) = theta_1 - x
+      solver = new_modal_film([pad(rise, 0.0_wp)], 24, 16, gumbel=.false.)
+      call solver%field([film_motion([0.0_wp, 0.0_wp])], 0.0_wp, phi, z, p)
+      do i = 1, 4
+         exact = rise*plate(z, x(i))
+         do k = 1, 5
+            exact = exact - rise*(plate(z, 2*k*arc - x(i)) - plate(z, 2*k*arc + x(i)))
+         end do
+         call expect_close(maxval(abs(p(:, i, 1) - exact)), 0.0_wp, 3e-4_wp*rise, 'beside the edge, '//to_text(i))
+      end do
+   end subroutine heated_edge
+
+   !> The long plate: 1 at x = 0, 0 at the sides.
+   elemental real(wp) function plate(z, x)
+      real(wp), intent(in) :: z, x
+      plate = 2/pi*atan2(cos(pi*z/length), sinh(pi*50e-3_wp*x/length))
+   end function plate
+
+   !> Every pad at its own motion and angles.
+   subroutine pads_apart()
+      type(auto_film_type) :: solver, alone
+      type(pad_film_type) :: films(2)
+      real(wp), allocatable :: p(:, :, :)
+      real(wp) :: phi(along, 2)
+      allocate (p(across, along, 2))
+      films = pad(0.0_wp, 0.0_wp)
+      films(2)%leading_angle = theta_2
+      films(2)%trailing_angle = theta_1
+      phi(:, 1) = reshape(angles(), [along])
+      phi(:, 2) = -phi(along:1:-1, 1)
+      solver = new_auto_film(films, 24, 8, 80, 8)
+      call solver%field([whole, whole], speed, phi, places(), p)
+      call expect(maxval(abs(p(:, :, 1) - p(:, :, 2))) > 0.01_wp*maxval(p), 'two pads, two fields')
+      alone = new_auto_film(films(:1), 24, 8, 80, 8)
+      call expect_close(maxval(abs(p(:, :, 1) - field_of(alone, whole))), 0.0_wp, 0.0_wp, 'the first pad''s own')
+   end subroutine pads_apart
+end program test_film_field
