@@ -23,7 +23,7 @@ from settings import (
     TILTING_ONLY,
     VELOCITIES,
 )
-from tiltpad.figures import PAGE, top_axis
+from tiltpad.layout import PAGE, top_axis
 from tiltpad.units import SHOWN
 
 #: Words of the legend, the run, and what its line looks like.

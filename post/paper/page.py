@@ -150,8 +150,8 @@ angle is below {agreement} of their size agree. A pad sticks while its pivot sli
 Stribeck velocity; it comes to rest where it does so {rests:g} times as long as a sinusoid of the same
 amplitude would. Beside the number stand two more, from the same runs again: *refined* with {refined} and,
 but for the run-ups, {short}; and *rule (26)* with the unbalance that the paper's rule gives for G 6.3,
-where the paper's Table 1, which all pictures and verdicts here take, says 0.010 kg m (the rule: 0.0185 kg m
-at 6500 rpm).
+where the paper's Table 1, which all pictures and verdicts here take, says 0.010 kg m (the rule:
+{unbalance} kg m at 6500 rpm).
 
 {sections}
 
@@ -210,8 +210,9 @@ highest one of the machine. Table 1 of the paper stands at G {grade}.
 
 #: What is said before the claims that change with the unbalance.
 RULE_WORDS = """\
-With the unbalance of rule (26) the orbits are larger (*Unbalance rule* below), the pads are driven harder, and
-the upper pads are closer to the journal. These verdicts change:"""
+With the unbalance of rule (26) the orbits are larger (*Unbalance rule* below), the pads are driven harder,
+faster than 1e-3 m/s, so that they come to rest even with that v_c, and the journal comes nearer the upper
+pads. These verdicts change:"""
 
 #: What the pictures show, for those who cannot see them.
 CAPTIONS = {
@@ -249,6 +250,7 @@ def page(checked: Sequence[Checked], paper: Runs, studied: Runs, machine: str) -
         sections="\n\n".join(section_text(each, checked) for each in SECTIONS),
         why=why(failed, paper),
         rule=rule_changes(checked),
+        unbalance=digits(studies.ruled_unbalance(paper["steady_tr"])),
         work=studies.work_table(paper),
         map=studies.map_table(studied),
         laws=studies.laws_table(studied),
@@ -284,11 +286,13 @@ def row(each: Checked) -> tuple[str, ...]:
     """A line of the check table."""
     verdict = each.verdict
     limit = f"{verdict.sense} {verdict.limit:g}"
-    others = (f"{digits(other.value)}{'' if other.holds else ' (no)'}" for other in (each.refined, each.rule))
+    others = (
+        f"{digits(other.value, 4)}{'' if other.holds else ' (no)'}" for other in (each.refined, each.rule)
+    )
     return (
         each.claim.statement,
         each.claim.measure,
-        digits(verdict.value),
+        digits(verdict.value, 4),
         limit,
         said(verdict.holds),
         *others,

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from measures import height, of_pad, peak_to_peak, size
 from runs import Runs
 from settings import (
+    GRADE,
     GRADES,
     LAST,
     LAW_DIFFERENCES,
@@ -25,7 +26,7 @@ from settings import (
     map_name,
 )
 from tables import digits, table
-from tiltpad.figures import PAGE
+from tiltpad.layout import PAGE
 from tiltpad.units import SHOWN
 
 RPM = SHOWN["speed"].label
@@ -244,10 +245,14 @@ def rule_words(runs: Runs) -> str:
     )
 
 
+def ruled_unbalance(run: tiltpad.Run) -> float:
+    """Unbalance that rule (26) gives for the paper's grade at the speed of a run, kg m."""
+    return 1e-6 * 9549 * GRADE * run.input["rotor"]["mass"] / run.input["operation"]["speed_rpm"]
+
+
 def equivalent_grade(run: tiltpad.Run) -> float:
     """Grade for which rule (26) gives the unbalance of Table 1 at the speed of a run, mm/s."""
-    rotor, speed = run.input["rotor"], run.input["operation"]["speed_rpm"]
-    return 1e6 * rotor["unbalance"] * speed / (9549 * rotor["mass"])
+    return GRADE * run.input["rotor"]["unbalance"] / ruled_unbalance(run)
 
 
 #: Pictures of this module; those of REUSED take the runs of the figures.
