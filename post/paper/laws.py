@@ -38,15 +38,20 @@ def figure_3(runs: Runs) -> Figure:
     # without radius difference the force is proportional to the penetration
     penetration = FANG_LOAD / float(tiltpad.contact_force(1.0e-6, case)) * 1e-6
     radius = float(tiltpad.contact(penetration, case).radius)
-    r, angle = np.meshgrid(radius * np.sqrt(np.linspace(0, 1, 80)), np.linspace(0, 2 * np.pi, 121))
+    r, angle = np.meshgrid(radius * np.sqrt(1 - np.linspace(1, 0, 80) ** 4), np.linspace(0, 2 * np.pi, 121))
     pressure = tiltpad.contact_pressure(penetration, r, case)
-    fig = plt.figure(figsize=(COLUMN + 0.6, 3.2))
+    fig = plt.figure(figsize=(COLUMN + 0.6, 2.8))
     ax = fig.subplots(subplot_kw={"projection": "3d"})
     place = 1e3 * r * np.cos(angle), 1e3 * r * np.sin(angle)
-    ax.plot_surface(*place, 1e-6 * pressure, cmap="viridis", rcount=121, ccount=80, linewidth=0)
+    ax.plot_surface(
+        *place, 1e-6 * pressure, cmap="viridis", rcount=121, ccount=80, linewidth=0, antialiased=False
+    )
     ax.set(xlabel=r"$\tilde x$ (mm)", ylabel=r"$\tilde y$ (mm)", zlabel="pressure (MPa)")
-    ax.set_title(f"$\\Delta R$ = 0, $F_{{bs}}$ = {FORCE.factor * FANG_LOAD:g} kN")
-    ax.set_box_aspect((1, 1, 0.7), zoom=0.85)
+    ax.set_title(f"$\\Delta R$ = 0, $F_{{bs}}$ = {FORCE.factor * FANG_LOAD:g} kN", y=0.95)
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_major_locator(plt.MultipleLocator(50))
+    ax.zaxis.set_major_locator(plt.MaxNLocator(4))
+    ax.set_box_aspect((1, 1, 0.6), zoom=0.95)
     ax.tick_params(pad=0)
     return fig
 
@@ -94,7 +99,7 @@ def steady_friction(run: tiltpad.Run, velocity: np.ndarray) -> np.ndarray:
 
 def laws4(runs: Runs) -> Figure:
     """Fig. 4 for the bearing's pivot by other contact laws."""
-    fig = plt.figure(figsize=(COLUMN + 1.2, 2.8))
+    fig = plt.figure(figsize=(PAGE - 1, 2.8))
     ax = fig.subplots()
     load = runs["steady_tr"].values("contact_force", tiltpad.last_revolutions(runs["steady_tr"]))
     ax.axhspan(*(FORCE.factor * each for each in (load.min(), load.max())), color="0.93", zorder=0)
@@ -108,7 +113,7 @@ def laws4(runs: Runs) -> Figure:
             label = f"{law_text(law)}, $\\Delta R$ = {difference} µm"
             ax.plot(PENETRATION.factor * penetration, FORCE.factor * force, label=label, **look)
     ax.set(xlabel=PENETRATION.label, ylabel=FORCE.label, xlim=(0, 15), ylim=(0, 40))
-    fig.legend(loc="outside upper center", ncols=2)
+    fig.legend(loc="outside upper center", ncols=3)
     return fig
 
 

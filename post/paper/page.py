@@ -188,7 +188,8 @@ Time in which pad 1 sticks, %:
 ## Penetration factor and Hertz's law
 
 Eq. (13) as printed has the factor 4; 2 pi meets Hertz's approach for small contacts. What this changes in
-Fig. 4, and in Fig. 10 (Hertz's law knows no dR = 0):
+Fig. 4, for the pivot of the bearing (grey: the load of its frictionless orbit), and in Fig. 10 (Hertz's law
+knows no dR = 0):
 
 ![Force over penetration by contact law](laws4.png)
 

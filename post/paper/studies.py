@@ -119,6 +119,7 @@ def draw_map(ax: Axes, values: np.ndarray, label: str, levels: int | np.ndarray)
         ".",
         color="white",
         markersize=1.5,
+        clip_on=False,
     )
     ax.figure.colorbar(shades, ax=ax, label=label)
     ax.set(xlabel=RPM, ylabel=r"static friction coefficient $f_s$")
