@@ -119,6 +119,7 @@ def figure_14(runs: Runs) -> Figure:
                 label=label,
             )
         ax.set(title=named(model), xlabel=VELOCITY)
+        ax.locator_params(axis="x", nbins=5)
         ax.sharey(axes[0])
     axes[0].set_ylabel(r"friction coefficient $M_f/(F_{bs} R_1)$")
     fig.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=5)
