@@ -141,7 +141,7 @@ own runs; no number on this page was typed in but those that the paper says. All
 
 {machine}
 
-**{count} claims checked: {good} hold, {bad} do not.** {failed}
+**{count} claims checked: {good} hold, {bad} do not.** Why: *Where a claim does not hold* below. {failed}
 
 Every claim is decided by one number over the last {last} revolutions (of 2 s at 6500 rpm, or as said) of
 pad 1. A number is larger or smaller if it is so by {resolution}, ten times the error that the default
@@ -184,6 +184,8 @@ friction power of both pads. White points are runs.
 Time in which pad 1 sticks, %:
 
 {map}
+
+{map_words}
 
 ## Penetration factor and Hertz's law
 
@@ -254,6 +256,7 @@ def page(checked: Sequence[Checked], paper: Runs, studied: Runs, machine: str) -
         unbalance=digits(studies.ruled_unbalance(paper["steady_tr"])),
         work=studies.work_table(paper),
         map=studies.map_table(studied),
+        map_words=studies.map_words(studied),
         laws=studies.laws_table(studied),
         rule_table=studies.rule_table(studied),
         rule_words=studies.rule_words(studied),
@@ -263,9 +266,7 @@ def page(checked: Sequence[Checked], paper: Runs, studied: Runs, machine: str) -
 
 def failed_words(failed: Sequence[Checked]) -> str:
     """Which claims fail."""
-    if not failed:
-        return ""
-    return "Not: " + "; ".join(f"{each.claim.where}, {each.claim.statement}" for each in failed) + "."
+    return "\n".join(["These do not:", "", *(f"- {short(each)}" for each in failed)]) if failed else ""
 
 
 def section_text(section: Section, checked: Sequence[Checked]) -> str:

@@ -135,6 +135,16 @@ def map_table(runs: Runs) -> str:
     return table(("f_s", *(f"{speed} rpm" for speed in MAP_SPEEDS)), rows)
 
 
+def map_words(runs: Runs) -> str:
+    """Up to which speed the pad sticks all the time."""
+    parts = []
+    for f, shares in zip(MAP_COEFFICIENTS, stick_map(runs), strict=True):
+        # the first speed at which it slides
+        first = int(np.argmax(shares < 1)) if np.any(shares < 1) else len(shares)
+        parts.append(f"{MAP_SPEEDS[first - 1]} rpm (f_s = {f:g})" if first else f"no speed (f_s = {f:g})")
+    return f"It sticks all the time up to {', '.join(parts)}."
+
+
 # ---- contact laws ----------------------------------------------------------------------------------------
 def laws_figure(runs: Runs) -> Figure:
     """Fig. 10 by other contact laws: without friction above, with it below."""
