@@ -338,10 +338,11 @@ def rule_changes(checked: Sequence[Checked]) -> str:
     return "\n".join([RULE_WORDS, "", *lines])
 
 
-def machine(version: str, seconds: float) -> str:
-    """On what the page was made."""
+def machine(version: str, seconds: float | None) -> str:
+    """On what the page was made, in so many seconds; None: from the runs of an earlier time."""
     system = platform.freedesktop_os_release().get("PRETTY_NAME", platform.system())
-    return f"{version}; {processor()}, {os.cpu_count()} cores, {system}; {seconds:.0f} s of runs and drawing."
+    spent = "runs kept from an earlier time" if seconds is None else f"{seconds:.0f} s of runs and drawing"
+    return f"{version}; {processor()}, {os.cpu_count()} cores, {system}; {spent}."
 
 
 def processor() -> str:

@@ -141,8 +141,9 @@ def map_words(runs: Runs) -> str:
     for f, shares in zip(MAP_COEFFICIENTS, stick_map(runs), strict=True):
         # the first speed at which it slides
         first = int(np.argmax(shares < 1)) if np.any(shares < 1) else len(shares)
-        parts.append(f"{MAP_SPEEDS[first - 1]} rpm (f_s = {f:g})" if first else f"no speed (f_s = {f:g})")
-    return f"It sticks all the time up to {', '.join(parts)}."
+        if first:
+            parts.append(f"{MAP_SPEEDS[first - 1]} rpm (f_s = {f:g})")
+    return f"Of these speeds it sticks all the time up to {', '.join(parts)}." if parts else ""
 
 
 # ---- contact laws ----------------------------------------------------------------------------------------
