@@ -89,7 +89,8 @@ def main() -> None:
     version = subprocess.run(
         [options.program, "--version"], text=True, capture_output=True, check=True
     ).stdout.strip()
-    text = page(checked, paper, studied, machine(version, None if options.keep else time.monotonic() - started))
+    spent = None if options.keep else time.monotonic() - started
+    text = page(checked, paper, studied, machine(version, spent))
     (options.docs / "README.md").write_text(text)
     failed = [each for each in checked if not each.verdict.holds]
     for each in failed:
