@@ -117,6 +117,8 @@ REFINED = (
 RULE = f"rotor%balance_grade={GRADE:g}"
 #: Long enough to be periodic; it ends at the same shaft angle as 2 s at 6500 rpm.
 SHORT = "operation%duration=0.8"
+#: Seconds at the end of a run that are written: more than the last revolutions at the lowest speed.
+KEPT = 0.25
 
 
 def refined(scene: Scene) -> Scene:
@@ -131,10 +133,19 @@ def balanced(scene: Scene) -> Scene:
 
 
 def shorter(scene: Scene) -> Scene:
-    """The scene with the duration SHORT, unless it is a run-up."""
-    return (
-        scene if scene.name in RUNUPS.values() else Scene(scene.name, scene.case, (*scene.overrides, SHORT))
-    )
+    """The scene with the duration SHORT, unless it is a run-up; of which the end is kept."""
+    return changed_unless_runup(scene, SHORT, f"output%start_time={0.8 - KEPT:g}")
+
+
+def kept(scene: Scene) -> Scene:
+    """The scene, of which the end is kept unless it is a run-up."""
+    return changed_unless_runup(scene, f"output%start_time={2 - KEPT:g}")
+
+
+def changed_unless_runup(scene: Scene, *overrides: str) -> Scene:
+    if scene.name in RUNUPS.values():
+        return scene
+    return Scene(scene.name, scene.case, (*scene.overrides, *overrides))
 
 
 # ---- beyond the paper ------------------------------------------------------------------------------------
@@ -201,7 +212,7 @@ SCENES = (*PAPER, *FIGURES_7_8, *SLOW, *UPPER_PADS)
 STUDIES = (*MAP, *LAW_SCENES, *RULE_SCENES)
 #: Folders of the runs, with their scenes.
 FOLDERS = {
-    "paper": SCENES,
+    "paper": tuple(map(kept, SCENES)),
     "refined": tuple(map(refined, SCENES)),
     "rule": tuple(map(balanced, SCENES)),
     "studies": STUDIES,
