@@ -87,7 +87,7 @@ vpath %.f90 $(sort $(dir $(sources) $(tests) $(film_bench) $(wrapper))) tests $(
 VENV := build/venv
 venv_python := $(VENV)/bin/python
 
-.PHONY: help run build deps python wrap wheel test stress bench test-programs lint format docs install clean
+.PHONY: help run build deps python wrap wheel test stress bench paper test-programs lint format docs install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -96,6 +96,7 @@ help:
 	@echo 'make test     set up, build, run every test'
 	@echo 'make stress   random scenes, some minutes; writes docs/stability.md (SCENES=300 SEED=1)'
 	@echo 'make bench    run time against error, peers, some ten minutes; writes docs/benchmarks.md'
+	@echo 'make paper    the figures and claims of the paper, a minute or two; writes docs/paper'
 	@echo 'make build    build/bin/tiltpad          (MODE=debug: build/debug/bin/tiltpad)'
 	@echo 'make deps     install what is missing (root or sudo; otherwise print the list and stop)'
 	@echo 'make python   Python environment build/venv with the package tiltpad and its compiled part'
@@ -125,6 +126,10 @@ stress: build python
 # PARTS='films pads' runs these alone and takes the others from their last run
 bench: build python $(VENV)/ready-bench $(B)/bench/film_bench
 	$(venv_python) tests/bench/bench.py $(B)/bin/tiltpad $(if $(PARTS),--only $(PARTS))
+
+# counterparts of the paper's figures, and its claims checked
+paper: build python
+	$(venv_python) post/paper/paper.py $(B)/bin/tiltpad
 
 # ---- set-up ------------------------------------------------------------------------------------
 deps: build/deps-checked

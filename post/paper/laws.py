@@ -1,0 +1,125 @@
+"""Counterparts of the paper's figures of contact and friction laws, by the solver's own library."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import tiltpad
+from matplotlib.figure import Figure
+from measures import stribeck_curve
+from runs import Runs
+from settings import FANG_DIFFERENCES, FANG_LOAD, FANG_PENETRATION, FANG_PIVOT, LAW_DIFFERENCES, LAWS
+from tiltpad.layout import COLUMN, PAGE
+from tiltpad.units import SHOWN
+
+PENETRATION, FORCE = SHOWN["pad_penetration"], SHOWN["contact_force"]
+
+
+def pivot(difference: float, *overrides: str, socket_radius: float | None = None) -> str:
+    """A namelist of a pivot with the radius difference, um; overrides as pivot%name=value."""
+    words = [f"radius_difference={1e-6 * difference:g}", *(each.partition("%")[2] for each in overrides)]
+    words += [f"socket_radius={socket_radius:g}"] if socket_radius else []
+    return f"&pivot {', '.join(quoted(word) for word in words)} /"
+
+
+def quoted(word: str) -> str:
+    """name=value with a text value in quotes."""
+    name, _, value = word.partition("=")
+    return f"{name}='{value}'" if value.isalpha() else word
+
+
+def fang_force(difference: float) -> tuple[np.ndarray, np.ndarray]:
+    """Penetration, m, and force, N, of the paper's example of Fig. 4."""
+    penetration = np.linspace(0, FANG_PENETRATION, 201)
+    return penetration, tiltpad.contact_force(penetration, pivot(difference, socket_radius=FANG_PIVOT))
+
+
+def figure_3(runs: Runs) -> Figure:
+    """Contact pressure over the projected contact, without radius difference."""
+    case = pivot(0, socket_radius=FANG_PIVOT)
+    # without radius difference the force is proportional to the penetration
+    penetration = FANG_LOAD / float(tiltpad.contact_force(1.0e-6, case)) * 1e-6
+    radius = float(tiltpad.contact(penetration, case).radius)
+    r, angle = np.meshgrid(radius * np.sqrt(1 - np.linspace(1, 0, 80) ** 4), np.linspace(0, 2 * np.pi, 121))
+    pressure = tiltpad.contact_pressure(penetration, r, case)
+    fig = plt.figure(figsize=(COLUMN + 0.6, 2.8))
+    ax = fig.subplots(subplot_kw={"projection": "3d"})
+    place = 1e3 * r * np.cos(angle), 1e3 * r * np.sin(angle)
+    ax.plot_surface(
+        *place, 1e-6 * pressure, cmap="viridis", rcount=121, ccount=80, linewidth=0, antialiased=False
+    )
+    ax.set(xlabel=r"$\tilde x$ (mm)", ylabel=r"$\tilde y$ (mm)", zlabel="pressure (MPa)")
+    ax.set_title(f"$\\Delta R$ = 0, $F_{{bs}}$ = {FORCE.factor * FANG_LOAD:g} kN", y=0.95)
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_major_locator(plt.MultipleLocator(50))
+    ax.zaxis.set_major_locator(plt.MaxNLocator(4))
+    ax.set_box_aspect((1, 1, 0.6), zoom=0.95)
+    ax.tick_params(pad=0)
+    return fig
+
+
+def figure_4(runs: Runs) -> Figure:
+    """Force over penetration for several radius differences."""
+    fig = plt.figure(figsize=(COLUMN, 2.6))
+    ax = fig.subplots()
+    for difference in FANG_DIFFERENCES:
+        penetration, force = fang_force(difference)
+        ax.plot(
+            PENETRATION.factor * penetration, FORCE.factor * force, label=f"$\\Delta R$ = {difference} µm"
+        )
+    ax.set(xlabel=PENETRATION.label, ylabel=FORCE.label, xlim=(0, None), ylim=(0, None))
+    ax.legend()
+    return fig
+
+
+def figure_6(runs: Runs) -> Figure:
+    """Friction force of 1 N of load over sliding velocity, both laws, and enlarged around rest."""
+    fig, axes = plt.subplots(1, 2, figsize=(PAGE, 2.5))
+    for name, text, look in (
+        ("steady_ba_20_10", "Bengisu-Akay", {"color": "C0"}),
+        ("steady_lugre_20_10", "LuGre, steady", {"color": "C1", "linestyle": "--"}),
+    ):
+        run = runs[name]
+        for ax, span in zip(axes, (5e-3, 5e-5), strict=True):
+            velocity = np.linspace(-span, span, 2001)
+            velocity[1000] = 0.0
+            ax.plot(1e3 * velocity, steady_friction(run, velocity), label=text, **look)
+            ax.set(xlabel="sliding velocity (mm/s)", ylabel="friction force at 1 N (N)")
+    axes[0].legend(loc="upper left")
+    axes[1].set_title("around rest", fontsize="medium")
+    return fig
+
+
+def steady_friction(run: tiltpad.Run, velocity: np.ndarray) -> np.ndarray:
+    """Friction force, N, of 1 N of load at constant sliding velocities, m/s."""
+    law, deflection = run.input["friction"], np.zeros_like(velocity)
+    if law["model"] == "lugre":
+        # bristles that bend no further
+        deflection = stribeck_curve(run, velocity) / law["bristle_stiffness"]
+    return tiltpad.friction_force(velocity, 1.0, deflection, run)
+
+
+def laws4(runs: Runs) -> Figure:
+    """Fig. 4 for the bearing's pivot by other contact laws."""
+    fig = plt.figure(figsize=(PAGE - 1, 2.8))
+    ax = fig.subplots()
+    load = runs["steady_tr"].values("contact_force", tiltpad.last_revolutions(runs["steady_tr"]))
+    ax.axhspan(*(FORCE.factor * each for each in (load.min(), load.max())), color="0.93", zorder=0)
+    penetration = np.linspace(0, 15e-6, 201)
+    for color, (law, overrides) in enumerate(LAWS.items()):
+        for dash, difference in zip((":", "-", "--"), (0, *LAW_DIFFERENCES), strict=True):
+            if difference == 0 and law == "Hertz":
+                continue
+            force = tiltpad.contact_force(penetration, pivot(difference, *overrides))
+            look = {"color": f"C{color}", "linestyle": dash}
+            label = f"{law_text(law)}, $\\Delta R$ = {difference} µm"
+            ax.plot(PENETRATION.factor * penetration, FORCE.factor * force, label=label, **look)
+    ax.set(xlabel=PENETRATION.label, ylabel=FORCE.label, xlim=(0, 15), ylim=(0, 40))
+    fig.legend(loc="outside upper center", ncols=3)
+    return fig
+
+
+def law_text(law: str) -> str:
+    """A law's name in a picture."""
+    return law.replace("2 pi", r"2$\pi$")
+
+
+FIGURES = {"3": figure_3, "4": figure_4, "6": figure_6}

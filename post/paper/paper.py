@@ -1,0 +1,102 @@
+"""The paper, reproduced: runs all scenes, draws counterparts of its figures, checks its claims.
+
+usage: paper.py TILTPAD [--folder FOLDER] [--docs FOLDER] [--keep]
+
+Writes the pictures, checks.csv and README.md, the page, into the docs folder.
+"""
+
+import argparse
+import csv
+import subprocess
+import time
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+import laws
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+from claims import Checked, check
+from figures import FIGURES
+from page import machine, page
+from runs import Runs, run_all
+from settings import FOLDERS, ROOT
+from studies import REUSED, STUDIES
+from tiltpad.plots import STYLE
+
+#: Pictures by their file's name, with the folder of their runs.
+PICTURES: dict[str, tuple[Callable, str]] = {
+    f"fig{name}": (draw, "paper") for name, draw in (laws.FIGURES | FIGURES).items()
+} | {name: (draw, "paper" if name in REUSED else "studies") for name, draw in STUDIES.items()}
+
+
+def arguments() -> argparse.Namespace:
+    """What the command line says."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("program", type=lambda word: Path(word).resolve())
+    parser.add_argument("--folder", type=Path, default=Path("build/paper"), help="for the result files")
+    parser.add_argument("--docs", type=Path, default=ROOT / "docs/paper", help="where page and pictures go")
+    parser.add_argument(
+        "--keep", action="store_true", help="take the result files that are there, run nothing"
+    )
+    return parser.parse_args()
+
+
+def draw(name: str, folder: Path, docs: Path) -> None:
+    """One picture."""
+    mpl.use("agg")
+    picture, runs = PICTURES[name]
+    with plt.style.context(STYLE), Runs(folder / runs) as found:
+        fig = picture(found)
+        fig.savefig(docs / f"{name}.png", dpi=200)
+        plt.close(fig)
+
+
+def write_checks(checked: list[Checked], path: Path) -> None:
+    """The check table, a row a claim."""
+    with path.open("w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(
+            ["where", "claim", "measured", "number", "sense", "limit", "holds", "refined", "rule_26"]
+        )
+        for each in checked:
+            claim, verdict = each.claim, each.verdict
+            numbers = (
+                f"{verdict.value:.6g}",
+                verdict.sense,
+                f"{verdict.limit:g}",
+                "pass" if verdict.holds else "fail",
+            )
+            others = (f"{other.value:.6g}" for other in (each.refined, each.rule))
+            writer.writerow([claim.where, claim.statement, claim.measure, *numbers, *others])
+
+
+def main() -> None:
+    options = arguments()
+    started = time.monotonic()
+    options.docs.mkdir(parents=True, exist_ok=True)
+    if not options.keep:
+        jobs = [(scene, options.folder / name) for name, scenes in FOLDERS.items() for scene in scenes]
+        run_all(options.program, jobs)
+        print(f"{len(jobs)} runs: {time.monotonic() - started:.0f} s", flush=True)
+    with ProcessPoolExecutor() as pool:
+        drawn = [pool.submit(draw, name, options.folder, options.docs) for name in PICTURES]
+        paper, refined, rule, studied = (Runs(options.folder / name) for name in FOLDERS)
+        checked = check(paper, refined, rule)
+        for each in drawn:
+            each.result()
+    write_checks(checked, options.docs / "checks.csv")
+    version = subprocess.run(
+        [options.program, "--version"], text=True, capture_output=True, check=True
+    ).stdout.strip()
+    spent = None if options.keep else time.monotonic() - started
+    text = page(checked, paper, studied, machine(version, spent))
+    (options.docs / "README.md").write_text(text)
+    failed = [each for each in checked if not each.verdict.holds]
+    for each in failed:
+        print(f"does not hold: {each.claim.where}: {each.claim.statement}")
+    print(f"{len(checked)} claims, {len(failed)} do not hold; {time.monotonic() - started:.0f} s")
+
+
+if __name__ == "__main__":
+    main()

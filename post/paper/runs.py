@@ -1,0 +1,59 @@
+"""Runs of the program, side by side on the cores present, and their result files."""
+
+import os
+import subprocess
+from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import tiltpad
+from settings import ROOT, Scene
+
+#: Seconds after which a run is killed.
+LIMIT = 120
+#: The longest runs come first, so that no core idles at the end.
+SLOWEST = ("runup_ba", "runup_lugre5", "runup_lugre", "lugre100", "ba_slow", "four_pads")
+
+
+class Runs:
+    """Results by the scene's name, each opened when it is first asked for."""
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+        self.opened: dict[str, tiltpad.Run] = {}
+
+    def __getitem__(self, name: str) -> tiltpad.Run:
+        if name not in self.opened:
+            self.opened[name] = tiltpad.read(self.folder / f"{name}.h5")
+        return self.opened[name]
+
+    def __enter__(self) -> "Runs":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for run in self.opened.values():
+            run.close()
+
+
+def run_all(program: Path, jobs: Iterable[tuple[Scene, Path]], cores: int | None = None) -> None:
+    """Runs scenes, each into its folder and a process of its own, as many at once as there are cores; raises
+    RuntimeError for one that fails.
+    """
+    queue = sorted(
+        jobs, key=lambda job: SLOWEST.index(job[0].name) if job[0].name in SLOWEST else len(SLOWEST)
+    )
+    for folder in {folder for _, folder in queue}:
+        folder.mkdir(parents=True, exist_ok=True)
+    with ThreadPoolExecutor(cores or os.cpu_count()) as pool:
+        list(pool.map(lambda job: run(program, *job), queue))
+
+
+def run(program: Path, scene: Scene, folder: Path) -> Path:
+    """One run; its result file."""
+    path = folder / f"{scene.name}.h5"
+    options = [word for each in scene.overrides for word in ("--set", each)]
+    command = [program, ROOT / scene.case, "--quiet", "--output", path, *options]
+    done = subprocess.run(command, text=True, capture_output=True, timeout=LIMIT)
+    if done.returncode:
+        raise RuntimeError(f"{scene.name}: {done.stderr.strip()}")
+    return path

@@ -1,0 +1,272 @@
+"""Beyond the paper: friction work, stick maps, contact laws, rule of the unbalance; pictures and tables."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import tiltpad
+from figures import legend, named, orbit, panels
+from laws import law_text, laws4
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from measures import height, of_pad, peak_to_peak, size
+from runs import Runs
+from settings import (
+    GRADE,
+    GRADES,
+    LAST,
+    LAW_DIFFERENCES,
+    LAWS,
+    MAP_COEFFICIENTS,
+    MAP_SPEEDS,
+    MODELS,
+    PAD,
+    PAIRS,
+    RULE_SPEEDS,
+    RUNUPS,
+    law_name,
+    map_name,
+)
+from tables import digits, table
+from tiltpad.layout import PAGE
+from tiltpad.units import SHOWN
+
+RPM = SHOWN["speed"].label
+
+
+# ---- friction work ---------------------------------------------------------------------------------------
+def work_figure(runs: Runs) -> Figure:
+    """Friction work per revolution and mean power of each pad over the speed of the run-ups."""
+    fig, axes = plt.subplots(1, 2, figsize=(PAGE, 2.6))
+    lines = []
+    for color, (model, name) in enumerate(RUNUPS.items()):
+        run = runs[name]
+        speed, duration, work = work_by_revolution(run)
+        for pad, dashes in ((0, "-"), (1, "--")):
+            look = {"color": f"C{color}", "linestyle": dashes}
+            lines.append((f"{named(model)}, pad {pad + 1}", run, look))
+            axes[0].plot(speed, SHOWN["work"].factor * work[:, pad], **look)
+            axes[1].plot(speed, work[:, pad] / duration, **look)
+    axes[0].set(ylabel=f"friction work per revolution ({SHOWN['work'].unit})")
+    axes[1].set(ylabel="mean friction power (W)")
+    for ax in axes:
+        ax.set(xlabel=RPM, xlim=(speed[0], speed[-1]))
+    return legend(fig, lines, 3)
+
+
+def work_by_revolution(run: tiltpad.Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Mean speed, rpm, duration, s, and friction work of each pad, J, (revolution, pad), of every
+    revolution.
+    """
+    turns, tilt, moment = tiltpad.revolutions(run), run.pad_tilt, run.friction_moment
+    pieces = 0.5 * (moment[1:] + moment[:-1]) * np.diff(tilt, axis=0)
+    done = np.vstack([np.zeros(run.pads), np.cumsum(pieces, axis=0)])
+    whole = np.arange(np.floor(turns[-1]) + 1)
+    duration = np.diff(np.interp(whole, turns, run.time))
+    work = np.column_stack([np.diff(np.interp(whole, turns, each)) for each in done.T])
+    return 60 / duration, duration, work
+
+
+def work_table(runs: Runs) -> str:
+    """Work per revolution and mean power over each pivot of the steady runs."""
+    rows = []
+    for model, names in MODELS.items():
+        for pair, name in zip(PAIRS, names, strict=True):
+            run = runs[name]
+            pads = range(1, run.pads + 1)
+            work = [digits(1e3 * tiltpad.friction_work(run, pad, LAST)) for pad in pads]
+            power = [digits(tiltpad.friction_power(run, pad, LAST)) for pad in pads]
+            share = [f"{100 * tiltpad.stick_fraction(run, pad, LAST):.0f}" for pad in pads]
+            rows.append((model, pair, *work, *power, *share))
+    head = (
+        "model",
+        "f_s/f_d",
+        "work, pad 1, mJ",
+        "pad 2",
+        "power, pad 1, W",
+        "pad 2",
+        "stick, pad 1, %",
+        "pad 2",
+    )
+    return table(head, rows)
+
+
+# ---- stick map -------------------------------------------------------------------------------------------
+def map_figure(runs: Runs) -> Figure:
+    """Stick fraction and friction power over speed and friction coefficient."""
+    fig, axes = plt.subplots(1, 2, figsize=(PAGE, 2.9))
+    power = sum(
+        map_values(runs, lambda run, pad=pad: tiltpad.friction_power(run, pad, LAST)) for pad in (1, 2)
+    )
+    draw_map(axes[0], 100 * stick_map(runs), f"time in which pad {PAD} sticks (%)", np.arange(0, 101, 10))
+    draw_map(axes[1], power, "friction power, both pads (W)", 10)
+    return fig
+
+
+def map_values(runs: Runs, measure) -> np.ndarray:
+    """A number of every run of the map, (coefficient, speed)."""
+    return np.array([[measure(runs[map_name(speed, f)]) for speed in MAP_SPEEDS] for f in MAP_COEFFICIENTS])
+
+
+def stick_map(runs: Runs) -> np.ndarray:
+    """Stick fraction of the first pad, (coefficient, speed)."""
+    return map_values(runs, lambda run: tiltpad.stick_fraction(run, PAD, LAST))
+
+
+def draw_map(ax: Axes, values: np.ndarray, label: str, levels: int | np.ndarray) -> None:
+    """Filled contours, with the runs as points."""
+    shades = ax.contourf(MAP_SPEEDS, MAP_COEFFICIENTS, values, levels=levels, cmap="viridis")
+    ax.plot(
+        *(each.ravel() for each in np.meshgrid(MAP_SPEEDS, MAP_COEFFICIENTS)),
+        ".",
+        color="white",
+        markersize=1.5,
+        clip_on=False,
+    )
+    ax.figure.colorbar(shades, ax=ax, label=label)
+    ax.set(xlabel=RPM, ylabel=r"static friction coefficient $f_s$")
+    ax.grid(visible=False)
+
+
+def map_table(runs: Runs) -> str:
+    """Stick fraction, %."""
+    rows = [
+        (f"{f:g}", *(f"{100 * share:.0f}" for share in shares))
+        for f, shares in zip(MAP_COEFFICIENTS, stick_map(runs), strict=True)
+    ]
+    return table(("f_s", *(f"{speed} rpm" for speed in MAP_SPEEDS)), rows)
+
+
+def map_words(runs: Runs) -> str:
+    """Up to which speed the pad sticks all the time."""
+    parts = []
+    for f, shares in zip(MAP_COEFFICIENTS, stick_map(runs), strict=True):
+        # the first speed at which it slides
+        first = int(np.argmax(shares < 1)) if np.any(shares < 1) else len(shares)
+        if first:
+            parts.append(f"{MAP_SPEEDS[first - 1]} rpm (f_s = {f:g})")
+    return f"Of these speeds it sticks all the time up to {', '.join(parts)}." if parts else ""
+
+
+# ---- contact laws ----------------------------------------------------------------------------------------
+def laws_figure(runs: Runs) -> Figure:
+    """Fig. 10 by other contact laws: without friction above, with it below."""
+    fig, axes = panels(2)
+    dashes = ("-", "--")
+    lines = []
+    for row, friction in enumerate((False, True)):
+        for color, law in enumerate(LAWS):
+            for difference, dash in zip(LAW_DIFFERENCES, dashes, strict=True):
+                run = runs[law_name(law, difference, friction)]
+                look = {"color": f"C{color}", "linestyle": dash}
+                lines.append((f"{law_text(law)}, $\\Delta R$ = {difference} µm", run, look))
+                orbit(run, axes[row][0], **look)
+                for ax, name in zip(axes[row][1:], ("pad_tilt", "pad_tilt_rate"), strict=True):
+                    tiltpad.plots.waveform(run, ax, name, 1, PAD, **look)
+        axes[row][1].set_title("Bengisu-Akay, $f$ = 0.1" if friction else "frictionless")
+    return legend(fig, lines[: len(lines) // 2], 3)
+
+
+def laws_table(runs: Runs) -> str:
+    """What the laws change in Fig. 10."""
+    rows = []
+    for friction in (False, True):
+        for law in LAWS:
+            for difference in LAW_DIFFERENCES:
+                run = runs[law_name(law, difference, friction)]
+                part = tiltpad.last_revolutions(run, LAST)
+                penetration = of_pad(run, "pad_penetration", part).mean()
+                numbers = (
+                    1e6 * penetration,
+                    1e6 * height(run),
+                    1e6 * size(run),
+                    1e3 * peak_to_peak(run, "pad_tilt"),
+                )
+                words = law, difference, "0.1" if friction else "none"
+                rows.append((*words, *map(digits, numbers), digits(1e3 * peak_to_peak(run, "pad_tilt_rate"))))
+    head = ("law", "dR, um", "friction", "mean penetration, um", "mean journal y, um", "orbit size, um",
+            "tilt, mrad", "tilt rate, mrad/s")  # fmt: skip
+    return table(head, rows)
+
+
+# ---- unbalance rule --------------------------------------------------------------------------------------
+def rule_figure(runs: Runs) -> Figure:
+    """Orbit size over the balance grade, and over the speed by the speed that rule (26) takes."""
+    fig, axes = plt.subplots(1, 2, figsize=(PAGE, 2.6))
+    for color, (model, words) in enumerate((("none", "frictionless"), ("lugre", "LuGre 0.1/0.05"))):
+        sizes = [1e6 * size(runs[f"rule_{model}_grade_{grade:g}"]) for grade in GRADES]
+        axes[0].plot(GRADES, sizes, "o-", color=f"C{color}", markersize=3, label=words)
+        for kind, dash, which in (("own", "-", "own speed"), ("highest", "--", "6500 rpm")):
+            sizes = rule_sizes(runs, model, kind)
+            axes[1].plot(
+                RULE_SPEEDS,
+                1e6 * sizes,
+                "o",
+                linestyle=dash,
+                color=f"C{color}",
+                markersize=3,
+                label=f"{words}, {which}",
+            )
+    table_1 = equivalent_grade(runs["rule_none_grade_1"])
+    axes[0].axvline(table_1, color="0.4", linestyle=":", linewidth=0.8, label="Table 1")
+    axes[0].set(
+        xlabel="balance grade G (mm/s), at 6500 rpm", ylabel="orbit size (µm)", ylim=(0, None), xlim=(0, None)
+    )
+    axes[1].set(xlabel=RPM, ylabel="orbit size (µm)", ylim=(0, None))
+    for ax in axes:
+        ax.legend()
+    return fig
+
+
+def rule_sizes(runs: Runs, model: str, kind: str) -> np.ndarray:
+    """Size of the orbit at RULE_SPEEDS, m; model: none or lugre; kind: rule (26) takes its own or the
+    highest speed.
+    """
+    return np.array([size(runs[f"rule_{model}_{kind}_{speed:g}"]) for speed in RULE_SPEEDS])
+
+
+def rule_table(runs: Runs) -> str:
+    """Size of the orbit over the speed, um, and what friction makes of it."""
+    sizes = {
+        (kind, model): rule_sizes(runs, model, kind)
+        for kind in ("own", "highest")
+        for model in ("none", "lugre")
+    }
+    rows = [
+        (
+            speed,
+            *(digits(1e6 * each[i]) for each in sizes.values()),
+            digits(sizes["own", "lugre"][i] / sizes["own", "none"][i]),
+        )
+        for i, speed in enumerate(RULE_SPEEDS)
+    ]
+    head = ("speed, rpm", "its own: frictionless, um", "LuGre 0.1/0.05, um", "6500 rpm: frictionless, um",
+            "LuGre 0.1/0.05, um", "its own: LuGre over frictionless")  # fmt: skip
+    return table(head, rows)
+
+
+def rule_words(runs: Runs) -> str:
+    """Where friction enlarges the orbit and where it does not, and where the orbits are largest."""
+    none, lugre = (rule_sizes(runs, model, "own") for model in ("none", "lugre"))
+    smaller = [speed for speed, ratio in zip(RULE_SPEEDS, lugre / none, strict=True) if ratio < 1]
+    if not smaller:
+        return "Friction enlarges the orbit at all these speeds."
+    peaks = [RULE_SPEEDS[int(np.argmax(each))] for each in (none, lugre)]
+    return (
+        f"The orbit is largest at {peaks[0]} rpm without friction and at {peaks[1]} rpm with it. Friction "
+        f"makes it smaller up to {max(smaller)} rpm and larger above: the paper's statement that friction "
+        "enlarges the orbit is one about its speed of 6500 rpm."
+    )
+
+
+def ruled_unbalance(run: tiltpad.Run) -> float:
+    """Unbalance that rule (26) gives for the paper's grade at the speed of a run, kg m."""
+    return 1e-6 * 9549 * GRADE * run.input["rotor"]["mass"] / run.input["operation"]["speed_rpm"]
+
+
+def equivalent_grade(run: tiltpad.Run) -> float:
+    """Grade for which rule (26) gives the unbalance of Table 1 at the speed of a run, mm/s."""
+    return GRADE * run.input["rotor"]["unbalance"] / ruled_unbalance(run)
+
+
+#: Pictures of this module; those of REUSED take the runs of the figures.
+STUDIES = {"work": work_figure, "map": map_figure, "laws4": laws4, "laws": laws_figure, "rule": rule_figure}
+REUSED = ("work", "laws4")
