@@ -1,4 +1,4 @@
-"""Writes docs/gallery.md and its pictures: every plot of tiltpad-plot, each by the one command below it (make docs).
+"""Writes docs/gallery.md and its pictures: every plot of tiltpad-plot with the one command that makes it.
 
 usage: gallery.py TILTPAD FOLDER-FOR-RUNS
 """
@@ -42,7 +42,7 @@ PICTURES = (
     ("runup", "runup", "", "from 1500 to 6500 rpm"),
     ("orders", "runup", "", "amplitude and phase over speed"),
     ("waterfall", "runup", "", "all orders over speed"),
-#    ("pressure", "lugre", "--time 1.9", "the film of the loaded pads"),
+    ("pressure", "lugre", "--time 1.9", "the film of the loaded pads"),
 )
 
 
