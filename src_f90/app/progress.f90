@@ -14,19 +14,21 @@ module progress
 
    type :: progress_type
       logical :: quiet = .true., terminal = .false., shown = .false.
-      real(wp) :: duration = 0, started = 0, last = 0
+      real(wp) :: from = 0, duration = 0, started = 0, last = 0
    contains
       procedure :: report
+      procedure :: note
       procedure :: clear
    end type progress_type
 
 contains
 
-   !> Starts the clock of a march of so many simulated seconds.
-   function new_progress(duration, quiet) result(progress)
-      real(wp), intent(in) :: duration
+   !> Starts the clock of a march from one simulated time to another, s.
+   function new_progress(from, duration, quiet) result(progress)
+      real(wp), intent(in) :: from, duration
       logical, intent(in) :: quiet
       type(progress_type) :: progress
+      progress%from = from
       progress%duration = duration
       progress%quiet = quiet
       progress%terminal = is_terminal()
@@ -34,20 +36,19 @@ contains
       progress%last = progress%started
    end function new_progress
 
-   !> Shows the time reached and the steps done, if it is time to.
-   subroutine report(self, t, steps)
+   !> Shows the time reached and the steps done, if it is time to. `now` is the wall clock, s.
+   subroutine report(self, t, steps, now)
       class(progress_type), intent(inout) :: self
-      real(wp), intent(in) :: t
+      real(wp), intent(in) :: t, now
       integer(i8), intent(in) :: steps
-      real(wp) :: now
       character(len=:), allocatable :: line
       if (self%quiet) return
-      now = wall_clock()
       if (now - self%last < merge(terminal_pause, log_pause, self%terminal)) return
       self%last = now
       line = 't = '//to_text(t)//' s of '//to_text(self%duration)//' s, '//to_text(int(100*t/self%duration)) &
          & //' %, '//to_text(steps)//' steps'
-      if (t > 0) line = line//', '//to_text(ceiling((now - self%started)*(self%duration/t - 1)))//' s left'
+      if (t > self%from) line = line//', '//to_text(ceiling((now - self%started)*(self%duration - t)/(t - self%from))) &
+         & //' s left'
       if (self%terminal) then
          write (output_unit, '(a)', advance='no') achar(13)//line//achar(27)//'[K'
       else
@@ -56,6 +57,15 @@ contains
       flush (output_unit)
       self%shown = .true.
    end subroutine report
+
+   !> A line for the log; a terminal has its progress line.
+   subroutine note(self, text)
+      class(progress_type), intent(in) :: self
+      character(len=*), intent(in) :: text
+      if (self%quiet .or. self%terminal) return
+      write (output_unit, '(a)') text
+      flush (output_unit)
+   end subroutine note
 
    !> Takes the renewing line away.
    subroutine clear(self)

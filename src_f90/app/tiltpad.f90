@@ -9,6 +9,8 @@ program tiltpad
    use input_reference, only: reference_text
    use posix, only: real_path, write_output, keep_file_size_quiet
    use build_info, only: program_version, program_commit
+   use restart, only: restart_type, read_restart
+   use signals, only: catch_signals
    use run_case, only: run_scene
    implicit none (type, external)
 
@@ -38,15 +40,17 @@ contains
    subroutine command(error)
       type(error_type), allocatable, intent(out) :: error
       type(scene_type) :: scene
-      character(len=:), allocatable :: word, value, case_file, output, stem
+      character(len=:), allocatable :: word, value, case_file, output, resumed, stem
       character(len=longest), allocatable :: overrides(:)
-      logical :: check, quiet
+      type(restart_type) :: found
+      logical :: check, quiet, exists
       integer :: i
 
       check = .false.
       quiet = .false.
       case_file = ''
       output = ''
+      resumed = ''
       allocate (overrides(0))
       i = 0
       do while (i < command_argument_count())
@@ -66,7 +70,7 @@ contains
             check = .true.
          case ('--quiet', '-q')
             quiet = .true.
-         case ('--output', '-o', '--set')
+         case ('--output', '-o', '--resume', '--set')
             if (i == command_argument_count()) then
                call raise(error, input_error, word//': a value must follow; see tiltpad --help')
                return
@@ -78,7 +82,11 @@ contains
                overrides = [character(len=longest) :: overrides, value]
             else
                if (value == '') call raise(error, input_error, word//': the file name is empty')
-               output = value
+               if (word == '--resume') then
+                  resumed = value
+               else
+                  output = value
+               end if
             end if
             if (allocated(error)) return
          case default
@@ -94,6 +102,18 @@ contains
             if (allocated(error)) return
          end select
       end do
+      if (resumed /= '' .and. output /= '') then
+         call raise(error, input_error, '--resume goes on with its file; --output cannot name another')
+         return
+      end if
+      call catch_signals()
+      if (resumed /= '' .and. case_file == '') then
+         if (size(overrides) > 0) call raise(error, input_error, '--set changes the case; a resumed run keeps its own')
+         if (.not. allocated(error)) call read_restart(resumed, found, error)
+         if (.not. allocated(error) .and. check) call put(scene_text(found%scene), error)
+         if (.not. allocated(error) .and. .not. check) call run_scene(found%scene, resumed, .true., quiet, error)
+         return
+      end if
       if (case_file == '') then
          call raise(error, input_error, 'no case given; usage: tiltpad [options] CASE.nml, see tiltpad --help')
          return
@@ -105,7 +125,9 @@ contains
          call put(scene_text(scene), error)
          return
       end if
-      if (output == '') then
+      if (resumed /= '') then
+         output = resumed
+      else if (output == '') then
          stem = case_file(index(case_file, '/', back=.true.) + 1:)
          if (index(stem, '.', back=.true.) > 1) stem = stem(:index(stem, '.', back=.true.) - 1)
          output = stem//'.h5'
@@ -114,7 +136,7 @@ contains
          call raise(error, input_error, output//': the result would replace the case; name another with --output')
          return
       end if
-      call run_scene(scene, output, quiet, error)
+      call run_scene(scene, output, resumed /= '', quiet, error)
    end subroutine command
 
    !> The text with a question mark for every control character, so that an error stays one line.
@@ -151,6 +173,8 @@ contains
          & 'Marches the tilting pad journal bearing of a namelist case and writes an HDF5 result file.', &
          & '', &
          & '  --output FILE           result file; default: the case''s name with .h5, in this directory', &
+         & '  --resume FILE           goes on with a run that was stopped or killed, from its last checkpoint;', &
+         & '                          with a CASE: starts it if FILE is not there', &
          & '  --set group%name=value  overrides one value of the case; may be repeated', &
          & '  --check                 reads, checks and prints the resolved case; runs nothing', &
          & '  --quiet                 prints nothing but errors', &
@@ -158,6 +182,6 @@ contains
          & '  --version, --help', &
          & '', &
          & 'Exit status: 0 done; 1 usage or input; 2 the numerics failed (what was computed is kept);', &
-         & '3 file or system.'
+         & '3 file or system; 4 stopped by a signal (SIGTERM, SIGUSR1, SIGINT) after a checkpoint.'
    end subroutine print_help
 end program tiltpad
