@@ -13,7 +13,7 @@ module hdf5_series
    public :: hdf5_series_type, chunk_samples
 
    !> Samples in a chunk.
-   integer, parameter :: chunk_samples = 1024
+   integer, parameter :: chunk_samples = 4096
 
    !> `width` values a sample: (time) or, in the order of h5py, (time, width).
    type :: hdf5_series_type
@@ -131,12 +131,14 @@ contains
       integer(hid_t) :: memory, space
       integer :: status
       type(c_ptr) :: buffer
-      allocate (values(self%width, n), source=0.0_wp)
+      allocate (values(self%width, n))
       buffer = c_loc(values)
+      if (allocated(file%failure)) values = 0
       if (allocated(file%failure) .or. n == 0) return
       call self%select(skip, n, memory, space, status)
       if (status >= 0) call h5dread_f(self%id, h5t_native_double, buffer, status, memory, space)
       call file%check(status, 'read samples')
+      if (status < 0) values = 0
       call h5sclose_f(space, status)
       call h5sclose_f(memory, status)
    end subroutine read_part
