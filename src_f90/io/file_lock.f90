@@ -103,7 +103,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: holder, first
       integer :: found, waited, patience
-      logical :: here
       self%path = path//'.lock'
       self%taken_from = ''
       waited = 0
@@ -114,18 +113,14 @@ contains
             return
          end if
          if (waited == 0) first = holder
-         if (holder == '' .and. found /= held) exit
-         here = index(holder, host_name()//' ') == 1
-         if (here .and. (found == free .or. found == unknown .and. .not. process_alive(process_of(holder)))) exit
-         patience = merge(watch_held, watch_free, found == held)
-         if (here .and. found == held .or. holder /= first .or. found == held .and. waited >= patience) then
-            call let_go(self)
+         patience = patience_with(found, holder)
+         if (found /= held .and. waited >= patience) exit
+         call let_go(self)
+         if (holder /= first .or. waited >= patience) then
             call raise(error, system_error, 'cannot write '//path//': '//described(holder)//' is writing it')
             return
          end if
-         if (waited >= patience) exit
          ! opened anew each time, as network file systems look anew only then
-         call let_go(self)
          call pause_seconds(1)
          waited = waited + 1
       end do
@@ -136,6 +131,20 @@ contains
          call raise(error, system_error, 'cannot write '//path//': no lock file beside it: '//system_reason())
       end if
    end subroutine acquire
+
+   !> Seconds to watch for a sign of life.
+   integer function patience_with(found, holder) result(patience)
+      integer, intent(in) :: found
+      character(len=*), intent(in) :: holder
+      patience = merge(watch_held, watch_free, found == held)
+      if (found /= held .and. holder == '') patience = 0
+      if (index(holder, host_name()//' ') /= 1) return
+      ! on this machine the system knows
+      if (found == unknown) then
+         if (process_alive(process_of(holder))) return
+      end if
+      patience = 0
+   end function patience_with
 
    !> Opens the lock file and tries to lock it.
    subroutine attempt(self, found, holder)
