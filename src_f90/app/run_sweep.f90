@@ -3,13 +3,13 @@ module run_sweep
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
    use kinds, only: wp
    use text, only: to_text, fixed_text
-   use errors, only: error_type, raise, system_error, stop_error
+   use errors, only: error_type, raise, system_error, stopped
    use scene, only: scene_type
    use sweep, only: sweep_type, member_tag
    use posix, only: process_id
    use processes, only: record_length, new_process, end_child, end_with_parent, open_pipe, send_record, &
       & receive_record, wait_for_record, ended, stop_process, make_folder, remove_folder
-   use signals, only: catch_signals, stop_requested, stop_signal
+   use signals, only: stop_requested, stop_signal
    use progress, only: progress_type, new_progress, wall_clock
    implicit none (type, external)
    private
@@ -47,7 +47,7 @@ module run_sweep
 
 contains
 
-   !> Reads and checks every member; the error is the first bad member's.
+   !> Reads and checks every member; the error is the first bad member's, or that a signal came.
    subroutine check_members(sweep, error)
       type(sweep_type), intent(in) :: sweep
       type(error_type), allocatable, intent(out) :: error
@@ -55,6 +55,8 @@ contains
       integer :: k
       do k = 1, sweep%members
          call sweep%scene(k, scene, error)
+         if (stop_requested()) call raise(error, stopped, 'stopped by signal '//to_text(stop_signal()) &
+            & //'; no member was started')
          if (allocated(error)) return
       end do
    end subroutine check_members
@@ -83,7 +85,7 @@ contains
    end function member_file
 
    !> Runs all members of a checked sweep into a prepared folder, `jobs` at a time. A failed member stops no other;
-   !> a signal does: then those under way are told and waited for. `failures` has one error a failed member; `error`
+   !> a noted signal does: then those under way are told and waited for. `failures` has one error a failed member; `error`
    !> says how many failed, or which signal came.
    subroutine run_members(sweep, folder, jobs, quiet, run_member, failures, error)
       type(sweep_type), intent(in) :: sweep
@@ -106,9 +108,8 @@ contains
          call raise(error, system_error, 'no pipe to be had for the members of the sweep')
          return
       end if
-      call catch_signals()
       started = wall_clock()
-      progress = new_progress(real(sweep%members, wp), quiet)
+      progress = new_progress(0.0_wp, real(sweep%members, wp), quiet)
       next = 1
       told = .false.
       do
@@ -219,7 +220,7 @@ contains
       select case (status)
       case (0)
          tally%done = tally%done + 1
-      case (stop_error)
+      case (stopped)
          tally%stopped = tally%stopped + 1
       case default
          tally%failed = tally%failed + 1
@@ -247,10 +248,10 @@ contains
          failures(n)%message = 'member '//to_text(k)//' ('//on_one_line(tag%sweep)//'): '//failures(n)%message
       end do
       if (stop_requested()) then
-         call raise(error, stop_error, 'stopped by signal '//to_text(stop_signal())//'; of ' &
+         call raise(error, stopped, 'stopped by signal '//to_text(stop_signal())//'; of ' &
             & //to_text(sweep%members)//' members '//totals(sweep, tally))
       else if (tally%stopped > 0) then
-         call raise(error, stop_error, to_text(tally%stopped)//' of '//to_text(sweep%members) &
+         call raise(error, stopped, to_text(tally%stopped)//' of '//to_text(sweep%members) &
             & //' members were stopped by a signal')
       else if (n > 0) then
          call raise(error, maxval(failures%status), to_text(n)//' of '//to_text(sweep%members)//' members failed')

@@ -11,6 +11,8 @@ program tiltpad
    use posix, only: real_path, write_output, keep_file_size_quiet
    use processes, only: processors
    use build_info, only: program_version, program_commit
+   use restart, only: restart_type, read_restart
+   use signals, only: catch_signals
    use run_case, only: run_scene
    use run_sweep, only: run_members, check_members, prepare_folder, member_file
    implicit none (type, external)
@@ -41,8 +43,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(scene_type) :: scene
       type(sweep_type) :: sweep
-      type(error_type), allocatable :: failures(:)
-      character(len=:), allocatable :: word, value, case_file, output, text
+      type(member_tag) :: tag
+      type(restart_type) :: found
+      character(len=:), allocatable :: word, value, case_file, output, resumed, text
       character(len=longest), allocatable :: overrides(:)
       logical :: check, quiet, counting
       integer :: member, jobs, i
@@ -54,6 +57,7 @@ contains
       quiet = .false.
       case_file = ''
       output = ''
+      resumed = ''
       allocate (overrides(0))
       i = 0
       do while (i < command_argument_count())
@@ -75,7 +79,7 @@ contains
             counting = .true.
          case ('--quiet', '-q')
             quiet = .true.
-         case ('--output', '-o', '--set', '--member', '--jobs')
+         case ('--output', '-o', '--resume', '--set', '--member', '--jobs')
             if (i == command_argument_count()) then
                call raise(error, input_error, word//': a value must follow; see tiltpad --help')
                return
@@ -92,7 +96,11 @@ contains
                call read_whole(word, value, jobs, error)
             case default
                if (value == '') call raise(error, input_error, word//': the file name is empty')
-               output = value
+               if (word == '--resume') then
+                  resumed = value
+               else
+                  output = value
+               end if
             end select
             if (allocated(error)) return
          case default
@@ -108,18 +116,35 @@ contains
             if (allocated(error)) return
          end select
       end do
-      if (case_file == '') then
-         call raise(error, input_error, 'no case given; usage: tiltpad [options] CASE.nml, see tiltpad --help')
+      if (resumed /= '' .and. output /= '') then
+         call raise(error, input_error, '--resume goes on with its file; --output cannot name another')
          return
       end if
       if (count([counting, jobs > 0, check .or. member > 0]) > 1) then
          call raise(error, input_error, '--count, --jobs, and --check or --member: one of them at a time')
          return
       end if
+      call catch_signals()
+      if (resumed /= '' .and. case_file == '') then
+         if (counting .or. jobs > 0 .or. member > 0) call raise(error, input_error, &
+            & '--count, --jobs and --member: are for a case with a sweep, and --resume for one run')
+         if (size(overrides) > 0) call raise(error, input_error, '--set changes the case; a resumed run keeps its own')
+         if (.not. allocated(error)) call read_restart(resumed, found, error)
+         if (.not. allocated(error) .and. check) call put(scene_text(found%scene), error)
+         if (.not. allocated(error) .and. .not. check) call run_scene(found%scene, resumed, tag, .true., quiet, error)
+         return
+      end if
+      if (case_file == '') then
+         call raise(error, input_error, 'no case given; usage: tiltpad [options] CASE.nml, see tiltpad --help')
+         return
+      end if
       call read_sweep(case_file, overrides, sweep, error)
       if (allocated(error)) return
       if (.not. sweep%given .and. (member > 0 .or. jobs > 0)) then
          call raise(error, input_error, case_file//': no group &sweep in it, which --member and --jobs are for')
+      else if (sweep%given .and. resumed /= '') then
+         call raise(error, input_error, '--resume goes on with one run; the members of '//case_file &
+            & //' go on when it is run again')
       else if (member > sweep%members) then
          call raise(error, input_error, '--member '//to_text(member)//': must be 1 to '//to_text(sweep%members) &
             & //', the members of '//case_file)
@@ -141,7 +166,9 @@ contains
          if (.not. allocated(error)) call put(text, error)
          return
       end if
-      if (output == '') then
+      if (resumed /= '') then
+         output = resumed
+      else if (output == '') then
          output = case_file(index(case_file, '/', back=.true.) + 1:)
          if (index(output, '.', back=.true.) > 1) output = output(:index(output, '.', back=.true.) - 1)
          if (.not. sweep%given) output = output//'.h5'
@@ -150,30 +177,43 @@ contains
          call raise(error, input_error, output//': the result would replace the case; name another with --output')
          return
       end if
-      if (.not. sweep%given) then
-         call run_scene(scene, output, quiet, error)
+      if (sweep%given .and. member == 0) then
+         call run_sweep_members(sweep, output, jobs, quiet, error)
          return
       end if
-      call prepare_folder(output, error)
-      if (allocated(error)) return
-      if (member > 0) then
-         call run_scene(scene, member_file(output, member, sweep%members), quiet, error)
-      else
-         if (jobs == 0) jobs = processors()
-         call run_members(sweep, output, jobs, quiet, run_member, failures, error)
-         do i = 1, size(failures)
-            call complain(failures(i))
-         end do
+      if (sweep%given) then
+         call sweep%tag(member, tag)
+         call prepare_folder(output, error)
+         output = member_file(output, member, sweep%members)
       end if
+      if (.not. allocated(error)) call run_scene(scene, output, tag, resumed /= '' .or. sweep%given, quiet, error)
    end subroutine command
 
-   !> Runs a member of a sweep without a word.
+   !> Runs all members of a sweep.
+   subroutine run_sweep_members(sweep, folder, jobs, quiet, error)
+      type(sweep_type), intent(in) :: sweep
+      character(len=*), intent(in) :: folder
+      !> At a time; 0 for as many as there are processors.
+      integer, intent(in) :: jobs
+      logical, intent(in) :: quiet
+      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: failures(:)
+      integer :: i
+      call prepare_folder(folder, error)
+      if (allocated(error)) return
+      call run_members(sweep, folder, merge(jobs, processors(), jobs > 0), quiet, run_member, failures, error)
+      do i = 1, size(failures)
+         call complain(failures(i))
+      end do
+   end subroutine run_sweep_members
+
+   !> Runs a member of a sweep, or what is left of it, without a word.
    subroutine run_member(scene, path, tag, error)
       type(scene_type), intent(in) :: scene
       character(len=*), intent(in) :: path
       type(member_tag), intent(in) :: tag
       type(error_type), allocatable, intent(out) :: error
-      call run_scene(scene, path, .true., error)
+      call run_scene(scene, path, tag, .true., .true., error)
    end subroutine run_member
 
    !> The value of an option that takes a whole number from 1.
@@ -229,6 +269,8 @@ contains
          & '', &
          & '  --output FILE           result file; default: the case''s name with .h5, in this directory', &
          & '                          (of a sweep: the folder of the results 0001.h5, ...; the case''s name)', &
+         & '  --resume FILE           goes on with a run that was stopped or killed, from its last checkpoint;', &
+         & '                          with a CASE: starts it if FILE is not there', &
          & '  --set group%name=value  overrides one value of the case; may be repeated', &
          & '  --check                 reads, checks and prints the resolved case; runs nothing', &
          & '  --jobs N                members of a sweep that run at a time; default: the processors there are', &
@@ -239,6 +281,6 @@ contains
          & '  --version, --help', &
          & '', &
          & 'Exit status: 0 done; 1 usage or input; 2 the numerics failed (what was computed is kept);', &
-         & '3 file or system; 4 stopped by a signal.'
+         & '3 file or system; 4 stopped by a signal (SIGTERM, SIGUSR1, SIGINT) after a checkpoint.'
    end subroutine print_help
 end program tiltpad

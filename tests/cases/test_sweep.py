@@ -169,16 +169,40 @@ def test_default_folder(tiltpad, tmp_path, name, folder):
     assert files(tmp_path / "work" / folder) == ["0001.h5"]
 
 
-def test_a_folder_that_is_there_keeps_what_is_not_replaced(tiltpad, case):
+def test_a_file_says_which_member_it_is(tiltpad, case):
+    folder = case(sweep("operation%speed_rpm=3000,4000", "friction%model='none','lugre'"))
+    result(tiltpad("case.nml", cwd=folder))
+    result(tiltpad("case.nml", "--member", 2, "-o", "alone", cwd=folder))
+    for path in ("case/0002.h5", "alone/0002.h5"):
+        with h5py.File(folder / path) as file:
+            assert (file.attrs["member"], file.attrs["members"]) == (2, 4)
+            assert file.attrs["sweep"] == "operation%speed_rpm = 3000\nfriction%model = 'lugre'"
+
+
+def test_a_second_call_runs_what_is_missing(tiltpad, case):
+    folder = case(sweep("operation%speed_rpm=3000,4000,5000"))
+    (folder / "case").mkdir()
+    (folder / "case/notes.txt").write_text("kept")
+    result(tiltpad("case.nml", cwd=folder))
+    before = {path.name: path.stat() for path in (folder / "case").iterdir()}
+    (folder / "case/0002.h5").unlink()
+    assert result(tiltpad("case.nml", cwd=folder))[0].startswith("3 members: 3 done, 0 failed; ")
+    for name, status in before.items():
+        now = (folder / "case" / name).stat()
+        assert (now.st_mtime_ns == status.st_mtime_ns) == (name != "0002.h5")
+    assert files(folder / "case") == ["0001.h5", "0002.h5", "0003.h5", "notes.txt"]
+
+
+def test_a_member_of_another_sweep_is_not_replaced(tiltpad, case):
     folder = case(sweep("operation%speed_rpm=3000,4000"))
-    (folder / "runs").mkdir()
-    (folder / "runs/notes.txt").write_text("kept")
-    (folder / "runs/0003.h5").write_text("kept")
-    result(tiltpad("case.nml", "-o", "runs/", cwd=folder))
-    assert files(folder / "runs") == ["0001.h5", "0002.h5", "0003.h5", "notes.txt"]
-    result(tiltpad("case.nml", "--output", "runs", "--set", "sweep%operation%speed_rpm=5000", cwd=folder))
-    assert [speed(folder / f"runs/000{k}.h5") for k in (1, 2)] == [5000, 4000]
-    assert (folder / "runs/notes.txt").read_text() == (folder / "runs/0003.h5").read_text() == "kept"
+    result(tiltpad("case.nml", cwd=folder))
+    changed = ("--set", "sweep%operation%speed_rpm=5000,4000")
+    _, errors = result(tiltpad("case.nml", *changed, cwd=folder), status=3)
+    assert errors[0].startswith(
+        "member 1 (operation%speed_rpm = 5000): case/0001.h5: is the result of another"
+    )
+    assert errors[1:] == ["1 of 2 members failed"]
+    assert [speed(folder / f"case/000{k}.h5") for k in (1, 2)] == [3000, 4000]
 
 
 def test_file_names_have_the_digits_of_the_last_member(tiltpad, case):
@@ -199,8 +223,10 @@ def test_a_failing_member_among_good_ones(tiltpad, case):
     )
     stdout, errors = result(tiltpad("case.nml", cwd=folder), status=2)
     assert re.match(r"4 members: 2 done, 2 failed; ", stdout)
-    quiet = tiltpad("--quiet", "--jobs", 1, "case.nml", cwd=folder)
-    assert result(quiet, status=2) == ("", errors)
+    quiet = tiltpad("--quiet", "--jobs", 1, "case.nml", "-o", "Case", cwd=folder)
+    assert result(quiet, status=2) == ("", [line.replace("case/", "Case/") for line in errors])
+    again, _ = result(tiltpad("case.nml", cwd=folder), status=2)
+    assert re.match(r"4 members: 2 done, 2 failed; ", again)
     assert len(errors) == 3
     for line, k, rpm in zip(errors, (2, 4), (3000, 4000), strict=False):
         start = f"member {k} (operation%speed_rpm = {rpm}, integration%max_steps = 20): "
@@ -245,7 +271,7 @@ def started(program, folder, *arguments, members=1):
     return process
 
 
-def test_a_killed_member_is_a_failed_one_and_the_others_go_on(program, case):
+def test_a_killed_member_is_a_failed_one_and_the_others_go_on(program, tiltpad, case):
     folder = case(sweep("rotor%mass=2000:2400:100", base=SLOW))
     with started(program, folder, "--jobs", "2", "case.nml", members=2) as process:
         first = min(children(process))
@@ -260,6 +286,9 @@ def test_a_killed_member_is_a_failed_one_and_the_others_go_on(program, case):
     assert total == "tiltpad: error: 1 of 5 members failed"
     done = [name for name in files(folder / "case") if re.fullmatch(r"[0-9]+\.h5", name)]
     assert done == [f"000{k}.h5" for k in range(1, 6) if k != int(found[1])]
+    stdout, _ = result(tiltpad("case.nml", cwd=folder))
+    assert stdout.startswith("5 members: 5 done, 0 failed; ")
+    assert all(speed(folder / f"case/000{k}.h5") for k in range(1, 6))
 
 
 def test_as_many_at_a_time_as_asked(program, case):
@@ -303,21 +332,50 @@ def test_a_signal_stops_the_sweep(program, case, number):
     assert found, stderr
     done, stopped, rest = (int(count or 0) for count in found.groups())
     assert done + stopped + rest == 901
+    assert stopped > 0
     assert rest > 880
     assert stdout.startswith(f"901 members: {done} done, 0 failed")
-    assert len([name for name in files(folder / "case") if re.fullmatch(r"[0-9]+\.h5", name)]) >= done
+
+
+def test_stopped_members_go_on_at_the_second_call(program, tiltpad, case):
+    folder = case(sweep("rotor%mass=2000,2100", base=SLOW))
+    whole = {}
+    for output in ("stopped", "through"):
+        if output == "stopped":
+            with started(program, folder, "--jobs", "2", "case.nml", "-o", output, members=2) as process:
+                time.sleep(0.2)
+                process.send_signal(signal.SIGTERM)
+                assert "2 stopped" in process.communicate(timeout=120)[1]
+        stdout, _ = result(tiltpad("case.nml", "-o", output, cwd=folder))
+        assert stdout.startswith("2 members: 2 done, 0 failed; ")
+        for k in (1, 2):
+            with h5py.File(folder / output / f"000{k}.h5") as file:
+                assert file.attrs["complete"] == 1
+                assert file.attrs["resumes"] == (output == "stopped")
+                whole[output, k] = file["journal_y"][:]
+    for k in (1, 2):
+        assert whole["stopped", k].shape == whole["through", k].shape
 
 
 def test_members_end_with_the_program(program, case):
     """Nobody is left behind by a program that is killed."""
-    folder = case(sweep("rotor%mass=2000:2900:1", base=SLOW))
+    folder = case(sweep("rotor%mass=2000,2100", base="&operation duration=1000 /\n"))
     with started(program, folder, "--quiet", "--jobs", "2", "case.nml", members=2) as process:
         members = children(process)
         process.kill()
-    end = time.monotonic() + 60
-    while any(os.path.exists(f"/proc/{member}") for member in members):
+    end = time.monotonic() + 20
+    while any(running(member) for member in members):
         assert time.monotonic() < end
         time.sleep(0.01)
+
+
+def running(process):
+    """False once a process has ended, whether or not anybody took note of that."""
+    try:
+        with open(f"/proc/{process}/stat") as file:
+            return file.read().rpartition(")")[2].split()[0] not in "ZX"
+    except OSError:
+        return False
 
 
 # ---- what is printed -----------------------------------------------------------------------------
@@ -451,6 +509,7 @@ LINES = {
     "bad sweep by set": (["--set", "sweep%rotor%gravity=1:2:-1"], ["--set", "sweep%rotor%gravity = 1:2:-1"]),
     "bad member by set": (["--set", "sweep%rotor%mass=1,-1"], ["--set, member 2", "rotor%mass = -1"]),
     "bad order by set": (["--set", "sweep%order='all'"], ["--set", "sweep%order = 'all'"]),
+    "resume of a sweep": (["--resume", "case.h5"], ["--resume", "case.nml"]),
     "output is the case": (["--output", "case.nml"], ["case.nml", "replace"]),
 }
 
