@@ -7,6 +7,7 @@ module run_case
    use cvode_march, only: march, march_options, sample_plan
    use spectra, only: one_sided_amplitude, full_amplitude
    use scene, only: scene_type
+   use sweep, only: member_tag
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use namelist_writer, only: scene_text
@@ -27,10 +28,11 @@ contains
 
    !> Runs a valid scene and writes its result file. On a numerics error the file holds what was computed and is
    !> marked incomplete. With `go_on` a result of the same scene that is there already is completed, from its
-   !> checkpoint.
-   subroutine run_scene(scene, path, go_on, quiet, error)
+   !> checkpoint. `tag` says which member of a sweep it is, if any.
+   subroutine run_scene(scene, path, tag, go_on, quiet, error)
       type(scene_type), intent(in) :: scene
       character(len=*), intent(in) :: path
+      type(member_tag), intent(in) :: tag
       logical, intent(in) :: go_on, quiet
       type(error_type), allocatable, intent(out) :: error
       type(recorder_type), target :: observer
@@ -64,7 +66,7 @@ contains
          call observer%file%resume(t, y, observer%earlier, error)
          if (.not. allocated(error) .and. .not. quiet) print '(a)', 'going on from t = '//to_text(t)//' s'
       else
-         call start(scene, model, observer, quiet, t, y, error)
+         call start(scene, tag, model, observer, quiet, t, y, error)
       end if
       if (allocated(error)) return
       if (scene%about%task == 'march') call march_scene(model, observer, t, y, statistics, quiet, error)
@@ -72,8 +74,9 @@ contains
    end subroutine run_scene
 
    !> Creates the file, finds the equilibrium, and starts from there.
-   subroutine start(scene, model, observer, quiet, t, y, error)
+   subroutine start(scene, tag, model, observer, quiet, t, y, error)
       type(scene_type), intent(in) :: scene
+      type(member_tag), intent(in) :: tag
       type(bearing_model), intent(in) :: model
       type(recorder_type), intent(inout) :: observer
       logical, intent(in) :: quiet
@@ -84,6 +87,7 @@ contains
       t = 0
       call observer%file%create(scene, scene_text(scene), error)
       if (allocated(error)) return
+      if (tag%number > 0) call observer%file%put_member(tag%number, tag%members, tag%sweep)
       call find_equilibrium(scene, static, error)
       if (allocated(error)) then
          call observer%file%abandon()

@@ -5,6 +5,10 @@ module namelist_text
    implicit none (type, external)
    private
    public :: namelist_type, assignment_type, token_type, parse_namelist, parse_override
+   public :: put_assignment, undoes, assignment_text, sweep_group
+
+   !> The group whose variables are those of other groups, with values for one run each: `group%name = values`.
+   character(len=*), parameter :: sweep_group = 'sweep'
 
    !> One value; `repeat*value` stands for several of them.
    type :: token_type
@@ -111,8 +115,7 @@ contains
       type(scanner) :: scan
       type(assignment_type) :: group
       type(assignment_type), allocatable :: new(:)
-      logical, allocatable :: keep(:)
-      integer :: percent, i
+      integer :: percent
       percent = index(text, '%')
       group%place = '--set '//text
       if (percent > 1) group%group = lower_case(trim(adjustl(text(:percent - 1))))
@@ -131,9 +134,22 @@ contains
          return
       end if
       new(1)%place = '--set'
-      keep = [(.not. undoes(new(1), parsed%assignments(i)), i=1, size(parsed%assignments))]
-      parsed%assignments = [pack(parsed%assignments, keep), new]
+      call put_assignment(new(1), parsed)
    end subroutine parse_override
+
+   !> Puts an assignment in place of those it replaces: behind all others, but a sweep's where the first of them stood,
+   !> as their order is that of the members.
+   subroutine put_assignment(new, parsed)
+      type(assignment_type), intent(in) :: new
+      type(namelist_type), intent(inout) :: parsed
+      logical, allocatable :: keep(:)
+      integer :: at, i
+      keep = [(.not. replaces(new, parsed%assignments(i)), i=1, size(parsed%assignments))]
+      at = size(keep) + 1
+      if (new%group == sweep_group) at = findloc([keep, .false.], .false., dim=1)
+      parsed%assignments = [pack(parsed%assignments(:at - 1), keep(:at - 1)), new, &
+         & pack(parsed%assignments(at:), keep(at:))]
+   end subroutine put_assignment
 
    !> From behind the group's name to behind its end.
    subroutine parse_group(scan, group, assignments, error)
@@ -184,7 +200,7 @@ contains
       type(scanner), intent(inout) :: scan
       type(assignment_type), intent(inout) :: new
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: found, subscript
+      character(len=:), allocatable :: found, subscript, allowed
       integer :: open, status
       found = lower_case(scan%word())
       open = index(found, '(')
@@ -201,8 +217,10 @@ contains
             if (new%subscript < 1) status = 1
          end if
       end if
+      allowed = name_characters
+      if (new%group == sweep_group) allowed = name_characters//'%'
       call scan%skip_blank('')
-      if (status /= 0 .or. len(new%name) == 0 .or. verify(new%name, name_characters) /= 0 .or. scan%peek() /= '=') then
+      if (status /= 0 .or. len(new%name) == 0 .or. verify(new%name, allowed) /= 0 .or. scan%peek() /= '=') then
          call raise(error, input_error, new%place//': '''//found//''' in group &'//new%group &
             & //': expected name = value')
          return
@@ -290,6 +308,33 @@ contains
       undoes = new%group == earlier%group .and. new%name == earlier%name &
          & .and. (new%subscript == 0 .or. new%subscript == earlier%subscript)
    end function undoes
+
+   !> The same, and nothing of the earlier one's is lost: an element does not stand for a list that starts there.
+   pure logical function replaces(new, earlier)
+      type(assignment_type), intent(in) :: new, earlier
+      replaces = undoes(new, earlier)
+      if (new%subscript == 0 .or. new%group == sweep_group) return
+      replaces = replaces .and. size(earlier%values) == 1 .and. index(earlier%values(1)%text, '*') == 0
+   end function replaces
+
+   !> "rotor%mass = -1", with at most four values.
+   pure function assignment_text(a) result(text)
+      type(assignment_type), intent(in) :: a
+      character(len=:), allocatable :: text
+      integer :: i
+      text = a%group//'%'//a%name
+      if (a%subscript > 0) text = text//'('//to_text(a%subscript)//')'
+      text = text//' = '
+      do i = 1, min(4, size(a%values))
+         if (i > 1) text = text//', '
+         if (a%values(i)%quoted) then
+            text = text//''''//a%values(i)%text//''''
+         else
+            text = text//a%values(i)%text
+         end if
+      end do
+      if (size(a%values) > 4) text = text//', ... ('//to_text(size(a%values))//' values)'
+   end function assignment_text
 
    !> The character here; empty at the end.
    pure function peek(self) result(here)
