@@ -78,7 +78,6 @@ def one_error(process, status):
     return error
 
 
-
 def lengths(file):
     datasets = [each for each in file.values() if isinstance(each, h5py.Dataset)]
     return {len(each) for each in datasets if each.name not in ("/pad", "/pivot_angle")}
