@@ -84,12 +84,16 @@ contains
       real(wp), allocatable, intent(out) :: y(:)
       type(error_type), allocatable, intent(out) :: error
       type(equilibrium_type) :: static
+      type(error_type), allocatable :: file_error
       t = 0
       call observer%file%create(scene, scene_text(scene), error)
       if (allocated(error)) return
       if (tag%number > 0) call observer%file%put_member(tag%number, tag%members, tag%sweep)
       call find_equilibrium(scene, static, error)
       if (allocated(error)) then
+         ! of a member of a sweep the file says what happened; nothing else would be a result
+         if (tag%number > 0) call observer%file%finish(t, observer%cost(march_statistics()), error%status, &
+            & error%message, file_error)
          call observer%file%abandon()
          return
       end if

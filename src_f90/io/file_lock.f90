@@ -39,6 +39,7 @@ module file_lock
       !> Shows that the holder lives; to be called often.
       procedure :: beat
       procedure :: release
+      procedure :: is_held
       procedure, private :: attempt
       procedure, private :: patience_with
       procedure, private :: write_beat
@@ -185,7 +186,7 @@ contains
       class(file_lock_type), intent(inout) :: self
       integer, intent(in) :: now
       logical :: ignored
-      if (.not. c_associated(self%stream) .or. now - self%last_beat < beat_seconds) return
+      if (.not. self%is_held() .or. now - self%last_beat < beat_seconds) return
       self%last_beat = now
       self%beats = self%beats + 1
       ignored = self%write_beat()
@@ -204,10 +205,15 @@ contains
    !> Deletes the lock file, if it is ours, and frees the lock.
    subroutine release(self)
       class(file_lock_type), intent(inout) :: self
-      if (.not. c_associated(self%stream)) return
+      if (.not. self%is_held()) return
       call delete_file(self%path)
       call let_go(self)
    end subroutine release
+
+   pure logical function is_held(self)
+      class(file_lock_type), intent(in) :: self
+      is_held = c_associated(self%stream)
+   end function is_held
 
    subroutine let_go(self)
       class(file_lock_type), intent(inout) :: self

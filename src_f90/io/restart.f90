@@ -5,6 +5,7 @@ module restart
    use scene_namelist, only: scene_from_text
    use namelist_writer, only: scene_text
    use hdf5_file, only: hdf5_type
+   use hdf5_trial, only: can_be_read
    use run_file, only: format_version
    implicit none (type, external)
    private
@@ -36,8 +37,8 @@ contains
          call raise(error, system_error, path//': no such file')
          return
       end if
-      call file%open(path, writing=.false.)
-      if (allocated(file%failure)) then
+      if (can_be_read(path)) call file%open(path, writing=.false.)
+      if (file%id < 0) then
          call raise(error, system_error, path//': no HDF5 file, or damaged')
          return
       end if

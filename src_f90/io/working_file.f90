@@ -90,6 +90,8 @@ contains
 
    subroutine release(self)
       class(working_file_type), intent(inout) :: self
+      ! without the lock they may be another's
+      if (.not. self%lock%is_held()) return
       if (.not. self%stranded) call delete_file(self%part)
       call delete_file(self%path//'.old')
       call self%lock%release()
