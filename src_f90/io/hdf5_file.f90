@@ -8,7 +8,8 @@ module hdf5_file
       & h5sclose_f, h5s_scalar_f, h5sget_simple_extent_npoints_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, &
       & h5tis_variable_str_f, h5t_string, h5t_cset_utf8_f, h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, &
       & h5aget_type_f, h5adelete_f, h5aexists_f, h5dcreate_f, h5dopen_f, h5dwrite_f, h5dread_f, h5dclose_f, &
-      & h5dget_space_f, h5lexists_f, h5ldelete_f, h5t_native_double, h5t_native_integer, h5kind_to_type, h5_integer_kind
+      & h5dget_space_f, h5dget_type_f, h5tequal_f, h5lexists_f, h5ldelete_f, h5t_native_double, h5t_native_integer, &
+      & h5kind_to_type, h5_integer_kind
    use h5ds, only: h5dsset_scale_f, h5dsattach_scale_f
    use kinds, only: wp, i8
    use posix, only: set_environment, system_reason
@@ -48,8 +49,9 @@ module hdf5_file
       procedure :: get_count
       procedure :: get_real
       procedure :: get_list
-      !> For hdf5_series: notes a failed action; describes a dataset.
+      !> For hdf5_series: notes a failed action; refuses numbers of another kind; describes a dataset.
       procedure :: check
+      procedure :: expect_type
       procedure :: describe
       procedure, private :: begin
       procedure, private :: place
@@ -370,14 +372,30 @@ contains
       if (self%has(path)) call h5dopen_f(self%id, path, dataset, status)
       call self%check(status, 'open '//path)
       if (status < 0) return
+      call self%expect_type(dataset, kind, path)
       call h5dget_space_f(dataset, space, status)
       call h5sget_simple_extent_npoints_f(space, points, status)
       if (status >= 0 .and. points /= n) status = -1
-      if (status >= 0) call h5dread_f(dataset, kind, buffer, status)
+      if (status >= 0 .and. .not. allocated(self%failure)) call h5dread_f(dataset, kind, buffer, status)
       call self%check(status, 'read '//path)
       call h5sclose_f(space, status)
       call h5dclose_f(dataset, status)
    end subroutine read_all
+
+   !> Numbers in the file are as in memory; of a damaged file HDF5 would convert what is none.
+   subroutine expect_type(self, dataset, kind, path)
+      class(hdf5_type), intent(inout) :: self
+      integer(hid_t), intent(in) :: dataset, kind
+      character(len=*), intent(in) :: path
+      integer(hid_t) :: found
+      integer :: status
+      logical :: same
+      same = .false.
+      call h5dget_type_f(dataset, found, status)
+      if (status >= 0) call h5tequal_f(found, kind, same, status)
+      if (.not. same) call self%check(-1, 'find numbers of the right kind in '//path)
+      call h5tclose_f(found, status)
+   end subroutine expect_type
 
    !> Units, long name and dimension scales of a dataset.
    subroutine describe(self, dataset, units, long_name, scales, path)
