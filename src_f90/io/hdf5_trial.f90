@@ -71,12 +71,14 @@ contains
    subroutine read_all(path)
       character(len=*), intent(in) :: path
       type(hdf5_type) :: file
-      integer :: version
+      character(len=*), parameter :: texts(*) = [character(len=7) :: 'program', 'input', 'reason', 'history']
       character(len=:), allocatable :: text
+      integer :: i
       call file%open(path, writing=.false.)
-      if (allocated(file%failure)) return
-      call file%get_flag('format_version', version)
-      call file%get_text('input', text)
+      if (file%id < 0) return
+      do i = 1, size(texts)
+         if (file%has_attribute(trim(texts(i)))) call file%get_text(trim(texts(i)), text)
+      end do
       call read_group(file, '/')
       call file%close()
    end subroutine read_all
