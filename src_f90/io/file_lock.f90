@@ -9,7 +9,8 @@ module file_lock
       & c_ptr, c_size_t
    use text, only: to_text
    use errors, only: error_type, raise, system_error
-   use posix, only: delete_file, host_name, pause_seconds, process_alive, process_id, refused_by_other, system_reason
+   use posix, only: c_fopen, c_fileno, c_fclose, c_statx, statx_shorts, delete_file, host_name, &
+      & pause_seconds, process_alive, process_id, refused_by_other, system_reason
    implicit none (type, external)
    private
    public :: file_lock_type
@@ -18,7 +19,7 @@ module file_lock
    integer, parameter :: beat_seconds = 10
    !> Linux' numbers for lockf and statx; the short in struct statx where the number of links is.
    integer(c_int), parameter :: try_lock = 2, at_empty_path = 4096, statx_links = 4
-   integer, parameter :: statx_shorts = 128, links_at = 9
+   integer, parameter :: links_at = 9
    !> Longest content of a lock file.
    integer, parameter :: longest = 300
    !> What an attempt found.
@@ -46,21 +47,6 @@ module file_lock
    end type file_lock_type
 
    interface
-      type(c_ptr) function c_fopen(path, mode) bind(c, name='fopen')
-         import :: c_ptr, c_char
-         character(kind=c_char), intent(in) :: path(*), mode(*)
-      end function c_fopen
-
-      integer(c_int) function c_fileno(stream) bind(c, name='fileno')
-         import :: c_int, c_ptr
-         type(c_ptr), value :: stream
-      end function c_fileno
-
-      integer(c_int) function c_fclose(stream) bind(c, name='fclose')
-         import :: c_int, c_ptr
-         type(c_ptr), value :: stream
-      end function c_fclose
-
       integer(c_int) function c_lockf(descriptor, command, length) bind(c, name='lockf')
          import :: c_int, c_long
          integer(c_int), value :: descriptor, command
@@ -89,12 +75,6 @@ module file_lock
          integer(c_long), value :: length
       end function c_ftruncate
 
-      integer(c_int) function c_statx(directory, path, flags, mask, buffer) bind(c, name='statx')
-         import :: c_int, c_char, c_int16_t
-         integer(c_int), value :: directory, flags, mask
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int16_t), intent(out) :: buffer(*)
-      end function c_statx
    end interface
 
 contains

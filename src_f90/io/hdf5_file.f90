@@ -12,7 +12,7 @@ module hdf5_file
       & h5kind_to_type, h5_integer_kind
    use h5ds, only: h5dsset_scale_f, h5dsattach_scale_f
    use kinds, only: wp, i8
-   use posix, only: set_environment, system_reason
+   use posix, only: set_environment, write_refusal
    implicit none (type, external)
    private
    public :: hdf5_type
@@ -457,7 +457,7 @@ contains
       character(len=*), intent(in) :: action
       character(len=:), allocatable :: reason
       if (status >= 0 .or. allocated(self%failure)) return
-      reason = system_reason()
+      reason = write_refusal()
       self%failure = 'HDF5 could not '//action
       if (reason /= '') self%failure = self%failure//': '//reason
    end subroutine check

@@ -6,6 +6,7 @@ module hdf5_trial
    use kinds, only: wp
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: hdf5_series_type
+   use posix, only: c_fopen, c_fileno
    use processes, only: new_process, end_child, ended
    implicit none (type, external)
    private
@@ -20,16 +21,6 @@ module hdf5_trial
          import :: c_int
          integer(c_int), value :: seconds
       end function c_alarm
-
-      type(c_ptr) function c_fopen(path, mode) bind(c, name='fopen')
-         import :: c_ptr, c_char
-         character(kind=c_char), intent(in) :: path(*), mode(*)
-      end function c_fopen
-
-      integer(c_int) function c_fileno(stream) bind(c, name='fileno')
-         import :: c_int, c_ptr
-         type(c_ptr), value :: stream
-      end function c_fileno
 
       integer(c_int) function c_dup2(old, new) bind(c, name='dup2')
          import :: c_int
