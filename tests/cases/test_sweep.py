@@ -534,7 +534,7 @@ def test_an_option_without_its_value(tiltpad, case):
 def test_folder_that_cannot_be(tiltpad, case):
     folder = case(sweep("rotor%mass=1000,2000"))
     (folder / "file").write_text("a file")
-    outputs = {"none/runs": "No such file", "file": "Not a directory", "file/runs": "Not a directory"}
+    outputs = {"none/runs": "no such file", "file": "not a directory", "file/runs": "not a directory"}
     if os.path.isdir("/proc/self"):
         outputs["/proc"] = ""
     outputs[300 * "x"] = "too long"
