@@ -1,5 +1,4 @@
-!> Datasets that grow along time. With hdf5_file the only file that knows HDF5. After a failure, which the file
-!> keeps, every routine does nothing.
+!> Datasets that grow along time. After a failure, which the file keeps, every routine does nothing.
 module hdf5_series
    use, intrinsic :: iso_c_binding, only: c_loc, c_ptr
    use hdf5, only: hid_t, hsize_t, size_t, h5s_unlimited_f, h5s_select_set_f, h5screate_simple_f, h5sclose_f, &
