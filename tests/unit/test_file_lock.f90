@@ -13,6 +13,7 @@ program test_file_lock
    call dead_holder()
    call holder_elsewhere()
    call living_holder_elsewhere()
+   call lost_lock()
    call no_place()
    call delete_file(path//'.lock')
    call report()
@@ -52,6 +53,7 @@ contains
       read (unit, '(a)') line
       call expect(trim(line) == host_name()//' '//to_text(int(process_id()))//' 2', 'a beat in ten seconds')
       close (unit)
+      call expect(lock%is_ours(), 'it is ours')
       call lock%release()
       call expect(.not. lock_there(), 'released it is gone')
       call lock%release()
@@ -107,6 +109,30 @@ contains
          & 'and it is told who: '//error%message)
       call expect(lock_there(), 'its lock is left alone')
    end subroutine living_holder_elsewhere
+
+   !> Who was taken for dead notices, writes no more beats and leaves the lock to its new holder.
+   subroutine lost_lock()
+      type(file_lock_type) :: lock
+      type(error_type), allocatable :: error
+      character(len=100) :: line
+      integer :: unit
+      call delete_file(path//'.lock')
+      call lock%acquire(path, error)
+      call leave_lock('another-machine 12 7')
+      call expect(.not. lock%is_ours(), 'another''s now')
+      call lock%beat(100)
+      call lock%release()
+      call expect(lock_there(), 'and left to it')
+      open (newunit=unit, file=path//'.lock', status='old', action='read')
+      read (unit, '(a)') line
+      close (unit)
+      call expect(trim(line) == 'another-machine 12 7', 'as it was')
+      call delete_file(path//'.lock')
+      call lock%acquire(path, error)
+      call delete_file(path//'.lock')
+      call expect(.not. lock%is_ours(), 'a deleted lock is nobody''s')
+      call lock%release()
+   end subroutine lost_lock
 
    subroutine no_place()
       type(file_lock_type) :: lock
