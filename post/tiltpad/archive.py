@@ -4,6 +4,7 @@ What the HDF5 library says of a damaged file becomes a RunError that names it, a
 claims are compared with its own before anything is allocated.
 """
 
+import math
 import os
 import re
 from collections.abc import Iterator, Sequence
@@ -41,7 +42,9 @@ class Archive:
     def __init__(self, path: str | os.PathLike):
         self.path = os.fspath(path)
         self.file = opened(self.path)
+        self.size = os.path.getsize(self.path)
         self.found: dict[str, h5py.Dataset | h5py.Group] = {}
+        self.listed: dict[str, list[str]] = {}
         try:
             with reading(self.path, "attributes"):
                 self.attributes: dict[str, Any] = {k: plain(value) for k, value in self.file.attrs.items()}
@@ -55,7 +58,7 @@ class Archive:
         return self.values(name)
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("_") or name in ("file", "path", "attributes", "found"):
+        if name.startswith("_") or name in ("file", "path", "attributes", "found", "listed", "size"):
             raise AttributeError(name)
         return self.attributes[name] if name in self.attributes else self.values(name)
 
@@ -63,10 +66,8 @@ class Archive:
         return [*super().__dir__(), *self.names(), *self.attributes]
 
     def __contains__(self, name: str) -> bool:
-        if name in self.found:
-            return True
-        with reading(self.path, name):
-            return name in self.file
+        group, _, own = name.rpartition("/")
+        return own in self.names(group) if not group or group in self else False
 
     def __enter__(self) -> "Archive":
         return self
@@ -79,20 +80,21 @@ class Archive:
         self.found.clear()
         self.file.close()
 
-    def names(self) -> list[str]:
-        """Names of the datasets and groups, in alphabetical order."""
-        with reading(self.path, "the list of datasets"):
-            return [plain(name) for name in self.file]
+    def names(self, group: str = "") -> list[str]:
+        """Names of the datasets and groups in the file or in a group of it, in alphabetical order."""
+        if group not in self.listed:
+            found = self.item(group) if group else self.file
+            with reading(self.path, group or "the list of datasets"):
+                self.listed[group] = [plain(name) for name in found] if isinstance(found, h5py.Group) else []
+        return self.listed[group]
 
     def values(self, name: str, part: slice | int = slice(None)) -> Any:
         """A dataset as an array, or the samples `part` of it; a group as a dictionary of arrays."""
         found = self.item(name)
         if isinstance(found, h5py.Group):
-            with reading(self.path, name):
-                members = [plain(each) for each in found]
-            return {each: self.values(f"{name}/{each}") for each in members}
+            return {each: self.values(f"{name}/{each}") for each in self.names(name)}
         with reading(self.path, name):
-            return self.sound(name, found[()] if found.ndim == 0 else found[part])
+            return self.sound(name, found[part if found.shape else ()])
 
     def item(self, name: str) -> h5py.Dataset | h5py.Group:
         """A dataset or group, its type and size checked; nothing of it is read yet."""
@@ -123,14 +125,14 @@ class Archive:
 
     def check_dataset(self, name: str, found: h5py.Dataset) -> None:
         """Raises ValueError for what is no array of numbers, or greater than the file can hold."""
-        if not isinstance(found, h5py.Dataset) or found.dtype.kind not in self.KINDS:
+        if not isinstance(found, h5py.Dataset) or (kind := found.dtype).kind not in self.KINDS:
             raise ValueError("not an array of numbers")
-        size = os.path.getsize(self.path)
-        if found.nbytes > size and found.id.get_create_plist().get_nfilters():
-            size *= COMPRESSION
-        chunk = int(np.prod(found.chunks or 0, dtype=float)) * found.dtype.itemsize
-        if max(found.nbytes, chunk) > size:
-            raise ValueError(f"it claims {max(found.nbytes, chunk):.3g} bytes, more than the file holds")
+        # chunks are allocated whole, and of deflated data more than the file holds is possible
+        claimed = kind.itemsize * max(math.prod(found.shape), math.prod(found.chunks or (0,)))
+        if claimed > self.size and (
+            claimed > COMPRESSION * self.size or not found.id.get_create_plist().get_nfilters()
+        ):
+            raise ValueError(f"it claims {claimed} bytes, more than the file holds")
 
     def sound(self, name: str, values: Any) -> Any:
         """The values that were read; ValueError where they cannot be."""

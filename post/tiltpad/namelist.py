@@ -33,7 +33,7 @@ TEXTS = ("friction%model", "pads%motion")
 
 
 def resolved(text: str) -> dict[str, dict[str, Any]]:
-    """Groups of a namelist text that a result carries; ValueError where it is none or lacks what is needed."""
+    """Groups of the namelist text of a result; ValueError where it is none or lacks what is needed."""
     groups = parse(text)
     for names, kinds in ((ONE_NUMBER, int | float), (NUMBERS, int | float | tuple), (TEXTS, str)):
         for group, _, name in (each.partition("%") for each in names):
@@ -93,9 +93,7 @@ def varied(inputs: list[dict[str, dict[str, Any]]]) -> tuple[str, list[float]] |
 
     Lengths below a millimetre are in µm, all others as in the namelist.
     """
-    values = [
-        {f"{group}%{name}": value for group in each for name, value in each[group].items()} for each in inputs
-    ]
+    values = [by_variable(each) for each in inputs]
     names = {name for each in values for name in each if len({other.get(name) for other in values}) > 1}
     names -= {"case%title", "operation%final_speed_rpm"}
     if len(names) != 1:
@@ -108,6 +106,11 @@ def varied(inputs: list[dict[str, dict[str, Any]]]) -> tuple[str, list[float]] |
     if unit == "m" and max(map(abs, found)) < 1e-3:
         unit, found = "µm", [1e6 * each for each in found]
     return f"{text} ({unit})" if unit else text, found
+
+
+def by_variable(groups: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """The same values by "group%name"."""
+    return {f"{group}%{name}": value for group in groups for name, value in groups[group].items()}
 
 
 def shared(value: Any) -> Any:
@@ -126,7 +129,7 @@ def named(name: str) -> tuple[str, str]:
 
 def flattened(groups: dict[str, dict[str, Any]]) -> dict[str, Any]:
     """Values by "group%name" as a reader would tell them: no title, one speed or a range, pads alike once."""
-    values = {f"{group}%{name}": value for group in groups for name, value in groups[group].items()}
+    values = by_variable(groups)
     values.pop("case%title", None)
     first, last = values.pop("operation%speed_rpm"), values.pop("operation%final_speed_rpm")
     angles = values["pads%pivot_angle_deg"]

@@ -6,7 +6,8 @@ Where the scene has no friction all but `sliding_velocity` raise NotInRunError.
 
 import numpy as np
 
-from tiltpad.read import NotInRunError, Run
+from tiltpad.archive import NotInRunError
+from tiltpad.read import Run
 from tiltpad.signals import last_revolutions, lasted, needs_revolutions, series, turned
 
 #: A pivot sticks below this share of the velocity over which its friction falls from static to dynamic.

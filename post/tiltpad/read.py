@@ -10,9 +10,7 @@ import h5py
 import numpy as np
 
 from tiltpad import namelist
-from tiltpad.archive import Archive, NotInRunError, RunError, damaged, fits, reading
-
-__all__ = ["IncompleteRunWarning", "NotInRunError", "Run", "RunError", "read"]
+from tiltpad.archive import Archive, RunError, damaged, fits, reading
 
 #: Datasets along which the others lie, and what they must be.
 AXES = ("time", "shaft_angle", "speed")

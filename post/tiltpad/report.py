@@ -14,8 +14,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from tiltpad import figures, plots, signals, summary
+from tiltpad.archive import NotInRunError
 from tiltpad.library import MissingLibraryError
-from tiltpad.read import NotInRunError, Run
+from tiltpad.read import Run
 from tiltpad.units import SHOWN
 
 #: Pictures and what is said of them; those that a run cannot have are left out.

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tiltpad.archive import damaged
-from tiltpad.read import NotInRunError, Run
+from tiltpad.archive import NotInRunError, damaged
+from tiltpad.read import Run
 
 #: Samples that are read at once where a whole run is gone through.
 BLOCK = 1 << 16
@@ -130,8 +130,8 @@ def poincare(
     """States once a revolution, where the shaft has turned by whole revolutions and `phase`, rad.
 
     A dictionary of arrays, (n,) or (n, pad), in SI units: "revolution" (whole revolutions since the start),
-    "time" and of `states` (all of them: journal_y to bristle_deflection) those the scene has. A periodic motion
-    is one point, one that repeats after k revolutions is k points.
+    "time" and of `states` (all of them: journal_y to bristle_deflection) those the scene has. A periodic
+    motion is one point, one that repeats after k revolutions is k points.
     """
     needs_revolutions(run, "Poincare section")
     part = last_revolutions(run, last)
