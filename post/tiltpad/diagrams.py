@@ -10,6 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 
+from tiltpad.namelist import WORDS
 from tiltpad.plots import on_axes
 from tiltpad.study import POINTS, Study
 from tiltpad.units import SHOWN, Shown
@@ -22,6 +23,8 @@ MOST_LINES = 10
 LINES_UP_TO = 6
 #: An axis is logarithmic where its values are evenly spread in ratio over at least this one.
 LOG_FROM = 9.9
+#: From so many places along the axis on points are small.
+DENSE = 60
 FAILED = {"linestyle": "", "marker": "x", "color": "0.4", "markersize": 5, "zorder": 4}
 
 
@@ -62,10 +65,12 @@ def lines(study: Study, ax: Axes, show: str, over: str, others: Sequence[str], c
         order = part[np.argsort(place[part], kind="stable")]
         whole = study.done[order]
         line = {"color": f"C{color}", "marker": "o", "markersize": 3, "label": text}
+        if not is_number(study, over):
+            line["linestyle"] = ""  # nothing lies between texts
         ax.plot(place[order], np.where(whole, shown.factor * values[order], np.nan), **line)
         mark_failed(ax, place[order][~whole], color if len(groups) > 1 else None)
     ax.set(xlabel=at.label, ylabel=shown.label)
-    explain(ax, others, failed=~study.done[chosen])
+    explain(study, ax, others, chosen)
     return ax
 
 
@@ -104,7 +109,7 @@ def field(study: Study, ax: Axes, show: str, over: str, others: Sequence[str], c
     ax.figure.colorbar(image, ax=ax, label=shown.label)
     ax.grid(visible=False)
     ax.set(xlabel=at.label, ylabel=beside.label)
-    explain(ax, (), failed=~study.done[chosen])
+    explain(study, ax, (), chosen)
     return ax
 
 
@@ -122,14 +127,21 @@ def bifurcation(
     values, shown = study[show], SHOWN[POINTS[show]]
     groups = grouped(study, others, chosen)
     too_many(groups, others)
+    size = 3 if len(distinct(study[over][chosen])) < DENSE else 1.5
     for color, (text, part) in enumerate(groups):
         points = np.where(study.done[part, None], shown.factor * values[part], np.nan)
         x = np.broadcast_to(place[part, None], points.shape)
-        dots = {"linestyle": "", "marker": ".", "markersize": 2, "markeredgewidth": 0, "color": f"C{color}"}
+        dots = {
+            "linestyle": "",
+            "marker": "o",
+            "markersize": size,
+            "markeredgewidth": 0,
+            "color": f"C{color}",
+        }
         ax.plot(x.ravel(), points.ravel(), label=text, **dots)
         mark_failed(ax, place[part][~study.done[part]], color if len(groups) > 1 else None)
     ax.set(xlabel=at.label, ylabel=f"{shown.label} once a revolution")
-    explain(ax, others, failed=~study.done[chosen])
+    explain(study, ax, others, chosen)
     return ax
 
 
@@ -198,7 +210,7 @@ def axis(study: Study, name: str, ax: Axes, which: str) -> tuple[Shown, np.ndarr
         ax.set(
             **{
                 f"{which}ticks": range(len(names)),
-                f"{which}ticklabels": [each.replace("_", " ") for each in names],
+                f"{which}ticklabels": [*map(written, names)],
             }
         )
         ax.set(**{f"{which}lim": (-0.5, len(names) - 0.5)})
@@ -238,7 +250,9 @@ def grouped(study: Study, others: Sequence[str], chosen: np.ndarray) -> list[tup
     for k in np.flatnonzero(chosen):
         if all(value == value and value != "" for value in keys[k]):
             found.setdefault(keys[k], []).append(k)
-    return [(", ".join(map(written, key)), np.array(part)) for key, part in sorted(found.items())]
+    rank = {name: distinct(study[name]) for name in others}
+    keys = sorted(found, key=lambda key: [rank[name].index(v) for name, v in zip(others, key, strict=True)])
+    return [(", ".join(map(written, key)), np.array(found[key])) for key in keys]
 
 
 def too_many(groups: Sequence[tuple[str, np.ndarray]], others: Sequence[str]) -> None:
@@ -250,7 +264,8 @@ def too_many(groups: Sequence[tuple[str, np.ndarray]], others: Sequence[str]) ->
 
 
 def written(value: Any) -> str:
-    return value.replace("_", " ") if isinstance(value, str) else f"{value:g}"
+    """A value of a parameter as a reader is told it."""
+    return WORDS.get(value, value.replace("_", " ")) if isinstance(value, str) else f"{value:g}"
 
 
 def mark_failed(ax: Axes, place: np.ndarray, color: int | None) -> None:
@@ -259,14 +274,23 @@ def mark_failed(ax: Axes, place: np.ndarray, color: int | None) -> None:
     ax.plot(place, np.full(len(place), 0.02), transform=ax.get_xaxis_transform(), **style)
 
 
-def explain(ax: Axes, others: Sequence[str], failed: np.ndarray) -> None:
-    """The legend: what the lines are, and how many members failed."""
+def explain(study: Study, ax: Axes, others: Sequence[str], chosen: np.ndarray) -> None:
+    """The legend above the axes: what the lines are, and how many members were not done."""
     handles, texts = ax.get_legend_handles_labels() if others else ([], [])
-    if failed.any():
+    if failed := int((~study.done[chosen]).sum()):
         handles = [*handles, plt.Line2D([], [], **FAILED)]
-        texts = [*texts, f"not done ({failed.sum()})"]
+        texts = [*texts, f"not done ({failed})"]
     if handles:
-        ax.legend(handles, texts, title=", ".join(name.replace("_", " ") for name in others) or None)
+        columns = max(1, 45 // (max(map(len, texts)) + 6))
+        title = ", ".join(label(study, name) for name in others)
+        place = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "ncols": columns}
+        ax.legend(handles, texts, title=title or None, **place)
+
+
+def label(study: Study, name: str) -> str:
+    """A parameter in words, with its unit."""
+    text, unit = study.about(name, "long_name") or name, study.about(name, "units")
+    return f"{text} ({unit})" if unit not in ("", "1") else text
 
 
 def edges(values: np.ndarray, scale: str) -> np.ndarray:

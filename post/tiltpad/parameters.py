@@ -83,6 +83,7 @@ def parameters(members: Sequence[dict[str, Any] | None]) -> list[Parameter]:
         if "(" in rest:
             words += f", {rest.partition('(')[2].rstrip(')')}"
         if any(isinstance(value, str) for value in values):
+            words = f"{group.removesuffix('s')} {words}"
             found.append(Parameter(name, variable, words, "", ["" if v is None else f"{v}" for v in values]))
         else:
             numbers = [number(value) for value in values]

@@ -12,11 +12,13 @@ import numpy as np
 from tiltpad import namelist
 from tiltpad.archive import Archive, RunError, damaged, fits, reading
 
-#: Datasets along which the others lie, and what they must be.
-AXES = ("time", "shaft_angle", "speed")
+#: Datasets over which the others are drawn and integrated; they must be finite.
+AXES = ("time", "shaft_angle", "speed", "pivot_angle")
 #: Dimensions of the known datasets; what a later program adds is read as it is.
 DIMENSIONS = {
-    **dict.fromkeys((*AXES, "journal_y", "journal_z", "journal_vy", "journal_vz"), ("time",)),
+    **dict.fromkeys(
+        ("time", "shaft_angle", "speed", "journal_y", "journal_z", "journal_vy", "journal_vz"), ("time",)
+    ),
     **dict.fromkeys(
         (
             *("pad_tilt", "pad_tilt_rate", "pad_penetration", "pad_penetration_rate", "bristle_deflection"),
@@ -130,6 +132,8 @@ class Run(Archive):
     def sound(self, name: str, values: Any) -> Any:
         if name in AXES and not np.isfinite(values).all():
             raise ValueError("it is not finite")
+        if np.any(np.abs(values) > namelist.LARGEST):
+            raise ValueError("values beyond all ranges")
         return values
 
     def end(self) -> str:

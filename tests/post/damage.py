@@ -1,11 +1,11 @@
-"""Flips single bits of a result or a study and uses what comes of it, each time in a process of its own.
+"""Damages a result or a study and uses what comes of it, each time in a process of its own.
 
-usage: flips.py FILE COUNT SEED
+usage: damage.py FILE COUNT SEED [PICTURE-EVERY]
 
-Prints a line for each flip that crashed, hung, left the bounds of memory, or ended otherwise than by success
-or by one line that names the file; at last how many were read, refused and faulty. The bits are flipped in
-what describes the file (most of the times) or in the samples, and what is done with the file takes turns:
-all that calculates each time, one of the pictures and pages now and then.
+Most of the damages are flipped bits, some are blocks of zeros or of noise, and files cut short; most are in
+what describes the file, some in its samples. Everything that calculates is done each time, a picture or a
+page now and then. Prints a line for each damage that crashed, hung, left the bounds of memory, or ended
+otherwise than by success or by one line that names the file; at last how many were read, refused and faulty.
 """
 
 import io
@@ -27,27 +27,32 @@ import matplotlib as mpl
 mpl.use("agg")
 
 import tiltpad  # noqa: E402
-from tiltpad import command, figures, plots, summary  # noqa: E402, F401
+from tiltpad import command, diagrams, figures, summary  # noqa: E402, F401
 
-#: Share of the flips in samples, every how many flips there is a picture, seconds and bytes for one flip.
-SAMPLES, PICTURE_EVERY, SECONDS, MEMORY = 0.15, 6, 30, 1 << 30
+#: Share of the damages in samples; of flipped bits, of blocks (the rest are files cut short); their length.
+SAMPLES, BITS, BLOCKS, LONGEST = 0.15, 0.85, 0.1, 600
+#: Every how many damages there is a picture; seconds and bytes for one damage.
+PICTURE_EVERY, SECONDS, MEMORY = 6, 60, 1 << 30
 
 
 def main() -> None:
     source, count, seed = Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3])
+    every = int(sys.argv[4]) if len(sys.argv) > 4 else PICTURE_EVERY
+    with h5py.File(source, "r") as file:
+        calculate, entries = (STUDIED, STUDY) if file.attrs["task"] == "study" else (MARCHED, RUN)
     content, inside = source.read_bytes(), sample_bytes(source)
     dice = random.Random(seed)
     outcomes = Counter()
     with tempfile.TemporaryDirectory() as folder:
         for number in range(count):
-            place = drawn(dice, content, inside)
-            bit = dice.randrange(8)
+            what, damaged = drawn(dice, content, inside)
             path = Path(folder) / f"{source.stem}.h5"
-            path.write_bytes(flipped(content, place, bit))
-            outcome, said = in_child(lambda k=number, path=path: use(path, k))
+            path.write_bytes(damaged)
+            work = [calculate, *([dice.choice(entries)] if number % every == 0 else [])]
+            outcome, said = in_child(lambda work=work, path=path: use(path, work))
             outcomes[outcome] += 1
             if outcome not in ("read", "refused"):
-                print(f"seed {seed}, flip {number} (byte {place}, bit {bit}): {outcome}: {said}")
+                print(f"seed {seed}, damage {number} ({what}): {outcome}: {said}")
     print(f"{outcomes.pop('read', 0)} read, {outcomes.pop('refused', 0)} refused, {outcomes.total()} faulty")
 
 
@@ -68,8 +73,25 @@ def sample_bytes(path: Path) -> list[tuple[int, int]]:
     return found
 
 
-def drawn(dice: random.Random, content: bytes, inside: list[tuple[int, int]]) -> int:
-    """A byte of the file: of a sample, or of what is none and is not a stretch of zeros, where nothing is."""
+def drawn(
+    dice: random.Random, content: bytes, inside: list[tuple[int, int]]
+) -> tuple[str, bytes | bytearray]:
+    """What is done to the file, and what comes of it."""
+    kind, place, changed = dice.random(), drawn_place(dice, content, inside), bytearray(content)
+    if kind < BITS:
+        bit = dice.randrange(8)
+        changed[place] ^= 1 << bit
+        return f"bit {bit} of byte {place}", changed
+    if kind < BITS + BLOCKS:
+        length = min(dice.randrange(1, LONGEST), len(content) - place)
+        changed[place : place + length] = bytes(length) if dice.random() < 0.5 else dice.randbytes(length)
+        return f"{length} bytes from {place}", changed
+    length = dice.randrange(len(content))
+    return f"cut to {length} bytes", content[:length]
+
+
+def drawn_place(dice: random.Random, content: bytes, inside: list[tuple[int, int]]) -> int:
+    """A byte of a sample, or of what is none and is not a stretch of zeros, where nothing is."""
     if dice.random() < SAMPLES:
         start, length = dice.choice(inside)
         return start + dice.randrange(length)
@@ -79,12 +101,6 @@ def drawn(dice: random.Random, content: bytes, inside: list[tuple[int, int]]) ->
             start <= byte < start + length for start, length in inside
         ):
             return byte
-
-
-def flipped(content: bytes, place: int, bit: int) -> bytes:
-    changed = bytearray(content)
-    changed[place] ^= 1 << bit
-    return bytes(changed)
 
 
 def in_child(work: Callable[[], tuple[str, str]]) -> tuple[str, str]:
@@ -108,12 +124,8 @@ def in_child(work: Callable[[], tuple[str, str]]) -> tuple[str, str]:
     return outcome or "ended", said
 
 
-def use(path: Path, number: int) -> tuple[str, str]:
-    """Does everything that calculates, and now and then draws; gives the outcome and what was said."""
-    work = [calculate]
-    if number % PICTURE_EVERY == 0:
-        kinds = sorted(ENTRIES)
-        work.append(ENTRIES[kinds[number // PICTURE_EVERY % len(kinds)]])
+def use(path: Path, work: list[Callable[[Path], None]]) -> tuple[str, str]:
+    """Does the work on a file; gives the outcome and what was said."""
     outcome, words = "read", ""
     for each in work:
         try:
@@ -146,13 +158,29 @@ def calculate(path: Path) -> None:
         tiltpad.pressure(run, float(run.values("time", -1)))
 
 
-def by_command(entry: Callable[[list[str]], int], *words: str) -> Callable[[Path], None]:
+def calculate_study(path: Path) -> None:
+    """Every array of a study and what is said of it."""
+    with tiltpad.read_study(path) as study:
+        repr(study), dir(study), study.parameters, study.done
+        for name in study.names():
+            if name != "members":
+                study[name], study.about(name, "units"), study.about(name, "long_name")
+
+
+def collected(path: Path) -> None:
+    """A folder whose one member is the file: a study, or nothing can be read."""
+    tiltpad.collect(path, path.with_name("collected.h5"))
+
+
+def by_command(
+    entry: Callable[[list[str]], int], *words: str, options: tuple[str, ...] = (), ending: str = ".png"
+) -> Callable[[Path], None]:
     """A command; what it says must be lines of its own, and its last word the reason of its status."""
 
     def run(path: Path) -> None:
         said = io.StringIO()
         with redirect_stderr(said), redirect_stdout(said):
-            status = entry([*words, str(path), "-o", str(path.with_suffix(".html" if not words else ".png"))])
+            status = entry([*words, str(path), *options, "-o", str(path.with_suffix(ending))])
         lines = said.getvalue().splitlines()
         errors = [line for line in lines if ": error: " in line]
         if any(": error: " not in line and ": warning: " not in line for line in lines):
@@ -162,13 +190,22 @@ def by_command(entry: Callable[[list[str]], int], *words: str) -> Callable[[Path
         if errors:
             raise tiltpad.RunError(errors[0].partition(": error: ")[2])
 
-    run.__name__ = " ".join(words) or "report"
+    run.__name__ = " ".join((*words, *options)) or "report"
     return run
 
 
-ENTRIES = {"report": by_command(command.report)} | {
-    plot: by_command(command.main, plot) for plot in command.PLOTS
-}
+MARCHED, STUDIED = calculate, calculate_study
+#: What is done with a result, and with a study, now and then.
+RUN = [
+    collected,
+    by_command(command.report, ending=".html"),
+    *(by_command(command.main, plot) for plot in command.PLOTS if plot != "study"),
+]
+STUDY = [
+    by_command(command.main, "study"),
+    *(by_command(command.main, "study", options=("--as", kind)) for kind in diagrams.KINDS),
+    by_command(command.main, "study", options=("--show", "wall_seconds")),
+]
 
 if __name__ == "__main__":
     main()
