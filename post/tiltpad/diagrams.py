@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from tiltpad.namelist import WORDS
 from tiltpad.plots import on_axes
-from tiltpad.study import POINTS, Study
+from tiltpad.study import POINTS, QUANTITIES, Study
 from tiltpad.units import SHOWN, Shown
 
 #: Kinds of diagrams.
@@ -187,6 +187,8 @@ def default_kind(study: Study, show: str | None, over: str, others: Sequence[str
 
 def result(study: Study, name: str) -> tuple[np.ndarray, Shown]:
     """A result, (member,), and what it is shown in."""
+    if name in QUANTITIES and name not in study:
+        raise ValueError(f"{study.path}: no {name} in this study: no member has it")
     results = [
         each
         for each in study.names()
@@ -271,7 +273,8 @@ def written(value: Any) -> str:
 def mark_failed(ax: Axes, place: np.ndarray, color: int | None) -> None:
     """Crosses at the foot of the axes."""
     style = FAILED if color is None else FAILED | {"color": f"C{color}"}
-    ax.plot(place, np.full(len(place), 0.02), transform=ax.get_xaxis_transform(), **style)
+    if len(place):
+        ax.plot(place, np.full(len(place), 0.02), transform=ax.get_xaxis_transform(), **style)
 
 
 def explain(study: Study, ax: Axes, others: Sequence[str], chosen: np.ndarray) -> None:
