@@ -13,6 +13,9 @@ from typing import Any
 
 import h5py
 import numpy as np
+from h5py import h5t
+
+from tiltpad import heaps
 
 #: Newest format_version that this reader knows, of results and of studies.
 FORMAT_VERSION = 1
@@ -47,7 +50,10 @@ class Archive:
         self.listed: dict[str, list[str]] = {}
         try:
             with reading(self.path, "attributes"):
-                self.attributes: dict[str, Any] = {k: plain(value) for k, value in self.file.attrs.items()}
+                attrs = self.file.attrs
+                self.attributes: dict[str, Any] = {
+                    name: plain(attrs[name]) for name in attrs if simple(attrs, name)
+                }
             check_origin(self.path, self.attributes)
             self.check_whole()
         except BaseException:
@@ -110,11 +116,12 @@ class Archive:
             self.found[name] = found
         return self.found[name]
 
-    def about(self, name: str, attribute: str) -> str:
+    def about(self, name: str, which: str) -> str:
         """An attribute of a dataset, `units` or `long_name`; empty where it has none."""
         found = self.item(name)
         with reading(self.path, name):
-            return f"{plain(found.attrs.get(attribute, ''))}"
+            attrs = found.attrs
+            return f"{plain(attrs[which])}" if which in attrs and simple(attrs, which) else ""
 
     def without(self, name: str) -> str:
         """What to say where a dataset is missing."""
@@ -127,6 +134,8 @@ class Archive:
         """Raises ValueError for what is no array of numbers, or greater than the file can hold."""
         if not isinstance(found, h5py.Dataset) or (kind := found.dtype).kind not in self.KINDS:
             raise ValueError("not an array of numbers")
+        if kind.kind == "O" and h5py.check_string_dtype(kind) is None:
+            raise ValueError("neither numbers nor texts")
         # chunks are allocated whole, and of deflated data more than the file holds is possible
         claimed = kind.itemsize * max(math.prod(found.shape), math.prod(found.chunks or (0,)))
         if claimed > self.size and (
@@ -158,6 +167,11 @@ def damaged(path: str, what: str, why: object) -> RunError:
     )
 
 
+def simple(attrs: h5py.AttributeManager, name: str) -> bool:
+    """True where an attribute is a text or a number; the library can crash over others that are damaged."""
+    return attrs.get_id(name).get_type().get_class() in (h5t.STRING, h5t.INTEGER, h5t.FLOAT)
+
+
 def plain(value: Any) -> Any:
     """A text in which what cannot be printed is replaced; other values as they are."""
     if isinstance(value, bytes):
@@ -181,6 +195,8 @@ def opened(path: str) -> h5py.File:
     try:
         if not h5py.is_hdf5(path):
             raise RunError(f"{path}: not an HDF5 file")
+        if heaps.endless(path):
+            raise damaged(path, "attributes", "an object without length in their heap")
         return h5py.File(path, "r")
     except OSError as error:
         told = " ".join(str(error).split())

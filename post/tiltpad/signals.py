@@ -125,12 +125,12 @@ def at_angle(angle: np.ndarray, values: np.ndarray, wanted: np.ndarray) -> np.nd
 
 
 def poincare(
-    run: Run, last: float = 50, phase: float = 0.0, states: Sequence[str] = STATES
+    run: Run, last: float = 50, phase: float = 0.0, states: Sequence[str] | None = None
 ) -> dict[str, np.ndarray]:
     """States once a revolution, where the shaft has turned by whole revolutions and `phase`, rad.
 
     A dictionary of arrays, (n,) or (n, pad), in SI units: "revolution" (whole revolutions since the start),
-    "time" and of `states` (all of them: journal_y to bristle_deflection) those the scene has. A periodic
+    "time" and of `states` (None: all, journal_y to bristle_deflection) those the scene has. A periodic
     motion is one point, one that repeats after k revolutions is k points.
     """
     needs_revolutions(run, "Poincare section")
@@ -142,7 +142,7 @@ def poincare(
     first = max(np.ceil(turns[0] - 1e-9), final + 1 - max(1, int(min(last, len(angle)))))
     whole = np.arange(first, final + 1)
     wanted = 2 * np.pi * whole + phase
-    names = ["time", *(name for name in states if name in run)]
+    names = ["time", *(name for name in states or STATES if name in run)]
     return {"revolution": whole} | {name: at_angle(angle, run.values(name, part), wanted) for name in names}
 
 

@@ -149,7 +149,7 @@ def calculate(path: Path) -> None:
     """Every array of a result, its key figures and its film."""
     with tiltpad.read(path) as run:
         repr(run), dir(run), run.input, run.clearance, run.pads
-        for name in run.file:
+        for name in run.names():
             run[name]
         summary.journal(run)
         summary.pads(run)
