@@ -4,11 +4,11 @@ The heaps hold the texts and lists of attributes, and are walked here as the lib
 checks that the objects' lengths stay inside a heap, not that they lead on.
 """
 
-import mmap
+import os
 from collections.abc import Iterator
 
 #: Of a greater file only so much is searched at its beginning and its end, where attributes are.
-SEARCHED = 1 << 24
+SEARCHED = 1 << 22
 #: A heap begins with its signature, version 1 and three zeros; then its length, 8 bytes.
 SIGNATURE = b"GCOL\x01\x00\x00\x00"
 HEAD = 16
@@ -18,24 +18,26 @@ ALIGNED, BITS = 8, 64
 
 def endless(path: str) -> bool:
     """True where the library would walk a heap of the file without end."""
-    with open(path, "rb") as stream:
-        if not stream.seek(0, 2):
-            return False
-        with mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as content:
-            return any(stands_still(content, start) for start in heaps(content))
+    size = os.path.getsize(path)
+    parts = [(0, size)] if size <= 2 * SEARCHED else [(0, SEARCHED), (size - SEARCHED, SEARCHED)]
+    with open(path, "rb", buffering=0) as stream:
+        for start, length in parts:
+            stream.seek(start)
+            content = stream.read(length)
+            if any(stands_still(content, heap) for heap in heaps(content)):
+                return True
+    return False
 
 
-def heaps(content: mmap.mmap) -> Iterator[int]:
+def heaps(content: bytes) -> Iterator[int]:
     """Where heaps begin."""
-    size = len(content)
-    parts = [(0, size)] if size <= 2 * SEARCHED else [(0, SEARCHED), (size - SEARCHED, size)]
-    for start, stop in parts:
-        while (start := content.find(SIGNATURE, start, stop)) >= 0:
-            yield start
-            start += len(SIGNATURE)
+    start = content.find(SIGNATURE)
+    while start >= 0:
+        yield start
+        start = content.find(SIGNATURE, start + len(SIGNATURE))
 
 
-def stands_still(content: mmap.mmap, start: int) -> bool:
+def stands_still(content: bytes, start: int) -> bool:
     """True where an object of the heap has no length, so that the next one is itself."""
     stop = min(len(content), start + number(content, start + len(SIGNATURE), 8))
     place = start + HEAD
@@ -50,5 +52,5 @@ def stands_still(content: mmap.mmap, start: int) -> bool:
     return False
 
 
-def number(content: mmap.mmap, place: int, length: int) -> int:
+def number(content: bytes, place: int, length: int) -> int:
     return int.from_bytes(content[place : place + length], "little")
