@@ -8,13 +8,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import damage
 import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import tiltpad
 import xarray
-from tiltpad import command
+from tiltpad import command, heaps
 
 #: Damages to a result and to a study.
 RUN, STUDY = (int(os.environ.get("TILTPAD_DAMAGES", count)) for count in (300, 100))
@@ -161,6 +162,25 @@ def test_sizes_that_the_file_cannot_hold_are_not_allocated(changed):
     path = changed("none", resize)
     with tiltpad.read(path) as run, pytest.raises(tiltpad.RunError, match="journal_y .* fits the others"):
         run["journal_y"]
+
+
+def test_what_the_library_itself_does_not_end_or_survive(small, tmp_path):
+    """A heap of attributes in which an object has no length; a text's type that is none."""
+    content, path = bytearray(small.read_bytes()), tmp_path / "a.h5"
+    endless = content.copy()
+    heap = endless.index(heaps.SIGNATURE) + heaps.HEAD
+    endless[heap : heap + 64] = bytes(64)
+    path.write_bytes(endless)
+    outcome, said = damage.in_child(lambda: damage.use(path, [damage.calculate]))
+    assert outcome == "refused", said
+    assert "an object without length in their heap" in said
+    untyped = content.copy()
+    # of its message behind the name: a list of variable length, version 1, that is a text (1)
+    kind = untyped.index(bytes([0x19, 1]), untyped.index(b"program\0"))
+    untyped[kind + 1] = 9
+    path.write_bytes(untyped)
+    outcome, said = damage.in_child(lambda: damage.use(path, [damage.calculate]))
+    assert outcome == "refused", said
 
 
 def test_a_deflated_copy_is_read(small, tmp_path):
