@@ -6,7 +6,7 @@ import sys
 import types
 
 import tiltpad
-from tiltpad import figures, plots, report, summary
+from tiltpad import diagrams, figures, plots, report, summary
 
 HEAD = """# Python package
 
@@ -18,6 +18,10 @@ Written by `make docs` from the docstrings; `help(tiltpad.orbit)` says the same.
     y, z = tiltpad.orbit(run, last=2)             # the functions below: take a run, give arrays
     ax = tiltpad.plots.orbit(run)                 # one run on one pair of axes
     fig = tiltpad.figures.orbit([run, other])     # a whole picture, as tiltpad-plot makes it
+    tiltpad.collect("folder", "study.h5")         # many runs in one file
+    study = tiltpad.read_study("study.h5")
+    study.speed_rpm, study.orbit_y                # arrays over its members
+    ax = tiltpad.diagrams.diagram(study)
 
 Names, dimensions and units of the datasets: [results.md](results.md). `(time,)`, `(pad,)`, `(time, pad)` are
 shapes of arrays; where a run does not have what is asked for, `NotInRunError` says why.
@@ -38,6 +42,8 @@ def main() -> None:
     for name, each in figures.FIGURES.items():
         print(f"- `tiltpad.figures.{name}(runs, last=None, pad=None)`: {inspect.getdoc(each)}")
     print()
+    entry("tiltpad.figures", figures.study)
+    section("tiltpad.diagrams", diagrams, [diagrams.diagram])
     section(
         "tiltpad.summary",
         summary,
@@ -69,19 +75,25 @@ def entry(prefix: str, member: type | types.FunctionType) -> None:
     if inspect.isfunction(member):
         print(f"```python\n{signature(member)}\n```\n")
     print(inspect.getdoc(member) + "\n")
-    if member is tiltpad.Run:
-        for name, each in vars(member).items():
-            if not name.startswith("_"):
-                call = signature(each) if inspect.isfunction(each) else name
-                call = call.replace("(self, ", "(").replace("(self)", "()")
-                print(f"- `run.{call}`: {inspect.getdoc(each)}")
+    if member in (tiltpad.Run, tiltpad.Study):
+        for name, each in methods(member).items():
+            call = signature(each) if inspect.isfunction(each) else name
+            call = call.replace("(self, ", "(").replace("(self)", "()")
+            print(f"- `{member.__name__.lower()}.{call}`: {inspect.getdoc(each)}")
         print()
+
+
+def methods(kind: type) -> dict[str, types.FunctionType | property]:
+    """What a class and those that it extends offer by name, the first ones first."""
+    found = {name: each for base in reversed(kind.__mro__[:-1]) for name, each in vars(base).items()}
+    internal = ("check_whole", "check_dataset", "sound", "without", "item", "KINDS")
+    return {name: each for name, each in found.items() if not name.startswith("_") and name not in internal}
 
 
 def signature(function: types.FunctionType) -> str:
     """Name and parameters with their types, without the modules that these are from."""
     return function.__name__ + re.sub(
-        r"\b(?:[a-z_]+\.)+(?=[A-Za-z])", "", str(inspect.signature(function)).replace("'Run'", "Run")
+        r"\b(?:[a-z_]+\.)+(?=[A-Za-z])", "", re.sub(r"'(Run|Study)'", r"\1", str(inspect.signature(function)))
     )
 
 

@@ -28,6 +28,21 @@ RUNS = {
     "runup": (f"{PAPER}/runup_lugre.nml", ()),
     "four_pads": ("input/examples/four_pads.nml", ()),
 }
+#: Studies: name, which is that of the folder, and the command that runs its members into it.
+STUDIES = {
+    "laws": """for law in none bengisu_akay lugre; do
+  for speed in $(seq 1500 500 9000); do
+    tiltpad input/paper/steady_lugre.nml --set friction%model="'$law'" --set operation%speed_rpm=$speed \\
+      --set operation%duration=2 --set case%title="''" --output laws/$law$speed.h5
+  done
+done""",
+    "map": """for unbalance in $(seq 0.002 0.004 0.034); do
+  for speed in $(seq 2000 750 8000); do
+    tiltpad input/paper/steady_lugre.nml --set rotor%unbalance=$unbalance --set operation%speed_rpm=$speed \\
+      --set operation%duration=0.5 --set case%title="''" --output map/$unbalance-$speed.h5
+  done
+done""",
+}
 #: Pictures: plot, runs, further options, what is seen.
 PICTURES = (
     ("orbit", "lugre bengisu frictionless", "", "friction enlarges the orbit"),
@@ -43,6 +58,9 @@ PICTURES = (
     ("orders", "runup", "", "amplitude and phase over speed"),
     ("waterfall", "runup", "", "all orders over speed"),
     ("pressure", "lugre", "--time 1.9", "the film of the loaded pads"),
+    ("study", "laws", "--show friction_work", "what friction takes, over the speed"),
+    ("study", "map", "", "two parameters as a map"),
+    ("study", "laws", "--as bifurcation --where model=lugre", "Poincare points over the speed"),
 )
 
 
@@ -57,11 +75,21 @@ def march(program: str, name: str, folder: Path) -> None:
     subprocess.run(words, check=True, cwd=DOCS.parent)
 
 
-def draw(plot: str, runs: str, options: str, folder: Path) -> str:
+def sweep(program: str, name: str, folder: Path) -> None:
+    """Runs the members of a study into their folder, and collects them."""
+    (folder / name).mkdir(exist_ok=True)
+    script = (
+        STUDIES[name].replace("tiltpad ", f"{program} --quiet ").replace("--output ", f"--output {folder}/")
+    )
+    subprocess.run(["sh", "-c", script], check=True, cwd=DOCS.parent)
+    subprocess.run([Path(sys.executable).with_name("tiltpad-collect"), name], check=True, cwd=folder)
+
+
+def draw(plot: str, runs: str, options: str, number: int, folder: Path) -> str:
     """Draws a picture; gives the section of the page that shows it."""
     files = [f"{name}.h5" for name in runs.split()]
     words = [plot, *files, *options.split()]
-    picture = DOCS / f"images/gallery_{plot}.png"
+    picture = DOCS / f"images/gallery_{plot}{number or ''}.png"
     command_line = [Path(sys.executable).with_name("tiltpad-plot"), *words, "-o", picture]
     subprocess.run(command_line, check=True, cwd=folder)
     return f"![{plot}](images/{picture.name})\n\n    tiltpad-plot {' '.join(words)}\n"
@@ -69,17 +97,25 @@ def draw(plot: str, runs: str, options: str, folder: Path) -> str:
 
 def main() -> None:
     program, folder = str(Path(sys.argv[1]).resolve()), Path(sys.argv[2])
+    folder = folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
     missing = set(command.PLOTS) - {plot for plot, *_ in PICTURES}
     if missing:
         sys.exit(f"gallery.py: no picture of {', '.join(sorted(missing))}")
     with ThreadPoolExecutor() as pool:
         list(pool.map(lambda name: march(program, name, folder), RUNS))
-        drawn = list(pool.map(lambda picture: draw(*picture[:3], folder), PICTURES))
+        list(pool.map(lambda name: sweep(program, name, folder), STUDIES))
+        # pictures of one plot are numbered from 0
+        plots = [plot for plot, *_ in PICTURES]
+        numbers = [plots[:k].count(plot) for k, plot in enumerate(plots)]
+        drawn = list(pool.map(lambda picture, k: draw(*picture[:3], k, folder), PICTURES, numbers))
     parts = [HEAD]
     for (plot, *_, seen), section in zip(PICTURES, drawn, strict=True):
         parts.append(f"## {plot}: {seen}\n\n{section}")
     shown = [f"    tiltpad {' '.join(case(name))} --output {name}.h5" for name in RUNS]
+    for name, script in STUDIES.items():
+        shown += ["", f"    mkdir {name}", *(f"    {line}" for line in script.splitlines())]
+        shown += [f"    tiltpad-collect {name}"]
     parts.append("## The runs\n\n" + "\n".join(shown) + "\n")
     (DOCS / "gallery.md").write_text("\n".join(parts))
 

@@ -14,7 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tiltpad import signals
-from tiltpad.read import NotInRunError, Run
+from tiltpad.archive import NotInRunError
+from tiltpad.read import Run
 
 try:
     from tiltpad._library import tiltpad_library as compiled
@@ -106,7 +107,7 @@ def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple
         rest = run["equilibrium"]
         still = np.zeros(run.pads)
         tilt, penetration = (rest.get(name, still) for name in ("pad_tilt", "pad_penetration"))
-        journal = np.array([rest["journal_y"], rest["journal_z"], 0, 0])
+        journal = np.array([run["equilibrium/journal_y"], run["equilibrium/journal_z"], 0, 0])
         return None, journal, (np.array([tilt, still]), np.array([penetration, still]))
     start, end = signals.ends(run, "time")
     step = run.values("time", slice(0, 2))[-1] - start

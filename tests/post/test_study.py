@@ -1,0 +1,232 @@
+"""Studies: what tiltpad-collect makes of many results, and what reads it."""
+
+import re
+import shutil
+import warnings
+
+import h5py
+import numpy as np
+import pytest
+import tiltpad
+import xarray
+from tiltpad import command, namelist, parameters
+
+SCENE = "&case title='Grid' / &operation duration=0.06 / &output samples_per_revolution=60 /"
+SPEEDS, MODELS = [4000, 5000, 6500], ["none", "lugre"]
+
+
+@pytest.fixture(scope="module")
+def folder(sweep, tmp_path_factory):
+    """Members of three speeds times two models; the fourth, 5000 rpm with LuGre, failed."""
+    values = {"operation%speed_rpm": SPEEDS, "friction%model": MODELS}
+    return sweep(tmp_path_factory.mktemp("sweeps") / "grid", SCENE, values, failed=(4,))
+
+
+@pytest.fixture
+def copy(folder, tmp_path):
+    """That folder, to be changed."""
+    return shutil.copytree(folder, tmp_path / "grid")
+
+
+@pytest.fixture
+def study(copy, tmp_path):
+    """Its study, opened."""
+    tiltpad.collect(copy, tmp_path / "grid.h5")
+    with tiltpad.read_study(tmp_path / "grid.h5") as opened:
+        yield opened
+
+
+def edited(path, edit):
+    with h5py.File(path, "r+") as file:
+        edit(file)
+
+
+def test_parameters_and_results_are_those_of_the_members(study, copy):
+    assert study.parameters == ["speed_rpm", "model"]
+    np.testing.assert_array_equal(study.member, range(1, 7))
+    np.testing.assert_array_equal(study.speed_rpm, np.repeat(SPEEDS, 2))
+    assert list(study["model"]) == MODELS * 3
+    assert (study.title, study.task, study.format_version, study.members) == ("Grid", "study", 1, 6)
+    for k in (0, 5):
+        with tiltpad.read(copy / f"{k + 1:04d}.h5") as run:
+            y, z = tiltpad.orbit_size(run)
+            assert (study.orbit_y[k], study.orbit_z[k], study.orbit_size[k]) == (y, z, max(y, z))
+            last = tiltpad.last_revolutions(run)
+            np.testing.assert_array_equal(
+                study.pad_max_pressure[k], run.values("max_pressure", last).max(axis=0)
+            )
+            assert study.min_film_thickness[k] == run.values("min_film_thickness", last).min()
+            assert study.steps[k] == run["statistics/steps"]
+            points = tiltpad.poincare(run)
+            kept = study.poincare_y[k][np.isfinite(study.poincare_y[k])]
+            np.testing.assert_array_equal(kept, points["journal_y"])
+            np.testing.assert_array_equal(study.poincare_tilt[k][-len(kept) :], points["pad_tilt"])
+    with tiltpad.read(copy / "0006.h5") as run:
+        work = [tiltpad.friction_work(run, pad) for pad in (1, 2)]
+        stuck = [tiltpad.stick_fraction(run, pad) for pad in (1, 2)]
+    np.testing.assert_allclose(study.pad_friction_work[5], work, rtol=1e-12)
+    np.testing.assert_allclose(study.pad_stick_fraction[5], stuck, rtol=1e-12)
+    assert study.friction_work[5] == pytest.approx(sum(work))
+    assert np.isnan(study.friction_work[0])
+
+
+def test_what_failed_is_nan_with_its_reason(study):
+    np.testing.assert_array_equal(study.status, [0, 0, 0, 2, 0, 0])
+    assert list(study.reason) == ["", "", "", "no equilibrium found", "", ""]
+    assert list(study.done) == [True, True, True, False, True, True]
+    for name in ("orbit_y", "max_pressure", "equilibrium_y", "poincare_y", "pad_tilt_size"):
+        bad = np.isnan(study[name]).reshape(6, -1).all(axis=1)
+        assert list(bad) == [False, False, False, True, False, False], name
+
+
+def test_an_incomplete_member_has_its_time_and_no_results(copy, tmp_path):
+    def stop(file):
+        file.attrs.update({"complete": 0, "exit_status": 4})
+        file.create_group("checkpoint")
+
+    edited(copy / "0002.h5", stop)
+    found = tiltpad.collect(copy, tmp_path / "a.h5")
+    assert (found.done, found.failed, found.incomplete) == (4, 1, 1)
+    with tiltpad.read_study(tmp_path / "a.h5") as study:
+        assert study.status[1] == 4
+        assert study.time_reached[1] == 0.06
+        assert np.isnan(study.orbit_y[1])
+
+
+def test_xarray_sees_parameters_as_coordinates(study):
+    with xarray.open_dataset(study.path, engine="h5netcdf") as data:
+        assert {"member", "speed_rpm", "model", "pad", "revolution"} == set(data.coords)
+        assert data.orbit_y.dims == ("member",)
+        assert data.poincare_tilt.dims == ("member", "revolution", "pad")
+        assert data.speed_rpm.attrs["units"] == "rpm"
+        assert data.orbit_y.attrs["units"] == "m"
+        assert data.revolution.values[-1] == 0
+        grid = data.set_index(member=["speed_rpm", "model"]).unstack()
+        assert dict(grid.orbit_y.sizes) == {"speed_rpm": 3, "model": 2}
+        assert grid.orbit_y.sel(speed_rpm=6500, model="lugre") == study.orbit_y[5]
+        assert np.isnan(grid.orbit_y.sel(speed_rpm=5000, model="lugre"))
+        assert all(
+            len(each.attrs["long_name"]) > 3 and "units" in each.attrs
+            for name, each in data.variables.items()
+            if name not in ("model", "reason", "file")
+        )
+
+
+def test_the_members_are_reached_also_after_a_move(study, tmp_path):
+    moved = tmp_path / "elsewhere"
+    moved.mkdir()
+    study.close()
+    for name in ("grid", "grid.h5"):
+        shutil.move(tmp_path / name, moved / name)
+    with h5py.File(moved / "grid.h5") as file, tiltpad.read(moved / "grid/0003.h5") as run:
+        np.testing.assert_array_equal(file["members/0003/journal_y"][()], run.journal_y)
+        assert [each.decode() for each in file["file"]] == [f"grid/{k:04d}.h5" for k in range(1, 7)]
+
+
+def test_the_members_of_a_study_elsewhere(copy, tmp_path):
+    (tmp_path / "studies").mkdir()
+    tiltpad.collect(copy, tmp_path / "studies/a.h5")
+    with h5py.File(tmp_path / "studies/a.h5") as file:
+        assert file["file"][0] == b"../grid/0001.h5"
+        assert "journal_y" in file["members/0001"]
+
+
+def test_a_damaged_and_a_missing_member(copy, tmp_path, capsys):
+    (copy / "0002.h5").write_text("nothing")
+    (copy / "0005.h5").unlink()
+    assert command.collect([str(copy), "-o", str(tmp_path / "a.h5")]) == 0
+    said = capsys.readouterr()
+    assert said.out == (
+        f"5 members: 3 done, 1 failed, 0 incomplete, 1 unreadable, 1 missing; written: {tmp_path / 'a.h5'}\n"
+    )
+    assert said.err.splitlines() == [
+        f"tiltpad-collect: warning: {copy / '0002.h5'}: not an HDF5 file",
+        f"tiltpad-collect: warning: {copy}: missing members: 5",
+    ]
+    with tiltpad.read_study(tmp_path / "a.h5") as study:
+        np.testing.assert_array_equal(study.member, [1, 2, 3, 4, 6])
+        assert np.isnan([study.status[1], study.speed_rpm[1], study.orbit_y[1]]).all()
+        assert study["model"][1] == ""
+        assert "not an HDF5 file" in study.reason[1]
+        assert study.missing == "5"
+
+
+def test_two_studies_are_not_mixed(copy, sweep, tmp_path, capsys):
+    other = sweep(tmp_path / "other", SCENE, {"rotor%unbalance": [0.01, 0.02]})
+    assert command.collect([str(copy), str(other), "-o", str(tmp_path / "a.h5")]) == 1
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "not of one study: one of 6 over operation%speed_rpm, friction%model, and one of 2 over" in said
+    assert not (tmp_path / "a.h5").exists()
+    edited(copy / "0006.h5", lambda file: file.attrs.update({"member": 1}))
+    with pytest.raises(ValueError, match="both are member 1"):
+        tiltpad.collect(copy, tmp_path / "a.h5")
+
+
+def test_the_output(copy, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert command.collect(["grid"]) == 0
+    assert "6 members: 5 done, 1 failed, 0 incomplete; written: grid.h5\n" in capsys.readouterr().out
+    assert command.collect(["grid"]) == 0
+    assert (
+        command.collect(["grid", "-o", "grid/all.h5"]) == command.collect(["grid", "-o", "grid/all.h5"]) == 0
+    )
+    capsys.readouterr()
+    for arguments, status, message in (
+        (["grid", "-o", "grid/0001.h5"], 1, "grid/0001.h5: it is there and no study"),
+        (["grid", "-o", "a.nc"], 1, "a.nc: the name must end in .h5"),
+        (["grid", "-o", "no/a.h5"], 3, "no/a.h5: cannot be written"),
+        (["grid/0001.h5"], 1, "give its output"),
+        (["nowhere", "-o", "a.h5"], 3, "nowhere: none of 1 files can be read"),
+        ([str(copy.parent / "empty"), "-o", "a.h5"], 3, "empty: no result files"),
+    ):
+        (tmp_path / "empty").mkdir(exist_ok=True)
+        assert command.collect(arguments) == status, arguments
+        said = capsys.readouterr().err.splitlines()
+        assert message in said[-1]
+        assert said[-1].startswith("tiltpad-collect: error: ")
+    assert not list(tmp_path.glob("**/*.part*"))
+
+
+def test_runs_that_are_no_members(result, tmp_path):
+    """Their parameters are what differs in their inputs."""
+    output = tmp_path / "runs.h5"
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        tiltpad.collect([result(scene) for scene in ("none", "lugre", "tilting", "runup")], output)
+    with tiltpad.read_study(output) as study:
+        names = ["speed_rpm", "duration", "motion", "model"]
+        assert sorted(study.parameters) == sorted(names)
+        assert list(study["model"]) == ["none", "lugre", "lugre", "lugre"]
+        assert list(study.motion) == ["tilting_radial", "tilting_radial", "tilting_only", "tilting_radial"]
+        assert list(study.member) == [1, 2, 3, 4]
+    tiltpad.collect([result("lugre"), result("four"), result("equilibrium")], output)
+    with tiltpad.read_study(output) as study:
+        assert list(study.pads) == [2, 4, 2]
+        assert np.isnan(study.pad_max_pressure[0, 2:]).all()
+        assert np.isfinite(study.pad_max_pressure[1]).all()
+        assert np.isnan(study.orbit_y[2])
+        assert study.equilibrium_y[2] == study.equilibrium_y[0]
+
+
+def test_names_of_parameters():
+    texts = [
+        f"pads%arc_deg(1) = 6{k}\nrotor%mass = {k}\npads%mass = 1\nfriction%model = 'no ''{k}'''"
+        for k in (1, 2)
+    ]
+    found = parameters.parameters([*map(parameters.swept, texts), None])
+    assert [each.name for each in found] == ["arc_deg_1", "rotor_mass", "pads_mass", "model"]
+    assert [each.units for each in found] == ["deg", "kg", "kg", ""]
+    assert [each.long_name for each in found] == ["arc, 1", "mass (rotor)", "mass (pads)", "friction model"]
+    assert found[3].values == ["no '1'", "no '2'", ""]
+    np.testing.assert_array_equal(found[0].values, [61, 62, np.nan])
+
+
+def test_units_are_those_of_the_input_reference(tiltpad):
+    """Every number of the input has the unit that the program says."""
+    said = re.findall(r"^\| `(\w+)` \| ([^|]*) \| ([^|]*) \|", tiltpad("--reference").stdout, re.MULTILINE)
+    assert len(said) > 40
+    for name, default, unit in said:
+        if not default.startswith("`"):
+            unit = {"1": ""}.get(unit.strip(), unit.strip()).replace("^2", "²")
+            assert namelist.named(name)[1] == unit, name
