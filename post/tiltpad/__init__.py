@@ -12,6 +12,8 @@ are loaded when first used.
 from importlib import import_module
 from typing import Any
 
+from tiltpad.archive import NotInRunError, RunError
+from tiltpad.collect import Collected, MemberWarning, collect
 from tiltpad.errors import deviations
 from tiltpad.library import (
     Contact,
@@ -37,7 +39,7 @@ from tiltpad.pivots import (
     stick_velocity,
     sticking,
 )
-from tiltpad.read import IncompleteRunWarning, NotInRunError, Run, RunError, read
+from tiltpad.read import IncompleteRunWarning, Run, read
 from tiltpad.signals import (
     envelope,
     last_revolutions,
@@ -48,17 +50,22 @@ from tiltpad.signals import (
     waveform,
 )
 from tiltpad.spectra import full, full_spectrum, one_sided, order_track, spectrum, waterfall
+from tiltpad.study import Study, read_study
 
 __all__ = [
+    "Collected",
     "Contact",
     "IncompleteRunWarning",
     "LibraryError",
+    "MemberWarning",
     "MissingLibraryError",
     "NotInRunError",
     "Pressure",
     "Run",
     "RunError",
+    "Study",
     "bristle_rate",
+    "collect",
     "contact",
     "contact_force",
     "contact_pressure",
@@ -80,6 +87,7 @@ __all__ = [
     "poincare",
     "pressure",
     "read",
+    "read_study",
     "revolutions",
     "sliding_velocity",
     "spectrum",
@@ -93,6 +101,6 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    if name in ("figures", "plots"):
+    if name in ("diagrams", "figures", "plots"):
         return import_module(f"tiltpad.{name}")
     raise AttributeError(f"module 'tiltpad' has no attribute {name!r}")

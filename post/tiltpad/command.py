@@ -1,4 +1,4 @@
-"""The commands tiltpad-plot and tiltpad-report."""
+"""The commands tiltpad-plot, tiltpad-report and tiltpad-collect."""
 
 import argparse
 import sys
@@ -8,10 +8,18 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import Any
 
+from tiltpad.archive import NotInRunError, RunError
+from tiltpad.collect import MemberWarning
+from tiltpad.collect import collect as collected
 from tiltpad.library import LibraryError, MissingLibraryError
-from tiltpad.read import IncompleteRunWarning, NotInRunError, RunError, read
+from tiltpad.read import IncompleteRunWarning, read
+from tiltpad.study import read_study
 
 FORMATS = ("png", "pdf", "svg")
+#: Plots of files that are no results of runs.
+STUDY = "study"
+#: Options of one plot alone.
+OWN_OPTIONS = {"time": "pressure", "show": STUDY, "over": STUDY, "kind": STUDY, "where": STUDY}
 #: Exit status, as the program's own.
 INPUT_ERROR, FILE_ERROR = 1, 3
 
@@ -29,6 +37,7 @@ PLOTS = {
     "orders": "amplitude and phase of the first orders over the speed of a run-up (with --pad: its tilt too)",
     "waterfall": "amplitudes over speed and order of a run-up (journal, or with --pad its tilt)",
     "pressure": "film pressure over the unrolled pads at one instant (--time; else at the equilibrium)",
+    "study": "results over parameters, of a file by tiltpad-collect (--show, --over, --as, --where)",
 }
 
 
@@ -53,12 +62,20 @@ def report(arguments: Sequence[str] | None = None) -> int:
     return finished("tiltpad-report", output, lambda: write_report(options.file, output))
 
 
-def finished(command: str, output: Path, work: Callable[[], None]) -> int:
+def collect(arguments: Sequence[str] | None = None) -> int:
+    """tiltpad-collect: writes the study of many runs; gives the exit status."""
+    options = collect_parser().parse_args(arguments)
+    target = options.output or "the study"
+    return finished("tiltpad-collect", target, lambda: print(collected(options.paths, options.output)))
+
+
+def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
     """Does the work and gives the exit status; errors and warnings are a line each."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            warnings.simplefilter("always", IncompleteRunWarning)
+            for category in (IncompleteRunWarning, MemberWarning):
+                warnings.simplefilter("always", category)
             warnings.showwarning = lambda message, *_: print(
                 f"{command}: warning: {message}", file=sys.stderr
             )
@@ -83,9 +100,14 @@ def finished(command: str, output: Path, work: Callable[[], None]) -> int:
 def draw(options: argparse.Namespace, output: Path) -> None:
     """Reads the runs, draws them and writes the picture."""
     form = needs_suffix(output, FORMATS)
-    if options.time is not None and options.plot != "pressure":
-        raise ValueError(f"--time: for the plot pressure, not for {options.plot}")
+    for name, plot in OWN_OPTIONS.items():
+        if getattr(options, name) is not None and options.plot != plot:
+            option = {"kind": "as"}.get(name, name)
+            raise ValueError(f"--{option}: for the plot {plot}, not for {options.plot}")
     mpl = matplotlib_for_files()
+    if options.plot == STUDY:
+        draw_study(options, output, form)
+        return
     from tiltpad import figures, plots
 
     with ExitStack() as stack:
@@ -97,6 +119,18 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **when)
         stack.callback(plots.plt.close, figure)
         figure.savefig(output, format=form)
+
+
+def draw_study(options: argparse.Namespace, output: Path, form: str) -> None:
+    """Reads a study, draws it and writes the picture."""
+    from tiltpad import figures, plots
+
+    if len(options.files) > 1:
+        raise ValueError("study: one file; tiltpad-collect puts several into one")
+    with read_study(options.files[0]) as study, plots.plt.style.context(plots.STYLE):
+        figure = figures.study(study, options.show, options.over, options.kind, dict(options.where or ()))
+        figure.savefig(output, format=form)
+        plots.plt.close(figure)
 
 
 def write_report(path: str, output: Path) -> None:
@@ -143,6 +177,18 @@ def report_parser() -> Parser:
     return parser
 
 
+def collect_parser() -> Parser:
+    parser = Parser(
+        prog="tiltpad-collect",
+        description="Puts the results of many runs, such as the members of a sweep, into one file: their "
+        "parameters, orbits, films, friction, Poincare points, cost, and links to the runs.",
+        epilog="exit status: 0 done; 1 usage, or members of two studies; 3 a file cannot be read or written",
+    )
+    parser.add_argument("paths", nargs="+", metavar="FOLDER|FILE", help="folder of results, or result files")
+    parser.add_argument("-o", "--output", metavar="STUDY", help="default: the folder's name with .h5, here")
+    return parser
+
+
 def plot_parser() -> Parser:
     plots = "\n".join(f"  {name:<12}{meaning}" for name, meaning in PLOTS.items())
     parser = Parser(
@@ -163,7 +209,27 @@ def plot_parser() -> Parser:
     parser.add_argument("--last", type=positive, metavar="N", help="shaft revolutions at the end of the run")
     parser.add_argument("--pad", type=int, metavar="K", help="this pad only (1, 2, ...)")
     parser.add_argument("--time", type=float, metavar="T", help="of the pressure: the sample next to T, s")
+    study = parser.add_argument_group("of a study")
+    study.add_argument(
+        "--show", metavar="RESULT", help="what is drawn (orbit_size, max_pressure, steps, ...)"
+    )
+    study.add_argument("--over", metavar="PARAMETER", help="along the axis (speed_rpm, ...)")
+    study.add_argument("--as", dest="kind", choices=("lines", "map", "bifurcation"))
+    study.add_argument(
+        "--where",
+        action="append",
+        type=assignment,
+        metavar="PARAMETER=VALUE",
+        help="only the members with this value; repeatable",
+    )
     return parser
+
+
+def assignment(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not (name and equals and value):
+        raise argparse.ArgumentTypeError(f"{text}: must be PARAMETER=VALUE")
+    return name.strip(), value.strip()
 
 
 def positive(text: str) -> float:

@@ -5,7 +5,8 @@ This is the error that docs/benchmarks.md and docs/verification.md quote.
 
 import numpy as np
 
-from tiltpad.read import Run, RunError
+from tiltpad.archive import RunError
+from tiltpad.read import Run
 from tiltpad.signals import last_revolutions
 
 #: Journal orbit, pad tilts and friction moments.

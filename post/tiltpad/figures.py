@@ -4,14 +4,14 @@ Every function takes the runs, the number of revolutions at the end (None: its o
 (None: all of them), and returns the figure.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
-from tiltpad import namelist, pivots, plots, signals
+from tiltpad import diagrams, namelist, pivots, plots, signals
 from tiltpad.layout import (
     COLUMN,
     PAGE,
@@ -31,6 +31,7 @@ from tiltpad.layout import (
     width,
 )
 from tiltpad.read import Run
+from tiltpad.study import Study
 from tiltpad.units import SHOWN
 
 
@@ -275,6 +276,21 @@ def size(runs: Sequence[Run], last: float | None = None, pad: int | None = None)
         ax.set(xlabel=SHOWN["size"].label)
         fig.set_figheight(1.2 + 0.4 * len(runs))
     heading(fig, [("$y$", {"color": "C0"}), ("$z$", {"color": "C1"})], "")
+    return fig
+
+
+def study(
+    study: Study,
+    show: str | None = None,
+    over: str | None = None,
+    kind: str | None = None,
+    where: Mapping[str, str] | None = None,
+) -> Figure:
+    """A diagram of a study; what is left open follows from its parameters, see tiltpad.diagrams.diagram."""
+    fig = plt.figure(figsize=(COLUMN, 2.6))
+    diagrams.diagram(study, fig.subplots(), show, over, kind, where)
+    kept = ", ".join(f"{name} = {value}" for name, value in (where or {}).items())
+    fig.suptitle(plain(", ".join(text for text in (study.title, kept) if text), width(fig)))
     return fig
 
 

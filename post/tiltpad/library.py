@@ -14,7 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tiltpad import signals
-from tiltpad.read import NotInRunError, Run
+from tiltpad.archive import NotInRunError
+from tiltpad.read import Run
 
 try:
     from tiltpad._library import tiltpad_library as compiled

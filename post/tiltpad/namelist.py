@@ -5,14 +5,48 @@ from typing import Any
 
 ASSIGNMENT = re.compile(r"^&(?P<group>\w+)|^\s+(?P<name>\w+) = (?P<value>.*)$", re.MULTILINE)
 
+#: No variable's range goes further.
+LARGEST = 1e30
+
 WORDS = {"none": "no friction", "bengisu_akay": "Bengisu-Akay", "lugre": "LuGre"}
+#: Units by the variable's name; what has none is a pure number. Names that end in _rpm or _deg say theirs.
 UNITS = {
-    **{"duration": "s", "mass": "kg", "unbalance": "kg m", "gravity": "m/s²", "viscosity": "Pa s"},
+    **{"mass": "kg", "unbalance": "kg m", "inertia": "kg m²", "characteristic_load": "N", "static_load": "N"},
+    **{"balance_grade": "mm/s", "gravity": "m/s²", "viscosity": "Pa s"},
+    **dict.fromkeys(("duration", "start_time", "max_step"), "s"),
+    **dict.fromkeys(("supply_pressure", "ambient_pressure", "cavitation_pressure", "young_modulus"), "Pa"),
     **dict.fromkeys(("radius_difference", "socket_radius", "journal_radius", "axial_length"), "m"),
     **dict.fromkeys(("machined_clearance", "assembled_clearance", "pivot_distance"), "m"),
+    **dict.fromkeys(("centre_tangential", "centre_radial"), "m"),
     **dict.fromkeys(("critical_velocity", "stribeck_velocity"), "m/s"),
     **{"decay": "s/m", "bristle_stiffness": "1/m", "bristle_damping": "s/m", "viscous_coefficient": "s/m"},
 }
+#: What the package takes from the input: one number each, one or several, texts.
+ONE_NUMBER = (
+    *("operation%speed_rpm", "operation%final_speed_rpm", "operation%duration"),
+    *("bearing%journal_radius", "bearing%machined_clearance", "bearing%assembled_clearance"),
+    *("pivot%socket_radius", "pivot%radius_difference"),
+    *("friction%stribeck_velocity", "friction%decay", "friction%critical_velocity"),
+)
+NUMBERS = ("pads%pivot_angle_deg", "pads%arc_deg", "pads%pivot_ratio")
+TEXTS = ("friction%model", "pads%motion")
+
+
+def resolved(text: str) -> dict[str, dict[str, Any]]:
+    """Groups of the namelist text of a result; ValueError where it is none or lacks what is needed."""
+    groups = parse(text)
+    for names, kinds in ((ONE_NUMBER, int | float), (NUMBERS, int | float | tuple), (TEXTS, str)):
+        for group, _, name in (each.partition("%") for each in names):
+            value = groups.get(group, {}).get(name)
+            if not isinstance(value, kinds):
+                raise ValueError(f"{group}%{name} is {'missing' if value is None else value}")
+    if len({count(groups["pads"][name.split("%")[1]]) for name in NUMBERS}) > 1:
+        raise ValueError("the pads' values are not equally many")
+    return groups
+
+
+def count(value: Any) -> int:
+    return len(value) if isinstance(value, tuple) else 1
 
 
 def parse(text: str) -> dict[str, dict[str, Any]]:
@@ -38,7 +72,10 @@ def value_of(text: str) -> str | int | float | tuple[int | float, ...]:
 
 
 def number_of(word: str) -> int | float:
-    return float(word) if re.search(r"[.eE]", word) else int(word)
+    number = float(word) if re.search(r"[.eE]", word) else int(word)
+    if abs(number) > LARGEST:
+        raise ValueError(f"{word.strip()} is beyond all ranges")
+    return number
 
 
 def differences(inputs: list[dict[str, dict[str, Any]]]) -> list[str]:
@@ -56,9 +93,7 @@ def varied(inputs: list[dict[str, dict[str, Any]]]) -> tuple[str, list[float]] |
 
     Lengths below a millimetre are in µm, all others as in the namelist.
     """
-    values = [
-        {f"{group}%{name}": value for group in each for name, value in each[group].items()} for each in inputs
-    ]
+    values = [by_variable(each) for each in inputs]
     names = {name for each in values for name in each if len({other.get(name) for other in values}) > 1}
     names -= {"case%title", "operation%final_speed_rpm"}
     if len(names) != 1:
@@ -71,6 +106,11 @@ def varied(inputs: list[dict[str, dict[str, Any]]]) -> tuple[str, list[float]] |
     if unit == "m" and max(map(abs, found)) < 1e-3:
         unit, found = "µm", [1e6 * each for each in found]
     return f"{text} ({unit})" if unit else text, found
+
+
+def by_variable(groups: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """The same values by "group%name"."""
+    return {f"{group}%{name}": value for group in groups for name, value in groups[group].items()}
 
 
 def shared(value: Any) -> Any:
@@ -89,7 +129,7 @@ def named(name: str) -> tuple[str, str]:
 
 def flattened(groups: dict[str, dict[str, Any]]) -> dict[str, Any]:
     """Values by "group%name" as a reader would tell them: no title, one speed or a range, pads alike once."""
-    values = {f"{group}%{name}": value for group in groups for name, value in groups[group].items()}
+    values = by_variable(groups)
     values.pop("case%title", None)
     first, last = values.pop("operation%speed_rpm"), values.pop("operation%final_speed_rpm")
     angles = values["pads%pivot_angle_deg"]

@@ -6,8 +6,9 @@ Where the scene has no friction all but `sliding_velocity` raise NotInRunError.
 
 import numpy as np
 
-from tiltpad.read import NotInRunError, Run
-from tiltpad.signals import ends, last_revolutions, needs_revolutions, series, turned
+from tiltpad.archive import NotInRunError
+from tiltpad.read import Run
+from tiltpad.signals import last_revolutions, lasted, needs_revolutions, series, turned
 
 #: A pivot sticks below this share of the velocity over which its friction falls from static to dynamic.
 STICKING = 0.05
@@ -58,8 +59,7 @@ def friction_work(run: Run, pad: int = 1, last: float = 1) -> float:
 
 def friction_power(run: Run, pad: int = 1, last: float = 1) -> float:
     """Mean power that friction in a pad's pivot takes out over the last revolutions, W."""
-    duration = np.ptp(ends(run, "time", last_revolutions(run, last)))
-    return path_integral(*hysteresis(run, pad, last)) / float(duration)
+    return path_integral(*hysteresis(run, pad, last)) / lasted(run, last_revolutions(run, last))
 
 
 def sliding_velocity(run: Run, pad: int = 1, last: float = 1) -> np.ndarray:
@@ -134,5 +134,5 @@ def slow_intervals(time: np.ndarray, velocity: np.ndarray, limit: float) -> np.n
 
 def stick_fraction(run: Run, pad: int = 1, last: float = 1, below: float | None = None) -> float:
     """Share of the time of the last revolutions in which a pivot sticks; `below` as in sticking."""
-    duration = np.ptp(ends(run, "time", last_revolutions(run, last)))
+    duration = lasted(run, last_revolutions(run, last))
     return float(np.diff(stick_intervals(run, pad, last, below)).sum() / duration)

@@ -10,17 +10,37 @@ import h5py
 import numpy as np
 
 from tiltpad import namelist
+from tiltpad.archive import Archive, RunError, damaged, fits, reading
 
-#: Newest format_version that this reader knows.
-FORMAT_VERSION = 1
-
-
-class RunError(Exception):
-    """The file is missing, or is no result of tiltpad that can be read."""
-
-
-class NotInRunError(RunError, AttributeError):
-    """The run has no such dataset; the message says why."""
+#: Datasets along which the others lie, and what they must be.
+AXES = ("time", "shaft_angle", "speed")
+#: Dimensions of the known datasets; what a later program adds is read as it is.
+DIMENSIONS = {
+    **dict.fromkeys((*AXES, "journal_y", "journal_z", "journal_vy", "journal_vz"), ("time",)),
+    **dict.fromkeys(
+        (
+            *("pad_tilt", "pad_tilt_rate", "pad_penetration", "pad_penetration_rate", "bristle_deflection"),
+            *("contact_force", "friction_moment", "film_force_tangential", "film_force_radial"),
+            *("min_film_thickness", "max_pressure"),
+        ),
+        ("time", "pad"),
+    ),
+    **dict.fromkeys(("pad", "pivot_angle"), ("pad",)),
+    **dict.fromkeys(("equilibrium/journal_y", "equilibrium/journal_z", "equilibrium/residual"), ()),
+    **dict.fromkeys(
+        (
+            *("equilibrium/pad_tilt", "equilibrium/pad_penetration", "equilibrium/contact_force"),
+            *("equilibrium/min_film_thickness", "equilibrium/max_pressure"),
+        ),
+        ("pad",),
+    ),
+    **dict.fromkeys(
+        ("spectrum/frequency", "spectrum/order", "spectrum/journal_y", "spectrum/journal_z"),
+        ("spectrum/frequency",),
+    ),
+    "spectrum/pad_tilt": ("pad", "spectrum/frequency"),
+    **dict.fromkeys(("spectrum/full_frequency", "spectrum/journal_full"), ("spectrum/full_frequency",)),
+}
 
 
 class IncompleteRunWarning(UserWarning):
@@ -32,7 +52,7 @@ def read(path: str | os.PathLike) -> "Run":
     return Run(path)
 
 
-class Run:
+class Run(Archive):
     """One result file, open for reading; nothing is loaded before it is asked for.
 
     What is in the file goes by its name:
@@ -46,57 +66,15 @@ class Run:
     """
 
     def __init__(self, path: str | os.PathLike):
-        self.path = os.fspath(path)
-        self.file = opened(self.path)
-        try:
-            self.attributes: dict[str, Any] = dict(self.file.attrs)
-            check(self.path, self.attributes)
-        except BaseException:
-            self.file.close()
-            raise
-        if not self.attributes.get("complete", 0):
+        super().__init__(path)
+        if not self.attributes["complete"]:
             warnings.warn(f"{self.path}: incomplete run{self.end()}", IncompleteRunWarning, stacklevel=3)
-
-    def __getitem__(self, name: str) -> Any:
-        return self.values(name)
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_") or name in ("file", "path", "attributes"):
-            raise AttributeError(name)
-        return self.attributes[name] if name in self.attributes else self.values(name)
-
-    def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *self.file, *self.attributes]
-
-    def __contains__(self, name: str) -> bool:
-        return name in self.file
 
     def __enter__(self) -> "Run":
         return self
 
-    def __exit__(self, *_: object) -> None:
-        self.close()
-
     def __repr__(self) -> str:
-        return f"<tiltpad run {self.path!r}: {self.title or self.task}, {', '.join(self.file)}>"
-
-    def close(self) -> None:
-        """Closes the file; `with tiltpad.read(path) as run:` does it at its end."""
-        self.file.close()
-
-    def values(self, name: str, part: slice | int = slice(None)) -> Any:
-        """A dataset as an array, or the samples `part` of it; a group as a dictionary of arrays."""
-        if name not in self.file:
-            group = name.split("/")[0]
-            missing = name if group in self.file else group
-            raise NotInRunError(f"{self.path}: no {missing} in this run: {self.why_not(missing)}")
-        found = self.file[name]
-        try:
-            if isinstance(found, h5py.Group):
-                return {key: item[()] for key, item in found.items()}
-            return found[()] if found.ndim == 0 else found[part]
-        except OSError as error:
-            raise RunError(f"{self.path}: {name} cannot be read, the file is damaged ({error})") from error
+        return f"<tiltpad run {self.path!r}: {self.title or self.task}, {', '.join(self.names())}>"
 
     def first(self, name: str, value: float) -> int:
         """Index of the first sample at or above a value in a rising dataset; reads only a few of them."""
@@ -104,12 +82,13 @@ class Run:
 
     def dimensions(self, name: str) -> int:
         """Number of dimensions of a dataset: 1 (time,), 2 (time, pad)."""
-        return np.ndim(self.values(name, slice(0, 1)))
+        return self.item(name).ndim
 
     @cached_property
     def input(self) -> dict[str, dict[str, Any]]:
         """The resolved namelist: {"bearing": {"assembled_clearance": 8e-5, ...}, ...}."""
-        return namelist.parse(self.attributes["input"])
+        with reading(self.path, "attribute 'input'"):
+            return namelist.resolved(self.attributes["input"])
 
     @property
     def clearance(self) -> float:
@@ -119,19 +98,50 @@ class Run:
     @property
     def pads(self) -> int:
         """Number of pads."""
-        return len(self.file["pad"])
+        return namelist.count(self.input["pads"]["pivot_angle_deg"])
 
     @property
     def samples(self) -> int:
         """Number of samples in time; 0 where nothing was marched."""
-        return len(self.file["time"]) if "time" in self.file else 0
+        return self.length("time") if "time" in self else 0
+
+    def length(self, name: str) -> int:
+        """Number of values along a dimension, by the name of its scale."""
+        return self.item(name).shape[0]
+
+    def check_whole(self) -> None:
+        """Refuses a study, and a file whose input has another number of pads than its datasets."""
+        if self.attributes["task"] == "study":
+            raise RunError(f"{self.path}: a study, not the result of one run: see tiltpad.read_study")
+        if "complete" not in self.attributes:
+            raise damaged(self.path, "attribute 'complete'", "it is missing")
+        if "pad" in self and (there := self.length("pad")) != self.pads:
+            raise damaged(self.path, "pad", f"{there} pads, and {self.pads} in the input")
+
+    def check_dataset(self, name: str, found: h5py.Dataset) -> None:
+        super().check_dataset(name, found)
+        dimensions = DIMENSIONS.get(name)
+        if dimensions == (name,):
+            fits(found.shape[1:], ())
+            found.shape[0]  # a scalar has none
+        elif dimensions is not None:
+            fits(found.shape, [self.length(each) for each in dimensions])
+
+    def sound(self, name: str, values: Any) -> Any:
+        if name in AXES and not np.isfinite(values).all():
+            raise ValueError("it is not finite")
+        return values
 
     def end(self) -> str:
         """Where an incomplete run ended, as the end of a sentence."""
         if not self.samples:
             return " without samples in time"
         duration = self.input["operation"]["duration"]
-        return f", ended at {self.file['time'][-1]:g} s of {duration:g} s"
+        return f", ended at {self.values('time', -1):g} s of {duration:g} s"
+
+    def without(self, name: str) -> str:
+        """What to say where a dataset is missing."""
+        return f"{self.path}: no {name} in this run: {self.why_not(name)}"
 
     def why_not(self, name: str) -> str:
         """Why the run has no such dataset."""
@@ -149,32 +159,4 @@ class Run:
             return "the speed changes"
         if name == "spectrum":
             return "less than one revolution was sampled, or the run is incomplete"
-        return f"there are {', '.join(self.file)}"
-
-
-def opened(path: str) -> h5py.File:
-    """The HDF5 file of that name."""
-    if not os.path.exists(path):
-        raise RunError(f"{path}: no such file")
-    if os.path.isdir(path):
-        raise RunError(f"{path}: is a folder, not a result file")
-    if not os.access(path, os.R_OK):
-        raise RunError(f"{path}: no permission to read it")
-    if not h5py.is_hdf5(path):
-        raise RunError(f"{path}: not an HDF5 file")
-    try:
-        return h5py.File(path, "r")
-    except OSError as error:
-        raise RunError(f"{path}: cannot be opened, damaged or still being written ({error})") from error
-
-
-def check(path: str, attributes: dict[str, Any]) -> None:
-    """Refuses files of other programs, and of a later format."""
-    if attributes.get("program") != "tiltpad" or "input" not in attributes:
-        raise RunError(f"{path}: not a result of tiltpad (attribute 'program' is not 'tiltpad')")
-    version = int(attributes.get("format_version", 0))
-    if version > FORMAT_VERSION:
-        raise RunError(
-            f"{path}: format_version {version} is newer than {FORMAT_VERSION}, the newest this reader knows; "
-            "update the Python package tiltpad"
-        )
+        return f"there are {', '.join(self.names())}"

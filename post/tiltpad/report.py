@@ -14,8 +14,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from tiltpad import figures, plots, signals, summary
+from tiltpad.archive import NotInRunError
 from tiltpad.library import MissingLibraryError
-from tiltpad.read import NotInRunError, Run
+from tiltpad.read import Run
 from tiltpad.units import SHOWN
 
 #: Pictures and what is said of them; those that a run cannot have are left out.
@@ -150,18 +151,12 @@ def image(run: Run, name: str) -> str:
 
 def statistics(run: Run) -> str:
     """Every number of the group `statistics`, with its meaning and unit."""
-    group = run.file["statistics"]
     rows = [
         (
-            item.attrs.get("long_name", name),
-            f"{item[()]:.4g}" if item.dtype.kind == "f" else f"{item[()]}",
-            unit(item),
+            run.about(f"statistics/{name}", "long_name") or name,
+            f"{value:.4g}" if isinstance(value, float) else f"{value}",
+            run.about(f"statistics/{name}", "units").replace("1", ""),
         )
-        for name, item in group.items()
+        for name, value in run["statistics"].items()
     ]
     return table(("of the computation", "value", "unit"), rows)
-
-
-def unit(item) -> str:
-    found = item.attrs.get("units", "")
-    return "" if found == "1" else found

@@ -3,9 +3,12 @@
 Everything is in SI units; `last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ...
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from tiltpad.read import NotInRunError, Run
+from tiltpad.archive import NotInRunError, damaged
+from tiltpad.read import Run
 
 #: Samples that are read at once where a whole run is gone through.
 BLOCK = 1 << 16
@@ -42,6 +45,14 @@ def ends(run: Run, name: str, part: slice = slice(None)) -> np.ndarray:
     if start >= stop:
         raise NotInRunError(f"{run.path}: no {name} in this run: {run.why_not(name)}")
     return np.stack([run.values(name, i) for i in (start, stop - 1)])
+
+
+def lasted(run: Run, part: slice = slice(None)) -> float:
+    """Time from the first to the last of the samples `part`, s; more than 0."""
+    start, end = ends(run, "time", part)
+    if not end > start:
+        raise damaged(run.path, "time", "it does not rise")
+    return float(end - start)
 
 
 def turned(run: Run, part: slice = slice(None)) -> float:
@@ -113,21 +124,25 @@ def at_angle(angle: np.ndarray, values: np.ndarray, wanted: np.ndarray) -> np.nd
     return result
 
 
-def poincare(run: Run, last: float = 50, phase: float = 0.0) -> dict[str, np.ndarray]:
+def poincare(
+    run: Run, last: float = 50, phase: float = 0.0, states: Sequence[str] = STATES
+) -> dict[str, np.ndarray]:
     """States once a revolution, where the shaft has turned by whole revolutions and `phase`, rad.
 
     A dictionary of arrays, (n,) or (n, pad), in SI units: "revolution" (whole revolutions since the start),
-    "time" and every state the scene has, journal_y to bristle_deflection. A periodic motion is one point,
-    one that repeats after k revolutions is k points.
+    "time" and of `states` (all of them: journal_y to bristle_deflection) those the scene has. A periodic
+    motion is one point, one that repeats after k revolutions is k points.
     """
     needs_revolutions(run, "Poincare section")
     part = last_revolutions(run, last)
     angle = run.values("shaft_angle", part)
     turns = (angle[[0, -1]] - phase) / (2 * np.pi)
     # one that an end meets but for rounding is there; where both ends do, the last ones are those asked for
-    whole = np.arange(np.ceil(turns[0] - 1e-9), np.floor(turns[1] + 1e-9) + 1)[-max(1, int(last)) :]
+    final = np.floor(turns[1] + 1e-9)
+    first = max(np.ceil(turns[0] - 1e-9), final + 1 - max(1, int(min(last, len(angle)))))
+    whole = np.arange(first, final + 1)
     wanted = 2 * np.pi * whole + phase
-    names = ["time", *(name for name in STATES if name in run)]
+    names = ["time", *(name for name in states if name in run)]
     return {"revolution": whole} | {name: at_angle(angle, run.values(name, part), wanted) for name in names}
 
 

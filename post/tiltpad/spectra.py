@@ -7,7 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tiltpad.read import NotInRunError, Run
+from tiltpad.archive import NotInRunError
+from tiltpad.read import Run
 from tiltpad.signals import at_angle, edges, ends, last_revolutions, needs_revolutions, series, steady
 
 

@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from tiltpad import pivots, signals, spectra
-from tiltpad.read import NotInRunError, Run
+from tiltpad.archive import NotInRunError
+from tiltpad.read import Run
 
 #: Revolutions at the end that friction and sticking are averaged over, and spectra taken of.
 LAST = 20

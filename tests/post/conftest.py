@@ -1,5 +1,6 @@
 """Result files that the tests share: short runs of the program, one a scene."""
 
+import itertools
 import warnings
 from pathlib import Path
 
@@ -126,3 +127,37 @@ def made(result, tmp_path):
     yield run
     for each in opened:
         each.close()
+
+
+@pytest.fixture(scope="session")
+def sweep(tiltpad):
+    """sweep(folder, "&friction model='lugre' /", {"operation%speed_rpm": [2000, 3000]}, failed=(2,)).
+
+    The members of the product of these values as a folder of results; the numbers in `failed` are members
+    whose equilibrium was not found. Gives the folder.
+    """
+    import h5py
+
+    def run(folder: Path, scene: str, values: dict[str, list], failed: tuple[int, ...] = ()) -> Path:
+        folder.mkdir()
+        case = folder.with_suffix(".nml")
+        case.write_text(scene.replace(" / &", " /\n&") + "\n")
+        members = list(itertools.product(*values.values()))
+        for number, member in enumerate(members, 1):
+            path = folder / f"{number:04d}.h5"
+            texts = [f"'{each}'" if isinstance(each, str) else f"{each}" for each in member]
+            changes = [f"{name}={text}" for name, text in zip(values, texts, strict=True)]
+            done = tiltpad("--quiet", case, "--output", path, *(w for c in changes for w in ("--set", c)))
+            assert done.returncode in (0, 2), done.stderr
+            with h5py.File(path, "r+") as file:
+                lines = "\n".join(f"{name} = {text}" for name, text in zip(values, texts, strict=True))
+                own = {"member": number, "members": len(members), "sweep": lines}
+                file.attrs.update(own | {"resumes": 0, "history": ""})
+                file.attrs.update({"exit_status": done.returncode, "reason": done.stderr.strip()})
+                if number in failed:
+                    file.attrs.update({"complete": 0, "exit_status": 2, "reason": "no equilibrium found"})
+                    for name in [name for name in file if name not in ("pad", "pivot_angle", "statistics")]:
+                        del file[name]
+        return folder
+
+    return run

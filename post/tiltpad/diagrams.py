@@ -1,0 +1,290 @@
+"""Diagrams of a study on one pair of axes.
+
+Everything is drawn from the arrays of the study; members that failed are marked, not left out.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+
+from tiltpad.plots import on_axes
+from tiltpad.study import POINTS, Study
+from tiltpad.units import SHOWN, Shown
+
+#: Kinds of diagrams.
+KINDS = ("lines", "map", "bifurcation")
+#: Most lines that a reader tells apart.
+MOST_LINES = 10
+#: A second parameter of more values than this makes a map, of fewer a line each.
+LINES_UP_TO = 6
+#: An axis is logarithmic where its values are evenly spread in ratio over at least this one.
+LOG_FROM = 9.9
+FAILED = {"linestyle": "", "marker": "x", "color": "0.4", "markersize": 5, "zorder": 4}
+
+
+@on_axes
+def diagram(
+    study: Study,
+    ax: Axes,
+    show: str | None = None,
+    over: str | None = None,
+    kind: str | None = None,
+    where: Mapping[str, str] | None = None,
+) -> Axes:
+    """A result of the members over a parameter: lines, a map over two of them, or a bifurcation diagram.
+
+    `show` is a result, (member,), by default orbit_size (of a bifurcation poincare_y); `over` a parameter, by
+    default the number with the most values; `kind` one of KINDS; `where` keeps the members with these values
+    of parameters. What is left open follows from the parameters. Raises ValueError for what does not fit.
+    """
+    chosen = selected(study, where or {})
+    several = [name for name in study.parameters if len(distinct(study[name][chosen])) > 1]
+    over = over or default_over(study, several, chosen)
+    needs(over, study.parameters, "over", "a parameter")
+    others = [name for name in several if name != over]
+    kind = kind or default_kind(study, show, over, others, chosen)
+    needs(kind, KINDS, "as", "a kind of diagram")
+    return {"lines": lines, "map": field, "bifurcation": bifurcation}[kind](
+        study, ax, show or {"bifurcation": "poincare_y"}.get(kind, "orbit_size"), over, others, chosen
+    )
+
+
+def lines(study: Study, ax: Axes, show: str, over: str, others: Sequence[str], chosen: np.ndarray) -> Axes:
+    """A line for every combination of the other parameters; a cross at the foot where a member failed."""
+    values, shown = result(study, show)
+    at, place = axis(study, over, ax, "x")
+    groups = grouped(study, others, chosen)
+    too_many(groups, others)
+    for color, (text, part) in enumerate(groups):
+        order = part[np.argsort(place[part], kind="stable")]
+        whole = study.done[order]
+        line = {"color": f"C{color}", "marker": "o", "markersize": 3, "label": text}
+        ax.plot(place[order], np.where(whole, shown.factor * values[order], np.nan), **line)
+        mark_failed(ax, place[order][~whole], color if len(groups) > 1 else None)
+    ax.set(xlabel=at.label, ylabel=shown.label)
+    explain(ax, others, failed=~study.done[chosen])
+    return ax
+
+
+def field(study: Study, ax: Axes, show: str, over: str, others: Sequence[str], chosen: np.ndarray) -> Axes:
+    """Colours over two parameters; a cross where a member failed, nothing where there is none."""
+    numeric = [name for name in others if is_number(study, name)]
+    if not is_number(study, over) or not numeric:
+        raise ValueError(f"{study.path}: a map needs two parameters that are numbers: {told(study)}")
+    second = max(numeric, key=lambda name: len(distinct(study[name][chosen])))
+    values, shown = result(study, show)
+    (at, x), (beside, y) = (axis(study, name, ax, which) for name, which in ((over, "x"), (second, "y")))
+    columns, rows = (np.unique(each[chosen & np.isfinite(each)]) for each in (x, y))
+    table = np.full((len(rows), len(columns)), np.nan)
+    taken = np.zeros(table.shape, dtype=bool)
+    for k in np.flatnonzero(chosen & np.isfinite(x) & np.isfinite(y)):
+        place = np.searchsorted(rows, y[k]), np.searchsorted(columns, x[k])
+        if taken[place]:
+            rest = ", ".join(name for name in others if name != second) or "nothing"
+            raise ValueError(
+                f"{study.path}: a map has one member at each place, here are several that differ in {rest}: "
+                "choose by --where"
+            )
+        taken[place] = True
+        if study.done[k]:
+            table[place] = shown.factor * values[k]
+        else:
+            ax.plot(x[k], y[k], **FAILED)
+    if not np.isfinite(table).any():
+        raise ValueError(f"{study.path}: no finite {show} to draw")
+    image = ax.pcolormesh(
+        edges(columns, ax.get_xscale()),
+        edges(rows, ax.get_yscale()),
+        np.ma.masked_invalid(table),
+        rasterized=True,
+    )
+    ax.figure.colorbar(image, ax=ax, label=shown.label)
+    ax.grid(visible=False)
+    ax.set(xlabel=at.label, ylabel=beside.label)
+    explain(ax, (), failed=~study.done[chosen])
+    return ax
+
+
+def bifurcation(
+    study: Study, ax: Axes, show: str, over: str, others: Sequence[str], chosen: np.ndarray
+) -> Axes:
+    """The journal once a revolution over a parameter: one point where the motion repeats every revolution."""
+    needs(
+        show,
+        [name for name in POINTS if name in study and name != "poincare_tilt"],
+        "show",
+        "Poincare points",
+    )
+    at, place = axis(study, over, ax, "x")
+    values, shown = study[show], SHOWN[POINTS[show]]
+    groups = grouped(study, others, chosen)
+    too_many(groups, others)
+    for color, (text, part) in enumerate(groups):
+        points = np.where(study.done[part, None], shown.factor * values[part], np.nan)
+        x = np.broadcast_to(place[part, None], points.shape)
+        dots = {"linestyle": "", "marker": ".", "markersize": 2, "markeredgewidth": 0, "color": f"C{color}"}
+        ax.plot(x.ravel(), points.ravel(), label=text, **dots)
+        mark_failed(ax, place[part][~study.done[part]], color if len(groups) > 1 else None)
+    ax.set(xlabel=at.label, ylabel=f"{shown.label} once a revolution")
+    explain(ax, others, failed=~study.done[chosen])
+    return ax
+
+
+def selected(study: Study, where: Mapping[str, str]) -> np.ndarray:
+    """True for the members with the given values of parameters, (member,); all that can be read are left."""
+    chosen = np.ones(study.length("member"), dtype=bool)
+    for name, text in where.items():
+        needs(name, study.parameters, "where", "a parameter")
+        values = study[name]
+        if is_number(study, name):
+            try:
+                here = np.isclose(values, float(text), rtol=1e-6, atol=0)
+            except ValueError:
+                here = np.zeros(len(values), dtype=bool)
+        else:
+            here = values == text
+        if not here.any():
+            there = ", ".join(written(value) for value in distinct(values))
+            raise ValueError(f"{study.path}: no member with {name} = {text}: there are {there}")
+        chosen &= here
+    if not chosen.any():
+        raise ValueError(f"{study.path}: no member with all of these values")
+    return chosen
+
+
+def default_over(study: Study, several: Sequence[str], chosen: np.ndarray) -> str:
+    """The number with the most values; else the text with the most."""
+    if not study.parameters:
+        raise ValueError(f"{study.path}: its members differ in nothing that they could be drawn over")
+    names = several or study.parameters
+    numeric = [name for name in names if is_number(study, name)]
+    return max(numeric or names, key=lambda name: len(distinct(study[name][chosen])))
+
+
+def default_kind(study: Study, show: str | None, over: str, others: Sequence[str], chosen: np.ndarray) -> str:
+    """Points for Poincare points, a map over two numbers of many values each, else lines."""
+    if show in POINTS:
+        return "bifurcation"
+    if len(others) == 1 and is_number(study, over) and is_number(study, others[0]):
+        return "map" if len(distinct(study[others[0]][chosen])) > LINES_UP_TO else "lines"
+    return "lines"
+
+
+def result(study: Study, name: str) -> tuple[np.ndarray, Shown]:
+    """A result, (member,), and what it is shown in."""
+    results = [
+        each
+        for each in study.names()
+        if each not in ("member", "file", "reason", *study.parameters) and study.about(each, "units")
+    ]
+    alone = [each for each in results if study.item(each).shape == study.item("member").shape]
+    needs(name, alone, "show", "a result")
+    if name in SHOWN:
+        return study[name], SHOWN[name]
+    units = study.about(name, "units")
+    return study[name], Shown(study.about(name, "long_name") or name, 1, "" if units == "1" else units)
+
+
+def axis(study: Study, name: str, ax: Axes, which: str) -> tuple[Shown, np.ndarray]:
+    """What a parameter is shown in, and the members' places along it, (member,); sets scale and ticks."""
+    values = study[name]
+    text = study.about(name, "long_name") or name
+    if not is_number(study, name):
+        names = distinct(values)
+        place = np.array([names.index(value) if value in names else np.nan for value in values], dtype=float)
+        ax.set(
+            **{
+                f"{which}ticks": range(len(names)),
+                f"{which}ticklabels": [each.replace("_", " ") for each in names],
+            }
+        )
+        ax.set(**{f"{which}lim": (-0.5, len(names) - 0.5)})
+        return Shown(text, 1, ""), place
+    unit = study.about(name, "units")
+    shown = Shown(text, 1, "" if unit == "1" else unit)
+    if unit == "m" and np.nanmax(np.abs(values), initial=0) < 1e-3:
+        shown = Shown(text, 1e6, "µm")
+    if spread_in_ratio(distinct(values)):
+        ax.set(**{f"{which}scale": "log"})
+    return shown, shown.factor * values
+
+
+def is_number(study: Study, name: str) -> bool:
+    return study.item(name).dtype.kind != "O"
+
+
+def distinct(values: np.ndarray) -> list:
+    """The different values in rising order, texts in their own; without nan and empty texts."""
+    if values.dtype.kind == "O":
+        return [value for value in dict.fromkeys(values) if value]
+    return list(np.unique(values[np.isfinite(values)]))
+
+
+def spread_in_ratio(values: Sequence[float]) -> bool:
+    """True for values that rise by equal factors, to some per cent, over a decade or more."""
+    if len(values) < 3 or values[0] <= 0 or values[-1] / values[0] < LOG_FROM:
+        return False
+    steps = np.diff(np.log(values))
+    return bool(np.ptp(steps) < 0.1 * steps.mean() * len(steps)) and not np.allclose(np.diff(values, 2), 0)
+
+
+def grouped(study: Study, others: Sequence[str], chosen: np.ndarray) -> list[tuple[str, np.ndarray]]:
+    """Name and members of every combination of the other parameters; of members whose are not known none."""
+    keys = list(zip(*(study[name] for name in others), strict=True)) if others else [()] * len(chosen)
+    found: dict[tuple, list[int]] = {}
+    for k in np.flatnonzero(chosen):
+        if all(value == value and value != "" for value in keys[k]):
+            found.setdefault(keys[k], []).append(k)
+    return [(", ".join(map(written, key)), np.array(part)) for key, part in sorted(found.items())]
+
+
+def too_many(groups: Sequence[tuple[str, np.ndarray]], others: Sequence[str]) -> None:
+    if len(groups) > MOST_LINES:
+        raise ValueError(
+            f"{len(groups)} lines, one for each {' and '.join(others)}, are more than {MOST_LINES}: "
+            "choose by --where, or --as map"
+        )
+
+
+def written(value: Any) -> str:
+    return value.replace("_", " ") if isinstance(value, str) else f"{value:g}"
+
+
+def mark_failed(ax: Axes, place: np.ndarray, color: int | None) -> None:
+    """Crosses at the foot of the axes."""
+    style = FAILED if color is None else FAILED | {"color": f"C{color}"}
+    ax.plot(place, np.full(len(place), 0.02), transform=ax.get_xaxis_transform(), **style)
+
+
+def explain(ax: Axes, others: Sequence[str], failed: np.ndarray) -> None:
+    """The legend: what the lines are, and how many members failed."""
+    handles, texts = ax.get_legend_handles_labels() if others else ([], [])
+    if failed.any():
+        handles = [*handles, plt.Line2D([], [], **FAILED)]
+        texts = [*texts, f"not done ({failed.sum()})"]
+    if handles:
+        ax.legend(handles, texts, title=", ".join(name.replace("_", " ") for name in others) or None)
+
+
+def edges(values: np.ndarray, scale: str) -> np.ndarray:
+    """Borders of the cells around rising values: half way, in ratio on a logarithmic axis."""
+    places = np.log(values) if scale == "log" else values
+    if len(places) == 1:
+        found = places[0] + np.array([-0.5, 0.5])
+    else:
+        middle = (places[1:] + places[:-1]) / 2
+        found = np.array([2 * places[0] - middle[0], *middle, 2 * places[-1] - middle[-1]])
+    return np.exp(found) if scale == "log" else found
+
+
+def told(study: Study) -> str:
+    return f"its parameters are {', '.join(study.parameters) or 'none'}"
+
+
+def needs(name: str, allowed: Sequence[str], option: str, what: str) -> None:
+    """Raises ValueError where a name is none of those allowed."""
+    if name not in allowed:
+        raise ValueError(f"--{option}: {name} is not {what} of this study: {', '.join(allowed)}")

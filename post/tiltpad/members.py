@@ -1,0 +1,148 @@
+"""What a study keeps of each run: how it ended, its last revolution in numbers, Poincare points, cost."""
+
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tiltpad import pivots, signals
+from tiltpad.archive import NotInRunError, RunError, reading
+from tiltpad.parameters import swept
+from tiltpad.read import Run, read
+from tiltpad.study import POINTS, REVOLUTIONS
+
+#: Exit status of a member that was done, and those of one that did not end: running or killed, stopped.
+DONE, UNENDED = 0, (-1, 4)
+#: A whole revolution, but for rounding.
+WHOLE = 1 - 1e-9
+
+
+class Member(NamedTuple):
+    """What a study keeps of one run.
+
+    Its fields:
+
+        path, number      its file; its number in the sweep, None of a run that is no member
+        status, reason    exit status (nan: the file cannot be read), and why it failed
+        members, sweep    members of the whole sweep, and its own swept values by variable
+        input             resolved namelist, None where the file cannot be read
+        origin            version, title and input text
+        values            what was measured, by names of tiltpad.study: a number, (pad,), (revolution,),
+                          (revolution, pad)
+        cost              the numbers of its group statistics
+    """
+
+    path: Path
+    number: int | None
+    status: float
+    reason: str
+    members: int | None = None
+    sweep: dict[str, Any] | None = None
+    input: dict[str, dict[str, Any]] | None = None
+    origin: dict[str, str] | None = None
+    values: dict[str, Any] | None = None
+    cost: dict[str, float] | None = None
+
+
+def member(path: Path) -> Member:
+    """What is kept of one file; where it cannot be read, the reason."""
+    try:
+        with read(path) as run:
+            return measured(path, run)
+    except RunError as error:
+        stem = path.stem
+        return Member(path, int(stem) if stem.isdecimal() else None, np.nan, f"{error}")
+
+
+def measured(path: Path, run: Run) -> Member:
+    """What is kept of a run that can be read."""
+    told = run.attributes
+    complete = bool(run.complete)
+    with reading(run.path, "attribute 'sweep'"):
+        sweep = swept(told.get("sweep", ""))
+    status = int(told.get("exit_status", DONE if complete else 2))
+    if not complete and status == DONE:
+        status = UNENDED[0]
+    reason = f"{told.get('reason', '')}" if status != DONE else ""
+    values = {
+        "complete": float(complete),
+        "time_reached": float(run.values("time", -1)) if run.samples else 0.0,
+    }
+    if "resumes" in told:
+        values["resumes"] = float(told["resumes"])
+    with suppress(NotInRunError):
+        values |= at_rest(run)
+    if complete and status == DONE:
+        with suppress(NotInRunError):
+            part = signals.last_revolutions(run)
+            values |= motion(run, part)
+            values |= friction(run, part)
+        with suppress(NotInRunError):
+            points = signals.poincare(run, REVOLUTIONS, states=tuple(POINTS.values()))
+            values |= {name: points[state] for name, state in POINTS.items()}
+    return Member(
+        path,
+        int(told["member"]) if "member" in told else None,
+        status,
+        reason,
+        int(told["members"]) if "members" in told else None,
+        sweep,
+        run.input,
+        {name: told[name] for name in ("version", "title", "input")},
+        values,
+        cost(run),
+    )
+
+
+def at_rest(run: Run) -> dict[str, float]:
+    """The equilibrium."""
+    return {
+        "equilibrium_y": float(run["equilibrium/journal_y"]),
+        "equilibrium_z": float(run["equilibrium/journal_z"]),
+        "equilibrium_min_film_thickness": run["equilibrium/min_film_thickness"].min(),
+        "equilibrium_max_pressure": run["equilibrium/max_pressure"].max(),
+    }
+
+
+def motion(run: Run, part: slice) -> dict[str, Any]:
+    """The motion in the last revolution, the samples `part`; NotInRunError where the run was shorter."""
+    if signals.turned(run, part) < WHOLE:
+        raise NotInRunError(f"{run.path}: no revolution in this run")
+    y, z, tilt = (run.values(name, part) for name in ("journal_y", "journal_z", "pad_tilt"))
+    film, peak = run.values("min_film_thickness", part), run.values("max_pressure", part)
+    return {
+        "speed": float(run.values("speed", -1)),
+        "orbit_y": np.ptp(y),
+        "orbit_z": np.ptp(z),
+        "orbit_size": max(np.ptp(y), np.ptp(z)),
+        "mean_y": y.mean(),
+        "mean_z": z.mean(),
+        "min_film_thickness": film.min(),
+        "max_pressure": peak.max(),
+        "pad_tilt_size": np.ptp(tilt, axis=0),
+        "pad_min_film_thickness": film.min(axis=0),
+        "pad_max_pressure": peak.max(axis=0),
+    }
+
+
+def friction(run: Run, part: slice) -> dict[str, Any]:
+    """Friction of the pivots in the samples `part`; NotInRunError where there is none."""
+    limit = pivots.stick_velocity(run)
+    names = ("time", "pad_tilt", "pad_tilt_rate", "friction_moment")
+    time, tilt, rate, moment = (run.values(name, part) for name in names)
+    sliding, duration = pivots.ball_radius(run) * rate, signals.lasted(run, part)
+    pads = range(run.pads)
+    work = np.array([pivots.path_integral(tilt[:, k], moment[:, k]) for k in pads])
+    stuck = [np.diff(pivots.slow_intervals(time, sliding[:, k], limit)).sum() / duration for k in pads]
+    return {
+        "friction_work": work.sum(),
+        "stick_fraction": np.mean(stuck),
+        "pad_friction_work": work,
+        "pad_stick_fraction": np.array(stuck),
+    }
+
+
+def cost(run: Run) -> dict[str, float]:
+    """The numbers of the group statistics; none of a run that has no such."""
+    return {name: float(value) for name, value in run["statistics"].items()} if "statistics" in run else {}

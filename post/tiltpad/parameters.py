@@ -1,0 +1,101 @@
+"""What the members of a study differ in: what was swept, or what differs between inputs."""
+
+from collections import Counter
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tiltpad import namelist
+
+#: What differs between runs without being a parameter of theirs.
+LEFT_OUT = ("case%title", "case%task")
+
+
+class Parameter(NamedTuple):
+    """What members differ in, with each member's value; its fields:
+
+    name         short and without special characters: speed_rpm, arc_deg_1
+    variable     as in the namelist: operation%speed_rpm, pads%arc_deg(1)
+    long_name    in words: speed; arc, 1
+    units        of the values; empty for texts
+    values       numbers, nan where a member has none, or texts, empty where it has none
+    """
+
+    name: str
+    variable: str
+    long_name: str
+    units: str
+    values: list[float] | list[str]
+
+
+def swept(text: str) -> dict[str, Any]:
+    """Values by variable from the attribute `sweep` of a member: a line "operation%speed_rpm = 1500" each."""
+    lines = [line.partition("=") for line in text.splitlines() if line.strip()]
+    return {variable.strip(): namelist.value_of(value.strip()) for variable, _, value in lines}
+
+
+def differing(inputs: Sequence[dict[str, dict[str, Any]]]) -> list[dict[str, Any]]:
+    """Values by variable of each input, of the variables in which they differ; lists by their elements."""
+    flat = [namelist.by_variable(each) for each in inputs]
+    names = [name for name in dict.fromkeys(name for each in flat for name in each) if name not in LEFT_OUT]
+    if all(follows(each) for each in flat):
+        names.remove("operation%final_speed_rpm")
+    pads = [namelist.count(each["pads%pivot_angle_deg"]) for each in flat]
+    found: list[dict[str, Any]] = [{"pads": count} if len(set(pads)) > 1 else {} for count in pads]
+    for name in names:
+        values = [each.get(name) for each in flat]
+        if len(set(values)) > 1:
+            alike = [namelist.shared(value) for value in values]
+            if not any(isinstance(value, tuple) for value in alike):
+                split = [{name: value} for value in alike] if len(set(alike)) > 1 else [{} for _ in alike]
+            else:
+                split = elements(name, values)
+            for each, more in zip(found, split, strict=True):
+                each.update(more)
+    return found
+
+
+def follows(flat: dict[str, Any]) -> bool:
+    """True where the final speed is not a value of its own: the speed stays the same."""
+    return flat["operation%final_speed_rpm"] == flat["operation%speed_rpm"]
+
+
+def elements(name: str, values: Sequence[Any]) -> list[dict[str, Any]]:
+    """A list's elements, by name(1), name(2), ..., of those that differ."""
+    lists = [value if isinstance(value, tuple) else (value,) for value in values]
+    places = range(max(map(len, lists)))
+    differ = [k for k in places if len({each[k] if k < len(each) else None for each in lists}) > 1]
+    return [{f"{name}({k + 1})": each[k] for k in differ if k < len(each)} for each in lists]
+
+
+def parameters(members: Sequence[dict[str, Any] | None]) -> list[Parameter]:
+    """The parameters of members from their values by variable; None for a member that is not known."""
+    variables = list(dict.fromkeys(variable for each in members for variable in each or {}))
+    short = Counter(short_name(variable) for variable in variables)
+    found = []
+    for variable in variables:
+        values = [None if each is None else each.get(variable) for each in members]
+        name, (words, units) = short_name(variable), namelist.named(variable.partition("(")[0])
+        group, _, rest = variable.rpartition("%")
+        if short[name] > 1:
+            name, words = f"{group}_{name}", f"{words} ({group})"
+        if "(" in rest:
+            words += f", {rest.partition('(')[2].rstrip(')')}"
+        if any(isinstance(value, str) for value in values):
+            found.append(Parameter(name, variable, words, "", ["" if v is None else f"{v}" for v in values]))
+        else:
+            numbers = [number(value) for value in values]
+            found.append(Parameter(name, variable, words, units or "1", numbers))
+    return found
+
+
+def short_name(variable: str) -> str:
+    """speed_rpm of operation%speed_rpm, arc_deg_1 of pads%arc_deg(1)."""
+    return variable.rpartition("%")[2].replace("(", "_").rstrip(")")
+
+
+def number(value: Any) -> float:
+    """One number, which a list may repeat; nan where there is none."""
+    one = namelist.shared(value)
+    return float(one) if isinstance(one, int | float) else np.nan

@@ -1,0 +1,124 @@
+"""Studies: the file that tiltpad-collect writes, results of many runs over their parameters."""
+
+import os
+from typing import Any, NamedTuple
+
+import h5py
+import numpy as np
+
+from tiltpad.archive import Archive, RunError, damaged, fits, plain
+
+#: Dimensions of the arrays.
+MEMBER, PADS = ("member",), ("member", "pad")
+#: Most revolutions of which Poincare points are kept.
+REVOLUTIONS = 50
+
+
+class Quantity(NamedTuple):
+    """What a study has of every member: dimensions, unit, meaning."""
+
+    dimensions: tuple[str, ...]
+    units: str
+    long_name: str
+
+
+#: What is measured of a member, beside its cost. Revolution means the last one.
+QUANTITIES = {
+    "status": Quantity(MEMBER, "1", "exit status: 0 done, nan cannot be read"),
+    "complete": Quantity(MEMBER, "1", "1 where the run reached its end"),
+    "time_reached": Quantity(MEMBER, "s", "time reached"),
+    "resumes": Quantity(MEMBER, "1", "times that the run was resumed"),
+    "speed": Quantity(MEMBER, "rad/s", "shaft speed at the end"),
+    "orbit_y": Quantity(MEMBER, "m", "orbit in y, peak to peak"),
+    "orbit_z": Quantity(MEMBER, "m", "orbit in z, peak to peak"),
+    "orbit_size": Quantity(MEMBER, "m", "orbit, the larger of both peak to peak"),
+    "mean_y": Quantity(MEMBER, "m", "mean of journal y"),
+    "mean_z": Quantity(MEMBER, "m", "mean of journal z"),
+    "min_film_thickness": Quantity(MEMBER, "m", "least film thickness"),
+    "max_pressure": Quantity(MEMBER, "Pa", "highest pressure"),
+    "friction_work": Quantity(MEMBER, "J", "friction work a revolution, all pads"),
+    "stick_fraction": Quantity(MEMBER, "1", "share of time that pivots stick, mean of the pads"),
+    "pad_tilt_size": Quantity(PADS, "rad", "tilt, peak to peak"),
+    "pad_min_film_thickness": Quantity(PADS, "m", "least film thickness of the pad"),
+    "pad_max_pressure": Quantity(PADS, "Pa", "highest pressure of the pad"),
+    "pad_friction_work": Quantity(PADS, "J", "friction work a revolution"),
+    "pad_stick_fraction": Quantity(PADS, "1", "share of time that the pivot sticks"),
+    "equilibrium_y": Quantity(MEMBER, "m", "journal y at the equilibrium"),
+    "equilibrium_z": Quantity(MEMBER, "m", "journal z at the equilibrium"),
+    "equilibrium_min_film_thickness": Quantity(MEMBER, "m", "least film thickness at the equilibrium"),
+    "equilibrium_max_pressure": Quantity(MEMBER, "Pa", "highest pressure at the equilibrium"),
+    "poincare_y": Quantity(("member", "revolution"), "m", "journal y once a revolution"),
+    "poincare_z": Quantity(("member", "revolution"), "m", "journal z once a revolution"),
+    "poincare_tilt": Quantity(("member", "revolution", "pad"), "rad", "tilt once a revolution"),
+}
+#: States that Poincare points are kept of.
+POINTS = {"poincare_y": "journal_y", "poincare_z": "journal_z", "poincare_tilt": "pad_tilt"}
+
+
+def read_study(path: str | os.PathLike) -> "Study":
+    """Opens a study, the file that tiltpad-collect writes. Raises RunError."""
+    return Study(path)
+
+
+class Study(Archive):
+    """One study, open for reading; nothing is loaded before it is asked for.
+
+    What is in the file goes by its name:
+
+        study.orbit_y, study["orbit_y"]      a result, (member,), in SI units; nan of a member that failed
+        study.speed_rpm                      a parameter, (member,), as in the input
+        study.poincare_y                     Poincare points, (member, revolution)
+        study.parameters                     names of the parameters
+        study.title, study.created, ...      attributes of the file; study.attributes has all of them
+        study.file["members/0003/journal_y"] a dataset of a member's own file, as h5py gives it
+    """
+
+    KINDS = "fiuO"
+
+    def __enter__(self) -> "Study":
+        return self
+
+    def __repr__(self) -> str:
+        members, over = self.length("member"), ", ".join(self.parameters)
+        return f"<tiltpad study {self.path!r}: {members} members over {over}>"
+
+    @property
+    def parameters(self) -> list[str]:
+        """Names of the parameters, the slowest one first."""
+        return self.attributes["parameters"].split()
+
+    @property
+    def done(self) -> np.ndarray:
+        """True for the members that were done, (member,)."""
+        return self.status == 0
+
+    def length(self, name: str) -> int:
+        """Number of values along a dimension: member, pad, revolution."""
+        return self.item(name).shape[0]
+
+    def check_whole(self) -> None:
+        """Refuses the result of one run, and a study without its parameters."""
+        if self.attributes["task"] != "study":
+            raise RunError(f"{self.path}: the result of one run, not a study: see tiltpad-collect")
+        if not isinstance(self.attributes.get("parameters"), str):
+            raise damaged(self.path, "attribute 'parameters'", "it is missing")
+        for name in ("member", "status", *self.parameters):
+            if name not in self:
+                raise damaged(self.path, name, "it is missing")
+
+    def check_dataset(self, name: str, found: h5py.Dataset) -> None:
+        super().check_dataset(name, found)
+        if name in ("member", "pad", "revolution"):
+            fits(found.shape[1:], ())
+            found.shape[0]  # a scalar has none
+        elif name in QUANTITIES or name in self.parameters or name in ("file", "reason"):
+            dimensions = QUANTITIES[name].dimensions if name in QUANTITIES else MEMBER
+            fits(found.shape, [self.length(each) for each in dimensions])
+
+    def sound(self, name: str, values: Any) -> Any:
+        if np.asarray(values).dtype.kind != "O":
+            return values
+        texts = [plain(each) for each in np.atleast_1d(values)]
+        if not all(isinstance(each, str) for each in texts):
+            raise ValueError("not an array of texts")
+        return np.array(texts, dtype=object).reshape(np.shape(values))
