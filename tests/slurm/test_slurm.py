@@ -39,6 +39,16 @@ def begun(cluster, path: Path) -> None:
     cluster.wait_for(path.exists, f"a checkpoint in {path.name}")
 
 
+def writer(path: Path) -> int:
+    """The process that writes a result; its lock says "host process beats"."""
+    return int((path.parent / f"{path.name}.lock").read_text().split()[1])
+
+
+def parent(process: int) -> int:
+    """The process that started another."""
+    return int(Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[1])
+
+
 def outcome(job: dict[str, str]) -> tuple[str, str, str]:
     return job["JobState"], job["ExitCode"], job["Restarts"]
 
@@ -102,19 +112,39 @@ def test_preempted_job_goes_on(cluster, scripts, case):
     assert outcome(cluster.ended(urgent)) == ("COMPLETED", "0:0", "0")
     assert outcome(cluster.ended(job)) == ("COMPLETED", "0:0", "1")
     check_whole(result, resumed=True)
+    assert "stopped by signal 15" in (case.parent / f"slurm-{job}.out").read_text()
 
 
 def test_killed_program_goes_on_once_requeued(cluster, scripts, case):
     result = case.with_suffix(".h5")
     job = cluster.submit(scripts / "case.sh", "mine.nml", cwd=case.parent)
     begun(cluster, result)
-    # "host process beats"
-    holder = (case.parent / "mine.h5.lock").read_text().split()
-    os.kill(int(holder[1]), signal.SIGKILL)
+    os.kill(writer(result), signal.SIGKILL)
     assert outcome(cluster.ended(job)) == ("FAILED", "137:0", "0")
     cluster.ask("scontrol", "requeue", job)
     assert outcome(cluster.ended(job)) == ("COMPLETED", "0:0", "1")
     check_whole(result, resumed=True)
+
+
+def test_second_writer_is_refused(cluster, scripts, case):
+    """A run that Slurm has lost sight of goes on; the requeued job must not write beside it."""
+    result = case.with_suffix(".h5")
+    endless = "operation%duration=1000"
+    job = cluster.submit(scripts / "case.sh", "mine.nml", "--set", endless, cwd=case.parent)
+    begun(cluster, result)
+    lost = writer(result)
+    os.kill(parent(parent(lost)), signal.SIGKILL)
+    cluster.ask("scontrol", "requeue", job)
+    assert outcome(cluster.ended(job)) == ("FAILED", "3:0", "1")
+    assert f"process {lost} on" in (case.parent / f"slurm-{job}.out").read_text()
+    assert writer(result) == lost
+    os.kill(lost, signal.SIGTERM)
+    cluster.wait_for(lambda: not (case.parent / "mine.h5.lock").exists(), "the lost run's end")
+    with pytest.warns(tiltpad.IncompleteRunWarning):
+        run = tiltpad.read(result)
+    with run:
+        assert run.attributes["resumes"] == 0
+        assert np.all(np.diff(run.time) > 0)
 
 
 def test_cancelled_job_is_not_requeued(cluster, scripts, case):
@@ -197,6 +227,23 @@ def test_faulty_study_is_not_submitted(cluster, scripts, folder):
     assert refused.returncode == 1
     assert "speed_rpm" in refused.stderr
     assert cluster.ask("squeue", "-h") == ""
+
+
+def test_every_command_of_the_page_does_what_it_says(cluster, root, folder):
+    """Each block of docs/cluster.md in turn, once the jobs of the one before have ended."""
+    (folder / "input").symlink_to(root / "input")
+    text = (root / "docs/cluster.md").read_text()
+    blocks = re.findall(r"^```sh\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    assert blocks
+    for block in blocks:
+        cluster.ask("bash", "-ec", block, cwd=folder)
+        cluster.wait_for(lambda: cluster.ask("squeue", "-h") == "", "the jobs of the page")
+    told = cluster.ask("scontrol", "--oneliner", "show", "jobs").splitlines()
+    jobs = [line for line in told if f"WorkDir={folder}" in line.split()]
+    assert jobs
+    assert all("JobState=COMPLETED" in line for line in jobs)
+    for name in ("steady_lugre.h5", "sweep.h5", "sweep-study.png", "work.png", "0005-orbit.png"):
+        assert (folder / name).exists(), name
 
 
 def test_scripts_have_the_same_part(scripts):
