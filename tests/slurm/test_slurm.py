@@ -175,7 +175,7 @@ def test_task_requeues_itself_alone_when_its_time_is_over(cluster, scripts, fold
 
 
 def test_sweep_in_one_job_goes_on(cluster, scripts, folder):
-    write(folder, "speeds.nml", SWEEP)
+    write(folder, "speeds.nml", SWEEP.replace("duration=6", "duration=4"))
     job = cluster.submit("--cpus-per-task=2", scripts / "sweep.sh", "speeds.nml", cwd=folder)
     begun(cluster, folder / "speeds/0002.h5")
     cluster.ask("scancel", "--batch", "--signal=USR1", job)
@@ -198,7 +198,7 @@ def test_several_members_a_task(cluster, scripts, folder):
 def test_study(cluster, scripts, folder):
     at_a_time = 2
     assert at_a_time < cluster.processors
-    write(folder, "speeds.nml", SWEEP.replace("duration=6", "duration=1"))
+    write(folder, "speeds.nml", SWEEP.replace("duration=6", "duration=2"))
     said = cluster.ask(scripts / "submit.sh", "speeds.nml", "1", str(at_a_time), cwd=folder)
     array, collection = re.findall(r"job ([0-9]+)", said)
     seen = []
