@@ -11,7 +11,6 @@ fi
 case=$1
 each=${2:-1}
 at_a_time=${3:-50}
-options=("${@:4}")
 scripts=$(dirname "$0")
 name=${case##*/}
 name=${name%.*}
@@ -20,6 +19,6 @@ name=${name%.*}
 tiltpad --check "$case" >/dev/null
 members=$(tiltpad --count "$case")
 tasks=$(((members + each - 1) / each))
-array=$(sbatch --parsable --array="1-$tasks%$at_a_time" "${options[@]}" "$scripts/sweep.sh" "$case" "$each")
-collection=$(sbatch --parsable --dependency="afterany:$array" "${options[@]}" "$scripts/collect.sh" "$name")
+array=$(sbatch --parsable --array="1-$tasks%$at_a_time" "${@:4}" "$scripts/sweep.sh" "$case" "$each")
+collection=$(sbatch --parsable --dependency="afterany:$array" "${@:4}" "$scripts/collect.sh" "$name")
 echo "$case: $members members in $tasks tasks, job $array; then $name.h5, job $collection"

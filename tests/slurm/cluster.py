@@ -172,12 +172,13 @@ class Cluster:
         self.wait_for(lambda: self.call("squeue", "-h", "-j", number).stdout == "", f"job {number}")
         return self.job(number)
 
-    def wait_for(self, condition, what: str, seconds: float = 60) -> None:
-        """Waits until the condition is true; TimeoutError names what it was for."""
+    def wait_for(self, condition, what: str, seconds: float = 120) -> None:
+        """Waits until the condition is true; TimeoutError says for what, with the ends of the logs."""
         end = time.monotonic() + seconds
         while not condition():
             if time.monotonic() > end:
-                raise TimeoutError(f"{what}: not within {seconds} s")
+                logs = [log.read_text().splitlines()[-15:] for log in sorted((self.folder / "log").iterdir())]
+                raise TimeoutError("\n".join([f"{what}: not within {seconds} s", *sum(logs, [])]))
             time.sleep(0.1)
 
 
