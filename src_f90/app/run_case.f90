@@ -84,12 +84,16 @@ contains
       real(wp), allocatable, intent(out) :: y(:)
       type(error_type), allocatable, intent(out) :: error
       type(equilibrium_type) :: static
+      type(error_type), allocatable :: file_error
       t = 0
       call observer%file%create(scene, scene_text(scene), error)
       if (allocated(error)) return
       if (tag%number > 0) call observer%file%put_member(tag%number, tag%members, tag%sweep)
       call find_equilibrium(scene, static, error)
       if (allocated(error)) then
+         ! of a member of a sweep the file says what happened; nothing else would be a result
+         if (tag%number > 0) call observer%file%finish(t, observer%cost(march_statistics()), error%status, &
+            & error%message, file_error)
          call observer%file%abandon()
          return
       end if
@@ -127,7 +131,7 @@ contains
          plan%next = observer%file%samples()
          if (plan%next > 0) then
             if (plan%time(plan%next - 1) > t .or. plan%time(plan%next) <= t) then
-               call raise(error, system_error, 'samples and checkpoint do not fit: the file is damaged')
+               call raise(error, system_error, 'the file is damaged: its samples and its checkpoint do not fit')
                call observer%file%abandon()
                return
             end if
@@ -150,7 +154,8 @@ contains
       if (allocated(error)) then
          select case (error%status)
          case (numerics_error)
-            call observer%file%finish(observer%reached, observer%cost(statistics), error%status, error%message, file_error)
+            call observer%file%finish(observer%reached, observer%cost(statistics), error%status, error%message, &
+               & file_error)
             error%message = error%message//'; what was computed is in '//path
          case (stopped)
             error%message = error%message//'; tiltpad --resume '//path//' goes on'

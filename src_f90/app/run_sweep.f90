@@ -85,8 +85,8 @@ contains
    end function member_file
 
    !> Runs all members of a checked sweep into a prepared folder, `jobs` at a time. A failed member stops no other;
-   !> a noted signal does: then those under way are told and waited for. `failures` has one error a failed member; `error`
-   !> says how many failed, or which signal came.
+   !> a noted signal does: then those under way are told and waited for. `failures` has one error a failed member;
+   !> `error` says how many failed, or which signal came.
    subroutine run_members(sweep, folder, jobs, quiet, run_member, failures, error)
       type(sweep_type), intent(in) :: sweep
       character(len=*), intent(in) :: folder
@@ -115,7 +115,12 @@ contains
       do
          do i = 1, size(children)
             if (children(i)%member /= 0 .or. next > sweep%members .or. stop_requested()) cycle
-            call start(sweep, folder, next, pipe(2), run_member, children(i), tally)
+            call start(sweep, folder, next, pipe(2), run_member, children(i))
+            if (children(i)%member == 0) then
+               ! no process to be had: later, when one of ours has ended, if there is one
+               if (any(children%member /= 0)) exit
+               call note(next, system_error, 'no process to be had for it', tally)
+            end if
             next = next + 1
          end do
          if (stop_requested() .and. .not. told) then
@@ -134,14 +139,13 @@ contains
          & //fixed_text(wall_clock() - started, 2)//' s; in '//folder
    end subroutine run_members
 
-   !> Starts a member in a child process.
-   subroutine start(sweep, folder, k, pipe, run_member, child, tally)
+   !> Starts a member in a child process; `child` has no member where there is no process to be had.
+   subroutine start(sweep, folder, k, pipe, run_member, child)
       type(sweep_type), intent(in) :: sweep
       character(len=*), intent(in) :: folder
       integer, intent(in) :: k, pipe
       procedure(member_runner) :: run_member
       type(child_type), intent(inout) :: child
-      type(tally_type), intent(inout) :: tally
       integer :: parent
       parent = int(process_id())
       ! what is buffered here would else be written by both
@@ -155,7 +159,6 @@ contains
          call live(sweep, folder, k, pipe, run_member)
       else if (child%process < 0) then
          child%member = 0
-         call note(k, system_error, 'no process to be had for it', tally)
       end if
    end subroutine start
 

@@ -8,19 +8,20 @@ module file_lock
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_int16_t, c_long, c_null_char, c_null_ptr, &
       & c_ptr, c_size_t
    use text, only: to_text
-   use errors, only: error_type, raise, system_error
-   use posix, only: delete_file, host_name, pause_seconds, process_alive, process_id, refused_by_other, system_reason
+   use errors, only: error_type, raise, system_error, stopped
+   use signals, only: stop_requested, stop_signal
+   use posix, only: c_fopen, c_fileno, c_fclose, c_statx, statx_shorts, delete_file, host_name, &
+      & pause_seconds, process_alive, process_id, refused_by_other, system_reason
    implicit none (type, external)
    private
    public :: file_lock_type
 
-   !> Seconds in which a living holder beats; how long one on another machine is watched where its lock is free
-   !> or locks are not known here, and where its lock is held (a dead NFS client's is freed after 90 s).
-   integer, parameter :: beat_seconds = 10, watch_free = 3*beat_seconds, watch_held = 120
+   !> Seconds in which a living holder beats.
+   integer, parameter :: beat_seconds = 10
    !> Linux' numbers for lockf and statx; the short in struct statx where the number of links is.
    integer(c_int), parameter :: try_lock = 2, at_empty_path = 4096, statx_links = 4
-   integer, parameter :: statx_shorts = 128, links_at = 9
-   !> Longest content of a lock file.
+   integer, parameter :: links_at = 9
+   !> Characters of a lock file.
    integer, parameter :: longest = 300
    !> What an attempt found.
    integer, parameter :: free = 0, held = 1, unknown = 2, failed = 3
@@ -30,6 +31,9 @@ module file_lock
       character(len=:), allocatable :: path
       type(c_ptr) :: stream = c_null_ptr
       integer :: beats = 0, last_beat = 0
+      !> Seconds for which a holder on another machine is watched where its lock is free or locks are not known
+      !> here, and where its lock is held (a dead NFS client's is freed after 90 s).
+      integer, public :: watch_free = 3*beat_seconds, watch_held = 120
       !> The dead process whose lock was taken, "process 12 on node1"; empty where there was none.
       character(len=:), allocatable, public :: taken_from
    contains
@@ -37,26 +41,14 @@ module file_lock
       !> Shows that the holder lives; to be called often.
       procedure :: beat
       procedure :: release
+      procedure :: is_ours
       procedure, private :: attempt
+      procedure, nopass, private :: us
+      procedure, private :: patience_with
       procedure, private :: write_beat
    end type file_lock_type
 
    interface
-      type(c_ptr) function c_fopen(path, mode) bind(c, name='fopen')
-         import :: c_ptr, c_char
-         character(kind=c_char), intent(in) :: path(*), mode(*)
-      end function c_fopen
-
-      integer(c_int) function c_fileno(stream) bind(c, name='fileno')
-         import :: c_int, c_ptr
-         type(c_ptr), value :: stream
-      end function c_fileno
-
-      integer(c_int) function c_fclose(stream) bind(c, name='fclose')
-         import :: c_int, c_ptr
-         type(c_ptr), value :: stream
-      end function c_fclose
-
       integer(c_int) function c_lockf(descriptor, command, length) bind(c, name='lockf')
          import :: c_int, c_long
          integer(c_int), value :: descriptor, command
@@ -64,9 +56,9 @@ module file_lock
       end function c_lockf
 
       integer(c_size_t) function c_pread(descriptor, buffer, count, offset) bind(c, name='pread')
-         import :: c_char, c_int, c_long, c_size_t
+         import :: c_char, c_int, c_long, c_size_t, longest
          integer(c_int), value :: descriptor
-         character(kind=c_char), intent(inout) :: buffer(*)
+         character(kind=c_char), intent(inout) :: buffer(longest)
          integer(c_size_t), value :: count
          integer(c_long), value :: offset
       end function c_pread
@@ -79,18 +71,6 @@ module file_lock
          integer(c_long), value :: offset
       end function c_pwrite
 
-      integer(c_int) function c_ftruncate(descriptor, length) bind(c, name='ftruncate')
-         import :: c_int, c_long
-         integer(c_int), value :: descriptor
-         integer(c_long), value :: length
-      end function c_ftruncate
-
-      integer(c_int) function c_statx(directory, path, flags, mask, buffer) bind(c, name='statx')
-         import :: c_int, c_char, c_int16_t
-         integer(c_int), value :: directory, flags, mask
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int16_t), intent(out) :: buffer(*)
-      end function c_statx
    end interface
 
 contains
@@ -113,7 +93,7 @@ contains
             return
          end if
          if (waited == 0) first = holder
-         patience = patience_with(found, holder)
+         patience = self%patience_with(found, holder)
          if (found /= held .and. waited >= patience) exit
          call let_go(self)
          if (holder /= first .or. waited >= patience) then
@@ -122,21 +102,27 @@ contains
          end if
          ! opened anew each time, as network file systems look anew only then
          call pause_seconds(1)
+         if (stop_requested()) then
+            call raise(error, stopped, path//': stopped by signal '//to_text(stop_signal())//' before it started')
+            return
+         end if
          waited = waited + 1
       end do
       if (holder /= '') self%taken_from = described(holder)
       self%beats = 0
       if (.not. self%write_beat()) then
+         call delete_file(self%path)
          call let_go(self)
          call raise(error, system_error, 'cannot write '//path//': no lock file beside it: '//system_reason())
       end if
    end subroutine acquire
 
    !> Seconds to watch for a sign of life.
-   integer function patience_with(found, holder) result(patience)
+   integer function patience_with(self, found, holder) result(patience)
+      class(file_lock_type), intent(in) :: self
       integer, intent(in) :: found
       character(len=*), intent(in) :: holder
-      patience = merge(watch_held, watch_free, found == held)
+      patience = merge(self%watch_held, self%watch_free, found == held)
       if (found /= held .and. holder == '') patience = 0
       if (index(holder, host_name()//' ') /= 1) return
       ! on this machine the system knows
@@ -152,36 +138,77 @@ contains
       integer, intent(out) :: found
       !> What the file says.
       character(len=:), allocatable, intent(out) :: holder
-      character(kind=c_char) :: buffer(longest)
-      integer(c_int16_t) :: status(statx_shorts)
-      integer(c_size_t) :: length
-      integer :: i
       holder = ''
       do
-         self%stream = c_fopen(self%path//c_null_char, 'a+'//c_null_char)
+         call open_lock_file(self)
          found = failed
          if (.not. c_associated(self%stream)) return
          found = free
          if (c_lockf(c_fileno(self%stream), try_lock, 0_c_long) /= 0) found = merge(held, unknown, refused_by_other())
          ! its holder may have deleted it after we opened it
-         status(links_at) = 1
-         if (c_statx(c_fileno(self%stream), c_null_char, at_empty_path, statx_links, status) /= 0) exit
-         if (status(links_at) > 0) exit
+         if (is_there(self)) exit
          call let_go(self)
       end do
+      holder = content(self)
+   end subroutine attempt
+
+   !> For writing in place; made where there is none.
+   subroutine open_lock_file(self)
+      class(file_lock_type), intent(inout) :: self
+      self%stream = c_fopen(self%path//c_null_char, 'r+'//c_null_char)
+      if (c_associated(self%stream)) return
+      self%stream = c_fopen(self%path//c_null_char, 'a'//c_null_char)
+      if (.not. c_associated(self%stream)) return
+      call let_go(self)
+      self%stream = c_fopen(self%path//c_null_char, 'r+'//c_null_char)
+   end subroutine open_lock_file
+
+   !> False where the open lock file has been deleted.
+   logical function is_there(self)
+      class(file_lock_type), intent(in) :: self
+      integer(c_int16_t) :: status(statx_shorts)
+      status(links_at) = 1
+      is_there = c_statx(c_fileno(self%stream), c_null_char, at_empty_path, statx_links, status) /= 0
+      if (.not. is_there) is_there = status(links_at) > 0
+   end function is_there
+
+   !> The first line of the open lock file.
+   function content(self)
+      class(file_lock_type), intent(in) :: self
+      character(len=:), allocatable :: content
+      character(kind=c_char) :: buffer(longest)
+      integer(c_size_t) :: length
+      integer :: i
+      content = ''
       length = c_pread(c_fileno(self%stream), buffer, int(longest, c_size_t), 0_c_long)
       do i = 1, int(length)
          if (buffer(i) == achar(10)) exit
-         holder = holder//buffer(i)
+         content = content//buffer(i)
       end do
-   end subroutine attempt
+      content = trim(content)
+   end function content
+
+   !> False once somebody took us for dead and took the lock, or deleted it: then we must not write any more.
+   logical function is_ours(self)
+      class(file_lock_type), intent(in) :: self
+      is_ours = .false.
+      if (.not. c_associated(self%stream)) return
+      if (is_there(self)) is_ours = index(content(self), self%us()) == 1
+   end function is_ours
+
+   !> "host process ".
+   function us()
+      character(len=:), allocatable :: us
+      us = host_name()//' '//to_text(int(process_id()))//' '
+   end function us
 
    !> Cheap: writes only every ten seconds. `now` is a clock, s.
    subroutine beat(self, now)
       class(file_lock_type), intent(inout) :: self
       integer, intent(in) :: now
       logical :: ignored
-      if (.not. c_associated(self%stream) .or. now - self%last_beat < beat_seconds) return
+      if (now - self%last_beat < beat_seconds) return
+      if (.not. self%is_ours()) return
       self%last_beat = now
       self%beats = self%beats + 1
       ignored = self%write_beat()
@@ -190,18 +217,18 @@ contains
    !> True if it could be written.
    logical function write_beat(self) result(ok)
       class(file_lock_type), intent(in) :: self
-      character(kind=c_char, len=:), allocatable :: line
-      line = host_name()//' '//to_text(int(process_id()))//' '//to_text(self%beats)//achar(10)
-      ! 'a+' appends whatever the offset, hence the truncation
-      ok = c_ftruncate(c_fileno(self%stream), 0_c_long) == 0
-      if (ok) ok = c_pwrite(c_fileno(self%stream), line, len(line, c_size_t), 0_c_long) == len(line)
+      character(kind=c_char, len=longest) :: line
+      ! of one length, so that it replaces what is there and needs no room on the disk
+      line = self%us()//to_text(self%beats)
+      line(longest:) = achar(10)
+      ok = c_pwrite(c_fileno(self%stream), line, len(line, c_size_t), 0_c_long) == len(line)
    end function write_beat
 
    !> Deletes the lock file, if it is ours, and frees the lock.
    subroutine release(self)
       class(file_lock_type), intent(inout) :: self
+      if (self%is_ours()) call delete_file(self%path)
       if (.not. c_associated(self%stream)) return
-      call delete_file(self%path)
       call let_go(self)
    end subroutine release
 

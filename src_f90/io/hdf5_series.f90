@@ -1,5 +1,4 @@
-!> Datasets that grow along time. With hdf5_file the only file that knows HDF5. After a failure, which the file
-!> keeps, every routine does nothing.
+!> Datasets that grow along time. After a failure, which the file keeps, every routine does nothing.
 module hdf5_series
    use, intrinsic :: iso_c_binding, only: c_loc, c_ptr
    use hdf5, only: hid_t, hsize_t, size_t, h5s_unlimited_f, h5s_select_set_f, h5screate_simple_f, h5sclose_f, &
@@ -14,6 +13,8 @@ module hdf5_series
 
    !> Samples in a chunk.
    integer, parameter :: chunk_samples = 4096
+   !> More values a sample are the mark of a damaged file.
+   integer, parameter :: widest = 1000
 
    !> `width` values a sample: (time) or, in the order of h5py, (time, width).
    type :: hdf5_series_type
@@ -80,12 +81,17 @@ contains
       call file%check(status, 'open '//path)
       if (status >= 0) then
          call h5dget_space_f(self%id, space, status)
+         call file%expect_type(self%id, h5t_native_double, path)
          call h5sget_simple_extent_ndims_f(space, self%rank, status)
          if (self%rank < 1 .or. self%rank > 2) status = -1
          dims = 1
          if (status >= 0) call h5sget_simple_extent_dims_f(space, dims, most, status)
+         if (self%rank == 2 .and. dims(1) > widest) status = -1
          call file%check(status, 'read the size of '//path)
-         if (status < 0) self%rank = 1
+         if (status < 0) then
+            self%rank = 1
+            dims = 1
+         end if
          self%width = merge(int(dims(1)), 1, self%rank == 2)
          self%length = dims(self%rank)
          call h5sclose_f(space, status)

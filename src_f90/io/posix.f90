@@ -3,21 +3,25 @@ module posix
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_funptr, c_int, c_int16_t, c_intptr_t, &
       & c_long, c_null_char, c_null_ptr, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: output_unit
+   use text, only: lower_case
    implicit none (type, external)
    private
    public :: rename_file, delete_file, real_path, is_regular, process_id, is_terminal, write_output
    public :: keep_file_size_quiet, copy_file, link_file, sync_file, host_name, process_alive, pause_seconds
-   public :: system_reason, refused_by_other, set_environment
+   !> C's own, for modules that keep a descriptor.
+   public :: c_fopen, c_fileno, c_fclose, c_statx, c_kill
+   public :: system_reason, write_refusal, error_number, refused_by_other, set_environment
 
    !> Longest path, and Linux' numbers for statx and for the signal of a file grown too large.
    integer, parameter :: path_max = 4096
    integer(c_int), parameter :: at_fdcwd = -100, statx_type = 1, sigxfsz = 25
    !> Shorts in struct statx; the one that holds the mode; file type in it, and that of regular files.
-   integer, parameter :: statx_shorts = 128, mode_at = 15
+   integer, parameter, public :: statx_shorts = 128
+   integer, parameter :: mode_at = 15
    integer, parameter :: type_mask = int(o'170000'), type_regular = int(o'100000')
    !> Linux' numbers of the errors that tell why a file cannot be written, and of a process that is no more.
-   integer, parameter :: no_entry = 2, no_process = 3, io_error = 5, try_again = 11, no_access = 13, too_big = 27, disk_full = 28, &
-      & read_only = 30, over_quota = 122
+   integer, parameter :: no_entry = 2, no_process = 3, io_error = 5, try_again = 11, no_access = 13, too_big = 27, &
+      & disk_full = 28, read_only = 30, over_quota = 122
    !> Bytes copied at a time.
    integer(c_size_t), parameter :: copy_bytes = 2_c_size_t**30
 
@@ -97,8 +101,8 @@ module posix
       end function c_sendfile
 
       integer(c_int) function c_gethostname(name, length) bind(c, name='gethostname')
-         import :: c_int, c_char, c_size_t
-         character(kind=c_char), intent(inout) :: name(*)
+         import :: c_int, c_char, c_size_t, path_max
+         character(kind=c_char), intent(inout) :: name(path_max)
          integer(c_size_t), value :: length
       end function c_gethostname
 
@@ -122,6 +126,16 @@ module posix
       type(c_ptr) function c_errno_location() bind(c, name='__errno_location')
          import :: c_ptr
       end function c_errno_location
+
+      type(c_ptr) function c_strerror(number) bind(c, name='strerror')
+         import :: c_int, c_ptr
+         integer(c_int), value :: number
+      end function c_strerror
+
+      integer(c_size_t) function c_strlen(string) bind(c, name='strlen')
+         import :: c_ptr, c_size_t
+         type(c_ptr), value :: string
+      end function c_strlen
 
       integer(c_int) function c_isatty(descriptor) bind(c, name='isatty')
          import :: c_int
@@ -210,28 +224,31 @@ contains
       ignored = c_setenv(name//c_null_char, value//c_null_char, 0_c_int)
    end subroutine set_environment
 
-   !> Why the system refused to write, just after it did; empty where it does not say.
+   !> The system's words for what went wrong last.
    function system_reason() result(reason)
       character(len=:), allocatable :: reason
-      select case (error_number())
-      case (no_entry)
-         reason = 'no such file or directory'
-      case (io_error)
-         reason = 'input/output error'
-      case (no_access)
-         reason = 'permission denied'
-      case (too_big)
-         reason = 'file too large'
-      case (disk_full)
-         reason = 'no space left on device'
-      case (read_only)
-         reason = 'read-only file system'
-      case (over_quota)
-         reason = 'disk quota exceeded'
-      case default
-         reason = ''
-      end select
+      character(kind=c_char), pointer :: letters(:)
+      type(c_ptr) :: string
+      integer :: i
+      string = c_strerror(int(error_number(), c_int))
+      call c_f_pointer(string, letters, [c_strlen(string)])
+      reason = repeat(' ', size(letters))
+      do i = 1, size(letters)
+         reason(i:i) = letters(i)
+      end do
+      reason = lower_case(reason)
    end function system_reason
+
+   !> The same where it is a reason for which files cannot be written; else empty.
+   function write_refusal() result(reason)
+      character(len=:), allocatable :: reason
+      reason = ''
+      select case (error_number())
+      case (no_entry, io_error, no_access, too_big, disk_full, read_only, over_quota)
+         reason = system_reason()
+      case default
+      end select
+   end function write_refusal
 
    !> Whether the lock just refused is held by another process (otherwise locks are not known here).
    logical function refused_by_other()

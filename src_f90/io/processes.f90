@@ -1,8 +1,8 @@
 !> Child processes: what the runner of many members asks of Linux.
 module processes
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_int8_t, c_int16_t, c_long, &
-      & c_null_char, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int8_t, c_int16_t, c_long, c_null_char, c_size_t
    use text, only: to_text
+   use posix, only: c_kill, error_number, system_reason
    implicit none (type, external)
    private
    public :: processors, make_folder, remove_folder, new_process, end_child, end_with_parent, ended, stop_process
@@ -40,20 +40,6 @@ module processes
          import :: c_int, c_char
          character(kind=c_char), intent(in) :: path(*)
       end function c_rmdir
-
-      type(c_ptr) function c_errno() bind(c, name='__errno_location')
-         import :: c_ptr
-      end function c_errno
-
-      type(c_ptr) function c_strerror(number) bind(c, name='strerror')
-         import :: c_int, c_ptr
-         integer(c_int), value :: number
-      end function c_strerror
-
-      integer(c_size_t) function c_strlen(string) bind(c, name='strlen')
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: string
-      end function c_strlen
 
       integer(c_int) function c_fork() bind(c, name='fork')
          import :: c_int
@@ -106,10 +92,6 @@ module processes
          integer(c_int), intent(out) :: status
       end function c_waitpid
 
-      integer(c_int) function c_kill(process, signal) bind(c, name='kill')
-         import :: c_int
-         integer(c_int), value :: process, signal
-      end function c_kill
    end interface
 
 contains
@@ -128,7 +110,7 @@ contains
       character(len=:), allocatable, intent(out) :: trouble
       trouble = ''
       if (c_mkdir(path//c_null_char, all_may) == 0) return
-      if (error_number() /= already_there) trouble = reason()
+      if (error_number() /= already_there) trouble = system_reason()
    end subroutine make_folder
 
    !> Removes an empty folder, if it is there.
@@ -219,26 +201,4 @@ contains
       integer(c_int) :: ignored
       ignored = c_kill(int(process, c_int), sigterm)
    end subroutine stop_process
-
-   !> The system's number and words for what went wrong last.
-   integer function error_number()
-      integer(c_int), pointer :: number
-      call c_f_pointer(c_errno(), number)
-      error_number = int(number)
-   end function error_number
-
-   function reason()
-      character(len=:), allocatable :: reason
-      character(kind=c_char), pointer :: letters(:)
-      type(c_ptr) :: string
-      integer :: i
-      string = c_strerror(int(error_number(), c_int))
-      reason = ''
-      if (.not. c_associated(string)) return
-      call c_f_pointer(string, letters, [c_strlen(string)])
-      reason = repeat(' ', size(letters))
-      do i = 1, size(letters)
-         reason(i:i) = letters(i)
-      end do
-   end function reason
 end module processes

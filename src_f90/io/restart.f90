@@ -5,6 +5,7 @@ module restart
    use scene_namelist, only: scene_from_text
    use namelist_writer, only: scene_text
    use hdf5_file, only: hdf5_type
+   use hdf5_trial, only: can_be_read
    use run_file, only: format_version
    implicit none (type, external)
    private
@@ -30,9 +31,14 @@ contains
       type(hdf5_type) :: file
       character(len=:), allocatable :: program, input, reason
       integer :: version, complete, status
-      logical :: checkpoint
-      call file%open(path, writing=.false.)
-      if (allocated(file%failure)) then
+      logical :: checkpoint, exists
+      inquire (file=path, exist=exists)
+      if (.not. exists) then
+         call raise(error, system_error, path//': no such file')
+         return
+      end if
+      if (can_be_read(path)) call file%open(path, writing=.false.)
+      if (file%id < 0) then
          call raise(error, system_error, path//': no HDF5 file, or damaged')
          return
       end if
@@ -54,13 +60,15 @@ contains
             if (status /= 0) call file%get_text('reason', reason)
          end if
       end if
-      if (.not. allocated(error) .and. allocated(file%failure)) &
-         & call raise(error, system_error, path//': damaged: '//file%failure)
+      if (.not. allocated(error) .and. allocated(file%failure)) then
+        call raise(error, system_error, path//': damaged: '//file%failure)
+      end if
       call file%close()
       if (allocated(error)) return
       call scene_from_text(input, path, [character(len=1) ::], found%scene, error)
       if (allocated(error)) then
          error%status = system_error
+         call add_context(error, path//': its input cannot be read')
          return
       end if
       found%complete = complete == 1

@@ -72,10 +72,11 @@ contains
       self%next = k + 1
       if (k > size(self%series)) then
          if (self%samples > 1) then
-            call self%open_series(file, name)
+            call self%open_series(file, name, size(values))
          else
             call new_series(self, name)
-            call self%series(k)%data%create(file, name, width, units, long_name, merge('time pad', 'time    ', width > 0))
+            call self%series(k)%data%create(file, name, width, units, long_name, &
+               & merge('time pad', 'time    ', width > 0))
          end if
          if (size(self%series) < k) return
          allocate (self%series(k)%buffer(size(values), chunk_samples), source=0.0_wp)
@@ -91,17 +92,18 @@ contains
       self%series = [self%series, new]
    end subroutine new_series
 
-   !> A series that is in the file; it must be as long as all others.
-   subroutine open_series(self, file, name)
+   !> A series that is in the file; it must have this width and be as long as all others.
+   subroutine open_series(self, file, name, width)
       class(sample_table_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: name
+      integer, intent(in) :: width
       integer(i8) :: expected
       call new_series(self, name)
       expected = self%samples - self%held
       associate (data => self%series(size(self%series))%data)
          call data%open(file, name)
-         if (data%length /= expected) call file%check(-1, 'find all samples of '//name)
+         if (data%length /= expected .or. data%width /= width) call file%check(-1, 'find all samples of '//name)
       end associate
    end subroutine open_series
 

@@ -51,6 +51,8 @@ contains
    subroutine copy_published(self, error)
       class(working_file_type), intent(in) :: self
       type(error_type), allocatable, intent(out) :: error
+      ! a new file under the name: a reader may still have the old one open
+      call delete_file(self%part)
       if (.not. copy_file(self%path, self%part)) call raise(error, system_error, &
          & 'cannot write '//self%part//': '//system_reason())
    end subroutine copy_published
@@ -63,8 +65,12 @@ contains
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: spare
       logical :: ok
-      spare = self%path//'.old'
       exchanged = .false.
+      if (.not. self%lock%is_ours()) then
+         call raise(error, system_error, 'cannot write '//self%path//': another run took it over')
+         return
+      end if
+      spare = self%path//'.old'
       ok = sync_file(self%part)
       if (ok .and. self%published) then
          call delete_file(spare)
@@ -88,6 +94,11 @@ contains
 
    subroutine release(self)
       class(working_file_type), intent(inout) :: self
+      ! without the lock they may be another's
+      if (.not. self%lock%is_ours()) then
+         call self%lock%release()
+         return
+      end if
       if (.not. self%stranded) call delete_file(self%part)
       call delete_file(self%path//'.old')
       call self%lock%release()

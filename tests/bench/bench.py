@@ -1,4 +1,4 @@
-"""Benchmark: run time against error, every scene with the defaults, film solvers, number of pads, peers.
+"""Benchmark: run time against error, every scene with the defaults, film solvers, pads, production, peers.
 
 usage: bench.py TILTPAD [--only PART...] [--folder FOLDER] [--docs FOLDER]
 
@@ -22,6 +22,7 @@ from films import films, pads
 from machine import described
 from page import page
 from peers import peers
+from production import production
 from runner import Row, Runner
 from settings import ROOT
 from skips import kernels, skips
@@ -34,6 +35,7 @@ PARTS = {
     "films": films,
     "skips": skips,
     "pads": pads,
+    "production": production,
     "peers": peers,
 }
 

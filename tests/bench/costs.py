@@ -1,12 +1,24 @@
-"""The tables of films, pads and peers, and the sentences that follow from them."""
+"""The tables of films, pads, production and peers, and the sentences that follow from them."""
+
+import os
 
 from figures import compared
 from films import exponent
 from peers import DIFFERENCED, OWN, SCALAR, SCALED, SCIPY, TILTPAD
+from production import CHECKPOINTS, COLLECT, LONG, SHORT, SWEEP
 from runner import Row
-from settings import MAIN, MODAL, TOLERANCE_SPAN, WHOLE_FILM
+from settings import (
+    CHECKPOINT_SHARE,
+    COLLECT_SECONDS,
+    MAIN,
+    MEMBER_MILLISECONDS,
+    MEMBERS,
+    MODAL,
+    TOLERANCE_SPAN,
+    WHOLE_FILM,
+)
 from skips import SAMPLE, TABLE
-from tables import LABELS, NOT_RUN, film_time, short, small, table
+from tables import LABELS, NOT_RUN, film_time, short, small, table, verdict
 
 #: Seconds of the scene's whole march, and its pads.
 OF, PADS = 2, 2
@@ -162,3 +174,39 @@ def peers_words(rows: list[Row]) -> str:
         f"{other.rotor_seconds:g} s): its steps are near rounding, and what the warm-started film leaves "
         "unsolved is as large as what they change."
     )
+
+
+def checkpoints(rows: list[Row]) -> str:
+    """Runs without and with checkpoints."""
+    pairs = [row for row in rows if row.group == CHECKPOINTS]
+    lines = []
+    for without, often in zip(pairs[::2], pairs[1::2], strict=True):
+        share = often.wall_seconds / without.wall_seconds - 1
+        rate = float(without.note.split()[0]) / without.wall_seconds
+        walls = short(without.wall_seconds), short(often.wall_seconds)
+        lines.append((without.scene, *walls, f"{rate:.1f}", f"{share:.1%}", verdict(share, CHECKPOINT_SHARE)))
+    head = "scene", "wall s without", "wall s with", "MB/s written", "share", f"below {CHECKPOINT_SHARE:.0%}"
+    return table(head, lines) if lines else NOT_RUN
+
+
+def study(rows: list[Row]) -> str:
+    """A sweep of short runs and its collection."""
+    walls = {(row.group, row.setting): row.wall_seconds for row in rows}
+    if (SWEEP, "all") not in walls:
+        return NOT_RUN
+    brief, long = walls[SWEEP, f"{SHORT:g}"], walls[SWEEP, f"{LONG:g}"]
+    march = (long - brief) / (LONG - SHORT) * SHORT
+    cores = os.cpu_count()
+    beyond = 1e3 * (cores * walls[SWEEP, "all"] / MEMBERS - march)
+    again, collected = walls[SWEEP, "again"], walls[COLLECT, "all"]
+    lines = [
+        (f"all members, {cores} at a time", f"{short(walls[SWEEP, 'all'])} s", "", ""),
+        ("a member beyond its march", f"{short(beyond)} ms", f"{MEMBER_MILLISECONDS} ms",
+         verdict(beyond, MEMBER_MILLISECONDS)),
+        ("the march of a member", f"{short(1e3 * march)} ms", "", ""),
+        ("the same by a process of its own", f"{short(1e3 * brief)} ms", "", ""),
+        ("a second call, all complete", f"{short(again)} s", "", ""),
+        ("collected into one file", f"{short(collected)} s", f"{COLLECT_SECONDS} s",
+         verdict(collected, COLLECT_SECONDS)),
+    ]  # fmt: skip
+    return table(("what", "measured", "to reach", ""), lines)

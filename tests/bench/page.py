@@ -2,11 +2,14 @@
 
 import costs
 import tables
+from production import REPEATS
 from runner import Row
 from settings import (
     ALLOWED,
+    CHECKPOINT_SECONDS,
     FILM_TOLERANCE,
     FINE,
+    MEMBERS,
     MODE_CELLS,
     PEER_ABSOLUTE,
     PEER_FILM_TOLERANCE,
@@ -111,6 +114,25 @@ Left out besides, with nothing to measure it against: the pressures of a film wh
 looked for only where it can fall), rows of Newton's matrix between pads, and samples before
 `output%start_time`.
 
+## Production
+
+### Checkpoints
+
+The same run without checkpoints and with one every {checkpoint_seconds:g} s of wall time (default: 300 s),
+best of {checkpoint_repeats} pairs. A checkpoint costs what was written since the last one, so the share
+depends little on how often there is one, and goes with the megabytes a second that a run writes. A run that
+is over before its first checkpoint pays nothing.
+
+{checkpoints}
+
+### Sweeps and studies
+
+{members} runs of 0.1 s without friction by one call on all cores, and their results collected into one file.
+"Beyond the march" is a member's time on its core less what 0.1 s more of a run takes: reading, contact table,
+equilibrium, the file and its spectra.
+
+{study}
+
 ## Scaled and scalar absolute tolerances
 
 The paper gives its integrator one absolute tolerance, {absolute:g}, for states between metres and radians a
@@ -182,6 +204,11 @@ def page(rows: dict[str, list[Row]], machine: str) -> str:
         kernels=costs.kernels(rows["kernels"]),
         skips=costs.skips(rows["skips"]),
         skips_words=costs.skips_words(rows["diagram"], rows["kernels"]),
+        checkpoint_seconds=CHECKPOINT_SECONDS,
+        checkpoint_repeats=REPEATS,
+        checkpoints=costs.checkpoints(rows["production"]),
+        members=MEMBERS,
+        study=costs.study(rows["production"]),
         absolute=PEER_ABSOLUTE,
         relative=PEER_RELATIVE,
         peer_film_tolerance=PEER_FILM_TOLERANCE,

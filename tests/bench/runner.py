@@ -91,7 +91,7 @@ class Runner:
 
     def run(
         self, scene: Scene, group: str, setting: str, overrides: tuple[str, ...] = (), timed: bool = True,
-        core: int = CORE,
+        core: int = CORE, repeat: bool = True,
     ) -> tuple[Row, Path]:  # fmt: skip
         """One run and its result file, which the caller removes; timed: the best of several if short."""
         path = self.folder / f"{self.number()}.h5"
@@ -99,7 +99,7 @@ class Runner:
         options = [word for each in overrides for word in ("--set", each)]
         command = [self.program, ROOT / scene.case, "--quiet", "--output", path, *options]
         row = Row(self.part, scene.name, group, setting, " ".join(overrides))
-        done, spent, left = launch(command, core), 0.0, REPEATS - 1 if timed else 0
+        done, spent, left = launch(command, core), 0.0, REPEATS - 1 if timed and repeat else 0
         while left and done.status == 0 and spent + done.seconds < SHORT:
             again = launch(command, core)
             done = min(done, again, key=lambda each: each.seconds)

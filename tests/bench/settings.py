@@ -50,6 +50,20 @@ ALLOWED = 1e-3
 FINE = ("64 cells, 12 modes, 1e-8", film(64, 12) + tolerance("1e-8"))
 FINE_ALLOWED = 1e-5
 
+#: What checkpoints cost: wall time between them (so often only here) and the share allowed; the scenes.
+CHECKPOINT_SECONDS, CHECKPOINT_SHARE = 1.0, 0.02
+CHECKPOINT_SCENES = (
+    Scene("steady_tr", "frictionless", MAIN[0].case, ("operation%duration=50",)),
+    Scene("steady_lugre", "LuGre", MAIN[1].case, ("operation%duration=16",)),
+    Scene("steady_lugre", "LuGre, 36 samples a revolution", MAIN[1].case,
+          ("operation%duration=16", "output%samples_per_revolution=36")),
+    Scene("steady_tr_ba", "Bengisu-Akay", MAIN[2].case, ("operation%duration=6",)),
+    Scene("steady_lugre", "LuGre, over-relaxation", MAIN[1].case,
+          ("operation%duration=0.4", "film%solver=sor")),
+)  # fmt: skip
+#: Members of the sweep of short runs; milliseconds allowed beyond a member's march; seconds to collect all.
+MEMBERS, MEMBER_MILLISECONDS, COLLECT_SECONDS = 1000, 20, 10
+
 #: Some of them without rupture, where no finite volumes stand beside the axial modes.
 UNRUPTURED = tuple(
     Scene(f"{scene.name}_none", f"{scene.label}, cavitation 'none'", scene.case, ("film%cavitation=none",))

@@ -1,0 +1,164 @@
+!> The words of the command line.
+module arguments
+   use errors, only: error_type, raise, input_error
+   implicit none (type, external)
+   private
+   public :: arguments_type, read_arguments, print_help
+
+   !> Longest override.
+   integer, parameter :: longest = 4096
+
+   type :: arguments_type
+      !> 'run', 'check', 'count', 'help', 'version' or 'reference'.
+      character(len=:), allocatable :: task
+      !> Files; empty where none is given.
+      character(len=:), allocatable :: case_file, output, resumed
+      !> "group%name=value".
+      character(len=longest), allocatable :: overrides(:)
+      !> Member of a sweep, and how many at a time; 0 where not given.
+      integer :: member = 0, jobs = 0
+      logical :: quiet = .false.
+   end type arguments_type
+
+contains
+
+   subroutine read_arguments(given, error)
+      type(arguments_type), intent(out) :: given
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: word, value
+      integer :: i
+
+      given%task = 'run'
+      given%case_file = ''
+      given%output = ''
+      given%resumed = ''
+      allocate (given%overrides(0))
+      i = 0
+      do while (i < command_argument_count())
+         i = i + 1
+         word = argument(i)
+         select case (word)
+         case ('--help', '-h')
+            given%task = 'help'
+            return
+         case ('--version', '--reference')
+            given%task = word(3:)
+            return
+         case ('--check', '--count')
+            if (given%task /= 'run' .and. given%task /= word(3:)) call raise(error, input_error, &
+               & '--check and --count: one of them at a time')
+            given%task = word(3:)
+         case ('--quiet', '-q')
+            given%quiet = .true.
+         case ('--output', '-o', '--resume', '--set', '--member', '--jobs')
+            if (i == command_argument_count()) then
+               call raise(error, input_error, word//': a value must follow; see tiltpad --help')
+               return
+            end if
+            i = i + 1
+            value = argument(i)
+            call take_option(given, word, value, error)
+         case default
+            if (len(word) == 0) then
+               call raise(error, input_error, 'an empty argument; see tiltpad --help')
+            else if (word(1:1) == '-') then
+               call raise(error, input_error, 'unknown option '//word//'; see tiltpad --help')
+            else if (given%case_file /= '') then
+               call raise(error, input_error, 'one case at a time: '//given%case_file//' and '//word//' given')
+            else
+               given%case_file = word
+            end if
+         end select
+         if (allocated(error)) return
+      end do
+      call check_arguments(given, error)
+   end subroutine read_arguments
+
+   !> An option with its value.
+   subroutine take_option(given, word, value, error)
+      type(arguments_type), intent(inout) :: given
+      character(len=*), intent(in) :: word, value
+      type(error_type), allocatable, intent(out) :: error
+      select case (word)
+      case ('--set')
+         if (len(value) > longest) call raise(error, input_error, '--set: the value is too long')
+         given%overrides = [character(len=longest) :: given%overrides, value]
+      case ('--member')
+         call read_whole(word, value, given%member, error)
+      case ('--jobs')
+         call read_whole(word, value, given%jobs, error)
+      case default
+         if (value == '') call raise(error, input_error, word//': the file name is empty')
+         if (word == '--resume') then
+            given%resumed = value
+         else
+            given%output = value
+         end if
+      end select
+   end subroutine take_option
+
+   !> Refuses what does not go together.
+   subroutine check_arguments(given, error)
+      type(arguments_type), intent(in) :: given
+      type(error_type), allocatable, intent(out) :: error
+      if (given%resumed /= '' .and. given%output /= '') then
+         call raise(error, input_error, '--resume goes on with its file; --output cannot name another')
+      else if (given%jobs > 0 .and. (given%member > 0 .or. given%task /= 'run')) then
+         call raise(error, input_error, '--jobs: is for running all members; not with --member, --check or --count')
+      else if (given%task == 'count' .and. given%member > 0) then
+         call raise(error, input_error, '--count and --member: one of them at a time')
+      else if (given%resumed == '' .and. given%case_file == '') then
+         call raise(error, input_error, 'no case given; usage: tiltpad [options] CASE.nml, see tiltpad --help')
+      else if (given%case_file == '') then
+         if (given%task == 'count' .or. given%jobs > 0 .or. given%member > 0) then
+            call raise(error, input_error, '--count, --jobs and --member: are for a case with a sweep, and --resume ' &
+               & //'for one run')
+         else if (size(given%overrides) > 0) then
+            call raise(error, input_error, '--set changes the case; a resumed run keeps its own')
+         end if
+      end if
+   end subroutine check_arguments
+
+   !> The value of an option that takes a whole number from 1.
+   subroutine read_whole(option, value, number, error)
+      character(len=*), intent(in) :: option, value
+      integer, intent(out) :: number
+      type(error_type), allocatable, intent(out) :: error
+      number = 0
+      if (value /= '' .and. len(value) < 10 .and. verify(value, '0123456789') == 0) read (value, *) number
+      if (number == 0) call raise(error, input_error, option//' '//value//': must be a whole number, 1 or more')
+   end subroutine read_whole
+
+   !> The i-th word of the command line, of any length.
+   function argument(i)
+      integer, intent(in) :: i
+      character(len=:), allocatable :: argument
+      integer :: length
+      call get_command_argument(i, length=length)
+      allocate (character(len=length) :: argument)
+      call get_command_argument(i, argument)
+   end function argument
+
+   subroutine print_help()
+      print '(a)', 'usage: tiltpad [options] CASE.nml', &
+         & '', &
+         & 'Marches the tilting pad journal bearing of a namelist case and writes an HDF5 result file.', &
+         & 'A case with a group &sweep is many, its members; each writes a file of its own.', &
+         & '', &
+         & '  --output FILE           result file; default: the case''s name with .h5, in this directory', &
+         & '                          (of a sweep: the folder of the results 0001.h5, ...; the case''s name)', &
+         & '  --resume FILE           goes on with a run that was stopped or killed, from its last checkpoint;', &
+         & '                          with a CASE: starts it if FILE is not there', &
+         & '  --set group%name=value  overrides one value of the case; may be repeated', &
+         & '  --check                 reads, checks and prints the resolved case; runs nothing', &
+         & '  --jobs N                members of a sweep that run at a time; default: the processors there are', &
+         & '  --member K              runs (or with --check, prints) the K-th member of a sweep alone', &
+         & '  --count                 prints how many members the case has; 1 without a group &sweep', &
+         & '  --quiet                 prints nothing but errors', &
+         & '  --reference             prints the input reference (Markdown)', &
+         & '  --version, --help', &
+         & '', &
+         & 'Exit status: 0 done; 1 usage or input; 2 the numerics failed (what was computed is kept);', &
+         & '3 file or system; 4 stopped by a signal (SIGTERM, SIGUSR1, SIGINT) after a checkpoint.'
+   end subroutine print_help
+end module arguments

@@ -1,0 +1,262 @@
+!> An HDF5 file: opening, groups, root attributes. After a failure every routine does nothing; `failure` says what
+!> failed first.
+module hdf5_base
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_loc, c_null_char, c_null_ptr, c_ptr, &
+      & c_size_t
+   use hdf5, only: hid_t, h5open_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fopen_f, h5fclose_f, &
+      & h5f_acc_trunc_f, h5f_acc_rdonly_f, h5f_acc_rdwr_f, h5gcreate_f, h5gclose_f, h5screate_f, h5sclose_f, &
+      & h5s_scalar_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, h5tis_variable_str_f, h5t_string, h5t_cset_utf8_f, &
+      & h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, h5aget_type_f, h5adelete_f, h5aexists_f, &
+      & h5lexists_f, h5ldelete_f, h5t_native_integer
+   use posix, only: set_environment, write_refusal
+   implicit none (type, external)
+   private
+   public :: hdf5_base_type
+
+   type :: hdf5_base_type
+      !> HDF5's number of the open file; negative where none is open.
+      integer(hid_t) :: id = -1
+      !> What failed first; not allocated while all is well.
+      character(len=:), allocatable :: failure
+   contains
+      !> Creates a file (replacing one of the name), opens one, closes it.
+      procedure :: create
+      procedure :: open => open_file
+      procedure :: close => close_file
+      procedure :: make_group
+      !> True where there is a dataset, group or root attribute of that name.
+      procedure :: has
+      procedure :: has_attribute
+      !> Deletes a dataset or group.
+      procedure :: delete
+      !> Root attributes; one of the name is replaced.
+      procedure :: put_text
+      procedure :: put_flag
+      procedure :: get_text
+      procedure :: get_flag
+      !> For what builds on it: notes a failed action; an attribute of any object.
+      procedure :: check
+      procedure :: write_attribute
+      procedure, private :: begin
+   end type hdf5_base_type
+
+   interface
+      integer(c_size_t) function c_strlen(text) bind(c, name='strlen')
+         import :: c_ptr, c_size_t
+         type(c_ptr), value :: text
+      end function c_strlen
+
+      subroutine c_free(memory) bind(c, name='free')
+         import :: c_ptr
+         type(c_ptr), value :: memory
+      end subroutine c_free
+   end interface
+
+contains
+
+   !> Readies the library.
+   subroutine begin(self)
+      class(hdf5_base_type), intent(inout) :: self
+      integer :: status
+      ! HDF5's own locks are for readers in the middle of a write; many file systems know none
+      call set_environment('HDF5_USE_FILE_LOCKING', 'BEST_EFFORT')
+      ! what is open is closed here; at exit HDF5 would crash over a file it could not write
+      call h5dont_atexit_f(status)
+      call h5open_f(status)
+      ! HDF5 would print its own stack of errors
+      call h5eset_auto_f(0, status)
+      if (allocated(self%failure)) deallocate (self%failure)
+   end subroutine begin
+
+   subroutine create(self, path)
+      class(hdf5_base_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      integer :: status
+      call self%begin()
+      call h5fcreate_f(path, h5f_acc_trunc_f, self%id, status)
+      call self%check(status, 'create the file')
+   end subroutine create
+
+   subroutine open_file(self, path, writing)
+      class(hdf5_base_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      logical, intent(in) :: writing
+      integer :: status
+      call self%begin()
+      call h5fopen_f(path, merge(h5f_acc_rdwr_f, h5f_acc_rdonly_f, writing), self%id, status)
+      call self%check(status, 'open the file')
+      if (status < 0) self%id = -1
+   end subroutine open_file
+
+   subroutine close_file(self)
+      class(hdf5_base_type), intent(inout) :: self
+      integer :: status
+      if (self%id < 0) return
+      call h5fclose_f(self%id, status)
+      call self%check(status, 'close the file')
+      self%id = -1
+   end subroutine close_file
+
+   logical function has(self, path)
+      class(hdf5_base_type), intent(in) :: self
+      character(len=*), intent(in) :: path
+      integer :: status, slash
+      slash = index(path, '/')
+      has = .not. allocated(self%failure)
+      ! HDF5 wants to be asked for the group first
+      if (has .and. slash > 0) call h5lexists_f(self%id, path(:slash - 1), has, status)
+      if (has) call h5lexists_f(self%id, path, has, status)
+   end function has
+
+   logical function has_attribute(self, name) result(has)
+      class(hdf5_base_type), intent(in) :: self
+      character(len=*), intent(in) :: name
+      integer :: status
+      has = .false.
+      if (.not. allocated(self%failure)) call h5aexists_f(self%id, name, has, status)
+   end function has_attribute
+
+   subroutine delete(self, path)
+      class(hdf5_base_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      integer :: status
+      if (.not. self%has(path)) return
+      call h5ldelete_f(self%id, path, status)
+      call self%check(status, 'delete '//path)
+   end subroutine delete
+
+   subroutine make_group(self, name)
+      class(hdf5_base_type), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      integer(hid_t) :: group
+      integer :: status
+      if (allocated(self%failure)) return
+      call h5gcreate_f(self%id, name, group, status)
+      call self%check(status, 'create group '//name)
+      call h5gclose_f(group, status)
+   end subroutine make_group
+
+   !> Root attribute, UTF-8 of variable length.
+   subroutine put_text(self, name, text)
+      class(hdf5_base_type), intent(inout) :: self
+      character(len=*), intent(in) :: name, text
+      integer :: status
+      if (self%has_attribute(name)) call h5adelete_f(self%id, name, status)
+      call self%write_attribute(self%id, name, text)
+   end subroutine put_text
+
+   !> Text attribute; empty, and a failure, where there is none.
+   subroutine get_text(self, name, text)
+      class(hdf5_base_type), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable, intent(out) :: text
+      type(c_ptr), target :: pointer(1)
+      type(c_ptr) :: buffer
+      character(kind=c_char), pointer :: characters(:)
+      integer(hid_t) :: attribute, kind
+      integer :: i
+      integer :: status
+      logical :: variable
+      text = ''
+      if (allocated(self%failure)) return
+      call h5aopen_f(self%id, name, attribute, status)
+      call self%check(status, 'find attribute '//name)
+      if (status < 0) return
+      call h5aget_type_f(attribute, kind, status)
+      call h5tis_variable_str_f(kind, variable, status)
+      if (status >= 0 .and. .not. variable) status = -1
+      pointer(1) = c_null_ptr
+      buffer = c_loc(pointer)
+      if (status >= 0) call h5aread_f(attribute, kind, buffer, status)
+      call self%check(status, 'read attribute '//name)
+      if (c_associated(pointer(1))) then
+         call c_f_pointer(pointer(1), characters, [c_strlen(pointer(1))])
+         text = repeat(' ', size(characters))
+         do i = 1, size(characters)
+            text(i:i) = characters(i)
+         end do
+         call c_free(pointer(1))
+      end if
+      call h5tclose_f(kind, status)
+      call h5aclose_f(attribute, status)
+   end subroutine get_text
+
+   !> Integer root attribute; replaces one of the name.
+   subroutine put_flag(self, name, value)
+      class(hdf5_base_type), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: value
+      integer, target :: buffer
+      integer(hid_t) :: space, attribute
+      integer :: status
+      if (allocated(self%failure)) return
+      buffer = value
+      if (self%has_attribute(name)) call h5adelete_f(self%id, name, status)
+      call h5screate_f(h5s_scalar_f, space, status)
+      call h5acreate_f(self%id, name, h5t_native_integer, space, attribute, status)
+      call self%check(status, 'create attribute '//name)
+      call h5awrite_f(attribute, h5t_native_integer, c_loc(buffer), status)
+      call self%check(status, 'write attribute '//name)
+      call h5aclose_f(attribute, status)
+      call h5sclose_f(space, status)
+   end subroutine put_flag
+
+   !> Integer attribute; 0, and a failure, where there is none.
+   subroutine get_flag(self, name, value)
+      class(hdf5_base_type), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      integer, intent(out) :: value
+      integer, target :: buffer
+      type(c_ptr) :: pointer
+      integer(hid_t) :: attribute
+      integer :: status
+      value = 0
+      if (allocated(self%failure)) return
+      buffer = 0
+      pointer = c_loc(buffer)
+      call h5aopen_f(self%id, name, attribute, status)
+      if (status >= 0) then
+         call h5aread_f(attribute, h5t_native_integer, pointer, status)
+         call self%check(status, 'read attribute '//name)
+         call h5aclose_f(attribute, status)
+      else
+         call self%check(status, 'find attribute '//name)
+      end if
+      value = buffer
+   end subroutine get_flag
+
+   subroutine write_attribute(self, object, name, text)
+      class(hdf5_base_type), intent(inout) :: self
+      integer(hid_t), intent(in) :: object
+      character(len=*), intent(in) :: name, text
+      character(kind=c_char, len=:), allocatable, target :: buffer
+      type(c_ptr), target :: pointer(1)
+      integer(hid_t) :: space, attribute, kind
+      integer :: status
+      if (allocated(self%failure)) return
+      buffer = text//c_null_char
+      pointer(1) = c_loc(buffer)
+      call h5tcopy_f(h5t_string, kind, status)
+      call h5tset_cset_f(kind, h5t_cset_utf8_f, status)
+      call h5screate_f(h5s_scalar_f, space, status)
+      call h5acreate_f(object, name, kind, space, attribute, status)
+      call self%check(status, 'create attribute '//name)
+      call h5awrite_f(attribute, kind, c_loc(pointer), status)
+      call self%check(status, 'write attribute '//name)
+      call h5aclose_f(attribute, status)
+      call h5sclose_f(space, status)
+      call h5tclose_f(kind, status)
+   end subroutine write_attribute
+
+   !> Keeps the first failure.
+   subroutine check(self, status, action)
+      class(hdf5_base_type), intent(inout) :: self
+      integer, intent(in) :: status
+      character(len=*), intent(in) :: action
+      character(len=:), allocatable :: reason
+      if (status >= 0 .or. allocated(self%failure)) return
+      reason = write_refusal()
+      self%failure = 'HDF5 could not '//action
+      if (reason /= '') self%failure = self%failure//': '//reason
+   end subroutine check
+end module hdf5_base

@@ -1,0 +1,102 @@
+!> Tries whether an HDF5 file can be read at all. Over a damaged one the library may crash or run for ever; it does
+!> so in a child process.
+module hdf5_trial
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr
+   use hdf5, only: hid_t, h5gn_members_f, h5gget_obj_info_idx_f, h5g_group_f
+   use kinds, only: wp
+   use hdf5_file, only: hdf5_type
+   use hdf5_series, only: hdf5_series_type
+   use posix, only: c_fopen, c_fileno
+   use processes, only: new_process, end_child, ended
+   implicit none (type, external)
+   private
+   public :: can_be_read
+
+   !> Seconds after which the reading is given up.
+   integer(c_int), parameter :: patience = 60
+   integer, parameter :: longest_name = 200
+
+   interface
+      integer(c_int) function c_alarm(seconds) bind(c, name='alarm')
+         import :: c_int
+         integer(c_int), value :: seconds
+      end function c_alarm
+
+      integer(c_int) function c_dup2(old, new) bind(c, name='dup2')
+         import :: c_int
+         integer(c_int), value :: old, new
+      end function c_dup2
+   end interface
+
+contains
+
+   !> False where reading all of the file's structure, and the end of each dataset, crashes or takes too long. What
+   !> is merely missing or wrong in it is not looked at.
+   logical function can_be_read(path)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: how
+      integer(c_int) :: ignored
+      integer :: child
+      can_be_read = .true.
+      child = new_process()
+      if (child < 0) return
+      if (child == 0) then
+         call be_silent()
+         ignored = c_alarm(patience)
+         call read_all(path)
+         call end_child(0)
+      end if
+      can_be_read = ended(child, .true., how) .and. index(how, 'status 0 ') > 0
+   end function can_be_read
+
+   !> The library and the runtime would report the crash.
+   subroutine be_silent()
+      type(c_ptr) :: nothing
+      integer(c_int) :: ignored
+      nothing = c_fopen('/dev/null'//c_null_char, 'w'//c_null_char)
+      if (.not. c_associated(nothing)) return
+      ignored = c_dup2(c_fileno(nothing), 1_c_int)
+      ignored = c_dup2(c_fileno(nothing), 2_c_int)
+   end subroutine be_silent
+
+   subroutine read_all(path)
+      character(len=*), intent(in) :: path
+      type(hdf5_type) :: file
+      character(len=*), parameter :: texts(*) = [character(len=7) :: 'program', 'input', 'reason', 'history']
+      character(len=:), allocatable :: text
+      integer :: i
+      call file%open(path, writing=.false.)
+      if (file%id < 0) return
+      do i = 1, size(texts)
+         if (file%has_attribute(trim(texts(i)))) call file%get_text(trim(texts(i)), text)
+      end do
+      call read_group(file, '/')
+      call file%close()
+   end subroutine read_all
+
+   recursive subroutine read_group(file, group)
+      type(hdf5_type), intent(inout) :: file
+      character(len=*), intent(in) :: group
+      type(hdf5_series_type) :: data
+      real(wp), allocatable :: values(:, :)
+      character(len=longest_name) :: name
+      character(len=:), allocatable :: path
+      integer :: members, i, kind, status
+      call h5gn_members_f(file%id, group, members, status)
+      if (status < 0) return
+      do i = 0, members - 1
+         call h5gget_obj_info_idx_f(file%id, group, i, name, kind, status)
+         if (status < 0) cycle
+         path = group//trim(name)
+         if (kind == h5g_group_f) then
+            if (group == '/') call read_group(file, path//'/')
+         else
+            call data%open(file, path)
+            if (data%length > 0) call data%read(file, data%length - 1, 1, values)
+            call data%close(file)
+            ! what is wrong will be told when it is needed
+            if (allocated(file%failure)) deallocate (file%failure)
+         end if
+      end do
+   end subroutine read_group
+end module hdf5_trial

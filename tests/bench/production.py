@@ -1,0 +1,64 @@
+"""What checkpoints cost, what a member of a sweep costs beyond its march, and what collecting costs."""
+
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from runner import Row, Runner
+from settings import CHECKPOINT_SCENES, CHECKPOINT_SECONDS, MEMBERS
+
+CHECKPOINTS, SWEEP, COLLECT = "checkpoints", "sweep", "collect"
+#: Every pair of runs so often, one after the other; the best of each counts.
+REPEATS = 3
+#: A sweep of short frictionless runs, and one of them longer: what the march alone takes follows.
+CASE = "&operation duration={duration:g} /\n"
+SWEPT = "&sweep rotor%unbalance=1e-5:{last:g}:1e-5 /\n"
+SHORT, LONG = 0.1, 2.1
+
+
+def production(runner: Runner) -> Iterator[Row]:
+    """Rows of checkpoints, sweep and collection."""
+    for scene in CHECKPOINT_SCENES:
+        best = {}
+        for _ in range(REPEATS):
+            for setting in ("0", f"{CHECKPOINT_SECONDS:g}"):
+                overrides = (f"output%checkpoint_seconds={setting}",)
+                row, path = runner.run(scene, CHECKPOINTS, setting, overrides, repeat=False)
+                row.scene = scene.label
+                row.note = row.note or f"{path.stat().st_size / 1e6:.0f} MB"
+                path.unlink(missing_ok=True)
+                if setting not in best or row.wall_seconds < best[setting].wall_seconds:
+                    best[setting] = row
+        yield from best.values()
+    yield from members(runner)
+
+
+def members(runner: Runner) -> Iterator[Row]:
+    """A run, a longer one, all of a sweep of the first, the same again, and its collection."""
+    folder = runner.folder / "members"
+    folder.mkdir()
+    for duration in (SHORT, LONG):
+        times = [timed(runner, folder, CASE.format(duration=duration)) for _ in range(REPEATS)]
+        yield Row(runner.part, "one", SWEEP, f"{duration:g}", wall_seconds=min(times), rotor_seconds=duration)
+    text = CASE.format(duration=SHORT) + SWEPT.format(last=1e-5 * MEMBERS)
+    for setting in ("all", "again"):
+        yield Row(runner.part, "sweep", SWEEP, setting, wall_seconds=timed(runner, folder, text))
+    collect = Path(sys.executable).with_name("tiltpad-collect")
+    started = time.perf_counter()
+    done = subprocess.run([collect, "case", "-o", "study.h5"], cwd=folder, text=True, capture_output=True)
+    seconds = time.perf_counter() - started
+    if done.returncode:
+        raise RuntimeError(done.stderr)
+    yield Row(runner.part, "sweep", COLLECT, "all", wall_seconds=seconds)
+    shutil.rmtree(folder)
+
+
+def timed(runner: Runner, folder: Path, text: str) -> float:
+    """Wall seconds of a case, on all cores."""
+    (folder / "case.nml").write_text(text)
+    started = time.perf_counter()
+    subprocess.run([runner.program, "--quiet", "case.nml"], cwd=folder, check=True)
+    return time.perf_counter() - started
