@@ -9,23 +9,30 @@ import numpy as np
 import pytest
 import tiltpad
 
-# some seconds, with a checkpoint soon
-CASE = """\
-&operation duration=6 /
+#: Members of the sweep, and the one that fails.
+MEMBERS, FAILING = range(1, 7), 3
+SHORT = "operation%duration=1"
+
+
+def one(duration: float = 12) -> str:
+    """A case of some seconds, with a checkpoint soon."""
+    return f"""\
+&operation duration={duration} /
 &friction  model='lugre' /
 &output    samples_per_revolution=36, checkpoint_seconds=0.2 /
 """
-# six members, of which the third fails
-FAILING = 3
-SWEEP = f"""{CASE}
+
+
+def sweep(duration: float = 12, speeds: str = "5000:7500:500") -> str:
+    """A sweep over six speeds, of which the third fails."""
+    steps = ", ".join("10" if k == FAILING else "1000000" for k in MEMBERS)
+    return f"""{one(duration)}
 &sweep
    order = 'zip'
-   operation%speed_rpm = 3000:8000:1000
-   integration%max_steps = {", ".join("10" if k == FAILING else "1000000" for k in range(1, 7))}
+   operation%speed_rpm = {speeds}
+   integration%max_steps = {steps}
 /
 """
-MEMBERS = range(1, 7)
-SHORT = "operation%duration=1"
 
 
 def write(folder: Path, name: str, text: str) -> Path:
@@ -67,7 +74,7 @@ def check_whole(path: Path, resumed: bool) -> None:
 
 @pytest.fixture
 def case(folder):
-    return write(folder, "mine.nml", CASE)
+    return write(folder, "mine.nml", one())
 
 
 def test_case(cluster, scripts, case):
@@ -107,7 +114,7 @@ def test_preempted_job_goes_on(cluster, scripts, case):
     whole_node = f"--cpus-per-task={cluster.processors}"
     job = cluster.submit("--partition=low", whole_node, scripts / "case.sh", "mine.nml", cwd=case.parent)
     begun(cluster, result)
-    write(case.parent, "urgent.nml", CASE)
+    write(case.parent, "urgent.nml", one())
     urgent = cluster.submit(whole_node, scripts / "case.sh", "urgent.nml", "--set", SHORT, cwd=case.parent)
     assert outcome(cluster.ended(urgent)) == ("COMPLETED", "0:0", "0")
     assert outcome(cluster.ended(job)) == ("COMPLETED", "0:0", "1")
@@ -160,13 +167,12 @@ def test_cancelled_job_is_not_requeued(cluster, scripts, case):
 
 
 def test_task_requeues_itself_alone_when_its_time_is_over(cluster, scripts, folder):
-    write(folder, "speeds.nml", SWEEP)
+    write(folder, "speeds.nml", sweep())
     # the last task that starts has the number of the whole array
     array = cluster.submit("--array=1-2", scripts / "sweep.sh", "speeds.nml", cwd=folder)
-    begun(cluster, folder / "speeds/0001.h5")
-    begun(cluster, folder / "speeds/0002.h5")
-    numbered = {k: cluster.job(f"{array}_{k}")["JobId"] for k in (1, 2)}
-    task = next(k for k, number in numbered.items() if number == array)
+    cluster.wait_for(lambda: len(cluster.running(array)) == 2, "both tasks")
+    task = next(k for k in (1, 2) if cluster.job(f"{array}_{k}")["JobId"] == array)
+    begun(cluster, folder / f"speeds/000{task}.h5")
     cluster.ask("scancel", "--batch", "--signal=USR1", f"{array}_{task}")
     for k in (1, 2):
         assert outcome(cluster.ended(f"{array}_{k}")) == ("COMPLETED", "0:0", str(int(k == task)))
@@ -175,7 +181,7 @@ def test_task_requeues_itself_alone_when_its_time_is_over(cluster, scripts, fold
 
 
 def test_sweep_in_one_job_goes_on(cluster, scripts, folder):
-    write(folder, "speeds.nml", SWEEP.replace("duration=6", "duration=4"))
+    write(folder, "speeds.nml", sweep(duration=8))
     job = cluster.submit("--cpus-per-task=2", scripts / "sweep.sh", "speeds.nml", cwd=folder)
     begun(cluster, folder / "speeds/0002.h5")
     cluster.ask("scancel", "--batch", "--signal=USR1", job)
@@ -186,7 +192,7 @@ def test_sweep_in_one_job_goes_on(cluster, scripts, folder):
 
 
 def test_several_members_a_task(cluster, scripts, folder):
-    write(folder, "speeds.nml", SWEEP.replace("duration=6", "duration=0.5"))
+    write(folder, "speeds.nml", sweep(duration=0.5))
     array = cluster.submit("--array=1-2", scripts / "sweep.sh", "speeds.nml", "4", cwd=folder)
     assert outcome(cluster.ended(f"{array}_1")) == ("FAILED", "2:0", "0")
     assert outcome(cluster.ended(f"{array}_2")) == ("COMPLETED", "0:0", "0")
@@ -198,7 +204,7 @@ def test_several_members_a_task(cluster, scripts, folder):
 def test_study(cluster, scripts, folder):
     at_a_time = 2
     assert at_a_time < cluster.processors
-    write(folder, "speeds.nml", SWEEP.replace("duration=6", "duration=2"))
+    write(folder, "speeds.nml", sweep(duration=2))
     said = cluster.ask(scripts / "submit.sh", "speeds.nml", "1", str(at_a_time), cwd=folder)
     array, collection = re.findall(r"job ([0-9]+)", said)
     seen = []
@@ -222,7 +228,7 @@ def test_study(cluster, scripts, folder):
 
 
 def test_faulty_study_is_not_submitted(cluster, scripts, folder):
-    write(folder, "speeds.nml", SWEEP.replace("3000:8000:1000", "3000:-2000:-1000"))
+    write(folder, "speeds.nml", sweep(speeds="5000:-5000:-2000"))
     refused = cluster.call(scripts / "submit.sh", "speeds.nml", cwd=folder)
     assert refused.returncode == 1
     assert "speed_rpm" in refused.stderr
