@@ -55,6 +55,8 @@ PACKAGES := gfortran libc6-dev libsundials-dev libsundials-fortran-dev libhdf5-d
             liblapack-dev python3 python3-venv python3-dev
 # for one test alone, which is skipped without it: a browser that opens a report
 TEST_PACKAGES := chromium-headless-shell
+# for make test-slurm alone
+SLURM_PACKAGES := slurmctld slurmd slurm-client munge
 
 sources := $(sort $(shell find src_f90 -name '*.f90'))
 main    := src_f90/app/tiltpad.f90
@@ -88,13 +90,14 @@ vpath %.f90 $(sort $(dir $(sources) $(tests) $(film_bench) $(wrapper))) tests $(
 VENV := build/venv
 venv_python := $(VENV)/bin/python
 
-.PHONY: help run build deps python wrap wheel test stress bench paper test-programs lint format docs install clean
+.PHONY: help run build deps python wrap wheel test test-slurm stress bench paper test-programs lint format docs install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
 help:
 	@echo 'make run      set up, build, run input/paper/steady_lugre.nml, draw it into build/run'
 	@echo 'make test     set up, build, run every test'
+	@echo 'make test-slurm   the job scripts of input/slurm on a real Slurm of one node, a minute (as root)'
 	@echo 'make stress   random scenes, some minutes; writes docs/stability.md (SCENES=300 SEED=1)'
 	@echo 'make bench    run time against error, peers, some ten minutes; writes docs/benchmarks.md'
 	@echo 'make paper    the figures and claims of the paper, a minute or two; writes docs/paper'
@@ -117,6 +120,10 @@ run: build python
 test: build python build/deps-test
 	@$(MAKE) --no-print-directory MODE=debug test-programs
 	@TILTPAD=$(abspath $(B)/bin/tiltpad) tests/run_all $(VENV)/bin/python build/debug/tests
+
+# starts munged, slurmctld and slurmd in a temporary folder, and stops them
+test-slurm: build python build/deps-slurm
+	@TILTPAD=$(abspath $(B)/bin/tiltpad) $(venv_python) -m pytest -q -rs -p no:cacheprovider tests/slurm
 
 # random scenes; SCENES and SEED choose them
 SCENES ?= 300
@@ -148,6 +155,10 @@ build/deps-test: build/deps-checked
 ifeq ($(strip $(prefixes)),)
 	@($(call install_missing,$(TEST_PACKAGES))) || echo 'tests that need them are skipped'
 endif
+	@touch $@
+
+build/deps-slurm: build/deps-checked
+	@($(call install_missing,$(SLURM_PACKAGES))) || echo 'tests that need them are skipped'
 	@touch $@
 
 # shell commands that install those of some Debian packages that are missing

@@ -1,0 +1,60 @@
+#!/bin/bash
+# One case as a job:
+#    sbatch [sbatch options] input/slurm/case.sh CASE.nml [tiltpad options]
+# The result is CASE.h5 in the directory of submission. Requeued or submitted again, the job goes on from the
+# last checkpoint; where the result is complete it does nothing.
+#SBATCH --ntasks=1 --cpus-per-task=1 --mem-per-cpu=1G
+#SBATCH --time=01:00:00
+#SBATCH --signal=B:USR1@60
+#SBATCH --requeue --open-mode=append
+
+if [ $# -eq 0 ]; then
+   echo "usage: sbatch [sbatch options] case.sh CASE.nml [tiltpad options]" >&2
+   exit 1
+fi
+
+# ---- the same in sweep.sh: Slurm runs a copy of a job script, so each stands alone ----
+signal=
+program=
+signalled=
+
+# USR1: the time is nearly over. TERM: preemption, requeue or scancel, and Slurm knows itself what comes then.
+trap 'pass_on USR1' USR1
+trap 'pass_on TERM' TERM
+# shellcheck disable=SC2317 # called by the traps
+pass_on() {
+   signal=$1
+   signalled=yes
+   [ -n "$program" ] && kill -s "$1" "$program" 2>/dev/null
+}
+
+# Runs a command and passes on the signals that come to this script; its status is the command's.
+run() {
+   "$@" &
+   program=$!
+   # one that came while nothing ran
+   [ -n "$signal" ] && kill -s "$signal" "$program"
+   wait "$program"
+   status=$?
+   # a signal ends the wait, not the program
+   while [ -n "$signalled" ]; do
+      signalled=
+      wait "$program"
+      status=$?
+   done
+   program=
+   return "$status"
+}
+
+# Ends the job. One that was stopped as its time was over goes back into the queue: a task of an array by both its
+# numbers, as the job number of one of them is the whole array's.
+finish() {
+   task=${SLURM_ARRAY_TASK_ID:+${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID}
+   [ "$1" -gt 3 ] && [ "$signal" = USR1 ] && scontrol requeue "${task:-$SLURM_JOB_ID}"
+   exit "$1"
+}
+# ---- end of what is the same ----
+
+name=${1##*/}
+run tiltpad --resume "${name%.*}.h5" "$@"
+finish $?

@@ -1,0 +1,24 @@
+#!/bin/bash
+# A whole study in one go: the members of a sweep as an array of jobs, and behind it their results into one file.
+#    input/slurm/submit.sh CASE.nml [MEMBERS_A_TASK [TASKS_AT_A_TIME [sbatch options]]]
+# By default one member a task and fifty tasks at a time. The results are CASE/0001.h5, ... and CASE.h5 here.
+set -eu
+
+if [ $# -eq 0 ] || [[ ! "${2:-1} ${3:-1}" =~ ^[1-9][0-9]*\ [1-9][0-9]*$ ]]; then
+   echo "usage: submit.sh CASE.nml [MEMBERS_A_TASK [TASKS_AT_A_TIME [sbatch options]]]" >&2
+   exit 1
+fi
+case=$1
+each=${2:-1}
+at_a_time=${3:-50}
+scripts=$(dirname "$0")
+name=${case##*/}
+name=${name%.*}
+
+# a fault of any member shows here, and not in the log of a job
+tiltpad --check "$case" >/dev/null
+members=$(tiltpad --count "$case")
+tasks=$(((members + each - 1) / each))
+array=$(sbatch --parsable --array="1-$tasks%$at_a_time" "${@:4}" "$scripts/sweep.sh" "$case" "$each")
+collection=$(sbatch --parsable --dependency="afterany:$array" "${@:4}" "$scripts/collect.sh" "$name")
+echo "$case: $members members in $tasks tasks, job $array; then $name.h5, job $collection"

@@ -1,0 +1,72 @@
+#!/bin/bash
+# The members of a sweep, as an array of jobs or all in one job:
+#    sbatch --array=1-TASKS%AT_A_TIME input/slurm/sweep.sh CASE.nml [MEMBERS_A_TASK]
+#    sbatch --cpus-per-task=CORES input/slurm/sweep.sh CASE.nml
+# The results are CASE/0001.h5, ... in the directory of submission. Requeued or submitted again, the job goes on
+# from the last checkpoints and leaves out what is complete. A member that fails keeps no other from running.
+#SBATCH --ntasks=1 --cpus-per-task=1 --mem-per-cpu=1G
+#SBATCH --time=01:00:00
+#SBATCH --signal=B:USR1@60
+#SBATCH --requeue --open-mode=append
+
+if [ $# -eq 0 ] || [ $# -gt 2 ] || [[ ! ${2:-1} =~ ^[1-9][0-9]*$ ]]; then
+   echo "usage: sbatch [sbatch options] sweep.sh CASE.nml [MEMBERS_A_TASK]" >&2
+   exit 1
+fi
+
+# ---- the same in case.sh: Slurm runs a copy of a job script, so each stands alone ----
+signal=
+program=
+signalled=
+
+# USR1: the time is nearly over. TERM: preemption, requeue or scancel, and Slurm knows itself what comes then.
+trap 'pass_on USR1' USR1
+trap 'pass_on TERM' TERM
+# shellcheck disable=SC2317 # called by the traps
+pass_on() {
+   signal=$1
+   signalled=yes
+   [ -n "$program" ] && kill -s "$1" "$program" 2>/dev/null
+}
+
+# Runs a command and passes on the signals that come to this script; its status is the command's.
+run() {
+   "$@" &
+   program=$!
+   # one that came while nothing ran
+   [ -n "$signal" ] && kill -s "$signal" "$program"
+   wait "$program"
+   status=$?
+   # a signal ends the wait, not the program
+   while [ -n "$signalled" ]; do
+      signalled=
+      wait "$program"
+      status=$?
+   done
+   program=
+   return "$status"
+}
+
+# Ends the job. One that was stopped as its time was over goes back into the queue: a task of an array by both its
+# numbers, as the job number of one of them is the whole array's.
+finish() {
+   task=${SLURM_ARRAY_TASK_ID:+${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID}
+   [ "$1" -gt 3 ] && [ "$signal" = USR1 ] && scontrol requeue "${task:-$SLURM_JOB_ID}"
+   exit "$1"
+}
+# ---- end of what is the same ----
+
+if [ -z "$SLURM_ARRAY_TASK_ID" ]; then
+   run tiltpad --jobs "$SLURM_CPUS_ON_NODE" "$1"
+   finish $?
+fi
+
+members=$(tiltpad --count "$1") || exit
+each=${2:-1}
+last=$((SLURM_ARRAY_TASK_ID * each))
+worst=0
+for ((k = last - each + 1; k <= last && k <= members; k++)); do
+   run tiltpad --member "$k" "$1" || worst=$(($? > worst ? $? : worst))
+   [ -n "$signal" ] && finish 4
+done
+finish "$worst"
