@@ -7,6 +7,7 @@ points and its cost. A study holds links to the members' files, not their series
 import os
 import warnings
 from collections.abc import Iterator, Sequence
+from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from contextlib import suppress
 from datetime import UTC, datetime
 from pathlib import Path
@@ -22,6 +23,10 @@ from tiltpad.read import IncompleteRunWarning, read
 from tiltpad.study import MEMBER, QUANTITIES, Quantity
 
 PathLike = str | os.PathLike
+
+
+#: Files for which a further process is worth its start, and files handed to one at a time.
+WORTH_A_PROCESS, CHUNK = 100, 20
 
 
 class MemberWarning(UserWarning):
@@ -63,8 +68,7 @@ def collect(
     if any(file.resolve() == target.resolve() for file in files):
         raise ValueError(f"{target}: it is one of the results, and would be replaced by the study")
     check_replaceable(target)
-    with warnings.catch_warnings(action="ignore", category=IncompleteRunWarning):
-        members = [member(file) for file in files]
+    members = gathered(files)
     for each in members:
         if np.isnan(each.status):
             warnings.warn(each.reason, MemberWarning, stacklevel=2)
@@ -80,6 +84,24 @@ def collect(
     unended = sum(each.status in UNENDED for each in members)
     lost = sum(bool(np.isnan(each.status)) for each in members)
     return Collected(len(members), done, len(members) - done - unended - lost, unended, lost, missing, target)
+
+
+def gathered(files: Sequence[Path]) -> list[Member]:
+    """What is kept of each file, by as many processes as there are processors."""
+    jobs = min(len(os.sched_getaffinity(0)), len(files) // WORTH_A_PROCESS)
+    if jobs < 2:
+        return [silent_member(file) for file in files]
+    try:
+        with ProcessPoolExecutor(jobs) as pool:
+            return list(pool.map(silent_member, files, chunksize=CHUNK))
+    except BrokenExecutor as error:
+        raise RunError(f"{files[0].parent}: reading its files ended a process: {error}") from error
+
+
+def silent_member(path: Path) -> Member:
+    """What is kept of a file; that its run is incomplete is in its status."""
+    with warnings.catch_warnings(action="ignore", category=IncompleteRunWarning):
+        return member(path)
 
 
 def default_output(given: Sequence[Path]) -> Path:

@@ -13,7 +13,7 @@ WORDS = {"none": "no friction", "bengisu_akay": "Bengisu-Akay", "lugre": "LuGre"
 UNITS = {
     **{"mass": "kg", "unbalance": "kg m", "inertia": "kg m²", "characteristic_load": "N", "static_load": "N"},
     **{"balance_grade": "mm/s", "gravity": "m/s²", "viscosity": "Pa s"},
-    **dict.fromkeys(("duration", "start_time", "max_step"), "s"),
+    **dict.fromkeys(("duration", "start_time", "max_step", "checkpoint_seconds"), "s"),
     **dict.fromkeys(("supply_pressure", "ambient_pressure", "cavitation_pressure", "young_modulus"), "Pa"),
     **dict.fromkeys(("radius_difference", "socket_radius", "journal_radius", "axial_length"), "m"),
     **dict.fromkeys(("machined_clearance", "assembled_clearance", "pivot_distance"), "m"),
@@ -95,7 +95,7 @@ def varied(inputs: list[dict[str, dict[str, Any]]]) -> tuple[str, list[float]] |
     """
     values = [by_variable(each) for each in inputs]
     names = {name for each in values for name in each if len({other.get(name) for other in values}) > 1}
-    names -= {"case%title", "operation%final_speed_rpm"}
+    names -= {"case%title", "operation%final_speed_rpm", "output%checkpoint_seconds"}
     if len(names) != 1:
         return None
     name = names.pop()
@@ -128,9 +128,10 @@ def named(name: str) -> tuple[str, str]:
 
 
 def flattened(groups: dict[str, dict[str, Any]]) -> dict[str, Any]:
-    """Values by "group%name" as a reader would tell them: no title, one speed or a range, pads alike once."""
+    """Values by "group%name" as a reader would tell them: no title or checkpoints, one speed or a range, pads alike once."""
     values = by_variable(groups)
     values.pop("case%title", None)
+    values.pop("output%checkpoint_seconds", None)
     first, last = values.pop("operation%speed_rpm"), values.pop("operation%final_speed_rpm")
     angles = values["pads%pivot_angle_deg"]
     said = {"speed": f"{first:g} rpm" if first == last else f"{first:g} to {last:g} rpm"}

@@ -9,7 +9,7 @@ import numpy as np
 from tiltpad import namelist
 
 #: What differs between runs without being a parameter of theirs.
-LEFT_OUT = ("case%title", "case%task")
+LEFT_OUT = ("case%title", "case%task", "output%checkpoint_seconds")
 
 
 class Parameter(NamedTuple):
