@@ -97,7 +97,7 @@ venv_python := $(VENV)/bin/python
 help:
 	@echo 'make run      set up, build, run input/paper/steady_lugre.nml, draw it into build/run'
 	@echo 'make test     set up, build, run every test'
-	@echo 'make test-slurm   the job scripts of input/slurm on a real Slurm of one node, a minute (as root)'
+	@echo 'make test-slurm   the job scripts of input/slurm on a real Slurm of one node, two minutes (as root)'
 	@echo 'make stress   random scenes, some minutes; writes docs/stability.md (SCENES=300 SEED=1)'
 	@echo 'make bench    run time against error, peers, some ten minutes; writes docs/benchmarks.md'
 	@echo 'make paper    the figures and claims of the paper, a minute or two; writes docs/paper'
