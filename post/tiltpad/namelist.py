@@ -128,7 +128,7 @@ def named(name: str) -> tuple[str, str]:
 
 
 def flattened(groups: dict[str, dict[str, Any]]) -> dict[str, Any]:
-    """Values by "group%name" as a reader would tell them: no title or checkpoints, one speed or a range, pads alike once."""
+    """Values by "group%name" as a reader would tell them: one speed or a range, pads alike once, no title."""
     values = by_variable(groups)
     values.pop("case%title", None)
     values.pop("output%checkpoint_seconds", None)
