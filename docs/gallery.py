@@ -3,6 +3,8 @@
 usage: gallery.py TILTPAD FOLDER-FOR-RUNS
 """
 
+import shlex
+import shutil
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -22,26 +24,32 @@ RUNS = {
     "lugre": (LUGRE, ()),
     "bengisu": (f"{PAPER}/steady_tr_ba.nml", ()),
     "frictionless": (f"{PAPER}/steady_tr.nml", ()),
-    "grade1": (LUGRE, ("rotor%balance_grade=1", "case%title=''")),
-    "grade2.5": (LUGRE, ("rotor%balance_grade=2.5", "case%title=''")),
-    "grade6.3": (LUGRE, ("rotor%balance_grade=6.3", "case%title=''")),
+    "grade1": (LUGRE, ("rotor%balance_grade=1", 'case%title=""')),
+    "grade2.5": (LUGRE, ("rotor%balance_grade=2.5", 'case%title=""')),
+    "grade6.3": (LUGRE, ("rotor%balance_grade=6.3", 'case%title=""')),
     "runup": (f"{PAPER}/runup_lugre.nml", ()),
     "four_pads": ("input/examples/four_pads.nml", ()),
 }
-#: Studies: name, which is that of the folder, and the command that runs its members into it.
+#: Studies: name, which is that of the folder, case, and what is swept.
 STUDIES = {
-    "laws": """for law in none bengisu_akay lugre; do
-  for speed in $(seq 1500 500 9000); do
-    tiltpad input/paper/steady_lugre.nml --set friction%model="'$law'" --set operation%speed_rpm=$speed \\
-      --set operation%duration=2 --set case%title="''" --output laws/$law$speed.h5
-  done
-done""",
-    "map": """for unbalance in $(seq 0.002 0.004 0.034); do
-  for speed in $(seq 2000 750 8000); do
-    tiltpad input/paper/steady_lugre.nml --set rotor%unbalance=$unbalance --set operation%speed_rpm=$speed \\
-      --set operation%duration=0.5 --set case%title="''" --output map/$unbalance-$speed.h5
-  done
-done""",
+    "laws": (
+        LUGRE,
+        (
+            'sweep%friction%model="none","bengisu_akay","lugre"',
+            "sweep%operation%speed_rpm=1500:9000:500",
+            'case%title=""',
+        ),
+    ),
+    "map": (
+        LUGRE,
+        (
+            "sweep%rotor%unbalance=0.002:0.034:0.004",
+            "sweep%operation%speed_rpm=2000:8000:750",
+            "operation%duration=0.5",
+            'case%title=""',
+        ),
+    ),
+    "upper": ("input/examples/four_pads.nml", ("sweep%operation%speed_rpm=2000:9250:250",)),
 }
 #: Pictures: plot, runs, further options, what is seen.
 PICTURES = (
@@ -60,28 +68,26 @@ PICTURES = (
     ("pressure", "lugre", "--time 1.9", "the film of the loaded pads"),
     ("study", "laws", "--show friction_work", "what friction takes, over the speed"),
     ("study", "map", "", "two parameters as a map"),
-    ("study", "laws", "--as bifurcation --where model=lugre", "Poincare points over the speed"),
+    ("study", "upper", "--show poincare_tilt --pad 3", "where an upper pad's motion bifurcates"),
 )
 
 
 def case(name: str) -> list[str]:
-    """Arguments of the program for a run, without its output."""
-    file, changes = RUNS[name]
+    """Arguments of the program for a run or study, without its output."""
+    file, changes = (RUNS | STUDIES)[name]
     return [file, *(word for change in changes for word in ("--set", change))]
 
 
-def march(program: str, name: str, folder: Path) -> None:
-    words = [program, *case(name), "--quiet", "--output", folder / f"{name}.h5"]
+def march(program: str, name: str, output: Path) -> None:
+    words = [program, *case(name), "--quiet", "--output", output]
     subprocess.run(words, check=True, cwd=DOCS.parent)
 
 
 def sweep(program: str, name: str, folder: Path) -> None:
     """Runs the members of a study into their folder, and collects them."""
-    (folder / name).mkdir(exist_ok=True)
-    script = (
-        STUDIES[name].replace("tiltpad ", f"{program} --quiet ").replace("--output ", f"--output {folder}/")
-    )
-    subprocess.run(["sh", "-c", script], check=True, cwd=DOCS.parent)
+    # those of an earlier sweep would be refused
+    shutil.rmtree(folder / name, ignore_errors=True)
+    march(program, name, folder / name)
     subprocess.run([Path(sys.executable).with_name("tiltpad-collect"), name], check=True, cwd=folder)
 
 
@@ -103,8 +109,9 @@ def main() -> None:
     if missing:
         sys.exit(f"gallery.py: no picture of {', '.join(sorted(missing))}")
     with ThreadPoolExecutor() as pool:
-        list(pool.map(lambda name: march(program, name, folder), RUNS))
-        list(pool.map(lambda name: sweep(program, name, folder), STUDIES))
+        list(pool.map(lambda name: march(program, name, folder / f"{name}.h5"), RUNS))
+        for name in STUDIES:
+            sweep(program, name, folder)
         # pictures of one plot are numbered from 0
         plots = [plot for plot, *_ in PICTURES]
         numbers = [plots[:k].count(plot) for k, plot in enumerate(plots)]
@@ -112,10 +119,9 @@ def main() -> None:
     parts = [HEAD]
     for (plot, *_, seen), section in zip(PICTURES, drawn, strict=True):
         parts.append(f"## {plot}: {seen}\n\n{section}")
-    shown = [f"    tiltpad {' '.join(case(name))} --output {name}.h5" for name in RUNS]
-    for name, script in STUDIES.items():
-        shown += ["", f"    mkdir {name}", *(f"    {line}" for line in script.splitlines())]
-        shown += [f"    tiltpad-collect {name}"]
+    shown = [f"    tiltpad {shlex.join(case(name))} --output {name}.h5" for name in RUNS]
+    for name in STUDIES:
+        shown += ["", f"    tiltpad {shlex.join(case(name))} --output {name}", f"    tiltpad-collect {name}"]
     parts.append("## The runs\n\n" + "\n".join(shown) + "\n")
     (DOCS / "gallery.md").write_text("\n".join(parts))
 

@@ -106,6 +106,9 @@ def silent_member(path: Path) -> Member:
 
 def default_output(given: Sequence[Path]) -> Path:
     """The folder's name with .h5, in the working directory."""
+    for path in given:
+        if not path.exists():
+            raise RunError(f"{path}: no such file or folder")
     folder = next((path for path in given if path.is_dir()), None)
     if folder is None:
         raise ValueError("of single files the study needs a name: give its output")

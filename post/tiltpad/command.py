@@ -128,7 +128,8 @@ def draw_study(options: argparse.Namespace, output: Path, form: str) -> None:
     if len(options.files) > 1:
         raise ValueError("study: one file; tiltpad-collect puts several into one")
     with read_study(options.files[0]) as study, plots.plt.style.context(plots.STYLE):
-        figure = figures.study(study, options.show, options.over, options.kind, dict(options.where or ()))
+        where = dict(options.where or ())
+        figure = figures.study(study, options.show, options.over, options.kind, where, options.pad)
         figure.savefig(output, format=form)
         plots.plt.close(figure)
 

@@ -21,6 +21,8 @@ KINDS = ("lines", "map", "bifurcation")
 MOST_LINES = 10
 #: A second parameter of more values than this makes a map, of fewer a line each.
 LINES_UP_TO = 6
+#: Values of the members, and what they are shown in.
+Result = tuple[np.ndarray, Shown]
 #: An axis is logarithmic where its values are evenly spread in ratio over at least this one.
 LOG_FROM = 9.9
 #: From so many places along the axis on points are small.
@@ -36,12 +38,14 @@ def diagram(
     over: str | None = None,
     kind: str | None = None,
     where: Mapping[str, str] | None = None,
+    pad: int | None = None,
 ) -> Axes:
     """A result of the members over a parameter: lines, a map over two of them, or a bifurcation diagram.
 
-    `show` is a result, (member,), by default orbit_size (of a bifurcation poincare_y); `over` a parameter, by
-    default the number with the most values; `kind` one of KINDS; `where` keeps the members with these values
-    of parameters. What is left open follows from the parameters. Raises ValueError for what does not fit.
+    `show` is a result, by default orbit_size (of a bifurcation poincare_y), one that the pads have of the pad
+    `pad` (1, 2, ...); `over` a parameter, by default the number with the most values; `kind` one of KINDS;
+    `where` keeps the members with these values of parameters. What is left open follows from the parameters.
+    Raises ValueError for what does not fit.
     """
     chosen = selected(study, where or {})
     several = [name for name in study.parameters if len(distinct(study[name][chosen])) > 1]
@@ -50,20 +54,24 @@ def diagram(
     others = [name for name in several if name != over]
     kind = kind or default_kind(study, show, over, others, chosen)
     needs(kind, KINDS, "as", "a kind of diagram")
-    return {"lines": lines, "map": field, "bifurcation": bifurcation}[kind](
-        study, ax, show or {"bifurcation": "poincare_y"}.get(kind, "orbit_size"), over, others, chosen
-    )
+    draw, revolutions, default = {
+        "lines": (lines, False, "orbit_size"),
+        "map": (field, False, "orbit_size"),
+        "bifurcation": (bifurcation, True, "poincare_y"),
+    }[kind]
+    return draw(study, ax, result(study, show or default, revolutions, pad), over, others, chosen)
 
 
-def lines(study: Study, ax: Axes, show: str, over: str, others: Sequence[str], chosen: np.ndarray) -> Axes:
+def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str], chosen: np.ndarray) -> Axes:
     """A line for every combination of the other parameters; a cross at the foot where a member failed."""
-    values, shown = result(study, show)
+    values, shown = show
     at, place = axis(study, over, ax, "x")
     groups = grouped(study, others, chosen)
     too_many(groups, others)
     for color, (text, part) in enumerate(groups):
         order = part[np.argsort(place[part], kind="stable")]
         whole = study.done[order]
+        text = text if np.isfinite(values[order][whole]).any() else f"{text}: none"
         line = {"color": f"C{color}", "marker": "o", "markersize": 3, "label": text}
         if not is_number(study, over):
             line["linestyle"] = ""  # nothing lies between texts
@@ -74,13 +82,13 @@ def lines(study: Study, ax: Axes, show: str, over: str, others: Sequence[str], c
     return ax
 
 
-def field(study: Study, ax: Axes, show: str, over: str, others: Sequence[str], chosen: np.ndarray) -> Axes:
+def field(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str], chosen: np.ndarray) -> Axes:
     """Colours over two parameters; a cross where a member failed, nothing where there is none."""
     numeric = [name for name in others if is_number(study, name)]
     if not is_number(study, over) or not numeric:
         raise ValueError(f"{study.path}: a map needs two parameters that are numbers: {told(study)}")
     second = max(numeric, key=lambda name: len(distinct(study[name][chosen])))
-    values, shown = result(study, show)
+    values, shown = show
     (at, x), (beside, y) = (axis(study, name, ax, which) for name, which in ((over, "x"), (second, "y")))
     columns, rows = (np.unique(each[chosen & np.isfinite(each)]) for each in (x, y))
     table = np.full((len(rows), len(columns)), np.nan)
@@ -99,7 +107,7 @@ def field(study: Study, ax: Axes, show: str, over: str, others: Sequence[str], c
         else:
             ax.plot(x[k], y[k], **FAILED)
     if not np.isfinite(table).any():
-        raise ValueError(f"{study.path}: no finite {show} to draw")
+        raise ValueError(f"{study.path}: no finite {shown.label} to draw")
     image = ax.pcolormesh(
         edges(columns, ax.get_xscale()),
         edges(rows, ax.get_yscale()),
@@ -114,17 +122,11 @@ def field(study: Study, ax: Axes, show: str, over: str, others: Sequence[str], c
 
 
 def bifurcation(
-    study: Study, ax: Axes, show: str, over: str, others: Sequence[str], chosen: np.ndarray
+    study: Study, ax: Axes, show: Result, over: str, others: Sequence[str], chosen: np.ndarray
 ) -> Axes:
-    """The journal once a revolution over a parameter: one point where the motion repeats every revolution."""
-    needs(
-        show,
-        [name for name in POINTS if name in study and name != "poincare_tilt"],
-        "show",
-        "Poincare points",
-    )
+    """A state once a revolution over a parameter: one point where the motion repeats every revolution."""
+    values, shown = show
     at, place = axis(study, over, ax, "x")
-    values, shown = study[show], SHOWN[POINTS[show]]
     groups = grouped(study, others, chosen)
     too_many(groups, others)
     size = 3 if len(distinct(study[over][chosen])) < DENSE else 1.5
@@ -185,8 +187,10 @@ def default_kind(study: Study, show: str | None, over: str, others: Sequence[str
     return "lines"
 
 
-def result(study: Study, name: str) -> tuple[np.ndarray, Shown]:
-    """A result, (member,), and what it is shown in."""
+def result(study: Study, name: str, revolutions: bool, pad: int | None) -> Result:
+    """A result, (member,) or, where points of the revolutions are asked for, (member, revolution), of a pad
+    where one is given.
+    """
     if name in QUANTITIES and name not in study:
         raise ValueError(f"{study.path}: no {name} in this study: no member has it")
     results = [
@@ -194,12 +198,21 @@ def result(study: Study, name: str) -> tuple[np.ndarray, Shown]:
         for each in study.names()
         if each not in ("member", "file", "reason", *study.parameters) and study.about(each, "units")
     ]
-    alone = [each for each in results if study.item(each).shape == study.item("member").shape]
-    needs(name, alone, "show", "a result")
-    if name in SHOWN:
-        return study[name], SHOWN[name]
-    units = study.about(name, "units")
-    return study[name], Shown(study.about(name, "long_name") or name, 1, "" if units == "1" else units)
+    scales = ["member", *(["revolution"] if revolutions else []), *(["pad"] if pad is not None else [])]
+    if not all(each in study for each in scales):
+        raise ValueError(f"{study.path}: no Poincare points in this study: no member has them")
+    shape = tuple(study.item(each).shape[0] for each in scales)
+    what = f"{'Poincare points' if revolutions else 'a result'}{' of a pad' if pad is not None else ''}"
+    needs(name, [each for each in results if study.item(each).shape == shape], "show", what)
+    values, shown = study[name], SHOWN.get(POINTS.get(name, name.removeprefix("pad_")))
+    if shown is None:
+        units = study.about(name, "units")
+        shown = Shown(study.about(name, "long_name") or name, 1, "" if units == "1" else units)
+    if pad is None:
+        return values, shown
+    if not 1 <= pad <= shape[-1]:
+        raise ValueError(f"--pad {pad}: must be 1 to {shape[-1]}, the pads of this study")
+    return values[..., pad - 1], shown._replace(text=f"{shown.text}, pad {pad}")
 
 
 def axis(study: Study, name: str, ax: Axes, which: str) -> tuple[Shown, np.ndarray]:

@@ -285,10 +285,11 @@ def study(
     over: str | None = None,
     kind: str | None = None,
     where: Mapping[str, str] | None = None,
+    pad: int | None = None,
 ) -> Figure:
     """A diagram of a study; what is left open follows from its parameters, see tiltpad.diagrams.diagram."""
     fig = plt.figure(figsize=(COLUMN, 2.6))
-    diagrams.diagram(study, fig.subplots(), show, over, kind, where)
+    diagrams.diagram(study, fig.subplots(), show, over, kind, where, pad)
     kept = ", ".join(f"{name} = {value}" for name, value in (where or {}).items())
     fig.suptitle(plain(", ".join(text for text in (study.title, kept) if text), width(fig)))
     return fig

@@ -124,6 +124,39 @@ def test_points_of_a_bifurcation(study):
     assert diagrams.diagram(case, show="poincare_z").get_ylabel() == "journal $z$ (µm) once a revolution"
 
 
+def test_results_of_a_pad(study):
+    opened = study("both")
+    ax = diagrams.diagram(opened, show="pad_max_pressure", over="speed_rpm", pad=2)
+    assert ax.get_ylabel() == "highest pressure, pad 2 (MPa)"
+    drawn = np.concatenate([line.get_ydata() for line in ax.get_lines()])
+    assert sorted(drawn) == pytest.approx(sorted(1e-6 * opened.pad_max_pressure[:, 1]))
+    ax = diagrams.diagram(opened, show="poincare_tilt", over="speed_rpm", kind="bifurcation", pad=1)
+    points = np.concatenate([line.get_ydata() for line in ax.get_lines()])
+    known = opened.poincare_tilt[..., 0].ravel()
+    assert np.isfinite(known).any()
+    assert np.sort(points[np.isfinite(points)]) == pytest.approx(1e3 * np.sort(known[np.isfinite(known)]))
+
+
+def test_a_model_without_the_result_keeps_its_place_in_the_legend(study):
+    ax = diagrams.diagram(study("both"), show="friction_work", over="speed_rpm")
+    texts = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert sorted(texts) == ["LuGre", "no friction: none"]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"show": "pad_max_pressure"}, "--show: pad_max_pressure is not a result of this study"),
+        ({"show": "orbit_y", "pad": 1}, "--show: orbit_y is not a result of a pad of this study"),
+        ({"show": "pad_tilt_size", "pad": 3}, "--pad 3: must be 1 to 2, the pads of this study"),
+        ({"show": "poincare_y", "kind": "bifurcation", "pad": 1}, "not Poincare points of a pad"),
+    ],
+)
+def test_a_pad_where_there_is_none(study, options, message):
+    with pytest.raises(ValueError, match=message):
+        diagrams.diagram(study("both"), over="speed_rpm", **options)
+
+
 def test_a_text_along_the_axis(study):
     case = study("text")
     ax = diagrams.diagram(case)
