@@ -3,6 +3,7 @@ program tiltpad
    use, intrinsic :: iso_c_binding, only: c_int
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use errors, only: error_type, raise, input_error, system_error
+   use text, only: printable, shortened, to_text
    use scene, only: scene_type
    use scene_namelist, only: read_scene
    use namelist_writer, only: scene_text
@@ -19,8 +20,8 @@ program tiltpad
       end subroutine c_exit
    end interface
 
-   !> Longest override.
-   integer, parameter :: longest = 4096
+   !> Longest override, and how many there may be.
+   integer, parameter :: longest = 4096, most = 1000
 
    type(error_type), allocatable :: error
    call keep_file_size_quiet()
@@ -41,13 +42,14 @@ contains
       character(len=:), allocatable :: word, value, case_file, output, stem
       character(len=longest), allocatable :: overrides(:)
       logical :: check, quiet
-      integer :: i
+      integer :: i, count
 
       check = .false.
       quiet = .false.
       case_file = ''
       output = ''
-      allocate (overrides(0))
+      allocate (overrides(most))
+      count = 0
       i = 0
       do while (i < command_argument_count())
          i = i + 1
@@ -74,8 +76,12 @@ contains
             i = i + 1
             value = argument(i)
             if (word == '--set') then
-               if (len(value) > longest) call raise(error, input_error, '--set: the value is too long')
-               overrides = [character(len=longest) :: overrides, value]
+               count = count + 1
+               if (len(value) > longest) call raise(error, input_error, '--set '//shortened(value) &
+                  & //': the value is too long, '//to_text(len(value))//' characters; at most '//to_text(longest))
+               if (count > most) call raise(error, input_error, '--set '//shortened(value)//': given more than ' &
+                  & //to_text(most)//' times')
+               if (.not. allocated(error)) overrides(count) = value
             else
                if (value == '') call raise(error, input_error, word//': the file name is empty')
                output = value
@@ -99,7 +105,7 @@ contains
          return
       end if
 
-      call read_scene(case_file, overrides, scene, error)
+      call read_scene(case_file, overrides(:count), scene, error)
       if (allocated(error)) return
       if (check) then
          call put(scene_text(scene), error)
@@ -116,17 +122,6 @@ contains
       end if
       call run_scene(scene, output, quiet, error)
    end subroutine command
-
-   !> The text with a question mark for every control character, so that an error stays one line.
-   pure function printable(text)
-      character(len=*), intent(in) :: text
-      character(len=len(text)) :: printable
-      integer :: i
-      printable = text
-      do i = 1, len(text)
-         if (iachar(text(i:i)) < 32 .or. iachar(text(i:i)) == 127) printable(i:i) = '?'
-      end do
-   end function printable
 
    !> Writes text to standard output.
    subroutine put(text, error)

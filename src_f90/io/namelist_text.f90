@@ -1,6 +1,6 @@
 !> Splits namelist text into assignments that know where they stand. Values are not interpreted.
 module namelist_text
-   use text, only: to_text, lower_case
+   use text, only: to_text, lower_case, shortened
    use errors, only: error_type, raise, input_error
    implicit none (type, external)
    private
@@ -27,8 +27,8 @@ module namelist_text
       type(assignment_type), allocatable :: assignments(:)
    end type namelist_type
 
-   !> Most groups, assignments, or values of one assignment: far more than any case has.
-   integer, parameter :: most_items = 1000
+   !> Most groups, assignments, or values of one assignment: far more than any case has; longest name.
+   integer, parameter :: most_items = 1000, longest_name = 60
 
    !> Where the scanner is.
    type :: scanner
@@ -54,17 +54,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(scanner) :: scan
       type(assignment_type) :: group
-      integer :: i, code
+      integer :: i
 
       parsed%file = file
       allocate (parsed%groups(0), parsed%assignments(0))
-      do i = 1, len(text)
-         code = iachar(text(i:i))
-         if (code == 127 .or. code < 32 .and. index(newline//tab//carriage, text(i:i)) == 0) then
-            call raise(error, input_error, file//': not a text file (byte '//to_text(i)//' is a control character)')
-            return
-         end if
-      end do
+      i = control_character(text)
+      if (i > 0) then
+         call raise(error, input_error, file//': not a text file (byte '//to_text(i)//' is a control character)')
+         return
+      end if
       scan%text = text
       scan%file = file
       ! a UTF-8 byte order mark
@@ -73,7 +71,10 @@ contains
          call scan%skip_blank(',')
          if (scan%peek() == '') exit
          if (scan%peek() /= '&') then
-            call raise(error, input_error, scan%place()//': '''//scan%word()//''' stands outside a group;' &
+            group%place = scan%place()
+            group%name = scan%word()
+            if (group%name == '') group%name = scan%peek()
+            call raise(error, input_error, group%place//': '''//shortened(group%name)//''' stands outside a group;' &
                & //' expected &name')
             return
          end if
@@ -82,6 +83,10 @@ contains
          group%group = lower_case(scan%word())
          if (group%group == '') then
             call raise(error, input_error, group%place//': a group''s name is missing behind &')
+            return
+         end if
+         if (len(group%group) > longest_name) then
+            call raise(error, input_error, group%place//': unknown group &'//shortened(group%group))
             return
          end if
          if (size(parsed%groups) == most_items) then
@@ -114,14 +119,18 @@ contains
       logical, allocatable :: keep(:)
       integer :: percent, i
       percent = index(text, '%')
-      group%place = '--set '//text
+      group%place = '--set '//shortened(text)
+      if (control_character(text) > 0) then
+         call raise(error, input_error, group%place//': a control character is no part of a value')
+         return
+      end if
       if (percent > 1) group%group = lower_case(trim(adjustl(text(:percent - 1))))
       if (percent <= 1 .or. index(text, '=') < percent) then
          call raise(error, input_error, group%place//': expected group%name=value')
          return
       end if
       scan%text = text(percent + 1:)//' /'
-      scan%file = '--set '//text
+      scan%file = group%place
       allocate (new(0))
       call parse_group(scan, group, new, error)
       if (allocated(error)) return
@@ -203,8 +212,13 @@ contains
       end if
       call scan%skip_blank('')
       if (status /= 0 .or. len(new%name) == 0 .or. verify(new%name, name_characters) /= 0 .or. scan%peek() /= '=') then
-         call raise(error, input_error, new%place//': '''//found//''' in group &'//new%group &
-            & //': expected name = value')
+         call raise(error, input_error, new%place//': '''//shortened(found)//''' in group &' &
+            & //shortened(new%group)//': expected name = value')
+         return
+      end if
+      if (len(new%name) > longest_name) then
+         call raise(error, input_error, new%place//': unknown variable '//shortened(new%group)//'%' &
+            & //shortened(new%name))
          return
       end if
       scan%at = scan%at + 1
@@ -283,6 +297,22 @@ contains
          token%text = token%text//scan%text(scan%at:scan%at)
       end do
    end subroutine quoted
+
+   !> Where the first character stands that is no text; 0 if there is none. A carriage return alone is one: it would
+   !> neither end a comment nor count as a line.
+   pure integer function control_character(text) result(at)
+      character(len=*), intent(in) :: text
+      character :: c
+      do at = 1, len(text)
+         c = text(at:at)
+         if (c == carriage .and. at < len(text)) then
+            if (text(at + 1:at + 1) /= newline) return
+         else if (c == achar(127) .or. c < ' ' .and. c /= newline .and. c /= tab) then
+            return
+         end if
+      end do
+      at = 0
+   end function control_character
 
    !> True where the new assignment would undo all of an earlier one.
    pure logical function undoes(new, earlier)
