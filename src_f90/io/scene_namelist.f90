@@ -168,7 +168,7 @@ contains
             if (choices /= '') found = lower_case(trim(adjustl(found)))
             if (size(a%values) > 1 .or. a%subscript > 0) then
                call self%refuse(a%place//': '//described(a)//': takes one text')
-            else if (choices /= '' .and. (scan(found, ' ') > 0 .or. index(' '//choices//' ', ' '//found//' ') == 0)) then
+            else if (choices /= '' .and. .not. is_choice(found, choices)) then
                call self%refuse(a%place//': '//described(a)//': must be one of '''//quoted_list(choices)//'''')
             else if (choices == '' .and. .not. a%values(1)%quoted) then
                call self%refuse(a%place//': '//described(a)//': text must stand in quotes')
@@ -364,6 +364,12 @@ contains
       end do
       if (size(a%values) > 4) described = described//', ... ('//to_text(size(a%values))//' values)'
    end function described
+
+   !> True for one of the words that `choices` lists, separated by blanks.
+   pure logical function is_choice(word, choices)
+      character(len=*), intent(in) :: word, choices
+      is_choice = scan(word, ' ') == 0 .and. index(' '//choices//' ', ' '//word//' ') > 0
+   end function is_choice
 
    !> "a b" to "a', 'b".
    pure function quoted_list(choices) result(list)

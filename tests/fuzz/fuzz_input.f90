@@ -20,8 +20,8 @@ program fuzz_input
       integer(c_size_t) function c_read(descriptor, bytes, count) bind(c, name='read')
          import :: c_int, c_char, c_size_t
          integer(c_int), value :: descriptor
-         character(kind=c_char), intent(out) :: bytes(*)
          integer(c_size_t), value :: count
+         character(kind=c_char), intent(inout) :: bytes(count)
       end function c_read
 
       !> Edges of the flow that were taken for the first time, or more often than ever, since the last call.
@@ -122,8 +122,9 @@ contains
    !> False at the end of the input.
    logical function got_number(number)
       integer, intent(out) :: number
-      character(len=4) :: found
+      character(len=:), allocatable :: found
       number = 0
+      allocate (character(len=4) :: found)
       got_number = filled(found)
       if (got_number) number = transfer(found, number)
    end function got_number
@@ -138,7 +139,7 @@ contains
 
    !> Reads as many bytes as the text has; false at the end of the input.
    logical function filled(text)
-      character(len=*), intent(out) :: text
+      character(len=:), allocatable, intent(inout) :: text
       integer(c_size_t) :: done, now
       done = 0
       do while (done < len(text))
