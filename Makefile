@@ -77,10 +77,11 @@ define build_info
 module build_info
    implicit none (type, external)
    private
-   public :: program_version, program_commit
+   public :: program_version, program_commit, program_flags
 
    character(len=*), parameter :: program_version = '$(VERSION)'
    character(len=*), parameter :: program_commit = '$(commit)'
+   character(len=*), parameter :: program_flags = '$(subst ','',$(FFLAGS))'
 end module build_info
 endef
 $(shell mkdir -p $(B)/obj $(B)/mod)
@@ -238,6 +239,9 @@ $(B)/obj/%.o: %.f90 $(B)/flags | build/deps-checked
 $(B)/tests/%: $(B)/obj/%.o $(B)/obj/check.o $(B)/lib/libtiltpad.a
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
+
+# the flags stand in one line of it
+$(B)/obj/build_info.o: override FFLAGS += -ffree-line-length-none
 
 test-programs: $(test_programs)
 

@@ -1,5 +1,5 @@
-!> Progress of a march on standard output: one line that renews itself on a terminal, a plain line now
-!> and then in a batch log.
+!> Progress of a march, or of a sweep's members, on standard output: one line that renews itself on a terminal, a
+!> plain line now and then in a batch log.
 module progress
    use, intrinsic :: iso_fortran_env, only: output_unit
    use kinds, only: wp, i8
@@ -14,19 +14,24 @@ module progress
 
    type :: progress_type
       logical :: quiet = .true., terminal = .false., shown = .false.
-      real(wp) :: duration = 0, started = 0, last = 0
+      real(wp) :: from = 0, duration = 0, started = 0, last = 0
    contains
       procedure :: report
+      procedure :: report_members
+      procedure :: note
       procedure :: clear
+      procedure, private :: is_due
+      procedure, private :: show
    end type progress_type
 
 contains
 
-   !> Starts the clock of a march of so many simulated seconds.
-   function new_progress(duration, quiet) result(progress)
-      real(wp), intent(in) :: duration
+   !> Starts the clock of a march from one simulated time to another, s, or of so many members.
+   function new_progress(from, duration, quiet) result(progress)
+      real(wp), intent(in) :: from, duration
       logical, intent(in) :: quiet
       type(progress_type) :: progress
+      progress%from = from
       progress%duration = duration
       progress%quiet = quiet
       progress%terminal = is_terminal()
@@ -34,20 +39,45 @@ contains
       progress%last = progress%started
    end function new_progress
 
-   !> Shows the time reached and the steps done, if it is time to.
-   subroutine report(self, t, steps)
+   !> Shows the time reached and the steps done, if it is time to. `now` is the wall clock, s.
+   subroutine report(self, t, steps, now)
       class(progress_type), intent(inout) :: self
-      real(wp), intent(in) :: t
+      real(wp), intent(in) :: t, now
       integer(i8), intent(in) :: steps
-      real(wp) :: now
       character(len=:), allocatable :: line
-      if (self%quiet) return
-      now = wall_clock()
-      if (now - self%last < merge(terminal_pause, log_pause, self%terminal)) return
-      self%last = now
+      if (.not. self%is_due(now)) return
       line = 't = '//to_text(t)//' s of '//to_text(self%duration)//' s, '//to_text(int(100*t/self%duration)) &
          & //' %, '//to_text(steps)//' steps'
-      if (t > 0) line = line//', '//to_text(ceiling((now - self%started)*(self%duration/t - 1)))//' s left'
+      call self%show(line, t)
+   end subroutine report
+
+   !> Shows how many members have ended, well or not, if it is time to.
+   subroutine report_members(self, ended, failed)
+      class(progress_type), intent(inout) :: self
+      integer, intent(in) :: ended, failed
+      if (.not. self%is_due(wall_clock())) return
+      call self%show(to_text(ended)//' of '//to_text(nint(self%duration))//' members, '//to_text(failed)//' failed', &
+         & real(ended, wp))
+   end subroutine report_members
+
+   !> True where a line is to be shown at this wall clock, s.
+   logical function is_due(self, now)
+      class(progress_type), intent(inout) :: self
+      real(wp), intent(in) :: now
+      is_due = .not. self%quiet .and. now - self%last >= merge(terminal_pause, log_pause, self%terminal)
+      if (is_due) self%last = now
+   end function is_due
+
+   !> Shows a line, with the time left where so much of the duration is reached.
+   subroutine show(self, text, reached)
+      class(progress_type), intent(inout) :: self
+      character(len=*), intent(in) :: text
+      real(wp), intent(in) :: reached
+      character(len=:), allocatable :: line
+      line = text
+      if (reached > self%from) line = line//', '//to_text(ceiling((self%last - self%started) &
+         & *(self%duration - reached)/(reached - self%from))) &
+         & //' s left'
       if (self%terminal) then
          write (output_unit, '(a)', advance='no') achar(13)//line//achar(27)//'[K'
       else
@@ -55,7 +85,16 @@ contains
       end if
       flush (output_unit)
       self%shown = .true.
-   end subroutine report
+   end subroutine show
+
+   !> A line for the log; a terminal has its progress line.
+   subroutine note(self, text)
+      class(progress_type), intent(in) :: self
+      character(len=*), intent(in) :: text
+      if (self%quiet .or. self%terminal) return
+      write (output_unit, '(a)') text
+      flush (output_unit)
+   end subroutine note
 
    !> Takes the renewing line away.
    subroutine clear(self)

@@ -6,7 +6,7 @@ module errors
    implicit none (type, external)
    private
    public :: error_type, raise, add_context
-   public :: input_error, numerics_error, system_error
+   public :: input_error, numerics_error, system_error, stopped
 
    !> What is wrong, and the exit status that belongs to it.
    type :: error_type
@@ -14,8 +14,8 @@ module errors
       character(len=:), allocatable :: message
    end type error_type
 
-   !> Exit statuses: usage or input; the numerics failed; file or system.
-   integer, parameter :: input_error = 1, numerics_error = 2, system_error = 3
+   !> Exit statuses: usage or input; the numerics failed; file or system; stopped by a signal.
+   integer, parameter :: input_error = 1, numerics_error = 2, system_error = 3, stopped = 4
 
 contains
 

@@ -94,6 +94,8 @@ module scene
       real(wp) :: start_time = 0
       !> Revolutions at the end of the run that the spectra are taken over.
       integer :: spectrum_revolutions = 50
+      !> Wall time between checkpoints, s; 0: only when a signal asks for the end.
+      real(wp) :: checkpoint_seconds = 300
    end type output_type
 
    type :: scene_type

@@ -1,93 +1,148 @@
-!> A thin face of HDF5: groups, attributes, dimension scales, fixed and growing datasets. The only file
-!> that knows HDF5. After a failure every routine does nothing; `failure` says what failed first.
+!> A thin face of HDF5: groups, attributes, dimension scales, datasets. With hdf5_series the only file that knows
+!> HDF5. After a failure every routine does nothing; `failure` says what failed first.
 module hdf5_file
-   use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
-   use hdf5, only: hid_t, hsize_t, h5open_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fclose_f, h5fflush_f, &
-      & h5f_acc_trunc_f, h5f_scope_local_f, h5gcreate_f, h5gclose_f, h5screate_f, h5screate_simple_f, &
-      & h5sclose_f, h5s_scalar_f, h5s_unlimited_f, h5sget_simple_extent_ndims_f, &
-      & h5sselect_hyperslab_f, h5s_select_set_f, h5tcopy_f, &
-      & h5tclose_f, h5tset_cset_f, h5t_string, h5t_cset_utf8_f, h5acreate_f, h5awrite_f, h5aclose_f, &
-      & h5adelete_f, h5aexists_f, h5dcreate_f, h5dopen_f, h5dwrite_f, h5dread_f, h5dclose_f, &
-      & h5dset_extent_f, h5dget_space_f, h5pcreate_f, h5pclose_f, h5pset_chunk_f, h5p_dataset_create_f, &
-      & h5pset_chunk_cache_f, h5p_dataset_access_f, size_t, &
-      & h5t_native_double, h5t_native_integer, h5kind_to_type, h5_integer_kind
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_loc, c_null_char, c_null_ptr, c_ptr, &
+      & c_size_t
+   use hdf5, only: hid_t, hsize_t, h5open_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fopen_f, h5fclose_f, &
+      & h5f_acc_trunc_f, h5f_acc_rdonly_f, h5f_acc_rdwr_f, h5gcreate_f, h5gclose_f, h5screate_f, h5screate_simple_f, &
+      & h5sclose_f, h5s_scalar_f, h5sget_simple_extent_npoints_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, &
+      & h5tis_variable_str_f, h5t_string, h5t_cset_utf8_f, h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, &
+      & h5aget_type_f, h5adelete_f, h5aexists_f, h5dcreate_f, h5dopen_f, h5dwrite_f, h5dread_f, h5dclose_f, &
+      & h5dget_space_f, h5lexists_f, h5ldelete_f, h5t_native_double, h5t_native_integer, h5kind_to_type, h5_integer_kind
    use h5ds, only: h5dsset_scale_f, h5dsattach_scale_f
    use kinds, only: wp, i8
+   use posix, only: set_environment, system_reason
    implicit none (type, external)
    private
-   public :: hdf5_type, growing_type
-
-   !> Samples in a chunk of a growing dataset.
-   integer(hsize_t), parameter :: chunk_samples = 1024
-
-   !> A dataset that grows along time, `width` values a sample.
-   type :: growing_type
-      private
-      integer(hid_t) :: id = -1
-      integer(hsize_t) :: width = 1, length = 0
-   end type growing_type
+   public :: hdf5_type
 
    type :: hdf5_type
       private
-      integer(hid_t) :: file = -1
+      !> HDF5's number of the open file, for hdf5_series.
+      integer(hid_t), public :: id = -1
       !> What failed first; not allocated while all is well.
       character(len=:), allocatable, public :: failure
    contains
-      !> Creates a file (replacing one of the name), closes it, writes what is pending.
+      !> Creates a file (replacing one of the name), opens one, closes it.
       procedure :: create
+      procedure :: open => open_file
       procedure :: close => close_file
-      procedure :: flush => flush_file
       procedure :: make_group
-      !> Root attributes.
+      !> True where there is a dataset, group or root attribute of that name.
+      procedure :: has
+      procedure :: has_attribute
+      !> Deletes a dataset or group.
+      procedure :: delete
+      !> Root attributes; one of the name is replaced.
       procedure :: put_text
       procedure :: put_flag
-      !> Datasets by path. `scales` names the dimension scales, slowest dimension first, as h5py shows
-      !> them, separated by blanks; a dataset whose only scale is itself becomes that scale.
+      procedure :: get_text
+      procedure :: get_flag
+      !> Datasets by path; one of the name and size is overwritten. `scales` names the dimension scales, slowest
+      !> dimension first, as h5py shows them, separated by blanks; a dataset whose only scale is itself becomes
+      !> that scale.
       procedure :: put_count
       procedure :: put_real
       procedure :: put_list
       procedure :: put_table
-      procedure :: make_growing
-      procedure :: append
-      procedure :: read_tail
-      procedure :: close_growing
-      procedure, private :: check
-      procedure, private :: describe
+      procedure :: get_count
+      procedure :: get_real
+      procedure :: get_list
+      !> For hdf5_series: notes a failed action; describes a dataset.
+      procedure :: check
+      procedure :: describe
+      procedure, private :: begin
+      procedure, private :: place
+      procedure, private :: write_all
+      procedure, private :: read_all
       procedure, private :: write_reals
       procedure, private :: write_attribute
    end type hdf5_type
 
+   interface
+      integer(c_size_t) function c_strlen(text) bind(c, name='strlen')
+         import :: c_ptr, c_size_t
+         type(c_ptr), value :: text
+      end function c_strlen
+
+      subroutine c_free(memory) bind(c, name='free')
+         import :: c_ptr
+         type(c_ptr), value :: memory
+      end subroutine c_free
+   end interface
+
 contains
 
-   subroutine create(self, path)
+   !> Readies the library.
+   subroutine begin(self)
       class(hdf5_type), intent(inout) :: self
-      character(len=*), intent(in) :: path
       integer :: status
+      ! HDF5's own locks are for readers in the middle of a write; many file systems know none
+      call set_environment('HDF5_USE_FILE_LOCKING', 'BEST_EFFORT')
       ! what is open is closed here; at exit HDF5 would crash over a file it could not write
       call h5dont_atexit_f(status)
       call h5open_f(status)
       ! HDF5 would print its own stack of errors
       call h5eset_auto_f(0, status)
-      call h5fcreate_f(path, h5f_acc_trunc_f, self%file, status)
+      if (allocated(self%failure)) deallocate (self%failure)
+   end subroutine begin
+
+   subroutine create(self, path)
+      class(hdf5_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      integer :: status
+      call self%begin()
+      call h5fcreate_f(path, h5f_acc_trunc_f, self%id, status)
       call self%check(status, 'create the file')
    end subroutine create
+
+   subroutine open_file(self, path, writing)
+      class(hdf5_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      logical, intent(in) :: writing
+      integer :: status
+      call self%begin()
+      call h5fopen_f(path, merge(h5f_acc_rdwr_f, h5f_acc_rdonly_f, writing), self%id, status)
+      call self%check(status, 'open the file')
+      if (status < 0) self%id = -1
+   end subroutine open_file
 
    subroutine close_file(self)
       class(hdf5_type), intent(inout) :: self
       integer :: status
-      if (self%file < 0) return
-      call h5fclose_f(self%file, status)
+      if (self%id < 0) return
+      call h5fclose_f(self%id, status)
       call self%check(status, 'close the file')
-      self%file = -1
+      self%id = -1
    end subroutine close_file
 
-   subroutine flush_file(self)
-      class(hdf5_type), intent(inout) :: self
+   logical function has(self, path)
+      class(hdf5_type), intent(in) :: self
+      character(len=*), intent(in) :: path
+      integer :: status, slash
+      slash = index(path, '/')
+      has = .not. allocated(self%failure)
+      ! HDF5 wants to be asked for the group first
+      if (has .and. slash > 0) call h5lexists_f(self%id, path(:slash - 1), has, status)
+      if (has) call h5lexists_f(self%id, path, has, status)
+   end function has
+
+   logical function has_attribute(self, name) result(has)
+      class(hdf5_type), intent(in) :: self
+      character(len=*), intent(in) :: name
       integer :: status
-      if (allocated(self%failure)) return
-      call h5fflush_f(self%file, h5f_scope_local_f, status)
-      call self%check(status, 'flush the file')
-   end subroutine flush_file
+      has = .false.
+      if (.not. allocated(self%failure)) call h5aexists_f(self%id, name, has, status)
+   end function has_attribute
+
+   subroutine delete(self, path)
+      class(hdf5_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      integer :: status
+      if (.not. self%has(path)) return
+      call h5ldelete_f(self%id, path, status)
+      call self%check(status, 'delete '//path)
+   end subroutine delete
 
    subroutine make_group(self, name)
       class(hdf5_type), intent(inout) :: self
@@ -95,7 +150,7 @@ contains
       integer(hid_t) :: group
       integer :: status
       if (allocated(self%failure)) return
-      call h5gcreate_f(self%file, name, group, status)
+      call h5gcreate_f(self%id, name, group, status)
       call self%check(status, 'create group '//name)
       call h5gclose_f(group, status)
    end subroutine make_group
@@ -104,8 +159,46 @@ contains
    subroutine put_text(self, name, text)
       class(hdf5_type), intent(inout) :: self
       character(len=*), intent(in) :: name, text
-      if (.not. allocated(self%failure)) call self%write_attribute(self%file, name, text)
+      integer :: status
+      if (self%has_attribute(name)) call h5adelete_f(self%id, name, status)
+      call self%write_attribute(self%id, name, text)
    end subroutine put_text
+
+   !> Text attribute; empty, and a failure, where there is none.
+   subroutine get_text(self, name, text)
+      class(hdf5_type), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable, intent(out) :: text
+      type(c_ptr), target :: pointer(1)
+      type(c_ptr) :: buffer
+      character(kind=c_char), pointer :: characters(:)
+      integer(hid_t) :: attribute, kind
+      integer :: i
+      integer :: status
+      logical :: variable
+      text = ''
+      if (allocated(self%failure)) return
+      call h5aopen_f(self%id, name, attribute, status)
+      call self%check(status, 'find attribute '//name)
+      if (status < 0) return
+      call h5aget_type_f(attribute, kind, status)
+      call h5tis_variable_str_f(kind, variable, status)
+      if (status >= 0 .and. .not. variable) status = -1
+      pointer(1) = c_null_ptr
+      buffer = c_loc(pointer)
+      if (status >= 0) call h5aread_f(attribute, kind, buffer, status)
+      call self%check(status, 'read attribute '//name)
+      if (c_associated(pointer(1))) then
+         call c_f_pointer(pointer(1), characters, [c_strlen(pointer(1))])
+         text = repeat(' ', size(characters))
+         do i = 1, size(characters)
+            text(i:i) = characters(i)
+         end do
+         call c_free(pointer(1))
+      end if
+      call h5tclose_f(kind, status)
+      call h5aclose_f(attribute, status)
+   end subroutine get_text
 
    !> Integer root attribute; replaces one of the name.
    subroutine put_flag(self, name, value)
@@ -115,13 +208,11 @@ contains
       integer, target :: buffer
       integer(hid_t) :: space, attribute
       integer :: status
-      logical :: exists
       if (allocated(self%failure)) return
       buffer = value
-      call h5aexists_f(self%file, name, exists, status)
-      if (exists) call h5adelete_f(self%file, name, status)
+      if (self%has_attribute(name)) call h5adelete_f(self%id, name, status)
       call h5screate_f(h5s_scalar_f, space, status)
-      call h5acreate_f(self%file, name, h5t_native_integer, space, attribute, status)
+      call h5acreate_f(self%id, name, h5t_native_integer, space, attribute, status)
       call self%check(status, 'create attribute '//name)
       call h5awrite_f(attribute, h5t_native_integer, c_loc(buffer), status)
       call self%check(status, 'write attribute '//name)
@@ -129,24 +220,41 @@ contains
       call h5sclose_f(space, status)
    end subroutine put_flag
 
+   !> Integer attribute; 0, and a failure, where there is none.
+   subroutine get_flag(self, name, value)
+      class(hdf5_type), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      integer, intent(out) :: value
+      integer, target :: buffer
+      type(c_ptr) :: pointer
+      integer(hid_t) :: attribute
+      integer :: status
+      value = 0
+      if (allocated(self%failure)) return
+      buffer = 0
+      pointer = c_loc(buffer)
+      call h5aopen_f(self%id, name, attribute, status)
+      if (status >= 0) then
+         call h5aread_f(attribute, h5t_native_integer, pointer, status)
+         call self%check(status, 'read attribute '//name)
+         call h5aclose_f(attribute, status)
+      else
+         call self%check(status, 'find attribute '//name)
+      end if
+      value = buffer
+   end subroutine get_flag
+
    subroutine put_count(self, path, value, long_name)
       class(hdf5_type), intent(inout) :: self
       character(len=*), intent(in) :: path, long_name
       integer(i8), intent(in) :: value
       integer(i8), target :: buffer
-      integer(hid_t) :: space, dataset, kind
-      integer :: status
+      integer(hid_t) :: dataset, kind
       if (allocated(self%failure)) return
       buffer = value
       kind = h5kind_to_type(i8, h5_integer_kind)
-      call h5screate_f(h5s_scalar_f, space, status)
-      call h5dcreate_f(self%file, path, kind, space, dataset, status)
-      call self%check(status, 'create '//path)
-      call h5dwrite_f(dataset, kind, c_loc(buffer), status)
-      call self%check(status, 'write '//path)
-      call self%describe(dataset, '1', long_name, '', path)
-      call h5dclose_f(dataset, status)
-      call h5sclose_f(space, status)
+      call self%place(path, kind, [integer(hsize_t) ::], '1', long_name, '', dataset)
+      call self%write_all(dataset, kind, c_loc(buffer), path)
    end subroutine put_count
 
    subroutine put_real(self, path, value, units, long_name)
@@ -176,131 +284,100 @@ contains
       real(wp), intent(in) :: values(:)
       integer(hsize_t), intent(in) :: dims(:)
       real(wp), target :: buffer(size(values))
-      integer(hid_t) :: space, dataset
-      integer :: status
+      integer(hid_t) :: dataset
       if (allocated(self%failure)) return
       buffer = values
+      call self%place(path, h5t_native_double, dims, units, long_name, scales, dataset)
+      call self%write_all(dataset, h5t_native_double, c_loc(buffer), path)
+   end subroutine write_reals
+
+   !> Opens a dataset, or makes it.
+   subroutine place(self, path, kind, dims, units, long_name, scales, dataset)
+      class(hdf5_type), intent(inout) :: self
+      character(len=*), intent(in) :: path, units, long_name, scales
+      integer(hid_t), intent(in) :: kind
+      integer(hsize_t), intent(in) :: dims(:)
+      integer(hid_t), intent(out) :: dataset
+      integer(hid_t) :: space
+      integer :: status
+      if (self%has(path)) then
+         call h5dopen_f(self%id, path, dataset, status)
+         call self%check(status, 'open '//path)
+         return
+      end if
       if (size(dims) == 0) then
          call h5screate_f(h5s_scalar_f, space, status)
       else
          call h5screate_simple_f(size(dims), dims, space, status)
       end if
-      call h5dcreate_f(self%file, path, h5t_native_double, space, dataset, status)
+      call h5dcreate_f(self%id, path, kind, space, dataset, status)
       call self%check(status, 'create '//path)
-      call h5dwrite_f(dataset, h5t_native_double, c_loc(buffer), status)
-      call self%check(status, 'write '//path)
       call self%describe(dataset, units, long_name, scales, path)
-      call h5dclose_f(dataset, status)
       call h5sclose_f(space, status)
-   end subroutine write_reals
+   end subroutine place
 
-   !> A dataset over time; with width > 0 of (time, width), with width 0 of (time).
-   subroutine make_growing(self, path, width, units, long_name, scales, growing)
+   !> Writes all of a dataset and closes it.
+   subroutine write_all(self, dataset, kind, buffer, path)
       class(hdf5_type), intent(inout) :: self
-      character(len=*), intent(in) :: path, units, long_name, scales
-      integer, intent(in) :: width
-      type(growing_type), intent(out) :: growing
-      integer(hsize_t), allocatable :: dims(:), most(:), chunk(:)
-      integer(hid_t) :: space, properties, access
+      integer(hid_t), intent(in) :: dataset, kind
+      type(c_ptr), intent(in) :: buffer
+      character(len=*), intent(in) :: path
+      integer :: status
+      if (.not. allocated(self%failure)) call h5dwrite_f(dataset, kind, buffer, status)
+      if (.not. allocated(self%failure)) call self%check(status, 'write '//path)
+      call h5dclose_f(dataset, status)
+   end subroutine write_all
+
+   integer(i8) function get_count(self, path)
+      class(hdf5_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      integer(i8), target :: buffer
+      buffer = 0
+      call self%read_all(path, h5kind_to_type(i8, h5_integer_kind), 1, c_loc(buffer))
+      get_count = buffer
+   end function get_count
+
+   real(wp) function get_real(self, path)
+      class(hdf5_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      real(wp), target :: buffer
+      buffer = 0
+      call self%read_all(path, h5t_native_double, 1, c_loc(buffer))
+      get_real = buffer
+   end function get_real
+
+   !> A list of this size.
+   subroutine get_list(self, path, values)
+      class(hdf5_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      real(wp), intent(out), contiguous, target :: values(:)
+      values = 0
+      call self%read_all(path, h5t_native_double, size(values), c_loc(values))
+   end subroutine get_list
+
+   !> Reads a dataset of n numbers; a failure where it has another size.
+   subroutine read_all(self, path, kind, n, buffer)
+      class(hdf5_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      integer(hid_t), intent(in) :: kind
+      integer, intent(in) :: n
+      type(c_ptr), value :: buffer
+      integer(hid_t) :: dataset, space
+      integer(hsize_t) :: points
       integer :: status
       if (allocated(self%failure)) return
-      growing%width = max(width, 1)
-      dims = int([0], hsize_t)
-      most = int([h5s_unlimited_f], hsize_t)
-      chunk = [chunk_samples]
-      if (width > 0) then
-         dims = [growing%width, dims]
-         most = [growing%width, most]
-         chunk = [growing%width, chunk]
-      end if
-      call h5screate_simple_f(size(dims), dims, space, status, most)
-      call h5pcreate_f(h5p_dataset_create_f, properties, status)
-      call h5pset_chunk_f(properties, size(chunk), chunk, status)
-      ! whole chunks are written as they come: a cache of them would only cost memory
-      call h5pcreate_f(h5p_dataset_access_f, access, status)
-      call h5pset_chunk_cache_f(access, 0_size_t, 0_size_t, 0.0, status)
-      call h5dcreate_f(self%file, path, h5t_native_double, space, growing%id, status, properties, &
-         & dapl_id=access)
-      call self%check(status, 'create '//path)
-      call self%describe(growing%id, units, long_name, scales, path)
-      call h5pclose_f(access, status)
-      call h5pclose_f(properties, status)
+      status = -1
+      if (self%has(path)) call h5dopen_f(self%id, path, dataset, status)
+      call self%check(status, 'open '//path)
+      if (status < 0) return
+      call h5dget_space_f(dataset, space, status)
+      call h5sget_simple_extent_npoints_f(space, points, status)
+      if (status >= 0 .and. points /= n) status = -1
+      if (status >= 0) call h5dread_f(dataset, kind, buffer, status)
+      call self%check(status, 'read '//path)
       call h5sclose_f(space, status)
-   end subroutine make_growing
-
-   !> Adds samples, values(width, samples), in memory order.
-   subroutine append(self, growing, values)
-      class(hdf5_type), intent(inout) :: self
-      type(growing_type), intent(inout) :: growing
-      real(wp), intent(in), contiguous, target :: values(:, :)
-      integer(hid_t) :: memory, space
-      integer :: status
-      if (allocated(self%failure) .or. size(values) == 0) return
-      growing%length = growing%length + size(values, 2)
-      call select_tail(growing, size(values, 2), memory, space, status, grow=.true.)
-      if (status >= 0) call h5dwrite_f(growing%id, h5t_native_double, c_loc(values), status, memory, space)
-      call self%check(status, 'write samples')
-      call h5sclose_f(space, status)
-      call h5sclose_f(memory, status)
-   end subroutine append
-
-   !> The last n samples, values(width, n).
-   subroutine read_tail(self, growing, n, values)
-      class(hdf5_type), intent(inout) :: self
-      type(growing_type), intent(in) :: growing
-      integer, intent(in) :: n
-      real(wp), allocatable, target, intent(out) :: values(:, :)
-      integer(hid_t) :: memory, space
-      integer :: status
-      type(c_ptr) :: buffer
-      allocate (values(growing%width, n), source=0.0_wp)
-      buffer = c_loc(values)
-      if (allocated(self%failure) .or. n == 0) return
-      call select_tail(growing, n, memory, space, status, grow=.false.)
-      if (status >= 0) call h5dread_f(growing%id, h5t_native_double, buffer, status, memory, space)
-      call self%check(status, 'read samples')
-      call h5sclose_f(space, status)
-      call h5sclose_f(memory, status)
-   end subroutine read_tail
-
-   !> Selects the last n samples in file and memory, after growing the dataset to its length if asked.
-   subroutine select_tail(growing, n, memory, space, status, grow)
-      type(growing_type), intent(in) :: growing
-      integer, intent(in) :: n
-      integer(hid_t), intent(out) :: memory, space
-      integer, intent(out) :: status
-      logical, intent(in) :: grow
-      integer(hsize_t), allocatable :: start(:), count(:), dims(:)
-      integer :: rank
-      start = [growing%length - n]
-      count = int([n], hsize_t)
-      dims = [growing%length]
-      call h5dget_space_f(growing%id, space, status)
-      call h5sget_simple_extent_ndims_f(space, rank, status)
-      if (rank == 2) then
-         start = [0_hsize_t, start]
-         count = [growing%width, count]
-         dims = [growing%width, dims]
-      end if
-      if (grow) then
-         call h5sclose_f(space, status)
-         call h5dset_extent_f(growing%id, dims, status)
-         if (status < 0) return
-         call h5dget_space_f(growing%id, space, status)
-      end if
-      call h5screate_simple_f(rank, count, memory, status)
-      call h5sselect_hyperslab_f(space, h5s_select_set_f, start, count, status)
-   end subroutine select_tail
-
-   subroutine close_growing(self, growing)
-      class(hdf5_type), intent(inout) :: self
-      type(growing_type), intent(inout) :: growing
-      integer :: status
-      if (growing%id < 0) return
-      call h5dclose_f(growing%id, status)
-      call self%check(status, 'close a dataset')
-      growing%id = -1
-   end subroutine close_growing
+      call h5dclose_f(dataset, status)
+   end subroutine read_all
 
    !> Units, long name and dimension scales of a dataset.
    subroutine describe(self, dataset, units, long_name, scales, path)
@@ -325,7 +402,7 @@ contains
          name = rest(:blank - 1)
          rest = rest(min(blank + 1, len(rest) + 1):)
          dimension = dimension + 1
-         call h5dopen_f(self%file, name, scale, status)
+         call h5dopen_f(self%id, name, scale, status)
          call h5dsattach_scale_f(dataset, scale, dimension, status)
          call self%check(status, 'attach '//name//' to '//path)
          call h5dclose_f(scale, status)
@@ -360,6 +437,10 @@ contains
       class(hdf5_type), intent(inout) :: self
       integer, intent(in) :: status
       character(len=*), intent(in) :: action
-      if (status < 0 .and. .not. allocated(self%failure)) self%failure = 'HDF5 could not '//action
+      character(len=:), allocatable :: reason
+      if (status >= 0 .or. allocated(self%failure)) return
+      reason = system_reason()
+      self%failure = 'HDF5 could not '//action
+      if (reason /= '') self%failure = self%failure//': '//reason
    end subroutine check
 end module hdf5_file

@@ -5,6 +5,10 @@ module namelist_text
    implicit none (type, external)
    private
    public :: namelist_type, assignment_type, token_type, parse_namelist, parse_override
+   public :: put_assignment, undoes, assignment_text, target_text, value_text, sweep_group
+
+   !> The group whose variables are those of other groups, with values for one run each: `group%name = values`.
+   character(len=*), parameter :: sweep_group = 'sweep'
 
    !> One value; `repeat*value` stands for several of them.
    type :: token_type
@@ -17,6 +21,8 @@ module namelist_text
       character(len=:), allocatable :: group, name, place
       !> First element that the values go to; 0 where no subscript is given.
       integer :: subscript = 0
+      !> Comes after what the file says, and may give elements again: from --set, or a member's of a sweep.
+      logical :: overrides = .false.
       type(token_type), allocatable :: values(:)
    end type assignment_type
 
@@ -116,8 +122,7 @@ contains
       type(scanner) :: scan
       type(assignment_type) :: group
       type(assignment_type), allocatable :: new(:)
-      logical, allocatable :: keep(:)
-      integer :: percent, i
+      integer :: percent
       percent = index(text, '%')
       group%place = '--set '//shortened(text)
       if (control_character(text) > 0) then
@@ -127,6 +132,10 @@ contains
       if (percent > 1) group%group = lower_case(trim(adjustl(text(:percent - 1))))
       if (percent <= 1 .or. index(text, '=') < percent) then
          call raise(error, input_error, group%place//': expected group%name=value')
+         return
+      end if
+      if (len(group%group) > longest_name) then
+         call raise(error, input_error, group%place//': unknown group '//shortened(group%group))
          return
       end if
       scan%text = text(percent + 1:)//' /'
@@ -140,9 +149,23 @@ contains
          return
       end if
       new(1)%place = '--set'
-      keep = [(.not. undoes(new(1), parsed%assignments(i)), i=1, size(parsed%assignments))]
-      parsed%assignments = [pack(parsed%assignments, keep), new]
+      new(1)%overrides = .true.
+      call put_assignment(new(1), parsed)
    end subroutine parse_override
+
+   !> Puts an assignment in place of those it replaces: behind all others, but a sweep's where the first of them stood,
+   !> as their order is that of the members.
+   subroutine put_assignment(new, parsed)
+      type(assignment_type), intent(in) :: new
+      type(namelist_type), intent(inout) :: parsed
+      logical, allocatable :: keep(:)
+      integer :: at, i
+      keep = [(.not. replaces(new, parsed%assignments(i)), i=1, size(parsed%assignments))]
+      at = size(keep) + 1
+      if (new%group == sweep_group) at = findloc([keep, .false.], .false., dim=1)
+      parsed%assignments = [pack(parsed%assignments(:at - 1), keep(:at - 1)), new, &
+         & pack(parsed%assignments(at:), keep(at:))]
+   end subroutine put_assignment
 
    !> From behind the group's name to behind its end.
    subroutine parse_group(scan, group, assignments, error)
@@ -193,7 +216,7 @@ contains
       type(scanner), intent(inout) :: scan
       type(assignment_type), intent(inout) :: new
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: found, subscript
+      character(len=:), allocatable :: found, subscript, allowed
       integer :: open, status
       found = lower_case(scan%word())
       open = index(found, '(')
@@ -210,15 +233,16 @@ contains
             if (new%subscript < 1) status = 1
          end if
       end if
+      allowed = name_characters
+      if (new%group == sweep_group) allowed = name_characters//'%'
       call scan%skip_blank('')
-      if (status /= 0 .or. len(new%name) == 0 .or. verify(new%name, name_characters) /= 0 .or. scan%peek() /= '=') then
-         call raise(error, input_error, new%place//': '''//shortened(found)//''' in group &' &
-            & //shortened(new%group)//': expected name = value')
+      if (status /= 0 .or. len(new%name) == 0 .or. verify(new%name, allowed) /= 0 .or. scan%peek() /= '=') then
+         call raise(error, input_error, new%place//': '''//shortened(found)//''' in group &'//new%group &
+            & //': expected name = value')
          return
       end if
       if (len(new%name) > longest_name) then
-         call raise(error, input_error, new%place//': unknown variable '//shortened(new%group)//'%' &
-            & //shortened(new%name))
+         call raise(error, input_error, new%place//': unknown variable '//new%group//'%'//shortened(new%name))
          return
       end if
       scan%at = scan%at + 1
@@ -320,6 +344,50 @@ contains
       undoes = new%group == earlier%group .and. new%name == earlier%name &
          & .and. (new%subscript == 0 .or. new%subscript == earlier%subscript)
    end function undoes
+
+   !> The same, and nothing of the earlier one's is lost: an element does not stand for a list that starts there.
+   pure logical function replaces(new, earlier)
+      type(assignment_type), intent(in) :: new, earlier
+      replaces = undoes(new, earlier)
+      if (new%subscript == 0 .or. new%group == sweep_group) return
+      replaces = replaces .and. size(earlier%values) == 1 .and. index(earlier%values(1)%text, '*') == 0
+   end function replaces
+
+   !> "rotor%mass = -1", with at most four values, for messages.
+   pure function assignment_text(a) result(text)
+      type(assignment_type), intent(in) :: a
+      character(len=:), allocatable :: text
+      integer :: i
+      text = target_text(a)//' = '
+      do i = 1, min(4, size(a%values))
+         if (i > 1) text = text//', '
+         text = text//shortened(value_text(a%values(i)))
+      end do
+      if (size(a%values) > 4) text = text//', ... ('//to_text(size(a%values))//' values)'
+   end function assignment_text
+
+   !> "pads%mass(2)".
+   pure function target_text(a) result(text)
+      type(assignment_type), intent(in) :: a
+      character(len=:), allocatable :: text
+      text = a%group//'%'//a%name
+      if (a%subscript > 0) text = text//'('//to_text(a%subscript)//')'
+   end function target_text
+
+   !> A value as it stands in a case: a quoted one in quotes, those in it doubled.
+   pure function value_text(token) result(text)
+      type(token_type), intent(in) :: token
+      character(len=:), allocatable :: text
+      integer :: i
+      text = token%text
+      if (.not. token%quoted) return
+      text = ''''
+      do i = 1, len(token%text)
+         text = text//token%text(i:i)
+         if (token%text(i:i) == '''') text = text//''''
+      end do
+      text = text//''''
+   end function value_text
 
    !> The character here; empty at the end.
    pure function peek(self) result(here)

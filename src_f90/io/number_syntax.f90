@@ -1,8 +1,10 @@
 !> What counts as a number in the input.
 module number_syntax
+   use, intrinsic :: ieee_arithmetic, only: ieee_overflow, ieee_get_halting_mode, ieee_set_flag, ieee_set_halting_mode
+   use kinds, only: wp
    implicit none (type, external)
    private
-   public :: is_number, is_special
+   public :: is_number, is_special, read_number
 
 contains
 
@@ -26,6 +28,25 @@ contains
       if (point > 0) mantissa = mantissa(:point - 1)//mantissa(point + 1:)
       is_number = len(mantissa) > 0 .and. verify(mantissa, '0123456789') == 0
    end function is_number
+
+   !> The number that a word in lower case stands for, infinite where it is too large; ok is false where it is none.
+   subroutine read_number(word, x, ok)
+      character(len=*), intent(in) :: word
+      real(wp), intent(out) :: x
+      logical, intent(out) :: ok
+      logical :: halting
+      integer :: status
+      x = 0
+      ok = is_number(word)
+      if (.not. ok) return
+      ! 1e400 overflows in the reading; a build that traps overflow must not stop there
+      call ieee_get_halting_mode(ieee_overflow, halting)
+      call ieee_set_halting_mode(ieee_overflow, .false.)
+      read (word, *, iostat=status) x
+      call ieee_set_flag(ieee_overflow, .false.)
+      call ieee_set_halting_mode(ieee_overflow, halting)
+      ok = status == 0
+   end subroutine read_number
 
    !> Not a number, or infinite.
    pure logical function is_special(word)

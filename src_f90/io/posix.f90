@@ -1,12 +1,13 @@
 !> The few things the system does for us that Fortran has no word for.
 module posix
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funptr, c_int, c_int16_t, c_intptr_t, &
-      & c_null_char, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_funptr, c_int, c_int16_t, c_intptr_t, &
+      & c_long, c_null_char, c_null_ptr, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: output_unit
    implicit none (type, external)
    private
    public :: rename_file, delete_file, real_path, is_regular, process_id, is_terminal, write_output
-   public :: keep_file_size_quiet
+   public :: keep_file_size_quiet, copy_file, link_file, sync_file, host_name, process_alive, pause_seconds
+   public :: system_reason, refused_by_other, set_environment
 
    !> Longest path, and Linux' numbers for statx and for the signal of a file grown too large.
    integer, parameter :: path_max = 4096
@@ -14,6 +15,11 @@ module posix
    !> Shorts in struct statx; the one that holds the mode; file type in it, and that of regular files.
    integer, parameter :: statx_shorts = 128, mode_at = 15
    integer, parameter :: type_mask = int(o'170000'), type_regular = int(o'100000')
+   !> Linux' numbers of the errors that tell why a file cannot be written, and of a process that is no more.
+   integer, parameter :: no_entry = 2, no_process = 3, io_error = 5, try_again = 11, no_access = 13, too_big = 27, disk_full = 28, &
+      & read_only = 30, over_quota = 122
+   !> Bytes copied at a time.
+   integer(c_size_t), parameter :: copy_bytes = 2_c_size_t**30
 
    interface
       integer(c_int) function c_rename(old, new) bind(c, name='rename')
@@ -57,6 +63,66 @@ module posix
          integer(c_size_t), value :: count
       end function c_write
 
+      integer(c_int) function c_link(old, new) bind(c, name='link')
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: old(*), new(*)
+      end function c_link
+
+      type(c_ptr) function c_fopen(path, mode) bind(c, name='fopen')
+         import :: c_ptr, c_char
+         character(kind=c_char), intent(in) :: path(*), mode(*)
+      end function c_fopen
+
+      integer(c_int) function c_fileno(stream) bind(c, name='fileno')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+      end function c_fileno
+
+      integer(c_int) function c_fclose(stream) bind(c, name='fclose')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+      end function c_fclose
+
+      integer(c_int) function c_fsync(descriptor) bind(c, name='fsync')
+         import :: c_int
+         integer(c_int), value :: descriptor
+      end function c_fsync
+
+      !> Copies within the kernel, from and to where the descriptors are.
+      integer(c_size_t) function c_sendfile(to, from, offset, count) bind(c, name='sendfile')
+         import :: c_int, c_ptr, c_size_t
+         integer(c_int), value :: to, from
+         type(c_ptr), value :: offset
+         integer(c_size_t), value :: count
+      end function c_sendfile
+
+      integer(c_int) function c_gethostname(name, length) bind(c, name='gethostname')
+         import :: c_int, c_char, c_size_t
+         character(kind=c_char), intent(inout) :: name(*)
+         integer(c_size_t), value :: length
+      end function c_gethostname
+
+      integer(c_int) function c_kill(process, number) bind(c, name='kill')
+         import :: c_int
+         integer(c_int), value :: process, number
+      end function c_kill
+
+      integer(c_int) function c_nanosleep(time, rest) bind(c, name='nanosleep')
+         import :: c_int, c_long, c_ptr
+         integer(c_long), intent(in) :: time(2)
+         type(c_ptr), value :: rest
+      end function c_nanosleep
+
+      integer(c_int) function c_setenv(name, value, overwrite) bind(c, name='setenv')
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: name(*), value(*)
+         integer(c_int), value :: overwrite
+      end function c_setenv
+
+      type(c_ptr) function c_errno_location() bind(c, name='__errno_location')
+         import :: c_ptr
+      end function c_errno_location
+
       integer(c_int) function c_isatty(descriptor) bind(c, name='isatty')
          import :: c_int
          integer(c_int), value :: descriptor
@@ -78,19 +144,125 @@ contains
       ignored = c_unlink(path//c_null_char)
    end subroutine delete_file
 
+   !> Gives a file a second name; ok is false where that is not possible.
+   logical function link_file(old, new) result(ok)
+      character(len=*), intent(in) :: old, new
+      ok = c_link(old//c_null_char, new//c_null_char) == 0
+   end function link_file
+
+   !> Copies a file, replacing one of the new name; ok is false if not all of it could be copied.
+   logical function copy_file(old, new) result(ok)
+      character(len=*), intent(in) :: old, new
+      type(c_ptr) :: from, to
+      integer(c_size_t) :: copied
+      ok = .false.
+      from = c_fopen(old//c_null_char, 'rb'//c_null_char)
+      if (.not. c_associated(from)) return
+      to = c_fopen(new//c_null_char, 'wb'//c_null_char)
+      if (c_associated(to)) then
+         copied = 1
+         do while (copied > 0)
+            copied = c_sendfile(c_fileno(to), c_fileno(from), c_null_ptr, copy_bytes)
+         end do
+         ok = c_fclose(to) == 0 .and. copied == 0
+      end if
+      copied = c_fclose(from)
+   end function copy_file
+
+   !> Has a file (or folder: the names in it) written to the disk itself; ok is false if that failed.
+   logical function sync_file(path) result(ok)
+      character(len=*), intent(in) :: path
+      type(c_ptr) :: stream
+      integer(c_int) :: ignored
+      stream = c_fopen(path//c_null_char, 'rb'//c_null_char)
+      ok = c_associated(stream)
+      if (.not. ok) return
+      ok = c_fsync(c_fileno(stream)) == 0
+      ignored = c_fclose(stream)
+   end function sync_file
+
+   !> Name of this machine.
+   function host_name()
+      character(len=:), allocatable :: host_name
+      character(kind=c_char) :: buffer(path_max)
+      host_name = 'unknown'
+      if (c_gethostname(buffer, int(path_max, c_size_t)) == 0) host_name = fortran_text(buffer)
+   end function host_name
+
+   !> False where no process of this number runs on this machine.
+   logical function process_alive(process)
+      integer, intent(in) :: process
+      process_alive = .true.
+      if (c_kill(int(process, c_int), 0_c_int) /= 0) process_alive = error_number() /= no_process
+   end function process_alive
+
+   !> Does nothing for so many seconds, or until a signal comes.
+   subroutine pause_seconds(seconds)
+      integer, intent(in) :: seconds
+      integer(c_int) :: ignored
+      ignored = c_nanosleep([int(seconds, c_long), 0_c_long], c_null_ptr)
+   end subroutine pause_seconds
+
+   !> Sets an environment variable that is not set yet.
+   subroutine set_environment(name, value)
+      character(len=*), intent(in) :: name, value
+      integer(c_int) :: ignored
+      ignored = c_setenv(name//c_null_char, value//c_null_char, 0_c_int)
+   end subroutine set_environment
+
+   !> Why the system refused to write, just after it did; empty where it does not say.
+   function system_reason() result(reason)
+      character(len=:), allocatable :: reason
+      select case (error_number())
+      case (no_entry)
+         reason = 'no such file or directory'
+      case (io_error)
+         reason = 'input/output error'
+      case (no_access)
+         reason = 'permission denied'
+      case (too_big)
+         reason = 'file too large'
+      case (disk_full)
+         reason = 'no space left on device'
+      case (read_only)
+         reason = 'read-only file system'
+      case (over_quota)
+         reason = 'disk quota exceeded'
+      case default
+         reason = ''
+      end select
+   end function system_reason
+
+   !> Whether the lock just refused is held by another process (otherwise locks are not known here).
+   logical function refused_by_other()
+      refused_by_other = any(error_number() == [try_again, no_access])
+   end function refused_by_other
+
+   !> C's errno.
+   integer function error_number()
+      integer(c_int), pointer :: number
+      call c_f_pointer(c_errno_location(), number)
+      error_number = number
+   end function error_number
+
+   !> Characters up to C's end of text.
+   pure function fortran_text(buffer) result(text)
+      character(kind=c_char), intent(in) :: buffer(:)
+      character(len=:), allocatable :: text
+      integer :: i
+      allocate (character(len=findloc(buffer, c_null_char, dim=1) - 1) :: text)
+      do i = 1, len(text)
+         text(i:i) = buffer(i)
+      end do
+   end function fortran_text
+
    !> The path without links; as it is where nothing is there.
    function real_path(path)
       character(len=*), intent(in) :: path
       character(len=:), allocatable :: real_path
       character(kind=c_char) :: buffer(path_max)
-      integer :: i, length
       real_path = path
-      if (.not. c_associated(c_realpath(path//c_null_char, buffer))) return
-      length = findloc(buffer, c_null_char, dim=1) - 1
-      real_path = repeat(' ', length)
-      do i = 1, length
-         real_path(i:i) = buffer(i)
-      end do
+      if (c_associated(c_realpath(path//c_null_char, buffer))) real_path = fortran_text(buffer)
    end function real_path
 
    !> True for an ordinary file, false for folders, devices, pipes and where nothing is there.

@@ -1,104 +1,120 @@
 !> The result file of a run: names, dimensions and units as docs/results.md lists them.
 !>
-!> It is written under a temporary name beside its place and renamed when it is whole, so that a crash
-!> at any moment leaves the previous file as it was.
+!> It is written beside its place and put there whole, at checkpoints and at the end, so that a crash at any moment
+!> leaves the last checkpoint, or before the first one the previous file as it was.
 module run_file
    use kinds, only: wp, i8, pi, degree
    use text, only: to_text
    use errors, only: error_type, raise, system_error
-   use build_info, only: program_version, program_commit
-   use cvode_march, only: march_statistics
    use scene, only: scene_type
    use equations_of_motion, only: bearing_model
    use equilibrium, only: equilibrium_type
-   use hdf5_file, only: hdf5_type, growing_type
-   use posix, only: rename_file, delete_file, process_id, real_path, is_regular
+   use hdf5_file, only: hdf5_type
+   use sample_table, only: sample_table_type
+   use run_statistics, only: run_statistics_type
+   use provenance, only: provenance_type, running
+   use working_file, only: working_file_type
    implicit none (type, external)
    private
    public :: run_file_type, format_version
 
    !> Version of the names in the file.
    integer, parameter :: format_version = 1
-   !> Samples held back before they are written.
-   integer, parameter :: buffer_samples = 1024
-
-   type :: series_type
-      character(len=:), allocatable :: name
-      type(growing_type) :: data
-      real(wp), allocatable :: buffer(:, :)
-   end type series_type
 
    type :: run_file_type
       private
-      character(len=:), allocatable :: path, temporary
+      type(working_file_type) :: place
       type(hdf5_type) :: file
-      type(series_type), allocatable :: series(:)
-      integer :: filled = 0
-      !> Samples added.
-      integer(i8), public :: samples = 0
+      type(sample_table_type) :: table
+      type(provenance_type) :: provenance
    contains
+      !> Locks the place of the file, so that no other run writes it, until `finish`, `stop` or `abandon`.
+      procedure :: claim
       procedure :: create
+      procedure :: resume
+      procedure :: put_member
       procedure :: put_equilibrium
       procedure :: add_sample
+      procedure :: samples
       procedure :: last_samples
       procedure :: put_spectrum
-      procedure :: put_statistics
+      procedure :: checkpoint
       procedure :: finish
-      !> Closes and deletes the temporary file.
+      !> Gives up what was not published, and the lock.
       procedure :: abandon
-      procedure, private :: write_buffers
+      !> Shows other programs that this one lives; to be called often with a clock, s.
+      procedure :: beat
+      !> The dead process that held the file's lock; empty where there was none.
+      procedure :: taken_from
+      procedure, private :: close_parts
+      procedure, private :: catch_up
       procedure, private :: error_of
    end type run_file_type
 
 contains
 
-   !> Starts the file of a scene; `input` is its resolved namelist.
-   subroutine create(self, path, scene, input, error)
+   subroutine claim(self, path, error)
       class(run_file_type), intent(inout) :: self
-      character(len=*), intent(in) :: path, input
+      character(len=*), intent(in) :: path
+      type(error_type), allocatable, intent(out) :: error
+      call self%place%claim(path, error)
+   end subroutine claim
+
+   !> Starts the file of a scene in the place claimed; `input` is its resolved namelist.
+   subroutine create(self, scene, input, error)
+      class(run_file_type), intent(inout) :: self
+      character(len=*), intent(in) :: input
       type(scene_type), intent(in) :: scene
       type(error_type), allocatable, intent(out) :: error
-      character(len=200) :: message
-      integer :: unit, status, i, clock(8)
-      character(len=25) :: created
-      logical :: exists, regular
-      ! a link is followed, so that its target is replaced and not the link
-      self%path = real_path(path)
-      self%temporary = self%path//'.part'//to_text(int(process_id()))
-      inquire (file=self%path//'/.', exist=exists)
-      if (.not. exists) inquire (file=self%path, exist=exists)
-      regular = is_regular(self%path)
-      if (exists .and. .not. regular) then
-         call raise(error, system_error, 'cannot write '//path//': it is a directory, device or pipe')
-         return
-      end if
-      ! the system says better than HDF5 why a file cannot be made
-      open (newunit=unit, file=self%temporary, status='replace', action='write', iostat=status, iomsg=message)
-      if (status /= 0) then
-         call raise(error, system_error, 'cannot write '//path//': '//reason(message))
-         return
-      end if
-      close (unit)
-      call date_and_time(values=clock)
-      write (created, '(i4.4,2("-",i2.2),"T",i2.2,2(":",i2.2),sp,i3.2,":",ss,i2.2)') clock(1:3), clock(5:7), &
-         & clock(4)/60, mod(abs(clock(4)), 60)
-      allocate (self%series(0))
-      call self%file%create(self%temporary)
-      call self%file%put_flag('format_version', format_version)
-      call self%file%put_text('program', 'tiltpad')
-      call self%file%put_text('version', program_version)
-      call self%file%put_text('commit', program_commit)
-      call self%file%put_text('created', created)
-      call self%file%put_text('title', scene%about%title)
-      call self%file%put_text('task', scene%about%task)
-      call self%file%put_flag('complete', 0)
-      call self%file%put_text('input', input)
-      call self%file%put_list('pad', [(real(i, wp), i=1, scene%pad_count())], '1', 'pad number', 'pad')
-      call self%file%put_list('pivot_angle', scene%pads%pivot_angle_deg*degree, 'rad', &
-         & 'pivot angle', 'pad')
+      integer :: i
+      associate (file => self%file)
+         call file%create(self%place%part)
+         call file%put_flag('format_version', format_version)
+         call self%provenance%begin(file)
+         call file%put_text('title', scene%about%title)
+         call file%put_text('task', scene%about%task)
+         call file%put_flag('complete', 0)
+         call file%put_text('input', input)
+         call file%put_list('pad', [(real(i, wp), i=1, scene%pad_count())], '1', 'pad number', 'pad')
+         call file%put_list('pivot_angle', scene%pads%pivot_angle_deg*degree, 'rad', 'pivot angle', 'pad')
+         call self%table%begin(file)
+      end associate
       call self%error_of(error)
       if (allocated(error)) call self%abandon()
    end subroutine create
+
+   !> Goes on with the file that stands in the place claimed, from its checkpoint: simulated time t, s, and state.
+   subroutine resume(self, t, state, statistics, error)
+      class(run_file_type), intent(inout) :: self
+      real(wp), intent(out) :: t
+      !> Of the size that the scene has.
+      real(wp), intent(out) :: state(:)
+      type(run_statistics_type), intent(out) :: statistics
+      type(error_type), allocatable, intent(out) :: error
+      t = 0
+      state = 0
+      call self%place%copy_published(error)
+      if (.not. allocated(error)) then
+         call self%file%open(self%place%part, writing=.true.)
+         t = self%file%get_real('checkpoint/time')
+         call self%file%get_list('checkpoint/state', state)
+         call statistics%get(self%file)
+         call self%provenance%resume(self%file, t)
+         call self%table%begin(self%file)
+         call self%error_of(error)
+      end if
+      if (allocated(error)) call self%abandon()
+   end subroutine resume
+
+   !> The run is a member of a sweep: its number, how many there are, and what is its own, a line each.
+   subroutine put_member(self, number, members, sweep)
+      class(run_file_type), intent(inout) :: self
+      integer, intent(in) :: number, members
+      character(len=*), intent(in) :: sweep
+      call self%file%put_flag('member', number)
+      call self%file%put_flag('members', members)
+      call self%file%put_text('sweep', sweep)
+   end subroutine put_member
 
    subroutine put_equilibrium(self, found, radial)
       class(run_file_type), intent(inout) :: self
@@ -124,12 +140,9 @@ contains
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: t, y(:)
       type(error_type), allocatable, intent(out) :: error
-      integer :: k, n
-      k = 0
+      integer :: n
       n = size(model%places)
-      if (self%filled == buffer_samples) call self%write_buffers()
-      self%filled = self%filled + 1
-      self%samples = self%samples + 1
+      call self%table%new_sample(self%file)
       call one('time', t, 's', 'time')
       call one('shaft_angle', model%scene%shaft_angle(t), 'rad', 'shaft angle')
       call one('speed', model%scene%speed(t), 'rad/s', 'shaft speed')
@@ -164,43 +177,21 @@ contains
       subroutine one(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value
-         call next(name, [value], 0, units, long_name)
+         call self%table%add(self%file, name, [value], 0, units, long_name)
       end subroutine one
 
       subroutine each(name, values, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: values(:)
-         call next(name, values, n, units, long_name)
+         call self%table%add(self%file, name, values, n, units, long_name)
       end subroutine each
-
-      !> The k-th series; made when its first sample comes.
-      subroutine next(name, values, width, units, long_name)
-         character(len=*), intent(in) :: name, units, long_name
-         real(wp), intent(in) :: values(:)
-         integer, intent(in) :: width
-         type(series_type) :: new
-         character(len=:), allocatable :: scales
-         k = k + 1
-         if (k > size(self%series)) then
-            new%name = name
-            allocate (new%buffer(size(values), buffer_samples))
-            scales = 'time'
-            if (width > 0) scales = 'time pad'
-            call self%file%make_growing(name, width, units, long_name, scales, new%data)
-            self%series = [self%series, new]
-         end if
-         self%series(k)%buffer(:, self%filled) = values
-      end subroutine next
    end subroutine add_sample
 
-   subroutine write_buffers(self)
-      class(run_file_type), intent(inout) :: self
-      integer :: k
-      do k = 1, size(self%series)
-         call self%file%append(self%series(k)%data, self%series(k)%buffer(:, :self%filled))
-      end do
-      self%filled = 0
-   end subroutine write_buffers
+   !> Samples added, also before the run was resumed.
+   integer(i8) function samples(self)
+      class(run_file_type), intent(in) :: self
+      samples = self%table%samples
+   end function samples
 
    !> The last n samples of a series, (width, n); n at most the samples there are.
    subroutine last_samples(self, name, n, values)
@@ -208,11 +199,7 @@ contains
       character(len=*), intent(in) :: name
       integer, intent(in) :: n
       real(wp), allocatable, intent(out) :: values(:, :)
-      integer :: k
-      call self%write_buffers()
-      do k = 1, size(self%series)
-         if (self%series(k)%name == name) call self%file%read_tail(self%series(k)%data, n, values)
-      end do
+      call self%table%last(self%file, name, n, values)
    end subroutine last_samples
 
    !> Amplitude spectra over the last revolutions of a run at constant speed, rad/s.
@@ -245,72 +232,104 @@ contains
       end associate
    end subroutine put_spectrum
 
-   subroutine put_statistics(self, march, model, observer_seconds, wall_seconds)
+   !> Publishes what there is, with the state y at time t, s, to go on from, and goes on writing. With an exit
+   !> status other than `running`, which needs its reason, that was the end.
+   subroutine checkpoint(self, t, y, statistics, status, reason, error)
       class(run_file_type), intent(inout) :: self
-      type(march_statistics), intent(in) :: march
-      type(bearing_model), intent(in) :: model
-      real(wp), intent(in) :: observer_seconds, wall_seconds
-      associate (file => self%file, film => model%film%counters)
-         call file%make_group('statistics')
-         call file%put_count('statistics/steps', march%steps, 'time steps')
-         call file%put_count('statistics/rhs_evaluations', march%rhs_evaluations, 'right-hand sides')
-         call file%put_count('statistics/jacobian_evaluations', march%jacobian_evaluations, 'Jacobians')
-         call file%put_count('statistics/error_test_failures', march%error_test_failures, &
-            & 'steps refused by the error test')
-         call file%put_count('statistics/convergence_failures', march%convergence_failures, &
-            & 'Newton iterations that failed')
-         call file%put_count('statistics/film_modal', film%modal, 'pads solved by axial modes in the march')
-         call file%put_count('statistics/film_sor', film%sor, 'pads solved on finite volumes in the march')
-         call file%put_count('statistics/sor_sweeps', film%sweeps, &
-            & 'sweeps of over-relaxation, or eliminations, in the march')
-         call file%put_real('statistics/film_seconds', model%film_seconds, 's', 'wall time of the film in the march')
-         call file%put_real('statistics/output_seconds', observer_seconds, 's', 'wall time of sampling')
-         call file%put_real('statistics/wall_seconds', wall_seconds, 's', 'wall time of the run')
-      end associate
-   end subroutine put_statistics
-
-   !> Closes the file and puts it in its place.
-   subroutine finish(self, complete, error)
-      class(run_file_type), intent(inout) :: self
-      logical, intent(in) :: complete
+      real(wp), intent(in) :: t, y(:)
+      type(run_statistics_type), intent(in) :: statistics
+      integer, intent(in) :: status
+      character(len=*), intent(in) :: reason
       type(error_type), allocatable, intent(out) :: error
-      integer :: k
-      call self%write_buffers()
-      do k = 1, size(self%series)
-         call self%file%close_growing(self%series(k)%data)
-      end do
-      if (complete) call self%file%put_flag('complete', 1)
-      call self%file%close()
-      if (.not. allocated(self%file%failure)) then
-         if (.not. rename_file(self%temporary, self%path)) call raise(error, system_error, &
-            & 'cannot rename the result to '//self%path//'; it is in '//self%temporary)
-         return
-      end if
+      logical :: exchanged
+      associate (file => self%file)
+         if (.not. file%has('checkpoint')) call file%make_group('checkpoint')
+         call file%put_real('checkpoint/time', t, 's', 'time from which the run can go on')
+         call file%put_list('checkpoint/state', y, '1', 'state of the march at that time', '')
+         call statistics%put(file)
+         call self%provenance%note(file, t, status, reason)
+      end associate
+      call self%close_parts()
       call self%error_of(error)
-      call delete_file(self%temporary)
+      if (.not. allocated(error)) call self%place%publish(exchanged, error)
+      if (.not. allocated(error) .and. status == running) call self%catch_up(exchanged, error)
+      if (allocated(error) .or. status /= running) call self%abandon()
+   end subroutine checkpoint
+
+   !> Makes the part what was just published: adds the last stretch to what was published before, or, where that
+   !> cannot be written (a reader has it open), copies it all.
+   subroutine catch_up(self, exchanged, error)
+      class(run_file_type), intent(inout) :: self
+      logical, intent(in) :: exchanged
+      type(error_type), allocatable, intent(out) :: error
+      type(hdf5_type) :: published
+      if (exchanged) then
+         call self%file%open(self%place%part, writing=.true.)
+         call published%open(self%place%path, writing=.false.)
+         call self%table%open(self%file)
+         call self%table%copy_missing(self%file, published)
+         call published%close()
+         if (.not. allocated(self%file%failure) .and. .not. allocated(published%failure)) return
+         call self%table%close(self%file)
+         call self%file%close()
+      end if
+      call self%place%copy_published(error)
+      if (allocated(error)) return
+      call self%file%open(self%place%part, writing=.true.)
+      call self%table%open(self%file)
+      call self%error_of(error)
+   end subroutine catch_up
+
+   !> Closes the file and puts it in its place. An exit status other than 0 needs its reason; t is the simulated
+   !> time reached, s.
+   subroutine finish(self, t, statistics, status, reason, error)
+      class(run_file_type), intent(inout) :: self
+      real(wp), intent(in) :: t
+      type(run_statistics_type), intent(in) :: statistics
+      integer, intent(in) :: status
+      character(len=*), intent(in) :: reason
+      type(error_type), allocatable, intent(out) :: error
+      logical :: exchanged
+      call self%file%delete('checkpoint')
+      call statistics%put(self%file)
+      call self%provenance%note(self%file, t, status, reason)
+      if (status == 0) call self%file%put_flag('complete', 1)
+      call self%close_parts()
+      call self%error_of(error)
+      if (.not. allocated(error)) call self%place%publish(exchanged, error)
+      call self%abandon()
    end subroutine finish
 
    subroutine abandon(self)
       class(run_file_type), intent(inout) :: self
-      integer :: k
-      do k = 1, size(self%series)
-         call self%file%close_growing(self%series(k)%data)
-      end do
+      call self%table%close(self%file)
       call self%file%close()
-      call delete_file(self%temporary)
+      call self%place%release()
    end subroutine abandon
+
+   subroutine close_parts(self)
+      class(run_file_type), intent(inout) :: self
+      call self%table%write(self%file)
+      call self%table%close(self%file)
+      call self%file%close()
+   end subroutine close_parts
+
+   subroutine beat(self, now)
+      class(run_file_type), intent(inout) :: self
+      integer, intent(in) :: now
+      call self%place%lock%beat(now)
+   end subroutine beat
+
+   function taken_from(self)
+      class(run_file_type), intent(in) :: self
+      character(len=:), allocatable :: taken_from
+      taken_from = self%place%lock%taken_from
+   end function taken_from
 
    subroutine error_of(self, error)
       class(run_file_type), intent(in) :: self
       type(error_type), allocatable, intent(out) :: error
-      if (allocated(self%file%failure)) call raise(error, system_error, 'cannot write '//self%path//': ' &
-         & //self%file%failure//' (disk full, quota, or no permission?)')
+      if (allocated(self%file%failure)) call raise(error, system_error, 'cannot write '//self%place%path//': ' &
+         & //self%file%failure)
    end subroutine error_of
-
-   !> The last part of a system message, behind its last colon.
-   pure function reason(message)
-      character(len=*), intent(in) :: message
-      character(len=:), allocatable :: reason
-      reason = trim(adjustl(message(index(trim(message), ':', back=.true.) + 1:)))
-   end function reason
 end module run_file

@@ -190,6 +190,8 @@ contains
          call v%number('start_time', o%start_time, between(0.0_wp, 1e6_wp), 's', 'first sample')
          call v%whole('spectrum_revolutions', o%spectrum_revolutions, between(1.0_wp, 1e6_wp), &
             & 'revolutions at the end that the spectra cover, as far as they were sampled')
+         call v%number('checkpoint_seconds', o%checkpoint_seconds, between(0.0_wp, 1e9_wp), 's', &
+            & 'wall time between checkpoints, from which --resume goes on; 0: only when a signal stops the run')
       end associate
 
    contains

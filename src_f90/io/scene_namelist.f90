@@ -1,19 +1,18 @@
 !> Scene from namelist text. Values are checked where they are read, so that the message can
 !> name file, line, group, variable, value and what is allowed.
 module scene_namelist
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_overflow, ieee_get_halting_mode, ieee_set_flag, &
-      & ieee_set_halting_mode
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, i8
-   use text, only: to_text, lower_case, shortened, is_utf8
+   use text, only: to_text, lower_case, is_utf8
    use errors, only: error_type, raise, add_context, input_error
    use scene, only: scene_type, max_pads
    use scene_fields, only: field_visitor, range_type, visit_scene
-   use number_syntax, only: is_number, is_special
-   use namelist_text, only: namelist_type, assignment_type, token_type, parse_namelist, parse_override
+   use number_syntax, only: is_special, read_number
+   use namelist_text, only: namelist_type, assignment_type, parse_namelist, parse_override, assignment_text, sweep_group
    use posix, only: is_regular
    implicit none (type, external)
    private
-   public :: read_scene, scene_from_text
+   public :: read_text, parse_case, scene_from_text, scene_from_namelist, fill_scene
 
    !> Longest input file, and longest text in it, bytes.
    integer, parameter :: longest_file = 100000, longest_text = 1000
@@ -39,12 +38,11 @@ module scene_namelist
 
 contains
 
-   !> Reads a case file, applies the overrides ("group%name=value") and checks everything.
-   subroutine read_scene(file, overrides, scene, error)
-      character(len=*), intent(in) :: file, overrides(:)
-      type(scene_type), intent(out) :: scene
+   !> The text of a case file.
+   subroutine read_text(file, text, error)
+      character(len=*), intent(in) :: file
+      character(len=:), allocatable, intent(out) :: text
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: text
       character(len=200) :: message
       logical :: exists
       integer :: unit, status
@@ -77,25 +75,57 @@ contains
          if (length > 0) read (unit, iostat=status, iomsg=message) text
          close (unit)
       end if
-      if (status /= 0) then
-         call raise(error, input_error, file//': cannot be read: '//trim(message))
-         return
-      end if
-      call scene_from_text(text, file, overrides, scene, error)
-   end subroutine read_scene
+      if (status /= 0) call raise(error, input_error, file//': cannot be read: '//trim(message))
+   end subroutine read_text
 
-   !> The same from text; `file` is for messages.
+   !> The assignments of a case's text with the overrides ("group%name=value") in place; `file` is for messages.
+   subroutine parse_case(text, file, overrides, parsed, error)
+      character(len=*), intent(in) :: text, file, overrides(:)
+      type(namelist_type), intent(out) :: parsed
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+      call parse_namelist(text, file, parsed, error)
+      do i = 1, size(overrides)
+         if (.not. allocated(error)) call parse_override(trim(overrides(i)), parsed, error)
+      end do
+   end subroutine parse_case
+
+   !> The scene of a case's text, everything checked; a sweep is refused.
    subroutine scene_from_text(text, file, overrides, scene, error)
       character(len=*), intent(in) :: text, file, overrides(:)
       type(scene_type), intent(out) :: scene
       type(error_type), allocatable, intent(out) :: error
+      type(namelist_type) :: parsed
+      integer :: i
+      call parse_case(text, file, overrides, parsed, error)
+      if (allocated(error)) return
+      do i = 1, size(parsed%groups)
+         if (parsed%groups(i)%group == sweep_group) call raise(error, input_error, parsed%groups(i)%place &
+            & //': a sweep, where one scene is expected; tiltpad --check --member K prints those of a sweep')
+      end do
+      if (.not. allocated(error)) call scene_from_namelist(parsed, scene, error)
+   end subroutine scene_from_text
+
+   !> The scene of assignments, everything checked.
+   subroutine scene_from_namelist(parsed, scene, error)
+      type(namelist_type), intent(in) :: parsed
+      type(scene_type), intent(out) :: scene
+      type(error_type), allocatable, intent(out) :: error
+      call fill_scene(parsed, scene, error)
+      if (allocated(error)) return
+      call scene%settle()
+      call scene%validate(error)
+      call add_context(error, parsed%file)
+   end subroutine scene_from_namelist
+
+   !> The same before `settle`: each value is checked by itself, and one that stands for another's is kept.
+   subroutine fill_scene(parsed, scene, error)
+      type(namelist_type), intent(in) :: parsed
+      type(scene_type), intent(out) :: scene
+      type(error_type), allocatable, intent(out) :: error
       type(scene_reader) :: reader
       integer :: i
-      call parse_namelist(text, file, reader%namelist, error)
-      do i = 1, size(overrides)
-         if (.not. allocated(error)) call parse_override(trim(overrides(i)), reader%namelist, error)
-      end do
-      if (allocated(error)) return
+      reader%namelist = parsed
       allocate (reader%used(size(reader%namelist%assignments)), source=.false.)
       allocate (reader%known_group(size(reader%namelist%groups)), source=.false.)
       reader%this_group = ''
@@ -112,13 +142,8 @@ contains
          if (.not. reader%used(i)) call reader%refuse(reader%namelist%assignments(i)%place//': unknown group ' &
             & //reader%namelist%assignments(i)%group//'; known:'//reader%groups)
       end do
-      if (.not. allocated(reader%error)) then
-         call scene%settle()
-         call scene%validate(reader%error)
-         call add_context(reader%error, file)
-      end if
       if (allocated(reader%error)) call move_alloc(reader%error, error)
-   end subroutine scene_from_text
+   end subroutine fill_scene
 
    !> Keeps the first error.
    subroutine refuse(self, message)
@@ -167,16 +192,16 @@ contains
             found = a%values(1)%text
             if (choices /= '') found = lower_case(trim(adjustl(found)))
             if (size(a%values) > 1 .or. a%subscript > 0) then
-               call self%refuse(a%place//': '//described(a)//': takes one text')
+               call self%refuse(a%place//': '//assignment_text(a)//': takes one text')
             else if (choices /= '' .and. .not. is_choice(found, choices)) then
-               call self%refuse(a%place//': '//described(a)//': must be one of '''//quoted_list(choices)//'''')
+               call self%refuse(a%place//': '//assignment_text(a)//': must be one of '''//quoted_list(choices)//'''')
             else if (choices == '' .and. .not. a%values(1)%quoted) then
-               call self%refuse(a%place//': '//described(a)//': text must stand in quotes')
+               call self%refuse(a%place//': '//assignment_text(a)//': text must stand in quotes')
             else if (len(found) > longest_text) then
                call self%refuse(a%place//': '//a%group//'%'//a%name//': '//to_text(len(found)) &
                   & //' characters; a text has at most '//to_text(longest_text))
             else if (.not. is_utf8(found)) then
-               call self%refuse(a%place//': '//described(a)//': must be UTF-8 text')
+               call self%refuse(a%place//': '//assignment_text(a)//': must be UTF-8 text')
             end if
             value = found
          end associate
@@ -201,7 +226,7 @@ contains
             call self%take(a, size(given), taken)
             if (allocated(self%error)) return
             if (verify(a%values(1)%text, '+-0123456789*') /= 0) then
-               call self%refuse(a%place//': '//described(a)//': must be a whole number, '//allowed%text())
+               call self%refuse(a%place//': '//assignment_text(a)//': must be a whole number, '//allowed%text())
                return
             end if
             value = nint(given(1))
@@ -227,7 +252,7 @@ contains
             call self%take(a, size(given), taken)
             if (allocated(self%error)) return
             if (a%subscript == 0 .and. size(given) /= size(values)) then
-               call self%refuse(a%place//': '//described(a)//': takes '//to_text(size(values))//' values')
+               call self%refuse(a%place//': '//assignment_text(a)//': takes '//to_text(size(values))//' values')
                return
             end if
             values(max(1, a%subscript):max(1, a%subscript) + size(given) - 1) = given
@@ -256,7 +281,7 @@ contains
             call self%take(a, size(given), taken(:most))
             if (allocated(self%error)) exit
             if (fixes_pads) then
-               if (a%subscript > 0) call self%refuse(a%place//': '//described(a) &
+               if (a%subscript > 0) call self%refuse(a%place//': '//assignment_text(a) &
                   & //': the number of angles is the number of pads; give all of them without subscript')
                values = given
             else if (a%subscript > 0) then
@@ -266,7 +291,7 @@ contains
             else if (size(given) == self%pad_count) then
                values = given
             else
-               call self%refuse(a%place//': '//described(a)//': takes one value for all pads or one each (' &
+               call self%refuse(a%place//': '//assignment_text(a)//': takes one value for all pads or one each (' &
                   & //to_text(self%pad_count)//')')
             end if
          end associate
@@ -283,7 +308,7 @@ contains
       real(wp), allocatable, intent(out) :: values(:)
       real(wp) :: x
       integer :: i, star, repeat, status
-      logical :: halting
+      logical :: ok
       character(len=:), allocatable :: digits
       allocate (values(0))
       do i = 1, size(a%values)
@@ -301,31 +326,24 @@ contains
             digits = digits(star + 1:)
          end if
          if (.not. a%values(i)%quoted .and. is_special(digits)) then
-            call self%refuse(a%place//': '//described(a)//': must be finite, '//allowed%text())
+            call self%refuse(a%place//': '//assignment_text(a)//': must be finite, '//allowed%text())
             return
          end if
-         if (status == 0 .and. .not. a%values(i)%quoted .and. is_number(digits)) then
-            ! 1e400 overflows in the reading; a build that traps overflow must not stop there
-            call ieee_get_halting_mode(ieee_overflow, halting)
-            call ieee_set_halting_mode(ieee_overflow, .false.)
-            read (digits, *, iostat=status) x
-            call ieee_set_flag(ieee_overflow, .false.)
-            call ieee_set_halting_mode(ieee_overflow, halting)
-         end if
-         if (status /= 0 .or. a%values(i)%quoted .or. .not. is_number(digits)) then
-            call self%refuse(a%place//': '//described(a)//': must be a number, '//allowed%text())
+         call read_number(digits, x, ok)
+         if (status /= 0 .or. a%values(i)%quoted .or. .not. ok) then
+            call self%refuse(a%place//': '//assignment_text(a)//': must be a number, '//allowed%text())
             return
          end if
          if (.not. ieee_is_finite(x)) then
-            call self%refuse(a%place//': '//described(a)//': must be finite, '//allowed%text())
+            call self%refuse(a%place//': '//assignment_text(a)//': must be finite, '//allowed%text())
             return
          end if
          if (.not. allowed%allows(x)) then
-            call self%refuse(a%place//': '//described(a)//': must be '//allowed%text())
+            call self%refuse(a%place//': '//assignment_text(a)//': must be '//allowed%text())
             return
          end if
          if (max(1, a%subscript) - 1 + size(values) + repeat > most) then
-            call self%refuse(a%place//': '//described(a)//': at most '//to_text(most)//' values')
+            call self%refuse(a%place//': '//assignment_text(a)//': at most '//to_text(most)//' values')
             return
          end if
          values = [values, spread(x, 1, repeat)]
@@ -339,31 +357,12 @@ contains
       type(assignment_type), intent(in) :: a
       integer, intent(in) :: count
       logical, intent(inout) :: taken(:)
-      if (allocated(self%error) .or. a%place == '--set' .or. a%subscript == 0 .and. size(taken) > 1) return
+      if (allocated(self%error) .or. a%overrides .or. a%subscript == 0 .and. size(taken) > 1) return
       associate (elements => taken(max(1, a%subscript):max(1, a%subscript) + count - 1))
-         if (any(elements)) call self%refuse(a%place//': '//described(a)//': given twice')
+         if (any(elements)) call self%refuse(a%place//': '//assignment_text(a)//': given twice')
          elements = .true.
       end associate
    end subroutine take
-
-   !> "rotor%mass = -1"
-   pure function described(a)
-      type(assignment_type), intent(in) :: a
-      character(len=:), allocatable :: described
-      integer :: i
-      described = a%group//'%'//a%name
-      if (a%subscript > 0) described = described//'('//to_text(a%subscript)//')'
-      described = described//' = '
-      do i = 1, min(4, size(a%values))
-         if (i > 1) described = described//', '
-         if (a%values(i)%quoted) then
-            described = described//''''//shortened(a%values(i)%text)//''''
-         else
-            described = described//shortened(a%values(i)%text)
-         end if
-      end do
-      if (size(a%values) > 4) described = described//', ... ('//to_text(size(a%values))//' values)'
-   end function described
 
    !> True for one of the words that `choices` lists, separated by blanks.
    pure logical function is_choice(word, choices)

@@ -21,7 +21,7 @@ module cvode_march
    use kinds, only: wp, i8
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error
-   use ode_model, only: ode_model_type, march_observer
+   use ode_model, only: ode_model_type, march_observer, march_statistics
    use step_history, only: step_history_type, new_step_history
    implicit none (type, external)
    private
@@ -38,15 +38,10 @@ module cvode_march
       real(wp) :: newton_coefficient = 0.1_wp
    end type march_options
 
-   type :: march_statistics
-      integer(i8) :: steps = 0, rhs_evaluations = 0, jacobian_evaluations = 0
-      integer(i8) :: error_test_failures = 0, convergence_failures = 0
-   end type march_statistics
-
-   !> When the observer sees the state: at first + k interval, k = 0 .. count - 1.
+   !> When the observer sees the state: at first + k interval, k = 0 .. count - 1; those before `next` it has seen.
    type :: sample_plan
       real(wp) :: first = 0, interval = 0
-      integer(i8) :: count = 0
+      integer(i8) :: count = 0, next = 0
    contains
       procedure :: time => sample_time
    end type sample_plan
@@ -133,7 +128,7 @@ contains
       flag = fcvodesetstoptime(memory, t_end)
 
       t = t_start
-      k = 0
+      k = plan%next
       order = 0
       call model%rhs(t_start, y, sample, ok)
       if (.not. ok) call raise(error, numerics_error, failure(cv_first_rhsfunc_err, model, memory, t_start, 0_i8))
@@ -151,6 +146,11 @@ contains
             k = k + 1
          end do
          if (allocated(error) .or. observer%satisfied .or. t(1) >= t_end) exit
+         if (observer%wants_state()) then
+            call read_statistics(memory, statistics)
+            call observer%take_state(t(1), y, statistics, error)
+            if (allocated(error)) exit
+         end if
          if (statistics%steps >= options%max_steps) then
             call raise(error, numerics_error, 'the march gave up at t = '//to_text(t(1))//' s, after ' &
                & //to_text(statistics%steps)//' steps (integration%max_steps)')

@@ -1,9 +1,15 @@
 !> What the march needs to know of a problem: y' = f(t, y), and its linear systems.
 module ode_model
-   use kinds, only: wp
+   use kinds, only: wp, i8
+   use errors, only: error_type
    implicit none (type, external)
    private
-   public :: ode_model_type, march_observer
+   public :: ode_model_type, march_observer, march_statistics
+
+   type :: march_statistics
+      integer(i8) :: steps = 0, rhs_evaluations = 0, jacobian_evaluations = 0
+      integer(i8) :: error_test_failures = 0, convergence_failures = 0
+   end type march_statistics
 
    type, abstract :: ode_model_type
       !> Why the last evaluation was refused; not allocated after a good one.
@@ -56,13 +62,16 @@ module ode_model
    contains
       procedure(take_sample), deferred :: sample
       procedure(take_progress), deferred :: report
+      !> True where the observer wants the state in which the next step starts; asked before every step.
+      procedure :: wants_state
+      !> The state at time t, all samples up to it were given; setting `error` ends the march.
+      procedure :: take_state
    end type march_observer
 
    abstract interface
       !> The state at a sample time, and the model's outputs; setting `error` ends the march.
       subroutine take_sample(self, t, y, output, error)
-         use errors, only: error_type
-         import :: march_observer, wp
+         import :: error_type, march_observer, wp
          class(march_observer), intent(inout) :: self
          real(wp), intent(in) :: t, y(:), output(:)
          type(error_type), allocatable, intent(out) :: error
@@ -70,8 +79,7 @@ module ode_model
 
       !> Called now and then with the time reached and the steps done.
       subroutine take_progress(self, t, steps)
-         use kinds, only: i8
-         import :: march_observer, wp
+         import :: i8, march_observer, wp
          class(march_observer), intent(inout) :: self
          real(wp), intent(in) :: t
          integer(i8), intent(in) :: steps
@@ -85,6 +93,18 @@ contains
       real(wp) :: output(self%outputs)
       output = 0
    end function output
+
+   logical function wants_state(self)
+      class(march_observer), intent(in) :: self
+      wants_state = .false.
+   end function wants_state
+
+   subroutine take_state(self, t, y, statistics, error)
+      class(march_observer), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      type(march_statistics), intent(in) :: statistics
+      type(error_type), allocatable, intent(out) :: error
+   end subroutine take_state
 
    function condition(self)
       class(ode_model_type), intent(in) :: self

@@ -27,11 +27,12 @@ contains
       loop_area = 0.5_wp*sum((cshift(x, 1) - x)*(cshift(y, 1) + y))
    end function loop_area
 
-   !> For so many signals, sampled so often in a revolution.
-   pure function new_periodicity(samples, signals) result(orbit)
-      integer, intent(in) :: samples, signals
+   !> For so many signals, sampled so often in a revolution, of which so many whole revolutions have passed unseen.
+   pure function new_periodicity(samples, signals, passed) result(orbit)
+      integer, intent(in) :: samples, signals, passed
       type(periodicity) :: orbit
       allocate (orbit%last(signals, 0:samples - 1), source=0.0_wp)
+      orbit%seen = passed*samples
    end function new_periodicity
 
    !> The next sample of all signals.

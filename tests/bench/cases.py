@@ -10,9 +10,10 @@ from settings import REFINED, ROOT, Scene
 
 
 def scenes() -> list[Scene]:
-    """All cases of the project."""
+    """All cases of the project that are one run."""
     paths = [*sorted(ROOT.glob("input/paper/*.nml")), *sorted(ROOT.glob("input/examples/*.nml"))]
-    return [Scene(path.stem, path.stem, str(path.relative_to(ROOT))) for path in paths]
+    single = [path for path in paths if "&sweep" not in path.read_text()]
+    return [Scene(path.stem, path.stem, str(path.relative_to(ROOT))) for path in single]
 
 
 def cases(runner: Runner) -> Iterator[Row]:

@@ -48,7 +48,7 @@ contains
       real(wp), parameter :: ratio = 0.5_wp
       type(periodicity) :: orbit
       integer :: i, revolution
-      orbit = new_periodicity(n, 2)
+      orbit = new_periodicity(n, 2, 0)
       do i = 0, 4*n - 1
          revolution = i/n
          call orbit%add([ratio**revolution*sin(2*pi*i/n), 1.0_wp])

@@ -15,6 +15,7 @@ program test_namelist_text
    call endings()
    call places()
    call overrides()
+   call sweeps()
    call refused()
    call refused_overrides()
    call report()
@@ -144,7 +145,31 @@ contains
       call parse_override('a%y(2)=1,2', found, error)
       call expect_assignment(found, 4, 'a%y(2)=1|2')
       call expect(size(found%assignments) == 4, 'another element is another assignment')
+      call parse('&a x(2)=5 y=2*1 /', found)
+      call parse_override('a%x(2)=6', found, error)
+      call expect(size(found%assignments) == 2, 'an element replaces itself')
+      call parse('&a x(1)=5,6 y(1)=2*1 /', found)
+      call parse_override('a%x(1)=7', found, error)
+      call parse_override('a%y(1)=7', found, error)
+      call expect(size(found%assignments) == 4, 'an element leaves the rest of a list')
    end subroutine overrides
+
+   !> In &sweep a name is another group's variable, and an override keeps the rank of what it replaces.
+   subroutine sweeps()
+      type(namelist_type) :: found
+      type(error_type), allocatable :: error
+      call parse('&sweep order = ''zip'', a%x = 1:5:2, a%y(2) = 1:8:*2, 3 / &a x=1/', found)
+      call expect_assignment(found, 1, 'sweep%order="zip"')
+      call expect_assignment(found, 2, 'sweep%a%x=1:5:2')
+      call expect_assignment(found, 3, 'sweep%a%y(2)=1:8:*2|3')
+      call parse_override('sweep%a%x=7,8', found, error)
+      call expect(.not. allocated(error) .and. size(found%assignments) == 4, 'an override of a sweep')
+      call expect_assignment(found, 2, 'sweep%a%x=7|8')
+      call parse_override('sweep%a%y(2)=9', found, error)
+      call expect_assignment(found, 3, 'sweep%a%y(2)=9')
+      call parse_override('sweep%a%z=1', found, error)
+      call expect_assignment(found, 5, 'sweep%a%z=1')
+   end subroutine sweeps
 
    !> The message names file and line and has the words.
    subroutine expect_refused(text, words)

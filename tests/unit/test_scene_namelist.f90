@@ -86,7 +86,7 @@ program test_scene_namelist
    use errors, only: error_type, input_error
    use scene, only: scene_type
    use scene_fields, only: visit_scene
-   use scene_namelist, only: scene_from_text, read_scene
+   use scene_namelist, only: scene_from_text, read_text
    use namelist_writer, only: scene_text
    use scene_probes, only: collector, shaker
    use check, only: expect, expect_close, report
@@ -271,6 +271,7 @@ contains
 
    subroutine refused_values()
       call expect_refused('&roter /', 'unknown group &roter')
+      call expect_refused('&rotor /'//newline//'&sweep rotor%mass = 1, 2/', 'line 2: a sweep, where one scene')
       call expect_refused('&rotor'//newline//'m#ss = 1/', 'line 2')
       call expect_refused('&rotor mas = 1/', 'unknown variable rotor%mas; known: mass')
       call expect_refused('&rotor mass = heavy/', 'rotor%mass = heavy: must be a number')
@@ -325,14 +326,16 @@ contains
       type(scene_type) :: scene
       type(error_type), allocatable :: error
       character(len=*), parameter :: name = 'test_scene_namelist.tmp'
+      character(len=:), allocatable :: text
       integer :: unit
-      call read_scene('no/such/file.nml', [character(len=1) ::], scene, error)
+      call read_text('no/such/file.nml', text, error)
       call expect(allocated(error), 'a missing file')
       if (allocated(error)) call expect(error%message == 'no/such/file.nml: no such file', error%message)
       open (newunit=unit, file=name, access='stream', form='unformatted', status='replace', action='write')
       write (unit) '&rotor mass = 1234 /'
       close (unit)
-      call read_scene(name, [character(len=1) ::], scene, error)
+      call read_text(name, text, error)
+      if (.not. allocated(error)) call scene_from_text(text, name, [character(len=1) ::], scene, error)
       call expect(.not. allocated(error), 'a file without a last line end')
       call expect_close(scene%rotor%mass, 1234.0_wp, 0.0_wp, 'its value')
       open (newunit=unit, file=name, status='old')

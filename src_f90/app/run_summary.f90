@@ -1,0 +1,76 @@
+!> What a run prints of its results.
+module run_summary
+   use kinds, only: wp, i8
+   use text, only: to_text, fixed_text
+   use loops, only: loop_area
+   use scene, only: scene_type
+   use equilibrium, only: equilibrium_type
+   use run_file, only: run_file_type
+   use run_statistics, only: run_statistics_type
+   implicit none (type, external)
+   private
+   public :: print_equilibrium, print_march
+
+contains
+
+   subroutine print_equilibrium(static)
+      type(equilibrium_type), intent(in) :: static
+      integer :: i
+      print '(a)', 'equilibrium: journal y '//micro(static%journal(1))//', z '//micro(static%journal(2))//' um'
+      do i = 1, size(static%tilt)
+         print '(a)', '  pad '//to_text(i)//': tilt '//milli(static%tilt(i))//' mrad, penetration ' &
+            & //micro(static%penetration(i))//' um, contact '//fixed_text(static%contact_force(i), 1) &
+            & //' N, least film '//micro(static%min_film(i))//' um, highest pressure ' &
+            & //mega(static%max_pressure(i))//' MPa'
+      end do
+   end subroutine print_equilibrium
+
+   !> Key figures of the last revolution (or of what there is) and what they cost.
+   subroutine print_march(file, scene, statistics)
+      type(run_file_type), intent(inout) :: file
+      type(scene_type), intent(in) :: scene
+      type(run_statistics_type), intent(in) :: statistics
+      real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), moment(:, :), film(:, :), pressure(:, :)
+      integer :: n, i
+      n = int(min(int(scene%output%samples_per_revolution, i8), file%samples()))
+      call file%last_samples('journal_y', n, y)
+      call file%last_samples('journal_z', n, z)
+      call file%last_samples('pad_tilt', n, tilt)
+      call file%last_samples('friction_moment', n, moment)
+      call file%last_samples('min_film_thickness', n, film)
+      call file%last_samples('max_pressure', n, pressure)
+      print '(a)', 'last revolution: journal y '//micro(minval(y))//' to '//micro(maxval(y))//', z ' &
+         & //micro(minval(z))//' to '//micro(maxval(z))//' um'
+      do i = 1, size(tilt, 1)
+         print '(a)', '  pad '//to_text(i)//': tilt '//milli(minval(tilt(i, :)))//' to ' &
+            & //milli(maxval(tilt(i, :)))//' mrad, least film '//micro(minval(film(i, :)))//' um, highest pressure ' &
+            & //mega(maxval(pressure(i, :)))//' MPa, friction work ' &
+            & //fixed_text(1e3_wp*loop_area(tilt(i, :), moment(i, :)), 3)//' mJ'
+      end do
+      print '(a)', 'cost: '//to_text(statistics%steps)//' steps, '//to_text(statistics%rhs_evaluations) &
+         & //' right-hand sides, '//to_text(statistics%jacobian_evaluations)//' Jacobians, films ' &
+         & //to_text(statistics%film_modal)//' modal and '//to_text(statistics%film_sor)//' on cells (' &
+         & //to_text(statistics%sor_sweeps)//' sweeps)'
+      print '(a)', '  wall time '//fixed_text(statistics%wall_seconds, 2)//' s, of it film ' &
+         & //fixed_text(statistics%film_seconds, 2)//' s and samples '//fixed_text(statistics%output_seconds, 2)//' s'
+   end subroutine print_march
+
+   !> Metres as micrometres, radians as milliradians, pascals as megapascals.
+   function micro(x)
+      real(wp), intent(in) :: x
+      character(len=:), allocatable :: micro
+      micro = fixed_text(1e6_wp*x, 3)
+   end function micro
+
+   function milli(x)
+      real(wp), intent(in) :: x
+      character(len=:), allocatable :: milli
+      milli = fixed_text(1e3_wp*x, 4)
+   end function milli
+
+   function mega(x)
+      real(wp), intent(in) :: x
+      character(len=:), allocatable :: mega
+      mega = fixed_text(1e-6_wp*x, 3)
+   end function mega
+end module run_summary

@@ -1,0 +1,232 @@
+!> A lock that keeps a second writer off a file: a file NAME.lock beside it that is locked (fcntl) and says who
+!> holds it: "host process beats".
+!>
+!> The system frees the lock of a process that ended, however it ended. Whether locks reach across machines is up
+!> to the file system (NFS 4: yes; Lustre, BeeGFS: as mounted; some: not at all). A holder therefore counts beats
+!> in the file as it goes, and one on another machine whose beats stand still is taken for dead.
+module file_lock
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_int16_t, c_long, c_null_char, c_null_ptr, &
+      & c_ptr, c_size_t
+   use text, only: to_text
+   use errors, only: error_type, raise, system_error
+   use posix, only: delete_file, host_name, pause_seconds, process_alive, process_id, refused_by_other, system_reason
+   implicit none (type, external)
+   private
+   public :: file_lock_type
+
+   !> Seconds in which a living holder beats; how long one on another machine is watched where its lock is free
+   !> or locks are not known here, and where its lock is held (a dead NFS client's is freed after 90 s).
+   integer, parameter :: beat_seconds = 10, watch_free = 3*beat_seconds, watch_held = 120
+   !> Linux' numbers for lockf and statx; the short in struct statx where the number of links is.
+   integer(c_int), parameter :: try_lock = 2, at_empty_path = 4096, statx_links = 4
+   integer, parameter :: statx_shorts = 128, links_at = 9
+   !> Longest content of a lock file.
+   integer, parameter :: longest = 300
+   !> What an attempt found.
+   integer, parameter :: free = 0, held = 1, unknown = 2, failed = 3
+
+   type :: file_lock_type
+      private
+      character(len=:), allocatable :: path
+      type(c_ptr) :: stream = c_null_ptr
+      integer :: beats = 0, last_beat = 0
+      !> The dead process whose lock was taken, "process 12 on node1"; empty where there was none.
+      character(len=:), allocatable, public :: taken_from
+   contains
+      procedure :: acquire
+      !> Shows that the holder lives; to be called often.
+      procedure :: beat
+      procedure :: release
+      procedure, private :: attempt
+      procedure, private :: write_beat
+   end type file_lock_type
+
+   interface
+      type(c_ptr) function c_fopen(path, mode) bind(c, name='fopen')
+         import :: c_ptr, c_char
+         character(kind=c_char), intent(in) :: path(*), mode(*)
+      end function c_fopen
+
+      integer(c_int) function c_fileno(stream) bind(c, name='fileno')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+      end function c_fileno
+
+      integer(c_int) function c_fclose(stream) bind(c, name='fclose')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+      end function c_fclose
+
+      integer(c_int) function c_lockf(descriptor, command, length) bind(c, name='lockf')
+         import :: c_int, c_long
+         integer(c_int), value :: descriptor, command
+         integer(c_long), value :: length
+      end function c_lockf
+
+      integer(c_size_t) function c_pread(descriptor, buffer, count, offset) bind(c, name='pread')
+         import :: c_char, c_int, c_long, c_size_t
+         integer(c_int), value :: descriptor
+         character(kind=c_char), intent(inout) :: buffer(*)
+         integer(c_size_t), value :: count
+         integer(c_long), value :: offset
+      end function c_pread
+
+      integer(c_size_t) function c_pwrite(descriptor, buffer, count, offset) bind(c, name='pwrite')
+         import :: c_char, c_int, c_long, c_size_t
+         integer(c_int), value :: descriptor
+         character(kind=c_char), intent(in) :: buffer(*)
+         integer(c_size_t), value :: count
+         integer(c_long), value :: offset
+      end function c_pwrite
+
+      integer(c_int) function c_ftruncate(descriptor, length) bind(c, name='ftruncate')
+         import :: c_int, c_long
+         integer(c_int), value :: descriptor
+         integer(c_long), value :: length
+      end function c_ftruncate
+
+      integer(c_int) function c_statx(directory, path, flags, mask, buffer) bind(c, name='statx')
+         import :: c_int, c_char, c_int16_t
+         integer(c_int), value :: directory, flags, mask
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int16_t), intent(out) :: buffer(*)
+      end function c_statx
+   end interface
+
+contains
+
+   !> Locks the file of this path (which need not be there), or says who has it. A holder on another machine is
+   !> watched for up to two minutes where the file system cannot tell whether it lives.
+   subroutine acquire(self, path, error)
+      class(file_lock_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: holder, first
+      integer :: found, waited, patience
+      self%path = path//'.lock'
+      self%taken_from = ''
+      waited = 0
+      do
+         call self%attempt(found, holder)
+         if (found == failed) then
+            call raise(error, system_error, 'cannot write '//path//': no lock file beside it: '//system_reason())
+            return
+         end if
+         if (waited == 0) first = holder
+         patience = patience_with(found, holder)
+         if (found /= held .and. waited >= patience) exit
+         call let_go(self)
+         if (holder /= first .or. waited >= patience) then
+            call raise(error, system_error, 'cannot write '//path//': '//described(holder)//' is writing it')
+            return
+         end if
+         ! opened anew each time, as network file systems look anew only then
+         call pause_seconds(1)
+         waited = waited + 1
+      end do
+      if (holder /= '') self%taken_from = described(holder)
+      self%beats = 0
+      if (.not. self%write_beat()) then
+         call let_go(self)
+         call raise(error, system_error, 'cannot write '//path//': no lock file beside it: '//system_reason())
+      end if
+   end subroutine acquire
+
+   !> Seconds to watch for a sign of life.
+   integer function patience_with(found, holder) result(patience)
+      integer, intent(in) :: found
+      character(len=*), intent(in) :: holder
+      patience = merge(watch_held, watch_free, found == held)
+      if (found /= held .and. holder == '') patience = 0
+      if (index(holder, host_name()//' ') /= 1) return
+      ! on this machine the system knows
+      if (found == unknown) then
+         if (process_alive(process_of(holder))) return
+      end if
+      patience = 0
+   end function patience_with
+
+   !> Opens the lock file and tries to lock it.
+   subroutine attempt(self, found, holder)
+      class(file_lock_type), intent(inout) :: self
+      integer, intent(out) :: found
+      !> What the file says.
+      character(len=:), allocatable, intent(out) :: holder
+      character(kind=c_char) :: buffer(longest)
+      integer(c_int16_t) :: status(statx_shorts)
+      integer(c_size_t) :: length
+      integer :: i
+      holder = ''
+      do
+         self%stream = c_fopen(self%path//c_null_char, 'a+'//c_null_char)
+         found = failed
+         if (.not. c_associated(self%stream)) return
+         found = free
+         if (c_lockf(c_fileno(self%stream), try_lock, 0_c_long) /= 0) found = merge(held, unknown, refused_by_other())
+         ! its holder may have deleted it after we opened it
+         status(links_at) = 1
+         if (c_statx(c_fileno(self%stream), c_null_char, at_empty_path, statx_links, status) /= 0) exit
+         if (status(links_at) > 0) exit
+         call let_go(self)
+      end do
+      length = c_pread(c_fileno(self%stream), buffer, int(longest, c_size_t), 0_c_long)
+      do i = 1, int(length)
+         if (buffer(i) == achar(10)) exit
+         holder = holder//buffer(i)
+      end do
+   end subroutine attempt
+
+   !> Cheap: writes only every ten seconds. `now` is a clock, s.
+   subroutine beat(self, now)
+      class(file_lock_type), intent(inout) :: self
+      integer, intent(in) :: now
+      logical :: ignored
+      if (.not. c_associated(self%stream) .or. now - self%last_beat < beat_seconds) return
+      self%last_beat = now
+      self%beats = self%beats + 1
+      ignored = self%write_beat()
+   end subroutine beat
+
+   !> True if it could be written.
+   logical function write_beat(self) result(ok)
+      class(file_lock_type), intent(in) :: self
+      character(kind=c_char, len=:), allocatable :: line
+      line = host_name()//' '//to_text(int(process_id()))//' '//to_text(self%beats)//achar(10)
+      ! 'a+' appends whatever the offset, hence the truncation
+      ok = c_ftruncate(c_fileno(self%stream), 0_c_long) == 0
+      if (ok) ok = c_pwrite(c_fileno(self%stream), line, len(line, c_size_t), 0_c_long) == len(line)
+   end function write_beat
+
+   !> Deletes the lock file, if it is ours, and frees the lock.
+   subroutine release(self)
+      class(file_lock_type), intent(inout) :: self
+      if (.not. c_associated(self%stream)) return
+      call delete_file(self%path)
+      call let_go(self)
+   end subroutine release
+
+   subroutine let_go(self)
+      class(file_lock_type), intent(inout) :: self
+      integer(c_int) :: ignored
+      ignored = c_fclose(self%stream)
+      self%stream = c_null_ptr
+   end subroutine let_go
+
+   !> "node1 12 3" to "process 12 on node1".
+   pure function described(holder)
+      character(len=*), intent(in) :: holder
+      character(len=:), allocatable :: described
+      described = 'another process'
+      if (index(holder, ' ') > 1) described = 'process '//to_text(process_of(holder))//' on ' &
+         & //holder(:index(holder, ' ') - 1)
+   end function described
+
+   !> Its process number; 0 where it says none.
+   pure integer function process_of(holder)
+      character(len=*), intent(in) :: holder
+      integer :: status
+      process_of = 0
+      read (holder(index(holder, ' ') + 1:), *, iostat=status) process_of
+      if (status /= 0) process_of = 0
+   end function process_of
+end module file_lock

@@ -1,0 +1,170 @@
+!> Datasets that grow along time. With hdf5_file the only file that knows HDF5. After a failure, which the file
+!> keeps, every routine does nothing.
+module hdf5_series
+   use, intrinsic :: iso_c_binding, only: c_loc, c_ptr
+   use hdf5, only: hid_t, hsize_t, size_t, h5s_unlimited_f, h5s_select_set_f, h5screate_simple_f, h5sclose_f, &
+      & h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5sselect_hyperslab_f, h5dcreate_f, h5dopen_f, &
+      & h5dwrite_f, h5dread_f, h5dclose_f, h5dset_extent_f, h5dget_space_f, h5pcreate_f, h5pclose_f, h5pset_chunk_f, &
+      & h5pset_chunk_cache_f, h5p_dataset_create_f, h5p_dataset_access_f, h5t_native_double
+   use kinds, only: wp, i8
+   use hdf5_file, only: hdf5_type
+   implicit none (type, external)
+   private
+   public :: hdf5_series_type, chunk_samples
+
+   !> Samples in a chunk.
+   integer, parameter :: chunk_samples = 4096
+
+   !> `width` values a sample: (time) or, in the order of h5py, (time, width).
+   type :: hdf5_series_type
+      private
+      integer(hid_t) :: id = -1
+      integer :: rank = 1
+      integer, public :: width = 1
+      !> Samples in the file.
+      integer(i8), public :: length = 0
+   contains
+      procedure :: create
+      procedure :: open => open_series
+      procedure :: close => close_series
+      procedure :: append
+      procedure :: read => read_part
+      procedure, private :: select
+   end type hdf5_series_type
+
+contains
+
+   !> A dataset over time; with width > 0 of (time, width), with width 0 of (time).
+   subroutine create(self, file, path, width, units, long_name, scales)
+      class(hdf5_series_type), intent(inout) :: self
+      type(hdf5_type), intent(inout) :: file
+      character(len=*), intent(in) :: path, units, long_name, scales
+      integer, intent(in) :: width
+      integer(hsize_t), allocatable :: dims(:), most(:), chunk(:)
+      integer(hid_t) :: space, properties, access
+      integer :: status
+      if (allocated(file%failure)) return
+      self%width = max(width, 1)
+      self%rank = merge(2, 1, width > 0)
+      dims = int([0], hsize_t)
+      most = int([h5s_unlimited_f], hsize_t)
+      chunk = int([chunk_samples], hsize_t)
+      if (width > 0) then
+         dims = [int(width, hsize_t), dims]
+         most = [int(width, hsize_t), most]
+         chunk = [int(width, hsize_t), chunk]
+      end if
+      call h5screate_simple_f(self%rank, dims, space, status, most)
+      call h5pcreate_f(h5p_dataset_create_f, properties, status)
+      call h5pset_chunk_f(properties, self%rank, chunk, status)
+      access = without_cache()
+      call h5dcreate_f(file%id, path, h5t_native_double, space, self%id, status, properties, dapl_id=access)
+      call file%check(status, 'create '//path)
+      call file%describe(self%id, units, long_name, scales, path)
+      call h5pclose_f(access, status)
+      call h5pclose_f(properties, status)
+      call h5sclose_f(space, status)
+   end subroutine create
+
+   !> An existing dataset over time, of (time) or (time, width).
+   subroutine open_series(self, file, path)
+      class(hdf5_series_type), intent(inout) :: self
+      type(hdf5_type), intent(inout) :: file
+      character(len=*), intent(in) :: path
+      integer(hsize_t) :: dims(2), most(2)
+      integer(hid_t) :: space, access
+      integer :: status
+      if (allocated(file%failure)) return
+      access = without_cache()
+      call h5dopen_f(file%id, path, self%id, status, access)
+      call file%check(status, 'open '//path)
+      if (status >= 0) then
+         call h5dget_space_f(self%id, space, status)
+         call h5sget_simple_extent_ndims_f(space, self%rank, status)
+         if (self%rank < 1 .or. self%rank > 2) status = -1
+         dims = 1
+         if (status >= 0) call h5sget_simple_extent_dims_f(space, dims, most, status)
+         call file%check(status, 'read the size of '//path)
+         if (status < 0) self%rank = 1
+         self%width = merge(int(dims(1)), 1, self%rank == 2)
+         self%length = dims(self%rank)
+         call h5sclose_f(space, status)
+      end if
+      call h5pclose_f(access, status)
+   end subroutine open_series
+
+   !> Whole chunks are written as they come: a cache of them would only cost memory.
+   integer(hid_t) function without_cache() result(access)
+      integer :: status
+      call h5pcreate_f(h5p_dataset_access_f, access, status)
+      call h5pset_chunk_cache_f(access, 0_size_t, 0_size_t, 0.0, status)
+   end function without_cache
+
+   !> Adds samples, values(width, samples), in memory order.
+   subroutine append(self, file, values)
+      class(hdf5_series_type), intent(inout) :: self
+      type(hdf5_type), intent(inout) :: file
+      real(wp), intent(in), contiguous, target :: values(:, :)
+      integer(hsize_t) :: dims(2)
+      integer(hid_t) :: memory, space
+      integer :: status
+      if (allocated(file%failure) .or. size(values) == 0) return
+      dims = [int(self%width, hsize_t), int(self%length + size(values, 2), hsize_t)]
+      call h5dset_extent_f(self%id, dims(3 - self%rank:), status)
+      call file%check(status, 'lengthen a dataset')
+      if (status < 0) return
+      call self%select(self%length, size(values, 2), memory, space, status)
+      if (status >= 0) call h5dwrite_f(self%id, h5t_native_double, c_loc(values), status, memory, space)
+      call file%check(status, 'write samples')
+      self%length = self%length + size(values, 2)
+      call h5sclose_f(space, status)
+      call h5sclose_f(memory, status)
+   end subroutine append
+
+   !> The n samples behind the first `skip` ones, values(width, n).
+   subroutine read_part(self, file, skip, n, values)
+      class(hdf5_series_type), intent(in) :: self
+      type(hdf5_type), intent(inout) :: file
+      integer(i8), intent(in) :: skip
+      integer, intent(in) :: n
+      real(wp), allocatable, target, intent(out) :: values(:, :)
+      integer(hid_t) :: memory, space
+      integer :: status
+      type(c_ptr) :: buffer
+      allocate (values(self%width, n))
+      buffer = c_loc(values)
+      if (allocated(file%failure)) values = 0
+      if (allocated(file%failure) .or. n == 0) return
+      call self%select(skip, n, memory, space, status)
+      if (status >= 0) call h5dread_f(self%id, h5t_native_double, buffer, status, memory, space)
+      call file%check(status, 'read samples')
+      if (status < 0) values = 0
+      call h5sclose_f(space, status)
+      call h5sclose_f(memory, status)
+   end subroutine read_part
+
+   !> Selects n samples behind the first `skip` ones, in file and memory.
+   subroutine select(self, skip, n, memory, space, status)
+      class(hdf5_series_type), intent(in) :: self
+      integer(i8), intent(in) :: skip
+      integer, intent(in) :: n
+      integer(hid_t), intent(out) :: memory, space
+      integer, intent(out) :: status
+      integer(hsize_t) :: start(2), count(2)
+      start = [0_hsize_t, int(skip, hsize_t)]
+      count = [int(self%width, hsize_t), int(n, hsize_t)]
+      call h5screate_simple_f(self%rank, count(3 - self%rank:), memory, status)
+      call h5dget_space_f(self%id, space, status)
+      call h5sselect_hyperslab_f(space, h5s_select_set_f, start(3 - self%rank:), count(3 - self%rank:), status)
+   end subroutine select
+
+   subroutine close_series(self, file)
+      class(hdf5_series_type), intent(inout) :: self
+      type(hdf5_type), intent(inout) :: file
+      integer :: status
+      if (self%id < 0) return
+      call h5dclose_f(self%id, status)
+      call file%check(status, 'close a dataset')
+      self%id = -1
+   end subroutine close_series
+end module hdf5_series

@@ -1,0 +1,115 @@
+!> What a result file says to one who wants to go on with it.
+module restart
+   use errors, only: error_type, raise, add_context, system_error, numerics_error
+   use scene, only: scene_type
+   use scene_namelist, only: scene_from_text
+   use namelist_writer, only: scene_text
+   use hdf5_file, only: hdf5_type
+   use run_file, only: format_version
+   implicit none (type, external)
+   private
+   public :: restart_type, read_restart, refuse_other_scene
+
+   type :: restart_type
+      !> Resolved namelist of the run.
+      type(scene_type) :: scene
+      !> True where nothing is left to do.
+      logical :: complete = .false.
+   end type restart_type
+
+   character(len=*), parameter :: newline = achar(10)
+
+contains
+
+   !> Reads a result file. Refused with one line: what is no result, damaged, of a later format, without a
+   !> checkpoint, and (a numerics error) a run whose numerics failed: it would fail again.
+   subroutine read_restart(path, found, error)
+      character(len=*), intent(in) :: path
+      type(restart_type), intent(out) :: found
+      type(error_type), allocatable, intent(out) :: error
+      type(hdf5_type) :: file
+      character(len=:), allocatable :: program, input, reason
+      integer :: version, complete, status
+      logical :: checkpoint
+      call file%open(path, writing=.false.)
+      if (allocated(file%failure)) then
+         call raise(error, system_error, path//': no HDF5 file, or damaged')
+         return
+      end if
+      if (.not. file%has_attribute('program')) then
+         call raise(error, system_error, path//': not a result of tiltpad')
+      else
+         call file%get_text('program', program)
+         call file%get_flag('format_version', version)
+         if (program /= 'tiltpad') then
+            call raise(error, system_error, path//': not a result of tiltpad')
+         else if (version > format_version) then
+            call raise(error, system_error, path//': written by a later version of tiltpad; update the program')
+         else
+            call file%get_flag('complete', complete)
+            call file%get_text('input', input)
+            checkpoint = file%has('checkpoint/state')
+            status = 0
+            if (file%has_attribute('exit_status')) call file%get_flag('exit_status', status)
+            if (status /= 0) call file%get_text('reason', reason)
+         end if
+      end if
+      if (.not. allocated(error) .and. allocated(file%failure)) &
+         & call raise(error, system_error, path//': damaged: '//file%failure)
+      call file%close()
+      if (allocated(error)) return
+      call scene_from_text(input, path, [character(len=1) ::], found%scene, error)
+      if (allocated(error)) then
+         error%status = system_error
+         return
+      end if
+      found%complete = complete == 1
+      if (found%complete) return
+      if (status == numerics_error) then
+         call raise(error, numerics_error, path//': there is nothing to go on with; '//reason)
+      else if (.not. checkpoint) then
+         call raise(error, system_error, path//': holds no checkpoint to go on from')
+      end if
+   end subroutine read_restart
+
+   !> Refuses a scene that is not that of the file, and names the variable. Only the time between checkpoints may
+   !> differ.
+   subroutine refuse_other_scene(path, ours, found, error)
+      character(len=*), intent(in) :: path
+      type(scene_type), intent(in) :: ours, found
+      type(error_type), allocatable, intent(out) :: error
+      type(scene_type) :: other
+      character(len=:), allocatable :: left, right, left_line, right_line, group
+      other = found
+      other%output%checkpoint_seconds = ours%output%checkpoint_seconds
+      left = scene_text(ours)
+      right = scene_text(other)
+      group = ''
+      ! both are written from the same list, a line a variable
+      do while (left /= '' .and. right /= '')
+         call take_line(left, left_line)
+         call take_line(right, right_line)
+         if (left_line(1:1) == '&') group = left_line(2:)
+         if (left_line == right_line) cycle
+         call raise(error, system_error, path//': is the result of another case; '//group//'%' &
+            & //trim(adjustl(right_line))//' there, '//value_of(left_line)//' here')
+         return
+      end do
+   end subroutine refuse_other_scene
+
+   subroutine take_line(text, line)
+      character(len=:), allocatable, intent(inout) :: text
+      character(len=:), allocatable, intent(out) :: line
+      integer :: length
+      length = index(text, newline) - 1
+      line = text(:length)
+      text = text(length + 2:)
+   end subroutine take_line
+
+   !> "  name = value" to "value".
+   pure function value_of(line) result(value)
+      character(len=*), intent(in) :: line
+      character(len=:), allocatable :: value
+      value = trim(line(index(line, '=') + 2:))
+   end function value_of
+end module restart

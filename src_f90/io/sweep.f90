@@ -1,0 +1,390 @@
+!> Sweeps: a case whose group &sweep gives variables several values stands for many scenes, its members.
+module sweep
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp, i8
+   use text, only: to_text, exact_text, lower_case, shortened
+   use errors, only: error_type, raise, add_context, input_error
+   use scene, only: scene_type
+   use number_syntax, only: read_number
+   use namelist_text, only: namelist_type, assignment_type, token_type, put_assignment, undoes, assignment_text, &
+      & target_text, value_text, sweep_group
+   use scene_namelist, only: read_text, parse_case, scene_from_namelist, fill_scene
+   use namelist_writer, only: scene_text
+   implicit none (type, external)
+   private
+   public :: sweep_type, member_tag, read_sweep, sweep_from_text
+
+   !> Most members of a sweep.
+   integer, parameter :: most_members = 100000
+   !> Part of a stride by which the last value of a range may miss its end.
+   real(wp), parameter :: rounding = 1e-6_wp
+   !> Numbers of a range are 0 or between these in size, so that nothing overflows on the way.
+   real(wp), parameter :: smallest = 1e-100_wp, largest = 1e100_wp
+
+   character(len=*), parameter :: newline = achar(10)
+
+   !> One value as it stands, or the numbers of a range.
+   type :: piece_type
+      type(token_type) :: token
+      integer :: count = 1
+      logical :: is_range = .false., geometric = .false.
+      !> Stride, or factor where the range is geometric.
+      real(wp) :: first = 0, step = 0
+   end type piece_type
+
+   !> A swept variable: what is assigned, without values, and those.
+   type :: variable_type
+      type(assignment_type) :: target
+      type(piece_type), allocatable :: pieces(:)
+   contains
+      procedure :: value_count
+      procedure :: value => variable_value
+   end type variable_type
+
+   !> What a run is told of its place in a sweep.
+   type :: member_tag
+      !> From 1; 0 for a run that is no member.
+      integer :: number = 0, members = 0
+      !> A line a swept variable: "operation%speed_rpm = 1500".
+      character(len=:), allocatable :: sweep
+   end type member_tag
+
+   type :: sweep_type
+      !> False for a case without a sweep; it has one member.
+      logical :: given = .false.
+      integer :: members = 1
+      type(namelist_type), private :: base
+      logical, private :: zip = .false.
+      type(variable_type), allocatable, private :: variables(:)
+   contains
+      procedure :: scene => member_scene
+      procedure :: tag
+      procedure :: resolved
+      procedure, private :: member_value
+      procedure, private :: member_namelist
+   end type sweep_type
+
+contains
+
+   !> Reads a case file and applies the overrides ("group%name=value"). Members' values are checked when their
+   !> scenes are made.
+   subroutine read_sweep(file, overrides, sweep, error)
+      character(len=*), intent(in) :: file, overrides(:)
+      type(sweep_type), intent(out) :: sweep
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: text
+      call read_text(file, text, error)
+      if (.not. allocated(error)) call sweep_from_text(text, file, overrides, sweep, error)
+   end subroutine read_sweep
+
+   !> The same from text; `file` is for messages.
+   subroutine sweep_from_text(text, file, overrides, sweep, error)
+      character(len=*), intent(in) :: text, file, overrides(:)
+      type(sweep_type), intent(out) :: sweep
+      type(error_type), allocatable, intent(out) :: error
+      type(namelist_type) :: parsed
+      character(len=:), allocatable :: place
+      integer :: i
+      allocate (sweep%variables(0))
+      call parse_case(text, file, overrides, parsed, error)
+      if (allocated(error)) return
+      do i = 1, size(parsed%groups)
+         if (parsed%groups(i)%group == sweep_group) place = parsed%groups(i)%place
+      end do
+      sweep%base = parsed
+      sweep%base%groups = pack(parsed%groups, [(parsed%groups(i)%group /= sweep_group, i=1, size(parsed%groups))])
+      sweep%base%assignments = pack(parsed%assignments, &
+         & [(parsed%assignments(i)%group /= sweep_group, i=1, size(parsed%assignments))])
+      do i = 1, size(parsed%assignments)
+         if (parsed%assignments(i)%group /= sweep_group) cycle
+         if (.not. allocated(place)) place = parsed%assignments(i)%place
+         call read_variable(parsed%assignments(i), sweep, error)
+         if (allocated(error)) return
+      end do
+      sweep%given = allocated(place)
+      if (sweep%given) call count_members(place, sweep, error)
+   end subroutine sweep_from_text
+
+   !> One assignment of the group &sweep.
+   subroutine read_variable(given, sweep, error)
+      type(assignment_type), intent(in) :: given
+      type(sweep_type), intent(inout) :: sweep
+      type(error_type), allocatable, intent(out) :: error
+      type(variable_type) :: new
+      character(len=:), allocatable :: order, name
+      integer :: percent, i
+      if (given%name == 'order') then
+         order = lower_case(trim(adjustl(given%values(1)%text)))
+         if (size(given%values) > 1 .or. given%subscript > 0 .or. order /= 'product' .and. order /= 'zip') then
+            call raise(error, input_error, given%place//': '//assignment_text(given) &
+               & //': must be one of ''product'', ''zip''')
+         end if
+         sweep%zip = order == 'zip'
+         return
+      end if
+      percent = index(given%name, '%')
+      name = given%name(percent + 1:)
+      if (percent <= 1 .or. name == '' .or. index(name, '%') > 0) then
+         call raise(error, input_error, given%place//': unknown variable '//given%group//'%'//given%name &
+            & //'; expected order or group%name = values')
+         return
+      end if
+      new%target = given
+      new%target%group = given%name(:percent - 1)
+      new%target%name = name
+      new%target%overrides = .true.
+      if (new%target%group == sweep_group .or. given%name == 'case%title') then
+         call raise(error, input_error, given%place//': '//given%name//' cannot be swept')
+         return
+      end if
+      do i = 1, size(sweep%variables)
+         associate (other => sweep%variables(i)%target)
+            if (.not. (undoes(new%target, other) .or. undoes(other, new%target))) cycle
+            call raise(error, input_error, given%place//': '//given%name//' is swept twice, first at '//other%place)
+            return
+         end associate
+      end do
+      do i = 1, size(sweep%base%assignments)
+         associate (a => sweep%base%assignments(i))
+            if (a%place /= '--set' .or. .not. undoes(new%target, a)) cycle
+            call raise(error, input_error, '--set '//assignment_text(a)//': is swept ('//given%place &
+               & //'); give the sweep other values with --set sweep%'//given%name//'=...')
+            return
+         end associate
+      end do
+      allocate (new%pieces(size(given%values)))
+      do i = 1, size(given%values)
+         call read_piece(given%values(i), new%pieces(i), error)
+         call add_context(error, given%place//': '//sweep_group//'%'//given%name//' = ' &
+            & //shortened(value_text(given%values(i))))
+         if (allocated(error)) return
+      end do
+      deallocate (new%target%values)
+      sweep%variables = [sweep%variables, new]
+   end subroutine read_variable
+
+   !> A value, first:last:stride or first:last:*factor.
+   subroutine read_piece(token, piece, error)
+      type(token_type), intent(in) :: token
+      type(piece_type), intent(out) :: piece
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: parts(:), word
+      real(wp) :: numbers(3), steps
+      integer :: first, second, i
+      logical :: ok
+      piece%token = token
+      first = index(token%text, ':')
+      if (token%quoted .or. first == 0) then
+         if (.not. token%quoted .and. index(token%text, '*') > 0) call raise(error, input_error, &
+            & 'n*value is not for a sweep, where each value is a member''s; a range is first:last:*factor')
+         return
+      end if
+      piece%is_range = .true.
+      second = first + index(token%text(first + 1:), ':')
+      parts = [character(len=len(token%text)) :: token%text(:first - 1), token%text(first + 1:second - 1), &
+         & token%text(second + 1:)]
+      piece%geometric = parts(3) (1:1) == '*'
+      if (piece%geometric) parts(3) = parts(3) (2:)
+      do i = 1, 3
+         word = lower_case(trim(parts(i)))
+         call read_number(word, numbers(i), ok)
+         if (.not. ok .or. second == first) then
+            call raise(error, input_error, 'a range is first:last:stride or first:last:*factor, of numbers')
+            return
+         else if (.not. ieee_is_finite(numbers(i)) .or. abs(numbers(i)) > largest &
+            & .or. abs(numbers(i)) > 0 .and. abs(numbers(i)) < smallest) then
+            call raise(error, input_error, 'numbers of a range must be 1e-100 to 1e100 in size, or 0')
+            return
+         end if
+      end do
+      piece%first = numbers(1)
+      piece%step = numbers(3)
+      associate (last => numbers(2))
+         if (piece%geometric) then
+            if (.not. piece%first*sign(1.0_wp, last) > 0 .or. .not. abs(last) > 0) then
+               call raise(error, input_error, 'first and last must be of one sign, and not 0, for a factor')
+            else if (piece%step <= 0 .or. .not. abs(piece%step - 1) > 0) then
+               call raise(error, input_error, 'the factor must be > 0, and not 1')
+            else if ((abs(last) - abs(piece%first))*(piece%step - 1) < 0) then
+               call raise(error, input_error, 'from first the factor leads away from last; it must be ' &
+                  & //trim(merge('> 1', '< 1', piece%step < 1)))
+            else
+               steps = log(last/piece%first)/log(piece%step)
+            end if
+         else if (.not. abs(piece%step) > 0) then
+            call raise(error, input_error, 'the stride must not be 0')
+         else if ((last - piece%first)*piece%step < 0) then
+            call raise(error, input_error, 'from first the stride leads away from last; it must be ' &
+               & //trim(merge('> 0', '< 0', piece%step < 0)))
+         else
+            steps = (last - piece%first)/piece%step
+         end if
+      end associate
+      if (allocated(error)) return
+      if (steps >= most_members) then
+         call raise(error, input_error, 'more than '//to_text(most_members)//' values')
+      else
+         piece%count = 1 + floor(steps + rounding)
+      end if
+   end subroutine read_piece
+
+   !> How many members there are; `place` of the sweep is for messages.
+   subroutine count_members(place, sweep, error)
+      character(len=*), intent(in) :: place
+      type(sweep_type), intent(inout) :: sweep
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: list
+      integer(i8) :: members
+      integer :: i
+      if (size(sweep%variables) == 0) then
+         call raise(error, input_error, place//': &sweep sweeps nothing; expected group%name = values')
+         return
+      end if
+      list = ''
+      members = 1
+      do i = 1, size(sweep%variables)
+         associate (v => sweep%variables(i))
+            if (i > 1) list = list//', '
+            list = list//v%target%group//'%'//v%target%name//' has '//to_text(v%value_count())
+            if (sweep%zip) then
+               members = v%value_count()
+            else
+               members = min(members*v%value_count(), 2_i8*most_members)
+            end if
+         end associate
+      end do
+      if (sweep%zip .and. any([(sweep%variables(i)%value_count() /= members, i=1, size(sweep%variables))])) then
+         call raise(error, input_error, place//': &sweep with order = ''zip'' needs as many values of each: '//list)
+      else if (members > most_members) then
+         call raise(error, input_error, place//': &sweep has more than '//to_text(most_members)//' members: '//list)
+      end if
+      sweep%members = int(members)
+   end subroutine count_members
+
+   !> The scene of the k-th member, everything checked; messages name the member.
+   subroutine member_scene(self, k, scene, error)
+      class(sweep_type), intent(in) :: self
+      integer, intent(in) :: k
+      type(scene_type), intent(out) :: scene
+      type(error_type), allocatable, intent(out) :: error
+      type(namelist_type) :: parsed
+      call self%member_namelist(k, parsed)
+      call scene_from_namelist(parsed, scene, error)
+   end subroutine member_scene
+
+   !> What the k-th member is.
+   subroutine tag(self, k, found)
+      class(sweep_type), intent(in) :: self
+      integer, intent(in) :: k
+      type(member_tag), intent(out) :: found
+      type(assignment_type) :: a
+      integer :: i
+      found%number = k
+      found%members = self%members
+      found%sweep = ''
+      do i = 1, size(self%variables)
+         if (i > 1) found%sweep = found%sweep//newline
+         call self%member_value(i, k, a)
+         found%sweep = found%sweep//target_text(a)//' = '//value_text(a%values(1))
+      end do
+   end subroutine tag
+
+   !> The case with every default, and the sweep behind it, as namelist text. What is swept has the first member's
+   !> value, and what stands for another variable's value still does.
+   subroutine resolved(self, text, error)
+      class(sweep_type), intent(in) :: self
+      character(len=:), allocatable, intent(out) :: text
+      type(error_type), allocatable, intent(out) :: error
+      type(namelist_type) :: parsed
+      type(scene_type) :: scene
+      integer :: i, k
+      call self%member_namelist(1, parsed)
+      call fill_scene(parsed, scene, error)
+      if (allocated(error)) return
+      text = scene_text(scene)//'&'//sweep_group//newline//'  order = '''//trim(merge('zip    ', 'product', self%zip)) &
+         & //''''//newline
+      do i = 1, size(self%variables)
+         associate (v => self%variables(i))
+            text = text//'  '//target_text(v%target)//' = '//value_text(v%pieces(1)%token)
+            do k = 2, size(v%pieces)
+               text = text//', '//value_text(v%pieces(k)%token)
+            end do
+         end associate
+         text = text//newline
+      end do
+      text = text//'/'//newline
+   end subroutine resolved
+
+   !> The case's assignments with those of the k-th member in place.
+   subroutine member_namelist(self, k, parsed)
+      class(sweep_type), intent(in) :: self
+      integer, intent(in) :: k
+      type(namelist_type), intent(out) :: parsed
+      type(assignment_type) :: new
+      integer :: i
+      parsed = self%base
+      if (.not. self%given) return
+      do i = 1, size(self%variables)
+         call self%member_value(i, k, new)
+         call put_assignment(new, parsed)
+      end do
+      parsed%file = parsed%file//', member '//to_text(k)
+      do i = 1, size(parsed%assignments)
+         associate (a => parsed%assignments(i))
+            a%place = a%place//', member '//to_text(k)
+         end associate
+      end do
+   end subroutine member_namelist
+
+   !> What the k-th member assigns to the i-th swept variable. The first variable is the slowest.
+   subroutine member_value(self, i, k, found)
+      class(sweep_type), intent(in) :: self
+      integer, intent(in) :: i, k
+      type(assignment_type), intent(out) :: found
+      integer :: at, j
+      at = k - 1
+      if (.not. self%zip) then
+         do j = size(self%variables), i + 1, -1
+            at = at/self%variables(j)%value_count()
+         end do
+         at = mod(at, self%variables(i)%value_count())
+      end if
+      found = self%variables(i)%target
+      allocate (found%values(1))
+      call self%variables(i)%value(at + 1, found%values(1))
+   end subroutine member_value
+
+   pure integer function value_count(self)
+      class(variable_type), intent(in) :: self
+      value_count = sum(self%pieces%count)
+   end function value_count
+
+   !> The n-th value of a variable.
+   subroutine variable_value(self, n, token)
+      class(variable_type), intent(in) :: self
+      integer, intent(in) :: n
+      type(token_type), intent(out) :: token
+      ! a product rounded by itself, not as part of a fused addition: the same bits on every machine
+      real(wp), volatile :: product
+      real(wp) :: x
+      integer :: i, before
+      before = 0
+      do i = 1, size(self%pieces)
+         if (n <= before + self%pieces(i)%count) exit
+         before = before + self%pieces(i)%count
+      end do
+      associate (p => self%pieces(i), steps => n - before - 1)
+         token = p%token
+         if (.not. p%is_range) return
+         if (p%geometric) then
+            x = p%first*p%step**steps
+         else
+            product = steps*p%step
+            x = p%first + product
+         end if
+         token%text = exact_text(x)
+         ! whole numbers without an exponent, as variables that take only these want them
+         if (.not. abs(x - anint(x)) > 0 .and. abs(x) < 1e15_wp) token%text = to_text(nint(x, i8))
+      end associate
+   end subroutine variable_value
+end module sweep

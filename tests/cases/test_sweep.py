@@ -1,0 +1,564 @@
+"""Sweeps: counting and checking members, running them side by side, failures, signals, what is refused."""
+
+import os
+import pty
+import re
+import select
+import signal
+import subprocess
+import time
+
+import h5py
+import pytest
+
+# quick members; members of some tenths of a second, by the slow film; and of a second or two
+QUICK = "&case task='equilibrium' /\n"
+SLOW = "&operation duration=0.02 / &film solver='sor', cavitation='none' /\n"
+LONG = SLOW.replace("0.02", "0.2")
+
+
+def sweep(*lines, base=QUICK):
+    """A case with a sweep; it starts in the second line."""
+    return base + "&sweep\n" + "".join(f"  {line}\n" for line in lines) + "/\n"
+
+
+@pytest.fixture
+def case(tmp_path):
+    """Writes case.nml into a folder of its own and returns that."""
+
+    def write(text):
+        (tmp_path / "case.nml").write_text(text)
+        return tmp_path
+
+    return write
+
+
+def result(run, *, status=0):
+    """Standard output and the lines of standard error, which are errors of ours."""
+    lines = run.stderr.splitlines()
+    assert run.returncode == status, run.stderr
+    assert all(line.startswith("tiltpad: error: ") for line in lines), run.stderr
+    return run.stdout, [line.removeprefix("tiltpad: error: ") for line in lines]
+
+
+def files(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+def scene_value(text, group, name):
+    block = re.search(rf"^&{group}\n(.*?)^/$", text, re.M | re.S)[1]
+    return re.search(rf"^ *{name} = (.*)$", block, re.M)[1]
+
+
+def speed(path):
+    """Speed of a result, rpm, as it stands in its input."""
+    with h5py.File(path) as file:
+        assert file.attrs["complete"] == 1
+        assert "&sweep" not in file.attrs["input"]
+        return float(scene_value(file.attrs["input"], "operation", "speed_rpm"))
+
+
+# ---- counting and checking -----------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("text", "members"),
+    [
+        ("&case /\n", 1),
+        (sweep("operation%speed_rpm = 5000"), 1),
+        (sweep("operation%speed_rpm = 1000:10000:500"), 19),
+        (sweep("rotor%mass=1:3:1", "friction%model='none','lugre'", "pads%arc_deg(1)=60,65"), 12),
+        (sweep("order='zip'", "rotor%mass=1:3:1", "rotor%unbalance=0.1:0.3:0.1"), 3),
+        (sweep("rotor%mass = 1:100000:1"), 100000),
+    ],
+)
+def test_count(tiltpad, case, text, members):
+    folder = case(text)
+    assert result(tiltpad("--count", "case.nml", cwd=folder)) == (f"{members}\n", [])
+    assert files(folder) == ["case.nml"]
+
+
+def test_check_prints_a_case_that_resolves_to_itself(tiltpad, case):
+    folder = case(
+        sweep("operation%speed_rpm=0.1:0.5:0.1, 7", "pads%arc_deg(2)=60, 61", "friction%model='LuGre'")
+    )
+    text, _ = result(tiltpad("--check", "case.nml", cwd=folder))
+    assert text.endswith(
+        "/\n&sweep\n  order = 'product'\n  operation%speed_rpm = 0.1:0.5:0.1, 7\n"
+        "  pads%arc_deg(2) = 60, 61\n  friction%model = 'LuGre'\n/\n"
+    )
+    (folder / "again.nml").write_text(text)
+    assert result(tiltpad("--check", "again.nml", cwd=folder)) == (text, [])
+    for k in range(1, 13):
+        first, _ = result(tiltpad("--check", "--member", k, "case.nml", cwd=folder))
+        assert result(tiltpad("--check", "--member", k, "again.nml", cwd=folder)) == (first, [])
+        assert "&sweep" not in first
+    assert files(folder) == ["again.nml", "case.nml"]
+
+
+def test_members_in_order_and_to_the_last_bit(tiltpad, case):
+    folder = case(sweep("operation%speed_rpm=0.1:0.5:0.1", "rotor%mass=1e-3:1e3:*10"))
+    members = [(0.1 + i * 0.1, 1e-3 * 10.0**k) for i in range(5) for k in range(7)]
+    assert result(tiltpad("--count", "case.nml", cwd=folder)) == (f"{len(members)}\n", [])
+    for k, (rpm, mass) in enumerate(members, 1):
+        text, _ = result(tiltpad("--check", "--member", k, "case.nml", cwd=folder))
+        assert float(scene_value(text, "operation", "speed_rpm")) == rpm
+        assert float(scene_value(text, "operation", "final_speed_rpm")) == rpm
+        assert float(scene_value(text, "rotor", "mass")) == mass
+
+
+def test_zip(tiltpad, case):
+    folder = case(sweep("order='zip'", "operation%speed_rpm=1000,2000", "friction%model='none','lugre'"))
+    for k, pair in enumerate([("1000", "'none'"), ("2000", "'lugre'")], 1):
+        text, _ = result(tiltpad("--check", "--member", k, "case.nml", cwd=folder))
+        assert pair == (scene_value(text, "operation", "speed_rpm"), scene_value(text, "friction", "model"))
+
+
+def test_set_of_a_sweep(tiltpad, case):
+    folder = case(sweep("rotor%mass=1:3:1", "rotor%unbalance=0.1,0.2,0.3"))
+
+    def count(*overrides):
+        options = [word for override in overrides for word in ("--set", override)]
+        return int(result(tiltpad("--count", "case.nml", *options, cwd=folder))[0])
+
+    assert count() == 9
+    assert count("sweep%order='zip'") == 3
+    assert count("sweep%rotor%mass=1,2") == 6
+    assert count("sweep%rotor%mass=1,2", "Sweep%Rotor%Mass=1:4:1") == 12
+    assert count("sweep%rotor%gravity=1:2:0.5") == 27
+    case(QUICK)
+    assert count("sweep%operation%speed_rpm=1000:9000:*3") == 3
+
+
+# ---- running -------------------------------------------------------------------------------------
+@pytest.mark.parametrize("options", [(), ("--jobs", "1"), ("--jobs", "3"), ("--jobs", "100")])
+def test_all_members_run(tiltpad, case, options):
+    folder = case(sweep("operation%speed_rpm=3000:3400:100"))
+    stdout, errors = result(tiltpad("case.nml", *options, cwd=folder))
+    assert errors == []
+    assert re.fullmatch(r"5 members: 5 done, 0 failed; [0-9.]+ s; in case\n", stdout)
+    assert files(folder) == ["case", "case.nml"]
+    assert files(folder / "case") == [f"000{k}.h5" for k in range(1, 6)]
+    assert [speed(path) for path in sorted((folder / "case").iterdir())] == [3000, 3100, 3200, 3300, 3400]
+
+
+def test_a_member_is_the_run_of_its_case(tiltpad, case):
+    folder = case("&operation duration=0.01 /\n&sweep operation%speed_rpm=3000:5000:1000 /\n")
+    assert result(tiltpad("--quiet", "case.nml", cwd=folder)) == ("", [])
+    text, _ = result(tiltpad("--check", "--member", 2, "case.nml", cwd=folder))
+    (folder / "second.nml").write_text(text)
+    result(tiltpad("second.nml", cwd=folder))
+    stdout, _ = result(tiltpad("--member", 2, "case.nml", "--output", "alone", cwd=folder))
+    assert "written: alone/0002.h5" in stdout
+    assert files(folder / "alone") == ["0002.h5"]
+    with (
+        h5py.File(folder / "second.h5") as by_itself,
+        h5py.File(folder / "alone/0002.h5") as alone,
+        h5py.File(folder / "case/0002.h5") as together,
+    ):
+        for other in (alone, together):
+            assert other.attrs["input"] == by_itself.attrs["input"]
+            assert (other["journal_y"][:] == by_itself["journal_y"][:]).all()
+
+
+@pytest.mark.parametrize(
+    ("name", "folder"), [("case.nml", "case"), ("a.b.nml", "a.b"), ("\u00fc x.nml", "\u00fc x")]
+)
+def test_default_folder(tiltpad, tmp_path, name, folder):
+    (tmp_path / "work").mkdir()
+    (tmp_path / name).write_text(sweep("rotor%mass=2000"))
+    result(tiltpad(f"../{name}", cwd=tmp_path / "work"))
+    assert files(tmp_path / "work") == [folder]
+    assert files(tmp_path / "work" / folder) == ["0001.h5"]
+
+
+def test_a_file_says_which_member_it_is(tiltpad, case):
+    folder = case(sweep("operation%speed_rpm=3000,4000", "friction%model='none','lugre'"))
+    result(tiltpad("case.nml", cwd=folder))
+    result(tiltpad("case.nml", "--member", 2, "-o", "alone", cwd=folder))
+    for path in ("case/0002.h5", "alone/0002.h5"):
+        with h5py.File(folder / path) as file:
+            assert (file.attrs["member"], file.attrs["members"]) == (2, 4)
+            assert file.attrs["sweep"] == "operation%speed_rpm = 3000\nfriction%model = 'lugre'"
+
+
+def test_a_second_call_runs_what_is_missing(tiltpad, case):
+    folder = case(sweep("operation%speed_rpm=3000,4000,5000"))
+    (folder / "case").mkdir()
+    (folder / "case/notes.txt").write_text("kept")
+    result(tiltpad("case.nml", cwd=folder))
+    before = {path.name: path.stat() for path in (folder / "case").iterdir()}
+    (folder / "case/0002.h5").unlink()
+    assert result(tiltpad("case.nml", cwd=folder))[0].startswith("3 members: 3 done, 0 failed; ")
+    for name, status in before.items():
+        now = (folder / "case" / name).stat()
+        assert (now.st_mtime_ns == status.st_mtime_ns) == (name != "0002.h5")
+    assert files(folder / "case") == ["0001.h5", "0002.h5", "0003.h5", "notes.txt"]
+
+
+def test_a_member_of_another_sweep_is_not_replaced(tiltpad, case):
+    folder = case(sweep("operation%speed_rpm=3000,4000"))
+    result(tiltpad("case.nml", cwd=folder))
+    changed = ("--set", "sweep%operation%speed_rpm=5000,4000")
+    _, errors = result(tiltpad("case.nml", *changed, cwd=folder), status=3)
+    assert errors[0].startswith(
+        "member 1 (operation%speed_rpm = 5000): case/0001.h5: is the result of another"
+    )
+    assert errors[1:] == ["1 of 2 members failed"]
+    assert [speed(folder / f"case/000{k}.h5") for k in (1, 2)] == [3000, 4000]
+
+
+def test_file_names_have_the_digits_of_the_last_member(tiltpad, case):
+    folder = case(sweep("operation%speed_rpm=1:20000:1"))
+    result(tiltpad("--quiet", "--member", 7, "case.nml", cwd=folder))
+    result(tiltpad("--quiet", "--member", 20000, "case.nml", cwd=folder))
+    assert files(folder / "case") == ["00007.h5", "20000.h5"]
+
+
+# ---- members that fail ---------------------------------------------------------------------------
+def test_a_failing_member_among_good_ones(tiltpad, case):
+    folder = case(
+        sweep(
+            "operation%speed_rpm=3000,4000",
+            "integration%max_steps=100000,20",
+            base="&operation duration=0.01 /\n",
+        )
+    )
+    stdout, errors = result(tiltpad("case.nml", cwd=folder), status=2)
+    assert re.match(r"4 members: 2 done, 2 failed; ", stdout)
+    quiet = tiltpad("--quiet", "--jobs", 1, "case.nml", "-o", "Case", cwd=folder)
+    assert result(quiet, status=2) == ("", [line.replace("case/", "Case/") for line in errors])
+    again, _ = result(tiltpad("case.nml", cwd=folder), status=2)
+    assert re.match(r"4 members: 2 done, 2 failed; ", again)
+    assert len(errors) == 3
+    for line, k, rpm in zip(errors, (2, 4), (3000, 4000), strict=False):
+        start = f"member {k} (operation%speed_rpm = {rpm}, integration%max_steps = 20): "
+        assert line.startswith(start)
+        assert "after 20 steps" in line
+        assert f"case/000{k}.h5" in line
+    assert errors[2] == "2 of 4 members failed"
+    for k, complete in enumerate((1, 0, 1, 0), 1):
+        with h5py.File(folder / f"case/000{k}.h5") as file:
+            assert file.attrs["complete"] == complete
+
+
+def test_a_file_error_has_its_own_status(tiltpad, case):
+    """A folder where one member's file is to be, beside a member whose numerics fail."""
+    folder = case(sweep("integration%max_steps=20,21,100000", base="&operation duration=0.01 /\n"))
+    (folder / "case").mkdir()
+    (folder / "case/0003.h5").mkdir()
+    _, errors = result(tiltpad("case.nml", cwd=folder), status=3)
+    assert errors[2].startswith("member 3 (integration%max_steps = 100000): ")
+    assert "case/0003.h5" in errors[2]
+    assert errors[3] == "3 of 3 members failed"
+
+
+def children(process):
+    path = f"/proc/{process.pid}/task/{process.pid}/children"
+    if not os.path.exists(path):
+        pytest.skip("no list of children here")
+    with open(path) as file:
+        return [int(word) for word in file.read().split()]
+
+
+def started(program, folder, *arguments, members=1):
+    """The program running in a folder, with so many members under way."""
+    process = subprocess.Popen(
+        [program, *arguments], cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+    end = time.monotonic() + 20
+    while len(children(process)) < members:
+        assert process.poll() is None
+        assert time.monotonic() < end
+        time.sleep(0.002)
+    return process
+
+
+def test_a_killed_member_is_a_failed_one_and_the_others_go_on(program, tiltpad, case):
+    folder = case(sweep("rotor%mass=2000:2400:100", base=SLOW))
+    with started(program, folder, "--jobs", "2", "case.nml", members=2) as process:
+        first = min(children(process))
+        os.kill(first, signal.SIGKILL)
+        stdout, stderr = process.communicate(timeout=120)
+    assert process.returncode == 3
+    assert re.match(r"5 members: 4 done, 1 failed; ", stdout)
+    line, total = stderr.splitlines()
+    found = re.fullmatch(r"tiltpad: error: member ([12]) \(rotor%mass = (\d+)\): ended by signal 9", line)
+    assert found
+    assert int(found[2]) == 1900 + 100 * int(found[1])
+    assert total == "tiltpad: error: 1 of 5 members failed"
+    done = [name for name in files(folder / "case") if re.fullmatch(r"[0-9]+\.h5", name)]
+    assert done == [f"000{k}.h5" for k in range(1, 6) if k != int(found[1])]
+    stdout, _ = result(tiltpad("case.nml", cwd=folder))
+    assert stdout.startswith("5 members: 5 done, 0 failed; ")
+    assert all(speed(folder / f"case/000{k}.h5") for k in range(1, 6))
+
+
+def test_as_many_at_a_time_as_asked(program, case):
+    folder = case(sweep("rotor%mass=2000:2500:100", base=SLOW))
+    for jobs in (1, 3):
+        most = 0
+        with started(program, folder, "--quiet", "--jobs", str(jobs), "case.nml") as process:
+            while process.poll() is None:
+                most = max(most, len(children(process)))
+                time.sleep(0.002)
+        assert process.returncode == 0
+        assert most == jobs
+
+
+def test_as_many_at_a_time_as_processors(program, case):
+    folder = case(sweep("rotor%mass=2000:2500:100", base=SLOW))
+    one = min(os.sched_getaffinity(0))
+    process = subprocess.Popen(
+        [program, "--quiet", "case.nml"], cwd=folder, preexec_fn=lambda: os.sched_setaffinity(0, [one])
+    )
+    most = 0
+    while process.poll() is None:
+        most = max(most, len(children(process)))
+        time.sleep(0.002)
+    assert (process.returncode, most) == (0, 1)
+
+
+# ---- signals -------------------------------------------------------------------------------------
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGUSR1])
+def test_a_signal_stops_the_sweep(program, case, number):
+    folder = case(sweep("rotor%mass=2000:2900:1", base=LONG))
+    with started(program, folder, "--jobs", "2", "case.nml", members=2) as process:
+        process.send_signal(number)
+        stdout, stderr = process.communicate(timeout=120)
+    assert process.returncode == 4
+    found = re.fullmatch(
+        rf"tiltpad: error: stopped by signal {number.value}; of 901 members (\d+) done, 0 failed"
+        r"(?:, (\d+) stopped)?, (\d+) not started\n",
+        stderr,
+    )
+    assert found, stderr
+    done, stopped, rest = (int(count or 0) for count in found.groups())
+    assert done + stopped + rest == 901
+    assert stopped > 0
+    assert rest > 880
+    assert stdout.startswith(f"901 members: {done} done, 0 failed")
+
+
+def test_stopped_members_go_on_at_the_second_call(program, tiltpad, case):
+    folder = case(sweep("rotor%mass=2000,2100", base=LONG))
+    whole = {}
+    for output in ("stopped", "through"):
+        if output == "stopped":
+            with started(program, folder, "--jobs", "2", "case.nml", "-o", output, members=2) as process:
+                time.sleep(0.3)
+                process.send_signal(signal.SIGTERM)
+                assert "2 stopped" in process.communicate(timeout=120)[1]
+        stdout, _ = result(tiltpad("case.nml", "-o", output, cwd=folder))
+        assert stdout.startswith("2 members: 2 done, 0 failed; ")
+        for k in (1, 2):
+            with h5py.File(folder / output / f"000{k}.h5") as file:
+                assert file.attrs["complete"] == 1
+                assert file.attrs["resumes"] == (output == "stopped")
+                whole[output, k] = file["journal_y"][:]
+    for k in (1, 2):
+        assert whole["stopped", k].shape == whole["through", k].shape
+
+
+def test_members_end_with_the_program(program, case):
+    """Nobody is left behind by a program that is killed."""
+    folder = case(sweep("rotor%mass=2000,2100", base="&operation duration=1000 /\n"))
+    with started(program, folder, "--quiet", "--jobs", "2", "case.nml", members=2) as process:
+        members = children(process)
+        process.kill()
+    end = time.monotonic() + 20
+    while any(running(member) for member in members):
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
+def running(process):
+    """False once a process has ended, whether or not anybody took note of that."""
+    try:
+        with open(f"/proc/{process}/stat") as file:
+            return file.read().rpartition(")")[2].split()[0] not in "ZX"
+    except OSError:
+        return False
+
+
+# ---- what is printed -----------------------------------------------------------------------------
+def test_a_terminal_has_one_line_for_all_members(program, case):
+    folder = case(sweep("rotor%mass=2000:2900:100", "integration%max_steps=100000,1", base=SLOW))
+    try:
+        leader, follower = pty.openpty()
+    except OSError:
+        pytest.skip("no pseudo-terminals here")
+    with subprocess.Popen(
+        [program, "case.nml"], cwd=folder, stdin=follower, stdout=follower, stderr=subprocess.DEVNULL
+    ) as process:
+        os.close(follower)
+        seen = b""
+        while select.select([leader], [], [], 60)[0]:
+            try:
+                new = os.read(leader, 65536)
+            except OSError:
+                break
+            if not new:
+                break
+            seen += new
+    os.close(leader)
+    assert process.returncode == 2
+    text = seen.decode()
+    lines = re.findall(r"\r(\d[^\r\n]*)\x1b", text)
+    assert len(lines) >= 2
+    for line in lines:
+        assert re.fullmatch(r"\d+ of 20 members, \d+ failed(, \d+ s left)?", line), line
+    counts = [int(line.split()[0]) for line in lines]
+    assert counts == sorted(counts)
+    assert "\n" not in text[: text.index("20 members: ")]
+    assert re.search(r"\r\x1b\[K20 members: 10 done, 10 failed; [0-9.]+ s; in case\r\n$", text)
+
+
+def test_nothing_is_printed_twice(tiltpad, case):
+    """Output that waits to be written when a child is made is written once."""
+    folder = case(sweep("rotor%mass=2000:2900:100"))
+    stdout, _ = result(tiltpad("case.nml", cwd=folder))
+    assert stdout.count("\n") == 1
+
+
+# ---- what is refused -----------------------------------------------------------------------------
+def refused(tiltpad, folder, *arguments, names=(), status=1):
+    before = sorted(folder.rglob("*"))
+    stdout, errors = result(tiltpad(*arguments, cwd=folder, timeout=60), status=status)
+    assert (stdout, len(errors)) == ("", 1)
+    for name in names:
+        assert name in errors[0]
+    assert sorted(folder.rglob("*")) == before
+    return errors[0]
+
+
+# of the sweep itself: line, what the message must name
+SWEEPS = {
+    "": ["line 2", "&sweep"],
+    "order='zip'": ["line 2", "&sweep"],
+    "order='random', rotor%mass=1": ["line 3", "sweep%order = 'random'", "product", "zip"],
+    "order='zip', rotor%mass=1,2, rotor%gravity=1": ["zip", "rotor%mass has 2", "rotor%gravity has 1"],
+    "mass=1": ["line 3", "sweep%mass", "group%name"],
+    "motor%mass=1": ["line 3", "motor", "rotor"],
+    "rotor%weight=1": ["line 3", "rotor%weight", "mass"],
+    "sweep%order='zip'": ["line 3", "sweep%order"],
+    "case%title='a','b'": ["line 3", "case%title"],
+    "rotor%mass=1, rotor%mass=2": ["line 3", "rotor%mass", "twice"],
+    "pads%mass=1, pads%mass(2)=2": ["line 3", "pads%mass", "twice"],
+    "rotor%mass=": ["line 3", "rotor%mass", "value"],
+    "rotor%mass=1:2": ["line 3", "rotor%mass = 1:2", "first:last:stride"],
+    "rotor%mass=1:2:0": ["line 3", "rotor%mass = 1:2:0", "stride"],
+    "rotor%mass=1:2:-1": ["line 3", "rotor%mass = 1:2:-1", "> 0"],
+    "rotor%mass=2:1:1": ["line 3", "rotor%mass = 2:1:1", "< 0"],
+    "rotor%mass=1:2:*1": ["line 3", "rotor%mass = 1:2:*1", "factor"],
+    "rotor%mass=1:2:*0.5": ["line 3", "rotor%mass = 1:2:*0.5", "> 1"],
+    "rotor%mass=1:2:*-2": ["line 3", "rotor%mass = 1:2:*-2", "> 0"],
+    "rotor%mass=0:2:*2": ["line 3", "rotor%mass = 0:2:*2", "0"],
+    "rotor%mass=3*2": ["line 3", "rotor%mass = 3*2", "n*value"],
+    "rotor%mass=1:1000000:1": ["line 3", "rotor%mass", "100000"],
+    "rotor%mass=1:1000:1, rotor%gravity=1:1000:1": ["line 2", "100000", "rotor%mass has 1000"],
+    "rotor%mass=1:1e400:1": ["line 3", "rotor%mass", "1e100"],
+}
+
+
+@pytest.mark.parametrize("line", SWEEPS, ids=lambda line: line or "empty")
+@pytest.mark.parametrize("options", [(), ("--check",), ("--count",), ("--member", "1")], ids=" ".join)
+def test_sweep_refused(tiltpad, case, line, options):
+    """Whatever is asked for, also where the sweep is not run."""
+    folder = case(sweep(*line.split(", ")) if line else "\n&sweep /\n")
+    refused(tiltpad, folder, "case.nml", *options, names=["case.nml", *SWEEPS[line]])
+
+
+@pytest.mark.parametrize("options", [(), ("--check",)], ids=" ".join)
+@pytest.mark.parametrize(
+    ("line", "names"),
+    [
+        ("rotor%mass=1:3:1, -1", ["line 3, member 4", "rotor%mass = -1", "1e-6 to"]),
+        ("friction%model='none','lugre','coulomb'", ["line 3, member 3", "'coulomb'", "bengisu_akay"]),
+        ("film%axial_cells=4,4.5", ["line 3, member 2", "film%axial_cells = 4.5", "whole"]),
+        ("friction%dynamic_coefficient=0.1,0.2", ["member 2", "friction%static_coefficient"]),
+        ("rotor%static_load=1,2", ["line 3, member 1", "rotor%static_load", "2 values"]),
+        ("pads%pivot_angle_deg(1)=-90,-80", ["line 3, member 1", "pads%pivot_angle_deg", "subscript"]),
+    ],
+)
+def test_a_bad_member_is_named_and_nothing_runs(tiltpad, case, options, line, names):
+    refused(tiltpad, case(sweep(line)), "case.nml", *options, names=names)
+
+
+def test_only_the_member_that_runs_must_be_good(tiltpad, case):
+    folder = case(sweep("rotor%mass=2000,-1"))
+    result(tiltpad("--member", 1, "case.nml", cwd=folder))
+    refused(tiltpad, folder, "--member", 2, "case.nml", names=["line 3, member 2: rotor%mass = -1"])
+
+
+# command lines: arguments, what the message must name
+LINES = {
+    "member beyond the last": (["--member", "3"], ["--member 3", "1 to 2"]),
+    "member zero": (["--member", "0"], ["--member 0", "whole number"]),
+    "member by name": (["--member", "first"], ["--member first", "whole number"]),
+    "member too large": (["--member", "99999999999"], ["--member 99999999999", "whole number"]),
+    "no jobs": (["--jobs", "0"], ["--jobs 0", "whole number"]),
+    "negative jobs": (["--jobs", "-2"], ["--jobs -2", "whole number"]),
+    "half a job": (["--jobs", "0.5"], ["--jobs 0.5", "whole number"]),
+    "empty number": (["--jobs", ""], ["--jobs", "whole number"]),
+    "count and check": (["--count", "--check"], ["--count", "--check"]),
+    "jobs and a member": (["--jobs", "2", "--member", "1"], ["--jobs", "--member"]),
+    "jobs and count": (["--jobs", "2", "--count"], ["--jobs", "--count"]),
+    "count and member": (["--count", "--member", "1"], ["--count", "--member"]),
+    "set of what is swept": (
+        ["--set", "rotor%mass=1"],
+        ["--set rotor%mass = 1", "swept", "case.nml line 3", "--set sweep%rotor%mass="],
+    ),
+    "bad sweep by set": (["--set", "sweep%rotor%gravity=1:2:-1"], ["--set", "sweep%rotor%gravity = 1:2:-1"]),
+    "bad member by set": (["--set", "sweep%rotor%mass=1,-1"], ["--set, member 2", "rotor%mass = -1"]),
+    "bad order by set": (["--set", "sweep%order='all'"], ["--set", "sweep%order = 'all'"]),
+    "resume of a sweep": (["--resume", "case.h5"], ["--resume", "case.nml"]),
+    "output is the case": (["--output", "case.nml"], ["case.nml", "replace"]),
+}
+
+
+@pytest.mark.parametrize("key", LINES)
+def test_command_line(tiltpad, case, key):
+    arguments, names = LINES[key]
+    refused(tiltpad, case(sweep("rotor%mass=1000,2000")), "case.nml", *arguments, names=names)
+
+
+@pytest.mark.parametrize("option", ["--member", "--jobs"])
+def test_a_case_without_a_sweep(tiltpad, case, option):
+    refused(tiltpad, case(QUICK), "case.nml", option, 1, names=["case.nml", "&sweep", option])
+
+
+def test_an_option_without_its_value(tiltpad, case):
+    for option in ("--member", "--jobs"):
+        refused(tiltpad, case(QUICK), "case.nml", option, names=[option, "value"])
+
+
+def test_folder_that_cannot_be(tiltpad, case):
+    folder = case(sweep("rotor%mass=1000,2000"))
+    (folder / "file").write_text("a file")
+    outputs = {"none/runs": "No such file", "file": "Not a directory", "file/runs": "Not a directory"}
+    if os.path.isdir("/proc/self"):
+        outputs["/proc"] = ""
+    outputs[300 * "x"] = "too long"
+    for output, reason in outputs.items():
+        for options in ((), ("--member", "2")):
+            refused(
+                tiltpad,
+                folder,
+                "case.nml",
+                *options,
+                "-o",
+                output,
+                names=["folder", output, reason],
+                status=3,
+            )
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root writes everywhere")
+def test_folder_that_is_shut(tiltpad, case):
+    folder = case(sweep("rotor%mass=1000,2000"))
+    (folder / "shut").mkdir(mode=0o500)
+    refused(tiltpad, folder, "case.nml", "-o", "shut", names=["shut", "ermission"], status=3)
+
+
+def test_default_folder_is_the_case_itself(tiltpad, tmp_path):
+    (tmp_path / "noend").write_text(sweep("rotor%mass=1000,2000"))
+    refused(tiltpad, tmp_path, "noend", names=["noend"])

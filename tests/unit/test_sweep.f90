@@ -1,0 +1,329 @@
+!> Members of sweeps: how many, which values in which order, the bits of ranges, and what is refused.
+program test_sweep
+   use kinds, only: wp
+   use text, only: to_text
+   use errors, only: error_type, input_error
+   use scene, only: scene_type
+   use namelist_writer, only: scene_text
+   use sweep, only: sweep_type, member_tag, sweep_from_text
+   use check, only: expect, expect_close, report
+   implicit none (type, external)
+
+   character(len=*), parameter :: newline = achar(10)
+
+   call no_sweep()
+   call product_order()
+   call zip_order()
+   call ranges()
+   call in_place_of_the_case()
+   call overrides()
+   call resolved_again()
+   call refused()
+   call refused_members()
+   call report()
+
+contains
+
+   !> A sweep from text that must be good.
+   type(sweep_type) function sweep_of(text, overrides) result(sweep)
+      character(len=*), intent(in) :: text
+      character(len=*), intent(in), optional :: overrides(:)
+      type(error_type), allocatable :: error
+      if (present(overrides)) then
+         call sweep_from_text(text, 'case.nml', overrides, sweep, error)
+      else
+         call sweep_from_text(text, 'case.nml', [character(len=1) ::], sweep, error)
+      end if
+      call expect(.not. allocated(error), 'accepted: '//text)
+      if (allocated(error)) call expect(.false., '   but: '//error%message)
+   end function sweep_of
+
+   !> The scene of a member that must be good.
+   type(scene_type) function member(sweep, k) result(scene)
+      type(sweep_type), intent(in) :: sweep
+      integer, intent(in) :: k
+      type(error_type), allocatable :: error
+      call sweep%scene(k, scene, error)
+      call expect(.not. allocated(error), 'member '//to_text(k)//' is good')
+      if (allocated(error)) call expect(.false., '   but: '//error%message)
+   end function member
+
+   !> The speeds of all members are these bits.
+   subroutine expect_speeds(text, expected)
+      character(len=*), intent(in) :: text
+      real(wp), intent(in) :: expected(:)
+      type(sweep_type) :: sweep
+      type(scene_type) :: scene
+      integer :: k
+      sweep = sweep_of('&sweep operation%speed_rpm = '//text//' /')
+      call expect(sweep%members == size(expected), text//' has '//to_text(sweep%members)//' members')
+      do k = 1, min(sweep%members, size(expected))
+         scene = member(sweep, k)
+         call expect_close(scene%operation%speed_rpm, expected(k), 0.0_wp, text//', member '//to_text(k))
+      end do
+   end subroutine expect_speeds
+
+   subroutine expect_tag(sweep, k, expected)
+      type(sweep_type), intent(in) :: sweep
+      integer, intent(in) :: k
+      character(len=*), intent(in) :: expected
+      type(member_tag) :: tag
+      call sweep%tag(k, tag)
+      call expect(tag%number == k .and. tag%members == sweep%members, 'number of a member')
+      call expect(tag%sweep == expected .and. len(tag%sweep) == len(expected), expected//' came out as '//tag%sweep)
+   end subroutine expect_tag
+
+   subroutine no_sweep()
+      type(sweep_type) :: sweep
+      type(scene_type) :: scene
+      type(error_type), allocatable :: error
+      sweep = sweep_of('&rotor mass = 1234 /')
+      call expect(.not. sweep%given .and. sweep%members == 1, 'a case without a sweep')
+      scene = member(sweep, 1)
+      call expect_close(scene%rotor%mass, 1234.0_wp, 0.0_wp, 'is its one member')
+      call expect_tag(sweep, 1, '')
+      sweep = sweep_of('&rotor mass = -1 /')
+      call sweep%scene(1, scene, error)
+      call expect(allocated(error), 'a bad value in it')
+      if (allocated(error)) call expect(index(error%message, 'case.nml line 1: rotor%mass = -1') == 1, error%message)
+   end subroutine no_sweep
+
+   !> The first variable is the slowest.
+   subroutine product_order()
+      type(sweep_type) :: sweep
+      type(scene_type) :: scene
+      sweep = sweep_of('&sweep'//newline//'operation%speed_rpm = 1e3, 2e3'//newline//'friction%model = ''none'', ' &
+         & //'"LuGre", bengisu_akay Pads%Arc_deg(2)=60 65/')
+      call expect(sweep%given .and. sweep%members == 12, 'product of 2, 3 and 2')
+      call expect_tag(sweep, 1, 'operation%speed_rpm = 1e3'//newline//'friction%model = ''none'''//newline &
+         & //'pads%arc_deg(2) = 60')
+      call expect_tag(sweep, 2, 'operation%speed_rpm = 1e3'//newline//'friction%model = ''none'''//newline &
+         & //'pads%arc_deg(2) = 65')
+      call expect_tag(sweep, 9, 'operation%speed_rpm = 2e3'//newline//'friction%model = ''LuGre'''//newline &
+         & //'pads%arc_deg(2) = 60')
+      scene = member(sweep, 12)
+      call expect_close(scene%operation%speed_rpm, 2000.0_wp, 0.0_wp, 'speed of the last')
+      call expect_close(scene%operation%final_speed_rpm, 2000.0_wp, 0.0_wp, 'its final speed is the same')
+      call expect(scene%friction%model == 'bengisu_akay', 'its friction')
+      call expect_close(maxval(abs(scene%pads%arc_deg - [69.3_wp, 65.0_wp])), 0.0_wp, 0.0_wp, 'its arcs')
+   end subroutine product_order
+
+   subroutine zip_order()
+      type(sweep_type) :: sweep
+      sweep = sweep_of('&sweep order = '' Zip '', rotor%mass = 1:3:1, rotor%unbalance = 0.1, 0.2:0.3:0.1 /')
+      call expect(sweep%members == 3, 'three pairs')
+      call expect_tag(sweep, 2, 'rotor%mass = 2'//newline//'rotor%unbalance = 0.2')
+      sweep = sweep_of('&sweep order = ''product'', rotor%mass = 1:3:1, rotor%unbalance = 0.1, 0.2 /')
+      call expect(sweep%members == 6, 'the product in so many words')
+   end subroutine zip_order
+
+   !> The last value is in up to rounding, and every value has the bits of the multiplication.
+   subroutine ranges()
+      real(wp) :: x
+      integer :: i
+      type(sweep_type) :: sweep
+      ! the multiplications are the machine's own, one by one, not the compiler's
+      real(wp), volatile :: product
+      real(wp) :: tenths(5)
+      do i = 1, size(tenths)
+         product = (i - 1)*0.1_wp
+         tenths(i) = 0.1_wp + product
+      end do
+      call expect_speeds('0.1:0.5:0.1', tenths)
+      call expect_speeds('1000:10000:500', [(real(i, wp), i=1000, 10000, 500)])
+      call expect_speeds('10000:1000:-4500', [10000.0_wp, 5500.0_wp, 1000.0_wp])
+      call expect_speeds('10:20:7', [10.0_wp, 17.0_wp])
+      call expect_speeds('5:5:1', [5.0_wp])
+      call expect_speeds('1E1:1d5:*10', [10.0_wp, 100.0_wp, 1000.0_wp, 1e4_wp, 1e5_wp])
+      call expect_speeds('8:1:*0.5', [8.0_wp, 4.0_wp, 2.0_wp, 1.0_wp])
+      call expect_speeds('1:10:*3', [1.0_wp, 3.0_wp, 9.0_wp])
+      call expect_speeds('7, 1:2:1, 4:8:*2 , 5', [7.0_wp, 1.0_wp, 2.0_wp, 4.0_wp, 8.0_wp, 5.0_wp])
+      ! whole numbers are written as such
+      sweep = sweep_of('&sweep integration%max_steps = 1e6:3e6:1e6, output%samples_per_revolution = 90:360:*2 /')
+      call expect(sweep%members == 9, 'whole numbers')
+      call expect_tag(sweep, 9, 'integration%max_steps = 3000000'//newline//'output%samples_per_revolution = 360')
+      x = real(member_steps(sweep, 9), wp)
+      call expect_close(x, 3e6_wp, 0.0_wp, 'and read as such')
+      sweep = sweep_of('&sweep rotor%static_load(2) = -1:-100:*10, rotor%static_load(1) = -2:2:2 /')
+      call expect(sweep%members == 9, 'negative numbers, and elements')
+      call expect_tag(sweep, 5, 'rotor%static_load(2) = -10'//newline//'rotor%static_load(1) = 0')
+      sweep = sweep_of('&sweep rotor%mass = 1:100000:1 /')
+      call expect(sweep%members == 100000, 'the most members')
+      call expect_tag(sweep, 100000, 'rotor%mass = 100000')
+   end subroutine ranges
+
+   integer function member_steps(sweep, k)
+      type(sweep_type), intent(in) :: sweep
+      integer, intent(in) :: k
+      type(scene_type) :: scene
+      scene = member(sweep, k)
+      member_steps = scene%integration%max_steps
+   end function member_steps
+
+   !> A swept value stands in place of the case's, be that good or bad, and elements in place of elements.
+   subroutine in_place_of_the_case()
+      type(sweep_type) :: sweep
+      type(scene_type) :: scene
+      sweep = sweep_of('&rotor mass = -1, gravity = 5 / &sweep rotor%mass = 10, 20 / &pads arc_deg(1) = 50, 51 /')
+      scene = member(sweep, 2)
+      call expect_close(scene%rotor%mass, 20.0_wp, 0.0_wp, 'a bad value mended')
+      call expect_close(scene%rotor%gravity, 5.0_wp, 0.0_wp, 'what is not swept stays')
+      sweep = sweep_of('&pads arc_deg(1) = 50, 51 / &sweep pads%arc_deg(1) = 60 /')
+      scene = member(sweep, 1)
+      call expect_close(maxval(abs(scene%pads%arc_deg - [60.0_wp, 51.0_wp])), 0.0_wp, 0.0_wp, 'one element of a list')
+      sweep = sweep_of('&pads arc_deg = 50, 51 / &sweep pads%arc_deg = 60 /')
+      scene = member(sweep, 1)
+      call expect_close(maxval(abs(scene%pads%arc_deg - 60)), 0.0_wp, 0.0_wp, 'one value for all pads')
+   end subroutine in_place_of_the_case
+
+   !> --set sweep%... keeps the order of the variables, and makes a sweep where there is none.
+   subroutine overrides()
+      character(len=*), parameter :: case = '&sweep rotor%mass = 1, 2, rotor%unbalance = 3, 4 /'
+      type(sweep_type) :: sweep
+      sweep = sweep_of(case, [character(len=30) :: 'sweep%rotor%mass=5:7:1'])
+      call expect(sweep%members == 6, 'other values')
+      call expect_tag(sweep, 2, 'rotor%mass = 5'//newline//'rotor%unbalance = 4')
+      sweep = sweep_of(case, [character(len=30) :: 'sweep%order=''zip'''])
+      call expect(sweep%members == 2, 'another order')
+      sweep = sweep_of(case, [character(len=30) :: 'sweep%rotor%gravity=1,2,3', 'SWEEP%rotor%gravity=5'])
+      call expect_tag(sweep, 4, 'rotor%mass = 2'//newline//'rotor%unbalance = 4'//newline//'rotor%gravity = 5')
+      sweep = sweep_of('&rotor /', [character(len=30) :: 'sweep%pads%mass(2)=0.9,1'])
+      call expect(sweep%given .and. sweep%members == 2, 'a sweep where there was none')
+      call expect_tag(sweep, 2, 'pads%mass(2) = 1')
+      sweep = sweep_of('&sweep pads%mass(2) = 0.9, 1/', [character(len=30) :: 'pads%mass(1)=0.7'])
+      call expect(sweep%members == 2, 'an override of another element')
+   end subroutine overrides
+
+   !> The resolved text is a case with the same members, whose resolved text it is.
+   subroutine resolved_again()
+      character(len=*), parameter :: cases(*) = [character(len=200) :: &
+         & '&sweep operation%speed_rpm = 0.1:0.5:0.1, 1e3:1e5:*10, 7, friction%model = ''LuGre'', none /', &
+         & '&operation final_speed_rpm = 3000 / &sweep order=''zip'' operation%speed_rpm = 1:2:1 rotor%mass=3,4 /', &
+         & '&pads mass = 1, 2, arc_deg = 50 / &sweep pads%mass(2) = 0.7, 0.9 pads%arc_deg = 60:30:-10 /', &
+         & '&pads arc_deg = 300 / &sweep pads%pivot_angle_deg = -90, -80 /']
+      type(sweep_type) :: sweep, again
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: text, second
+      integer :: i, k
+      do i = 1, size(cases)
+         sweep = sweep_of(trim(cases(i)))
+         call sweep%resolved(text, error)
+         call expect(.not. allocated(error), 'resolved: '//trim(cases(i)))
+         if (allocated(error)) cycle
+         again = sweep_of(text)
+         call again%resolved(second, error)
+         call expect(text == second .and. len(text) == len(second), 'resolves to itself: '//trim(cases(i)))
+         call expect(again%members == sweep%members .and. sweep%members > 1, 'as many members')
+         do k = 1, sweep%members
+            call expect(scene_text(member(again, k)) == scene_text(member(sweep, k)), 'the same member '//to_text(k))
+         end do
+      end do
+   end subroutine resolved_again
+
+   !> The message names the place and has the words, before any member is looked at.
+   subroutine expect_refused(text, words, overrides)
+      character(len=*), intent(in) :: text, words
+      character(len=*), intent(in), optional :: overrides(:)
+      type(sweep_type) :: sweep
+      type(error_type), allocatable :: error
+      if (present(overrides)) then
+         call sweep_from_text(text, 'case.nml', overrides, sweep, error)
+      else
+         call sweep_from_text('&rotor /'//newline//text, 'case.nml', [character(len=1) ::], sweep, error)
+      end if
+      call expect(allocated(error), 'refused: '//text)
+      if (.not. allocated(error)) return
+      call expect(error%status == input_error, 'an error of the input')
+      if (.not. present(overrides)) call expect(index(error%message, 'case.nml line 2: ') == 1, error%message)
+      call expect(index(error%message, words) > 0, 'says "'//words//'": '//error%message)
+      call expect(index(error%message, newline) == 0, 'one line')
+   end subroutine expect_refused
+
+   subroutine refused()
+      character(len=*), parameter :: range = 'a range is first:last:stride or first:last:*factor'
+      call expect_refused('&sweep /', '&sweep sweeps nothing')
+      call expect_refused('&sweep order = ''zip'' /', '&sweep sweeps nothing')
+      call expect_refused('&sweep order = ''outer'', rotor%mass = 1/', '''product'', ''zip''')
+      call expect_refused('&sweep order = ''zip'', ''zip'', rotor%mass = 1/', '''product'', ''zip''')
+      call expect_refused('&sweep order(1) = ''zip'', rotor%mass = 1/', '''product'', ''zip''')
+      call expect_refused('&sweep mass = 1/', 'unknown variable sweep%mass; expected order or group%name')
+      call expect_refused('&sweep rotor% = 1/', 'expected order or group%name')
+      call expect_refused('&sweep %mass = 1/', 'expected order or group%name')
+      call expect_refused('&sweep rotor%mass%x = 1/', 'expected order or group%name')
+      call expect_refused('&sweep rotor%%mass = 1/', 'expected order or group%name')
+      call expect_refused('&sweep sweep%order = ''zip''/', 'sweep%order cannot be swept')
+      call expect_refused('&sweep sweep%rotor%mass = 1/', 'expected order or group%name')
+      call expect_refused('&sweep case%title = ''a'', ''b''/', 'case%title cannot be swept')
+      call expect_refused('&sweep rotor%mass = 1 rotor%mass = 2/', 'given twice')
+      call expect_refused('&sweep rotor%mass = 1 ROTOR%MASS = 2/', 'given twice')
+      call expect_refused('&sweep pads%mass(1) = 1 pads%mass = 2/', 'given twice')
+      call expect_refused('&sweep pads%mass = 1 pads%mass(1) = 2/', 'pads%mass is swept twice')
+      call expect_refused('&sweep rotor%mass = /', 'a value is missing')
+      call expect_refused('&sweep rotor%mass = 2*3/', 'n*value is not for a sweep')
+      call expect_refused('&sweep rotor%mass = 1:2/', range)
+      call expect_refused('&sweep rotor%mass = 1:/', range)
+      call expect_refused('&sweep rotor%mass = ::/', range)
+      call expect_refused('&sweep rotor%mass = 1:2:/', range)
+      call expect_refused('&sweep rotor%mass = 1:2:*/', range)
+      call expect_refused('&sweep rotor%mass = 1:2:**2/', range)
+      call expect_refused('&sweep rotor%mass = 1:2:1:1/', range)
+      call expect_refused('&sweep rotor%mass = 1 : 2 : 1/', range)
+      call expect_refused('&sweep rotor%mass = 1:b:1/', range)
+      call expect_refused('&sweep rotor%mass = 1:nan:1/', range)
+      call expect_refused('&sweep rotor%mass = 1:1e400:1/', '1e-100 to 1e100')
+      call expect_refused('&sweep rotor%mass = 1:2:1e-200/', '1e-100 to 1e100')
+      call expect_refused('&sweep rotor%mass = 1:2:0/', 'stride must not be 0')
+      call expect_refused('&sweep rotor%mass = 1:2:-1/', 'must be > 0')
+      call expect_refused('&sweep rotor%mass = 2:1:1/', 'must be < 0')
+      call expect_refused('&sweep rotor%mass = 1:8:*1/', 'must be > 0, and not 1')
+      call expect_refused('&sweep rotor%mass = 1:8:*0/', 'must be > 0, and not 1')
+      call expect_refused('&sweep rotor%mass = 1:8:*-2/', 'must be > 0, and not 1')
+      call expect_refused('&sweep rotor%mass = 1:8:*0.5/', 'must be > 1')
+      call expect_refused('&sweep rotor%mass = 8:1:*2/', 'must be < 1')
+      call expect_refused('&sweep rotor%mass = 0:8:*2/', 'one sign, and not 0')
+      call expect_refused('&sweep rotor%mass = 8:0:*0.5/', 'one sign, and not 0')
+      call expect_refused('&sweep rotor%mass = -1:8:*2/', 'one sign, and not 0')
+      call expect_refused('&sweep rotor%mass = 1:2:1e-9/', 'more than 100000 values')
+      call expect_refused('&sweep rotor%mass = -1e100:1e100:1e-100/', 'more than 100000 values')
+      call expect_refused('&sweep rotor%mass = 1:1e99:*1.0000001/', 'more than 100000 values')
+      call expect_refused('&sweep rotor%mass = 1:1000:1 rotor%gravity = 0:100:1/', &
+         & 'more than 100000 members: rotor%mass has 1000, rotor%gravity has 101')
+      call expect_refused('&sweep rotor%mass = 1:90000:1 rotor%gravity = 1:90000:1 rotor%unbalance = 1:90000:1' &
+         & //' bearing%viscosity = 1:90000:1 /', 'more than 100000 members')
+      call expect_refused('&sweep order=''zip'' rotor%mass = 1, 2 rotor%gravity = 1, 2, 3/', &
+         & 'rotor%mass has 2, rotor%gravity has 3')
+      call expect_refused('&sweep rotor%mass = 1, 2/', 'rotor%mass = 3: is swept (case.nml line 1)', ['rotor%mass=3'])
+      call expect_refused('&sweep rotor%mass = 1, 2/', '--set sweep%rotor%mass=', ['rotor%mass=3'])
+      call expect_refused('&sweep pads%mass = 1, 2/', 'pads%mass(2) = 3: is swept', ['pads%mass(2)=3'])
+      call expect_refused('&rotor /', '&sweep sweeps nothing', ['sweep%order=''zip'''])
+      call expect_refused('&rotor /', '--set: unknown variable sweep%mass', ['sweep%mass=3'])
+   end subroutine refused
+
+   !> What the scene of a member shows; every member knows names that there are not.
+   subroutine refused_members()
+      call expect_bad(1, 'roter%mass = 1', 'case.nml line 2, member 1: unknown group roter')
+      call expect_bad(1, 'rotor%mess = 1', 'case.nml line 2, member 1: unknown variable rotor%mess')
+      call expect_bad(2, 'rotor%mass = 1, -1', 'case.nml line 2, member 2: rotor%mass = -1: must be 1e-6')
+      call expect_bad(3, 'rotor%mass = 1:3:1, rotor%mess=1', 'case.nml line 2, member 3: unknown variable')
+      call expect_bad(3, 'film%axial_cells = 2:5:*1.5', 'member 3: film%axial_cells = 4.5: must be a whole number')
+      call expect_bad(1, 'friction%model = 1:2:1', 'member 1: friction%model = 1: must be one of')
+      call expect_bad(1, 'rotor%static_load = 1, 2', 'member 1: rotor%static_load = 1: takes 2 values')
+      call expect_bad(1, 'pads%mass(3) = 1, 2', 'member 1: pads%mass(3) = 1: at most 2')
+      call expect_bad(2, 'friction%dynamic_coefficient = 0.1, 0.2', &
+         & 'case.nml, member 2: friction%dynamic_coefficient = 0.2: must not exceed')
+   end subroutine refused_members
+
+   subroutine expect_bad(k, assignment, words)
+      integer, intent(in) :: k
+      character(len=*), intent(in) :: assignment, words
+      type(sweep_type) :: sweep
+      type(scene_type) :: scene
+      type(error_type), allocatable :: error
+      sweep = sweep_of('&sweep'//newline//assignment//'/')
+      call sweep%scene(k, scene, error)
+      call expect(allocated(error), 'a bad member: '//assignment)
+      if (.not. allocated(error)) return
+      call expect(error%status == input_error, 'an error of the input')
+      call expect(index(error%message, words) > 0, 'says "'//words//'": '//error%message)
+   end subroutine expect_bad
+end program test_sweep
