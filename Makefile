@@ -132,12 +132,11 @@ SEED   ?= 1
 stress: build python
 	$(venv_python) tests/stress/stress.py $(B)/bin/tiltpad --scenes $(SCENES) --seed $(SEED) --report docs/stability.md
 
-# the reader with sanitizers, the program with traps; MINUTES and SEED choose what is drawn
+# MINUTES and SEED choose what is drawn
 MINUTES ?= 5
 fuzz: python
-	@$(MAKE) --no-print-directory MODE=fuzz build/fuzz/fuzz/fuzz_input
-	@$(MAKE) --no-print-directory MODE=debug build
-	$(venv_python) tests/fuzz/fuzz.py build/fuzz/fuzz/fuzz_input build/debug/bin/tiltpad --minutes $(MINUTES) \
+	@$(MAKE) --no-print-directory MODE=fuzz build build/fuzz/fuzz/fuzz_input
+	$(venv_python) tests/fuzz/fuzz.py build/fuzz/fuzz/fuzz_input build/fuzz/bin/tiltpad --minutes $(MINUTES) \
 	   --seed $(SEED) --report docs/fuzzing.md
 
 # PARTS='films pads' runs these alone and takes the others from their last run
@@ -224,7 +223,7 @@ $(VENV)/ready-bench: tests/bench/requirements.txt $(VENV)/ready
 # ---- build -------------------------------------------------------------------------------------
 build: $(B)/bin/tiltpad
 
-$(B)/bin/tiltpad: $(B)/obj/tiltpad.o $(B)/lib/libtiltpad.a
+$(B)/bin/tiltpad: $(B)/obj/tiltpad.o $(if $(filter fuzz,$(MODE)),$(B)/obj/coverage.o) $(B)/lib/libtiltpad.a
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
 

@@ -377,7 +377,8 @@ contains
          token = p%token
          if (.not. p%is_range) return
          if (p%geometric) then
-            x = p%first*p%step**steps
+            ! a real exponent, as repeated products would round at every step
+            x = p%first*p%step**real(steps, wp)
          else
             product = steps*p%step
             x = p%first + product

@@ -10,6 +10,7 @@ import faults
 import mutate
 import scenes
 import spelling
+import sweeps
 from harness import Case, Crash, Hang, Harness, Reply
 from judge import findings
 from reference import Variable, variables
@@ -57,8 +58,13 @@ class Campaign:
         if kind < 0.8:
             fault = faults.plant(dice, scene, self.variables)
             self.check(fault.case, f"fault: {fault.kind}", fault.words)
+        elif kind < 0.95:
+            self.check(spelling.case(dice, scene, self.variables), "valid", intended=0)
         else:
-            self.check(spelling.case(dice, scene, self.variables), "valid", intended=scene)
+            sweep, count = sweeps.draw(dice, self.variables)
+            swept = {item.key.removeprefix("sweep%") for item in sweep.items}
+            scene = {key: value for key, value in scene.items() if key not in swept}
+            self.check(spelling.case(dice, scene, self.variables, sweep), "valid sweep", intended=count)
 
     def check(self, case: Case, kind: str, words=None, intended=None, back: bool = True) -> None:
         """Reads and judges a case."""
@@ -82,6 +88,8 @@ class Campaign:
         wrong = findings(case, reply, self.variables, words)
         if intended is not None and reply.status != 0:
             wrong.append("a valid case is refused")
+        if intended and reply.text.partition(b"\0")[0] != b"%d" % intended:
+            wrong.append(f"not {intended} members")
         return wrong, reply
 
     def note(self, case: Case, what: str, kind: str, words) -> None:
@@ -91,7 +99,7 @@ class Campaign:
             self.count["found again"] += 1
             return
         # what a planted fault or a valid case must do does not hold for parts of it
-        part = not words and kind != "valid"
+        part = not words and not kind.startswith("valid")
 
         def same(smaller: Case) -> bool:
             return sort in map(sort_of, self.judged(smaller)[0])

@@ -12,8 +12,9 @@ from random import Random
 import mutate
 import scenes
 import spelling
-from harness import Case, Reply
+from harness import SANITIZER, Case, Reply
 from judge import CONTROL, findings
+from members import SHOWN
 from reference import Variable
 
 PREFIX = b"tiltpad: error: "
@@ -30,7 +31,9 @@ NAMES = (
 def run(program: Path, folder: Path, *arguments: bytes) -> tuple[int, bytes, bytes]:
     """Exit status, standard output and error; -99 where it took too long."""
     try:
-        done = subprocess.run([program, *arguments], cwd=folder, capture_output=True, timeout=LIMIT)
+        environment = {**os.environ, "ASAN_OPTIONS": SANITIZER}
+        command = [program, *arguments]
+        done = subprocess.run(command, cwd=folder, capture_output=True, timeout=LIMIT, env=environment)
     except subprocess.TimeoutExpired:
         return -99, b"", b""
     return done.returncode, done.stdout, done.stderr
@@ -84,8 +87,18 @@ def set_arguments(dice: Random, program: Path, folder: Path, variables, corpus):
     wrong = ended_well(status, out, errors, (0, 1))
     if not wrong and not any(len(argument) > 4096 for argument in case.sets):
         said = out if status == 0 else errors.removeprefix(PREFIX)[:-1]
+        if b"\n&sweep\n" in said:
+            said = with_members(program, folder, arguments, said)
         wrong = findings(case, Reply(status, 0, said), variables)
     return arguments + [b"<", case.text], wrong
+
+
+def with_members(program: Path, folder: Path, arguments: list[bytes], resolved: bytes) -> bytes:
+    """What the harness would say of a sweep: how many, the resolved case, some members."""
+    count = run(program, folder, b"--count", *arguments[1:])[1].strip()
+    members = [*range(1, min(SHOWN, int(count)) + 1), *([int(count)] if int(count) > SHOWN else [])]
+    scenes = [run(program, folder, b"--member", b"%d" % k, *arguments)[1] for k in members]
+    return b"\0".join((count, resolved, *scenes, b""))
 
 
 def output_name(dice: Random, program: Path, folder: Path, variables, corpus):

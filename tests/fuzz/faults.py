@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from random import Random
 
 import spelling
+import sweeps
 from harness import Case
 from reference import Variable
 from spelling import Group, Item
@@ -74,6 +75,7 @@ class Spot:
     item: Item
     group: Group
     groups: list[Group]
+    variables: dict[str, Variable]
 
     @property
     def key(self) -> bytes:
@@ -114,7 +116,7 @@ def planted(dice: Random, kind, scene: dict[str, tuple], variables: dict[str, Va
         units.append(unit)
     groups = spelling.groups(dice, units, variables)
     group = next(each for each in groups if each.name.lower().decode() == variable.group)
-    return kind(dice, Spot(variable, unit[0], group, groups)), groups
+    return kind(dice, Spot(variable, unit[0], group, groups, variables)), groups
 
 
 def default(variable: Variable, value) -> bytes:
@@ -238,6 +240,9 @@ def unknown(dice: Random, spot: Spot):
 def no_equals(dice: Random, spot: Spot):
     """Something else for the equals sign."""
     item, items = spot.item, spot.group.items
+    if spot.variable.fixes_pads:
+        # with another number of pads another variable may be the first that is wrong
+        return None
     item.equals = dice.choice((b" ", b" : ", b"==", b"= ="))
     if item.equals in (b"==", b"= ="):
         return item, spot.key
@@ -284,6 +289,11 @@ def control(dice: Random, spot: Spot):
     character = dice.choice((b"\0", b"\x01", b"\x1b", b"\x7f", b"\x0b", b"\r", b"\x08")) + b"x"
     spot.item.values.append(b"! " + character + b"\n" if dice.random() < 0.3 else character)
     return (b"not a text file",)
+
+
+def bad_sweep(dice: Random, spot: Spot):
+    """A sweep that is none."""
+    return sweeps.wrong(dice, spot.groups, spot.variables)
 
 
 def together(dice: Random, variables: dict[str, Variable]) -> Fault:
@@ -353,4 +363,5 @@ KINDS = (
     unclosed_quote,
     stray,
     control,
+    bad_sweep,
 )

@@ -4,13 +4,14 @@
 !> then the arguments of --set. The reply on standard output is the length of what follows, the exit status, what the
 !> case was the first to reach (0 without instrumentation), and a text: what the program would print, the resolved
 !> case or the error. Every number has four bytes. A resolved case that does not read back to itself, where that is
-!> asked for, gives the status `not_itself` and both texts.
+!> asked for, gives the status `not_itself` and both texts. Of a sweep the text is the number of members, the resolved
+!> case and some members, the first ones and the last, with a zero byte behind each.
 program fuzz_input
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_size_t
    use errors, only: error_type
-   use text, only: printable
+   use text, only: printable, to_text
    use scene, only: scene_type
-   use scene_namelist, only: scene_from_text
+   use sweep, only: sweep_type, sweep_from_text
    use namelist_writer, only: scene_text
    use input_reference, only: reference_text
    use posix, only: write_output
@@ -40,6 +41,8 @@ program fuzz_input
    !> What to do, and the status that no error has.
    integer, parameter :: to_read = 0, to_read_back = 1, to_give_reference = 2
    integer, parameter :: not_itself = 99
+   !> Members of a sweep that are looked at, with the last.
+   integer, parameter :: most_members = 6
    character(len=*), parameter :: name = 'case.nml'
    type(text_type), allocatable :: parts(:)
    integer :: task, count, i
@@ -70,8 +73,7 @@ contains
       type(text_type), intent(in) :: overrides(:)
       logical, intent(in) :: read_back
       character(len=:), allocatable :: set(:)
-      character(len=:), allocatable :: resolved, again
-      type(scene_type) :: scene
+      character(len=:), allocatable :: resolved, said, again, said_again
       type(error_type), allocatable :: error
       integer :: i, longest, news
       longest = 1
@@ -83,29 +85,50 @@ contains
          set(i) = overrides(i)%text
       end do
       call coverage_start()
-      call scene_from_text(case_text, name, set, scene, error)
+      call resolve(case_text, set, resolved, said, error)
       news = coverage_news()
       if (allocated(error)) then
          call reply(error%status, news, printable(error%message))
          return
       end if
-      resolved = scene_text(scene)
-      if (.not. read_back) then
-         call reply(0, news, resolved)
-         return
+      if (read_back) then
+         call resolve(resolved, [character(len=1) ::], again, said_again, error)
+         if (allocated(error)) then
+            call reply(not_itself, news, resolved//error%message)
+            return
+         else if (again /= resolved .or. len(again) /= len(resolved) .or. said_again /= said) then
+            call reply(not_itself, news, resolved//again)
+            return
+         end if
       end if
-      call scene_from_text(resolved, name, [character(len=1) ::], scene, error)
-      if (allocated(error)) then
-         call reply(not_itself, news, resolved//error%message)
-         return
-      end if
-      again = scene_text(scene)
-      if (again /= resolved .or. len(again) /= len(resolved)) then
-         call reply(not_itself, news, resolved//again)
-      else
-         call reply(0, news, resolved)
-      end if
+      call reply(0, news, said)
    end subroutine answer
+
+   !> The resolved case, and what is to be said of it: the same, or what a sweep makes of it.
+   subroutine resolve(case_text, overrides, resolved, said, error)
+      character(len=*), intent(in) :: case_text, overrides(:)
+      character(len=:), allocatable, intent(out) :: resolved, said
+      type(error_type), allocatable, intent(out) :: error
+      type(sweep_type) :: sweep
+      type(scene_type) :: scene
+      integer :: k
+      call sweep_from_text(case_text, name, overrides, sweep, error)
+      if (allocated(error)) return
+      said = ''
+      do k = 1, sweep%members
+         if (k > most_members .and. k < sweep%members) cycle
+         call sweep%scene(k, scene, error)
+         if (allocated(error)) return
+         said = said//scene_text(scene)//achar(0)
+      end do
+      if (sweep%given) then
+         call sweep%resolved(resolved, error)
+         if (.not. allocated(error)) said = to_text(sweep%members)//achar(0)//resolved//achar(0)//said
+      else
+         resolved = scene_text(scene)
+         said = resolved
+      end if
+   end subroutine resolve
 
    subroutine reply(status, news, text)
       integer, intent(in) :: status, news

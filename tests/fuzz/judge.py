@@ -2,15 +2,17 @@
 
 import re
 
-import reader
 from harness import NOT_ITSELF, Case, Reply
+from members import answered
+from members import expected as members_of
+from reader import Refused
 from reference import Variable
 
 # longest line of an error, and what is no part of one: control characters of ASCII and Latin-1
 LONGEST = 800
 CONTROL = re.compile("[\0-\x1f\x7f-\x9f\u2028\u2029]")
 # values that do not fit together, which the second reader does not judge
-UNFIT = re.compile(rb"case\.nml: \w+%\w+ = ")
+UNFIT = re.compile(rb"case\.nml(, member \d+)?: \w+%\w+ = ")
 
 
 def findings(case: Case, reply: Reply, variables: dict[str, Variable], words=None) -> list[str]:
@@ -23,13 +25,17 @@ def findings(case: Case, reply: Reply, variables: dict[str, Variable], words=Non
             found.append("a fault is accepted")
         found += [f"the refusal does not name {word!r}" for word in words if word not in reply.text]
     try:
-        expected = reader.read(case, variables)
-    except reader.Refused as refused:
+        members, expected = members_of(case, variables)
+    except Refused as refused:
         if reply.status == 0:
             found.append(f"accepted, but: {refused}")
         return found
     if reply.status == 0:
-        found += differences(expected, reader.resolved(reply.text))
+        count, scenes = answered(reply.text)
+        if (count, len(scenes)) != (members, len(expected)):
+            return [*found, f"{count} members, not {members}"]
+        for scene, values in zip(scenes, expected, strict=True):
+            found += differences(values, scene)
     elif not UNFIT.match(reply.text):
         found.append("refused, but the second reader accepts it")
     return found

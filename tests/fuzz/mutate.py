@@ -10,7 +10,8 @@ from harness import Case
 PIECES = (
     b"' \" '' \"\" / & = , ! * ( ) % & ; : $ ( (1) (2) (01) 2* 24* 1*1 &end &END &case &rotor &pads /& "
     b"mass mass= title=' task= 'march' arc_deg= pivot_angle_deg= mass(1)= nan inf 1e400 1e-400 1d3 -0 +1. .5 "
-    b"1e99999999999 999999* 1000001 .true. rotor%mass=1 =1 == ,, , --set \xef\xbb\xbf \xff \xc3\xa4 \xc2\x9b"
+    b"1e99999999999 999999* 1000001 .true. rotor%mass=1 =1 == ,, , --set &sweep sweep% order='zip' 1:9:2 "
+    b"1:8:*2 : :* rotor%mass= \xef\xbb\xbf \xff \xc3\xa4 \xc2\x9b"
 ).split(b" ")
 BLANKS = (b" ", b"\n", b"\r\n", b"\r", b"\t", b"\n\n", b"\0", b"\x1b", b" ! x\n")
 LONGEST = 4000

@@ -10,12 +10,14 @@ from reference import MOST_PADS, Variable
 MOST_ITEMS = 1000
 MOST_TEXT = 1000
 LONGEST_NUMBER = 60
+SWEEP = "sweep"
 
 BLANK = re.compile(rb"(?:[ \t\r\n]|![^\n]*)*")
 COMMAS = re.compile(rb"(?:[ \t\r\n,]|![^\n]*)*")
 WORD = re.compile(rb"[^ ,=/&!'\"\t\n\r]*")
 QUOTED = re.compile(rb"'(?:[^'\n]|'')*+'|\"(?:[^\"\n]|\"\")*+\"")
 TARGET = re.compile(rb"([a-z0-9_]+)(?:\(([0-9]{1,4})\))?")
+SWEEP_TARGET = re.compile(rb"([a-z0-9_%]+)(?:\(([0-9]{1,4})\))?")
 NUMBER = re.compile(rb"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[ed][+-]?[0-9]+)?")
 REPEAT = re.compile(rb"(?:([0-9]{1,6})\*)?(.*)", re.S)
 # control characters, and a carriage return that ends no line
@@ -34,11 +36,24 @@ class Assignment:
     name: str
     subscript: int
     values: list[tuple[bytes, bool]] = field(default_factory=list)
-    from_set: bool = False
+    overrides: bool = False
 
     def undoes(self, other: "Assignment") -> bool:
         same = (self.group, self.name) == (other.group, other.name)
         return same and self.subscript in (0, other.subscript)
+
+    def replaces(self, other: "Assignment") -> bool:
+        """True where nothing is left of the other: an element leaves the rest of a list."""
+        if not self.undoes(other) or not self.subscript or self.group == SWEEP:
+            return self.undoes(other)
+        return len(other.values) == 1 and b"*" not in other.values[0][0]
+
+    def put(self, others: list["Assignment"]) -> list["Assignment"]:
+        """Behind the others in place of those it replaces; a sweep's where the first of them stood."""
+        replaced = [i for i, each in enumerate(others) if self.replaces(each)]
+        kept = [each for each in others if not self.replaces(each)]
+        at = replaced[0] if replaced and self.group == SWEEP else len(kept)
+        return [*kept[:at], self, *kept[at:]]
 
 
 class Scanner:
@@ -59,17 +74,16 @@ class Scanner:
         return found
 
 
-def read(case: Case, variables: dict[str, Variable]) -> dict[str, tuple]:
-    """Values of all variables of a case by "group%name", or Refused. Checks across variables are left out."""
-    assignments = read_file(case.text, {v.group for v in variables.values()})
+def read(case: Case, known: set[str]) -> tuple[list[Assignment], bool]:
+    """The assignments of a case, with those of --set in place; whether it has a sweep. Or Refused."""
+    assignments, groups = read_file(case.text, known | {SWEEP})
     for argument in case.sets:
-        new = read_set(argument)
-        assignments = [each for each in assignments if not new.undoes(each)] + [new]
-    return resolve(assignments, variables)
+        assignments = read_set(argument).put(assignments)
+    return assignments, SWEEP in groups or any(each.group == SWEEP for each in assignments)
 
 
-def read_file(text: bytes, known: set[str]) -> list[Assignment]:
-    """The assignments of a file."""
+def read_file(text: bytes, known: set[str]) -> tuple[list[Assignment], set[str]]:
+    """The assignments of a file, and its groups."""
     if CONTROL.search(text):
         raise Refused("control character")
     scan = Scanner(text)
@@ -85,7 +99,7 @@ def read_file(text: bytes, known: set[str]) -> list[Assignment]:
         read_group(scan, group, found)
     if not groups:
         raise Refused("no group")
-    return found
+    return found, groups
 
 
 def read_set(argument: bytes) -> Assignment:
@@ -98,7 +112,7 @@ def read_set(argument: bytes) -> Assignment:
     read_group(scan, group.strip(b" ").lower().decode("latin-1"), found)
     if len(found) != 1 or scan.skip():
         raise Refused("--set")
-    found[0].from_set = True
+    found[0].overrides = True
     return found[0]
 
 
@@ -113,7 +127,7 @@ def read_group(scan: Scanner, group: str, found: list[Assignment]) -> None:
             if scan.take(re.compile(rb"&end", re.I)):
                 return
             raise Refused(f"{group} not closed")
-        target = TARGET.fullmatch(scan.take(WORD)[0].lower())
+        target = (SWEEP_TARGET if group == SWEEP else TARGET).fullmatch(scan.take(WORD)[0].lower())
         if not target or scan.skip() != b"=" or target[2] and int(target[2]) == 0:
             raise Refused("expected name = value")
         scan.at += 1
@@ -212,7 +226,7 @@ def numbers(variable: Variable, assignments: list[Assignment], pads: int) -> tup
         elif each.subscript:
             elements = set(range(each.subscript, each.subscript + len(new)))
             # an element that the file itself gives twice
-            if not each.from_set and (elements & taken or size == 1 and each is not assignments[0]):
+            if not each.overrides and (elements & taken or size == 1 and each is not assignments[0]):
                 raise Refused("element given twice")
             taken |= elements
             values[each.subscript - 1 : each.subscript - 1 + len(new)] = new

@@ -34,8 +34,10 @@ class Group:
     line: int = 0
 
 
-def case(dice: Random, scene: dict[str, tuple], variables: dict[str, Variable]) -> Case:
-    """The scene as a case, some of it by --set."""
+def case(
+    dice: Random, scene: dict[str, tuple], variables: dict[str, Variable], sweep: Group | None = None
+) -> Case:
+    """The scene as a case, some of it by --set, maybe with a sweep."""
     units = [spelled(dice, variables[key], value) for key, value in scene.items()]
     sets, in_file = [], []
     share = dice.choice((0, 0, 0.1, 1))
@@ -50,7 +52,12 @@ def case(dice: Random, scene: dict[str, tuple], variables: dict[str, Variable]) 
             in_file.append([replace(unit[0], values=wrong)])
         if dice.random() < 0.1:
             sets.insert(0, argument(dice, replace(unit[0], values=[b"'undone'"])))
-    text = file_text(dice, groups(dice, in_file, variables))
+    drawn = groups(dice, in_file, variables)
+    if sweep:
+        drawn.insert(dice.randint(0, len(drawn)), sweep)
+        if dice.random() < 0.3:
+            sets.append(argument(dice, sweep.items.pop()))
+    text = file_text(dice, drawn)
     return Case(text, tuple(sets))
 
 
