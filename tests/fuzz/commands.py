@@ -107,7 +107,8 @@ def output_name(dice: Random, program: Path, folder: Path, variables, corpus):
     if dice.random() < 0.5:
         name = mutate.changed(dice, name, b"case.nml").replace(b"\0", b"")
     if dice.random() < 0.1:
-        name *= dice.choice((10, 300))
+        # as long as an argument may be, and more than any file's name
+        name = (name * dice.choice((10, 300)))[:20000]
     # what leads out of the folder is left to the names above
     if name not in NAMES:
         name = name.replace(b"..", b"").replace(b"/", b"_")

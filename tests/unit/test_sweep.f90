@@ -1,7 +1,7 @@
 !> Members of sweeps: how many, which values in which order, the bits of ranges, and what is refused.
 program test_sweep
    use kinds, only: wp
-   use text, only: to_text
+   use text, only: to_text, exact_text
    use errors, only: error_type, input_error
    use scene, only: scene_type
    use namelist_writer, only: scene_text
@@ -62,6 +62,21 @@ contains
          call expect_close(scene%operation%speed_rpm, expected(k), 0.0_wp, text//', member '//to_text(k))
       end do
    end subroutine expect_speeds
+
+   !> Values of a range with a factor have the bits of the power, rounded once and not at every product.
+   subroutine expect_powers(first, factor)
+      real(wp), intent(in) :: first, factor
+      type(sweep_type) :: sweep
+      type(scene_type) :: scene
+      type(error_type), allocatable :: error
+      integer, parameter :: more = selected_real_kind(30)
+      integer :: k
+      sweep = sweep_of('&sweep film%relaxation = '//exact_text(first)//':1e-20:*'//exact_text(factor)//'/')
+      do k = 1, sweep%members
+         call sweep%scene(k, scene, error)
+         call expect_close(scene%film%relaxation, first*real(real(factor, more)**(k - 1), wp), 0.0_wp, 'power '//to_text(k - 1))
+      end do
+   end subroutine expect_powers
 
    subroutine expect_tag(sweep, k, expected)
       type(sweep_type), intent(in) :: sweep
@@ -135,6 +150,7 @@ contains
       call expect_speeds('10:20:7', [10.0_wp, 17.0_wp])
       call expect_speeds('5:5:1', [5.0_wp])
       call expect_speeds('1E1:1d5:*10', [10.0_wp, 100.0_wp, 1000.0_wp, 1e4_wp, 1e5_wp])
+      call expect_powers(593842e-12_wp, 93.44e-4_wp)
       call expect_speeds('8:1:*0.5', [8.0_wp, 4.0_wp, 2.0_wp, 1.0_wp])
       call expect_speeds('1:10:*3', [1.0_wp, 3.0_wp, 9.0_wp])
       call expect_speeds('7, 1:2:1, 4:8:*2 , 5', [7.0_wp, 1.0_wp, 2.0_wp, 4.0_wp, 8.0_wp, 5.0_wp])
