@@ -136,8 +136,9 @@ stress: build python
 MINUTES ?= 5
 fuzz: python
 	@$(MAKE) --no-print-directory MODE=fuzz build build/fuzz/fuzz/fuzz_input
-	$(venv_python) tests/fuzz/fuzz.py build/fuzz/fuzz/fuzz_input build/fuzz/bin/tiltpad --minutes $(MINUTES) \
-	   --seed $(SEED) --report docs/fuzzing.md
+	@$(MAKE) --no-print-directory MODE=debug build
+	$(venv_python) tests/fuzz/fuzz.py build/fuzz/fuzz/fuzz_input build/fuzz/bin/tiltpad build/debug/bin/tiltpad \
+	   --minutes $(MINUTES) --seed $(SEED) --report docs/fuzzing.md
 
 # PARTS='films pads' runs these alone and takes the others from their last run
 bench: build python $(VENV)/ready-bench $(B)/bench/film_bench

@@ -14,8 +14,8 @@ module sweep
    private
    public :: sweep_type, member_tag, read_sweep, sweep_from_text
 
-   !> Most members of a sweep.
-   integer, parameter :: most_members = 100000
+   !> Most members of a sweep, and variables that a message lists.
+   integer, parameter :: most_members = 100000, most_listed = 8
    !> Part of a stride by which the last value of a range may miss its end.
    real(wp), parameter :: rounding = 1e-6_wp
    !> Numbers of a range are 0 or between these in size, so that nothing overflows on the way.
@@ -244,8 +244,9 @@ contains
       members = 1
       do i = 1, size(sweep%variables)
          associate (v => sweep%variables(i))
-            if (i > 1) list = list//', '
-            list = list//v%target%group//'%'//v%target%name//' has '//to_text(v%value_count())
+            if (i > 1 .and. i <= most_listed + 1) list = list//', '
+            if (i <= most_listed) list = list//v%target%group//'%'//v%target%name//' has '//to_text(v%value_count())
+            if (i == most_listed + 1) list = list//'...'
             if (sweep%zip) then
                members = v%value_count()
             else

@@ -16,7 +16,7 @@ from judge import findings
 from reference import Variable, variables
 
 # longest case that others are made from
-LONGEST_KEPT = 3000
+LONGEST_KEPT = 2000
 
 
 @dataclass

@@ -19,6 +19,7 @@ from reference import Variable
 
 PREFIX = b"tiltpad: error: "
 TRACE = re.compile(rb"At line|Fortran runtime|HDF5-DIAG|Backtrace|Program received|runtime error|Sanitizer")
+MEMBER = re.compile(rb", member (\d+): ")
 # longest a command may take, s
 LIMIT = 60
 NAMES = (
@@ -52,9 +53,10 @@ def ended_well(status: int, out: bytes, errors: bytes, allowed: tuple[int, ...])
     return found
 
 
-def one(dice: Random, program: Path, variables: dict[str, Variable], corpus: list[Case]):
-    """One command of any kind: what it was, its arguments, what is wrong."""
+def one(dice: Random, program: Path, runner: Path, variables: dict[str, Variable], corpus: list[Case]):
+    """One command of any kind, whole runs by the runner: what it was, its arguments, what is wrong."""
     kind = dice.choices((set_arguments, output_name, case_name, options, extremes), (16, 8, 4, 4, 1))[0]
+    program = runner if kind is extremes else program
     return kind.__name__, *in_folder(dice, kind, program, variables, corpus)
 
 
@@ -89,7 +91,10 @@ def set_arguments(dice: Random, program: Path, folder: Path, variables, corpus):
         said = out if status == 0 else errors.removeprefix(PREFIX)[:-1]
         if b"\n&sweep\n" in said:
             said = with_members(program, folder, arguments, said)
-        wrong = findings(case, Reply(status, 0, said), variables)
+        refused = MEMBER.search(said) if status else None
+        # the program looks at every member, the second reader at those that are shown
+        if not refused or int(refused[1]) <= SHOWN:
+            wrong = findings(case, Reply(status, 0, said), variables)
     return arguments + [b"<", case.text], wrong
 
 

@@ -1,8 +1,9 @@
 """Fuzzes cases and --set, in the reader alone and in the program: no crash, no hang, nothing passes unseen.
 
-usage: fuzz.py HARNESS TILTPAD [--minutes M] [--seed S] [--seeds FILE] [--keep FOLDER] [--report FILE]
+usage: fuzz.py HARNESS TILTPAD RUNNER [--minutes M] [--seed S] [--seeds FILE] [--keep FOLDER] [--report FILE]
 
-The harness is tests/fuzz/fuzz_input.f90. Findings, each as small as it goes, and the cases that together
+The harness is tests/fuzz/fuzz_input.f90; the runner is the program again, built without sanitizers, as whole
+runs are too slow with them. Findings, each as small as it goes, and the cases that together
 reach what all cases reached are kept in a folder, in the form of the seeds. The last line reads
 "N passed, N failed".
 """
@@ -27,6 +28,7 @@ def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("harness", type=lambda word: Path(word).resolve())
     parser.add_argument("program", type=lambda word: Path(word).resolve())
+    parser.add_argument("runner", type=lambda word: Path(word).resolve())
     parser.add_argument("--minutes", type=float, default=5)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--seeds", type=Path, default=Path(__file__).with_name("seeds.jsonl"))
@@ -48,7 +50,7 @@ def main() -> int:
             campaign.check(case, "seed")
         while (left := options.minutes * 60 - (time.monotonic() - started)) > 0:
             campaign.run(min(READER, left))
-            run_commands(campaign, options.program, min(COMMANDS, left))
+            run_commands(campaign, options, min(COMMANDS, left))
             keep(options.keep / "found.jsonl", campaign.found.values())
             said = (
                 f"{campaign.count.total()} cases, {len(campaign.corpus)} kept, {len(campaign.found)} findings"
@@ -64,12 +66,13 @@ def main() -> int:
     return int(bool(campaign.found))
 
 
-def run_commands(campaign: Campaign, program: Path, seconds: float) -> None:
+def run_commands(campaign: Campaign, options: argparse.Namespace, seconds: float) -> None:
     """Runs commands for so many seconds."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         dice = Random(f"{campaign.seed}/{campaign.count.total()}")
-        kind, words, wrong = commands.one(dice, program, campaign.variables, campaign.corpus)
+        programs = options.program, options.runner
+        kind, words, wrong = commands.one(dice, *programs, campaign.variables, campaign.corpus)
         campaign.count[f"command: {kind}"] += 1
         for what in wrong:
             if (sort := f"{kind}: {sort_of(what)}") not in campaign.found:

@@ -42,7 +42,7 @@ program fuzz_input
    integer, parameter :: to_read = 0, to_read_back = 1, to_give_reference = 2
    integer, parameter :: not_itself = 99
    !> Members of a sweep that are looked at, with the last.
-   integer, parameter :: most_members = 6
+   integer, parameter :: most_members = 3
    character(len=*), parameter :: name = 'case.nml'
    type(text_type), allocatable :: parts(:)
    integer :: task, count, i

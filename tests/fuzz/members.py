@@ -9,7 +9,7 @@ from reference import Variable
 
 MOST_MEMBERS = 100000
 # the members that the harness shows, with the last
-SHOWN = 6
+SHOWN = 3
 # part of a stride by which the last value of a range may miss its end; sizes of its numbers
 ROUNDING = 1e-6
 SMALLEST, LARGEST = 1e-100, 1e100

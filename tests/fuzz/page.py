@@ -33,11 +33,14 @@ A case is drawn as a scene or made from earlier cases, read by the program's rea
   from the documentation alone.
 
 A refusal is exit status 1 and one printable line of bounded length that says where. A case that is
-accepted is printed, and what is printed must read back to itself. The reader runs with bounds checks,
-floating-point traps and the sanitizers for addresses and undefined behaviour; no answer within {limit:g}
-s is a hang. **Commands** run the program itself (`MODE=debug`): `--set` with any bytes, names of cases
-and results, options in any order, and short runs of scenes at the limits of what is allowed, which must
-end well or with one line, within {command:g} s.
+accepted is printed, and what is printed must read back to itself. A sweep must have the number of
+members that the second reader counts, and these its values. No answer within {limit:g} s is a hang.
+
+**Commands** run the program itself: `--set` with any bytes, names of cases and results, options in any
+order and number; and, as `extremes`, short runs of scenes at the limits of what is allowed, which must
+end well or with one line, within {command:g} s. Reader and program are built with bounds checks,
+floating-point traps and the sanitizers for addresses and undefined behaviour (the runs without
+sanitizers).
 
 | what | how many |
 |---|---|

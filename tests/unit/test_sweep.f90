@@ -18,6 +18,7 @@ program test_sweep
    call in_place_of_the_case()
    call overrides()
    call resolved_again()
+   call many_variables()
    call refused()
    call refused_members()
    call report()
@@ -254,6 +255,21 @@ contains
       call expect(index(error%message, words) > 0, 'says "'//words//'": '//error%message)
       call expect(index(error%message, newline) == 0, 'one line')
    end subroutine expect_refused
+
+   !> However many variables a sweep has, the message that counts them is short.
+   subroutine many_variables()
+      type(sweep_type) :: sweep
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: text
+      integer :: i
+      text = '&sweep'
+      do i = 1, 900
+         text = text//' a%b'//to_text(i)//' = 1:9:1'
+      end do
+      call sweep_from_text(text//' /', 'case.nml', [character(len=1) ::], sweep, error)
+      call expect(allocated(error), 'too many members')
+      if (allocated(error)) call expect(index(error%message, 'a%b8 has 9, ...') > 0, 'of so many: '//error%message)
+   end subroutine many_variables
 
    subroutine refused()
       character(len=*), parameter :: range = 'a range is first:last:stride or first:last:*factor'
