@@ -127,7 +127,7 @@ contains
          plan%next = observer%file%samples()
          if (plan%next > 0) then
             if (plan%time(plan%next - 1) > t .or. plan%time(plan%next) <= t) then
-               call raise(error, system_error, 'samples and checkpoint do not fit: the file is damaged')
+               call raise(error, system_error, 'the file is damaged: its samples and its checkpoint do not fit')
                call observer%file%abandon()
                return
             end if
@@ -150,7 +150,8 @@ contains
       if (allocated(error)) then
          select case (error%status)
          case (numerics_error)
-            call observer%file%finish(observer%reached, observer%cost(statistics), error%status, error%message, file_error)
+            call observer%file%finish(observer%reached, observer%cost(statistics), error%status, error%message, &
+               & file_error)
             error%message = error%message//'; what was computed is in '//path
          case (stopped)
             error%message = error%message//'; tiltpad --resume '//path//' goes on'

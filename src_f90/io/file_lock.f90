@@ -14,9 +14,8 @@ module file_lock
    private
    public :: file_lock_type
 
-   !> Seconds in which a living holder beats; how long one on another machine is watched where its lock is free
-   !> or locks are not known here, and where its lock is held (a dead NFS client's is freed after 90 s).
-   integer, parameter :: beat_seconds = 10, watch_free = 3*beat_seconds, watch_held = 120
+   !> Seconds in which a living holder beats.
+   integer, parameter :: beat_seconds = 10
    !> Linux' numbers for lockf and statx; the short in struct statx where the number of links is.
    integer(c_int), parameter :: try_lock = 2, at_empty_path = 4096, statx_links = 4
    integer, parameter :: statx_shorts = 128, links_at = 9
@@ -30,6 +29,9 @@ module file_lock
       character(len=:), allocatable :: path
       type(c_ptr) :: stream = c_null_ptr
       integer :: beats = 0, last_beat = 0
+      !> Seconds for which a holder on another machine is watched where its lock is free or locks are not known
+      !> here, and where its lock is held (a dead NFS client's is freed after 90 s).
+      integer, public :: watch_free = 3*beat_seconds, watch_held = 120
       !> The dead process whose lock was taken, "process 12 on node1"; empty where there was none.
       character(len=:), allocatable, public :: taken_from
    contains
@@ -38,6 +40,7 @@ module file_lock
       procedure :: beat
       procedure :: release
       procedure, private :: attempt
+      procedure, private :: patience_with
       procedure, private :: write_beat
    end type file_lock_type
 
@@ -64,9 +67,9 @@ module file_lock
       end function c_lockf
 
       integer(c_size_t) function c_pread(descriptor, buffer, count, offset) bind(c, name='pread')
-         import :: c_char, c_int, c_long, c_size_t
+         import :: c_char, c_int, c_long, c_size_t, longest
          integer(c_int), value :: descriptor
-         character(kind=c_char), intent(inout) :: buffer(*)
+         character(kind=c_char), intent(inout) :: buffer(longest)
          integer(c_size_t), value :: count
          integer(c_long), value :: offset
       end function c_pread
@@ -113,7 +116,7 @@ contains
             return
          end if
          if (waited == 0) first = holder
-         patience = patience_with(found, holder)
+         patience = self%patience_with(found, holder)
          if (found /= held .and. waited >= patience) exit
          call let_go(self)
          if (holder /= first .or. waited >= patience) then
@@ -133,10 +136,11 @@ contains
    end subroutine acquire
 
    !> Seconds to watch for a sign of life.
-   integer function patience_with(found, holder) result(patience)
+   integer function patience_with(self, found, holder) result(patience)
+      class(file_lock_type), intent(in) :: self
       integer, intent(in) :: found
       character(len=*), intent(in) :: holder
-      patience = merge(watch_held, watch_free, found == held)
+      patience = merge(self%watch_held, self%watch_free, found == held)
       if (found /= held .and. holder == '') patience = 0
       if (index(holder, host_name()//' ') /= 1) return
       ! on this machine the system knows

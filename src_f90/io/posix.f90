@@ -16,8 +16,8 @@ module posix
    integer, parameter :: statx_shorts = 128, mode_at = 15
    integer, parameter :: type_mask = int(o'170000'), type_regular = int(o'100000')
    !> Linux' numbers of the errors that tell why a file cannot be written, and of a process that is no more.
-   integer, parameter :: no_entry = 2, no_process = 3, io_error = 5, try_again = 11, no_access = 13, too_big = 27, disk_full = 28, &
-      & read_only = 30, over_quota = 122
+   integer, parameter :: no_entry = 2, no_process = 3, io_error = 5, try_again = 11, no_access = 13, too_big = 27, &
+      & disk_full = 28, read_only = 30, over_quota = 122
    !> Bytes copied at a time.
    integer(c_size_t), parameter :: copy_bytes = 2_c_size_t**30
 
@@ -97,8 +97,8 @@ module posix
       end function c_sendfile
 
       integer(c_int) function c_gethostname(name, length) bind(c, name='gethostname')
-         import :: c_int, c_char, c_size_t
-         character(kind=c_char), intent(inout) :: name(*)
+         import :: c_int, c_char, c_size_t, path_max
+         character(kind=c_char), intent(inout) :: name(path_max)
          integer(c_size_t), value :: length
       end function c_gethostname
 

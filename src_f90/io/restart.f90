@@ -30,7 +30,12 @@ contains
       type(hdf5_type) :: file
       character(len=:), allocatable :: program, input, reason
       integer :: version, complete, status
-      logical :: checkpoint
+      logical :: checkpoint, exists
+      inquire (file=path, exist=exists)
+      if (.not. exists) then
+         call raise(error, system_error, path//': no such file')
+         return
+      end if
       call file%open(path, writing=.false.)
       if (allocated(file%failure)) then
          call raise(error, system_error, path//': no HDF5 file, or damaged')
@@ -54,13 +59,15 @@ contains
             if (status /= 0) call file%get_text('reason', reason)
          end if
       end if
-      if (.not. allocated(error) .and. allocated(file%failure)) &
-         & call raise(error, system_error, path//': damaged: '//file%failure)
+      if (.not. allocated(error) .and. allocated(file%failure)) then
+        call raise(error, system_error, path//': damaged: '//file%failure)
+      end if
       call file%close()
       if (allocated(error)) return
       call scene_from_text(input, path, [character(len=1) ::], found%scene, error)
       if (allocated(error)) then
          error%status = system_error
+         call add_context(error, path//': its input cannot be read')
          return
       end if
       found%complete = complete == 1

@@ -3,6 +3,7 @@
 !> It is written beside its place and put there whole, at checkpoints and at the end, so that a crash at any moment
 !> leaves the last checkpoint, or before the first one the previous file as it was.
 module run_file
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, i8, pi, degree
    use text, only: to_text
    use errors, only: error_type, raise, system_error
@@ -102,6 +103,8 @@ contains
          call self%provenance%resume(self%file, t)
          call self%table%begin(self%file)
          call self%error_of(error)
+         if (.not. allocated(error) .and. .not. all(ieee_is_finite([t, state]))) call raise(error, system_error, &
+            & self%place%path//': damaged: its checkpoint is not a number')
       end if
       if (allocated(error)) call self%abandon()
    end subroutine resume

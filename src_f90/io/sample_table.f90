@@ -75,7 +75,8 @@ contains
             call self%open_series(file, name)
          else
             call new_series(self, name)
-            call self%series(k)%data%create(file, name, width, units, long_name, merge('time pad', 'time    ', width > 0))
+            call self%series(k)%data%create(file, name, width, units, long_name, &
+               & merge('time pad', 'time    ', width > 0))
          end if
          if (size(self%series) < k) return
          allocate (self%series(k)%buffer(size(values), chunk_samples), source=0.0_wp)

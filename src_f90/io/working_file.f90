@@ -51,6 +51,8 @@ contains
    subroutine copy_published(self, error)
       class(working_file_type), intent(in) :: self
       type(error_type), allocatable, intent(out) :: error
+      ! a new file under the name: a reader may still have the old one open
+      call delete_file(self%part)
       if (.not. copy_file(self%path, self%part)) call raise(error, system_error, &
          & 'cannot write '//self%part//': '//system_reason())
    end subroutine copy_published

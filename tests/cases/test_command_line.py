@@ -308,19 +308,3 @@ def test_killed_in_the_middle(program, tiltpad, case):
         assert process.poll() is None
         process.kill()
     assert (case / "case.h5").read_bytes() == earlier
-
-
-def test_two_runs_to_one_file(program, case):
-    """Both end well and the file is one of the two."""
-    durations = ("0.05", "0.06")
-    runs = [
-        subprocess.Popen(
-            [program, "case.nml", "--quiet", "--set", f"operation%duration={duration}"], cwd=case
-        )
-        for duration in durations
-    ]
-    assert [run.wait(60) for run in runs] == [0, 0]
-    assert sorted(path.name for path in case.iterdir()) == ["case.h5", "case.nml"]
-    with h5py.File(case / "case.h5") as file:
-        assert file.attrs["complete"] == 1
-        assert min(abs(file["time"][-1] - float(duration)) for duration in durations) < 1e-4

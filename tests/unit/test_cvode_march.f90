@@ -1,8 +1,8 @@
 !> The march on small problems with known solutions: accuracy, samples, refusals, limits.
 module march_problems
    use kinds, only: wp, i8
-   use errors, only: error_type, raise, numerics_error
-   use ode_model, only: ode_model_type, march_observer
+   use errors, only: error_type, raise, numerics_error, stopped
+   use ode_model, only: ode_model_type, march_observer, march_statistics
    implicit none (type, external)
    private
    public :: stiff_cosine, robertson, keeper
@@ -60,9 +60,14 @@ module march_problems
    type, extends(march_observer) :: keeper
       real(wp), allocatable :: t(:), y(:, :)
       integer :: stop_at = 0, reports = 0
+      !> Wants the state once so many samples are there, and ends the march then.
+      integer :: leave_at = huge(1)
+      real(wp) :: left_at = -1
    contains
       procedure :: sample => keep_sample
       procedure :: report => keep_report
+      procedure :: wants_state => keeper_leaves
+      procedure :: take_state => keep_state
    end type keeper
 
 contains
@@ -157,6 +162,21 @@ contains
       integer(i8), intent(in) :: steps
       self%reports = self%reports + 1
    end subroutine keep_report
+
+   logical function keeper_leaves(self)
+      class(keeper), intent(in) :: self
+      keeper_leaves = .false.
+      if (allocated(self%t)) keeper_leaves = size(self%t) >= self%leave_at
+   end function keeper_leaves
+
+   subroutine keep_state(self, t, y, statistics, error)
+      class(keeper), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      type(march_statistics), intent(in) :: statistics
+      type(error_type), allocatable, intent(out) :: error
+      self%left_at = t
+      if (statistics%rhs_evaluations > 0) call raise(error, stopped, 'left')
+   end subroutine keep_state
 end module march_problems
 
 program test_cvode_march
@@ -176,9 +196,45 @@ program test_cvode_march
    call passing_refusal()
    call step_limits()
    call observer_stops()
+   call going_on()
    call report()
 
 contains
+
+   !> A march left at a state goes on from it: no sample twice, none missing, as accurate as in one go.
+   subroutine going_on()
+      type(stiff_cosine) :: model
+      type(keeper) :: observer
+      type(march_statistics) :: statistics
+      type(sample_plan) :: plan
+      type(error_type), allocatable :: error
+      real(wp), parameter :: tolerance = 1e-8_wp
+      real(wp) :: y(3), t
+      integer(i8) :: steps
+      integer :: k
+      plan = sample_plan(0.25_wp, 0.01_wp, 576_i8)
+      y = exact(0.0_wp)
+      t = 0
+      steps = 0
+      do k = 1, 4
+         observer%leave_at = merge(huge(1), 150*k, k == 4)
+         call march(model, tolerances(tolerance), t, 6.0_wp, plan, y, observer, statistics, error)
+         steps = steps + statistics%steps
+         if (k == 4) exit
+         call expect(allocated(error), 'leave '//to_text(k))
+         t = observer%left_at
+         plan%next = size(observer%t)
+         call expect(plan%time(plan%next - 1) <= t .and. plan%time(plan%next) > t, 'all samples up to the state')
+         call expect_close(norm2(y - exact(t)), 0.0_wp, 6*steps*tolerance, 'the state is the one at its time')
+      end do
+      call expect(.not. allocated(error), 'the last part ends well')
+      call expect(size(observer%t) == 576, 'as many samples as planned: '//to_text(size(observer%t)))
+      do k = 1, size(observer%t)
+         call expect_close(observer%t(k), plan%time(k - 1_i8), 0.0_wp, 'time of sample '//to_text(k))
+         call expect_close(norm2(observer%y(:, k) - exact(observer%t(k))), 0.0_wp, 6*steps*tolerance, &
+            & 'sample '//to_text(k))
+      end do
+   end subroutine going_on
 
    !> y = (cos t, sin 2t, 2 cos 2t).
    pure function exact(t)

@@ -140,12 +140,13 @@ contains
       type(sweep_type) :: sweep
       ! the multiplications are the machine's own, one by one, not the compiler's
       real(wp), volatile :: product
-      real(wp) :: tenths(5)
+      real(wp) :: tenths(10)
       do i = 1, size(tenths)
          product = (i - 1)*0.1_wp
-         tenths(i) = 0.1_wp + product
+         tenths(i) = 0.3_wp + product
       end do
-      call expect_speeds('0.1:0.5:0.1', tenths)
+      call expect_speeds('0.3:1.2:0.1', tenths)
+      call expect_speeds('0.1:0.5:0.1', [0.1_wp, 0.2_wp, 0.3_wp + spacing(0.3_wp), 0.4_wp, 0.5_wp])
       call expect_speeds('1000:10000:500', [(real(i, wp), i=1000, 10000, 500)])
       call expect_speeds('10000:1000:-4500', [10000.0_wp, 5500.0_wp, 1000.0_wp])
       call expect_speeds('10:20:7', [10.0_wp, 17.0_wp])

@@ -1,0 +1,530 @@
+"""Runs that are stopped, killed, or cannot write: what is left, and going on from it."""
+
+import itertools
+import os
+import random
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import time
+
+import h5py
+import numpy as np
+import pytest
+import tiltpad as package
+
+SCENE = "&friction model='lugre' / &operation duration=0.5 / &output checkpoint_seconds=0.01 /\n"
+#: What a scene may add: every kind of state, film and end that a resumed run must take up.
+SCENES = {
+    "lugre": "",
+    "bengisu": "--set friction%model='bengisu_akay' --set operation%duration=0.1",
+    "none": "--set friction%model='none' --set operation%duration=2",
+    "tilting": "--set pads%motion='tilting_only'",
+    "runup": "--set operation%speed_rpm=3000 --set operation%final_speed_rpm=6500",
+    "gumbel": "--set film%cavitation='gumbel' --set pads%pivot_angle_deg=-45,225,45,135 "
+    "--set operation%duration=0.2",
+    "sor": "--set film%solver='sor' --set operation%duration=0.02",
+    "late": "--set output%start_time=0.4",
+}
+KILLS = 100
+#: Wall time from a signal to the end of the program, s.
+PROMPT = 1.0
+
+
+@pytest.fixture
+def case(tmp_path):
+    (tmp_path / "case.nml").write_text(SCENE)
+    return tmp_path
+
+
+@pytest.fixture(scope="module")
+def whole(tiltpad, tmp_path_factory):
+    """whole("lugre"): path of that scene's result, never interrupted."""
+    folder = tmp_path_factory.mktemp("whole")
+    (folder / "case.nml").write_text(SCENE)
+
+    def path(scene):
+        output = folder / f"{scene}.h5"
+        if not output.exists():
+            done = tiltpad("case.nml", "-q", "-o", output, *SCENES[scene].split(), cwd=folder)
+            assert done.returncode == 0, done.stderr
+        return output
+
+    return path
+
+
+def start(program, folder, *arguments):
+    return subprocess.Popen(
+        [program, *arguments], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+
+
+def wait_for(path, process, seconds=30):
+    """Until the file is there: the first checkpoint."""
+    end = time.monotonic() + seconds
+    while not path.exists():
+        assert process.poll() is None, process.stderr.read()
+        assert time.monotonic() < end
+        time.sleep(0.001)
+
+
+def one_error(process, status):
+    out, error = process.communicate(timeout=60)
+    assert process.returncode == status, error
+    assert error.count("\n") == 1
+    assert error.startswith("tiltpad: error: ")
+    return error
+
+
+def lengths(file):
+    datasets = [each for each in file.values() if isinstance(each, h5py.Dataset)]
+    return {len(each) for each in datasets if each.name not in ("/pad", "/pivot_angle")}
+
+
+def check_checkpoint(path, reference):
+    """A whole HDF5 file with all samples up to its checkpoint, at the very times of the uninterrupted run."""
+    with h5py.File(path) as file, h5py.File(reference) as uninterrupted:
+        assert len(lengths(file)) <= 1
+        if file.attrs["complete"]:
+            return
+        found, expected = file["time"][:] if "time" in file else np.zeros(0), uninterrupted["time"][:]
+        assert (found == expected[: len(found)]).all()
+        reached = file["checkpoint/time"][()]
+        assert np.searchsorted(expected, reached, side="right") == len(found)
+        assert file["statistics/steps"][()] > 0 or reached == 0
+
+
+def check_joined(path, reference, resumes=None):
+    """Nothing doubled, nothing missing, and within the integration error of the uninterrupted run."""
+    with h5py.File(path) as file, h5py.File(reference) as uninterrupted:
+        assert file.attrs["complete"] == 1
+        assert file.attrs["exit_status"] == 0
+        if resumes is not None:
+            assert file.attrs["resumes"] == resumes
+            assert len(file.attrs["history"].splitlines()) == resumes + 1
+        assert "checkpoint" not in file
+        assert file.keys() == uninterrupted.keys()
+        assert (file["time"][:] == uninterrupted["time"][:]).all()
+        assert file["statistics"].keys() == uninterrupted["statistics"].keys()
+    with package.read(path) as run, package.read(reference) as uninterrupted:
+        # both are within 1e-3 of the truth (docs/benchmarks.md), so within twice that of each other
+        assert max(package.deviations(run, uninterrupted).values()) < 2e-3
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGUSR1, signal.SIGINT])
+def test_a_signal_leaves_a_checkpoint(program, tiltpad, case, whole, number):
+    process = start(program, case, "case.nml", "--set", "output%checkpoint_seconds=0")
+    time.sleep(0.05)
+    process.send_signal(number)
+    sent = time.monotonic()
+    error = one_error(process, 4)
+    assert time.monotonic() - sent < PROMPT
+    assert f"signal {int(number)}" in error
+    assert "tiltpad --resume case.h5" in error
+    assert sorted(path.name for path in case.iterdir()) == ["case.h5", "case.nml"]
+    check_checkpoint(case / "case.h5", whole("lugre"))
+    with h5py.File(case / "case.h5") as file:
+        assert file.attrs["exit_status"] == 4
+        assert file.attrs["ended"]
+        assert str(int(number)) in file.attrs["reason"]
+    assert tiltpad("--resume", "case.h5", cwd=case).returncode == 0
+    check_joined(case / "case.h5", whole("lugre"), resumes=1)
+    assert sorted(path.name for path in case.iterdir()) == ["case.h5", "case.nml"]
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_every_scene_can_be_resumed(program, tiltpad, case, whole, scene):
+    """Stopped a few times, the last time by kill -9."""
+    arguments = ["--resume", "case.h5", "case.nml", "-q", *SCENES[scene].split()]
+    stops = 0
+    for number in (signal.SIGTERM, signal.SIGUSR1, signal.SIGKILL):
+        process = start(program, case, *arguments)
+        time.sleep(0.04)
+        process.send_signal(number)
+        process.wait(10)
+        if number == signal.SIGKILL and (case / "case.h5").exists():
+            with h5py.File(case / "case.h5") as file:
+                stops = file.attrs["resumes"] + 1 - file.attrs["complete"]
+    assert tiltpad(*arguments, cwd=case).returncode == 0
+    check_joined(case / "case.h5", whole(scene), resumes=stops)
+    assert stops > 0
+
+
+def test_kills_at_random_instants(program, case, whole):
+    """kill -9 at any instant leaves what was published last, whole; and the run goes on from it."""
+    chance = random.Random(5)
+    output = case / "case.h5"
+    kills = 0
+    while kills < KILLS:
+        process = start(program, case, "--resume", "case.h5", "case.nml", "-q")
+        try:
+            process.wait(chance.uniform(0, 0.2))
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+            kills += 1
+            if output.exists():
+                check_checkpoint(output, whole("lugre"))
+        else:
+            assert process.returncode == 0, process.stderr.read()
+            check_joined(output, whole("lugre"))
+            output.unlink()
+    process = start(program, case, "--resume", "case.h5", "case.nml", "-q")
+    assert process.wait(60) == 0
+    check_joined(output, whole("lugre"))
+    assert sorted(path.name for path in case.iterdir()) == ["case.h5", "case.nml"]
+
+
+def test_checkpoints_do_not_change_a_run(tiltpad, case, whole):
+    assert tiltpad("case.nml", "--set", "output%checkpoint_seconds=0", cwd=case).returncode == 0
+    with h5py.File(case / "case.h5") as file, h5py.File(whole("lugre")) as often:
+        assert file.keys() == often.keys()
+        for name in ("time", "journal_y", "pad_tilt", "friction_moment", "max_pressure"):
+            assert (file[name][:] == often[name][:]).all()
+        assert file["statistics/steps"][()] == often["statistics/steps"][()]
+
+
+def test_a_periodic_orbit_is_recognised_after_resuming(program, tiltpad, case):
+    """The end by stop_when_periodic looks back over the interruption."""
+    smooth = SCENE.replace("lugre", "none")
+    (case / "case.nml").write_text(f"{smooth}&integration stop_when_periodic=1e-4 /\n")
+    arguments = ["case.nml", "-q"]
+    assert tiltpad(*arguments, "-o", "whole.h5", cwd=case).returncode == 0
+    process = start(program, case, *arguments, "--resume", "case.h5")
+    wait_for(case / "case.h5", process)
+    process.terminate()
+    process.wait(10)
+    assert tiltpad(*arguments, "--resume", "case.h5", cwd=case).returncode == 0
+    with h5py.File(case / "case.h5") as file, h5py.File(case / "whole.h5") as reference:
+        assert file.attrs["complete"] == 1
+        revolution = 360
+        assert len(reference["time"]) < 0.5 * 6500 / 60 * revolution  # it did end early
+        assert abs(len(file["time"]) - len(reference["time"])) <= revolution
+
+
+def test_a_complete_run_is_left_alone(tiltpad, case):
+    assert tiltpad("case.nml", "-q", cwd=case).returncode == 0
+    before = (case / "case.h5").read_bytes()
+    for arguments in (["--resume", "case.h5"], ["--resume", "case.h5", "case.nml"]):
+        done = tiltpad(*arguments, cwd=case)
+        assert (done.returncode, done.stderr) == (0, "")
+        assert done.stdout == "case.h5: complete already, nothing to do\n"
+        assert tiltpad(*arguments, "--quiet", cwd=case).stdout == ""
+    assert (case / "case.h5").read_bytes() == before
+    assert sorted(path.name for path in case.iterdir()) == ["case.h5", "case.nml"]
+
+
+@pytest.fixture
+def stopped(program, case):
+    """A folder with a run that was stopped at a checkpoint."""
+    process = start(program, case, "case.nml", "-q")
+    wait_for(case / "case.h5", process)
+    process.terminate()
+    assert process.wait(10) == 4
+    return case
+
+
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        ("operation%duration=1", "operation%duration = 0.5 there, 1 here"),
+        ("rotor%mass=2100", "rotor%mass = 2000 there, 2100 here"),
+        ("friction%model='none'", "friction%model = 'lugre' there, 'none' here"),
+        ("pads%arc_deg=60,69", "pads%arc_deg = 69.3, 69.3 there, 60, 69 here"),
+        ("case%title='another'", "case%title = '' there, 'another' here"),
+    ],
+)
+def test_another_case_is_refused_by_name(tiltpad, stopped, change, named):
+    before = (stopped / "case.h5").read_bytes()
+    done = tiltpad("--resume", "case.h5", "case.nml", "--set", change, cwd=stopped)
+    assert done.returncode == 3
+    assert done.stderr == f"tiltpad: error: case.h5: is the result of another case; {named}\n"
+    assert (stopped / "case.h5").read_bytes() == before
+
+
+def test_the_time_between_checkpoints_may_change(tiltpad, stopped):
+    done = tiltpad("--resume", "case.h5", "case.nml", "--set", "output%checkpoint_seconds=7", cwd=stopped)
+    assert done.returncode == 0, done.stderr
+
+
+def test_resume_takes_no_other_output(tiltpad, stopped):
+    for arguments in (["--output", "x.h5"], ["--set", "rotor%mass=1"]):
+        done = tiltpad("--resume", "case.h5", *arguments, cwd=stopped)
+        assert done.returncode == 1
+        assert done.stderr.count("\n") == 1
+
+
+def test_check_prints_the_case_of_a_file(tiltpad, stopped):
+    done = tiltpad("--resume", "case.h5", "--check", cwd=stopped)
+    assert done.returncode == 0
+    with h5py.File(stopped / "case.h5") as file:
+        assert done.stdout == file.attrs["input"]
+
+
+def test_numerics_that_failed_are_not_tried_again(tiltpad, case):
+    arguments = ["case.nml", "--set", "integration%max_steps=500", "-q"]
+    first = tiltpad(*arguments, cwd=case)
+    assert first.returncode == 2
+    before = (case / "case.h5").read_bytes()
+    again = tiltpad(*arguments, "--resume", "case.h5", cwd=case)
+    assert again.returncode == 2
+    assert again.stderr.count("\n") == 1
+    assert "integration%max_steps" in again.stderr
+    assert (case / "case.h5").read_bytes() == before
+
+
+def test_the_file_tells_its_making(program, tiltpad, stopped):
+    assert tiltpad("--resume", "case.h5", cwd=stopped).returncode == 0
+    version = tiltpad("--version").stdout.split()
+    with h5py.File(stopped / "case.h5") as file:
+        attributes = dict(file.attrs)
+    assert [attributes["version"], f"({attributes['commit']})"] == version[1:]
+    assert attributes["host"] == os.uname().nodename
+    assert attributes["compiler"].startswith("GCC version")
+    assert "-O" in attributes["flags"]
+    assert attributes["created"] <= attributes["ended"]
+    assert (attributes["resumes"], attributes["exit_status"], attributes["reason"]) == (1, 0, "")
+    first, second = attributes["history"].splitlines()
+    assert "exit status 4: stopped by signal 15" in first
+    assert second.endswith("exit status 0")
+
+
+def test_the_second_writer_is_refused(program, tiltpad, case):
+    long = start(program, case, "case.nml", "-q", "--set", "operation%duration=1000")
+    wait_for(case / "case.h5", long)
+    for arguments in (["case.nml"], ["--resume", "case.h5"]):
+        done = tiltpad(*arguments, cwd=case)
+        assert done.returncode == 3
+        assert f"process {long.pid} on {os.uname().nodename} is writing it" in done.stderr
+        assert done.stderr.count("\n") == 1
+    # through a link it is the same file
+    (case / "link.h5").symlink_to("case.h5")
+    assert tiltpad("case.nml", "-o", "link.h5", cwd=case).returncode == 3
+    # killed, it holds nothing
+    long.kill()
+    long.wait()
+    assert (case / "case.h5.lock").exists()
+    done = tiltpad("--resume", "case.h5", "--check", cwd=case)
+    assert done.returncode == 0
+    done = tiltpad("case.nml", cwd=case)
+    assert done.returncode == 0
+    assert f"process {long.pid} on {os.uname().nodename}, which wrote it, is no more" in done.stdout
+    assert not list(case.glob("*.lock"))
+    assert not list(case.glob("*.part"))
+
+
+def test_a_reader_keeps_what_it_opened(program, case):
+    """Who has a checkpoint open is not disturbed by the next ones."""
+    process = start(program, case, "case.nml", "-q", "--set", "operation%duration=5")
+    wait_for(case / "case.h5", process)
+    with h5py.File(case / "case.h5") as file:
+        samples, reached = len(file["time"]), file["checkpoint/time"][()]
+        for _ in range(20):
+            assert len(file["time"]) == samples
+            assert file["time"][-1] <= reached
+            time.sleep(0.02)
+    process.terminate()
+    assert process.wait(10) == 4
+    with h5py.File(case / "case.h5") as file:
+        assert len(file["time"]) > samples
+        assert len(lengths(file)) == 1
+
+
+# ---- disks -------------------------------------------------------------------------------------
+
+
+def in_a_mount_namespace(script, **names):
+    """Runs a shell script with mounts of its own."""
+    if os.geteuid() != 0 or not shutil.which("unshare"):
+        pytest.skip("needs root for a file system of its own")
+    probe = subprocess.run(["unshare", "-m", "true"], capture_output=True)
+    if probe.returncode != 0:
+        pytest.skip("no mount namespaces here")
+    return subprocess.run(
+        ["unshare", "-m", "sh", "-e", "-c", script],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        env={**os.environ, **{name: str(value) for name, value in names.items()}},
+    )
+
+
+def test_a_full_disk_keeps_the_last_checkpoint(program, case, whole):
+    """Whatever is written when the disk is full; room made, the run goes on."""
+    for size in (6, 8, 9, 11):
+        done = in_a_mount_namespace(
+            """
+            mkdir -p $FOLDER/disk; mount -t tmpfs -o size=${SIZE}m tmpfs $FOLDER/disk; cd $FOLDER/disk
+            status=0; $PROGRAM -q ../case.nml --set operation%duration=1 || status=$?
+            ls >&2; test $status = 3
+            cp case.h5 ../full.h5
+            mount -o remount,size=100m $FOLDER/disk
+            $PROGRAM -q --resume case.h5
+            cp case.h5 ../joined.h5
+            """,
+            FOLDER=case,
+            PROGRAM=program,
+            SIZE=size,
+        )
+        assert done.returncode == 0, done.stderr
+        error, *left = done.stderr.splitlines()
+        assert error.startswith("tiltpad: error: ")
+        assert error.endswith("no space left on device")
+        assert left == ["case.h5"]
+        with h5py.File(case / "full.h5") as file, h5py.File(case / "joined.h5") as joined:
+            assert file.attrs["complete"] == 0
+            assert len(lengths(file)) == 1
+            assert joined.attrs["complete"] == 1
+            assert (joined["time"][: len(file["time"])] == file["time"][:]).all()
+            assert np.ptp(np.diff(joined["time"][:])) < 1e-12
+
+
+def test_a_disk_full_from_the_start(program, case):
+    done = in_a_mount_namespace(
+        """
+        mkdir $FOLDER/disk; mount -t tmpfs -o size=200k tmpfs $FOLDER/disk; cd $FOLDER/disk
+        status=0; $PROGRAM -q ../case.nml || status=$?
+        ls; exit $status
+        """,
+        FOLDER=case,
+        PROGRAM=program,
+    )
+    assert done.returncode == 3
+    assert done.stdout == ""
+    assert done.stderr.count("\n") == 1
+    assert "no space left on device" in done.stderr
+
+
+def test_a_read_only_disk(program, stopped):
+    """What is there stays as it is."""
+    done = in_a_mount_namespace(
+        """
+        mkdir $FOLDER/disk; mount -t tmpfs tmpfs $FOLDER/disk; cd $FOLDER/disk
+        cp ../case.h5 .; mount -o remount,ro $FOLDER/disk
+        status=0; $PROGRAM -q --resume case.h5 || status=$?
+        cmp case.h5 ../case.h5; ls; exit $status
+        """,
+        FOLDER=stopped,
+        PROGRAM=program,
+    )
+    assert done.returncode == 3
+    assert done.stderr.count("\n") == 1
+    assert "read-only file system" in done.stderr
+    assert done.stdout == "case.h5\n"
+
+
+def test_a_deleted_folder(program, case):
+    (case / "run").mkdir()
+    process = start(program, case, "case.nml", "-q", "-o", "run/case.h5", "--set", "operation%duration=100")
+    wait_for(case / "run" / "case.h5", process)
+    shutil.rmtree(case / "run", ignore_errors=True)
+    shutil.rmtree(case / "run", ignore_errors=True)
+    assert "no such file or directory" in one_error(process, 3)
+
+
+def test_a_limit_on_file_size(program, case):
+    limit = 2**20
+    process = subprocess.Popen(
+        [program, "case.nml", "-q"],
+        cwd=case,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
+    )
+    assert "file too large" in one_error(process, 3)
+    if (case / "case.h5").exists():
+        with h5py.File(case / "case.h5") as file:
+            assert len(lengths(file)) == 1
+
+
+# ---- damaged files -----------------------------------------------------------------------------
+
+
+def refused(tiltpad, folder, names=(), status=3):
+    before = (folder / "case.h5").read_bytes()
+    done = tiltpad("--resume", "case.h5", cwd=folder, timeout=60)
+    assert done.returncode == status, done.stderr
+    assert done.stderr.startswith("tiltpad: error: case.h5: ")
+    assert done.stderr.count("\n") == 1
+    for name in names:
+        assert name in done.stderr
+    assert (folder / "case.h5").read_bytes() == before
+    assert not list(folder.glob("*.part"))
+    return done.stderr
+
+
+def test_what_cannot_be_resumed(tiltpad, stopped):
+    path = stopped / "case.h5"
+    good = path.read_bytes()
+    for content in (b"", b"text\n", b"\x89HDF\r\n\x1a\n" + 100 * b"\0", good[: len(good) // 2], good[:2000]):
+        path.write_bytes(content)
+        refused(tiltpad, stopped)
+
+    def edited(edit, *names):
+        path.write_bytes(good)
+        with h5py.File(path, "r+") as file:
+            edit(file)
+        refused(tiltpad, stopped, names)
+
+    edited(lambda file: file.attrs.__setitem__("format_version", 99), "later version")
+    edited(lambda file: file.attrs.__setitem__("program", "another"), "not a result of tiltpad")
+    edited(lambda file: file.attrs.__delitem__("program"), "not a result of tiltpad")
+    edited(lambda file: file.attrs.__delitem__("input"), "input")
+    edited(lambda file: file.attrs.__setitem__("input", "&rotor mass=-1 /"), "rotor%mass")
+    edited(lambda file: file.__delitem__("checkpoint"), "no checkpoint")
+    path.write_bytes(good)
+    with h5py.File(path, "w") as file:
+        file["x"] = 1
+    refused(tiltpad, stopped, ["not a result of tiltpad"])
+    path.unlink()
+    done = tiltpad("--resume", "case.h5", cwd=stopped)
+    assert (done.returncode, done.stderr) == (3, "tiltpad: error: case.h5: no such file\n")
+
+
+def test_a_checkpoint_that_does_not_fit_its_samples(tiltpad, stopped):
+    path = stopped / "case.h5"
+    good = path.read_bytes()
+
+    def other_state(file):
+        del file["checkpoint/state"]
+        file["checkpoint/state"] = [1.0]
+
+    edits = [
+        lambda file: file["checkpoint/time"].__setitem__((), 0.4999),
+        other_state,
+        lambda file: file["checkpoint/state"].__setitem__(0, np.nan),
+        lambda file: file["journal_y"].resize(len(file["time"]) - 1, axis=0),
+        lambda file: file.__delitem__("pad_tilt"),
+    ]
+    for edit in edits:
+        path.write_bytes(good)
+        with h5py.File(path, "r+") as file:
+            edit(file)
+        done = tiltpad("--resume", "case.h5", cwd=stopped)
+        assert done.returncode == 3, done.stderr
+        assert done.stderr.count("\n") == 1
+        assert "damaged" in done.stderr or "HDF5 could not" in done.stderr
+
+
+def test_bit_flips(program, stopped):
+    """A flipped bit may be a changed value; it is never a crash, a hang or a silent end."""
+    path = stopped / "case.h5"
+    with h5py.File(path, "r+") as file:
+        # not much is left to march
+        end = file["checkpoint/time"][()] + 1e-3
+        file.attrs["input"] = re.sub(r"duration = \S+", f"duration = {end}", file.attrs["input"])
+    good = path.read_bytes()
+    chance = random.Random(11)
+    # metadata lies at the front; samples, most of the file, are numbers like any others
+    places = itertools.chain(range(0, 2048, 8), (chance.randrange(len(good)) for _ in range(144)))
+    for place in places:
+        content = bytearray(good)
+        content[place] ^= 1 << chance.randrange(8)
+        path.write_bytes(content)
+        process = start(program, stopped, "--resume", "case.h5", "-q")
+        out, error = process.communicate(timeout=60)
+        assert process.returncode in (0, 1, 2, 3), (place, process.returncode)
+        assert error.count("\n") == (process.returncode != 0), (place, error)

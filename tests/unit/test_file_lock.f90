@@ -1,0 +1,118 @@
+!> Locks: one holder at a time, dead ones taken over, those on other machines watched.
+program test_file_lock
+   use errors, only: error_type, system_error
+   use text, only: to_text
+   use posix, only: host_name, process_id, delete_file
+   use file_lock, only: file_lock_type
+   use check, only: expect, report
+   implicit none (type, external)
+   character(len=:), allocatable :: path
+
+   path = 'test_file_lock_'//to_text(int(process_id()))//'.h5'
+   call free_place()
+   call dead_holder()
+   call holder_elsewhere()
+   call living_holder_elsewhere()
+   call no_place()
+   call delete_file(path//'.lock')
+   call report()
+
+contains
+
+   logical function lock_there()
+      inquire (file=path//'.lock', exist=lock_there)
+   end function lock_there
+
+   !> A lock file that nobody has locked.
+   subroutine leave_lock(text)
+      character(len=*), intent(in) :: text
+      integer :: unit
+      open (newunit=unit, file=path//'.lock', status='replace', action='write')
+      write (unit, '(a)') text
+      close (unit)
+   end subroutine leave_lock
+
+   subroutine free_place()
+      type(file_lock_type) :: lock
+      type(error_type), allocatable :: error
+      character(len=100) :: line
+      integer :: unit
+      call lock%acquire(path, error)
+      call expect(.not. allocated(error), 'a free place is locked')
+      call expect(lock%taken_from == '', 'from nobody')
+      open (newunit=unit, file=path//'.lock', status='old', action='read')
+      read (unit, '(a)') line
+      call expect(trim(line) == host_name()//' '//to_text(int(process_id()))//' 0', 'the lock says who holds it')
+      close (unit)
+      call lock%beat(9)
+      call lock%beat(10)
+      call lock%beat(19)
+      call lock%beat(25)
+      open (newunit=unit, file=path//'.lock', status='old', action='read')
+      read (unit, '(a)') line
+      call expect(trim(line) == host_name()//' '//to_text(int(process_id()))//' 2', 'a beat in ten seconds')
+      close (unit)
+      call lock%release()
+      call expect(.not. lock_there(), 'released it is gone')
+      call lock%release()
+      call lock%beat(100)
+      call expect(.not. lock_there(), 'and no longer beats')
+   end subroutine free_place
+
+   !> Its lock file stayed, the system freed its lock: taken at once.
+   subroutine dead_holder()
+      type(file_lock_type) :: lock
+      type(error_type), allocatable :: error
+      call leave_lock(host_name()//' 999999 7')
+      call lock%acquire(path, error)
+      call expect(.not. allocated(error), 'the place of a dead process is taken')
+      call expect(lock%taken_from == 'process 999999 on '//host_name(), 'and it is told whose')
+      call lock%release()
+      ! garbage, and nothing at all
+      call leave_lock('')
+      call lock%acquire(path, error)
+      call expect(.not. allocated(error), 'an empty lock file is nobody''s')
+      call lock%release()
+   end subroutine dead_holder
+
+   !> A lock that is free here may be held there, where locks do not reach across; without a sign of life it is
+   !> taken after a while.
+   subroutine holder_elsewhere()
+      type(file_lock_type) :: lock
+      type(error_type), allocatable :: error
+      integer :: start, finish, rate
+      call leave_lock('another-machine 12 7')
+      lock%watch_free = 2
+      call system_clock(start, rate)
+      call lock%acquire(path, error)
+      call system_clock(finish)
+      call expect(.not. allocated(error), 'the place of a silent holder elsewhere is taken')
+      call expect(lock%taken_from == 'process 12 on another-machine', 'and it is told whose')
+      call expect(finish - start >= 2*rate, 'not before it was watched')
+      call lock%release()
+   end subroutine holder_elsewhere
+
+   !> With one it is refused.
+   subroutine living_holder_elsewhere()
+      type(file_lock_type) :: lock
+      type(error_type), allocatable :: error
+      integer :: status
+      call leave_lock('another-machine 12 7')
+      lock%watch_free = 60
+      call execute_command_line('(sleep 1.5; echo another-machine 12 8 > '//path//'.lock) &', exitstat=status)
+      call lock%acquire(path, error)
+      call expect(allocated(error), 'a living holder elsewhere keeps its place')
+      if (.not. allocated(error)) return
+      call expect(error%status == system_error .and. index(error%message, 'process 12 on another-machine') > 0, &
+         & 'and it is told who: '//error%message)
+      call expect(lock_there(), 'its lock is left alone')
+   end subroutine living_holder_elsewhere
+
+   subroutine no_place()
+      type(file_lock_type) :: lock
+      type(error_type), allocatable :: error
+      call lock%acquire('no_such_folder/run.h5', error)
+      call expect(allocated(error), 'no lock where there is no folder')
+      if (allocated(error)) call expect(error%status == system_error, 'that is a system error')
+   end subroutine no_place
+end program test_file_lock
