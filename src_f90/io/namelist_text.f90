@@ -158,13 +158,26 @@ contains
    subroutine put_assignment(new, parsed)
       type(assignment_type), intent(in) :: new
       type(namelist_type), intent(inout) :: parsed
+      type(assignment_type), allocatable :: together(:)
       logical, allocatable :: keep(:)
-      integer :: at, i
+      integer :: at, i, k
       keep = [(.not. replaces(new, parsed%assignments(i)), i=1, size(parsed%assignments))]
       at = size(keep) + 1
       if (new%group == sweep_group) at = findloc([keep, .false.], .false., dim=1)
-      parsed%assignments = [pack(parsed%assignments(:at - 1), keep(:at - 1)), new, &
-         & pack(parsed%assignments(at:), keep(at:))]
+      ! one by one, as the compiler forgets to free what a constructor with pack copies
+      allocate (together(count(keep) + 1))
+      k = 0
+      do i = 1, size(keep) + 1
+         if (i == at) then
+            k = k + 1
+            together(k) = new
+         end if
+         if (i > size(keep)) exit
+         if (.not. keep(i)) cycle
+         k = k + 1
+         together(k) = parsed%assignments(i)
+      end do
+      call move_alloc(together, parsed%assignments)
    end subroutine put_assignment
 
    !> From behind the group's name to behind its end.

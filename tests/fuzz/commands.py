@@ -32,7 +32,7 @@ NAMES = (
 def run(program: Path, folder: Path, *arguments: bytes) -> tuple[int, bytes, bytes]:
     """Exit status, standard output and error; -99 where it took too long."""
     try:
-        environment = {**os.environ, "ASAN_OPTIONS": SANITIZER}
+        environment = {**os.environ, "ASAN_OPTIONS": SANITIZER + "0"}
         command = [program, *arguments]
         done = subprocess.run(command, cwd=folder, capture_output=True, timeout=LIMIT, env=environment)
     except subprocess.TimeoutExpired:

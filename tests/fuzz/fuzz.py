@@ -56,6 +56,10 @@ def main() -> int:
                 f"{campaign.count.total()} cases, {len(campaign.corpus)} kept, {len(campaign.found)} findings"
             )
             print(f"{time.monotonic() - started:.0f} s: {said}", flush=True)
+        harness.close()
+        if harness.leaks:
+            campaign.found["leak"] = Finding(Case(b""), "memory is never freed", harness.leaks)
+            print(f"FOUND: {harness.leaks}", flush=True)
         minutes = (time.monotonic() - started) / 60
     smallest = few(options.harness, campaign.corpus)
     (options.keep / "corpus.jsonl").write_text("".join(seeds.line(case) for case in smallest))

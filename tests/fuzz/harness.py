@@ -12,7 +12,7 @@ from pathlib import Path
 READ, READ_BACK, REFERENCE = range(3)
 NOT_ITSELF = 99
 # faster than the defaults: what is freed is kept for a short while, and known by where it was made alone
-SANITIZER = "quarantine_size_mb=1:malloc_context_size=1:max_malloc_fill_size=0:detect_leaks=0"
+SANITIZER = "quarantine_size_mb=1:malloc_context_size=1:max_malloc_fill_size=0:detect_leaks="
 
 
 @dataclass(frozen=True)
@@ -50,6 +50,8 @@ class Harness:
     def __init__(self, program: Path, limit: float = 10.0):
         self.program, self.limit = program, limit
         self.process = None
+        # what was never freed in a process that ended by itself, where that is looked for
+        self.leaks = ""
         # closed with the harness
         self.errors = tempfile.TemporaryFile()  # noqa: SIM115
 
@@ -79,6 +81,14 @@ class Harness:
                 self.process.wait()
             self.process.stdout.close()
             self.process = None
+            said = self._said()
+            if "detected memory leaks" in said:
+                self.leaks = said
+
+    def _said(self) -> str:
+        """What the process wrote to its standard error."""
+        self.errors.seek(0)
+        return self.errors.read().decode(errors="replace").strip()
 
     def _exchange(self, request: bytes) -> Reply:
         if self.process is None:
@@ -90,7 +100,7 @@ class Harness:
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=self.errors,
-                env={**os.environ, "ASAN_OPTIONS": SANITIZER},
+                env={**os.environ, "ASAN_OPTIONS": SANITIZER + "1"},
             )
         try:
             sent = 0
@@ -103,8 +113,7 @@ class Harness:
             self.process.stdout.close()
             self.process.wait()
             self.process = None
-            self.errors.seek(0)
-            raise Crash(self.errors.read().decode(errors="replace").strip()) from None
+            raise Crash(self._said()) from None
 
     def _got(self, length: int) -> bytes:
         found = b""

@@ -11,6 +11,7 @@ SOURCES = (
     "io/namelist_text",
     "io/scene_namelist",
     "io/number_syntax",
+    "io/sweep",
     "io/namelist_writer",
     "io/scene_fields",
 )
