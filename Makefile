@@ -3,7 +3,8 @@
 VERSION := 0.1.0
 
 # ---- what can be set ---------------------------------------------------------------------------
-# MODE=release|debug   debug: bounds, floating-point traps, all warnings (wrap: for Python, set by make python)
+# MODE=release|debug   debug: bounds, floating-point traps, all warnings (wrap: for Python, set by make python;
+#                      fuzz: set by make fuzz)
 # FC, FFLAGS           compiler and its optimisation flags
 # PREFIX               where make install puts things
 # SUNDIALS_PREFIX, HDF5_PREFIX, FFTW_PREFIX   libraries of a cluster; nothing is installed then
@@ -26,6 +27,11 @@ else ifeq ($(MODE),wrap)
 # for Python: position-independent, and for any machine of its kind, as a wheel travels
 override FFLAGS := -O2 -fPIC
 B := build/wrap
+else ifeq ($(MODE),fuzz)
+# for make fuzz: whatever can tell a fault, and which lines and branches a case reaches
+override FFLAGS := -O1 -g -fcheck=all,no-array-temps -fbacktrace -ffpe-trap=invalid,zero,overflow \
+                   -fsanitize=address,undefined -fno-sanitize-recover=all -fsanitize-coverage=trace-pc --coverage
+B := build/fuzz
 else
 $(error MODE=$(MODE): must be release or debug)
 endif
@@ -64,6 +70,7 @@ objects := $(patsubst %.f90,$(B)/obj/%.o,$(notdir $(filter-out $(main),$(sources
 tests   := $(sort $(wildcard tests/unit/test_*.f90 tests/physics/test_*.f90))
 test_programs := $(patsubst %.f90,$(B)/tests/%,$(notdir $(tests)))
 film_bench := tests/bench/film_bench.f90
+fuzz_input := tests/fuzz/fuzz_input.f90
 wrapper := post/wrap/library.f90
 # what the program says of itself; rewritten only when it changes
 commit := $(shell git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)
@@ -85,12 +92,13 @@ $(file >$(B)/flags.new,$(COMPILE) $(LIBS))
 $(shell for f in $(B)/obj/build_info.f90:$(B)/obj/build_info.new $(B)/flags:$(B)/flags.new; do \
    cmp -s $${f#*:} $${f%:*} && rm $${f#*:} || mv $${f#*:} $${f%:*}; done)
 
-vpath %.f90 $(sort $(dir $(sources) $(tests) $(film_bench) $(wrapper))) tests $(B)/obj
+vpath %.f90 $(sort $(dir $(sources) $(tests) $(film_bench) $(fuzz_input) $(wrapper))) tests $(B)/obj
 
 VENV := build/venv
 venv_python := $(VENV)/bin/python
 
-.PHONY: help run build deps python wrap wheel test test-slurm stress bench paper test-programs lint format docs install clean
+.PHONY: help run build deps python wrap wheel test test-slurm stress fuzz bench paper test-programs lint format docs \
+        install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -99,6 +107,7 @@ help:
 	@echo 'make test     set up, build, run every test'
 	@echo 'make test-slurm   the job scripts of input/slurm on a real Slurm of one node, two minutes (as root)'
 	@echo 'make stress   random scenes, some minutes; writes docs/stability.md (SCENES=300 SEED=1)'
+	@echo 'make fuzz     cases and arguments of every kind, right and wrong; writes docs/fuzzing.md (MINUTES=5 SEED=1)'
 	@echo 'make bench    run time against error, peers, some ten minutes; writes docs/benchmarks.md'
 	@echo 'make paper    the figures and claims of the paper, a minute or two; writes docs/paper'
 	@echo 'make build    build/bin/tiltpad          (MODE=debug: build/debug/bin/tiltpad)'
@@ -118,7 +127,7 @@ run: build python
 	   $(VENV)/bin/tiltpad-plot $$plot build/run/steady_lugre.h5 -o build/run/$$plot.png || exit 1; done
 
 test: build python build/deps-test
-	@$(MAKE) --no-print-directory MODE=debug test-programs
+	@$(MAKE) --no-print-directory MODE=debug test-programs build/debug/fuzz/fuzz_input
 	@TILTPAD=$(abspath $(B)/bin/tiltpad) tests/run_all $(VENV)/bin/python build/debug/tests
 
 # starts munged, slurmctld and slurmd in a temporary folder, and stops them
@@ -130,6 +139,14 @@ SCENES ?= 300
 SEED   ?= 1
 stress: build python
 	$(venv_python) tests/stress/stress.py $(B)/bin/tiltpad --scenes $(SCENES) --seed $(SEED) --report docs/stability.md
+
+# MINUTES and SEED choose what is drawn
+MINUTES ?= 5
+fuzz: python
+	@$(MAKE) --no-print-directory MODE=fuzz build build/fuzz/fuzz/fuzz_input
+	@$(MAKE) --no-print-directory MODE=debug build
+	$(venv_python) tests/fuzz/fuzz.py build/fuzz/fuzz/fuzz_input build/fuzz/bin/tiltpad build/debug/bin/tiltpad \
+	   --minutes $(MINUTES) --seed $(SEED) --report docs/fuzzing.md
 
 # PARTS='films pads' runs these alone and takes the others from their last run
 bench: build python $(VENV)/ready-bench $(B)/bench/film_bench
@@ -219,7 +236,7 @@ $(VENV)/ready-bench: tests/bench/requirements.txt $(VENV)/ready
 # ---- build -------------------------------------------------------------------------------------
 build: $(B)/bin/tiltpad
 
-$(B)/bin/tiltpad: $(B)/obj/tiltpad.o $(B)/lib/libtiltpad.a
+$(B)/bin/tiltpad: $(B)/obj/tiltpad.o $(if $(filter fuzz,$(MODE)),$(B)/obj/coverage.o) $(B)/lib/libtiltpad.a
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
 
@@ -240,6 +257,13 @@ $(B)/obj/build_info.o: override FFLAGS += -ffree-line-length-none
 
 test-programs: $(test_programs)
 
+$(B)/fuzz/fuzz_input: $(B)/obj/fuzz_input.o $(B)/obj/coverage.o $(B)/lib/libtiltpad.a
+	@mkdir -p $(@D)
+	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
+
+$(B)/obj/coverage.o: tests/fuzz/coverage.c
+	$(CC) -O2 -c $< -o $@
+
 $(B)/bench/film_bench: $(B)/obj/film_bench.o $(B)/lib/libtiltpad.a
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
@@ -250,7 +274,7 @@ $(shell awk -v b=$(B)/obj 'FNR == 1 { n = split(FILENAME, part, "/"); sub(/\.f90
    tolower($$1) == "use" { used = tolower($$2); sub(/,.*/, "", used); uses[this] = uses[this] " " used } \
    END { own["build_info"] = 1; for (f in uses) { split(uses[f], m, " "); line = ""; \
    for (i in m) if (m[i] in own) line = line " " b "/" m[i] ".o"; if (line != "") print b "/" f ".o:" line } }' \
-   $(sources) $(tests) $(film_bench) $(wrapper) tests/check.f90 > $(B)/depend.mk)
+   $(sources) $(tests) $(film_bench) $(fuzz_input) $(wrapper) tests/check.f90 > $(B)/depend.mk)
 include $(B)/depend.mk
 
 fortran_style := --line-length 120 --ignore S241,C002,C061,C071

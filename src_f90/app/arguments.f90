@@ -1,12 +1,13 @@
 !> The words of the command line.
 module arguments
+   use text, only: shortened, to_text
    use errors, only: error_type, raise, input_error
    implicit none (type, external)
    private
    public :: arguments_type, read_arguments, print_help
 
-   !> Longest override.
-   integer, parameter :: longest = 4096
+   !> Longest override, and how many there may be.
+   integer, parameter :: longest = 4096, most = 1000
 
    type :: arguments_type
       !> 'run', 'check', 'count', 'help', 'version' or 'reference'.
@@ -81,8 +82,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
       select case (word)
       case ('--set')
-         if (len(value) > longest) call raise(error, input_error, '--set: the value is too long')
-         given%overrides = [character(len=longest) :: given%overrides, value]
+         if (len(value) > longest) then
+            call raise(error, input_error, '--set '//shortened(value)//': the value is too long, ' &
+               & //to_text(len(value))//' characters; at most '//to_text(longest))
+         else if (size(given%overrides) == most) then
+            call raise(error, input_error, '--set '//shortened(value)//': given more than '//to_text(most)//' times')
+         end if
+         if (.not. allocated(error)) given%overrides = [character(len=longest) :: given%overrides, value]
       case ('--member')
          call read_whole(word, value, given%member, error)
       case ('--jobs')

@@ -2,7 +2,7 @@
 program tiltpad
    use, intrinsic :: iso_c_binding, only: c_int
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
-   use text, only: to_text
+   use text, only: printable, to_text
    use errors, only: error_type, raise, input_error, system_error
    use scene, only: scene_type
    use sweep, only: sweep_type, member_tag, read_sweep
@@ -187,17 +187,6 @@ contains
       write (error_unit, '(a)') 'tiltpad: error: '//printable(error%message)
       flush (error_unit)
    end subroutine complain
-
-   !> The text with a question mark for every control character, so that an error stays one line.
-   pure function printable(text)
-      character(len=*), intent(in) :: text
-      character(len=len(text)) :: printable
-      integer :: i
-      printable = text
-      do i = 1, len(text)
-         if (iachar(text(i:i)) < 32 .or. iachar(text(i:i)) == 127) printable(i:i) = '?'
-      end do
-   end function printable
 
    !> Writes text to standard output.
    subroutine put(text, error)

@@ -3,7 +3,7 @@ module text
    use kinds, only: wp, i8
    implicit none (type, external)
    private
-   public :: to_text, exact_text, fixed_text, lower_case
+   public :: to_text, exact_text, fixed_text, lower_case, printable, shortened, is_utf8
 
    !> A number as short text, for messages: `to_text(3)`, `to_text(0.1_wp)`.
    interface to_text
@@ -96,4 +96,73 @@ contains
          if (code >= iachar('A') .and. code <= iachar('Z')) lower(i:i) = achar(code + 32)
       end do
    end function lower_case
+
+   !> The text with question marks for control characters and for bytes that are not UTF-8, so that an error stays
+   !> one line that any terminal shows as it is.
+   pure function printable(text)
+      character(len=*), intent(in) :: text
+      character(len=len(text)) :: printable
+      integer :: i, length
+      printable = text
+      i = 1
+      do while (i <= len(text))
+         length = utf8_length(text(i:))
+         if (length == 0) then
+            printable(i:i) = '?'
+         else if (is_control(text(i:i + length - 1))) then
+            printable(i:i + length - 1) = repeat('?', length)
+         end if
+         i = i + max(length, 1)
+      end do
+   end function printable
+
+   !> True for the control characters of ASCII and Latin-1 and for the separators of lines and paragraphs.
+   pure logical function is_control(character)
+      character(len=*), intent(in) :: character
+      is_control = character < ' ' .or. character == achar(127) &
+         & .or. character >= char(194)//char(128) .and. character <= char(194)//char(159) &
+         & .or. character == char(226)//char(128)//char(168) .or. character == char(226)//char(128)//char(169)
+   end function is_control
+
+   !> The text, or its beginning and three points where it is too long for a message.
+   pure function shortened(text)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: shortened
+      integer, parameter :: most = 80
+      shortened = text
+      if (len(text) > most) shortened = text(:most - 3)//'...'
+   end function shortened
+
+   !> True where all of the text is UTF-8.
+   pure logical function is_utf8(text)
+      character(len=*), intent(in) :: text
+      integer :: i, length
+      is_utf8 = .false.
+      i = 1
+      do while (i <= len(text))
+         length = utf8_length(text(i:))
+         if (length == 0) return
+         i = i + length
+      end do
+      is_utf8 = .true.
+   end function is_utf8
+
+   !> Bytes of the character that the text starts with; 0 where that is not UTF-8.
+   pure integer function utf8_length(text) result(length)
+      character(len=*), intent(in) :: text
+      integer :: first, second, i
+      first = ichar(text(1:1))
+      length = merge(1, 0, first < 128)
+      if (first < 194 .or. first > 244) return
+      length = 2 + merge(1, 0, first >= 224) + merge(1, 0, first >= 240)
+      if (len(text) < length) length = 0
+      do i = 2, length
+         if (ichar(text(i:i)) < 128 .or. ichar(text(i:i)) > 191) length = 0
+      end do
+      if (length < 3) return
+      ! longer than need be, the halves of a surrogate pair, beyond the last character
+      second = ichar(text(2:2))
+      if (first == 224 .and. second < 160 .or. first == 237 .and. second > 159 &
+         & .or. first == 240 .and. second < 144 .or. first == 244 .and. second > 143) length = 0
+   end function utf8_length
 end module text

@@ -66,7 +66,7 @@ contains
       character(len=*), intent(in) :: name, meaning
       integer, intent(inout) :: value
       type(range_type), intent(in) :: allowed
-      call self%row(name, to_text(value), '1', allowed%text(), meaning)
+      call self%row(name, to_text(value), '1', 'whole, '//allowed%text(), meaning)
    end subroutine write_whole
 
    subroutine write_numbers(self, name, values, allowed, unit, meaning)

@@ -1,11 +1,11 @@
 !> Splits namelist text into assignments that know where they stand. Values are not interpreted.
 module namelist_text
-   use text, only: to_text, lower_case
+   use text, only: to_text, lower_case, shortened
    use errors, only: error_type, raise, input_error
    implicit none (type, external)
    private
    public :: namelist_type, assignment_type, token_type, parse_namelist, parse_override
-   public :: put_assignment, undoes, assignment_text, sweep_group
+   public :: put_assignment, undoes, assignment_text, target_text, value_text, sweep_group
 
    !> The group whose variables are those of other groups, with values for one run each: `group%name = values`.
    character(len=*), parameter :: sweep_group = 'sweep'
@@ -21,6 +21,8 @@ module namelist_text
       character(len=:), allocatable :: group, name, place
       !> First element that the values go to; 0 where no subscript is given.
       integer :: subscript = 0
+      !> Comes after what the file says, and may give elements again: from --set, or a member's of a sweep.
+      logical :: overrides = .false.
       type(token_type), allocatable :: values(:)
    end type assignment_type
 
@@ -31,8 +33,8 @@ module namelist_text
       type(assignment_type), allocatable :: assignments(:)
    end type namelist_type
 
-   !> Most groups, assignments, or values of one assignment: far more than any case has.
-   integer, parameter :: most_items = 1000
+   !> Most groups, assignments, or values of one assignment: far more than any case has; longest name.
+   integer, parameter :: most_items = 1000, longest_name = 60
 
    !> Where the scanner is.
    type :: scanner
@@ -58,17 +60,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(scanner) :: scan
       type(assignment_type) :: group
-      integer :: i, code
+      integer :: i
 
       parsed%file = file
       allocate (parsed%groups(0), parsed%assignments(0))
-      do i = 1, len(text)
-         code = iachar(text(i:i))
-         if (code == 127 .or. code < 32 .and. index(newline//tab//carriage, text(i:i)) == 0) then
-            call raise(error, input_error, file//': not a text file (byte '//to_text(i)//' is a control character)')
-            return
-         end if
-      end do
+      i = control_character(text)
+      if (i > 0) then
+         call raise(error, input_error, file//': not a text file (byte '//to_text(i)//' is a control character)')
+         return
+      end if
       scan%text = text
       scan%file = file
       ! a UTF-8 byte order mark
@@ -77,7 +77,10 @@ contains
          call scan%skip_blank(',')
          if (scan%peek() == '') exit
          if (scan%peek() /= '&') then
-            call raise(error, input_error, scan%place()//': '''//scan%word()//''' stands outside a group;' &
+            group%place = scan%place()
+            group%name = scan%word()
+            if (group%name == '') group%name = scan%peek()
+            call raise(error, input_error, group%place//': '''//shortened(group%name)//''' stands outside a group;' &
                & //' expected &name')
             return
          end if
@@ -86,6 +89,10 @@ contains
          group%group = lower_case(scan%word())
          if (group%group == '') then
             call raise(error, input_error, group%place//': a group''s name is missing behind &')
+            return
+         end if
+         if (len(group%group) > longest_name) then
+            call raise(error, input_error, group%place//': unknown group &'//shortened(group%group))
             return
          end if
          if (size(parsed%groups) == most_items) then
@@ -117,14 +124,22 @@ contains
       type(assignment_type), allocatable :: new(:)
       integer :: percent
       percent = index(text, '%')
-      group%place = '--set '//text
+      group%place = '--set '//shortened(text)
+      if (control_character(text) > 0) then
+         call raise(error, input_error, group%place//': a control character is no part of a value')
+         return
+      end if
       if (percent > 1) group%group = lower_case(trim(adjustl(text(:percent - 1))))
       if (percent <= 1 .or. index(text, '=') < percent) then
          call raise(error, input_error, group%place//': expected group%name=value')
          return
       end if
+      if (len(group%group) > longest_name) then
+         call raise(error, input_error, group%place//': unknown group '//shortened(group%group))
+         return
+      end if
       scan%text = text(percent + 1:)//' /'
-      scan%file = '--set '//text
+      scan%file = group%place
       allocate (new(0))
       call parse_group(scan, group, new, error)
       if (allocated(error)) return
@@ -134,6 +149,7 @@ contains
          return
       end if
       new(1)%place = '--set'
+      new(1)%overrides = .true.
       call put_assignment(new(1), parsed)
    end subroutine parse_override
 
@@ -142,13 +158,26 @@ contains
    subroutine put_assignment(new, parsed)
       type(assignment_type), intent(in) :: new
       type(namelist_type), intent(inout) :: parsed
+      type(assignment_type), allocatable :: together(:)
       logical, allocatable :: keep(:)
-      integer :: at, i
+      integer :: at, i, k
       keep = [(.not. replaces(new, parsed%assignments(i)), i=1, size(parsed%assignments))]
       at = size(keep) + 1
       if (new%group == sweep_group) at = findloc([keep, .false.], .false., dim=1)
-      parsed%assignments = [pack(parsed%assignments(:at - 1), keep(:at - 1)), new, &
-         & pack(parsed%assignments(at:), keep(at:))]
+      ! one by one, as the compiler forgets to free what a constructor with pack copies
+      allocate (together(count(keep) + 1))
+      k = 0
+      do i = 1, size(keep) + 1
+         if (i == at) then
+            k = k + 1
+            together(k) = new
+         end if
+         if (i > size(keep)) exit
+         if (.not. keep(i)) cycle
+         k = k + 1
+         together(k) = parsed%assignments(i)
+      end do
+      call move_alloc(together, parsed%assignments)
    end subroutine put_assignment
 
    !> From behind the group's name to behind its end.
@@ -221,8 +250,12 @@ contains
       if (new%group == sweep_group) allowed = name_characters//'%'
       call scan%skip_blank('')
       if (status /= 0 .or. len(new%name) == 0 .or. verify(new%name, allowed) /= 0 .or. scan%peek() /= '=') then
-         call raise(error, input_error, new%place//': '''//found//''' in group &'//new%group &
+         call raise(error, input_error, new%place//': '''//shortened(found)//''' in group &'//new%group &
             & //': expected name = value')
+         return
+      end if
+      if (len(new%name) > longest_name) then
+         call raise(error, input_error, new%place//': unknown variable '//new%group//'%'//shortened(new%name))
          return
       end if
       scan%at = scan%at + 1
@@ -302,6 +335,22 @@ contains
       end do
    end subroutine quoted
 
+   !> Where the first character stands that is no text; 0 if there is none. A carriage return alone is one: it would
+   !> neither end a comment nor count as a line.
+   pure integer function control_character(text) result(at)
+      character(len=*), intent(in) :: text
+      character :: c
+      do at = 1, len(text)
+         c = text(at:at)
+         if (c == carriage .and. at < len(text)) then
+            if (text(at + 1:at + 1) /= newline) return
+         else if (c == achar(127) .or. c < ' ' .and. c /= newline .and. c /= tab) then
+            return
+         end if
+      end do
+      at = 0
+   end function control_character
+
    !> True where the new assignment would undo all of an earlier one.
    pure logical function undoes(new, earlier)
       type(assignment_type), intent(in) :: new, earlier
@@ -317,24 +366,41 @@ contains
       replaces = replaces .and. size(earlier%values) == 1 .and. index(earlier%values(1)%text, '*') == 0
    end function replaces
 
-   !> "rotor%mass = -1", with at most four values.
+   !> "rotor%mass = -1", with at most four values, for messages.
    pure function assignment_text(a) result(text)
       type(assignment_type), intent(in) :: a
       character(len=:), allocatable :: text
       integer :: i
-      text = a%group//'%'//a%name
-      if (a%subscript > 0) text = text//'('//to_text(a%subscript)//')'
-      text = text//' = '
+      text = target_text(a)//' = '
       do i = 1, min(4, size(a%values))
          if (i > 1) text = text//', '
-         if (a%values(i)%quoted) then
-            text = text//''''//a%values(i)%text//''''
-         else
-            text = text//a%values(i)%text
-         end if
+         text = text//shortened(value_text(a%values(i)))
       end do
       if (size(a%values) > 4) text = text//', ... ('//to_text(size(a%values))//' values)'
    end function assignment_text
+
+   !> "pads%mass(2)".
+   pure function target_text(a) result(text)
+      type(assignment_type), intent(in) :: a
+      character(len=:), allocatable :: text
+      text = a%group//'%'//a%name
+      if (a%subscript > 0) text = text//'('//to_text(a%subscript)//')'
+   end function target_text
+
+   !> A value as it stands in a case: a quoted one in quotes, those in it doubled.
+   pure function value_text(token) result(text)
+      type(token_type), intent(in) :: token
+      character(len=:), allocatable :: text
+      integer :: i
+      text = token%text
+      if (.not. token%quoted) return
+      text = ''''
+      do i = 1, len(token%text)
+         text = text//token%text(i:i)
+         if (token%text(i:i) == '''') text = text//''''
+      end do
+      text = text//''''
+   end function value_text
 
    !> The character here; empty at the end.
    pure function peek(self) result(here)

@@ -2,8 +2,8 @@
 !> name file, line, group, variable, value and what is allowed.
 module scene_namelist
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kinds, only: wp
-   use text, only: to_text, lower_case
+   use kinds, only: wp, i8
+   use text, only: to_text, lower_case, is_utf8
    use errors, only: error_type, raise, add_context, input_error
    use scene, only: scene_type, max_pads
    use scene_fields, only: field_visitor, range_type, visit_scene
@@ -32,6 +32,7 @@ module scene_namelist
       procedure :: per_pad => read_per_pad
       procedure, private :: check_unused
       procedure, private :: reals
+      procedure, private :: take
       procedure, private :: refuse
    end type scene_reader
 
@@ -44,7 +45,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
       character(len=200) :: message
       logical :: exists
-      integer :: unit, status, length
+      integer :: unit, status
+      integer(i8) :: length
+      ! Fortran leaves blanks at the end of a name away
+      if (len_trim(file) < len(file)) then
+         call raise(error, input_error, file//': the name of a case must not end in a blank')
+         return
+      end if
       inquire (file=file, exist=exists)
       if (.not. exists) then
          call raise(error, input_error, file//': no such file')
@@ -64,7 +71,7 @@ contains
             close (unit)
             return
          end if
-         allocate (character(len=max(length, 0)) :: text)
+         allocate (character(len=max(length, 0_i8)) :: text)
          if (length > 0) read (unit, iostat=status, iomsg=message) text
          close (unit)
       end if
@@ -186,13 +193,15 @@ contains
             if (choices /= '') found = lower_case(trim(adjustl(found)))
             if (size(a%values) > 1 .or. a%subscript > 0) then
                call self%refuse(a%place//': '//assignment_text(a)//': takes one text')
-            else if (choices /= '' .and. index(' '//choices//' ', ' '//found//' ') == 0) then
+            else if (choices /= '' .and. .not. is_choice(found, choices)) then
                call self%refuse(a%place//': '//assignment_text(a)//': must be one of '''//quoted_list(choices)//'''')
             else if (choices == '' .and. .not. a%values(1)%quoted) then
                call self%refuse(a%place//': '//assignment_text(a)//': text must stand in quotes')
             else if (len(found) > longest_text) then
                call self%refuse(a%place//': '//a%group//'%'//a%name//': '//to_text(len(found)) &
                   & //' characters; a text has at most '//to_text(longest_text))
+            else if (.not. is_utf8(found)) then
+               call self%refuse(a%place//': '//assignment_text(a)//': must be UTF-8 text')
             end if
             value = found
          end associate
@@ -205,13 +214,16 @@ contains
       integer, intent(inout) :: value
       type(range_type), intent(in) :: allowed
       real(wp), allocatable :: given(:)
+      logical :: taken(1)
       integer :: i
       self%variables = self%variables//' '//name
+      taken = .false.
       do i = 1, size(self%used)
          associate (a => self%namelist%assignments(i))
             if (a%group /= self%this_group .or. a%name /= name) cycle
             self%used(i) = .true.
             call self%reals(a, 1, allowed, given)
+            call self%take(a, size(given), taken)
             if (allocated(self%error)) return
             if (verify(a%values(1)%text, '+-0123456789*') /= 0) then
                call self%refuse(a%place//': '//assignment_text(a)//': must be a whole number, '//allowed%text())
@@ -228,13 +240,16 @@ contains
       real(wp), intent(inout) :: values(:)
       type(range_type), intent(in) :: allowed
       real(wp), allocatable :: given(:)
+      logical :: taken(size(values))
       integer :: i
       self%variables = self%variables//' '//name
+      taken = .false.
       do i = 1, size(self%used)
          associate (a => self%namelist%assignments(i))
             if (a%group /= self%this_group .or. a%name /= name) cycle
             self%used(i) = .true.
             call self%reals(a, size(values), allowed, given)
+            call self%take(a, size(given), taken)
             if (allocated(self%error)) return
             if (a%subscript == 0 .and. size(given) /= size(values)) then
                call self%refuse(a%place//': '//assignment_text(a)//': takes '//to_text(size(values))//' values')
@@ -252,15 +267,18 @@ contains
       logical, intent(in) :: fixes_pads
       type(range_type), intent(in) :: allowed
       real(wp), allocatable :: given(:)
+      logical :: taken(max_pads)
       integer :: i, most
       self%variables = self%variables//' '//name
       most = merge(max_pads, self%pad_count, fixes_pads)
+      taken = .false.
       if (.not. fixes_pads) values = spread(values(1), 1, self%pad_count)
       do i = 1, size(self%used)
          associate (a => self%namelist%assignments(i))
             if (a%group /= self%this_group .or. a%name /= name) cycle
             self%used(i) = .true.
             call self%reals(a, most, allowed, given)
+            call self%take(a, size(given), taken(:most))
             if (allocated(self%error)) exit
             if (fixes_pads) then
                if (a%subscript > 0) call self%refuse(a%place//': '//assignment_text(a) &
@@ -331,6 +349,26 @@ contains
          values = [values, spread(x, 1, repeat)]
       end do
    end subroutine reals
+
+   !> Notes which elements an assignment of the file takes for good, and refuses those taken before. Elements may
+   !> follow the whole list; where the list is one element, that gives it twice. What --set says comes last.
+   subroutine take(self, a, count, taken)
+      class(scene_reader), intent(inout) :: self
+      type(assignment_type), intent(in) :: a
+      integer, intent(in) :: count
+      logical, intent(inout) :: taken(:)
+      if (allocated(self%error) .or. a%overrides .or. a%subscript == 0 .and. size(taken) > 1) return
+      associate (elements => taken(max(1, a%subscript):max(1, a%subscript) + count - 1))
+         if (any(elements)) call self%refuse(a%place//': '//assignment_text(a)//': given twice')
+         elements = .true.
+      end associate
+   end subroutine take
+
+   !> True for one of the words that `choices` lists, separated by blanks.
+   pure logical function is_choice(word, choices)
+      character(len=*), intent(in) :: word, choices
+      is_choice = scan(word, ' ') == 0 .and. index(' '//choices//' ', ' '//word//' ') > 0
+   end function is_choice
 
    !> "a b" to "a', 'b".
    pure function quoted_list(choices) result(list)

@@ -2,20 +2,20 @@
 module sweep
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, i8
-   use text, only: to_text, exact_text, lower_case
+   use text, only: to_text, exact_text, lower_case, shortened
    use errors, only: error_type, raise, add_context, input_error
    use scene, only: scene_type
    use number_syntax, only: read_number
    use namelist_text, only: namelist_type, assignment_type, token_type, put_assignment, undoes, assignment_text, &
-      & sweep_group
+      & target_text, value_text, sweep_group
    use scene_namelist, only: read_text, parse_case, scene_from_namelist, fill_scene
    use namelist_writer, only: scene_text
    implicit none (type, external)
    private
    public :: sweep_type, member_tag, read_sweep, sweep_from_text
 
-   !> Most members of a sweep.
-   integer, parameter :: most_members = 100000
+   !> Most members of a sweep, and variables that a message lists.
+   integer, parameter :: most_members = 100000, most_listed = 8
    !> Part of a stride by which the last value of a range may miss its end.
    real(wp), parameter :: rounding = 1e-6_wp
    !> Numbers of a range are 0 or between these in size, so that nothing overflows on the way.
@@ -132,6 +132,7 @@ contains
       new%target = given
       new%target%group = given%name(:percent - 1)
       new%target%name = name
+      new%target%overrides = .true.
       if (new%target%group == sweep_group .or. given%name == 'case%title') then
          call raise(error, input_error, given%place//': '//given%name//' cannot be swept')
          return
@@ -154,7 +155,8 @@ contains
       allocate (new%pieces(size(given%values)))
       do i = 1, size(given%values)
          call read_piece(given%values(i), new%pieces(i), error)
-         call add_context(error, given%place//': '//sweep_group//'%'//given%name//' = '//given%values(i)%text)
+         call add_context(error, given%place//': '//sweep_group//'%'//given%name//' = ' &
+            & //shortened(value_text(given%values(i))))
          if (allocated(error)) return
       end do
       deallocate (new%target%values)
@@ -242,8 +244,9 @@ contains
       members = 1
       do i = 1, size(sweep%variables)
          associate (v => sweep%variables(i))
-            if (i > 1) list = list//', '
-            list = list//v%target%group//'%'//v%target%name//' has '//to_text(v%value_count())
+            if (i > 1 .and. i <= most_listed + 1) list = list//', '
+            if (i <= most_listed) list = list//v%target%group//'%'//v%target%name//' has '//to_text(v%value_count())
+            if (i == most_listed + 1) list = list//'...'
             if (sweep%zip) then
                members = v%value_count()
             else
@@ -283,7 +286,7 @@ contains
       do i = 1, size(self%variables)
          if (i > 1) found%sweep = found%sweep//newline
          call self%member_value(i, k, a)
-         found%sweep = found%sweep//assignment_text(a)
+         found%sweep = found%sweep//target_text(a)//' = '//value_text(a%values(1))
       end do
    end subroutine tag
 
@@ -295,7 +298,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(namelist_type) :: parsed
       type(scene_type) :: scene
-      type(assignment_type) :: one
       integer :: i, k
       call self%member_namelist(1, parsed)
       call fill_scene(parsed, scene, error)
@@ -304,19 +306,10 @@ contains
          & //''''//newline
       do i = 1, size(self%variables)
          associate (v => self%variables(i))
-            one = v%target
-            allocate (one%values(1))
-            do k = 1, size(v%pieces)
-               one%values(1) = v%pieces(k)%token
-               if (k == 1) then
-                  text = text//'  '//assignment_text(one)
-               else if (one%values(1)%quoted) then
-                  text = text//', '''//one%values(1)%text//''''
-               else
-                  text = text//', '//one%values(1)%text
-               end if
+            text = text//'  '//target_text(v%target)//' = '//value_text(v%pieces(1)%token)
+            do k = 2, size(v%pieces)
+               text = text//', '//value_text(v%pieces(k)%token)
             end do
-            deallocate (one%values)
          end associate
          text = text//newline
       end do
@@ -385,7 +378,8 @@ contains
          token = p%token
          if (.not. p%is_range) return
          if (p%geometric) then
-            x = p%first*p%step**steps
+            ! a real exponent, as repeated products would round at every step
+            x = p%first*p%step**real(steps, wp)
          else
             product = steps*p%step
             x = p%first + product

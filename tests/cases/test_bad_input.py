@@ -414,6 +414,9 @@ OVERRIDES = {
     "output%start_time=3": ["output%start_time = 3", "operation%duration"],
     "rotor%mas\ns=3": ["--set", "name = value"],
     "rotor%mass=3 !\n4": ["--set"],
+    "case%title='\x1b[2J'": ["--set case%title=", "control character"],
+    "case%title='a\rb'": ["--set case%title=", "control character"],
+    "friction%model='none lugre'": ["friction%model = 'none lugre'", "must be one of"],
 }
 
 
@@ -425,6 +428,42 @@ def test_override(tiltpad, case, override):
 
 def test_override_too_long(tiltpad, case):
     refused(tiltpad, case, "case.nml", "--set", f"case%title='{10000 * 'x'}'", names=["--set", "too long"])
+
+
+def test_override_that_is_not_utf_8(tiltpad, case):
+    refused(tiltpad, case, "case.nml", "--set", "case%title='\udcff'", names=["--set", "case%title", "UTF-8"])
+
+
+def test_more_overrides_than_any_case_has(tiltpad, case):
+    many = 5000 * ("--set", "rotor%mass=1")
+    refused(tiltpad, case, "case.nml", *many, names=["--set rotor%mass=1", "more than 1000 times"], timeout=5)
+
+
+def test_name_that_ends_in_a_blank(tiltpad, case):
+    """Fortran would open the file without the blank."""
+    (case / "case.nml ").write_text("&rotor mass=1 /\n")
+    refused(tiltpad, case, "case.nml ", names=["case.nml ", "blank"])
+
+
+def test_a_huge_file_is_not_read_in_part(tiltpad, case):
+    """Its length in 32 bits is that of its first lines."""
+    with open(case / "big.nml", "wb") as file:
+        file.write(b"&rotor mass=1 /\n")
+        file.truncate(2**32 + 16)
+    run = tiltpad("--check", "big.nml", cwd=case, timeout=30)
+    (case / "big.nml").unlink()
+    assert (run.returncode, run.stdout) == (1, "")
+    assert "big.nml: 4294967312 bytes" in run.stderr
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["&{} /", "&rotor {}=1 /", "&rotor mass={} /", "&case task='{}' /", "{}"],
+    ids=lambda text: text[:20],
+)
+def test_a_long_word_makes_no_long_message(tiltpad, tmp_path, text):
+    (tmp_path / "case.nml").write_text(text.format(50000 * "x"))
+    assert len(refused(tiltpad, tmp_path, "case.nml", names=["case.nml line 1", "xxx..."])) < 400
 
 
 # command lines: arguments, what the message must name

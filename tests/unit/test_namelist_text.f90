@@ -209,8 +209,27 @@ contains
       call expect_refused('&a x=''open/', 'quote is not closed')
       call expect_refused('&a'//newline//'x=''open'//newline//'''/', 'line 2: a%x: the quote is not closed')
       call expect_refused('&a x=1'//achar(0)//'/', 'control character')
+      call expect_refused('&a x=1 ! heavy'//return//' y=2 /'//newline//'/', 'byte 15 is a control character')
+      call expect_refused('&a / /', '''/'' stands outside')
+      call expect_refused('='//newline//'&a /', '''='' stands outside')
+      call expect_short('&'//repeat('g', 5000)//' /', 'unknown group')
+      call expect_short('&a '//repeat('v', 5000)//'=1 /', 'unknown variable')
+      call expect_short('&a '//repeat('#', 5000)//'=1 /', 'expected name = value')
+      call expect_short(repeat('x', 5000), 'outside a group')
       call expect_refused(char(137)//'HDF'//newline//return//newline//achar(26), 'not a text file')
    end subroutine refused
+
+   !> Refused with the words in a message that is short though the text is long.
+   subroutine expect_short(text, words)
+      character(len=*), intent(in) :: text, words
+      type(namelist_type) :: found
+      type(error_type), allocatable :: error
+      call parse_namelist(text, 'case.nml', found, error)
+      call expect(allocated(error), 'refused: '//text(:10)//' ...')
+      if (.not. allocated(error)) return
+      call expect(index(error%message, words) > 0, 'says "'//words//'": '//error%message)
+      call expect(len(error%message) < 300, 'in short: '//error%message)
+   end subroutine expect_short
 
    subroutine refused_overrides()
       character(len=*), parameter :: wrong(*) = [character(len=12) :: 'x=1', '%x=1', 'a%x', 'a%=1', 'a%x=', &
@@ -224,6 +243,13 @@ contains
          call expect(allocated(error), 'refused: --set '//trim(wrong(i)))
          if (allocated(error)) call expect(index(error%message, '--set') == 1, 'names the option: '//error%message)
       end do
+      call parse_override('a%x='''//achar(27)//'[2J''', found, error)
+      call expect(allocated(error), 'refused: a control character')
+      call parse_override('a%x='''//return//'''', found, error)
+      call expect(allocated(error), 'refused: a carriage return')
+      call parse_override(repeat('x', 5000), found, error)
+      call expect(allocated(error), 'refused: a long argument')
+      if (allocated(error)) call expect(len(error%message) < 300, 'in short: '//error%message)
       call expect(size(found%assignments) == 1, 'and changes nothing')
    end subroutine refused_overrides
 end program test_namelist_text

@@ -211,6 +211,10 @@ contains
       call scene_from_text('&rotor mass = 1/', 'case.nml', ['rotor%mass=-1'], s, error)
       call expect(allocated(error), 'an override is checked')
       if (allocated(error)) call expect(index(error%message, '--set') == 1, 'and named: '//error%message)
+      call scene_from_text('&rotor static_load(1) = 1, 2 mass = 1/', 'case.nml', [character(len=30) :: &
+         & 'rotor%static_load(2)=3', 'rotor%mass(1)=4', 'rotor%static_load(1)=5, 6'], s, error)
+      call expect(.not. allocated(error), 'an override of an element')
+      call expect_list([s%rotor%static_load, s%rotor%mass], [5.0_wp, 6.0_wp, 4.0_wp], 'the last one stands')
    end subroutine overrides
 
    !> Every real with random last bits: text and back gives the same bits, whatever the writer thinks.
@@ -286,7 +290,14 @@ contains
       call expect_refused('&film axial_cells = 1/', 'must be 2 or more')
       call expect_refused('&friction model = ''coulomb''/', 'must be one of ''none'', ''bengisu_akay'', ''lugre''')
       call expect_refused('&friction model = ''lugre'' ''none''/', 'takes one text')
+      call expect_refused('&friction model = ''none lugre''/', 'must be one of')
       call expect_refused('&case title = bare/', 'must stand in quotes')
+      call expect_refused('&case title = ''a'//char(255)//'b''/', 'must be UTF-8')
+      call expect_refused('&rotor mass = 1 mass(1) = 2/', 'rotor%mass(1) = 2: given twice')
+      call expect_refused('&film axial_cells = 8 axial_cells(1) = 9/', 'given twice')
+      call expect_refused('&rotor static_load(1) = 1, 2 static_load(2) = 3/', 'static_load(2) = 3: given twice')
+      call expect_refused('&pads arc_deg(1) = 50, 55 arc_deg(2) = 60/', 'arc_deg(2) = 60: given twice')
+      call expect_refused('&rotor mass = '//repeat('1', 5000)//'/', repeat('1', 70)//'...: must be a number')
       call expect_refused('&pads mass = 1 1 1/', 'at most 2')
       call expect_refused('&pads pivot_angle_deg = 0 120 240 mass = 1 1/', 'one value for all pads or one each (3)')
       call expect_refused('&pads mass(3) = 1/', 'at most 2')

@@ -1,7 +1,7 @@
 !> Members of sweeps: how many, which values in which order, the bits of ranges, and what is refused.
 program test_sweep
    use kinds, only: wp
-   use text, only: to_text
+   use text, only: to_text, exact_text
    use errors, only: error_type, input_error
    use scene, only: scene_type
    use namelist_writer, only: scene_text
@@ -18,6 +18,7 @@ program test_sweep
    call in_place_of_the_case()
    call overrides()
    call resolved_again()
+   call many_variables()
    call refused()
    call refused_members()
    call report()
@@ -62,6 +63,22 @@ contains
          call expect_close(scene%operation%speed_rpm, expected(k), 0.0_wp, text//', member '//to_text(k))
       end do
    end subroutine expect_speeds
+
+   !> Values of a range with a factor have the bits of the power, rounded once and not at every product.
+   subroutine expect_powers(first, factor)
+      real(wp), intent(in) :: first, factor
+      type(sweep_type) :: sweep
+      type(scene_type) :: scene
+      type(error_type), allocatable :: error
+      integer, parameter :: more = selected_real_kind(30)
+      integer :: k
+      sweep = sweep_of('&sweep film%relaxation = '//exact_text(first)//':1e-20:*'//exact_text(factor)//'/')
+      do k = 1, sweep%members
+         call sweep%scene(k, scene, error)
+         call expect_close(scene%film%relaxation, first*real(real(factor, more)**(k - 1), wp), 0.0_wp, &
+            & 'power '//to_text(k - 1))
+      end do
+   end subroutine expect_powers
 
    subroutine expect_tag(sweep, k, expected)
       type(sweep_type), intent(in) :: sweep
@@ -124,17 +141,19 @@ contains
       type(sweep_type) :: sweep
       ! the multiplications are the machine's own, one by one, not the compiler's
       real(wp), volatile :: product
-      real(wp) :: tenths(5)
+      real(wp) :: tenths(10)
       do i = 1, size(tenths)
          product = (i - 1)*0.1_wp
-         tenths(i) = 0.1_wp + product
+         tenths(i) = 0.3_wp + product
       end do
-      call expect_speeds('0.1:0.5:0.1', tenths)
+      call expect_speeds('0.3:1.2:0.1', tenths)
+      call expect_speeds('0.1:0.5:0.1', [0.1_wp, 0.2_wp, 0.3_wp + spacing(0.3_wp), 0.4_wp, 0.5_wp])
       call expect_speeds('1000:10000:500', [(real(i, wp), i=1000, 10000, 500)])
       call expect_speeds('10000:1000:-4500', [10000.0_wp, 5500.0_wp, 1000.0_wp])
       call expect_speeds('10:20:7', [10.0_wp, 17.0_wp])
       call expect_speeds('5:5:1', [5.0_wp])
       call expect_speeds('1E1:1d5:*10', [10.0_wp, 100.0_wp, 1000.0_wp, 1e4_wp, 1e5_wp])
+      call expect_powers(593842e-12_wp, 93.44e-4_wp)
       call expect_speeds('8:1:*0.5', [8.0_wp, 4.0_wp, 2.0_wp, 1.0_wp])
       call expect_speeds('1:10:*3', [1.0_wp, 3.0_wp, 9.0_wp])
       call expect_speeds('7, 1:2:1, 4:8:*2 , 5', [7.0_wp, 1.0_wp, 2.0_wp, 4.0_wp, 8.0_wp, 5.0_wp])
@@ -238,6 +257,21 @@ contains
       call expect(index(error%message, words) > 0, 'says "'//words//'": '//error%message)
       call expect(index(error%message, newline) == 0, 'one line')
    end subroutine expect_refused
+
+   !> However many variables a sweep has, the message that counts them is short.
+   subroutine many_variables()
+      type(sweep_type) :: sweep
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: text
+      integer :: i
+      text = '&sweep'
+      do i = 1, 900
+         text = text//' a%b'//to_text(i)//' = 1:9:1'
+      end do
+      call sweep_from_text(text//' /', 'case.nml', [character(len=1) ::], sweep, error)
+      call expect(allocated(error), 'too many members')
+      if (allocated(error)) call expect(index(error%message, 'a%b8 has 9, ...') > 0, 'of so many: '//error%message)
+   end subroutine many_variables
 
    subroutine refused()
       character(len=*), parameter :: range = 'a range is first:last:stride or first:last:*factor'

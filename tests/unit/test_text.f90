@@ -1,7 +1,7 @@
 !> Numbers as text: short text to six digits, exact text to the last bit.
 program test_text
    use kinds, only: wp, i8
-   use text, only: to_text, exact_text, lower_case
+   use text, only: to_text, exact_text, lower_case, printable, shortened, is_utf8
    use check, only: expect, expect_close, report
    implicit none (type, external)
 
@@ -13,9 +13,40 @@ program test_text
    call exact_round_trip()
    call exact_special_values()
    call words()
+   call characters()
    call report()
 
 contains
+
+   !> UTF-8 of every length passes, and what is none, or moves the cursor of a terminal, becomes question marks.
+   subroutine characters()
+      character(len=*), parameter :: good = 'a'//char(195)//char(164)//char(226)//char(130)//char(172) &
+         & //char(240)//char(157)//char(156)//char(139)//char(244)//char(143)//char(191)//char(191)
+      call expect(is_utf8('') .and. is_utf8(good), 'characters of one to four bytes')
+      call expect(printable(good) == good, 'stay as they are')
+      ! a lone byte, one missing, longer than need be, half of a surrogate pair, beyond the last character
+      call expect_bad(char(255), '?')
+      call expect_bad(char(164), '?')
+      call expect_bad(char(195), '?')
+      call expect_bad(char(226)//char(130), '??')
+      call expect_bad(char(195)//'a', '?a')
+      call expect_bad(char(192)//char(128), '??')
+      call expect_bad(char(224)//char(159)//char(191), '???')
+      call expect_bad(char(237)//char(160)//char(128), '???')
+      call expect_bad(char(240)//char(143)//char(191)//char(191), '????')
+      call expect_bad(char(244)//char(144)//char(128)//char(128), '????')
+      call expect(printable('a'//achar(10)//achar(27)//'[2J'//achar(127)) == 'a??[2J?', 'control characters')
+      call expect(printable('a'//char(194)//char(155)//'b') == 'a??b', 'those of Latin-1')
+      call expect(printable(char(226)//char(128)//char(168)//'b') == '???b', 'the separator of lines')
+      call expect(shortened(repeat('x', 80)) == repeat('x', 80), 'what is short stays')
+      call expect(shortened(repeat('x', 81)) == repeat('x', 77)//'...', 'what is long ends in points')
+   end subroutine characters
+
+   subroutine expect_bad(text, shown)
+      character(len=*), intent(in) :: text, shown
+      call expect(.not. is_utf8('a'//text), 'not UTF-8: '//shown)
+      call expect(printable('a'//text) == 'a'//shown, 'shown as a'//shown)
+   end subroutine expect_bad
 
    subroutine whole_numbers()
       call expect(to_text(0) == '0', 'to_text(0)')

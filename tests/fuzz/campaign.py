@@ -1,0 +1,120 @@
+"""Cases drawn, read and judged, as many as the time allows; what is found is made small."""
+
+import re
+import time
+from collections import Counter
+from dataclasses import dataclass, field
+from random import Random
+
+import faults
+import mutate
+import scenes
+import spelling
+import sweeps
+from harness import Case, Crash, Hang, Harness, Reply
+from judge import findings
+from reference import Variable, variables
+
+# longest case that others are made from
+LONGEST_KEPT = 2000
+
+
+@dataclass
+class Finding:
+    """What is wrong with a case, as small as it goes, and what the reader said to it."""
+
+    case: Case
+    what: str
+    said: str
+
+
+@dataclass
+class Campaign:
+    """The reader under test, the cases that reached something new, what was found."""
+
+    harness: Harness
+    seed: int = 1
+    corpus: list[Case] = field(default_factory=list)
+    found: dict[str, Finding] = field(default_factory=dict)
+    count: Counter = field(default_factory=Counter)
+
+    def __post_init__(self) -> None:
+        self.variables: dict[str, Variable] = variables(self.harness.reference())
+
+    def run(self, seconds: float, most: int = 10**9) -> None:
+        """Draws cases for so many seconds, or at most so many cases."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end and most > 0:
+            self.one(Random(f"{self.seed}/{self.count.total()}"))
+            most -= 1
+
+    def one(self, dice: Random) -> None:
+        """One case of any kind."""
+        kind = dice.random()
+        if self.corpus and kind < 0.6:
+            self.check(mutate.mutated(dice, self.corpus), "changed", back=dice.random() < 0.2)
+            return
+        scene = scenes.draw(dice, self.variables)
+        if kind < 0.8:
+            fault = faults.plant(dice, scene, self.variables)
+            self.check(fault.case, f"fault: {fault.kind}", fault.words)
+        elif kind < 0.95:
+            self.check(spelling.case(dice, scene, self.variables), "valid", intended=0)
+        else:
+            sweep, count = sweeps.draw(dice, self.variables)
+            swept = {item.key.removeprefix("sweep%") for item in sweep.items}
+            scene = {key: value for key, value in scene.items() if key not in swept}
+            self.check(spelling.case(dice, scene, self.variables, sweep), "valid sweep", intended=count)
+
+    def check(self, case: Case, kind: str, words=None, intended=None, back: bool = True) -> None:
+        """Reads and judges a case."""
+        self.count[kind] += 1
+        wrong, reply = self.judged(case, words, intended, back)
+        if reply and reply.news and len(case.text) <= LONGEST_KEPT:
+            self.corpus.append(case)
+        for what in wrong:
+            self.note(case, what, kind, words)
+
+    def judged(
+        self, case: Case, words=None, intended=None, back: bool = True
+    ) -> tuple[list[str], Reply | None]:
+        """What is wrong, and the answer if there was one."""
+        try:
+            reply = self.harness.read(case, back)
+        except Crash as crash:
+            return [f"crash: {crash}"], None
+        except Hang as hang:
+            return [f"hang: {hang}"], None
+        wrong = findings(case, reply, self.variables, words)
+        if intended is not None and reply.status != 0:
+            wrong.append("a valid case is refused")
+        if intended and reply.text.partition(b"\0")[0] != b"%d" % intended:
+            wrong.append(f"not {intended} members")
+        return wrong, reply
+
+    def note(self, case: Case, what: str, kind: str, words) -> None:
+        """Keeps a finding of a new kind, made small."""
+        sort = sort_of(what)
+        if sort in self.found:
+            self.count["found again"] += 1
+            return
+        # what a planted fault or a valid case must do does not hold for parts of it
+        part = not words and not kind.startswith("valid")
+
+        def same(smaller: Case) -> bool:
+            return sort in map(sort_of, self.judged(smaller)[0])
+
+        small = mutate.shrunk(case, same) if part or same(case) else case
+        wrong, reply = self.judged(small)
+        said = f"{reply.status}: {reply.text[:300].decode(errors='replace')}" if reply else ""
+        self.found[sort] = Finding(small, f"{kind}: {what}", said)
+        print(f"FOUND: {kind}: {what[:2000]}\n   {small!r:.1500}\n   {said}", flush=True)
+
+
+def sort_of(what: str) -> str:
+    """A finding without what differs from case to case; of a crash the place alone."""
+    place = re.search(r"(\w+\.f90):\d+|At line \d+ of file \S+|ERROR: \w+: [\w-]+", what)
+    if what.startswith("crash") and place:
+        return f"crash {place[0]}"
+    what = re.sub(r"b'.*'|b\".*\"", "..", what)
+    return re.sub(r"[-+.e\d]*\d", "0", what)[:60]

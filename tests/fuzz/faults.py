@@ -1,0 +1,126 @@
+"""One fault of a known kind in an otherwise valid case, and what the refusal must name."""
+
+from dataclasses import dataclass
+from random import Random
+
+import spelling
+from harness import Case
+from kinds import KINDS, Spot, default
+from reference import Variable
+from spelling import Item
+
+# what does not fit together, and the variable that the refusal names
+TOGETHER = (
+    ({"film%circumferential_cells": "61"}, "film%circumferential_cells"),
+    ({"film%circumferential_cells": "6"}, "film%circumferential_cells"),
+    ({"film%axial_cells": "1"}, "film%axial_cells"),
+    ({"film%solver": "'modal'"}, "film%solver"),
+    ({"bearing%machined_clearance": "1e-9"}, "bearing%machined_clearance"),
+    ({"bearing%assembled_clearance": "201e-6"}, "bearing%assembled_clearance"),
+    ({"bearing%axial_length": "2.5"}, "bearing%axial_length"),
+    ({"bearing%cavitation_pressure": "1"}, "bearing%cavitation_pressure"),
+    ({"rotor%balance_speed_rpm": "0.5"}, "rotor%balance_speed_rpm"),
+    (
+        {"operation%final_speed_rpm": "6501", "integration%stop_when_periodic": "0.1"},
+        "integration%stop_when_periodic",
+    ),
+    ({"friction%dynamic_coefficient": "0.2"}, "friction%dynamic_coefficient"),
+    ({"friction%dynamic_coefficient": "0", "friction%model": "'lugre'"}, "friction%dynamic_coefficient"),
+    ({"pivot%radius_difference": "7e-3"}, "pivot%radius_difference"),
+    ({"pivot%radius_difference": "0", "pivot%law": "'hertz'"}, "pivot%radius_difference"),
+    ({"output%start_time": "2.1"}, "output%start_time"),
+    ({"operation%duration": "1e6"}, "operation%duration"),
+    ({"pads%inertia": "8e-5"}, "pads%inertia"),
+    ({"pads%pivot_angle_deg": "0, 60"}, "pads%pivot_angle_deg"),
+)
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A case that must be refused, and the words that the one line must have in it."""
+
+    case: Case
+    kind: str
+    words: tuple[bytes, ...]
+
+
+def plant(dice: Random, scene: dict[str, tuple], variables: dict[str, Variable]) -> Fault:
+    """The scene as text with one fault in it."""
+    kind = dice.choice((*KINDS, together, bad_set))
+    if kind is together:
+        return together(dice, variables)
+    if kind is bad_set:
+        return bad_set(dice, scene, variables)
+    named = None
+    while named is None:
+        named, groups = planted(dice, kind, scene, variables)
+    text = spelling.file_text(dice, groups)
+    # what has a line by now is named by it
+    words = tuple(word if isinstance(word, bytes) else b"line %d: " % word.line for word in named)
+    return Fault(Case(text), kind.__name__, words)
+
+
+def planted(dice: Random, kind, scene: dict[str, tuple], variables: dict[str, Variable]):
+    """What must be named, or None where the kind does not fit the variable; the groups with the fault."""
+    variable = dice.choice(list(variables.values()))
+    units = [spelling.spelled(dice, variables[key], value) for key, value in scene.items()]
+    unit = next((unit for unit in units if unit[0].key == variable.key), None)
+    if not unit:
+        size = 1 if variable.per_pad and not variable.fixes_pads else len(variable.default)
+        unit = [
+            spelling.item(dice, variable, [default(variable, value) for value in variable.default[:size]])
+        ]
+        units.append(unit)
+    groups = spelling.groups(dice, units, variables)
+    group = next(each for each in groups if each.name.lower().decode() == variable.group)
+    return kind(dice, Spot(variable, unit[0], group, groups, variables)), groups
+
+
+def together(dice: Random, variables: dict[str, Variable]) -> Fault:
+    """Values that do not fit together."""
+    values, culprit = dice.choice(TOGETHER)
+    units = [
+        [Item(key, spelling.cased(dice, key.partition("%")[2]), [value.encode()])]
+        for key, value in values.items()
+    ]
+    text = spelling.file_text(dice, spelling.groups(dice, units, variables))
+    return Fault(Case(text), "together", (culprit.encode(),))
+
+
+def bad_set(dice: Random, scene: dict[str, tuple], variables: dict[str, Variable]) -> Fault:
+    """An argument of --set that is none."""
+    key = dice.choice(list(variables))
+    group, name = key.encode().split(b"%")
+    good = dice.choice(list(variables.values()))
+    value = default(good, good.default[0])
+    argument = dice.choice(
+        (
+            b"",
+            b"%",
+            b"=",
+            group,
+            name + b"=" + value,
+            group + b"%" + name,
+            group + b"%" + name + b"=",
+            group + b"%" + name + b"=1 /",
+            group + b"%" + name + b"=1 x=2",
+            group + b"%" + name + b"=1 &end",
+            group + b"%" + name + b"=1 !",
+            group + b"%=1",
+            b"%" + name + b"=1",
+            b"&" + group + b" " + name + b"=1 /",
+            group + b"%no=1",
+            b"no%" + name + b"=1",
+            group + b"%" + name + b"='x",
+            b"case%title='\x01'",
+            b"case%title='\x1b[2J'",
+            b"case%title='a\nb'",
+            b"case%title='a\rb'",
+            b"case%title='\xff'",
+            group + b"%" + name + b"(0)=1",
+            group + b"." + name + b"=1",
+            group + b"%" + name + b"=" + b"x" * dice.choice((1, 100, 4000)),
+        )
+    )
+    text = spelling.case(dice, scene, variables)
+    return Fault(Case(text.text, (*text.sets, argument)), "bad_set", (b"--set",))

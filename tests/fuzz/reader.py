@@ -1,0 +1,279 @@
+"""A second reader of cases, from the documented syntax (docs/inputs.md) and nothing of the program's."""
+
+import math
+import re
+from dataclasses import dataclass, field
+
+from harness import Case
+from reference import MOST_PADS, Variable
+
+MOST_ITEMS = 1000
+MOST_TEXT = 1000
+LONGEST_NUMBER = 60
+SWEEP = "sweep"
+
+BLANK = re.compile(rb"(?:[ \t\r\n]|![^\n]*)*")
+COMMAS = re.compile(rb"(?:[ \t\r\n,]|![^\n]*)*")
+WORD = re.compile(rb"[^ ,=/&!'\"\t\n\r]*")
+QUOTED = re.compile(rb"'(?:[^'\n]|'')*+'|\"(?:[^\"\n]|\"\")*+\"")
+TARGET = re.compile(rb"([a-z0-9_]+)(?:\(([0-9]{1,4})\))?")
+SWEEP_TARGET = re.compile(rb"([a-z0-9_%]+)(?:\(([0-9]{1,4})\))?")
+NUMBER = re.compile(rb"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[ed][+-]?[0-9]+)?")
+REPEAT = re.compile(rb"(?:([0-9]{1,6})\*)?(.*)", re.S)
+# control characters, and a carriage return that ends no line
+CONTROL = re.compile(rb"[\0-\x08\x0b\x0c\x0e-\x1f\x7f]|\r(?!\n)")
+
+
+class Refused(Exception):
+    """The text is no case; the words say why."""
+
+
+@dataclass
+class Assignment:
+    """group%name(subscript) = values; subscript 0: none; values as text and whether in quotes."""
+
+    group: str
+    name: str
+    subscript: int
+    values: list[tuple[bytes, bool]] = field(default_factory=list)
+    overrides: bool = False
+
+    def undoes(self, other: "Assignment") -> bool:
+        same = (self.group, self.name) == (other.group, other.name)
+        return same and self.subscript in (0, other.subscript)
+
+    def replaces(self, other: "Assignment") -> bool:
+        """True where nothing is left of the other: an element leaves the rest of a list."""
+        if not self.undoes(other) or not self.subscript or self.group == SWEEP:
+            return self.undoes(other)
+        return len(other.values) == 1 and b"*" not in other.values[0][0]
+
+    def put(self, others: list["Assignment"]) -> list["Assignment"]:
+        """Behind the others in place of those it replaces; a sweep's where the first of them stood."""
+        replaced = [i for i, each in enumerate(others) if self.replaces(each)]
+        kept = [each for each in others if not self.replaces(each)]
+        at = replaced[0] if replaced and self.group == SWEEP else len(kept)
+        return [*kept[:at], self, *kept[at:]]
+
+
+class Scanner:
+    """Where reading is."""
+
+    def __init__(self, text: bytes):
+        self.text, self.at = text, 0
+
+    def skip(self, pattern: re.Pattern = BLANK) -> bytes:
+        """Moves over blanks; gives the character behind them, empty at the end."""
+        self.at = pattern.match(self.text, self.at).end()
+        return self.text[self.at : self.at + 1]
+
+    def take(self, pattern: re.Pattern) -> re.Match | None:
+        found = pattern.match(self.text, self.at)
+        if found:
+            self.at = found.end()
+        return found
+
+
+def read(case: Case, known: set[str]) -> tuple[list[Assignment], bool]:
+    """The assignments of a case, with those of --set in place; whether it has a sweep. Or Refused."""
+    assignments, groups = read_file(case.text, known | {SWEEP})
+    for argument in case.sets:
+        assignments = read_set(argument).put(assignments)
+    return assignments, SWEEP in groups or any(each.group == SWEEP for each in assignments)
+
+
+def read_file(text: bytes, known: set[str]) -> tuple[list[Assignment], set[str]]:
+    """The assignments of a file, and its groups."""
+    if CONTROL.search(text):
+        raise Refused("control character")
+    scan = Scanner(text)
+    scan.take(re.compile(rb"\xef\xbb\xbf"))
+    groups, found = set(), []
+    while scan.skip(COMMAS):
+        if not scan.take(re.compile(b"&")):
+            raise Refused("outside a group")
+        group = scan.take(WORD)[0].lower().decode("latin-1")
+        if group not in known or group in groups:
+            raise Refused(f"group {group}")
+        groups.add(group)
+        read_group(scan, group, found)
+    if not groups:
+        raise Refused("no group")
+    return found, groups
+
+
+def read_set(argument: bytes) -> Assignment:
+    """The assignment of --set."""
+    group, percent, rest = argument.partition(b"%")
+    if CONTROL.search(argument) or not percent or b"=" in group:
+        raise Refused("--set")
+    found = []
+    scan = Scanner(rest + b" /")
+    read_group(scan, group.strip(b" ").lower().decode("latin-1"), found)
+    if len(found) != 1 or scan.skip():
+        raise Refused("--set")
+    found[0].overrides = True
+    return found[0]
+
+
+def read_group(scan: Scanner, group: str, found: list[Assignment]) -> None:
+    """Assignments up to the end of the group."""
+    while True:
+        here = scan.skip(COMMAS)
+        if here == b"/":
+            scan.at += 1
+            return
+        if here in (b"&", b""):
+            if scan.take(re.compile(rb"&end", re.I)):
+                return
+            raise Refused(f"{group} not closed")
+        target = (SWEEP_TARGET if group == SWEEP else TARGET).fullmatch(scan.take(WORD)[0].lower())
+        if not target or scan.skip() != b"=" or target[2] and int(target[2]) == 0:
+            raise Refused("expected name = value")
+        scan.at += 1
+        new = Assignment(group, target[1].decode(), int(target[2] or 0), read_values(scan))
+        if any(new.undoes(each) for each in found) or len(found) == MOST_ITEMS:
+            raise Refused("twice, or too many")
+        found.append(new)
+
+
+def read_values(scan: Scanner) -> list[tuple[bytes, bool]]:
+    """Values up to the next name or the end of the group: separated by blanks, or one comma each."""
+    values, comma = [], True
+    while True:
+        here = scan.skip()
+        if here == b",":
+            if comma:
+                raise Refused("a value is missing")
+            comma = True
+            scan.at += 1
+            continue
+        if here in (b"/", b"&", b""):
+            break
+        if here in (b"'", b'"'):
+            quoted = scan.take(QUOTED)
+            if not quoted:
+                raise Refused("quote not closed")
+            token = quoted[0][1:-1].replace(2 * here, here), True
+        else:
+            before = scan.at
+            token = scan.take(WORD)[0], False
+            if scan.skip() == b"=":
+                scan.at = before
+                break
+        values.append(token)
+        comma = False
+        if len(values) > MOST_ITEMS:
+            raise Refused("too many values")
+    if not values:
+        raise Refused("a value is missing")
+    return values
+
+
+def resolve(assignments: list[Assignment], variables: dict[str, Variable]) -> dict[str, tuple]:
+    """Values of all variables, defaults included."""
+    given: dict[str, list[Assignment]] = {}
+    for each in assignments:
+        key = f"{each.group}%{each.name}"
+        if key not in variables:
+            raise Refused(f"unknown {key}")
+        given.setdefault(key, []).append(each)
+    pads, found = 0, {}
+    for key, variable in variables.items():
+        here = given.get(key, [])
+        found[key] = words(variable, here) if variable.is_text else numbers(variable, here, pads)
+        if variable.fixes_pads:
+            pads = len(found[key])
+    if found["operation%final_speed_rpm"][0] < 0:
+        found["operation%final_speed_rpm"] = found["operation%speed_rpm"]
+    return found
+
+
+def words(variable: Variable, assignments: list[Assignment]) -> tuple[bytes]:
+    """The value of a text."""
+    value = variable.default[0]
+    for each in assignments:
+        value, quoted = each.values[0]
+        if len(each.values) > 1 or each.subscript:
+            raise Refused("takes one text")
+        if variable.choices:
+            value = value.strip(b" ").lower()
+            if value.decode("latin-1") not in variable.choices:
+                raise Refused("not one of the choices")
+        elif not quoted or len(value) > MOST_TEXT:
+            raise Refused("text in quotes")
+        try:
+            value.decode("utf-8")
+        except UnicodeDecodeError:
+            raise Refused("not UTF-8") from None
+    return (value,)
+
+
+def numbers(variable: Variable, assignments: list[Assignment], pads: int) -> tuple[float, ...]:
+    """The values of a variable of numbers."""
+    size = pads if variable.per_pad else len(variable.default)
+    most = MOST_PADS if variable.fixes_pads else size
+    values = list(variable.default) if variable.fixes_pads else list(variable.default[:1] * size)
+    if not variable.per_pad:
+        values = list(variable.default)
+    taken: set[int] = set()
+    for each in assignments:
+        new = list(number_list(variable, each, most))
+        if variable.fixes_pads and each.subscript:
+            raise Refused("angles without subscript")
+        if variable.fixes_pads:
+            values = new
+        elif each.subscript:
+            elements = set(range(each.subscript, each.subscript + len(new)))
+            # an element that the file itself gives twice
+            if not each.overrides and (elements & taken or size == 1 and each is not assignments[0]):
+                raise Refused("element given twice")
+            taken |= elements
+            values[each.subscript - 1 : each.subscript - 1 + len(new)] = new
+        elif len(new) == size:
+            values = new
+        elif len(new) == 1 and variable.per_pad:
+            values = new * size
+        else:
+            raise Refused("number of values")
+    return tuple(values)
+
+
+def number_list(variable: Variable, assignment: Assignment, most: int):
+    """The numbers of an assignment, each checked."""
+    count = max(assignment.subscript, 1) - 1
+    for text, quoted in assignment.values:
+        repeat, digits = REPEAT.fullmatch(text.lower()).groups()
+        if quoted or repeat and int(repeat) == 0 or len(digits) > LONGEST_NUMBER:
+            raise Refused("no number")
+        if not NUMBER.fullmatch(digits):
+            raise Refused("no number")
+        value = float(digits.replace(b"d", b"e"))
+        if not math.isfinite(value) or not variable.low <= value <= variable.high:
+            raise Refused("out of range")
+        if variable.whole and not re.fullmatch(rb"[+-]?[0-9]+", digits):
+            raise Refused("not whole")
+        count += int(repeat or 1)
+        if count > most:
+            raise Refused("too many values")
+        # the sign of a zero is kept by reals alone
+        yield from [float(int(value)) if variable.whole else value] * int(repeat or 1)
+
+
+LINE = re.compile(rb"^(?:&(\w+)|  (\w+) = (.*)|/)$", re.M)
+
+
+def resolved(text: bytes) -> dict[str, tuple]:
+    """Values of a resolved case, as the program writes it: one variable a line."""
+    found, group = {}, ""
+    for line in LINE.finditer(text):
+        if line[1]:
+            group = line[1].decode()
+        elif line[2]:
+            value = line[3]
+            if value[:1] == b"'":
+                said = (value[1:-1].replace(b"''", b"'"),)
+            else:
+                said = tuple(float(word) for word in value.split(b","))
+            found[f"{group}%{line[2].decode()}"] = said
+    return found

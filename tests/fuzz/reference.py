@@ -1,0 +1,60 @@
+"""The input variables, from the program's own reference (tiltpad --reference)."""
+
+import re
+from dataclasses import dataclass
+
+GROUP = re.compile(r"^## &(\w+)$", re.M)
+ROW = re.compile(r"^\| `(\w+)` \| (.*?) \| .*? \| (.*?) \| (.*?) \|$", re.M)
+MOST_PADS = 24
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One input variable: what it takes, and its default."""
+
+    group: str
+    name: str
+    default: tuple
+    choices: tuple[str, ...] = ()
+    low: float = 0.0
+    high: float = 0.0
+    whole: bool = False
+    per_pad: bool = False
+    fixes_pads: bool = False
+
+    @property
+    def key(self) -> str:
+        return f"{self.group}%{self.name}"
+
+    @property
+    def is_text(self) -> bool:
+        return isinstance(self.default[0], bytes)
+
+
+def variables(markdown: str) -> dict[str, Variable]:
+    """All variables by "group%name", in the order of the reference."""
+    found = {}
+    parts = GROUP.split(markdown)
+    for group, table in zip(parts[1::2], parts[2::2], strict=True):
+        for name, default, allowed, meaning in ROW.findall(table):
+            variable = _variable(group, name, default.strip("`"), allowed, meaning)
+            found[variable.key] = variable
+    return found
+
+
+def _variable(group: str, name: str, default: str, allowed: str, meaning: str) -> Variable:
+    if default.startswith("'"):
+        choices = () if allowed == "any text" else tuple(allowed.split())
+        return Variable(group, name, (default[1:-1].encode(),), choices)
+    numbers = tuple(float(word) for word in default.split(","))
+    low, _, high = allowed.removeprefix("whole, ").partition(" to ")
+    return Variable(
+        group,
+        name,
+        numbers,
+        low=float(low),
+        high=float(high),
+        whole=allowed.startswith("whole"),
+        per_pad=group == "pads",
+        fixes_pads="of them" in meaning,
+    )

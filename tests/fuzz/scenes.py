@@ -1,0 +1,165 @@
+"""Random scenes that must be accepted: values by "group%name", within their ranges and fitting together."""
+
+import math
+from random import Random
+
+from reference import MOST_PADS, Variable
+
+# what is drawn together, as the program checks one against the other
+TOGETHER = (
+    (
+        "operation%speed_rpm",
+        "operation%final_speed_rpm",
+        "operation%duration",
+        "integration%stop_when_periodic",
+        "output%samples_per_revolution",
+        "output%start_time",
+    ),
+    (
+        "bearing%journal_radius",
+        "bearing%machined_clearance",
+        "bearing%assembled_clearance",
+        "bearing%axial_length",
+    ),
+    (
+        "bearing%supply_pressure",
+        "bearing%ambient_pressure",
+        "bearing%cavitation_pressure",
+        "film%solver",
+        "film%cavitation",
+    ),
+    ("pivot%law", "pivot%socket_radius", "pivot%radius_difference"),
+    ("friction%model", "friction%static_coefficient", "friction%dynamic_coefficient"),
+)
+ALONE = ("rotor%balance_speed_rpm", "film%circumferential_cells", "film%axial_cells")
+SPECIAL = {key for group in (*TOGETHER, ALONE) for key in group}
+TITLE = "abc ABC 0123  ''\"\"/!&=,*()%;:\t\\#$\u00e4\u20ac\U0001d70b"
+
+
+def draw(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
+    """Values of some variables, all fitting together; the others keep their defaults."""
+    found: dict[str, tuple] = {}
+    few = dice.choice((0.0, 0.02, 0.02, 0.05, 0.05, 0.1, 0.2, 1.0))
+    for key, variable in variables.items():
+        if key not in SPECIAL and variable.group != "pads" and dice.random() < few:
+            found[key] = anything(dice, variable)
+    for group, together in zip(TOGETHER, (operation, bearing, pressures, pivot, friction), strict=True):
+        if dice.random() < few:
+            found.update(zip(group, together(dice), strict=True))
+    if dice.random() < few:
+        found["rotor%balance_speed_rpm"] = (dice.choice((-1.0, -0.5, 1.0, 1e6, dice.uniform(1, 1e6))),)
+    if dice.random() < few:
+        found["film%circumferential_cells"] = (float(dice.choice((0, 8, 2000, 2 * dice.randint(4, 1000)))),)
+    if dice.random() < few:
+        found["film%axial_cells"] = (float(dice.choice((0, 2, 1000, dice.randint(2, 1000)))),)
+    if dice.random() < few:
+        found.update(pads(dice, variables))
+    return found
+
+
+def anything(dice: Random, variable: Variable) -> tuple:
+    """Any allowed value of a variable."""
+    if variable.choices:
+        return (dice.choice(variable.choices).encode(),)
+    if variable.is_text:
+        return ("".join(dice.choices(TITLE, k=dice.choice((0, 1, 10, 200)))).encode(),)
+    return tuple(number(dice, variable) for _ in variable.default)
+
+
+def number(dice: Random, variable: Variable) -> float:
+    """An allowed number: a limit, a neighbour of one, even or in powers of ten."""
+    low, high = variable.low, variable.high
+    if variable.whole:
+        return float(dice.choice((low, high, dice.randint(int(low), int(high)))))
+    kind = dice.randrange(6)
+    if kind == 0:
+        return dice.choice((low, high, math.nextafter(low, high), math.nextafter(high, low)))
+    if kind == 1:
+        return min(max(round(dice.uniform(low, high), dice.randrange(6)), low), high)
+    if kind == 2 and low <= 0 <= high:
+        return min(dice.choice((0.0, -0.0, 5e-324, 2.2250738585072014e-308, 1.0)), high)
+    return log_between(dice, low, high) if kind < 5 else dice.uniform(low, high)
+
+
+def log_between(dice: Random, low: float, high: float) -> float:
+    """A number of any size between the limits, to random last bits."""
+    least = low if low > 0 else min(1e-12, high)
+    return min(max(math.exp(dice.uniform(math.log(least), math.log(high))), low), high)
+
+
+def operation(dice: Random):
+    """Speeds, duration, sampling."""
+    speed = log_between(dice, 1e-3, 1e6)
+    final = dice.choice((-1.0, -1e-9, speed, 0.0, log_between(dice, 1e-3, 1e6)))
+    samples = dice.choice((1, 360, 1000, dice.randint(1, 10**6)))
+    longest = 0.99e9 * 60 / samples / max(speed, final)
+    duration = log_between(dice, 1e-9, min(1e6, longest))
+    steady = final < 0 or final == speed
+    periodic = dice.choice((0.0, 1.0, dice.random())) if steady else 0.0
+    start = dice.choice((0.0, duration, duration * dice.random()))
+    return (speed,), (final,), (duration,), (periodic,), (float(samples),), (start,)
+
+
+def bearing(dice: Random):
+    """Radius, clearances, length."""
+    radius = log_between(dice, 1e-4, 10)
+    clearance = min(radius * log_between(dice, 1.01e-5, 0.0499), 0.1)
+    assembled = max(1e-9, min(clearance * log_between(dice, 1e-3, 1.999), 0.1))
+    return (radius,), (clearance,), (assembled,), (radius * log_between(dice, 0.11, 9.9),)
+
+
+def pressures(dice: Random):
+    """Pressures and film."""
+    solver, cavitation = dice.choice(
+        (("auto", "reynolds"), ("modal", "gumbel"), ("modal", "none"), ("sor", "none"), ("sor", "reynolds"))
+    )
+    low, middle, high = sorted(dice.uniform(-1e9, 1e9) for _ in range(3))
+    if dice.random() < 0.3:
+        low, high = -1e9, 1e9
+    if cavitation == "none" and dice.random() < 0.5:
+        low, middle = middle, low
+    return (middle,), (high,), (low,), (solver.encode(),), (cavitation.encode(),)
+
+
+def pivot(dice: Random):
+    """Contact law and radii."""
+    law = dice.choice(("fang", "hertz"))
+    socket = log_between(dice, 1e-5, 2)
+    difference = dice.choice((0.499 * socket, log_between(dice, 1e-9 * socket, 0.499 * socket)))
+    return (law.encode(),), (socket,), (dice.choice((0.0, difference)) if law == "fang" else difference,)
+
+
+def friction(dice: Random):
+    """Friction model and coefficients."""
+    model = dice.choice(("none", "bengisu_akay", "lugre"))
+    static = log_between(dice, 1e-6, 10)
+    dynamic = dice.choice((static, static * (1 - dice.random())))
+    return (model.encode(),), (static,), (0.0 if model != "lugre" and dice.random() < 0.3 else dynamic,)
+
+
+def pads(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
+    """Pads side by side around the journal."""
+    count = dice.choice((1, 2, 4, 5, MOST_PADS, dice.randint(1, MOST_PADS)))
+    room = 360 / count
+    first = dice.uniform(-180, -160)
+    angles = [first + room * i for i in range(count)]
+    if dice.random() < 0.3:
+        angles = [float(round(angle)) for angle in angles]
+    dice.shuffle(angles)
+
+    def each(value) -> tuple:
+        if dice.random() < 0.4:
+            return (value(),) * count
+        return tuple(value() for _ in range(count))
+
+    ratio = each(lambda: dice.uniform(0.4, 0.6))
+    arc = each(lambda: dice.uniform(0.1, 0.75 * room - 2))
+    mass = each(lambda: log_between(dice, 1e-9, 1e3))
+    tangential = each(lambda: dice.choice((0.0, -0.0, dice.uniform(-1, 1))))
+    radial = each(lambda: dice.choice((0.0, dice.uniform(-1, 1))))
+    inertia = each(lambda: log_between(dice, 2.1 * max(mass), 1e6))
+    distance = each(lambda: number(dice, variables["pads%pivot_distance"]))
+    motion = dice.choice(variables["pads%motion"].choices).encode()
+    values = (tuple(angles), arc, ratio, distance, mass, inertia, tangential, radial, (motion,))
+    keys = (key for key, variable in variables.items() if variable.group == "pads")
+    return dict(zip(keys, values, strict=True))
