@@ -67,7 +67,8 @@ contains
       logical :: ok
       exchanged = .false.
       if (.not. self%lock%is_ours()) then
-         call raise(error, system_error, 'cannot write '//self%path//': its lock is gone, to another run or with its folder')
+         call raise(error, system_error, 'cannot write '//self%path &
+            & //': its lock is gone, to another run or with its folder')
          return
       end if
       spare = self%path//'.old'
