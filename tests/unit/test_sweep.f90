@@ -75,7 +75,8 @@ contains
       sweep = sweep_of('&sweep film%relaxation = '//exact_text(first)//':1e-20:*'//exact_text(factor)//'/')
       do k = 1, sweep%members
          call sweep%scene(k, scene, error)
-         call expect_close(scene%film%relaxation, first*real(real(factor, more)**(k - 1), wp), 0.0_wp, 'power '//to_text(k - 1))
+         call expect_close(scene%film%relaxation, first*real(real(factor, more)**(k - 1), wp), 0.0_wp, &
+            & 'power '//to_text(k - 1))
       end do
    end subroutine expect_powers
 
