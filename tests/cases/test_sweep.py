@@ -6,6 +6,7 @@ import re
 import select
 import signal
 import subprocess
+import sys
 import time
 
 import h5py
@@ -562,3 +563,23 @@ def test_folder_that_is_shut(tiltpad, case):
 def test_default_folder_is_the_case_itself(tiltpad, tmp_path):
     (tmp_path / "noend").write_text(sweep("rotor%mass=1000,2000"))
     refused(tiltpad, tmp_path, "noend", names=["noend"])
+
+
+# prints the most memory that a command took, kilobytes; a child begins with its parent's
+MEMORY = """
+import resource, subprocess, sys
+subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL, check=True)
+print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)
+"""
+
+
+def test_members_leave_nothing_in_memory(program, tiltpad, tmp_path):
+    """Less than a kilobyte each, a tenth of what the assignments take that each is made from."""
+    (tmp_path / "one.nml").write_text("&case /\n")
+    whole = tiltpad("--check", "one.nml", cwd=tmp_path).stdout
+    most = {}
+    for members in (1, 5000):
+        (tmp_path / "case.nml").write_text(f"{whole}&sweep rotor%mass=1001:{1000 + members}:1 /\n")
+        command = [sys.executable, "-S", "-c", MEMORY, program, "--check", "case.nml"]
+        most[members] = int(subprocess.run(command, cwd=tmp_path, capture_output=True, check=True).stdout)
+    assert most[5000] - most[1] < 5000
