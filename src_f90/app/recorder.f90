@@ -26,7 +26,7 @@ module recorder
       type(run_statistics_type) :: earlier
       !> Simulated time reached, s.
       real(wp) :: reached = 0
-      real(wp), private :: started = 0, seconds = 0, last_checkpoint = 0
+      real(wp), private :: started = 0, sampling = 0, checkpoints = 0, last_checkpoint = 0
       logical, private :: checkpoint_due = .false.
       type(periodicity), private :: orbit
    contains
@@ -84,7 +84,7 @@ contains
             self%satisfied = self%orbit%change <= limit
          end if
       end associate
-      self%seconds = self%seconds + wall_clock() - started
+      self%sampling = self%sampling + wall_clock() - started
    end subroutine sample
 
    subroutine report(self, t, steps)
@@ -112,7 +112,9 @@ contains
       type(march_statistics), intent(in) :: statistics
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: reason
+      real(wp) :: started
       self%reached = t
+      started = wall_clock()
       if (stop_requested()) then
          reason = 'stopped by signal '//to_text(stop_signal())//' at t = '//to_text(t)//' s'
          call self%file%checkpoint(t, y, self%cost(statistics), stopped, reason, error)
@@ -122,6 +124,7 @@ contains
          call self%progress%note('checkpoint at t = '//to_text(t)//' s')
          self%checkpoint_due = .false.
          self%last_checkpoint = wall_clock()
+         self%checkpoints = self%checkpoints + self%last_checkpoint - started
       end if
    end subroutine take_state
 
@@ -140,7 +143,8 @@ contains
          total%sor_sweeps = self%marched%film%counters%sweeps
          total%film_seconds = self%marched%film_seconds
       end if
-      total%output_seconds = self%seconds
+      total%output_seconds = self%sampling
+      total%checkpoint_seconds = self%checkpoints
       total%wall_seconds = wall_clock() - self%started
       total = self%earlier + total
    end function cost

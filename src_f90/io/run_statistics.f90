@@ -13,7 +13,7 @@ module run_statistics
       !> Pads solved by axial modes and on finite volumes, and sweeps, in the march.
       integer(i8) :: film_modal = 0, film_sor = 0, sor_sweeps = 0
       !> Wall time, s.
-      real(wp) :: film_seconds = 0, output_seconds = 0, wall_seconds = 0
+      real(wp) :: film_seconds = 0, output_seconds = 0, checkpoint_seconds = 0, wall_seconds = 0
    contains
       procedure :: put
       procedure :: get
@@ -40,6 +40,8 @@ contains
          & 'sweeps of over-relaxation, or eliminations, in the march')
       call file%put_real('statistics/film_seconds', self%film_seconds, 's', 'wall time of the film in the march')
       call file%put_real('statistics/output_seconds', self%output_seconds, 's', 'wall time of sampling')
+      call file%put_real('statistics/checkpoint_seconds', self%checkpoint_seconds, 's', &
+         & 'wall time of the checkpoints before the last')
       call file%put_real('statistics/wall_seconds', self%wall_seconds, 's', 'wall time of the run')
    end subroutine put
 
@@ -56,6 +58,7 @@ contains
       self%sor_sweeps = file%get_count('statistics/sor_sweeps')
       self%film_seconds = file%get_real('statistics/film_seconds')
       self%output_seconds = file%get_real('statistics/output_seconds')
+      self%checkpoint_seconds = file%get_real('statistics/checkpoint_seconds')
       self%wall_seconds = file%get_real('statistics/wall_seconds')
    end subroutine get
 
@@ -72,6 +75,7 @@ contains
       sum%sor_sweeps = self%sor_sweeps + other%sor_sweeps
       sum%film_seconds = self%film_seconds + other%film_seconds
       sum%output_seconds = self%output_seconds + other%output_seconds
+      sum%checkpoint_seconds = self%checkpoint_seconds + other%checkpoint_seconds
       sum%wall_seconds = self%wall_seconds + other%wall_seconds
    end function plus
 end module run_statistics
