@@ -113,13 +113,13 @@ contains
       point%slope = point%force/penetration
    end function snug_at
 
-   !> Finds the contact radius of a penetration by safeguarded Newton steps on ln(eta), which is
-   !> steep but monotone in `a`, then takes the force from eq (13), which is well conditioned.
+   !> Finds the contact radius of a penetration by safeguarded Newton steps on ln(eta), which is monotone and nearly
+   !> straight over ln(a), then takes the force from eq (13), which is well conditioned.
    pure function fang_at(self, penetration) result(point)
       class(fang_law), intent(in) :: self
       real(wp), intent(in) :: penetration
       type(contact_point) :: point
-      real(wp) :: a, low, high, log_eta, d_log_eta, d_log_force, step
+      real(wp) :: a, next, d_a, low, high, log_eta, d_log_eta, d_log_force
       integer :: i
       low = 0
       high = self%socket_radius
@@ -131,10 +131,13 @@ contains
          else
             low = a
          end if
-         step = -(log_eta - log(penetration))/d_log_eta
-         if (a + step <= low .or. a + step >= high) step = 0.5_wp*(low + high) - a
-         a = a + step
-         if (abs(step) <= 4*epsilon(a)*a) exit
+         next = 0
+         ! beyond the unbounded force of eq (14) the slope says nothing
+         if (log_eta < huge(a)) next = a*exp(-(log_eta - log(penetration))/(d_log_eta*a))
+         if (next <= low .or. next >= high) next = 0.5_wp*(low + high)
+         d_a = abs(next - a)
+         a = next
+         if (d_a <= 4*epsilon(a)*a) exit
       end do
       call radius_curve(self, a, log_eta, d_log_eta, d_log_force)
       point = force_over_radius(a, self%socket_radius, self%compliance, self%penetration_factor, &

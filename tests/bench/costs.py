@@ -177,15 +177,14 @@ def peers_words(rows: list[Row]) -> str:
 
 
 def checkpoints(rows: list[Row]) -> str:
-    """Runs without and with checkpoints."""
-    pairs = [row for row in rows if row.group == CHECKPOINTS]
+    """What checkpoints took of runs."""
     lines = []
-    for without, often in zip(pairs[::2], pairs[1::2], strict=True):
-        share = often.wall_seconds / without.wall_seconds - 1
-        rate = float(without.note.split()[0]) / without.wall_seconds
-        walls = short(without.wall_seconds), short(often.wall_seconds)
-        lines.append((without.scene, *walls, f"{rate:.1f}", f"{share:.1%}", verdict(share, CHECKPOINT_SHARE)))
-    head = "scene", "wall s without", "wall s with", "MB/s written", "share", f"below {CHECKPOINT_SHARE:.0%}"
+    for row in (row for row in rows if row.group == CHECKPOINTS):
+        share = row.checkpoint_seconds / row.wall_seconds
+        rate = float(row.note.split()[0]) / row.wall_seconds
+        times = short(row.wall_seconds), short(row.checkpoint_seconds, 2)
+        lines.append((row.scene, f"{rate:.1f}", *times, f"{share:.1%}", verdict(share, CHECKPOINT_SHARE)))
+    head = "scene", "MB/s written", "wall s", "of it checkpoints", "share", f"below {CHECKPOINT_SHARE:.0%}"
     return table(head, lines) if lines else NOT_RUN
 
 

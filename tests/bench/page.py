@@ -2,7 +2,6 @@
 
 import costs
 import tables
-from production import REPEATS
 from runner import Row
 from settings import (
     ALLOWED,
@@ -118,10 +117,11 @@ looked for only where it can fall), rows of Newton's matrix between pads, and sa
 
 ### Checkpoints
 
-The same run without checkpoints and with one every {checkpoint_seconds:g} s of wall time (default: 300 s),
-best of {checkpoint_repeats} pairs. A checkpoint costs what was written since the last one, so the share
-depends little on how often there is one, and goes with the megabytes a second that a run writes. A run that
-is over before its first checkpoint pays nothing.
+Runs with a checkpoint every {checkpoint_seconds:g} s of wall time (default: 300 s), and what the program
+itself counts as the time of checkpoints. One costs a few milliseconds, the writing to the disk of what the system
+still holds back, and a copy of what was written since the last one. So the share goes with the megabytes a
+second that a run writes, and little with how often there is one. A run that is over before its first
+checkpoint pays nothing.
 
 {checkpoints}
 
@@ -205,7 +205,6 @@ def page(rows: dict[str, list[Row]], machine: str) -> str:
         skips=costs.skips(rows["skips"]),
         skips_words=costs.skips_words(rows["diagram"], rows["kernels"]),
         checkpoint_seconds=CHECKPOINT_SECONDS,
-        checkpoint_repeats=REPEATS,
         checkpoints=costs.checkpoints(rows["production"]),
         members=MEMBERS,
         study=costs.study(rows["production"]),

@@ -48,6 +48,7 @@ class Row:
     reference_finite_volumes: float | None = None
     rotor_seconds: float = 0.0
     march_seconds: float = 0.0
+    checkpoint_seconds: float = 0.0
     note: str = ""
 
     def compare(self, found: dict[str, float]) -> None:

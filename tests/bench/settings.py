@@ -50,16 +50,16 @@ ALLOWED = 1e-3
 FINE = ("64 cells, 12 modes, 1e-8", film(64, 12) + tolerance("1e-8"))
 FINE_ALLOWED = 1e-5
 
-#: What checkpoints cost: wall time between them (so often only here) and the share allowed; the scenes.
-CHECKPOINT_SECONDS, CHECKPOINT_SHARE = 1.0, 0.02
+#: What checkpoints cost: wall time between them (default: 300 s) and the share allowed; scenes of some 20 s.
+CHECKPOINT_SECONDS, CHECKPOINT_SHARE = 8.0, 0.02
 CHECKPOINT_SCENES = (
-    Scene("steady_tr", "frictionless", MAIN[0].case, ("operation%duration=50",)),
-    Scene("steady_lugre", "LuGre", MAIN[1].case, ("operation%duration=16",)),
+    Scene("steady_tr", "frictionless", MAIN[0].case, ("operation%duration=200",)),
+    Scene("steady_lugre", "LuGre", MAIN[1].case, ("operation%duration=80",)),
     Scene("steady_lugre", "LuGre, 36 samples a revolution", MAIN[1].case,
-          ("operation%duration=16", "output%samples_per_revolution=36")),
-    Scene("steady_tr_ba", "Bengisu-Akay", MAIN[2].case, ("operation%duration=6",)),
+          ("operation%duration=100", "output%samples_per_revolution=36")),
+    Scene("steady_tr_ba", "Bengisu-Akay", MAIN[2].case, ("operation%duration=32",)),
     Scene("steady_lugre", "LuGre, over-relaxation", MAIN[1].case,
-          ("operation%duration=0.4", "film%solver=sor")),
+          ("operation%duration=2.5", "film%solver=sor")),
 )  # fmt: skip
 #: Members of the sweep of short runs; milliseconds allowed beyond a member's march; seconds to collect all.
 MEMBERS, MEMBER_MILLISECONDS, COLLECT_SECONDS = 1000, 20, 10
