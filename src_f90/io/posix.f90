@@ -7,7 +7,7 @@ module posix
    implicit none (type, external)
    private
    public :: rename_file, delete_file, real_path, is_regular, process_id, is_terminal, write_output
-   public :: keep_file_size_quiet, copy_file, link_file, sync_file, host_name, process_alive, pause_seconds
+   public :: keep_file_size_quiet, copy_file, link_file, sync_file, begin_sync, host_name, process_alive, pause_seconds
    !> C's own, for modules that keep a descriptor.
    public :: c_fopen, c_fileno, c_fclose, c_statx, c_kill
    public :: system_reason, write_refusal, error_number, refused_by_other, set_environment
@@ -22,6 +22,8 @@ module posix
    !> Linux' numbers of the errors that tell why a file cannot be written, and of a process that is no more.
    integer, parameter :: no_entry = 2, no_process = 3, io_error = 5, try_again = 11, no_access = 13, too_big = 27, &
       & disk_full = 28, read_only = 30, over_quota = 122
+   !> Linux' number for the beginning of writing, without waiting for its end.
+   integer(c_int), parameter :: sync_write = 2
    !> Bytes copied at a time.
    integer(c_size_t), parameter :: copy_bytes = 2_c_size_t**30
 
@@ -91,6 +93,12 @@ module posix
          import :: c_int
          integer(c_int), value :: descriptor
       end function c_fsync
+
+      integer(c_int) function c_sync_file_range(descriptor, offset, bytes, what) bind(c, name='sync_file_range')
+         import :: c_int, c_long
+         integer(c_int), value :: descriptor, what
+         integer(c_long), value :: offset, bytes
+      end function c_sync_file_range
 
       !> Copies within the kernel, from and to where the descriptors are.
       integer(c_size_t) function c_sendfile(to, from, offset, count) bind(c, name='sendfile')
@@ -194,6 +202,17 @@ contains
       ok = c_fsync(c_fileno(stream)) == 0
       ignored = c_fclose(stream)
    end function sync_file
+
+   !> Has the system begin to write a file to the disk, so that there is less to wait for in `sync_file`.
+   subroutine begin_sync(path)
+      character(len=*), intent(in) :: path
+      type(c_ptr) :: stream
+      integer(c_int) :: ignored
+      stream = c_fopen(path//c_null_char, 'rb'//c_null_char)
+      if (.not. c_associated(stream)) return
+      ignored = c_sync_file_range(c_fileno(stream), 0_c_long, 0_c_long, sync_write)
+      ignored = c_fclose(stream)
+   end subroutine begin_sync
 
    !> Name of this machine.
    function host_name()

@@ -28,6 +28,8 @@ module run_file
       type(hdf5_type) :: file
       type(sample_table_type) :: table
       type(provenance_type) :: provenance
+      !> Clock of the last beat, s.
+      integer :: last_beat = 0
    contains
       !> Locks the place of the file, so that no other run writes it, until `finish`, `stop` or `abandon`.
       procedure :: claim
@@ -43,7 +45,7 @@ module run_file
       procedure :: finish
       !> Gives up what was not published, and the lock.
       procedure :: abandon
-      !> Shows other programs that this one lives; to be called often with a clock, s.
+      !> Shows other programs that this one lives, and has the system write; to be called often with a clock, s.
       procedure :: beat
       !> The dead process that held the file's lock; empty where there was none.
       procedure :: taken_from
@@ -320,7 +322,10 @@ contains
    subroutine beat(self, now)
       class(run_file_type), intent(inout) :: self
       integer, intent(in) :: now
+      if (now == self%last_beat) return
+      self%last_beat = now
       call self%place%lock%beat(now)
+      call self%place%begin_sync()
    end subroutine beat
 
    function taken_from(self)

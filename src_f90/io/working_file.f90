@@ -6,7 +6,7 @@
 !> then lacks only the last stretch.
 module working_file
    use errors, only: error_type, raise, system_error
-   use posix, only: rename_file, link_file, delete_file, copy_file, sync_file, real_path, is_regular, system_reason
+   use posix, only: rename_file, link_file, delete_file, copy_file, sync_file, begin_sync, real_path, is_regular, system_reason
    use file_lock, only: file_lock_type
    implicit none (type, external)
    private
@@ -24,6 +24,8 @@ module working_file
       !> Makes the part a copy of the published file.
       procedure :: copy_published
       procedure :: publish
+      !> Has the system begin to write the part to the disk.
+      procedure :: begin_sync => begin_part
       !> Deletes the part; frees the lock.
       procedure :: release
    end type working_file_type
@@ -92,6 +94,11 @@ contains
       ! the renaming itself; where a file system cannot, nothing is lost that could be kept
       ok = sync_file(self%path(:index(self%path, '/', back=.true.))//'.')
    end subroutine publish
+
+   subroutine begin_part(self)
+      class(working_file_type), intent(in) :: self
+      call begin_sync(self%part)
+   end subroutine begin_part
 
    subroutine release(self)
       class(working_file_type), intent(inout) :: self
