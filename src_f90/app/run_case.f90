@@ -89,7 +89,7 @@ contains
       call observer%file%create(scene, scene_text(scene), error)
       if (allocated(error)) return
       if (tag%number > 0) call observer%file%put_member(tag%number, tag%members, tag%sweep)
-      call find_equilibrium(scene, static, error)
+      call find_equilibrium(scene, static, error, model%contact)
       if (allocated(error)) then
          ! of a member of a sweep the file says what happened; nothing else would be a result
          if (tag%number > 0) call observer%file%finish(t, observer%cost(march_statistics()), error%status, &

@@ -71,10 +71,11 @@ module bearing_forces
 
 contains
 
-   !> Builds the parts of a valid scene.
-   subroutine init_forces(model, scene)
+   !> Builds the parts of a valid scene; the contact's table, the dearest of them, where it is not given.
+   subroutine init_forces(model, scene, contact)
       class(bearing_forces_type), intent(inout) :: model
       type(scene_type), intent(in) :: scene
+      type(contact_table_type), intent(in), optional :: contact
       integer :: i, n
       n = scene%pad_count()
       model%scene = scene
@@ -89,7 +90,11 @@ contains
          model%directions(i) = model%gaps(i)%directions()
       end do
       call make_film(scene, model%film)
-      if (model%radial) model%contact = new_contact_table(new_law(scene))
+      if (present(contact)) then
+         model%contact = contact
+      else if (model%radial) then
+         model%contact = new_contact_table(new_law(scene))
+      end if
       model%ball_radius = scene%pivot%socket_radius - scene%pivot%radius_difference
       model%unbalance = scene%unbalance()
       model%outputs = pad_outputs*n

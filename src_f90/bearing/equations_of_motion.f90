@@ -7,6 +7,7 @@ module equations_of_motion
    use bearing_forces, only: bearing_forces_type, init_forces, pad_outputs
    use arrow_system, only: arrow_matrix, new_arrow_matrix
    use kinematics, only: motion_slopes, to_global
+   use contact_table, only: contact_table_type
    use components, only: new_law
    implicit none (type, external)
    private
@@ -46,13 +47,14 @@ module equations_of_motion
 
 contains
 
-   !> The model of a valid scene.
-   function new_bearing_model(scene) result(model)
+   !> The model of a valid scene; with the contact's table of another model of the same pivots, if given.
+   function new_bearing_model(scene, contact) result(model)
       type(scene_type), intent(in) :: scene
+      type(contact_table_type), intent(in), optional :: contact
       type(bearing_model) :: model
       real(wp) :: coupling, determinant
       integer :: i, n
-      call init_forces(model, scene)
+      call init_forces(model, scene, contact)
       model%scale = state_scales(model)
       n = scene%pad_count()
       model%matrix = new_arrow_matrix(model%states_per_pad, n)

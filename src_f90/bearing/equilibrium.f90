@@ -10,6 +10,7 @@ module equilibrium
    use errors, only: error_type, raise, numerics_error
    use scene, only: scene_type
    use contact_law, only: contact_law_type
+   use contact_table, only: contact_table_type
    use kinematics, only: pad_frame, frame_of
    use components, only: new_law
    use equations_of_motion, only: bearing_model, new_bearing_model
@@ -50,17 +51,19 @@ module equilibrium
 
 contains
 
-   !> The equilibrium of a scene at its initial speed; an error where none is found.
-   subroutine find_equilibrium(scene, found, error)
+   !> The equilibrium of a scene at its initial speed; an error where none is found. The table of its pivots'
+   !> contact is made where it is not given.
+   subroutine find_equilibrium(scene, found, error, contact)
       type(scene_type), intent(in) :: scene
       type(equilibrium_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
+      type(contact_table_type), intent(in), optional :: contact
       type(scene_type) :: whole_film
       type(bearing_model) :: model
       type(error_type), allocatable :: second_error
       real(wp), allocatable :: y(:)
 
-      model = new_bearing_model(static_scene(scene))
+      model = new_bearing_model(static_scene(scene), contact)
       y = best_start(model)
       call settle(model, y, found, error)
       if (.not. allocated(error) .or. scene%film%cavitation == 'none') return
@@ -68,11 +71,11 @@ contains
       ! does not rupture, which has neither kinks nor slack
       whole_film = static_scene(scene)
       whole_film%film%cavitation = 'none'
-      model = new_bearing_model(whole_film)
+      model = new_bearing_model(whole_film, contact)
       y = best_start(model)
       call settle(model, y, found, second_error)
       if (allocated(second_error)) return
-      model = new_bearing_model(static_scene(scene))
+      model = new_bearing_model(static_scene(scene), contact)
       call settle(model, y, found, second_error)
       if (.not. allocated(second_error)) deallocate (error)
    end subroutine find_equilibrium
