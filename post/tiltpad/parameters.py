@@ -9,6 +9,8 @@ import numpy as np
 from tiltpad import namelist
 
 #: What differs between runs without being a parameter of theirs.
+#: Names that a result has too.
+TAKEN = ("checkpoint_seconds",)
 LEFT_OUT = ("case%title", "case%task", "output%checkpoint_seconds")
 
 
@@ -78,7 +80,7 @@ def parameters(members: Sequence[dict[str, Any] | None]) -> list[Parameter]:
         values = [None if each is None else each.get(variable) for each in members]
         name, (words, units) = short_name(variable), namelist.named(variable.partition("(")[0])
         group, _, rest = variable.rpartition("%")
-        if short[name] > 1:
+        if short[name] > 1 or name in TAKEN:
             name, words = f"{group}_{name}", f"{words} ({group})"
         if "(" in rest:
             words += f", {rest.partition('(')[2].rstrip(')')}"

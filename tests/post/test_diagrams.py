@@ -196,7 +196,7 @@ def test_values_spread_in_ratio(values, evenly):
 @pytest.mark.parametrize(
     ("name", "options", "message"),
     [
-        ("speed", ["--show", "nix"], "--show: nix is not a result of this study: complete, "),
+        ("speed", ["--show", "nix"], "--show: nix is not a result of this study: "),
         ("speed", ["--show", "pad_tilt_size"], "--show: pad_tilt_size is not a result"),
         ("speed", ["--over", "nix"], "--over: nix is not a parameter of this study: speed_rpm"),
         (
