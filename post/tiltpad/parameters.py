@@ -8,9 +8,9 @@ import numpy as np
 
 from tiltpad import namelist
 
-#: What differs between runs without being a parameter of theirs.
 #: Names that a result has too.
 TAKEN = ("checkpoint_seconds",)
+#: What differs between runs without being a parameter of theirs.
 LEFT_OUT = ("case%title", "case%task", "output%checkpoint_seconds")
 
 
