@@ -92,10 +92,26 @@ class Cluster:
         files = [f"--{name}-file={self.folder}/munge/{name}" for name in ("key", "pid", "seed", "log")]
         socket_option = f"--socket={self.folder}/munge/socket"
         self.daemon("munged", "--foreground", socket_option, *files)
-        self.wait_for(lambda: self.call("munge", socket_option, "--no-input").returncode == 0, "munged")
+        self.wait_for_daemons(lambda: self.call("munge", socket_option, "--no-input").returncode == 0)
         self.daemon("slurmctld", "-D")
         self.daemon("slurmd", "-D")
-        self.wait_for(lambda: set(self.call("sinfo", "-h", "-o", "%T").stdout.split()) == {"idle"}, "slurmd")
+        self.wait_for_daemons(lambda: set(self.call("sinfo", "-h", "-o", "%T").stdout.split()) == {"idle"})
+
+    def wait_for_daemons(self, condition) -> None:
+        """Waits until the daemons do what is asked; CannotStartError where one ends or none of them does."""
+
+        def told() -> bool:
+            for each in self.daemons:
+                if each.poll() is not None:
+                    lines = (self.folder / "log/out").read_text().splitlines()
+                    said = [line for line in lines if line.startswith(f"{each.args[3]}: error: ")]
+                    raise CannotStartError(said[0] if said else f"{each.args[3]} ended without a word")
+            return condition()
+
+        try:
+            self.wait_for(told, "the daemons")
+        except TimeoutError as error:
+            raise CannotStartError(error) from error
 
     def daemon(self, *command: str) -> None:
         """Starts a daemon, which ends with this process even where that is killed."""
