@@ -9,6 +9,7 @@ module run_sweep
    use posix, only: process_id
    use processes, only: record_length, new_process, end_child, end_with_parent, open_pipe, send_record, &
       & receive_record, wait_for_record, ended, stop_process, make_folder, remove_folder
+   use hdf5_base, only: start_hdf5
    use signals, only: stop_requested, stop_signal
    use progress, only: progress_type, new_progress, wall_clock
    implicit none (type, external)
@@ -108,6 +109,7 @@ contains
          call raise(error, system_error, 'no pipe to be had for the members of the sweep')
          return
       end if
+      call start_hdf5()
       started = wall_clock()
       progress = new_progress(0.0_wp, real(sweep%members, wp), quiet)
       next = 1

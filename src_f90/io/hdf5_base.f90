@@ -11,7 +11,7 @@ module hdf5_base
    use posix, only: set_environment, write_refusal
    implicit none (type, external)
    private
-   public :: hdf5_base_type
+   public :: hdf5_base_type, start_hdf5
 
    type :: hdf5_base_type
       !> HDF5's number of the open file; negative where none is open.
@@ -54,9 +54,8 @@ module hdf5_base
 
 contains
 
-   !> Readies the library.
-   subroutine begin(self)
-      class(hdf5_base_type), intent(inout) :: self
+   !> Readies the library. Files do so by themselves; a process that has many children saves each of them its time.
+   subroutine start_hdf5()
       integer :: status
       ! HDF5's own locks are for readers in the middle of a write; many file systems know none
       call set_environment('HDF5_USE_FILE_LOCKING', 'BEST_EFFORT')
@@ -65,6 +64,11 @@ contains
       call h5open_f(status)
       ! HDF5 would print its own stack of errors
       call h5eset_auto_f(0, status)
+   end subroutine start_hdf5
+
+   subroutine begin(self)
+      class(hdf5_base_type), intent(inout) :: self
+      call start_hdf5()
       if (allocated(self%failure)) deallocate (self%failure)
    end subroutine begin
 

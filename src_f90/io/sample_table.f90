@@ -79,7 +79,7 @@ contains
                & merge('time pad', 'time    ', width > 0))
          end if
          if (size(self%series) < k) return
-         allocate (self%series(k)%buffer(size(values), chunk_samples), source=0.0_wp)
+         allocate (self%series(k)%buffer(size(values), chunk_samples))
       end if
       self%series(k)%buffer(:, self%held) = values
    end subroutine add
@@ -87,9 +87,17 @@ contains
    subroutine new_series(self, name)
       class(sample_table_type), intent(inout) :: self
       character(len=*), intent(in) :: name
-      type(series_type) :: new
-      new%name = name
-      self%series = [self%series, new]
+      type(series_type), allocatable :: longer(:)
+      integer :: k
+      ! the buffers are moved; assigning the array would copy them all
+      allocate (longer(size(self%series) + 1))
+      do k = 1, size(self%series)
+         longer(k)%data = self%series(k)%data
+         call move_alloc(self%series(k)%name, longer(k)%name)
+         call move_alloc(self%series(k)%buffer, longer(k)%buffer)
+      end do
+      longer(size(longer))%name = name
+      call move_alloc(longer, self%series)
    end subroutine new_series
 
    !> A series that is in the file; it must have this width and be as long as all others.

@@ -66,6 +66,8 @@ module contact_law
    real(wp), parameter :: snug_ratio = 1e-9_wp
    !> Constant of eq (16); equals 4 (n + 1/2)(n + 1) at a = R2, so that dR = 0 gives a = R2.
    real(wp), parameter :: fang_constant = 3.8304_wp
+   !> Step of Newton's, relative, after which the next one would by its order be rounding.
+   real(wp), parameter :: small_step = 1e-10_wp
 
 contains
 
@@ -119,11 +121,12 @@ contains
       class(fang_law), intent(in) :: self
       real(wp), intent(in) :: penetration
       type(contact_point) :: point
-      real(wp) :: a, next, d_a, low, high, log_eta, d_log_eta, d_log_force
+      real(wp) :: a, change, low, high, log_eta, d_log_eta, d_log_force
       integer :: i
       low = 0
       high = self%socket_radius
-      a = 0.5_wp*high
+      ! Hertz's, of whom this is the limit for a light contact
+      a = min(0.5_wp*high, sqrt((high - self%radius_difference)*high/self%radius_difference*penetration))
       do i = 1, 200
          call radius_curve(self, a, log_eta, d_log_eta, d_log_force)
          if (log_eta > log(penetration)) then
@@ -131,19 +134,27 @@ contains
          else
             low = a
          end if
-         next = 0
          ! beyond the unbounded force of eq (14) the slope says nothing
-         if (log_eta < huge(a)) next = a*exp(-(log_eta - log(penetration))/(d_log_eta*a))
-         if (next <= low .or. next >= high) next = 0.5_wp*(low + high)
-         d_a = abs(next - a)
-         a = next
-         if (d_a <= 4*epsilon(a)*a) exit
+         change = -huge(a)
+         if (log_eta < huge(a)) change = (log(penetration) - log_eta)/(d_log_eta*a)
+         call newton_step(change, low, high, a)
+         if (abs(change) <= small_step) exit
       end do
       call radius_curve(self, a, log_eta, d_log_eta, d_log_force)
       point = force_over_radius(a, self%socket_radius, self%compliance, self%penetration_factor, &
          & penetration)
       point%slope = point%force/penetration*d_log_force/d_log_eta
    end function fang_at
+
+   !> Changes x > 0 by a step of ln(x), or where that leaves low to high, halves the interval.
+   pure subroutine newton_step(change, low, high, x)
+      real(wp), intent(in) :: change, low, high
+      real(wp), intent(inout) :: x
+      real(wp) :: next
+      next = x*exp(change)
+      if (abs(change) > small_step .and. (next <= low .or. next >= high)) next = 0.5_wp*(low + high)
+      x = next
+   end subroutine newton_step
 
    !> Eqs (12), (13), (15), (16) solved for the force at a contact radius and a penetration.
    pure function force_over_radius(a, socket_radius, compliance, factor, penetration) result(point)
@@ -161,11 +172,12 @@ contains
       class(fang_law), intent(in) :: self
       real(wp), intent(in) :: a
       real(wp), intent(out) :: log_eta, d_log_eta, d_log_force
-      real(wp) :: r1, r2, n, dn, dlog_b, g, room, d_room, log_force
+      real(wp) :: r1, r2, n, dn, ln_b, dlog_b, g, room, d_room, log_force
       r2 = self%socket_radius
       r1 = r2 - self%radius_difference
       n = pressure_exponent(a/r2)
       dn = (n - 0.5_wp)*15.08_wp/r2
+      ln_b = log_b(n)
       dlog_b = dn*log_b_slope(n)
       g = 2/pi + (a/r2)**2
       room = 4*r1*r2*(n + 0.5_wp)*(n + 1) - fang_constant*a**3/r2
@@ -176,9 +188,9 @@ contains
          return
       end if
       d_room = 4*r1*r2*(2*n + 1.5_wp)*dn - 3*fang_constant*a**2/r2
-      log_force = log(a**3*pi*g*self%radius_difference/(self%compliance*room)) - log_b(n)
+      log_force = log(a**3*pi*g*self%radius_difference/(self%compliance*room)) - ln_b
       d_log_force = 3/a + 2*a/(r2**2*g) - d_room/room - dlog_b
-      log_eta = log(self%penetration_factor*self%compliance*(n + 1)/(pi*a)) + log_b(n) + log_force
+      log_eta = log(self%penetration_factor*self%compliance*(n + 1)/(pi*a)) + ln_b + log_force
       d_log_eta = dlog_b + dn/(n + 1) + d_log_force - 1/a
    end subroutine radius_curve
 
@@ -196,13 +208,28 @@ contains
       log_b = log(sqrt(pi)/2) + log_gamma(n + 1) - log_gamma(n + 1.5_wp)
    end function log_b
 
-   !> d ln B / dn by fourth-order differences (error near 1e-12).
+   !> d ln B / dn.
    pure function log_b_slope(n) result(slope)
       real(wp), intent(in) :: n
       real(wp) :: slope
-      real(wp), parameter :: d = 1e-3_wp
-      slope = (8*(log_b(n + d) - log_b(n - d)) - (log_b(n + 2*d) - log_b(n - 2*d)))/(12*d)
+      slope = digamma(n + 1) - digamma(n + 1.5_wp)
    end function log_b_slope
+
+   !> Slope of ln(Gamma) over x > 0: its recurrence up to 10, there its asymptotic series to rounding (Abramowitz and
+   !> Stegun 1964, 6.3.5 and 6.3.18).
+   pure function digamma(x)
+      real(wp), intent(in) :: x
+      real(wp) :: digamma, z, w
+      digamma = 0
+      z = x
+      do while (z < 10)
+         digamma = digamma - 1/z
+         z = z + 1
+      end do
+      w = 1/z**2
+      digamma = digamma + log(z) - 0.5_wp/z &
+         & - w*(1/12.0_wp - w*(1/120.0_wp - w*(1/252.0_wp - w*(1/240.0_wp - w*(1/132.0_wp - w*691/32760)))))
+   end function digamma
 
    !> Contact pressure (11), Pa, at a distance from the contact's axis, m, projected along it as the radius is.
    elemental real(wp) function pressure(self, r)
@@ -212,23 +239,26 @@ contains
       if (abs(r) < self%radius) pressure = self%peak_pressure*(1 - (r/self%radius)**2)**self%exponent
    end function pressure
 
-   !> Penetration, m, that carries a force > 0, N, by bisection on the logarithm.
+   !> Penetration, m, that carries a force > 0, N, by safeguarded Newton steps on ln(F) over ln(eta).
    pure function penetration(self, force) result(eta)
       class(contact_law_type), intent(in) :: self
       real(wp), intent(in) :: force
-      real(wp) :: eta, low, high
+      real(wp) :: eta, change, low, high
       type(contact_point) :: point
       integer :: i
-      low = log(1e-15_wp)
-      high = log(self%socket_radius)
-      do i = 1, 60
-         eta = exp(0.5_wp*(low + high))
+      low = 1e-15_wp
+      high = self%socket_radius
+      eta = 1e-3_wp*high
+      do i = 1, 100
          point = self%at(eta)
          if (point%force > force) then
-            high = log(eta)
+            high = eta
          else
-            low = log(eta)
+            low = eta
          end if
+         change = (log(force) - log(point%force))*point%force/(point%slope*eta)
+         call newton_step(change, low, high, eta)
+         if (abs(change) <= small_step) exit
       end do
    end function penetration
 end module contact_law
