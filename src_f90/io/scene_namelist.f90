@@ -2,20 +2,20 @@
 !> name file, line, group, variable, value and what is allowed.
 module scene_namelist
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kinds, only: wp, i8
+   use kinds, only: wp
    use text, only: to_text, lower_case, is_utf8
    use errors, only: error_type, raise, add_context, input_error
    use scene, only: scene_type, max_pads
    use scene_fields, only: field_visitor, range_type, visit_scene
    use number_syntax, only: is_special, read_number
-   use namelist_text, only: namelist_type, assignment_type, parse_namelist, parse_override, assignment_text, sweep_group
-   use posix, only: is_regular
+   use assignments, only: namelist_type, assignment_type, assignment_text, sweep_group
+   use case_text, only: parse_case
    implicit none (type, external)
    private
-   public :: read_text, parse_case, scene_from_text, scene_from_namelist, fill_scene
+   public :: scene_from_text, scene_from_namelist, fill_scene
 
-   !> Longest input file, and longest text in it, bytes.
-   integer, parameter :: longest_file = 100000, longest_text = 1000
+   !> Longest text in it, bytes.
+   integer, parameter :: longest_text = 1000
 
    !> Fills a scene from assignments.
    type, extends(field_visitor) :: scene_reader
@@ -37,58 +37,6 @@ module scene_namelist
    end type scene_reader
 
 contains
-
-   !> The text of a case file.
-   subroutine read_text(file, text, error)
-      character(len=*), intent(in) :: file
-      character(len=:), allocatable, intent(out) :: text
-      type(error_type), allocatable, intent(out) :: error
-      character(len=200) :: message
-      logical :: exists
-      integer :: unit, status
-      integer(i8) :: length
-      ! Fortran leaves blanks at the end of a name away
-      if (len_trim(file) < len(file)) then
-         call raise(error, input_error, file//': the name of a case must not end in a blank')
-         return
-      end if
-      inquire (file=file, exist=exists)
-      if (.not. exists) then
-         call raise(error, input_error, file//': no such file')
-         return
-      end if
-      if (.not. is_regular(file)) then
-         call raise(error, input_error, file//': a directory, device or pipe, not an ordinary file')
-         return
-      end if
-      open (newunit=unit, file=file, access='stream', form='unformatted', action='read', status='old', &
-         & iostat=status, iomsg=message)
-      if (status == 0) then
-         inquire (unit=unit, size=length)
-         if (length > longest_file) then
-            call raise(error, input_error, file//': '//to_text(length)//' bytes; an input file has at most ' &
-               & //to_text(longest_file))
-            close (unit)
-            return
-         end if
-         allocate (character(len=max(length, 0_i8)) :: text)
-         if (length > 0) read (unit, iostat=status, iomsg=message) text
-         close (unit)
-      end if
-      if (status /= 0) call raise(error, input_error, file//': cannot be read: '//trim(message))
-   end subroutine read_text
-
-   !> The assignments of a case's text with the overrides ("group%name=value") in place; `file` is for messages.
-   subroutine parse_case(text, file, overrides, parsed, error)
-      character(len=*), intent(in) :: text, file, overrides(:)
-      type(namelist_type), intent(out) :: parsed
-      type(error_type), allocatable, intent(out) :: error
-      integer :: i
-      call parse_namelist(text, file, parsed, error)
-      do i = 1, size(overrides)
-         if (.not. allocated(error)) call parse_override(trim(overrides(i)), parsed, error)
-      end do
-   end subroutine parse_case
 
    !> The scene of a case's text, everything checked; a sweep is refused.
    subroutine scene_from_text(text, file, overrides, scene, error)

@@ -1,14 +1,14 @@
 !> Sweeps: a case whose group &sweep gives variables several values stands for many scenes, its members.
 module sweep
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kinds, only: wp, i8
-   use text, only: to_text, exact_text, lower_case, shortened
-   use errors, only: error_type, raise, add_context, input_error
+   use kinds, only: i8
+   use text, only: to_text, lower_case
+   use errors, only: error_type, raise, input_error
    use scene, only: scene_type
-   use number_syntax, only: read_number
-   use namelist_text, only: namelist_type, assignment_type, token_type, put_assignment, undoes, assignment_text, &
-      & target_text, value_text, sweep_group
-   use scene_namelist, only: read_text, parse_case, scene_from_namelist, fill_scene
+   use assignments, only: namelist_type, assignment_type, put_assignment, undoes, assignment_text, target_text, &
+      & value_text, sweep_group
+   use swept_values, only: swept_values_type, read_swept_values
+   use case_text, only: read_text, parse_case
+   use scene_namelist, only: scene_from_namelist, fill_scene
    use namelist_writer, only: scene_text
    implicit none (type, external)
    private
@@ -16,29 +16,12 @@ module sweep
 
    !> Most members of a sweep, and variables that a message lists.
    integer, parameter :: most_members = 100000, most_listed = 8
-   !> Part of a stride by which the last value of a range may miss its end.
-   real(wp), parameter :: rounding = 1e-6_wp
-   !> Numbers of a range are 0 or between these in size, so that nothing overflows on the way.
-   real(wp), parameter :: smallest = 1e-100_wp, largest = 1e100_wp
-
    character(len=*), parameter :: newline = achar(10)
-
-   !> One value as it stands, or the numbers of a range.
-   type :: piece_type
-      type(token_type) :: token
-      integer :: count = 1
-      logical :: is_range = .false., geometric = .false.
-      !> Stride, or factor where the range is geometric.
-      real(wp) :: first = 0, step = 0
-   end type piece_type
 
    !> A swept variable: what is assigned, without values, and those.
    type :: variable_type
       type(assignment_type) :: target
-      type(piece_type), allocatable :: pieces(:)
-   contains
-      procedure :: value_count
-      procedure :: value => variable_value
+      type(swept_values_type) :: values
    end type variable_type
 
    !> What a run is told of its place in a sweep.
@@ -152,81 +135,11 @@ contains
             return
          end associate
       end do
-      allocate (new%pieces(size(given%values)))
-      do i = 1, size(given%values)
-         call read_piece(given%values(i), new%pieces(i), error)
-         call add_context(error, given%place//': '//sweep_group//'%'//given%name//' = ' &
-            & //shortened(value_text(given%values(i))))
-         if (allocated(error)) return
-      end do
+      call read_swept_values(given%values, given%place//': '//sweep_group//'%'//given%name, new%values, error)
+      if (allocated(error)) return
       deallocate (new%target%values)
       sweep%variables = [sweep%variables, new]
    end subroutine read_variable
-
-   !> A value, first:last:stride or first:last:*factor.
-   subroutine read_piece(token, piece, error)
-      type(token_type), intent(in) :: token
-      type(piece_type), intent(out) :: piece
-      type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: parts(:), word
-      real(wp) :: numbers(3), steps
-      integer :: first, second, i
-      logical :: ok
-      piece%token = token
-      first = index(token%text, ':')
-      if (token%quoted .or. first == 0) then
-         if (.not. token%quoted .and. index(token%text, '*') > 0) call raise(error, input_error, &
-            & 'n*value is not for a sweep, where each value is a member''s; a range is first:last:*factor')
-         return
-      end if
-      piece%is_range = .true.
-      second = first + index(token%text(first + 1:), ':')
-      parts = [character(len=len(token%text)) :: token%text(:first - 1), token%text(first + 1:second - 1), &
-         & token%text(second + 1:)]
-      piece%geometric = parts(3) (1:1) == '*'
-      if (piece%geometric) parts(3) = parts(3) (2:)
-      do i = 1, 3
-         word = lower_case(trim(parts(i)))
-         call read_number(word, numbers(i), ok)
-         if (.not. ok .or. second == first) then
-            call raise(error, input_error, 'a range is first:last:stride or first:last:*factor, of numbers')
-            return
-         else if (.not. ieee_is_finite(numbers(i)) .or. abs(numbers(i)) > largest &
-            & .or. abs(numbers(i)) > 0 .and. abs(numbers(i)) < smallest) then
-            call raise(error, input_error, 'numbers of a range must be 1e-100 to 1e100 in size, or 0')
-            return
-         end if
-      end do
-      piece%first = numbers(1)
-      piece%step = numbers(3)
-      associate (last => numbers(2))
-         if (piece%geometric) then
-            if (.not. piece%first*sign(1.0_wp, last) > 0 .or. .not. abs(last) > 0) then
-               call raise(error, input_error, 'first and last must be of one sign, and not 0, for a factor')
-            else if (piece%step <= 0 .or. .not. abs(piece%step - 1) > 0) then
-               call raise(error, input_error, 'the factor must be > 0, and not 1')
-            else if ((abs(last) - abs(piece%first))*(piece%step - 1) < 0) then
-               call raise(error, input_error, 'from first the factor leads away from last; it must be ' &
-                  & //trim(merge('> 1', '< 1', piece%step < 1)))
-            else
-               steps = log(last/piece%first)/log(piece%step)
-            end if
-         else if (.not. abs(piece%step) > 0) then
-            call raise(error, input_error, 'the stride must not be 0')
-         else if ((last - piece%first)*piece%step < 0) then
-            call raise(error, input_error, 'from first the stride leads away from last; it must be ' &
-               & //trim(merge('> 0', '< 0', piece%step < 0)))
-         else
-            steps = (last - piece%first)/piece%step
-         end if
-      end associate
-      if (allocated(error)) return
-      if (steps >= most_members) then
-         call raise(error, input_error, 'more than '//to_text(most_members)//' values')
-      else
-         piece%count = 1 + floor(steps + rounding)
-      end if
-   end subroutine read_piece
 
    !> How many members there are; `place` of the sweep is for messages.
    subroutine count_members(place, sweep, error)
@@ -245,16 +158,16 @@ contains
       do i = 1, size(sweep%variables)
          associate (v => sweep%variables(i))
             if (i > 1 .and. i <= most_listed + 1) list = list//', '
-            if (i <= most_listed) list = list//v%target%group//'%'//v%target%name//' has '//to_text(v%value_count())
+            if (i <= most_listed) list = list//v%target%group//'%'//v%target%name//' has '//to_text(v%values%count())
             if (i == most_listed + 1) list = list//'...'
             if (sweep%zip) then
-               members = v%value_count()
+               members = v%values%count()
             else
-               members = min(members*v%value_count(), 2_i8*most_members)
+               members = min(members*v%values%count(), 2_i8*most_members)
             end if
          end associate
       end do
-      if (sweep%zip .and. any([(sweep%variables(i)%value_count() /= members, i=1, size(sweep%variables))])) then
+      if (sweep%zip .and. any([(sweep%variables(i)%values%count() /= members, i=1, size(sweep%variables))])) then
          call raise(error, input_error, place//': &sweep with order = ''zip'' needs as many values of each: '//list)
       else if (members > most_members) then
          call raise(error, input_error, place//': &sweep has more than '//to_text(most_members)//' members: '//list)
@@ -298,7 +211,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(namelist_type) :: parsed
       type(scene_type) :: scene
-      integer :: i, k
+      integer :: i
       call self%member_namelist(1, parsed)
       call fill_scene(parsed, scene, error)
       if (allocated(error)) return
@@ -306,12 +219,8 @@ contains
          & //''''//newline
       do i = 1, size(self%variables)
          associate (v => self%variables(i))
-            text = text//'  '//target_text(v%target)//' = '//value_text(v%pieces(1)%token)
-            do k = 2, size(v%pieces)
-               text = text//', '//value_text(v%pieces(k)%token)
-            end do
+            text = text//'  '//target_text(v%target)//' = '//v%values%text()//newline
          end associate
-         text = text//newline
       end do
       text = text//'/'//newline
    end subroutine resolved
@@ -346,47 +255,12 @@ contains
       at = k - 1
       if (.not. self%zip) then
          do j = size(self%variables), i + 1, -1
-            at = at/self%variables(j)%value_count()
+            at = at/self%variables(j)%values%count()
          end do
-         at = mod(at, self%variables(i)%value_count())
+         at = mod(at, self%variables(i)%values%count())
       end if
       found = self%variables(i)%target
       allocate (found%values(1))
-      call self%variables(i)%value(at + 1, found%values(1))
+      call self%variables(i)%values%value(at + 1, found%values(1))
    end subroutine member_value
-
-   pure integer function value_count(self)
-      class(variable_type), intent(in) :: self
-      value_count = sum(self%pieces%count)
-   end function value_count
-
-   !> The n-th value of a variable.
-   subroutine variable_value(self, n, token)
-      class(variable_type), intent(in) :: self
-      integer, intent(in) :: n
-      type(token_type), intent(out) :: token
-      ! a product rounded by itself, not as part of a fused addition: the same bits on every machine
-      real(wp), volatile :: product
-      real(wp) :: x
-      integer :: i, before
-      before = 0
-      do i = 1, size(self%pieces)
-         if (n <= before + self%pieces(i)%count) exit
-         before = before + self%pieces(i)%count
-      end do
-      associate (p => self%pieces(i), steps => n - before - 1)
-         token = p%token
-         if (.not. p%is_range) return
-         if (p%geometric) then
-            ! a real exponent, as repeated products would round at every step
-            x = p%first*p%step**real(steps, wp)
-         else
-            product = steps*p%step
-            x = p%first + product
-         end if
-         token%text = exact_text(x)
-         ! whole numbers without an exponent, as variables that take only these want them
-         if (.not. abs(x - anint(x)) > 0 .and. abs(x) < 1e15_wp) token%text = to_text(nint(x, i8))
-      end associate
-   end subroutine variable_value
 end module sweep

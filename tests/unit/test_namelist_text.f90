@@ -2,7 +2,8 @@
 program test_namelist_text
    use text, only: to_text
    use errors, only: error_type, input_error
-   use namelist_text, only: namelist_type, parse_namelist, parse_override
+   use assignments, only: namelist_type
+   use namelist_text, only: parse_namelist, parse_override
    use check, only: expect, report
    implicit none (type, external)
 

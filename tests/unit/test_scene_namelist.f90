@@ -86,7 +86,8 @@ program test_scene_namelist
    use errors, only: error_type, input_error
    use scene, only: scene_type
    use scene_fields, only: visit_scene
-   use scene_namelist, only: scene_from_text, read_text
+   use case_text, only: read_text
+   use scene_namelist, only: scene_from_text
    use namelist_writer, only: scene_text
    use scene_probes, only: collector, shaker
    use check, only: expect, expect_close, report

@@ -1,0 +1,69 @@
+!> A case file, read and split into assignments.
+module case_text
+   use kinds, only: i8
+   use text, only: to_text
+   use errors, only: error_type, raise, input_error
+   use assignments, only: namelist_type
+   use namelist_text, only: parse_namelist, parse_override
+   use posix, only: is_regular
+   implicit none (type, external)
+   private
+   public :: read_text, parse_case
+
+   !> Longest input file, bytes.
+   integer, parameter :: longest_file = 100000
+
+contains
+
+   !> The text of a case file.
+   subroutine read_text(file, text, error)
+      character(len=*), intent(in) :: file
+      character(len=:), allocatable, intent(out) :: text
+      type(error_type), allocatable, intent(out) :: error
+      character(len=200) :: message
+      logical :: exists
+      integer :: unit, status
+      integer(i8) :: length
+      ! Fortran leaves blanks at the end of a name away
+      if (len_trim(file) < len(file)) then
+         call raise(error, input_error, file//': the name of a case must not end in a blank')
+         return
+      end if
+      inquire (file=file, exist=exists)
+      if (.not. exists) then
+         call raise(error, input_error, file//': no such file')
+         return
+      end if
+      if (.not. is_regular(file)) then
+         call raise(error, input_error, file//': a directory, device or pipe, not an ordinary file')
+         return
+      end if
+      open (newunit=unit, file=file, access='stream', form='unformatted', action='read', status='old', &
+         & iostat=status, iomsg=message)
+      if (status == 0) then
+         inquire (unit=unit, size=length)
+         if (length > longest_file) then
+            call raise(error, input_error, file//': '//to_text(length)//' bytes; an input file has at most ' &
+               & //to_text(longest_file))
+            close (unit)
+            return
+         end if
+         allocate (character(len=max(length, 0_i8)) :: text)
+         if (length > 0) read (unit, iostat=status, iomsg=message) text
+         close (unit)
+      end if
+      if (status /= 0) call raise(error, input_error, file//': cannot be read: '//trim(message))
+   end subroutine read_text
+
+   !> The assignments of a case's text with the overrides ("group%name=value") in place; `file` is for messages.
+   subroutine parse_case(text, file, overrides, parsed, error)
+      character(len=*), intent(in) :: text, file, overrides(:)
+      type(namelist_type), intent(out) :: parsed
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+      call parse_namelist(text, file, parsed, error)
+      do i = 1, size(overrides)
+         if (.not. allocated(error)) call parse_override(trim(overrides(i)), parsed, error)
+      end do
+   end subroutine parse_case
+end module case_text

@@ -1,0 +1,165 @@
+!> The values that a sweep gives a variable: some as they stand, some the numbers of ranges.
+module swept_values
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp, i8
+   use text, only: to_text, exact_text, lower_case, shortened
+   use errors, only: error_type, raise, add_context, input_error
+   use number_syntax, only: read_number
+   use assignments, only: token_type, value_text
+   implicit none (type, external)
+   private
+   public :: swept_values_type, read_swept_values
+
+   !> Most values of a range.
+   integer, parameter :: most_values = 100000
+   !> Part of a stride by which the last value of a range may miss its end.
+   real(wp), parameter :: rounding = 1e-6_wp
+   !> Numbers of a range are 0 or between these in size, so that nothing overflows on the way.
+   real(wp), parameter :: smallest = 1e-100_wp, largest = 1e100_wp
+
+   !> One value as it stands, or the numbers of a range.
+   type :: piece_type
+      type(token_type) :: token
+      integer :: count = 1
+      logical :: is_range = .false., geometric = .false.
+      !> Stride, or factor where the range is geometric.
+      real(wp) :: first = 0, step = 0
+   end type piece_type
+
+   type :: swept_values_type
+      private
+      type(piece_type), allocatable :: pieces(:)
+   contains
+      procedure :: count => value_count
+      procedure :: value
+      procedure :: text => values_text
+   end type swept_values_type
+
+contains
+
+   !> The values of an assignment; `name`, what is assigned, is for messages.
+   subroutine read_swept_values(tokens, name, values, error)
+      type(token_type), intent(in) :: tokens(:)
+      character(len=*), intent(in) :: name
+      type(swept_values_type), intent(out) :: values
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+      allocate (values%pieces(size(tokens)))
+      do i = 1, size(tokens)
+         call read_piece(tokens(i), values%pieces(i), error)
+         call add_context(error, name//' = '//shortened(value_text(tokens(i))))
+         if (allocated(error)) return
+      end do
+   end subroutine read_swept_values
+
+   !> A value, first:last:stride or first:last:*factor.
+   subroutine read_piece(token, piece, error)
+      type(token_type), intent(in) :: token
+      type(piece_type), intent(out) :: piece
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: parts(:), word
+      real(wp) :: numbers(3), steps
+      integer :: first, second, i
+      logical :: ok
+      piece%token = token
+      first = index(token%text, ':')
+      if (token%quoted .or. first == 0) then
+         if (.not. token%quoted .and. index(token%text, '*') > 0) call raise(error, input_error, &
+            & 'n*value is not for a sweep, where each value is a member''s; a range is first:last:*factor')
+         return
+      end if
+      piece%is_range = .true.
+      second = first + index(token%text(first + 1:), ':')
+      parts = [character(len=len(token%text)) :: token%text(:first - 1), token%text(first + 1:second - 1), &
+         & token%text(second + 1:)]
+      piece%geometric = parts(3) (1:1) == '*'
+      if (piece%geometric) parts(3) = parts(3) (2:)
+      do i = 1, 3
+         word = lower_case(trim(parts(i)))
+         call read_number(word, numbers(i), ok)
+         if (.not. ok .or. second == first) then
+            call raise(error, input_error, 'a range is first:last:stride or first:last:*factor, of numbers')
+            return
+         else if (.not. ieee_is_finite(numbers(i)) .or. abs(numbers(i)) > largest &
+            & .or. abs(numbers(i)) > 0 .and. abs(numbers(i)) < smallest) then
+            call raise(error, input_error, 'numbers of a range must be 1e-100 to 1e100 in size, or 0')
+            return
+         end if
+      end do
+      piece%first = numbers(1)
+      piece%step = numbers(3)
+      associate (last => numbers(2))
+         if (piece%geometric) then
+            if (.not. piece%first*sign(1.0_wp, last) > 0 .or. .not. abs(last) > 0) then
+               call raise(error, input_error, 'first and last must be of one sign, and not 0, for a factor')
+            else if (piece%step <= 0 .or. .not. abs(piece%step - 1) > 0) then
+               call raise(error, input_error, 'the factor must be > 0, and not 1')
+            else if ((abs(last) - abs(piece%first))*(piece%step - 1) < 0) then
+               call raise(error, input_error, 'from first the factor leads away from last; it must be ' &
+                  & //trim(merge('> 1', '< 1', piece%step < 1)))
+            else
+               steps = log(last/piece%first)/log(piece%step)
+            end if
+         else if (.not. abs(piece%step) > 0) then
+            call raise(error, input_error, 'the stride must not be 0')
+         else if ((last - piece%first)*piece%step < 0) then
+            call raise(error, input_error, 'from first the stride leads away from last; it must be ' &
+               & //trim(merge('> 0', '< 0', piece%step < 0)))
+         else
+            steps = (last - piece%first)/piece%step
+         end if
+      end associate
+      if (allocated(error)) return
+      if (steps >= most_values) then
+         call raise(error, input_error, 'more than '//to_text(most_values)//' values')
+      else
+         piece%count = 1 + floor(steps + rounding)
+      end if
+   end subroutine read_piece
+
+   pure integer function value_count(self)
+      class(swept_values_type), intent(in) :: self
+      value_count = sum(self%pieces%count)
+   end function value_count
+
+   !> The n-th value.
+   subroutine value(self, n, token)
+      class(swept_values_type), intent(in) :: self
+      integer, intent(in) :: n
+      type(token_type), intent(out) :: token
+      ! a product rounded by itself, not as part of a fused addition: the same bits on every machine
+      real(wp), volatile :: product
+      real(wp) :: x
+      integer :: i, before
+      before = 0
+      do i = 1, size(self%pieces)
+         if (n <= before + self%pieces(i)%count) exit
+         before = before + self%pieces(i)%count
+      end do
+      associate (p => self%pieces(i), steps => n - before - 1)
+         token = p%token
+         if (.not. p%is_range) return
+         if (p%geometric) then
+            ! a real exponent, as repeated products would round at every step
+            x = p%first*p%step**real(steps, wp)
+         else
+            product = steps*p%step
+            x = p%first + product
+         end if
+         token%text = exact_text(x)
+         ! whole numbers without an exponent, as variables that take only these want them
+         if (.not. abs(x - anint(x)) > 0 .and. abs(x) < 1e15_wp) token%text = to_text(nint(x, i8))
+      end associate
+   end subroutine value
+
+   !> All of them as they stand in a case.
+   pure function values_text(self) result(text)
+      class(swept_values_type), intent(in) :: self
+      character(len=:), allocatable :: text
+      integer :: i
+      text = value_text(self%pieces(1)%token)
+      do i = 2, size(self%pieces)
+         text = text//', '//value_text(self%pieces(i)%token)
+      end do
+   end function values_text
+end module swept_values
