@@ -11,7 +11,8 @@ module file_lock
    use errors, only: error_type, raise, system_error, stopped
    use signals, only: stop_requested, stop_signal
    use posix, only: c_fopen, c_fileno, c_fclose, c_statx, statx_shorts, delete_file, host_name, &
-      & pause_seconds, process_alive, process_id, refused_by_other, system_reason
+      & pause_seconds, process_alive, process_id
+   use system_errors, only: refused_by_other, system_reason
    implicit none (type, external)
    private
    public :: file_lock_type

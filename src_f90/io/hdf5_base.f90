@@ -8,7 +8,8 @@ module hdf5_base
       & h5s_scalar_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, h5tis_variable_str_f, h5t_string, h5t_cset_utf8_f, &
       & h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, h5aget_type_f, h5adelete_f, h5aexists_f, &
       & h5lexists_f, h5ldelete_f, h5t_native_integer
-   use posix, only: set_environment, write_refusal
+   use posix, only: set_environment
+   use system_errors, only: write_refusal
    implicit none (type, external)
    private
    public :: hdf5_base_type, start_hdf5

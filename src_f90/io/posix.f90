@@ -1,16 +1,16 @@
 !> The few things the system does for us that Fortran has no word for.
 module posix
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_funptr, c_int, c_int16_t, c_intptr_t, &
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funptr, c_int, c_int16_t, c_intptr_t, &
       & c_long, c_null_char, c_null_ptr, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: output_unit
-   use text, only: lower_case
+   use system_errors, only: error_number
    implicit none (type, external)
    private
    public :: rename_file, delete_file, real_path, is_regular, process_id, is_terminal, write_output
    public :: keep_file_size_quiet, copy_file, link_file, sync_file, begin_sync, host_name, process_alive, pause_seconds
+   public :: set_environment
    !> C's own, for modules that keep a descriptor.
    public :: c_fopen, c_fileno, c_fclose, c_statx, c_kill
-   public :: system_reason, write_refusal, error_number, refused_by_other, set_environment
 
    !> Longest path, and Linux' numbers for statx and for the signal of a file grown too large.
    integer, parameter :: path_max = 4096
@@ -19,9 +19,8 @@ module posix
    integer, parameter, public :: statx_shorts = 128
    integer, parameter :: mode_at = 15
    integer, parameter :: type_mask = int(o'170000'), type_regular = int(o'100000')
-   !> Linux' numbers of the errors that tell why a file cannot be written, and of a process that is no more.
-   integer, parameter :: no_entry = 2, no_process = 3, io_error = 5, try_again = 11, no_access = 13, too_big = 27, &
-      & disk_full = 28, read_only = 30, over_quota = 122
+   !> Linux' error that a process is no more.
+   integer, parameter :: no_process = 3
    !> Linux' number for the beginning of writing, without waiting for its end.
    integer(c_int), parameter :: sync_write = 2
    !> Bytes copied at a time.
@@ -131,20 +130,6 @@ module posix
          integer(c_int), value :: overwrite
       end function c_setenv
 
-      type(c_ptr) function c_errno_location() bind(c, name='__errno_location')
-         import :: c_ptr
-      end function c_errno_location
-
-      type(c_ptr) function c_strerror(number) bind(c, name='strerror')
-         import :: c_int, c_ptr
-         integer(c_int), value :: number
-      end function c_strerror
-
-      integer(c_size_t) function c_strlen(string) bind(c, name='strlen')
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: string
-      end function c_strlen
-
       integer(c_int) function c_isatty(descriptor) bind(c, name='isatty')
          import :: c_int
          integer(c_int), value :: descriptor
@@ -242,44 +227,6 @@ contains
       integer(c_int) :: ignored
       ignored = c_setenv(name//c_null_char, value//c_null_char, 0_c_int)
    end subroutine set_environment
-
-   !> The system's words for what went wrong last.
-   function system_reason() result(reason)
-      character(len=:), allocatable :: reason
-      character(kind=c_char), pointer :: letters(:)
-      type(c_ptr) :: string
-      integer :: i
-      string = c_strerror(int(error_number(), c_int))
-      call c_f_pointer(string, letters, [c_strlen(string)])
-      reason = repeat(' ', size(letters))
-      do i = 1, size(letters)
-         reason(i:i) = letters(i)
-      end do
-      reason = lower_case(reason)
-   end function system_reason
-
-   !> The same where it is a reason for which files cannot be written; else empty.
-   function write_refusal() result(reason)
-      character(len=:), allocatable :: reason
-      reason = ''
-      select case (error_number())
-      case (no_entry, io_error, no_access, too_big, disk_full, read_only, over_quota)
-         reason = system_reason()
-      case default
-      end select
-   end function write_refusal
-
-   !> Whether the lock just refused is held by another process (otherwise locks are not known here).
-   logical function refused_by_other()
-      refused_by_other = any(error_number() == [try_again, no_access])
-   end function refused_by_other
-
-   !> C's errno.
-   integer function error_number()
-      integer(c_int), pointer :: number
-      call c_f_pointer(c_errno_location(), number)
-      error_number = number
-   end function error_number
 
    !> Characters up to C's end of text.
    pure function fortran_text(buffer) result(text)

@@ -2,7 +2,8 @@
 module processes
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int8_t, c_int16_t, c_long, c_null_char, c_size_t
    use text, only: to_text
-   use posix, only: c_kill, error_number, system_reason
+   use posix, only: c_kill
+   use system_errors, only: error_number, system_reason
    implicit none (type, external)
    private
    public :: processors, make_folder, remove_folder, new_process, end_child, end_with_parent, ended, stop_process
