@@ -182,9 +182,9 @@ def checkpoints(rows: list[Row]) -> str:
     for row in (row for row in rows if row.group == CHECKPOINTS):
         share = row.checkpoint_seconds / row.wall_seconds
         rate = float(row.note.split()[0]) / row.wall_seconds
-        times = short(row.wall_seconds), short(row.checkpoint_seconds, 2)
+        times = short(row.wall_seconds), short(row.checkpoint_seconds, 2), short(row.copy_seconds, 2)
         lines.append((row.scene, f"{rate:.1f}", *times, f"{share:.1%}", verdict(share, CHECKPOINT_SHARE)))
-    head = "scene", "MB/s written", "wall s", "of it checkpoints", "share", f"below {CHECKPOINT_SHARE:.0%}"
+    head = "scene", "MB/s written", "wall s", "of it checkpoints s", "copying the file s", "share", f"below {CHECKPOINT_SHARE:.0%}"
     return table(head, lines) if lines else NOT_RUN
 
 

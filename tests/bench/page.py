@@ -120,8 +120,9 @@ looked for only where it can fall), rows of Newton's matrix between pads, and sa
 Runs with a checkpoint every {checkpoint_seconds:g} s of wall time (default: 300 s), and what the program
 itself counts as the time of checkpoints. One costs a few milliseconds, the writing to the disk of what the
 system still holds back, and a copy of what was written since the last one. So the share goes with the
-megabytes a second that a run writes, and little with how often there is one. A run that is over before its
-first checkpoint pays nothing.
+megabytes a second that a run writes, and little with how often there is one: in the end all has been copied
+once. Beside it stands how long a plain copy of the whole file takes here. A run that is over before its first
+checkpoint pays nothing.
 
 {checkpoints}
 

@@ -1,5 +1,6 @@
 """What checkpoints cost, what a member of a sweep costs beyond its march, and what collecting costs."""
 
+import os
 import shutil
 import subprocess
 import sys
@@ -17,20 +18,33 @@ REPEATS = 3
 #: A sweep of short frictionless runs, and one of them longer: what the march alone takes follows.
 CASE = "&operation duration={duration:g} /\n"
 SWEPT = "&sweep rotor%unbalance=1e-5:{last:g}:1e-5 /\n"
-SHORT, LONG = 0.1, 2.1
+SHORT, LONG = 0.1, 10.1
 
 
 def production(runner: Runner) -> Iterator[Row]:
     """Rows of checkpoints, sweep and collection."""
     for scene in CHECKPOINT_SCENES:
+        # what runs before it left to the system to write is not its own
+        os.sync()
         overrides = (f"output%checkpoint_seconds={CHECKPOINT_SECONDS:g}",)
         row, path = runner.run(scene, CHECKPOINTS, f"{CHECKPOINT_SECONDS:g} s", overrides, repeat=False)
         with tiltpad.read(path) as run:
             row.checkpoint_seconds = float(run["statistics/checkpoint_seconds"])
         row.scene, row.note = scene.label, f"{path.stat().st_size / 1e6:.0f} MB"
+        row.copy_seconds = copying(path)
         path.unlink()
         yield row
     yield from members(runner)
+
+
+def copying(path: Path) -> float:
+    """Seconds of a plain copy of a file, of which the system has yet to write as much as it likes."""
+    twin = path.with_suffix(".copy")
+    started = time.perf_counter()
+    shutil.copyfile(path, twin)
+    seconds = time.perf_counter() - started
+    twin.unlink()
+    return seconds
 
 
 def members(runner: Runner) -> Iterator[Row]:
@@ -56,6 +70,7 @@ def members(runner: Runner) -> Iterator[Row]:
 def timed(runner: Runner, folder: Path, text: str) -> float:
     """Wall seconds of a case, on all cores."""
     (folder / "case.nml").write_text(text)
+    os.sync()
     started = time.perf_counter()
     subprocess.run([runner.program, "--quiet", "case.nml"], cwd=folder, check=True)
     return time.perf_counter() - started

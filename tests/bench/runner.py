@@ -49,6 +49,7 @@ class Row:
     rotor_seconds: float = 0.0
     march_seconds: float = 0.0
     checkpoint_seconds: float = 0.0
+    copy_seconds: float = 0.0
     note: str = ""
 
     def compare(self, found: dict[str, float]) -> None:
