@@ -184,7 +184,8 @@ def checkpoints(rows: list[Row]) -> str:
         rate = float(row.note.split()[0]) / row.wall_seconds
         times = short(row.wall_seconds), short(row.checkpoint_seconds, 2), short(row.copy_seconds, 2)
         lines.append((row.scene, f"{rate:.1f}", *times, f"{share:.1%}", verdict(share, CHECKPOINT_SHARE)))
-    head = "scene", "MB/s written", "wall s", "of it checkpoints s", "copying the file s", "share", f"below {CHECKPOINT_SHARE:.0%}"
+    times = "wall s", "of it checkpoints s", "copying the file s"
+    head = "scene", "MB/s written", *times, "share", f"below {CHECKPOINT_SHARE:.0%}"
     return table(head, lines) if lines else NOT_RUN
 
 
