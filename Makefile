@@ -54,6 +54,9 @@ LIBS := $(foreach p,$(prefixes),$(foreach d,$(wildcard $p/lib $p/lib64),-L$d -Wl
         $(hdf5_libs) -lfftw3 $(LAPACK) \
         $(if $(strip $(prefixes)),,$$(ls -d /usr/lib/*/lapack /usr/lib/*/blas 2>/dev/null | sed s/^/-Wl,-rpath,/))
 INCLUDE := $(addprefix -I,$(modules)) -I$(B)/mod
+# these have arrays as long as a run: not on the stack, wherever FFLAGS puts the short ones of the march
+run_long := $(addprefix src_f90/,signal/*.f90 io/*.f90 app/*.f90)
+on_heap  := -fno-stack-arrays
 COMPILE = $(FC) -std=f2018 -fimplicit-none -fopenmp-simd $(FFLAGS) $(INCLUDE) -J$(B)/mod
 
 # ---- system packages ---------------------------------------------------------------------------
@@ -88,7 +91,7 @@ end module build_info
 endef
 $(shell mkdir -p $(B)/obj $(B)/mod)
 $(file >$(B)/obj/build_info.new,$(build_info))
-$(file >$(B)/flags.new,$(COMPILE) $(LIBS))
+$(file >$(B)/flags.new,$(COMPILE) $(LIBS) long:$(on_heap) $(run_long))
 $(shell for f in $(B)/obj/build_info.f90:$(B)/obj/build_info.new $(B)/flags:$(B)/flags.new; do \
    cmp -s $${f#*:} $${f%:*} && rm $${f#*:} || mv $${f#*:} $${f%:*}; done)
 
@@ -251,6 +254,8 @@ $(B)/obj/%.o: %.f90 $(B)/flags | build/deps-checked
 $(B)/tests/%: $(B)/obj/%.o $(B)/obj/check.o $(B)/lib/libtiltpad.a
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
+
+$(patsubst %.f90,$(B)/obj/%.o,$(notdir $(wildcard $(run_long)))): private override FFLAGS += $(on_heap)
 
 # the flags stand in one line of it
 $(B)/obj/build_info.o: override FFLAGS += -ffree-line-length-none

@@ -94,7 +94,12 @@ contains
       case ('--jobs')
          call read_whole(word, value, given%jobs, error)
       case default
-         if (value == '') call raise(error, input_error, word//': the file name is empty')
+         if (value == '') then
+            call raise(error, input_error, word//': the file name is empty')
+         else if (len_trim(value) < len(value)) then
+            ! Fortran leaves blanks at the end of a name away
+            call raise(error, input_error, word//' '//value//': the name of a file must not end in a blank')
+         end if
          if (word == '--resume') then
             given%resumed = value
          else

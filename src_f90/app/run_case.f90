@@ -16,6 +16,7 @@ module run_case
    use recorder, only: recorder_type, init_recorder
    use run_summary, only: print_equilibrium, print_march
    use progress, only: new_progress
+   use signals, only: stop_requested, stop_signal
    implicit none (type, external)
    private
    public :: run_scene
@@ -52,7 +53,7 @@ contains
       if (go_on) inquire (file=path, exist=there)
       if (there) then
          call read_restart(path, found, error)
-         if (.not. allocated(error)) call refuse_other_scene(path, scene, found%scene, error)
+         if (.not. allocated(error)) call refuse_other_scene(path, scene, tag, found, error)
          if (allocated(error) .or. found%complete) then
             call observer%file%abandon()
             if (found%complete .and. .not. allocated(error) .and. .not. quiet) print '(a)', path &
@@ -69,7 +70,7 @@ contains
          call start(scene, tag, model, observer, quiet, t, y, error)
       end if
       if (allocated(error)) return
-      if (scene%about%task == 'march') call march_scene(model, observer, t, y, statistics, quiet, error)
+      if (scene%about%task == 'march') call march_scene(model, path, observer, t, y, statistics, quiet, error)
       call end_run(scene, path, observer, statistics, quiet, error)
    end subroutine run_scene
 
@@ -89,11 +90,15 @@ contains
       call observer%file%create(scene, scene_text(scene), error)
       if (allocated(error)) return
       if (tag%number > 0) call observer%file%put_member(tag%number, tag%members, tag%sweep)
-      call find_equilibrium(scene, static, error, model%contact)
+      call find_equilibrium(scene, static, error, model%contact, stop_requested)
       if (allocated(error)) then
-         ! of a member of a sweep the file says what happened; nothing else would be a result
-         if (tag%number > 0) call observer%file%finish(t, observer%cost(march_statistics()), error%status, &
-            & error%message, file_error)
+         if (error%status == stopped) then
+            error%message = 'stopped by signal '//to_text(stop_signal())//' before the march; nothing was computed yet'
+         else if (tag%number > 0) then
+            ! of a member of a sweep the file says what happened; nothing else would be a result
+            call observer%file%finish(t, observer%cost(march_statistics()), error%status, &
+               & error%message, file_error)
+         end if
          call observer%file%abandon()
          return
       end if
@@ -102,9 +107,10 @@ contains
       y = model%at_rest(static%journal, static%tilt, static%penetration)
    end subroutine start
 
-   !> Marches from the state y at time t, s.
-   subroutine march_scene(model, observer, t, y, statistics, quiet, error)
+   !> Marches from the state y at time t, s; `path`, the result file, is for messages.
+   subroutine march_scene(model, path, observer, t, y, statistics, quiet, error)
       type(bearing_model), intent(inout), target :: model
+      character(len=*), intent(in) :: path
       type(recorder_type), intent(inout) :: observer
       real(wp), intent(in) :: t
       real(wp), intent(inout), contiguous :: y(:)
@@ -131,7 +137,7 @@ contains
          plan%next = observer%file%samples()
          if (plan%next > 0) then
             if (plan%time(plan%next - 1) > t .or. plan%time(plan%next) <= t) then
-               call raise(error, system_error, 'the file is damaged: its samples and its checkpoint do not fit')
+               call raise(error, system_error, path//': damaged: its samples and its checkpoint do not fit')
                call observer%file%abandon()
                return
             end if

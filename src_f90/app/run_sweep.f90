@@ -2,7 +2,7 @@
 module run_sweep
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
    use kinds, only: wp
-   use text, only: to_text, fixed_text
+   use text, only: to_text, fixed_text, on_one_line
    use errors, only: error_type, raise, system_error, stopped
    use scene, only: scene_type
    use sweep, only: sweep_type, member_tag
@@ -274,19 +274,4 @@ contains
       if (tally%stopped > 0) totals = totals//', '//to_text(tally%stopped)//' stopped'
       if (rest > 0) totals = totals//', '//to_text(rest)//' not started'
    end function totals
-
-   !> Lines as a list.
-   function on_one_line(lines)
-      character(len=*), intent(in) :: lines
-      character(len=:), allocatable :: on_one_line
-      integer :: i
-      on_one_line = ''
-      do i = 1, len(lines)
-         if (lines(i:i) == achar(10)) then
-            on_one_line = on_one_line//', '
-         else
-            on_one_line = on_one_line//lines(i:i)
-         end if
-      end do
-   end function on_one_line
 end module run_sweep

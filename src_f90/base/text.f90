@@ -3,7 +3,7 @@ module text
    use kinds, only: wp, i8
    implicit none (type, external)
    private
-   public :: to_text, exact_text, fixed_text, lower_case, printable, shortened, is_utf8
+   public :: to_text, exact_text, fixed_text, lower_case, printable, shortened, on_one_line, is_utf8
 
    !> A number as short text, for messages: `to_text(3)`, `to_text(0.1_wp)`.
    interface to_text
@@ -165,4 +165,19 @@ contains
       if (first == 224 .and. second < 160 .or. first == 237 .and. second > 159 &
          & .or. first == 240 .and. second < 144 .or. first == 244 .and. second > 143) length = 0
    end function utf8_length
+
+   !> Lines as a list.
+   pure function on_one_line(lines)
+      character(len=*), intent(in) :: lines
+      character(len=:), allocatable :: on_one_line
+      integer :: i
+      on_one_line = ''
+      do i = 1, len(lines)
+         if (lines(i:i) == achar(10)) then
+            on_one_line = on_one_line//', '
+         else
+            on_one_line = on_one_line//lines(i:i)
+         end if
+      end do
+   end function on_one_line
 end module text

@@ -7,7 +7,7 @@ module equilibrium
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use text, only: to_text
-   use errors, only: error_type, raise, numerics_error
+   use errors, only: error_type, raise, numerics_error, stopped
    use scene, only: scene_type
    use contact_law, only: contact_law_type
    use contact_table, only: contact_table_type
@@ -39,6 +39,12 @@ module equilibrium
    !> Places of the journal to start from, in assembled clearances down the load.
    real(wp), parameter :: fractions(*) = [-0.6_wp, -0.3_wp, 0.0_wp, 0.3_wp, 0.6_wp, 0.9_wp]
 
+   abstract interface
+      !> True once the search is to be given up.
+      logical function asked_to_stop()
+      end function asked_to_stop
+   end interface
+
    interface
       !> LAPACK: solves a x = b.
       subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
@@ -51,41 +57,50 @@ module equilibrium
 
 contains
 
-   !> The equilibrium of a scene at its initial speed; an error where none is found. The table of its pivots'
-   !> contact is made where it is not given.
-   subroutine find_equilibrium(scene, found, error, contact)
+   !> The equilibrium of a scene at its initial speed; an error where none is found, or, of status `stopped`, where
+   !> `give_up`, asked between evaluations of the films, says so. The table of its pivots' contact is made where it
+   !> is not given.
+   subroutine find_equilibrium(scene, found, error, contact, give_up)
       type(scene_type), intent(in) :: scene
       type(equilibrium_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
       type(contact_table_type), intent(in), optional :: contact
+      procedure(asked_to_stop), optional :: give_up
       type(scene_type) :: whole_film
       type(bearing_model) :: model
       type(error_type), allocatable :: second_error
       real(wp), allocatable :: y(:)
 
       model = new_bearing_model(static_scene(scene), contact)
-      y = best_start(model)
-      call settle(model, y, found, error)
+      y = best_start(model, give_up)
+      call settle(model, y, found, error, give_up)
       if (.not. allocated(error) .or. scene%film%cavitation == 'none') return
+      if (error%status == stopped) return
       ! on the way a pad may lose its film and with it all stiffness: take the way of a film that
       ! does not rupture, which has neither kinks nor slack
       whole_film = static_scene(scene)
       whole_film%film%cavitation = 'none'
       model = new_bearing_model(whole_film, contact)
-      y = best_start(model)
-      call settle(model, y, found, second_error)
-      if (allocated(second_error)) return
-      model = new_bearing_model(static_scene(scene), contact)
-      call settle(model, y, found, second_error)
-      if (.not. allocated(second_error)) deallocate (error)
+      y = best_start(model, give_up)
+      call settle(model, y, found, second_error, give_up)
+      if (.not. allocated(second_error)) then
+         model = new_bearing_model(static_scene(scene), contact)
+         call settle(model, y, found, second_error, give_up)
+      end if
+      if (.not. allocated(second_error)) then
+         deallocate (error)
+      else if (second_error%status == stopped) then
+         call move_alloc(second_error, error)
+      end if
    end subroutine find_equilibrium
 
    !> Follows the motion without inertia from y to rest.
-   subroutine settle(model, y, found, error)
+   subroutine settle(model, y, found, error, give_up)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       type(equilibrium_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
       real(wp) :: slopes(model%n, model%n), f(model%n), f_trial(model%n), trial(model%n)
       real(wp) :: time_step, residual, move
       real(wp), allocatable :: step(:)
@@ -111,6 +126,10 @@ contains
             return
          end if
          found%iterations = found%iterations + 1
+         if (asked(give_up)) then
+            call raise(error, stopped, 'stopped while the equilibrium was sought')
+            return
+         end if
          call model%jacobian(0.0_wp, y, slopes, ok)
          do while (ok)
             call newton_step(model, slopes(v, x), slopes(v, v), f(v), time_step, step, ok)
@@ -148,15 +167,23 @@ contains
       call describe(model, y, found)
    end subroutine settle
 
+   logical function asked(give_up)
+      procedure(asked_to_stop), optional :: give_up
+      asked = .false.
+      if (present(give_up)) asked = give_up()
+   end function asked
+
    !> The start, among places along the load, with the smallest unbalanced force.
-   function best_start(model) result(y)
+   function best_start(model, give_up) result(y)
       type(bearing_model), intent(inout) :: model
+      procedure(asked_to_stop), optional :: give_up
       real(wp) :: y(model%n), trial(model%n), f(model%n), least
       integer :: i
       logical :: ok
       least = huge(least)
       y = start(model, 0.0_wp)
       do i = 1, size(fractions)
+         if (asked(give_up)) exit
          trial = start(model, fractions(i))
          call model%rhs(0.0_wp, trial, f, ok)
          if (.not. ok) cycle

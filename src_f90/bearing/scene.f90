@@ -11,6 +11,8 @@ module scene
    public :: film_type, integration_type, output_type
 
    integer, parameter :: max_pads = 24
+   !> Most values in the blocks of all columns and pads, times four: 400 MB.
+   real(wp), parameter :: most_in_blocks = 2e8_wp
 
    type :: case_type
       character(len=:), allocatable :: title
@@ -227,6 +229,7 @@ contains
          call require(self%film%axial_cells /= 1, 'film%axial_cells = 1: must be 2 or more, or 0 for enough')
          call require(self%film%solver /= 'modal' .or. self%film%cavitation /= 'reynolds', 'film%solver = ''modal''' &
             & //': needs film%cavitation = ''gumbel'' or ''none''; film%solver = ''auto'' knows ''reynolds''')
+         call require_memory()
          ratio = b%machined_clearance/b%journal_radius
          call require(ratio >= 1e-5_wp .and. ratio <= 0.05_wp, 'bearing%machined_clearance = ' &
             & //to_text(b%machined_clearance)//': must be 1e-5 to 0.05 of bearing%journal_radius = ' &
@@ -281,6 +284,19 @@ contains
          character(len=*), intent(in) :: message
          if (.not. met .and. .not. allocated(error)) call raise(error, input_error, message)
       end subroutine require
+
+      !> Where films rupture, `auto` keeps a block of (axial cells/2)**2 values a column and pad.
+      subroutine require_memory()
+         integer :: most
+         associate (cells => self%film%circumferential_cells)
+            ! 0 stands for fewer than 100
+            most = int(sqrt(most_in_blocks/(max(cells, 100)*self%pad_count())))
+            call require(self%film%solver /= 'auto' .or. self%film%cavitation /= 'reynolds' &
+               & .or. self%film%axial_cells <= most, 'film%axial_cells = '//to_text(self%film%axial_cells) &
+               & //': must be at most '//to_text(most)//' with film%circumferential_cells = '//to_text(cells)//' and ' &
+               & //to_text(self%pad_count())//' pads, or film%solver = ''sor''')
+         end associate
+      end subroutine require_memory
 
       !> A pad reaches from theta - theta_2 to theta + theta_1; the next one must start after that.
       subroutine require_room(i)

@@ -110,7 +110,8 @@ contains
       real(wp), intent(out) :: pressure(:, :)
       type(film_counters) :: counters
       type(film_response) :: response
-      real(wp) :: p(self%basis%m, self%grid%columns), floor
+      real(wp), allocatable :: p(:, :)
+      real(wp) :: floor
       call self%evaluate(motion, speed, ruptures, .false., counters, response)
       p = self%pressure
       call to_rows(self, p)
@@ -162,11 +163,12 @@ contains
    pure subroutine update_film(self, changed)
       type(direct_film_type), intent(inout) :: self
       logical, intent(out) :: changed
-      !> Pressure by rows, scaled, with a rim.
-      real(wp) :: p(0:self%basis%m + 1, 0:self%grid%columns + 1)
+      !> Pressure by rows, scaled, with a rim; on a fine grid too much for the stack.
+      real(wp), allocatable :: p(:, :)
       real(wp) :: floor, inflow, limit, new, changes
       integer :: i, k, m
       m = self%basis%m
+      allocate (p(0:m + 1, 0:self%grid%columns + 1))
       associate (grid => self%grid, rows => self%grid%rows, first => self%first, last => self%last, &
          & across => self%basis%off_diagonal, root => self%basis%root)
          floor = 0

@@ -41,9 +41,11 @@ contains
       type(film_grid_type), intent(in) :: grid
       type(grid_modes_type) :: self
       real(wp), dimension(grid%rows) :: diagonal, beside
-      real(wp) :: vectors(grid%rows, grid%rows), work(2*grid%rows)
+      real(wp), allocatable :: vectors(:, :)
+      real(wp) :: work(2*grid%rows)
       integer :: info, rows
       rows = grid%rows
+      allocate (vectors(rows, rows))
       diagonal = grid%inward + grid%outward
       beside(:rows - 1) = -sqrt(grid%outward(:rows - 1)*grid%inward(2:))
       beside(rows) = 0

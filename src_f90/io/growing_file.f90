@@ -81,9 +81,14 @@ contains
          call statistics%get(self%file)
          call self%provenance%resume(self%file, t)
          call self%table%begin(self%file)
-         call self%error_of(error)
-         if (.not. allocated(error) .and. .not. all(ieee_is_finite([t, state]))) call raise(error, system_error, &
-            & self%place%path//': damaged: its checkpoint is not a number')
+         if (allocated(self%file%failure)) then
+            call raise(error, system_error, self%place%path//': damaged: '//self%file%failure)
+         else if (.not. all(ieee_is_finite([t, state]))) then
+            call raise(error, system_error, self%place%path//': damaged: its checkpoint is not a number')
+         else
+            call self%provenance%put_maker(self%file)
+            call self%error_of(error)
+         end if
       end if
       if (allocated(error)) call self%abandon()
    end subroutine resume

@@ -9,7 +9,7 @@ module hdf5_base
       & h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, h5aget_type_f, h5adelete_f, h5aexists_f, &
       & h5lexists_f, h5ldelete_f, h5t_native_integer
    use posix, only: set_environment
-   use system_errors, only: write_refusal
+   use system_errors, only: write_refusal, forget_error
    implicit none (type, external)
    private
    public :: hdf5_base_type, start_hdf5
@@ -70,6 +70,7 @@ contains
    subroutine begin(self)
       class(hdf5_base_type), intent(inout) :: self
       call start_hdf5()
+      call forget_error()
       if (allocated(self%failure)) deallocate (self%failure)
    end subroutine begin
 

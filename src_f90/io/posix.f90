@@ -14,6 +14,8 @@ module posix
 
    !> Longest path, and Linux' numbers for statx and for the signal of a file grown too large.
    integer, parameter :: path_max = 4096
+   !> Links that may follow one another, as in Linux.
+   integer, parameter :: most_links = 40
    integer(c_int), parameter :: at_fdcwd = -100, statx_type = 1, sigxfsz = 25
    !> Shorts in struct statx; the one that holds the mode; file type in it, and that of regular files.
    integer, parameter, public :: statx_shorts = 128
@@ -54,6 +56,13 @@ module posix
          character(kind=c_char), intent(in) :: path(*)
          character(kind=c_char), intent(inout) :: resolved(path_max)
       end function c_realpath
+
+      integer(c_size_t) function c_readlink(path, target, length) bind(c, name='readlink')
+         import :: c_char, c_size_t, path_max
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(inout) :: target(path_max)
+         integer(c_size_t), value :: length
+      end function c_readlink
 
       type(c_funptr) function c_signal(number, handler) bind(c, name='signal')
          import :: c_funptr, c_int, c_intptr_t
@@ -239,13 +248,24 @@ contains
       end do
    end function fortran_text
 
-   !> The path without links; as it is where nothing is there.
+   !> The path without links; where nothing is there, that at which the links end.
    function real_path(path)
       character(len=*), intent(in) :: path
-      character(len=:), allocatable :: real_path
+      character(len=:), allocatable :: real_path, target
       character(kind=c_char) :: buffer(path_max)
+      integer :: i
       real_path = path
-      if (c_associated(c_realpath(path//c_null_char, buffer))) real_path = fortran_text(buffer)
+      do i = 1, most_links
+         if (c_associated(c_realpath(real_path//c_null_char, buffer))) then
+            real_path = fortran_text(buffer)
+            return
+         end if
+         buffer = c_null_char
+         if (c_readlink(real_path//c_null_char, buffer, int(path_max - 1, c_size_t)) < 1) return
+         target = fortran_text(buffer)
+         if (target(1:1) /= '/') target = real_path(:index(real_path, '/', back=.true.))//target
+         real_path = target
+      end do
    end function real_path
 
    !> True for an ordinary file, false for folders, devices, pipes and where nothing is there.

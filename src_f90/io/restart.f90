@@ -1,5 +1,6 @@
 !> What a result file says to one who wants to go on with it.
 module restart
+   use text, only: to_text, on_one_line
    use errors, only: error_type, raise, add_context, system_error, numerics_error
    use scene, only: scene_type
    use scene_namelist, only: scene_from_text
@@ -7,6 +8,8 @@ module restart
    use hdf5_file, only: hdf5_type
    use hdf5_trial, only: can_be_read
    use run_file, only: format_version
+   use sweep, only: member_tag
+   use posix, only: is_regular
    implicit none (type, external)
    private
    public :: restart_type, read_restart, refuse_other_scene
@@ -14,6 +17,8 @@ module restart
    type :: restart_type
       !> Resolved namelist of the run.
       type(scene_type) :: scene
+      !> Which member of a sweep it is.
+      type(member_tag) :: tag
       !> True where nothing is left to do.
       logical :: complete = .false.
    end type restart_type
@@ -37,6 +42,10 @@ contains
          call raise(error, system_error, path//': no such file')
          return
       end if
+      if (.not. is_regular(path)) then
+         call raise(error, system_error, path//': a directory, device or pipe, not a result file')
+         return
+      end if
       if (can_be_read(path)) call file%open(path, writing=.false.)
       if (file%id < 0) then
          call raise(error, system_error, path//': no HDF5 file, or damaged')
@@ -58,6 +67,10 @@ contains
             status = 0
             if (file%has_attribute('exit_status')) call file%get_flag('exit_status', status)
             if (status /= 0) call file%get_text('reason', reason)
+            if (file%has_attribute('member')) then
+               call file%get_flag('member', found%tag%number)
+               call file%get_text('sweep', found%tag%sweep)
+            end if
          end if
       end if
       if (.not. allocated(error) .and. allocated(file%failure)) then
@@ -81,14 +94,16 @@ contains
    end subroutine read_restart
 
    !> Refuses a scene that is not that of the file, and names the variable. Only the time between checkpoints may
-   !> differ.
-   subroutine refuse_other_scene(path, ours, found, error)
+   !> differ. A member of a sweep must have been this one also; the sweep may have grown.
+   subroutine refuse_other_scene(path, ours, tag, found, error)
       character(len=*), intent(in) :: path
-      type(scene_type), intent(in) :: ours, found
+      type(scene_type), intent(in) :: ours
+      type(member_tag), intent(in) :: tag
+      type(restart_type), intent(in) :: found
       type(error_type), allocatable, intent(out) :: error
       type(scene_type) :: other
       character(len=:), allocatable :: left, right, left_line, right_line, group
-      other = found
+      other = found%scene
       other%output%checkpoint_seconds = ours%output%checkpoint_seconds
       left = scene_text(ours)
       right = scene_text(other)
@@ -103,6 +118,13 @@ contains
             & //trim(adjustl(right_line))//' there, '//value_of(left_line)//' here')
          return
       end do
+      if (tag%number == 0) return
+      if (found%tag%number == 0) then
+         call raise(error, system_error, path//': is the result of the same case, but no member of a sweep')
+      else if (found%tag%number /= tag%number .or. found%tag%sweep /= tag%sweep) then
+         call raise(error, system_error, path//': is member '//to_text(found%tag%number)//' of another sweep; ' &
+            & //on_one_line(found%tag%sweep)//' there, '//on_one_line(tag%sweep)//' here')
+      end if
    end subroutine refuse_other_scene
 
    subroutine take_line(text, line)

@@ -1,12 +1,15 @@
 !> Signals that ask the program to stop. The handler only takes a note; the program looks when it can stop well.
 module signals
-   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int
+   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t
    implicit none (type, external)
    private
    public :: catch_signals, stop_requested, stop_signal
 
    !> Linux' numbers of SIGINT, SIGUSR1 and SIGTERM.
    integer(c_int), parameter :: caught(*) = [2_c_int, 10_c_int, 15_c_int]
+   integer(c_int), parameter :: sigpipe = 13
+   !> C's SIG_IGN.
+   integer(c_intptr_t), parameter :: ignore = 1
    !> The signal that came last; 0 for none. The handler writes it, hence not an argument.
    integer(c_int), volatile :: received = 0
 
@@ -20,13 +23,15 @@ module signals
 
 contains
 
-   !> From now on SIGINT, SIGUSR1 and SIGTERM end nothing by themselves but are noted.
+   !> From now on SIGINT, SIGUSR1 and SIGTERM end nothing by themselves but are noted; nor does a reader of what is
+   !> printed end a run by going away.
    subroutine catch_signals()
       type(c_funptr) :: ignored
       integer :: i
       do i = 1, size(caught)
          ignored = c_signal(caught(i), c_funloc(note))
       end do
+      ignored = c_signal(sigpipe, transfer(ignore, ignored))
    end subroutine catch_signals
 
    !> True once a signal has come.
