@@ -1,6 +1,6 @@
 #!/bin/bash
 # One case as a job:
-#    sbatch [sbatch options] input/slurm/case.sh CASE.nml [tiltpad options]
+#    sbatch [sbatch options] input/slurm/case.sh CASE.nml [--set group%name=value ...]
 # The result is CASE.h5 in the directory of submission. Requeued or submitted again, the job goes on from the
 # last checkpoint; where the result is complete it does nothing.
 #SBATCH --ntasks=1 --cpus-per-task=1 --mem-per-cpu=1G
@@ -9,7 +9,7 @@
 #SBATCH --requeue --open-mode=append
 
 if [ $# -eq 0 ]; then
-   echo "usage: sbatch [sbatch options] case.sh CASE.nml [tiltpad options]" >&2
+   echo "usage: sbatch [sbatch options] case.sh CASE.nml [--set group%name=value ...]" >&2
    exit 1
 fi
 

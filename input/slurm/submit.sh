@@ -11,11 +11,12 @@ fi
 case=$1
 each=${2:-1}
 at_a_time=${3:-50}
-scripts=$(dirname "$0")
+scripts=$(dirname "$(readlink -f "$0")")
 name=${case##*/}
 name=${name%.*}
 
-# a fault of any member shows here, and not in the log of a job
+# a fault of any member shows here, and not in the log of a job; so does a case that is no sweep
+tiltpad --check --member 1 "$case" >/dev/null
 tiltpad --check "$case" >/dev/null
 members=$(tiltpad --count "$case")
 tasks=$(((members + each - 1) / each))

@@ -62,7 +62,8 @@ def collect(
     """
     given = [Path(each) for each in ([paths] if isinstance(paths, str | os.PathLike) else paths)]
     target = Path(output) if output is not None else default_output(given)
-    files = [file for path in given for file in results(path, target)]
+    # each once, however often it is named
+    files = list({file.resolve(): file for path in given for file in results(path, target)}.values())
     if not files:
         raise RunError(f"{given[0] if given else 'nothing'}: no result files (*.h5) in it")
     if any(file.resolve() == target.resolve() for file in files):
@@ -76,7 +77,7 @@ def collect(
         raise RunError(f"{given[0]}: none of {len(members)} files can be read")
     check_one_study(members)
     members = numbered(members)
-    missing = sorted(set(range(1, (members[0].members or 0) + 1)) - {each.number for each in members})
+    missing = sorted(set(range(1, planned(members) + 1)) - {each.number for each in members})
     if missing:
         warnings.warn(f"{given[0]}: missing members: {ranges(missing)}", MemberWarning, stacklevel=2)
     write(target, members, missing)
@@ -134,11 +135,14 @@ def check_replaceable(target: Path) -> None:
 
 
 def check_one_study(members: Sequence[Member]) -> None:
-    """Raises ValueError for members of two sweeps, and for a member that is there twice."""
+    """Raises ValueError for members of two sweeps, and for a member that is there twice.
+
+    A sweep may have grown since its first members were run.
+    """
     readable = [each for each in members if each.input]
     first = readable[0]
     for each in readable[1:]:
-        if (each.members, *each.sweep) != (first.members, *first.sweep):
+        if (each.members is None, *each.sweep) != (first.members is None, *first.sweep):
             raise ValueError(f"{first.path} and {each.path}: not of one study: {kin(first)}, and {kin(each)}")
     seen: dict[int, Path] = {}
     for each in readable:
@@ -148,7 +152,12 @@ def check_one_study(members: Sequence[Member]) -> None:
 
 def kin(one: Member) -> str:
     """Which study a member is from, in words."""
-    return f"one of {one.members} over {', '.join(one.sweep)}" if one.members else "a run of its own"
+    return f"a member of a sweep over {', '.join(one.sweep)}" if one.members else "a run of its own"
+
+
+def planned(members: Sequence[Member]) -> int:
+    """How many members the sweep has, by the last that was run; 0 for runs of their own."""
+    return max(each.members or 0 for each in members)
 
 
 def numbered(members: Sequence[Member]) -> list[Member]:
@@ -178,6 +187,8 @@ def ranges(numbers: Sequence[int]) -> str:
 
 def write(target: Path, members: Sequence[Member], missing: Sequence[int]) -> None:
     """Writes the file under a temporary name, and renames it when it is whole."""
+    if not target.parent.is_dir():
+        raise RunError(f"{target.parent}: no such folder")
     temporary = target.with_name(f"{target.name}.part{os.getpid()}")
     try:
         with h5py.File(temporary, "w") as file:
@@ -209,7 +220,7 @@ def fill(file: h5py.File, members: Sequence[Member], missing: Sequence[int], fol
             "input": first.origin["input"],
             "parameters": " ".join(each.name for each in found),
             "variables": "\n".join(each.variable for each in found),
-            "members": first.members or len(members),
+            "members": planned(members) or len(members),
             "missing": ranges(missing),
         }
     )

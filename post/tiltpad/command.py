@@ -1,6 +1,7 @@
 """The commands tiltpad-plot, tiltpad-report and tiltpad-collect."""
 
 import argparse
+import os
 import sys
 import warnings
 from collections.abc import Callable, Sequence
@@ -20,6 +21,8 @@ FORMATS = ("png", "pdf", "svg")
 STUDY = "study"
 #: Options of one plot alone.
 OWN_OPTIONS = {"time": "pressure", "show": STUDY, "over": STUDY, "kind": STUDY, "where": STUDY}
+#: Plots that show no last revolutions.
+WITHOUT_LAST = ("equilibrium", "runup", "orders", "waterfall", "pressure", STUDY)
 #: Exit status, as the program's own.
 INPUT_ERROR, FILE_ERROR = 1, 3
 
@@ -66,7 +69,17 @@ def collect(arguments: Sequence[str] | None = None) -> int:
     """tiltpad-collect: writes the study of many runs; gives the exit status."""
     options = collect_parser().parse_args(arguments)
     target = options.output or "the study"
-    return finished("tiltpad-collect", target, lambda: print(collected(options.paths, options.output)))
+    return finished("tiltpad-collect", target, lambda: tell(collected(options.paths, options.output)))
+
+
+def tell(result: object) -> None:
+    """Prints it; RunError where standard output cannot be written."""
+    try:
+        print(result, flush=True)
+    except OSError as error:
+        # what is left in the buffer would be tried again at the end
+        sys.stdout = None
+        raise RunError(f"standard output cannot be written: {error.strerror}") from error
 
 
 def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
@@ -89,7 +102,8 @@ def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
     except MissingLibraryError as error:
         return complain(command, error, FILE_ERROR)
     except OSError as error:
-        return complain(command, f"{output}: cannot be written: {error.strerror or error}", FILE_ERROR)
+        reason = os.strerror(error.errno) if error.errno else error
+        return complain(command, f"{output}: cannot be written: {reason}", FILE_ERROR)
     except KeyboardInterrupt:
         return complain(command, "stopped", 130)
     except Exception as error:
@@ -104,6 +118,8 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         if getattr(options, name) is not None and options.plot != plot:
             option = {"kind": "as"}.get(name, name)
             raise ValueError(f"--{option}: for the plot {plot}, not for {options.plot}")
+    if options.last is not None and options.plot in WITHOUT_LAST:
+        raise ValueError(f"--last: not for the plot {options.plot}")
     mpl = matplotlib_for_files()
     if options.plot == STUDY:
         draw_study(options, output, form)
@@ -129,6 +145,8 @@ def draw_study(options: argparse.Namespace, output: Path, form: str) -> None:
         raise ValueError("study: one file; tiltpad-collect puts several into one")
     with read_study(options.files[0]) as study, plots.plt.style.context(plots.STYLE):
         where = dict(options.where or ())
+        if len(where) < len(options.where or ()):
+            raise ValueError("--where: one value of each parameter")
         figure = figures.study(study, options.show, options.over, options.kind, where, options.pad)
         figure.savefig(output, format=form)
         plots.plt.close(figure)

@@ -39,7 +39,7 @@ module growing_file
       procedure :: beat
       !> The dead process that held the file's lock; empty where there was none.
       procedure :: taken_from
-      !> What has gone wrong in writing so far.
+      !> What has gone wrong with the file so far.
       procedure :: error_of
       procedure, private :: close_parts
       procedure, private :: catch_up
@@ -81,14 +81,9 @@ contains
          call statistics%get(self%file)
          call self%provenance%resume(self%file, t)
          call self%table%begin(self%file)
-         if (allocated(self%file%failure)) then
-            call raise(error, system_error, self%place%path//': damaged: '//self%file%failure)
-         else if (.not. all(ieee_is_finite([t, state]))) then
-            call raise(error, system_error, self%place%path//': damaged: its checkpoint is not a number')
-         else
-            call self%provenance%put_maker(self%file)
-            call self%error_of(error)
-         end if
+         call self%error_of(error)
+         if (.not. allocated(error) .and. .not. all(ieee_is_finite([t, state]))) call raise(error, system_error, &
+            & self%place%path//': damaged: its checkpoint is not a number')
       end if
       if (allocated(error)) call self%abandon()
    end subroutine resume
@@ -208,7 +203,11 @@ contains
    subroutine error_of(self, error)
       class(growing_file_type), intent(in) :: self
       type(error_type), allocatable, intent(out) :: error
-      if (allocated(self%file%failure)) call raise(error, system_error, 'cannot write '//self%place%path//': ' &
-         & //self%file%failure)
+      if (.not. allocated(self%file%failure)) return
+      if (self%file%damaged) then
+         call raise(error, system_error, self%place%path//': damaged: '//self%file%failure)
+      else
+         call raise(error, system_error, 'cannot write '//self%place%path//': '//self%file%failure)
+      end if
    end subroutine error_of
 end module growing_file

@@ -9,7 +9,7 @@ module hdf5_base
       & h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, h5aget_type_f, h5adelete_f, h5aexists_f, &
       & h5lexists_f, h5ldelete_f, h5t_native_integer
    use posix, only: set_environment
-   use system_errors, only: write_refusal, forget_error
+   use system_errors, only: write_refusal
    implicit none (type, external)
    private
    public :: hdf5_base_type, start_hdf5
@@ -19,6 +19,8 @@ module hdf5_base
       integer(hid_t) :: id = -1
       !> What failed first; not allocated while all is well.
       character(len=:), allocatable :: failure
+      !> True where that was in reading.
+      logical :: damaged = .false.
    contains
       !> Creates a file (replacing one of the name), opens one, closes it.
       procedure :: create
@@ -37,6 +39,7 @@ module hdf5_base
       procedure :: get_flag
       !> For what builds on it: notes a failed action; an attribute of any object.
       procedure :: check
+      procedure :: check_read
       procedure :: write_attribute
       procedure, private :: begin
    end type hdf5_base_type
@@ -70,8 +73,8 @@ contains
    subroutine begin(self)
       class(hdf5_base_type), intent(inout) :: self
       call start_hdf5()
-      call forget_error()
       if (allocated(self%failure)) deallocate (self%failure)
+      self%damaged = .false.
    end subroutine begin
 
    subroutine create(self, path)
@@ -166,7 +169,7 @@ contains
       text = ''
       if (allocated(self%failure)) return
       call h5aopen_f(self%id, name, attribute, status)
-      call self%check(status, 'find attribute '//name)
+      call self%check_read(status, 'find attribute '//name)
       if (status < 0) return
       call h5aget_type_f(attribute, kind, status)
       call h5tis_variable_str_f(kind, variable, status)
@@ -174,7 +177,7 @@ contains
       pointer(1) = c_null_ptr
       buffer = c_loc(pointer)
       if (status >= 0) call h5aread_f(attribute, kind, buffer, status)
-      call self%check(status, 'read attribute '//name)
+      call self%check_read(status, 'read attribute '//name)
       if (c_associated(pointer(1))) then
          call c_f_pointer(pointer(1), characters, [c_strlen(pointer(1))])
          text = repeat(' ', size(characters))
@@ -223,10 +226,10 @@ contains
       call h5aopen_f(self%id, name, attribute, status)
       if (status >= 0) then
          call h5aread_f(attribute, h5t_native_integer, pointer, status)
-         call self%check(status, 'read attribute '//name)
+         call self%check_read(status, 'read attribute '//name)
          call h5aclose_f(attribute, status)
       else
-         call self%check(status, 'find attribute '//name)
+         call self%check_read(status, 'find attribute '//name)
       end if
       value = buffer
    end subroutine get_flag
@@ -254,7 +257,7 @@ contains
       call h5tclose_f(kind, status)
    end subroutine write_attribute
 
-   !> Keeps the first failure.
+   !> Keeps the first failure, in writing.
    subroutine check(self, status, action)
       class(hdf5_base_type), intent(inout) :: self
       integer, intent(in) :: status
@@ -265,4 +268,14 @@ contains
       self%failure = 'HDF5 could not '//action
       if (reason /= '') self%failure = self%failure//': '//reason
    end subroutine check
+
+   !> The same in reading: the file is not what it should be.
+   subroutine check_read(self, status, action)
+      class(hdf5_base_type), intent(inout) :: self
+      integer, intent(in) :: status
+      character(len=*), intent(in) :: action
+      if (status >= 0 .or. allocated(self%failure)) return
+      self%failure = 'HDF5 could not '//action
+      self%damaged = .true.
+   end subroutine check_read
 end module hdf5_base

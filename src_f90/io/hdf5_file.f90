@@ -93,7 +93,7 @@ contains
       integer :: status
       if (self%has(path)) then
          call h5dopen_f(self%id, path, dataset, status)
-         call self%check(status, 'open '//path)
+         call self%check_read(status, 'open '//path)
          return
       end if
       if (size(dims) == 0) then
@@ -159,14 +159,14 @@ contains
       if (allocated(self%failure)) return
       status = -1
       if (self%has(path)) call h5dopen_f(self%id, path, dataset, status)
-      call self%check(status, 'open '//path)
+      call self%check_read(status, 'open '//path)
       if (status < 0) return
       call self%expect_type(dataset, kind, path)
       call h5dget_space_f(dataset, space, status)
       call h5sget_simple_extent_npoints_f(space, points, status)
       if (status >= 0 .and. points /= n) status = -1
       if (status >= 0 .and. .not. allocated(self%failure)) call h5dread_f(dataset, kind, buffer, status)
-      call self%check(status, 'read '//path)
+      call self%check_read(status, 'read '//path)
       call h5sclose_f(space, status)
       call h5dclose_f(dataset, status)
    end subroutine read_all
@@ -182,7 +182,7 @@ contains
       same = .false.
       call h5dget_type_f(dataset, found, status)
       if (status >= 0) call h5tequal_f(found, kind, same, status)
-      if (.not. same) call self%check(-1, 'find numbers of the right kind in '//path)
+      if (.not. same) call self%check_read(-1, 'find numbers of the right kind in '//path)
       call h5tclose_f(found, status)
    end subroutine expect_type
 

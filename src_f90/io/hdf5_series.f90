@@ -78,7 +78,7 @@ contains
       if (allocated(file%failure)) return
       access = without_cache()
       call h5dopen_f(file%id, path, self%id, status, access)
-      call file%check(status, 'open '//path)
+      call file%check_read(status, 'open '//path)
       if (status >= 0) then
          call h5dget_space_f(self%id, space, status)
          call file%expect_type(self%id, h5t_native_double, path)
@@ -87,7 +87,7 @@ contains
          dims = 1
          if (status >= 0) call h5sget_simple_extent_dims_f(space, dims, most, status)
          if (self%rank == 2 .and. dims(1) > widest) status = -1
-         call file%check(status, 'read the size of '//path)
+         call file%check_read(status, 'read the size of '//path)
          if (status < 0) then
             self%rank = 1
             dims = 1
@@ -143,7 +143,7 @@ contains
       if (allocated(file%failure) .or. n == 0) return
       call self%select(skip, n, memory, space, status)
       if (status >= 0) call h5dread_f(self%id, h5t_native_double, buffer, status, memory, space)
-      call file%check(status, 'read samples')
+      call file%check_read(status, 'read samples')
       if (status < 0) values = 0
       call h5sclose_f(space, status)
       call h5sclose_f(memory, status)

@@ -23,7 +23,7 @@ module provenance
       procedure :: begin
       procedure :: resume
       procedure :: note
-      procedure :: put_maker
+      procedure, private :: put_maker
    end type provenance_type
 
 contains
@@ -39,7 +39,7 @@ contains
       call self%put_maker(file)
    end subroutine begin
 
-   !> Of a file that is gone on with, from simulated time t, s; it is only read.
+   !> Of a file that is gone on with, from simulated time t, s.
    subroutine resume(self, file, t)
       class(provenance_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file
@@ -49,6 +49,7 @@ contains
       call file%get_text('history', self%earlier)
       call file%get_flag('resumes', self%resumes)
       self%resumes = self%resumes + 1
+      call self%put_maker(file)
    end subroutine resume
 
    subroutine put_maker(self, file)

@@ -111,7 +111,7 @@ contains
       expected = self%samples - self%held
       associate (data => self%series(size(self%series))%data)
          call data%open(file, name)
-         if (data%length /= expected .or. data%width /= width) call file%check(-1, 'find all samples of '//name)
+         if (data%length /= expected .or. data%width /= width) call file%check_read(-1, 'find all samples of '//name)
       end associate
    end subroutine open_series
 

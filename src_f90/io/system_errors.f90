@@ -4,7 +4,7 @@ module system_errors
    use text, only: lower_case
    implicit none (type, external)
    private
-   public :: system_reason, write_refusal, error_number, refused_by_other, forget_error
+   public :: system_reason, write_refusal, error_number, refused_by_other
 
    !> Linux' numbers of the errors that tell why a file cannot be written, or a lock not be had.
    integer, parameter :: no_entry = 2, io_error = 5, try_again = 11, no_access = 13, too_big = 27, disk_full = 28, &
@@ -58,13 +58,6 @@ contains
    logical function refused_by_other()
       refused_by_other = any(error_number() == [try_again, no_access])
    end function refused_by_other
-
-   !> Nothing has gone wrong yet.
-   subroutine forget_error()
-      integer(c_int), pointer :: number
-      call c_f_pointer(c_errno_location(), number)
-      number = 0
-   end subroutine forget_error
 
    !> C's errno.
    integer function error_number()

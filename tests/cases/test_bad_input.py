@@ -164,6 +164,10 @@ TOGETHER = {
         ["pads%pivot_angle_deg", "360", "overlap"],
     ),
     "pads too long": ("&pads arc_deg=200 /", ["pads%arc_deg", "overlap"]),
+    "too many cells for elimination": (
+        "&film circumferential_cells=2000, axial_cells=1000 /",
+        ["film%axial_cells = 1000", "at most 223", "film%circumferential_cells = 2000", "'sor'"],
+    ),
     "inertia below mass": ("&pads mass=8.108 /", ["pads%inertia", "pad 1"]),
     "values for more pads": ("&pads pivot_angle_deg=0,120,240, mass=1,2 /", ["pads%mass", "1, 2", "3"]),
     "clearance in mm": (

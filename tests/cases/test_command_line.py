@@ -217,6 +217,35 @@ def test_output_replaces_what_a_link_leads_to(tiltpad, case):
         assert file.attrs["complete"] == 1
 
 
+def test_output_goes_where_a_link_will_lead(tiltpad, case):
+    (case / "store").mkdir()
+    (case / "near.h5").symlink_to("far.h5")
+    (case / "far.h5").symlink_to("store/case.h5")
+    assert tiltpad("case.nml", "-o", "near.h5", cwd=case).returncode == 0
+    assert (case / "near.h5").is_symlink()
+    assert (case / "far.h5").is_symlink()
+    with h5py.File(case / "store" / "case.h5") as file:
+        assert file.attrs["complete"] == 1
+
+
+def test_a_reader_that_goes_away_ends_no_run(program, case):
+    """As in: tiltpad case.nml | head -1."""
+    run = subprocess.Popen([program, "case.nml"], cwd=case, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    run.stdout.close()
+    assert (run.wait(60), run.stderr.read()) == (0, b"")
+    run.stderr.close()
+    with h5py.File(case / "case.h5") as file:
+        assert file.attrs["complete"] == 1
+
+
+def test_names_of_results_that_end_in_a_blank(tiltpad, case):
+    for option in ("--output", "--resume"):
+        run = tiltpad("case.nml", option, "case.h5 ", cwd=case)
+        assert run.returncode == 1
+        said = f"{option} case.h5 : the name of a file must not end in a blank"
+        assert run.stderr == f"tiltpad: error: {said}\n"
+
+
 def test_quiet(tiltpad, case):
     for option in ("--quiet", "-q"):
         run = tiltpad("case.nml", option, cwd=case)

@@ -1,5 +1,7 @@
 """Whole runs against converged values of independent programs, and against each other."""
 
+import resource
+
 import h5py
 import numpy as np
 import pytest
@@ -167,6 +169,21 @@ def test_four_pads_change_the_orbit_little(march):
     assert deviation(four, two, "journal_y") < 0.02
     assert abs(four["equilibrium/journal_y"][()] - two["equilibrium/journal_y"][()]) < 5e-8
     assert np.all(four["equilibrium/contact_force"][2:] == 0)
+
+
+def test_long_spectra_need_no_stack(tiltpad, tmp_path):
+    """180000 samples, with a stack of 1 MB."""
+    (tmp_path / "case.nml").write_text(
+        "&operation duration=0.47 / &output samples_per_revolution=3600, start_time=0.001 /\n"
+    )
+    limit = (2**20, resource.getrlimit(resource.RLIMIT_STACK)[1])
+    run = tiltpad(
+        "case.nml", cwd=tmp_path, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_STACK, limit)
+    )
+    assert (run.returncode, run.stderr) == (0, "")
+    with h5py.File(tmp_path / "case.h5") as file:
+        assert file["spectrum/frequency"].shape == (50 * 3600 // 2 + 1,)
+        assert file["spectrum/revolutions"][()] == 50
 
 
 def test_stop_when_periodic(march):

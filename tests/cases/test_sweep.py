@@ -207,6 +207,31 @@ def test_a_member_of_another_sweep_is_not_replaced(tiltpad, case):
     assert [speed(folder / f"case/000{k}.h5") for k in (1, 2)] == [3000, 4000]
 
 
+def test_a_sweep_may_grow(tiltpad, case):
+    folder = case(sweep("operation%speed_rpm=3000,4000"))
+    result(tiltpad("case.nml", cwd=folder))
+    before = (folder / "case/0001.h5").read_bytes()
+    longer = ("--set", "sweep%operation%speed_rpm=3000,4000,5000")
+    assert result(tiltpad("case.nml", *longer, cwd=folder))[0].startswith("3 members: 3 done")
+    assert (folder / "case/0001.h5").read_bytes() == before
+    assert [speed(folder / f"case/000{k}.h5") for k in (1, 2, 3)] == [3000, 4000, 5000]
+
+
+def test_the_same_scene_in_another_place_is_refused(tiltpad, case):
+    """A member of a sweep over something else, or a run that is none: a study could not tell what it is."""
+    folder = case(sweep("operation%speed_rpm=6500"))
+    result(tiltpad("case.nml", cwd=folder))
+    _, errors = result(tiltpad("case.nml", "--set", "sweep%rotor%gravity=9.81", cwd=folder), status=3)
+    assert errors[0].endswith(
+        "case/0001.h5: is member 1 of another sweep; operation%speed_rpm = 6500 there, "
+        "operation%speed_rpm = 6500, rotor%gravity = 9.81 here"
+    )
+    (folder / "one.nml").write_text(QUICK)
+    result(tiltpad("one.nml", "--output", "case/0001.h5", cwd=folder))
+    _, errors = result(tiltpad("case.nml", cwd=folder), status=3)
+    assert errors[0].endswith("case/0001.h5: is the result of the same case, but no member of a sweep")
+
+
 def test_file_names_have_the_digits_of_the_last_member(tiltpad, case):
     folder = case(sweep("operation%speed_rpm=1:20000:1"))
     result(tiltpad("--quiet", "--member", 7, "case.nml", cwd=folder))

@@ -206,6 +206,8 @@ def test_values_spread_in_ratio(values, evenly):
         ),
         ("speed", ["--as", "bifurcation", "--show", "orbit_y"], "orbit_y is not Poincare points"),
         ("speed", ["--where", "nix=1"], "--where: nix is not a parameter"),
+        ("speed", ["--where", "speed_rpm=3000", "--where", "speed_rpm=4000"], "--where: one value of each"),
+        ("speed", ["--last", "3"], "--last: not for the plot study"),
         ("speed", ["--where", "speed_rpm=1"], "no member with speed_rpm = 1: there are 3000, 4000, 6500"),
         ("speed", ["--where", "speed_rpm=4000", "--as", "map"], "a map needs two parameters"),
         ("speed", ["--where", "speed_rpm"], "speed_rpm: must be PARAMETER=VALUE"),

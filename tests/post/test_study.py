@@ -1,7 +1,10 @@
 """Studies: what tiltpad-collect makes of many results, and what reads it."""
 
+import os
 import re
 import shutil
+import subprocess
+import sys
 import warnings
 
 import h5py
@@ -156,11 +159,46 @@ def test_two_studies_are_not_mixed(copy, sweep, tmp_path, capsys):
     assert command.collect([str(copy), str(other), "-o", str(tmp_path / "a.h5")]) == 1
     said = capsys.readouterr().err
     assert said.count("\n") == 1
-    assert "not of one study: one of 6 over operation%speed_rpm, friction%model, and one of 2 over" in said
+    sweeps = "over operation%speed_rpm, friction%model, and a member of a sweep over rotor%unbalance"
+    assert f"not of one study: a member of a sweep {sweeps}" in said
     assert not (tmp_path / "a.h5").exists()
     edited(copy / "0006.h5", lambda file: file.attrs.update({"member": 1}))
     with pytest.raises(ValueError, match="both are member 1"):
         tiltpad.collect(copy, tmp_path / "a.h5")
+
+
+def test_a_sweep_that_grew_is_one_study(copy, tmp_path):
+    """Its first members know of fewer."""
+    for k in (1, 2, 3):
+        edited(copy / f"000{k}.h5", lambda file: file.attrs.update({"members": 3}))
+    (copy / "0006.h5").unlink()
+    with pytest.warns(tiltpad.MemberWarning, match="missing members: 6"):
+        found = tiltpad.collect(copy, tmp_path / "a.h5")
+    assert (found.members, found.missing) == (5, [6])
+    with tiltpad.read_study(tmp_path / "a.h5") as study:
+        assert (study.members, study.missing) == (6, "6")
+
+
+def test_a_file_named_twice_is_one_member(copy, tmp_path, monkeypatch, result):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "link.h5").symlink_to(copy / "0002.h5")
+    assert tiltpad.collect(["grid", copy, "grid/0001.h5", "link.h5"], "a.h5").members == 6
+    assert tiltpad.collect([result("lugre"), result("lugre")], "b.h5").members == 1
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full")
+def test_the_summary_cannot_be_printed(copy, tmp_path):
+    code = "import sys; from tiltpad import command; sys.exit(command.collect(sys.argv[1:]))"
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(
+            [sys.executable, "-c", code, copy, "-o", tmp_path / "a.h5"],
+            stdout=full, stderr=subprocess.PIPE, text=True,
+        )  # fmt: skip
+    assert done.returncode == 3
+    assert done.stderr == (
+        "tiltpad-collect: error: standard output cannot be written: No space left on device\n"
+    )
+    assert (tmp_path / "a.h5").exists()
 
 
 def test_the_output(copy, tmp_path, monkeypatch, capsys):
@@ -175,7 +213,7 @@ def test_the_output(copy, tmp_path, monkeypatch, capsys):
     for arguments, status, message in (
         (["grid", "-o", "grid/0001.h5"], 1, "grid/0001.h5: it is there and no study"),
         (["grid", "-o", "a.nc"], 1, "a.nc: the name must end in .h5"),
-        (["grid", "-o", "no/a.h5"], 3, "no/a.h5: cannot be written"),
+        (["grid", "-o", "no/a.h5"], 3, "no: no such folder"),
         (["grid/0001.h5"], 1, "give its output"),
         (["nowhere", "-o", "a.h5"], 3, "nowhere: none of 1 files can be read"),
         ([str(copy.parent / "empty"), "-o", "a.h5"], 3, "empty: no result files"),

@@ -232,6 +232,10 @@ def test_faulty_study_is_not_submitted(cluster, scripts, folder):
     refused = cluster.call(scripts / "submit.sh", "speeds.nml", cwd=folder)
     assert refused.returncode == 1
     assert "speed_rpm" in refused.stderr
+    write(folder, "mine.nml", one())
+    refused = cluster.call(scripts / "submit.sh", "mine.nml", cwd=folder)
+    assert refused.returncode == 1
+    assert "no group &sweep" in refused.stderr
     assert cluster.ask("squeue", "-h") == ""
 
 
