@@ -14,6 +14,7 @@ TOGETHER = (
     ({"film%circumferential_cells": "61"}, "film%circumferential_cells"),
     ({"film%circumferential_cells": "6"}, "film%circumferential_cells"),
     ({"film%axial_cells": "1"}, "film%axial_cells"),
+    ({"film%circumferential_cells": "2000", "film%axial_cells": "1000"}, "film%axial_cells"),
     ({"film%solver": "'modal'"}, "film%solver"),
     ({"bearing%machined_clearance": "1e-9"}, "bearing%machined_clearance"),
     ({"bearing%assembled_clearance": "201e-6"}, "bearing%assembled_clearance"),

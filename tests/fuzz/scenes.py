@@ -33,6 +33,8 @@ TOGETHER = (
 )
 ALONE = ("rotor%balance_speed_rpm", "film%circumferential_cells", "film%axial_cells")
 SPECIAL = {key for group in (*TOGETHER, ALONE) for key in group}
+#: Circumferential times squared axial cells of all pads.
+MOST_IN_BLOCKS = 2e8
 TITLE = "abc ABC 0123  ''\"\"/!&=,*()%;:\t\\#$\u00e4\u20ac\U0001d70b"
 
 
@@ -54,7 +56,21 @@ def draw(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
         found["film%axial_cells"] = (float(dice.choice((0, 2, 1000, dice.randint(2, 1000)))),)
     if dice.random() < few:
         found.update(pads(dice, variables))
+    fit_memory(found)
     return found
+
+
+def fit_memory(found: dict[str, tuple]) -> None:
+    """No more axial cells than `auto` takes where films rupture."""
+    if found.get("film%solver", (b"auto",)) != (b"auto",):
+        return
+    if found.get("film%cavitation", (b"reynolds",)) != (b"reynolds",):
+        return
+    cells = max(found.get("film%circumferential_cells", (0.0,))[0], 100)
+    count = len(found.get("pads%pivot_angle_deg", (-45, 225)))
+    most = float(math.isqrt(int(MOST_IN_BLOCKS / (cells * count))))
+    if "film%axial_cells" in found:
+        found["film%axial_cells"] = (min(found["film%axial_cells"][0], most),)
 
 
 def anything(dice: Random, variable: Variable) -> tuple:
