@@ -15,7 +15,8 @@ program tiltpad
    use signals, only: catch_signals
    use arguments, only: arguments_type, read_arguments, print_help
    use run_case, only: run_scene
-   use run_sweep, only: run_members, check_members, prepare_folder, member_file
+   use sweep_child, only: member_file
+   use run_sweep, only: run_members, check_members, prepare_folder
    implicit none (type, external)
 
    interface

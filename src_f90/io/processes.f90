@@ -7,7 +7,7 @@ module processes
    implicit none (type, external)
    private
    public :: processors, make_folder, remove_folder, new_process, end_child, end_with_parent, ended, stop_process
-   public :: record_length, open_pipe, send_record, receive_record, wait_for_record
+   public :: record_length, open_pipe, close_pipe, send_record, receive_record, wait_for_record
 
    !> Bytes of a record; a pipe keeps up to 4096 together.
    integer, parameter :: record_length = 4000
@@ -93,6 +93,10 @@ module processes
          integer(c_int), intent(out) :: status
       end function c_waitpid
 
+      integer(c_int) function c_close(descriptor) bind(c, name='close')
+         import :: c_int
+         integer(c_int), value :: descriptor
+      end function c_close
    end interface
 
 contains
@@ -148,6 +152,15 @@ contains
       ok = c_pipe(found) == 0
       ends = int(found)
    end subroutine open_pipe
+
+   subroutine close_pipe(ends)
+      integer, intent(in) :: ends(2)
+      integer(c_int) :: ignored
+      integer :: i
+      do i = 1, 2
+         ignored = c_close(int(ends(i), c_int))
+      end do
+   end subroutine close_pipe
 
    !> Sends a record through a pipe, whole and unmixed with others'.
    subroutine send_record(pipe, record)

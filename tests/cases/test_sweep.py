@@ -3,6 +3,7 @@
 import os
 import pty
 import re
+import resource
 import select
 import signal
 import subprocess
@@ -316,6 +317,28 @@ def test_a_killed_member_is_a_failed_one_and_the_others_go_on(program, tiltpad, 
     stdout, _ = result(tiltpad("case.nml", cwd=folder))
     assert stdout.startswith("5 members: 5 done, 0 failed; ")
     assert all(speed(folder / f"case/000{k}.h5") for k in range(1, 6))
+
+
+def test_a_child_runs_many_members_and_leaves_nothing_open(program, tiltpad, case):
+    """Few processes for many members, with hardly more descriptors than one member needs."""
+    folder = case(sweep("rotor%mass=2000:2119:1"))
+    seen = set()
+    limit = (24, resource.getrlimit(resource.RLIMIT_NOFILE)[1])
+    with subprocess.Popen(
+        [program, "--quiet", "--jobs", "2", "case.nml"],
+        cwd=folder,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, limit),
+    ) as process:
+        while process.poll() is None:
+            seen.update(children(process))
+            time.sleep(0.001)
+    assert process.returncode == 0
+    assert len(files(folder / "case")) == 120
+    # fifty members a child
+    assert 2 <= len(seen) <= 4
+    result(tiltpad("--member", 60, "-o", "alone", "case.nml", cwd=folder))
+    with h5py.File(folder / "case/0060.h5") as one, h5py.File(folder / "alone/0060.h5") as other:
+        assert one["equilibrium/journal_y"][()] == other["equilibrium/journal_y"][()]
 
 
 def test_as_many_at_a_time_as_asked(program, case):

@@ -1,0 +1,195 @@
+!> A child process that runs members of a sweep, one after another, told which, as a new process for each would cost
+!> as much as a short run.
+module sweep_child
+   use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
+   use text, only: to_text
+   use errors, only: error_type
+   use scene, only: scene_type
+   use sweep, only: sweep_type, member_tag
+   use posix, only: process_id
+   use processes, only: record_length, new_process, end_child, end_with_parent, open_pipe, close_pipe, send_record, &
+      & receive_record, wait_for_record, ended
+   use signals, only: stop_requested
+   implicit none (type, external)
+   private
+   public :: child_type, last_word, read_last_word, member_file, member_runner, pause
+
+   abstract interface
+      !> Runs one member to its result file, saying nothing.
+      subroutine member_runner(scene, path, tag, error)
+         import :: scene_type, member_tag, error_type
+         type(scene_type), intent(in) :: scene
+         character(len=*), intent(in) :: path
+         type(member_tag), intent(in) :: tag
+         type(error_type), allocatable, intent(out) :: error
+      end subroutine member_runner
+   end interface
+
+   !> Milliseconds between two looks at those who may have ended without a word.
+   integer, parameter :: pause = 100
+   !> Members that a child runs before a new one takes its place: what they may leave behind does not add up.
+   integer, parameter :: members_a_child = 50
+   !> Number and status of a member and whether its child stays, in a member's last word; its message follows.
+   character(len=*), parameter :: head_format = '(2i12,l1,a)'
+   integer, parameter :: head = 25
+
+   !> What a child says of a member that has ended.
+   type :: last_word
+      integer :: member = 0
+      type(error_type) :: error
+      !> Whether the child waits to be told another.
+      logical :: stays = .false.
+   end type last_word
+
+   !> A child process, if its number is not 0, and the member that it runs; 0: it waits to be told another.
+   type :: child_type
+      integer :: process = 0, member = 0
+      !> The pipe through which it is told.
+      integer :: orders(2) = 0
+      !> How it ended, where that is known before its last word was read.
+      character(len=:), allocatable :: how
+   contains
+      procedure :: start
+      procedure :: order
+      procedure :: dismiss
+      procedure :: bury
+   end type child_type
+
+contains
+
+   !> Result file of a member: FOLDER/0001.h5, with as many digits as the last one needs.
+   function member_file(folder, k, members) result(path)
+      character(len=*), intent(in) :: folder
+      integer, intent(in) :: k, members
+      character(len=:), allocatable :: path, digits
+      digits = to_text(k)
+      path = folder//'/'//repeat('0', max(4, len(to_text(members))) - len(digits))//digits//'.h5'
+   end function member_file
+
+   !> Tells a child that waits to run the k-th member.
+   subroutine order(child, k)
+      class(child_type), intent(inout) :: child
+      integer, intent(in) :: k
+      character(len=record_length) :: record
+      child%member = k
+      write (record, '(i12)') k
+      call send_record(child%orders(2), record)
+   end subroutine order
+
+   !> Tells a child that waits to end.
+   subroutine dismiss(child)
+      class(child_type), intent(inout) :: child
+      call child%order(0)
+      call child%bury()
+   end subroutine dismiss
+
+   !> Waits for the end of a child that has nothing more to do.
+   subroutine bury(child)
+      class(child_type), intent(inout) :: child
+      character(len=:), allocatable :: how
+      logical :: ignored
+      if (allocated(child%how)) then
+         deallocate (child%how)
+      else
+         ignored = ended(child%process, .true., how)
+      end if
+      call close_pipe(child%orders)
+      child%process = 0
+      child%member = 0
+   end subroutine bury
+
+   !> Starts a child with its first member; `child` has no member where there is no process to be had.
+   subroutine start(child, sweep, folder, k, pipe, run_member)
+      class(child_type), intent(inout) :: child
+      type(sweep_type), intent(in) :: sweep
+      character(len=*), intent(in) :: folder
+      integer, intent(in) :: k, pipe
+      procedure(member_runner) :: run_member
+      integer :: parent
+      logical :: ok
+      call open_pipe(child%orders, ok)
+      if (.not. ok) return
+      parent = int(process_id())
+      ! what is buffered here would else be written by both
+      flush (output_unit)
+      flush (error_unit)
+      child%member = k
+      child%process = new_process()
+      if (child%process == 0) then
+         call end_with_parent(parent)
+         call live(sweep, folder, k, child%orders(1), pipe, run_member)
+      else if (child%process < 0) then
+         call close_pipe(child%orders)
+         child%process = 0
+         child%member = 0
+      end if
+   end subroutine start
+
+   !> The child's life: runs its first member and those it is told to, and sends a last word of each. After one that
+   !> failed it ends, as a library may not be what it was.
+   subroutine live(sweep, folder, first, orders, pipe, run_member)
+      type(sweep_type), intent(in) :: sweep
+      character(len=*), intent(in) :: folder
+      !> Its first member; the end of a pipe that its orders come from, and that of one for its last words.
+      integer, intent(in) :: first, orders, pipe
+      procedure(member_runner) :: run_member
+      integer :: k, count
+      logical :: stays
+      k = first
+      do count = 1, members_a_child
+         call run_one(sweep, folder, k, pipe, count < members_a_child, run_member, stays)
+         if (.not. stays) exit
+         do while (.not. wait_for_record(orders, pause))
+            ! what was ordered before the signal is waiting now
+            if (stop_requested() .and. .not. wait_for_record(orders, 0)) call end_child(0)
+         end do
+         call receive_order(orders, k)
+         if (k == 0) exit
+      end do
+      call end_child(0)
+   end subroutine live
+
+   !> Number of a member; 0 for the end.
+   subroutine receive_order(orders, k)
+      integer, intent(in) :: orders
+      integer, intent(out) :: k
+      character(len=record_length) :: record
+      logical :: ok
+      k = 0
+      call receive_record(orders, record, ok)
+      if (ok) read (record, '(i12)') k
+   end subroutine receive_order
+
+   !> Runs a member and sends its last word, with whether the child stays for another.
+   subroutine run_one(sweep, folder, k, pipe, may_stay, run_member, stays)
+      type(sweep_type), intent(in) :: sweep
+      character(len=*), intent(in) :: folder
+      integer, intent(in) :: k, pipe
+      logical, intent(in) :: may_stay
+      procedure(member_runner) :: run_member
+      logical, intent(out) :: stays
+      type(scene_type) :: scene
+      type(member_tag) :: tag
+      type(error_type), allocatable :: error
+      character(len=record_length) :: record
+      call sweep%tag(k, tag)
+      call sweep%scene(k, scene, error)
+      if (.not. allocated(error)) call run_member(scene, member_file(folder, k, sweep%members), tag, error)
+      if (.not. allocated(error)) error = error_type(0, '')
+      stays = may_stay .and. error%status == 0
+      write (record, head_format) k, error%status, stays, error%message(:min(len(error%message), record_length - head))
+      call send_record(pipe, record)
+   end subroutine run_one
+
+   !> A last word that waits in the pipe; ok is false where there is none.
+   subroutine read_last_word(pipe, word, ok)
+      integer, intent(in) :: pipe
+      type(last_word), intent(out) :: word
+      logical, intent(out) :: ok
+      character(len=record_length) :: record
+      call receive_record(pipe, record, ok)
+      if (.not. ok) return
+      read (record(:head), head_format) word%member, word%error%status, word%stays
+      word%error%message = trim(record(head + 1:))
+   end subroutine read_last_word
+end module sweep_child
