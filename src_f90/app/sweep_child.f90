@@ -139,23 +139,25 @@ contains
       do count = 1, members_a_child
          call run_one(sweep, folder, k, pipe, count < members_a_child, run_member, stays)
          if (.not. stays) exit
-         do while (.not. wait_for_record(orders, pause))
-            ! what was ordered before the signal is waiting now
-            if (stop_requested() .and. .not. wait_for_record(orders, 0)) call end_child(0)
-         end do
          call receive_order(orders, k)
          if (k == 0) exit
       end do
       call end_child(0)
    end subroutine live
 
-   !> Number of a member; 0 for the end.
+   !> Waits for an order: the number of a member; 0 for the end, also where a signal has come.
    subroutine receive_order(orders, k)
       integer, intent(in) :: orders
       integer, intent(out) :: k
       character(len=record_length) :: record
-      logical :: ok
+      logical :: stop_now, ok
       k = 0
+      do
+         ! what was ordered before a signal waits by the time that this is seen
+         stop_now = stop_requested()
+         if (wait_for_record(orders, merge(0, pause, stop_now))) exit
+         if (stop_now) return
+      end do
       call receive_record(orders, record, ok)
       if (ok) read (record, '(i12)') k
    end subroutine receive_order
