@@ -9,7 +9,7 @@ import os
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, Self
 
 import h5py
 import numpy as np
@@ -75,7 +75,7 @@ class Archive:
         group, _, own = name.rpartition("/")
         return own in self.names(group) if not group or group in self else False
 
-    def __enter__(self) -> "Archive":
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -116,6 +116,10 @@ class Archive:
             self.found[name] = found
         return self.found[name]
 
+    def length(self, name: str) -> int:
+        """Number of values along a dimension, by the name of its scale."""
+        return self.item(name).shape[0]
+
     def about(self, name: str, which: str) -> str:
         """An attribute of a dataset, `units` or `long_name`; empty where it has none."""
         found = self.item(name)
@@ -131,7 +135,9 @@ class Archive:
         """Refuses a file whose parts do not fit together; what a kind of file has to check."""
 
     def check_dataset(self, name: str, found: h5py.Dataset) -> None:
-        """Raises ValueError for what is no array of numbers, or greater than the file can hold."""
+        """Raises ValueError for what is no array of numbers, greater than the file can hold, or of another
+        shape than the others ask for.
+        """
         if not isinstance(found, h5py.Dataset) or (kind := found.dtype).kind not in self.KINDS:
             raise ValueError("not an array of numbers")
         if kind.kind == "O" and h5py.check_string_dtype(kind) is None:
@@ -142,6 +148,15 @@ class Archive:
             claimed > COMPRESSION * self.size or not found.id.get_create_plist().get_nfilters()
         ):
             raise ValueError(f"it claims {claimed} bytes, more than the file holds")
+        scales = self.scales(name)
+        if scales == (name,):
+            fits(found.shape[1:], ())
+            found.shape[0]  # a scalar has none
+        elif scales is not None:
+            fits(found.shape, [self.length(each) for each in scales])
+
+    def scales(self, name: str) -> Sequence[str] | None:
+        """Dimensions that a dataset must have, of a scale itself; None of one that is not known."""
 
     def sound(self, name: str, values: Any) -> Any:
         """The values that were read; ValueError where they cannot be."""

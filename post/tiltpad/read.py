@@ -3,14 +3,14 @@
 import os
 import warnings
 from bisect import bisect_left
+from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
-import h5py
 import numpy as np
 
 from tiltpad import namelist
-from tiltpad.archive import Archive, RunError, damaged, fits, reading
+from tiltpad.archive import Archive, RunError, damaged, reading
 
 #: Datasets over which the others are drawn and integrated; they must be finite.
 AXES = ("time", "shaft_angle", "speed", "pivot_angle")
@@ -72,9 +72,6 @@ class Run(Archive):
         if not self.attributes["complete"]:
             warnings.warn(f"{self.path}: incomplete run{self.end()}", IncompleteRunWarning, stacklevel=3)
 
-    def __enter__(self) -> "Run":
-        return self
-
     def __repr__(self) -> str:
         return f"<tiltpad run {self.path!r}: {self.title or self.task}, {', '.join(self.names())}>"
 
@@ -107,10 +104,6 @@ class Run(Archive):
         """Number of samples in time; 0 where nothing was marched."""
         return self.length("time") if "time" in self else 0
 
-    def length(self, name: str) -> int:
-        """Number of values along a dimension, by the name of its scale."""
-        return self.item(name).shape[0]
-
     def check_whole(self) -> None:
         """Refuses a study, and a file whose input has another number of pads than its datasets."""
         if self.attributes["task"] == "study":
@@ -120,14 +113,8 @@ class Run(Archive):
         if "pad" in self and (there := self.length("pad")) != self.pads:
             raise damaged(self.path, "pad", f"{there} pads, and {self.pads} in the input")
 
-    def check_dataset(self, name: str, found: h5py.Dataset) -> None:
-        super().check_dataset(name, found)
-        dimensions = DIMENSIONS.get(name)
-        if dimensions == (name,):
-            fits(found.shape[1:], ())
-            found.shape[0]  # a scalar has none
-        elif dimensions is not None:
-            fits(found.shape, [self.length(each) for each in dimensions])
+    def scales(self, name: str) -> Sequence[str] | None:
+        return DIMENSIONS.get(name)
 
     def sound(self, name: str, values: Any) -> Any:
         if name in AXES and not np.isfinite(values).all():

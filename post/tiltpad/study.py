@@ -1,12 +1,12 @@
 """Studies: the file that tiltpad-collect writes, results of many runs over their parameters."""
 
 import os
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-import h5py
 import numpy as np
 
-from tiltpad.archive import Archive, RunError, damaged, fits, plain
+from tiltpad.archive import Archive, RunError, damaged, plain
 
 #: Dimensions of the arrays.
 MEMBER, PADS = ("member",), ("member", "pad")
@@ -75,9 +75,6 @@ class Study(Archive):
 
     KINDS = "fiuO"
 
-    def __enter__(self) -> "Study":
-        return self
-
     def __repr__(self) -> str:
         members, over = self.length("member"), ", ".join(self.parameters)
         return f"<tiltpad study {self.path!r}: {members} members over {over}>"
@@ -92,10 +89,6 @@ class Study(Archive):
         """True for the members that were done, (member,)."""
         return self.status == 0
 
-    def length(self, name: str) -> int:
-        """Number of values along a dimension: member, pad, revolution."""
-        return self.item(name).shape[0]
-
     def check_whole(self) -> None:
         """Refuses the result of one run, and a study without its parameters."""
         if self.attributes["task"] != "study":
@@ -106,14 +99,12 @@ class Study(Archive):
             if name not in self:
                 raise damaged(self.path, name, "it is missing")
 
-    def check_dataset(self, name: str, found: h5py.Dataset) -> None:
-        super().check_dataset(name, found)
+    def scales(self, name: str) -> Sequence[str] | None:
         if name in ("member", "pad", "revolution"):
-            fits(found.shape[1:], ())
-            found.shape[0]  # a scalar has none
-        elif name in QUANTITIES or name in self.parameters or name in ("file", "reason"):
-            dimensions = QUANTITIES[name].dimensions if name in QUANTITIES else MEMBER
-            fits(found.shape, [self.length(each) for each in dimensions])
+            return (name,)
+        if name in QUANTITIES:
+            return QUANTITIES[name].dimensions
+        return MEMBER if name in self.parameters or name in ("file", "reason") else None
 
     def sound(self, name: str, values: Any) -> Any:
         if np.asarray(values).dtype.kind != "O":

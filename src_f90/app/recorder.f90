@@ -9,7 +9,7 @@ module recorder
    use run_file, only: run_file_type
    use run_statistics, only: run_statistics_type
    use provenance, only: running
-   use signals, only: stop_requested, stop_signal
+   use signals, only: stop_requested, stop_reason
    use progress, only: progress_type, wall_clock
    implicit none (type, external)
    private
@@ -116,7 +116,7 @@ contains
       self%reached = t
       started = wall_clock()
       if (stop_requested()) then
-         reason = 'stopped by signal '//to_text(stop_signal())//' at t = '//to_text(t)//' s'
+         reason = stop_reason()//' at t = '//to_text(t)//' s'
          call self%file%checkpoint(t, y, self%cost(statistics), stopped, reason, error)
          if (.not. allocated(error)) call raise(error, stopped, reason)
       else

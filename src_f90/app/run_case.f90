@@ -16,7 +16,7 @@ module run_case
    use recorder, only: recorder_type, init_recorder
    use run_summary, only: print_equilibrium, print_march
    use progress, only: new_progress
-   use signals, only: stop_requested, stop_signal
+   use signals, only: stop_requested, stop_reason
    implicit none (type, external)
    private
    public :: run_scene
@@ -93,7 +93,7 @@ contains
       call find_equilibrium(scene, static, error, model%contact, stop_requested)
       if (allocated(error)) then
          if (error%status == stopped) then
-            error%message = 'stopped by signal '//to_text(stop_signal())//' before the march; nothing was computed yet'
+            error%message = stop_reason()//' before the march; nothing was computed yet'
          else if (tag%number > 0) then
             ! of a member of a sweep the file says what happened; nothing else would be a result
             call observer%file%finish(t, observer%cost(march_statistics()), error%status, &

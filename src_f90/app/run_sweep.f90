@@ -9,7 +9,7 @@ module run_sweep
    use processes, only: open_pipe, wait_for_record, ended, stop_process, make_folder, remove_folder
    use sweep_child, only: child_type, last_word, read_last_word, member_runner, pause
    use hdf5_base, only: start_hdf5
-   use signals, only: stop_requested, stop_signal
+   use signals, only: stop_requested, stop_reason
    use progress, only: progress_type, new_progress, wall_clock
    implicit none (type, external)
    private
@@ -32,7 +32,7 @@ contains
       integer :: k
       do k = 1, sweep%members
          call sweep%scene(k, scene, error)
-         if (stop_requested()) call raise(error, stopped, 'stopped by signal '//to_text(stop_signal()) &
+         if (stop_requested()) call raise(error, stopped, stop_reason() &
             & //'; no member was started')
          if (allocated(error)) return
       end do
@@ -182,7 +182,7 @@ contains
          failures(n)%message = 'member '//to_text(k)//' ('//on_one_line(tag%sweep)//'): '//failures(n)%message
       end do
       if (stop_requested()) then
-         call raise(error, stopped, 'stopped by signal '//to_text(stop_signal())//'; of ' &
+         call raise(error, stopped, stop_reason()//'; of ' &
             & //to_text(sweep%members)//' members '//totals(sweep, tally))
       else if (tally%stopped > 0) then
          call raise(error, stopped, to_text(tally%stopped)//' of '//to_text(sweep%members) &

@@ -105,7 +105,7 @@ contains
       character(len=*), intent(in) :: folder
       integer, intent(in) :: k, pipe
       procedure(member_runner) :: run_member
-      integer :: parent
+      integer :: parent, process
       logical :: ok
       call open_pipe(child%orders, ok)
       if (.not. ok) return
@@ -113,15 +113,15 @@ contains
       ! what is buffered here would else be written by both
       flush (output_unit)
       flush (error_unit)
-      child%member = k
-      child%process = new_process()
-      if (child%process == 0) then
+      process = new_process()
+      if (process == 0) then
          call end_with_parent(parent)
          call live(sweep, folder, k, child%orders(1), pipe, run_member)
-      else if (child%process < 0) then
+      else if (process < 0) then
          call close_pipe(child%orders)
-         child%process = 0
-         child%member = 0
+      else
+         child%process = process
+         child%member = k
       end if
    end subroutine start
 

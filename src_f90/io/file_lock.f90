@@ -9,7 +9,7 @@ module file_lock
       & c_ptr, c_size_t
    use text, only: to_text
    use errors, only: error_type, raise, system_error, stopped
-   use signals, only: stop_requested, stop_signal
+   use signals, only: stop_requested, stop_reason
    use posix, only: c_fopen, c_fileno, c_fclose, c_statx, statx_shorts, delete_file, host_name, &
       & pause_seconds, process_alive, process_id
    use system_errors, only: refused_by_other, system_reason
@@ -104,7 +104,7 @@ contains
          ! opened anew each time, as network file systems look anew only then
          call pause_seconds(1)
          if (stop_requested()) then
-            call raise(error, stopped, path//': stopped by signal '//to_text(stop_signal())//' before it started')
+            call raise(error, stopped, path//': '//stop_reason()//' before it started')
             return
          end if
          waited = waited + 1

@@ -1,13 +1,13 @@
 !> An HDF5 file: opening, groups, root attributes. After a failure every routine does nothing; `failure` says what
 !> failed first.
 module hdf5_base
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_loc, c_null_char, c_null_ptr, c_ptr, &
-      & c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_loc, c_null_char, c_null_ptr, c_ptr
    use hdf5, only: hid_t, h5open_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fopen_f, h5fclose_f, &
       & h5f_acc_trunc_f, h5f_acc_rdonly_f, h5f_acc_rdwr_f, h5gcreate_f, h5gclose_f, h5screate_f, h5sclose_f, &
       & h5s_scalar_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, h5tis_variable_str_f, h5t_string, h5t_cset_utf8_f, &
       & h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, h5aget_type_f, h5adelete_f, h5aexists_f, &
       & h5lexists_f, h5ldelete_f, h5t_native_integer
+   use c_strings, only: fortran_text
    use posix, only: set_environment
    use system_errors, only: write_refusal
    implicit none (type, external)
@@ -45,11 +45,6 @@ module hdf5_base
    end type hdf5_base_type
 
    interface
-      integer(c_size_t) function c_strlen(text) bind(c, name='strlen')
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: text
-      end function c_strlen
-
       subroutine c_free(memory) bind(c, name='free')
          import :: c_ptr
          type(c_ptr), value :: memory
@@ -161,9 +156,7 @@ contains
       character(len=:), allocatable, intent(out) :: text
       type(c_ptr), target :: pointer(1)
       type(c_ptr) :: buffer
-      character(kind=c_char), pointer :: characters(:)
       integer(hid_t) :: attribute, kind
-      integer :: i
       integer :: status
       logical :: variable
       text = ''
@@ -179,11 +172,7 @@ contains
       if (status >= 0) call h5aread_f(attribute, kind, buffer, status)
       call self%check_read(status, 'read attribute '//name)
       if (c_associated(pointer(1))) then
-         call c_f_pointer(pointer(1), characters, [c_strlen(pointer(1))])
-         text = repeat(' ', size(characters))
-         do i = 1, size(characters)
-            text(i:i) = characters(i)
-         end do
+         text = fortran_text(pointer(1))
          call c_free(pointer(1))
       end if
       call h5tclose_f(kind, status)

@@ -1,8 +1,9 @@
 !> The few things the system does for us that Fortran has no word for.
 module posix
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funptr, c_int, c_int16_t, c_intptr_t, &
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funptr, c_int, c_loc, c_int16_t, c_intptr_t, &
       & c_long, c_null_char, c_null_ptr, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: output_unit
+   use c_strings, only: fortran_text
    use system_errors, only: error_number
    implicit none (type, external)
    private
@@ -10,7 +11,7 @@ module posix
    public :: keep_file_size_quiet, copy_file, link_file, sync_file, begin_sync, host_name, process_alive, pause_seconds
    public :: set_environment
    !> C's own, for modules that keep a descriptor.
-   public :: c_fopen, c_fileno, c_fclose, c_statx, c_kill
+   public :: c_fopen, c_fileno, c_fclose, c_write, c_statx, c_kill
 
    !> Longest path, and Linux' numbers for statx and for the signal of a file grown too large.
    integer, parameter :: path_max = 4096
@@ -211,9 +212,9 @@ contains
    !> Name of this machine.
    function host_name()
       character(len=:), allocatable :: host_name
-      character(kind=c_char) :: buffer(path_max)
+      character(kind=c_char), target :: buffer(path_max)
       host_name = 'unknown'
-      if (c_gethostname(buffer, int(path_max, c_size_t)) == 0) host_name = fortran_text(buffer)
+      if (c_gethostname(buffer, int(path_max, c_size_t)) == 0) host_name = fortran_text(c_loc(buffer))
    end function host_name
 
    !> False where no process of this number runs on this machine.
@@ -237,32 +238,21 @@ contains
       ignored = c_setenv(name//c_null_char, value//c_null_char, 0_c_int)
    end subroutine set_environment
 
-   !> Characters up to C's end of text.
-   pure function fortran_text(buffer) result(text)
-      character(kind=c_char), intent(in) :: buffer(:)
-      character(len=:), allocatable :: text
-      integer :: i
-      allocate (character(len=findloc(buffer, c_null_char, dim=1) - 1) :: text)
-      do i = 1, len(text)
-         text(i:i) = buffer(i)
-      end do
-   end function fortran_text
-
    !> The path without links; where nothing is there, that at which the links end.
    function real_path(path)
       character(len=*), intent(in) :: path
       character(len=:), allocatable :: real_path, target
-      character(kind=c_char) :: buffer(path_max)
+      character(kind=c_char), target :: buffer(path_max)
       integer :: i
       real_path = path
       do i = 1, most_links
          if (c_associated(c_realpath(real_path//c_null_char, buffer))) then
-            real_path = fortran_text(buffer)
+            real_path = fortran_text(c_loc(buffer))
             return
          end if
          buffer = c_null_char
          if (c_readlink(real_path//c_null_char, buffer, int(path_max - 1, c_size_t)) < 1) return
-         target = fortran_text(buffer)
+         target = fortran_text(c_loc(buffer))
          if (target(1:1) /= '/') target = real_path(:index(real_path, '/', back=.true.))//target
          real_path = target
       end do

@@ -2,7 +2,7 @@
 module processes
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int8_t, c_int16_t, c_long, c_null_char, c_size_t
    use text, only: to_text
-   use posix, only: c_kill
+   use posix, only: c_kill, c_write
    use system_errors, only: error_number, system_reason
    implicit none (type, external)
    private
@@ -65,13 +65,6 @@ module processes
          import :: c_int
          integer(c_int), intent(out) :: ends(2)
       end function c_pipe
-
-      integer(c_size_t) function c_write(descriptor, bytes, count) bind(c, name='write')
-         import :: c_int, c_char, c_size_t
-         integer(c_int), value :: descriptor
-         character(kind=c_char), intent(in) :: bytes(*)
-         integer(c_size_t), value :: count
-      end function c_write
 
       integer(c_size_t) function c_read(descriptor, bytes, count) bind(c, name='read')
          import :: c_int, c_char, c_size_t, record_length

@@ -1,9 +1,10 @@
 !> Signals that ask the program to stop. The handler only takes a note; the program looks when it can stop well.
 module signals
    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t
+   use text, only: to_text
    implicit none (type, external)
    private
-   public :: catch_signals, stop_requested, stop_signal
+   public :: catch_signals, stop_requested, stop_reason
 
    !> Linux' numbers of SIGINT, SIGUSR1 and SIGTERM.
    integer(c_int), parameter :: caught(*) = [2_c_int, 10_c_int, 15_c_int]
@@ -39,10 +40,11 @@ contains
       stop_requested = received /= 0
    end function stop_requested
 
-   !> Number of the signal that came last; 0 for none.
-   integer function stop_signal()
-      stop_signal = int(received)
-   end function stop_signal
+   !> "stopped by signal 15": the one that came last.
+   function stop_reason()
+      character(len=:), allocatable :: stop_reason
+      stop_reason = 'stopped by signal '//to_text(int(received))
+   end function stop_reason
 
    subroutine note(number) bind(c)
       integer(c_int), value :: number

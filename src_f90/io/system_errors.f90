@@ -1,6 +1,7 @@
 !> What the system says of its last refusal.
 module system_errors
-   use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_int, c_ptr
+   use c_strings, only: fortran_text
    use text, only: lower_case
    implicit none (type, external)
    private
@@ -19,11 +20,6 @@ module system_errors
          import :: c_int, c_ptr
          integer(c_int), value :: number
       end function c_strerror
-
-      integer(c_size_t) function c_strlen(string) bind(c, name='strlen')
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: string
-      end function c_strlen
    end interface
 
 contains
@@ -31,16 +27,7 @@ contains
    !> The system's words for what went wrong last.
    function system_reason() result(reason)
       character(len=:), allocatable :: reason
-      character(kind=c_char), pointer :: letters(:)
-      type(c_ptr) :: string
-      integer :: i
-      string = c_strerror(int(error_number(), c_int))
-      call c_f_pointer(string, letters, [c_strlen(string)])
-      reason = repeat(' ', size(letters))
-      do i = 1, size(letters)
-         reason(i:i) = letters(i)
-      end do
-      reason = lower_case(reason)
+      reason = lower_case(fortran_text(c_strerror(int(error_number(), c_int))))
    end function system_reason
 
    !> The same where it is a reason for which files cannot be written; else empty.

@@ -5,6 +5,7 @@ import warnings
 from pathlib import Path
 
 import matplotlib as mpl
+import matplotlib.pyplot as plt
 import pytest
 import tiltpad as package
 
@@ -23,6 +24,13 @@ SCENES = {
     "runup": "&operation speed_rpm=1500, final_speed_rpm=6500, duration=0.1 / &friction model='lugre' /",
     "equilibrium": "&case task='equilibrium' /",
 }
+
+
+@pytest.fixture
+def closed_figures():
+    """For tests that draw."""
+    yield
+    plt.close("all")
 
 
 @pytest.fixture(scope="session")

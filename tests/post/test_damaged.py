@@ -10,12 +10,13 @@ from pathlib import Path
 
 import damage
 import h5py
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import tiltpad
 import xarray
 from tiltpad import command, heaps
+
+pytestmark = pytest.mark.usefixtures("closed_figures")
 
 #: Damages to a result and to a study.
 RUN, STUDY = (int(os.environ.get("TILTPAD_DAMAGES", count)) for count in (300, 100))
@@ -43,12 +44,6 @@ def study(sweep, tmp_path_factory):
     sweep(folder / "speeds", "&operation duration=0.05 / &output samples_per_revolution=40 /", values, (2,))
     tiltpad.collect(folder / "speeds", folder / "speeds.h5")
     return folder / "speeds.h5"
-
-
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
 
 
 def test_a_damage_is_read_or_refused(small, study, root):

@@ -7,6 +7,8 @@ import pytest
 import tiltpad
 from tiltpad import command, diagrams, figures
 
+pytestmark = pytest.mark.usefixtures("closed_figures")
+
 SCENE = "&operation duration=0.04 / &output samples_per_revolution=40 /"
 SPEEDS, UNBALANCES = [3000, 4000, 6500], [0.0002, 0.002, 0.02]
 SWEEPS = {
@@ -53,12 +55,6 @@ def grown(members, speeds, unbalances):
         with h5py.File(path, "r+") as file:
             text = f"operation%speed_rpm = {speed}\nrotor%unbalance = {unbalance}"
             file.attrs.update({"member": number, "members": len(pairs), "sweep": text})
-
-
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
 
 
 def test_a_line_over_a_parameter(study):

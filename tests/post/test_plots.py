@@ -15,6 +15,8 @@ import pytest
 import tiltpad
 from tiltpad import command
 
+pytestmark = pytest.mark.usefixtures("closed_figures")
+
 STEADY = [
     *("orbit", "size", "poincare", "waveform", "spectrum", "hysteresis", "friction", "sticking", "runup"),
 ]
@@ -34,12 +36,6 @@ def longer(tiltpad, tmp_path_factory):
     done = tiltpad("--quiet", "a.nml", cwd=folder)
     assert done.returncode == 0, done.stderr
     return folder / "a.h5"
-
-
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
 
 
 def test_an_orbit_has_equal_axes_and_y_up(run):

@@ -1,17 +1,12 @@
 """The picture of the film pressure: what is on the axes, and what the command draws and says."""
 
 import matplotlib.image
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import tiltpad
 from tiltpad import command, figures
 
-
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
+pytestmark = pytest.mark.usefixtures("closed_figures")
 
 
 def test_the_pressure_over_the_unrolled_pad(run):
