@@ -8,11 +8,11 @@ VERSION := 0.1.0
 # FC, FFLAGS           compiler and its optimisation flags
 # PREFIX               where make install puts things
 # SUNDIALS_PREFIX, HDF5_PREFIX, FFTW_PREFIX   libraries of a cluster; nothing is installed then
-# LAPACK               how to link LAPACK
+# LAPACK               how to link LAPACK; ARCHIVES=no: shared libraries only (src_f90/libraries.sh)
 MODE   ?= release
 PREFIX ?= /usr/local
 PYTHON ?= python3
-LAPACK ?= -llapack -lblas
+export LAPACK ARCHIVES CC
 ifeq ($(origin FC),default)
 FC := gfortran
 endif
@@ -42,18 +42,10 @@ prefixes := $(SUNDIALS_PREFIX) $(HDF5_PREFIX) $(FFTW_PREFIX)
 modules  := $(if $(SUNDIALS_PREFIX),$(wildcard $(addprefix $(SUNDIALS_PREFIX)/,include/sundials/fortran fortran include)),\
              /usr/include/sundials/fortran) \
             $(if $(HDF5_PREFIX),$(wildcard $(addprefix $(HDF5_PREFIX)/,include mod include/static)),/usr/include/hdf5/serial)
-# the high-level Fortran library has two names, by HDF5's two build systems
-hdf5_libs := $(if $(HDF5_PREFIX),\
-             -l$(if $(wildcard $(HDF5_PREFIX)/lib*/libhdf5hl_fortran.*),hdf5hl_fortran,hdf5_hl_fortran) \
-             -lhdf5_hl -lhdf5_fortran -lhdf5,\
-             -lhdf5_serialhl_fortran -lhdf5_serial_hl -lhdf5_serial_fortran -lhdf5_serial)
-# Debian's reference LAPACK rather than OpenBLAS, which starts threads for our 12 x 12 systems
-LIBS := $(foreach p,$(prefixes),$(foreach d,$(wildcard $p/lib $p/lib64),-L$d -Wl,-rpath,$d)) \
-        -lsundials_fcvode_mod -lsundials_fnvecserial_mod -lsundials_fsunmatrixdense_mod \
-        -lsundials_fsunlinsoldense_mod -lsundials_cvode -lsundials_nvecserial \
-        $(hdf5_libs) -lfftw3 $(LAPACK) \
-        $(if $(strip $(prefixes)),,$$(ls -d /usr/lib/*/lapack /usr/lib/*/blas 2>/dev/null | sed s/^/-Wl,-rpath,/))
-INCLUDE := $(addprefix -I,$(modules)) -I$(B)/mod
+INCLUDE := $(addprefix -I,$(modules)) $(patsubst %,-I%/include,$(SUNDIALS_PREFIX)) -I$(B)/mod
+# what a program is linked with; how, is found out when linking, as the libraries may be installed only now
+library := $(B)/lib/libtiltpad.a $(B)/lib/unused.o
+LIBS := $$(cat $(B)/lib/flags)
 # these have arrays as long as a run: not on the stack, wherever FFLAGS puts the short ones of the march
 run_long := $(addprefix src_f90/,signal/*.f90 io/*.f90 app/*.f90)
 on_heap  := -fno-stack-arrays
@@ -61,15 +53,16 @@ COMPILE = $(FC) -std=f2018 -fimplicit-none -fopenmp-simd $(FFLAGS) $(INCLUDE) -J
 
 # ---- system packages ---------------------------------------------------------------------------
 PACKAGES := gfortran libc6-dev libsundials-dev libsundials-fortran-dev libhdf5-dev libfftw3-dev \
-            liblapack-dev python3 python3-venv python3-dev
+            liblapack-dev libblas-dev python3 python3-venv python3-dev
 # for one test alone, which is skipped without it: a browser that opens a report
 TEST_PACKAGES := chromium-headless-shell
 # for make test-slurm alone
 SLURM_PACKAGES := slurmctld slurmd slurm-client munge
 
-sources := $(sort $(shell find src_f90 -name '*.f90'))
+sources := $(sort $(shell find src_f90 -name '*.[fF]90'))
 main    := src_f90/app/tiltpad.f90
-objects := $(patsubst %.f90,$(B)/obj/%.o,$(notdir $(filter-out $(main),$(sources)))) $(B)/obj/build_info.o
+objects := $(addsuffix .o,$(addprefix $(B)/obj/,$(basename $(notdir $(filter-out $(main),$(sources)))))) \
+           $(B)/obj/build_info.o
 tests   := $(sort $(wildcard tests/unit/test_*.f90 tests/physics/test_*.f90))
 test_programs := $(patsubst %.f90,$(B)/tests/%,$(notdir $(tests)))
 film_bench := tests/bench/film_bench.f90
@@ -91,10 +84,11 @@ end module build_info
 endef
 $(shell mkdir -p $(B)/obj $(B)/mod)
 $(file >$(B)/obj/build_info.new,$(build_info))
-$(file >$(B)/flags.new,$(COMPILE) $(LIBS) long:$(on_heap) $(run_long))
+$(file >$(B)/flags.new,$(COMPILE) $(prefixes) $(LAPACK) $(ARCHIVES) long:$(on_heap) $(run_long))
 $(shell for f in $(B)/obj/build_info.f90:$(B)/obj/build_info.new $(B)/flags:$(B)/flags.new; do \
    cmp -s $${f#*:} $${f%:*} && rm $${f#*:} || mv $${f#*:} $${f%:*}; done)
 
+vpath %.F90 $(sort $(dir $(sources)))
 vpath %.f90 $(sort $(dir $(sources) $(tests) $(film_bench) $(fuzz_input) $(wrapper))) tests $(B)/obj
 
 VENV := build/venv
@@ -204,7 +198,7 @@ wrap: $(VENV)/ready
 	@ls post/tiltpad/_library.* >/dev/null 2>&1 || rm -f build/wrap/library
 	@$(MAKE) --no-print-directory MODE=wrap build/wrap/library
 
-build/wrap/library: $(B)/obj/library.o $(B)/flags $(VENV)/ready
+build/wrap/library: $(B)/obj/library.o $(B)/lib/unused.o $(B)/flags $(VENV)/ready
 	@mkdir -p $(B)/f2py
 	@rm -f post/tiltpad/_library.*
 	cd $(B)/f2py && $(abspath $(venv_python)) -m numpy.f2py --quiet -m _library $(abspath $(wrapper)) >log 2>&1 || { cat log; exit 1; }
@@ -212,7 +206,7 @@ build/wrap/library: $(B)/obj/library.o $(B)/flags $(VENV)/ready
 	$(COMPILE) -c $(B)/f2py/_library-f2pywrappers2.f90 -o $(B)/f2py/wrappers.o; \
 	$(CC) -O2 -fPIC -w -I$$python -I$$numpy -I$$f2py -c $(B)/f2py/_librarymodule.c -o $(B)/f2py/module.o; \
 	$(CC) -O2 -fPIC -w -I$$python -I$$numpy -I$$f2py -c $$f2py/fortranobject.c -o $(B)/f2py/fortranobject.o; \
-	$(FC) -shared -Wl,--as-needed $(B)/f2py/*.o $(B)/obj/*.o $(LIBS) -o post/tiltpad/_library$$suffix
+	$(FC) -shared -Wl,--as-needed $(B)/f2py/*.o $(B)/obj/*.o $(B)/lib/unused.o $(LIBS) -o post/tiltpad/_library$$suffix
 	@touch $@
 
 $(VENV)/ready: post/pyproject.toml post/setup.py post/requirements.txt | build/deps-checked
@@ -239,7 +233,7 @@ $(VENV)/ready-bench: tests/bench/requirements.txt $(VENV)/ready
 # ---- build -------------------------------------------------------------------------------------
 build: $(B)/bin/tiltpad
 
-$(B)/bin/tiltpad: $(B)/obj/tiltpad.o $(if $(filter fuzz,$(MODE)),$(B)/obj/coverage.o) $(B)/lib/libtiltpad.a
+$(B)/bin/tiltpad: $(B)/obj/tiltpad.o $(if $(filter fuzz,$(MODE)),$(B)/obj/coverage.o) $(library)
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
 
@@ -251,7 +245,17 @@ $(B)/lib/libtiltpad.a: $(objects)
 $(B)/obj/%.o: %.f90 $(B)/flags | build/deps-checked
 	$(COMPILE) -c $< -o $@
 
-$(B)/tests/%: $(B)/obj/%.o $(B)/obj/check.o $(B)/lib/libtiltpad.a
+$(B)/obj/%.o: %.F90 $(B)/flags | build/deps-checked
+	$(COMPILE) -c $< -o $@
+
+$(B)/lib/flags: src_f90/libraries.sh $(B)/flags | build/deps-checked
+	@mkdir -p $(@D)
+	src_f90/libraries.sh $(@D) $(prefixes) > $@
+
+$(B)/lib/unused.o: $(B)/lib/flags
+	$(CC) -O1 -fPIC -w -c $(B)/lib/unused.c -o $@
+
+$(B)/tests/%: $(B)/obj/%.o $(B)/obj/check.o $(library)
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
 
@@ -262,19 +266,19 @@ $(B)/obj/build_info.o: override FFLAGS += -ffree-line-length-none
 
 test-programs: $(test_programs)
 
-$(B)/fuzz/fuzz_input: $(B)/obj/fuzz_input.o $(B)/obj/coverage.o $(B)/lib/libtiltpad.a
+$(B)/fuzz/fuzz_input: $(B)/obj/fuzz_input.o $(B)/obj/coverage.o $(library)
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
 
 $(B)/obj/coverage.o: tests/fuzz/coverage.c
 	$(CC) -O2 -c $< -o $@
 
-$(B)/bench/film_bench: $(B)/obj/film_bench.o $(B)/lib/libtiltpad.a
+$(B)/bench/film_bench: $(B)/obj/film_bench.o $(library)
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
 
 # module order: an object depends on the objects of the modules it uses (file = module)
-$(shell awk -v b=$(B)/obj 'FNR == 1 { n = split(FILENAME, part, "/"); sub(/\.f90$$/, "", part[n]); \
+$(shell awk -v b=$(B)/obj 'FNR == 1 { n = split(FILENAME, part, "/"); sub(/\.[fF]90$$/, "", part[n]); \
    own[part[n]] = 1; this = part[n] } \
    tolower($$1) == "use" { used = tolower($$2); sub(/,.*/, "", used); uses[this] = uses[this] " " used } \
    END { own["build_info"] = 1; for (f in uses) { split(uses[f], m, " "); line = ""; \

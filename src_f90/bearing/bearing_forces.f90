@@ -178,10 +178,11 @@ contains
       class(bearing_forces_type), intent(inout) :: self
       real(wp), intent(in) :: y(:)
       logical, intent(out) :: ok
-      integer :: i
+      integer :: i, offset
       ok = .true.
       do i = 1, size(self%places)
-         associate (film => self%response(i), tilt => y(self%offset(i) + 1))
+         offset = self%offset(i)
+         associate (film => self%response(i), tilt => y(offset + 1))
             if (.not. abs(tilt) < 0.5_wp*self%scene%pads%arc_deg(i)*degree) then
                self%trouble = 'pad '//to_text(i)//' turned over: tilt '//to_text(tilt)//' rad'
             else if (film%status == film_closed) then

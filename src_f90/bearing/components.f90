@@ -74,7 +74,7 @@ contains
    end function new_gaps
 
    !> The contact law of the pivots.
-   pure function new_law(scene) result(law)
+   function new_law(scene) result(law)
       type(scene_type), intent(in) :: scene
       class(contact_law_type), allocatable :: law
       associate (v => scene%pivot)
@@ -84,7 +84,7 @@ contains
    end function new_law
 
    !> The friction law of the pivots.
-   pure function new_friction(scene) result(law)
+   function new_friction(scene) result(law)
       type(scene_type), intent(in) :: scene
       class(friction_law), allocatable :: law
       real(wp) :: damping

@@ -162,7 +162,7 @@ contains
       real(wp), intent(in) :: t, y(:)
       logical, intent(out) :: ok
       real(wp) :: force(2, columns), global(2, columns), moment(columns), radial(columns)
-      integer :: i, k, m
+      integer :: i, k, m, offset
 
       call self%evaluate(t, y, .true., ok)
       if (.not. ok) return
@@ -172,9 +172,10 @@ contains
          matrix%corner(1, 3) = 1
          matrix%corner(2, 4) = 1
          do i = 1, size(self%places)
+            offset = self%offset(i)
             associate (frame => self%frame(i), film => self%response(i), loads => self%loads(i), &
                & pads => self%scene%pads, weight => self%scene%pads%mass(i)*self%scene%rotor%gravity, &
-               & rate => y(self%offset(i) + 2))
+               & rate => y(offset + 2))
                force = matmul(film%slope, motion_slopes(self%places(i), frame, self%motion(i), rate))
                self%film_slopes(:, :, i) = force
                radial = -force(2, :)

@@ -226,7 +226,7 @@ contains
 
    !> Journal a fraction of the clearance down the load, pivots carrying a share of it, and the pads
    !> tilted so that every film converges.
-   pure function start(model, fraction) result(y)
+   function start(model, fraction) result(y)
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: fraction
       real(wp) :: y(model%n)

@@ -1,20 +1,17 @@
-!> Marches an ode_model with CVODE (BDF, Newton). The only file that knows SUNDIALS.
+!> Marches an ode_model with CVODE (BDF, Newton). With sundials_context the only file that knows SUNDIALS.
 module cvode_march
-   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_int64_t, c_loc, &
-      & c_long, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_ptr
    use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodesvtolerances, fcvodesetuserdata, &
       & fcvodesetlinearsolver, fcvodesetlinsysfn, fcvodesetlinearsolutionscaling, &
       & fcvodesetjacevalfrequency, fcvodesetlsetupfrequency, fcvodegetcurrentgamma, &
       & fcvodesetnonlinconvcoef, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, &
-      & fcvodeseterrfile, fcvode, fcvodegetdky, fcvodefree, fcvodegetnumrhsevals, &
+      & fcvode, fcvodegetdky, fcvodefree, fcvodegetnumrhsevals, &
       & fcvodegetnumjacevals, fcvodegetnumerrtestfails, fcvodegetnumnonlinsolvconvfails, &
       & fcvodegetcurrentstep, fcvodegetlastorder, cv_bdf, cv_one_step, cv_err_failure, cv_conv_failure, &
       & cv_too_much_acc, cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, &
       & cv_unrec_rhsfunc_err, cv_lsetup_fail
-   use fsundials_context_mod, only: fsuncontext_create, fsuncontext_free
-   use fsundials_nvector_mod, only: n_vector, fn_vgetarraypointer, fn_vdestroy
-   use fsundials_matrix_mod, only: sunmatrix, fsunmatdestroy
-   use fsundials_linearsolver_mod, only: sunlinearsolver, sunlinearsolver_ops, sunlinearsolver_direct, &
+   use sundials_context, only: index_kind, new_context, free_context, silence, n_vector, fn_vgetarraypointer, &
+      & fn_vdestroy, sunmatrix, fsunmatdestroy, sunlinearsolver, sunlinearsolver_ops, sunlinearsolver_direct, &
       & fsunlinsolnewempty, fsunlinsolfreeempty
    use fnvector_serial_mod, only: fn_vmake_serial
    use fsunmatrix_dense_mod, only: fsundensematrix
@@ -49,7 +46,7 @@ module cvode_march
    !> What CVODE hands back to the callbacks.
    type :: user_data
       class(ode_model_type), pointer :: model => null()
-      integer(c_int64_t) :: n
+      integer(index_kind) :: n
       type(c_ptr) :: memory
    end type user_data
 
@@ -95,24 +92,23 @@ contains
       logical :: ok
 
       user%model => model
-      user%n = size(y)
+      user%n = size(y, kind=index_kind)
       tolerance = options%absolute_tolerance
-      flag = fsuncontext_create(c_null_ptr, context)
+      context = new_context()
       memory = fcvodecreate(cv_bdf, context)
       y_vector => fn_vmake_serial(user%n, y, context)
       sample_vector => fn_vmake_serial(user%n, sample, context)
       tolerance_vector => fn_vmake_serial(user%n, tolerance, context)
       user%memory = memory
       ! the model keeps its matrix and solves; CVODE wants to see one all the same
-      matrix => fsundensematrix(1_c_int64_t, 1_c_int64_t, context)
+      matrix => fsundensematrix(1_index_kind, 1_index_kind, context)
       linear_solver => fsunlinsolnewempty(context)
       linear_solver%content = c_loc(user)
       call c_f_pointer(linear_solver%ops, operations)
       operations%gettype = c_funloc(solver_type)
       operations%solve = c_funloc(solve_callback)
       flag = fcvodeinit(memory, c_funloc(rhs_callback), t_start, y_vector)
-      ! what CVODE would print is told in our own error instead
-      flag = fcvodeseterrfile(memory, c_null_ptr)
+      call silence(context, memory)
       flag = fcvodesetuserdata(memory, c_loc(user))
       flag = fcvodesvtolerances(memory, options%relative_tolerance, tolerance_vector)
       flag = fcvodesetlinearsolver(memory, linear_solver, matrix)
@@ -175,7 +171,7 @@ contains
       call fn_vdestroy(tolerance_vector)
       call fn_vdestroy(sample_vector)
       call fn_vdestroy(y_vector)
-      flag = fsuncontext_free(context)
+      call free_context(context)
    end subroutine march
 
    !> Says why, where and when a march ended early.

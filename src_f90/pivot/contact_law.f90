@@ -72,7 +72,7 @@ module contact_law
 contains
 
    !> The law called `name` ('fang' or 'hertz'; hertz needs dR > 0).
-   pure function new_contact_law(name, socket_radius, radius_difference, young_modulus, &
+   function new_contact_law(name, socket_radius, radius_difference, young_modulus, &
       & poisson_ratio, penetration_factor) result(law)
       character(len=*), intent(in) :: name
       !> R2 and dR, m.

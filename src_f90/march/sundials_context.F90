@@ -1,0 +1,58 @@
+#include "sundials/sundials_config.h"
+!> What differs between SUNDIALS 6 and 7: the context of its objects, its messages, the kind of its indices.
+module sundials_context
+   use, intrinsic :: iso_c_binding, only: c_int, c_int32_t, c_int64_t, c_null_ptr, c_ptr
+#if SUNDIALS_VERSION_MAJOR >= 7
+   use fsundials_core_mod, only: fsuncontext_create, fsuncontext_free, fsuncontext_clearerrhandlers, &
+      & sun_comm_null, n_vector, fn_vgetarraypointer, fn_vdestroy, sunmatrix, fsunmatdestroy, sunlinearsolver, &
+      & sunlinearsolver_ops, sunlinearsolver_direct, fsunlinsolnewempty, fsunlinsolfreeempty
+#else
+   use fsundials_context_mod, only: fsuncontext_create, fsuncontext_free
+   use fsundials_nvector_mod, only: n_vector, fn_vgetarraypointer, fn_vdestroy
+   use fsundials_matrix_mod, only: sunmatrix, fsunmatdestroy
+   use fsundials_linearsolver_mod, only: sunlinearsolver, sunlinearsolver_ops, sunlinearsolver_direct, &
+      & fsunlinsolnewempty, fsunlinsolfreeempty
+   use fcvode_mod, only: fcvodeseterrfile
+#endif
+   implicit none (type, external)
+   private
+   public :: index_kind, new_context, free_context, silence
+   public :: n_vector, fn_vgetarraypointer, fn_vdestroy, sunmatrix, fsunmatdestroy, sunlinearsolver, &
+      & sunlinearsolver_ops, sunlinearsolver_direct, fsunlinsolnewempty, fsunlinsolfreeempty
+
+#ifdef SUNDIALS_INT32_T
+   integer, parameter :: index_kind = c_int32_t
+#else
+   integer, parameter :: index_kind = c_int64_t
+#endif
+
+contains
+
+   !> What all objects of one march belong to; no MPI.
+   function new_context() result(context)
+      type(c_ptr) :: context
+      integer(c_int) :: flag
+#if SUNDIALS_VERSION_MAJOR >= 7
+      flag = fsuncontext_create(sun_comm_null, context)
+#else
+      flag = fsuncontext_create(c_null_ptr, context)
+#endif
+   end function new_context
+
+   subroutine free_context(context)
+      type(c_ptr), intent(inout) :: context
+      integer(c_int) :: flag
+      flag = fsuncontext_free(context)
+   end subroutine free_context
+
+   !> Keeps CVODE from printing: what it would say is told in our own error.
+   subroutine silence(context, memory)
+      type(c_ptr), intent(in) :: context, memory
+      integer(c_int) :: flag
+#if SUNDIALS_VERSION_MAJOR >= 7
+      flag = fsuncontext_clearerrhandlers(context)
+#else
+      flag = fcvodeseterrfile(memory, c_null_ptr)
+#endif
+   end subroutine silence
+end module sundials_context
