@@ -47,7 +47,7 @@ INCLUDE := $(addprefix -I,$(modules)) $(patsubst %,-I%/include,$(SUNDIALS_PREFIX
 library := $(B)/lib/libtiltpad.a $(B)/lib/unused.o
 LIBS := $$(cat $(B)/lib/flags)
 # these have arrays as long as a run: not on the stack, wherever FFLAGS puts the short ones of the march
-run_long := $(addprefix src_f90/,signal/*.f90 io/*.f90 app/*.f90)
+run_long := $(addprefix src_f90/,analysis/spectra.f90 analysis/loops.f90 $(addsuffix /*.f90,system input storage results app))
 on_heap  := -fno-stack-arrays
 COMPILE = $(FC) -std=f2018 -fimplicit-none -fopenmp-simd $(FFLAGS) $(INCLUDE) -J$(B)/mod
 

@@ -8,12 +8,12 @@ from campaign import Campaign
 from commands import LIMIT
 
 SOURCES = (
-    "io/namelist_text",
-    "io/scene_namelist",
-    "io/number_syntax",
-    "io/sweep",
-    "io/namelist_writer",
-    "io/scene_fields",
+    "input/namelist_text",
+    "input/scene_namelist",
+    "input/number_syntax",
+    "input/sweep",
+    "input/namelist_writer",
+    "input/scene_fields",
 )
 
 PAGE = """\
