@@ -67,7 +67,7 @@ contains
             end associate
          end do
          call model%evaluate(time, y, .false., ok)
-         if (.not. ok) call raise(error, numerics_error, name//': '//model%trouble)
+         if (.not. ok) call raise(error, numerics_error, name//': '//model%refusal)
       end if
       if (.not. allocated(error)) then
          associate (arc => scene%pads%arc_deg*degree)

@@ -114,7 +114,7 @@ contains
       time_step = 1/model%scene%highest_speed()
       call model%rhs(0.0_wp, y, f, ok)
       if (.not. ok) then
-         call raise(error, numerics_error, none_found//model%trouble//' at the start')
+         call raise(error, numerics_error, none_found//model%refusal//' at the start')
          return
       end if
       found%residual = residual_of(model, f)
@@ -122,7 +122,7 @@ contains
          if (found%iterations == max_iterations .or. stuck) then
             call raise(error, numerics_error, none_found//'after '//to_text(found%iterations) &
                & //' iterations the unbalanced force is still '//to_text(found%residual)//' of the load')
-            if (model%condition() /= '') error%message = error%message//'; '//model%condition()
+            if (model%warning() /= '') error%message = error%message//'; '//model%warning()
             return
          end if
          found%iterations = found%iterations + 1
@@ -153,7 +153,7 @@ contains
             step = 0.5_wp*step
             time_step = 0.5_wp*time_step
             if (maxval(abs(step/model%scale(x))) < epsilon(step)) then
-               call raise(error, numerics_error, none_found//model%trouble)
+               call raise(error, numerics_error, none_found//model%refusal)
                return
             end if
          end do

@@ -3,7 +3,8 @@ module recorder
    use kinds, only: wp, i8
    use text, only: to_text
    use errors, only: error_type, raise, stopped
-   use ode_model, only: march_observer, march_statistics
+   use march_observer, only: march_observer_type
+   use integrator_counts, only: integrator_counts_type
    use loops, only: periodicity, new_periodicity
    use equations_of_motion, only: bearing_model
    use run_file, only: run_file_type
@@ -16,7 +17,7 @@ module recorder
    public :: recorder_type, init_recorder
 
    !> Completes each sample on a model of its own, so that sampling never changes the march.
-   type, extends(march_observer) :: recorder_type
+   type, extends(march_observer_type) :: recorder_type
       type(bearing_model) :: model
       !> The model that is marched, for its counters.
       type(bearing_model), pointer :: marched => null()
@@ -106,10 +107,10 @@ contains
    end function wants_state
 
    !> A checkpoint; the last one where a signal asks for the end.
-   subroutine take_state(self, t, y, statistics, error)
+   subroutine take_state(self, t, y, counts, error)
       class(recorder_type), intent(inout) :: self
       real(wp), intent(in) :: t, y(:)
-      type(march_statistics), intent(in) :: statistics
+      type(integrator_counts_type), intent(in) :: counts
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: reason
       real(wp) :: started
@@ -117,10 +118,10 @@ contains
       started = wall_clock()
       if (stop_requested()) then
          reason = stop_reason()//' at t = '//to_text(t)//' s'
-         call self%file%checkpoint(t, y, self%cost(statistics), stopped, reason, error)
+         call self%file%checkpoint(t, y, self%cost(counts), stopped, reason, error)
          if (.not. allocated(error)) call raise(error, stopped, reason)
       else
-         call self%file%checkpoint(t, y, self%cost(statistics), running, '', error)
+         call self%file%checkpoint(t, y, self%cost(counts), running, '', error)
          call self%progress%note('checkpoint at t = '//to_text(t)//' s')
          self%checkpoint_due = .false.
          self%last_checkpoint = wall_clock()
@@ -130,7 +131,7 @@ contains
 
    function cost(self, march) result(total)
       class(recorder_type), intent(in) :: self
-      type(march_statistics), intent(in) :: march
+      type(integrator_counts_type), intent(in) :: march
       type(run_statistics_type) :: total
       total%steps = march%steps
       total%rhs_evaluations = march%rhs_evaluations

@@ -3,7 +3,7 @@ module run_case
    use kinds, only: wp, i8, pi
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error, system_error, stopped
-   use ode_model, only: march_statistics
+   use integrator_counts, only: integrator_counts_type
    use cvode_march, only: march, march_options, sample_plan
    use spectra, only: one_sided_amplitude, full_amplitude
    use scene, only: scene_type
@@ -39,7 +39,7 @@ contains
       type(recorder_type), target :: observer
       type(bearing_model), target :: model
       type(restart_type) :: found
-      type(march_statistics) :: statistics
+      type(integrator_counts_type) :: statistics
       real(wp), allocatable :: y(:)
       real(wp) :: t
       logical :: there
@@ -96,7 +96,7 @@ contains
             error%message = stop_reason()//' before the march; nothing was computed yet'
          else if (tag%number > 0) then
             ! of a member of a sweep the file says what happened; nothing else would be a result
-            call observer%file%finish(t, observer%cost(march_statistics()), error%status, &
+            call observer%file%finish(t, observer%cost(integrator_counts_type()), error%status, &
                & error%message, file_error)
          end if
          call observer%file%abandon()
@@ -114,7 +114,7 @@ contains
       type(recorder_type), intent(inout) :: observer
       real(wp), intent(in) :: t
       real(wp), intent(inout), contiguous :: y(:)
-      type(march_statistics), intent(out) :: statistics
+      type(integrator_counts_type), intent(out) :: statistics
       logical, intent(in) :: quiet
       type(error_type), allocatable, intent(out) :: error
       type(march_options) :: options
@@ -153,7 +153,7 @@ contains
       type(scene_type), intent(in) :: scene
       character(len=*), intent(in) :: path
       type(recorder_type), intent(inout) :: observer
-      type(march_statistics), intent(in) :: statistics
+      type(integrator_counts_type), intent(in) :: statistics
       logical, intent(in) :: quiet
       type(error_type), allocatable, intent(inout) :: error
       type(error_type), allocatable :: file_error

@@ -30,8 +30,8 @@ module bearing_forces
 
    type, extends(ode_model_type), abstract :: bearing_forces_type
       type(scene_type) :: scene
-      !> States of a pad, and of all.
-      integer :: states_per_pad, n
+      !> States of a pad.
+      integer :: states_per_pad
       logical :: radial
       type(pad_place), allocatable :: places(:)
       type(pad_film_type), allocatable :: gaps(:)
@@ -50,14 +50,14 @@ module bearing_forces
       real(wp) :: film_seconds = 0
       integer(i8) :: evaluations = 0
    contains
-      procedure :: condition
+      procedure :: warning
       !> Sets frame, motion, response and loads at (t, y); film slopes on request.
       procedure :: evaluate
       !> The same, but slopes, in a state y whose outputs are known: without the film solver.
       procedure :: recall
       procedure, private :: place
       procedure, private :: pad_forces
-      procedure, private :: film_trouble
+      procedure, private :: refuse_film
       !> Index before the first state of a pad; index of its bristle.
       procedure :: offset
       procedure :: bristle
@@ -131,7 +131,7 @@ contains
          call self%film%evaluate(self%motion, self%scene%speed(t), want_slopes, self%response)
       end if
       self%evaluations = self%evaluations + 1
-      call self%film_trouble(y, ok)
+      call self%refuse_film(y, ok)
       if (.not. ok) return
       do i = 1, size(self%places)
          call self%pad_forces(i, y)
@@ -174,7 +174,7 @@ contains
    end subroutine recall
 
    !> Refuses a state whose film is closed, did not converge, or whose pad has turned over.
-   subroutine film_trouble(self, y, ok)
+   subroutine refuse_film(self, y, ok)
       class(bearing_forces_type), intent(inout) :: self
       real(wp), intent(in) :: y(:)
       logical, intent(out) :: ok
@@ -184,14 +184,14 @@ contains
          offset = self%offset(i)
          associate (film => self%response(i), tilt => y(offset + 1))
             if (.not. abs(tilt) < 0.5_wp*self%scene%pads%arc_deg(i)*degree) then
-               self%trouble = 'pad '//to_text(i)//' turned over: tilt '//to_text(tilt)//' rad'
+               self%refusal = 'pad '//to_text(i)//' turned over: tilt '//to_text(tilt)//' rad'
             else if (film%status == film_closed) then
-               self%trouble = 'the film of pad '//to_text(i)//' closed: thickness '//to_text(film%min_film)//' m'
+               self%refusal = 'the film of pad '//to_text(i)//' closed: thickness '//to_text(film%min_film)//' m'
             else if (film%status == film_not_converged) then
-               self%trouble = 'the film of pad '//to_text(i)//' did not converge: residual ' &
+               self%refusal = 'the film of pad '//to_text(i)//' did not converge: residual ' &
                   & //to_text(film%residual)//' after film%max_sweeps = '//to_text(self%scene%film%max_sweeps)
             else if (.not. all(ieee_is_finite(film%force))) then
-               self%trouble = 'the film force of pad '//to_text(i)//' is not finite: thickness ' &
+               self%refusal = 'the film force of pad '//to_text(i)//' is not finite: thickness ' &
                   & //to_text(film%min_film)//' m'
             else
                cycle
@@ -200,21 +200,21 @@ contains
             return
          end associate
       end do
-   end subroutine film_trouble
+   end subroutine refuse_film
 
    !> Names the pad whose film is nearly closed, if there is one.
-   function condition(self)
+   function warning(self)
       class(bearing_forces_type), intent(in) :: self
-      character(len=:), allocatable :: condition
+      character(len=:), allocatable :: warning
       integer :: i
-      condition = ''
+      warning = ''
       i = minloc(self%response%min_film, dim=1)
       associate (film => self%response(i)%min_film)
          if (film < nearly_closed*self%scene%bearing%assembled_clearance) then
-            condition = 'the film of pad '//to_text(i)//' is closing: thickness '//to_text(film)//' m'
+            warning = 'the film of pad '//to_text(i)//' is closing: thickness '//to_text(film)//' m'
          end if
       end associate
-   end function condition
+   end function warning
 
    !> Contact, friction, and the right-hand sides of (3) and (4) for one pad.
    subroutine pad_forces(self, i, y)

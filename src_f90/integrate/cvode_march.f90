@@ -18,11 +18,13 @@ module cvode_march
    use kinds, only: wp, i8
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error
-   use ode_model, only: ode_model_type, march_observer, march_statistics
+   use ode_model, only: ode_model_type
+   use march_observer, only: march_observer_type
+   use integrator_counts, only: integrator_counts_type
    use step_history, only: step_history_type, new_step_history
    implicit none (type, external)
    private
-   public :: march, march_options, march_statistics, sample_plan
+   public :: march, march_options, sample_plan
 
    type :: march_options
       real(wp) :: relative_tolerance = 1e-6_wp
@@ -48,6 +50,8 @@ module cvode_march
       class(ode_model_type), pointer :: model => null()
       integer(index_kind) :: n
       type(c_ptr) :: memory
+      !> Newton's last correction of the state.
+      real(wp), allocatable :: correction(:)
    end type user_data
 
    !> Steps after which the slopes are taken anew (CVODE: 51): they are cheap, and fresh they save steps.
@@ -75,8 +79,8 @@ contains
       type(sample_plan), intent(in) :: plan
       !> State at t_start on entry, at the time reached on return.
       real(wp), intent(inout), contiguous, target :: y(:)
-      class(march_observer), intent(inout) :: observer
-      type(march_statistics), intent(out) :: statistics
+      class(march_observer_type), intent(inout) :: observer
+      type(integrator_counts_type), intent(out) :: statistics
       type(error_type), allocatable, intent(out) :: error
       type(user_data), target :: user
       type(c_ptr) :: context, memory
@@ -93,6 +97,7 @@ contains
 
       user%model => model
       user%n = size(y, kind=index_kind)
+      allocate (user%correction(size(y)), source=0.0_wp)
       tolerance = options%absolute_tolerance
       context = new_context()
       memory = fcvodecreate(cv_bdf, context)
@@ -129,7 +134,7 @@ contains
       call model%rhs(t_start, y, sample, ok)
       if (.not. ok) call raise(error, numerics_error, failure(cv_first_rhsfunc_err, model, memory, t_start, 0_i8))
       outputs = new_step_history(model%outputs)
-      call outputs%add(t_start, model%output())
+      call outputs%add(t_start, model%output(user%correction))
       sample = y
       do
          do while (ok .and. k < plan%count)
@@ -152,7 +157,7 @@ contains
                & //to_text(statistics%steps)//' steps (integration%max_steps)')
             exit
          end if
-         if (allocated(model%trouble)) deallocate (model%trouble)
+         if (allocated(model%refusal)) deallocate (model%refusal)
          flag = fcvode(memory, t_end, y_vector, t, cv_one_step)
          if (flag < 0) then
             call raise(error, numerics_error, failure(flag, model, memory, t(1), statistics%steps))
@@ -160,7 +165,7 @@ contains
          end if
          statistics%steps = statistics%steps + 1
          flag = fcvodegetlastorder(memory, order)
-         call outputs%add(t(1), model%output())
+         call outputs%add(t(1), model%output(user%correction))
          if (mod(statistics%steps, steps_per_report) == 0) call observer%report(t(1), statistics%steps)
       end do
 
@@ -198,10 +203,10 @@ contains
       case default
          reason = 'CVODE gave up with code '//to_text(int(flag))
       end select
-      if (allocated(model%trouble)) then
-         reason = model%trouble//'; '//reason
-      else if (model%condition() /= '') then
-         reason = model%condition()//'; '//reason
+      if (allocated(model%refusal)) then
+         reason = model%refusal//'; '//reason
+      else if (model%warning() /= '') then
+         reason = model%warning()//'; '//reason
       end if
       message = 'the march stopped at t = '//to_text(t)//' s, after '//to_text(steps)//' steps: '//reason &
          & //' (step size '//to_text(h(1))//' s)'
@@ -209,7 +214,7 @@ contains
 
    subroutine read_statistics(memory, statistics)
       type(c_ptr), intent(in) :: memory
-      type(march_statistics), intent(inout) :: statistics
+      type(integrator_counts_type), intent(inout) :: statistics
       integer(c_long) :: count(1)
       integer(c_int) :: flag
       flag = fcvodegetnumrhsevals(memory, count)
@@ -281,6 +286,7 @@ contains
       flag = fcvodegetcurrentgamma(user%memory, gamma)
       x = b
       call user%model%solve(gamma(1), x, ok)
+      user%correction = x
       solve_callback = merge(0_c_int, 1_c_int, ok)
    end function solve_callback
 end module cvode_march

@@ -25,12 +25,11 @@ module equations_of_motion
       !> From the last linearisation, without friction: slopes of the contact force (column, pad), of the
       !> film force and of the rates of tilt rate and penetration rate (2, column, pad), and the Jacobian.
       real(wp), allocatable, private :: contact_slopes(:, :), film_slopes(:, :, :), rate_slopes(:, :, :)
-      !> What the last `solve` found: Newton's correction of the state evaluated last.
-      real(wp), allocatable, private :: correction(:)
       type(arrow_matrix), private :: matrix
    contains
       procedure :: rhs
       procedure :: linearize
+      procedure :: jacobian_times
       procedure :: solve
       procedure :: output
       !> The whole Jacobian at (t, y).
@@ -60,7 +59,6 @@ contains
       model%matrix = new_arrow_matrix(model%states_per_pad, n)
       allocate (model%per_mass(2, 2, n), model%contact_slopes(columns, n), source=0.0_wp)
       allocate (model%film_slopes(2, columns, n), model%rate_slopes(2, columns, n), source=0.0_wp)
-      allocate (model%correction(model%n), source=0.0_wp)
       do i = 1, n
          associate (mass => scene%pads%mass(i), inertia => scene%pads%inertia(i))
             if (model%radial) then
@@ -237,6 +235,15 @@ contains
       end associate
    end subroutine add_friction
 
+   !> J v, with film and contact as linearised last and friction as evaluated last.
+   subroutine jacobian_times(self, v, jv)
+      class(bearing_model), intent(inout) :: self
+      real(wp), intent(in) :: v(:)
+      real(wp), intent(out) :: jv(:)
+      call self%add_friction()
+      jv = matmul(self%matrix%dense(), v)
+   end subroutine jacobian_times
+
    !> b := (1 - gamma J)^(-1) b, with film and contact as linearised last and friction as evaluated last:
    !> Newton's iteration then crosses the kinks of friction, where old slopes would lead it astray.
    subroutine solve(self, gamma, b, ok)
@@ -246,22 +253,22 @@ contains
       logical, intent(out) :: ok
       call self%add_friction()
       call self%matrix%solve(gamma, b, ok)
-      self%correction = b
    end subroutine solve
 
-   !> Of every pad film force and highest pressure as evaluated last, the force with what Newton's last
-   !> correction of that state adds: where the pivot is without friction the tangential force is a small
+   !> Of every pad film force and highest pressure as evaluated last, the force with what a correction of that
+   !> state adds to first order: where the pivot is without friction the tangential force is a small
    !> difference.
-   pure function output(self)
+   pure function output(self, correction)
       class(bearing_model), intent(in) :: self
+      real(wp), intent(in) :: correction(:)
       real(wp) :: output(self%outputs), change(columns)
       integer :: i, m
       m = merge(4, 2, self%radial)
       change = 0
-      change(:4) = self%correction(:4)
+      change(:4) = correction(:4)
       do i = 1, size(self%response)
          associate (film => self%response(i), o => self%offset(i))
-            change(5:4 + m) = self%correction(o + 1:o + m)
+            change(5:4 + m) = correction(o + 1:o + m)
             output(pad_outputs*(i - 1) + 1:pad_outputs*i) = &
                & [film%force + matmul(self%film_slopes(:, :, i), change), film%max_pressure]
          end associate

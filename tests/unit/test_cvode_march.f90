@@ -2,7 +2,9 @@
 module march_problems
    use kinds, only: wp, i8
    use errors, only: error_type, raise, numerics_error, stopped
-   use ode_model, only: ode_model_type, march_observer, march_statistics
+   use ode_model, only: ode_model_type
+   use march_observer, only: march_observer_type
+   use integrator_counts, only: integrator_counts_type
    implicit none (type, external)
    private
    public :: stiff_cosine, robertson, keeper
@@ -12,6 +14,7 @@ module march_problems
       real(wp), allocatable :: matrix(:, :)
    contains
       procedure :: linearize => take_matrix
+      procedure :: jacobian_times => times_dense
       procedure :: solve => solve_dense
       procedure(jacobian_matrix), deferred :: jacobian
    end type dense_problem
@@ -57,7 +60,7 @@ module march_problems
    end type robertson
 
    !> Keeps its samples; sets an error at sample `stop_at`.
-   type, extends(march_observer) :: keeper
+   type, extends(march_observer_type) :: keeper
       real(wp), allocatable :: t(:), y(:, :)
       integer :: stop_at = 0, reports = 0
       !> Wants the state once so many samples are there, and ends the march then.
@@ -79,6 +82,13 @@ contains
       self%matrix = self%jacobian(y)
       ok = .true.
    end subroutine take_matrix
+
+   subroutine times_dense(self, v, jv)
+      class(dense_problem), intent(inout) :: self
+      real(wp), intent(in) :: v(:)
+      real(wp), intent(out) :: jv(:)
+      jv = matmul(self%matrix, v)
+   end subroutine times_dense
 
    subroutine solve_dense(self, gamma, b, ok)
       class(dense_problem), intent(inout) :: self
@@ -107,7 +117,7 @@ contains
       dydt(2) = y(3)
       dydt(3) = -4*y(2)
       ok = t <= self%refuse_after .and. self%calls > self%refuse_first
-      if (.not. ok) self%trouble = 'the problem ends'
+      if (.not. ok) self%refusal = 'the problem ends'
    end subroutine cosine_rhs
 
    pure function cosine_jacobian(self, y) result(matrix)
@@ -169,13 +179,13 @@ contains
       if (allocated(self%t)) keeper_leaves = size(self%t) >= self%leave_at
    end function keeper_leaves
 
-   subroutine keep_state(self, t, y, statistics, error)
+   subroutine keep_state(self, t, y, counts, error)
       class(keeper), intent(inout) :: self
       real(wp), intent(in) :: t, y(:)
-      type(march_statistics), intent(in) :: statistics
+      type(integrator_counts_type), intent(in) :: counts
       type(error_type), allocatable, intent(out) :: error
       self%left_at = t
-      if (statistics%rhs_evaluations > 0) call raise(error, stopped, 'left')
+      if (counts%rhs_evaluations > 0) call raise(error, stopped, 'left')
    end subroutine keep_state
 end module march_problems
 
@@ -183,7 +193,8 @@ program test_cvode_march
    use kinds, only: wp, i8
    use text, only: to_text
    use errors, only: error_type, numerics_error
-   use cvode_march, only: march, march_options, march_statistics, sample_plan
+   use cvode_march, only: march, march_options, sample_plan
+   use integrator_counts, only: integrator_counts_type
    use march_problems, only: stiff_cosine, robertson, keeper
    use check, only: expect, expect_close, report
    implicit none (type, external)
@@ -205,7 +216,7 @@ contains
    subroutine going_on()
       type(stiff_cosine) :: model
       type(keeper) :: observer
-      type(march_statistics) :: statistics
+      type(integrator_counts_type) :: statistics
       type(sample_plan) :: plan
       type(error_type), allocatable :: error
       real(wp), parameter :: tolerance = 1e-8_wp
@@ -256,7 +267,7 @@ contains
       integer(i8), intent(out) :: steps
       type(stiff_cosine) :: model
       type(keeper) :: observer
-      type(march_statistics) :: statistics
+      type(integrator_counts_type) :: statistics
       type(error_type), allocatable :: error
       real(wp) :: y(3)
       integer :: k
@@ -294,7 +305,7 @@ contains
    subroutine samples_in_time()
       type(stiff_cosine) :: model
       type(keeper) :: observer
-      type(march_statistics) :: statistics
+      type(integrator_counts_type) :: statistics
       type(sample_plan) :: plan
       type(error_type), allocatable :: error
       real(wp) :: y(3)
@@ -318,7 +329,7 @@ contains
    subroutine last_sample_past_the_end()
       type(stiff_cosine) :: model
       type(keeper) :: observer
-      type(march_statistics) :: statistics
+      type(integrator_counts_type) :: statistics
       type(error_type), allocatable :: error
       real(wp) :: y(3)
       y = exact(0.0_wp)
@@ -335,7 +346,7 @@ contains
    subroutine chemistry()
       type(robertson) :: model
       type(keeper) :: observer
-      type(march_statistics) :: statistics
+      type(integrator_counts_type) :: statistics
       type(march_options) :: options
       type(error_type), allocatable :: error
       real(wp), parameter :: expected(3) = [0.7158270688_wp, 9.185534765e-6_wp, 0.2841637457_wp]
@@ -355,7 +366,7 @@ contains
    subroutine refusal()
       type(stiff_cosine) :: model
       type(keeper) :: observer
-      type(march_statistics) :: statistics
+      type(integrator_counts_type) :: statistics
       type(error_type), allocatable :: error
       real(wp) :: y(3)
       integer :: before
@@ -380,7 +391,7 @@ contains
    subroutine passing_refusal()
       type(stiff_cosine) :: model
       type(keeper) :: observer
-      type(march_statistics) :: statistics
+      type(integrator_counts_type) :: statistics
       type(error_type), allocatable :: error
       real(wp) :: y(3)
       model%refuse_first = 1
@@ -393,7 +404,7 @@ contains
    subroutine step_limits()
       type(stiff_cosine) :: model
       type(keeper) :: observer
-      type(march_statistics) :: statistics
+      type(integrator_counts_type) :: statistics
       type(march_options) :: options
       type(error_type), allocatable :: error
       real(wp) :: y(3)
@@ -415,7 +426,7 @@ contains
    subroutine observer_stops()
       type(stiff_cosine) :: model
       type(keeper) :: observer
-      type(march_statistics) :: statistics
+      type(integrator_counts_type) :: statistics
       type(error_type), allocatable :: error
       real(wp) :: y(3)
       observer%stop_at = 3

@@ -277,12 +277,12 @@ contains
       y = model%at_rest([-4e-5_wp, 200e-6_wp], [-2e-4_wp, 1e-3_wp], [7e-6_wp, 7e-6_wp])
       call model%rhs(0.0_wp, y, f, ok)
       call expect(.not. ok, 'a closed film is refused')
-      if (.not. ok) call expect(index(model%trouble, 'pad 1') > 0 .and. index(model%trouble, 'closed') > 0, &
-         & 'and says which: '//model%trouble)
+      if (.not. ok) call expect(index(model%refusal, 'pad 1') > 0 .and. index(model%refusal, 'closed') > 0, &
+         & 'and says which: '//model%refusal)
       y = model%at_rest([0.0_wp, 0.0_wp], [0.0_wp, 0.7_wp], [0.0_wp, 0.0_wp])
       call model%rhs(0.0_wp, y, f, ok)
       call expect(.not. ok, 'a pad turned over is refused')
-      if (.not. ok) call expect(index(model%trouble, 'pad 2 turned over') > 0, 'and says so: '//model%trouble)
+      if (.not. ok) call expect(index(model%refusal, 'pad 2 turned over') > 0, 'and says so: '//model%refusal)
       call expect(model%evaluations == 2_i8, 'evaluations are counted')
    end subroutine refusals
 
