@@ -171,8 +171,7 @@ contains
       character(len=*), intent(in) :: text, name
       type(scene_type), intent(out) :: scene
       type(error_type), allocatable, intent(out) :: error
-      character(len=1) :: no_overrides(0)
-      call scene_from_text(text, name, no_overrides, scene, error)
+      call scene_from_text(text, name, scene, error)
    end subroutine read_case
 
    !> The contact at each penetration, m; that of no force where it is not positive.

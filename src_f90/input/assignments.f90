@@ -17,7 +17,7 @@ module assignments
 
    !> `group%name(subscript) = values`, and where: "case.nml line 3" or "--set".
    type :: assignment_type
-      character(len=:), allocatable :: group, name, place
+      character(len=:), allocatable :: group, name, origin
       !> First element that the values go to; 0 where no subscript is given.
       integer :: subscript = 0
       !> Comes after what the file says, and may give elements again: from --set, or a member's of a sweep.

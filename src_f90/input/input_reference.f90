@@ -3,13 +3,14 @@ module input_reference
    use kinds, only: wp
    use text, only: to_text
    use scene, only: scene_type, max_pads
-   use scene_fields, only: field_visitor, range_type, visit_scene
+   use field_visitor, only: visitor_type, field_type
+   use scene_fields, only: visit_scene
    implicit none (type, external)
    private
    public :: reference_text
 
    !> Writes one table row a variable.
-   type, extends(field_visitor) :: reference_writer
+   type, extends(visitor_type) :: reference_writer
       character(len=:), allocatable :: text
    contains
       procedure :: group => write_group
@@ -44,55 +45,55 @@ contains
          & //'| variable | default | unit | allowed | meaning |'//newline//'|---|---|---|---|---|'//newline
    end subroutine write_group
 
-   subroutine row(self, name, default, unit, allowed, meaning)
+   subroutine row(self, field, default, allowed)
       class(reference_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, default, unit, allowed, meaning
-      self%text = self%text//'| `'//name//'` | '//default//' | '//unit//' | '//allowed//' | '//meaning//' |'//newline
+      type(field_type), intent(in) :: field
+      character(len=*), intent(in) :: default, allowed
+      self%text = self%text//'| `'//field%name//'` | '//default//' | '//field%unit//' | '//allowed//' | ' &
+         & //field%meaning//' |'//newline
    end subroutine row
 
-   subroutine write_word(self, name, value, choices, meaning)
+   subroutine write_word(self, value, field)
       class(reference_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, choices, meaning
       character(len=:), allocatable, intent(inout) :: value
-      if (choices == '') then
-         call self%row(name, '`'''//value//'''`', '', 'any text', meaning)
-      else
-         call self%row(name, '`'''//value//'''`', '', choices, meaning)
-      end if
+      type(field_type), intent(in) :: field
+      character(len=:), allocatable :: allowed
+      allowed = field%choices
+      if (allowed == '') allowed = 'any text'
+      call self%row(field, '`'''//value//'''`', allowed)
    end subroutine write_word
 
-   subroutine write_whole(self, name, value, allowed, meaning)
+   subroutine write_whole(self, value, field)
       class(reference_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, meaning
       integer, intent(inout) :: value
-      type(range_type), intent(in) :: allowed
-      call self%row(name, to_text(value), '1', 'whole, '//allowed%text(), meaning)
+      type(field_type), intent(in) :: field
+      call self%row(field, to_text(value), 'whole, '//field%range_text())
    end subroutine write_whole
 
-   subroutine write_numbers(self, name, values, allowed, unit, meaning)
+   subroutine write_numbers(self, values, field)
       class(reference_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, meaning
       real(wp), intent(inout) :: values(:)
-      type(range_type), intent(in) :: allowed
+      type(field_type), intent(in) :: field
       character(len=:), allocatable :: list
       integer :: i
       list = to_text(values(1))
       do i = 2, size(values)
          list = list//', '//to_text(values(i))
       end do
-      call self%row(name, list, unit, allowed%text(), meaning)
+      call self%row(field, list, field%range_text())
    end subroutine write_numbers
 
-   subroutine write_per_pad(self, name, values, fixes_pads, allowed, unit, meaning)
+   subroutine write_per_pad(self, values, field)
       class(reference_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, meaning
       real(wp), allocatable, intent(inout) :: values(:)
-      logical, intent(in) :: fixes_pads
-      type(range_type), intent(in) :: allowed
-      if (fixes_pads) then
-         call self%numbers(name, values, allowed, unit, meaning//'; 1 to '//to_text(max_pads)//' of them')
+      type(field_type), intent(in) :: field
+      type(field_type) :: shown
+      if (field%fixes_pads) then
+         shown = field
+         shown%meaning = field%meaning//'; 1 to '//to_text(max_pads)//' of them'
+         call self%numbers(values, shown)
       else
-         call self%numbers(name, values(1:1), allowed, unit, meaning)
+         call self%numbers(values(1:1), field)
       end if
    end subroutine write_per_pad
 end module input_reference

@@ -40,32 +40,32 @@ contains
          call scan%skip_blank(',')
          if (scan%peek() == '') exit
          if (scan%peek() /= '&') then
-            group%place = scan%place()
+            group%origin = scan%origin()
             group%name = scan%word()
             if (group%name == '') group%name = scan%peek()
-            call raise(error, input_error, group%place//': '''//shortened(group%name)//''' stands outside a group;' &
+            call raise(error, input_error, group%origin//': '''//shortened(group%name)//''' stands outside a group;' &
                & //' expected &name')
             return
          end if
          scan%at = scan%at + 1
-         group%place = scan%place()
+         group%origin = scan%origin()
          group%group = lower_case(scan%word())
          if (group%group == '') then
-            call raise(error, input_error, group%place//': a group''s name is missing behind &')
+            call raise(error, input_error, group%origin//': a group''s name is missing behind &')
             return
          end if
          if (len(group%group) > longest_name) then
-            call raise(error, input_error, group%place//': unknown group &'//shortened(group%group))
+            call raise(error, input_error, group%origin//': unknown group &'//shortened(group%group))
             return
          end if
          if (size(parsed%groups) == most_items) then
-            call raise(error, input_error, group%place//': more than '//to_text(most_items)//' groups')
+            call raise(error, input_error, group%origin//': more than '//to_text(most_items)//' groups')
             return
          end if
          do i = 1, size(parsed%groups)
             if (parsed%groups(i)%group == group%group) then
-               call raise(error, input_error, group%place//': group &'//group%group//' is given twice, first at ' &
-                  & //parsed%groups(i)%place)
+               call raise(error, input_error, group%origin//': group &'//group%group//' is given twice, first at ' &
+                  & //parsed%groups(i)%origin)
                return
             end if
          end do
@@ -87,31 +87,31 @@ contains
       type(assignment_type), allocatable :: new(:)
       integer :: percent
       percent = index(text, '%')
-      group%place = '--set '//shortened(text)
+      group%origin = '--set '//shortened(text)
       if (control_character(text) > 0) then
-         call raise(error, input_error, group%place//': a control character is no part of a value')
+         call raise(error, input_error, group%origin//': a control character is no part of a value')
          return
       end if
       if (percent > 1) group%group = lower_case(trim(adjustl(text(:percent - 1))))
       if (percent <= 1 .or. index(text, '=') < percent) then
-         call raise(error, input_error, group%place//': expected group%name=value')
+         call raise(error, input_error, group%origin//': expected group%name=value')
          return
       end if
       if (len(group%group) > longest_name) then
-         call raise(error, input_error, group%place//': unknown group '//shortened(group%group))
+         call raise(error, input_error, group%origin//': unknown group '//shortened(group%group))
          return
       end if
       scan%text = text(percent + 1:)//' /'
-      scan%file = group%place
+      scan%file = group%origin
       allocate (new(0))
       call parse_group(scan, group, new, error)
       if (allocated(error)) return
       call scan%skip_blank('')
       if (size(new) /= 1 .or. scan%peek() /= '') then
-         call raise(error, input_error, group%place//': expected one group%name=value')
+         call raise(error, input_error, group%origin//': expected one group%name=value')
          return
       end if
-      new(1)%place = '--set'
+      new(1)%origin = '--set'
       new(1)%overrides = .true.
       call put_assignment(new(1), parsed)
    end subroutine parse_override
@@ -135,25 +135,25 @@ contains
                scan%at = scan%at + 4
                return
             end if
-            call raise(error, input_error, group%place//': group &'//group%group//' is not closed by /')
+            call raise(error, input_error, group%origin//': group &'//group%group//' is not closed by /')
             return
          case default
             continue
          end select
          new = group
-         new%place = scan%place()
+         new%origin = scan%origin()
          call parse_target(scan, new, error)
          if (.not. allocated(error)) call parse_values(scan, new, error)
          if (allocated(error)) return
          do i = 1, size(assignments)
             if (undoes(new, assignments(i))) then
-               call raise(error, input_error, new%place//': '//new%group//'%'//new%name//' is given twice, first at ' &
-                  & //assignments(i)%place)
+               call raise(error, input_error, new%origin//': '//new%group//'%'//new%name//' is given twice, first at ' &
+                  & //assignments(i)%origin)
                return
             end if
          end do
          if (size(assignments) == most_items) then
-            call raise(error, input_error, new%place//': more than '//to_text(most_items)//' values given')
+            call raise(error, input_error, new%origin//': more than '//to_text(most_items)//' values given')
             return
          end if
          assignments = [assignments, new]
@@ -186,12 +186,12 @@ contains
       if (new%group == sweep_group) allowed = name_characters//'%'
       call scan%skip_blank('')
       if (status /= 0 .or. len(new%name) == 0 .or. verify(new%name, allowed) /= 0 .or. scan%peek() /= '=') then
-         call raise(error, input_error, new%place//': '''//shortened(found)//''' in group &'//new%group &
+         call raise(error, input_error, new%origin//': '''//shortened(found)//''' in group &'//new%group &
             & //': expected name = value')
          return
       end if
       if (len(new%name) > longest_name) then
-         call raise(error, input_error, new%place//': unknown variable '//new%group//'%'//shortened(new%name))
+         call raise(error, input_error, new%origin//': unknown variable '//new%group//'%'//shortened(new%name))
          return
       end if
       scan%at = scan%at + 1
@@ -218,7 +218,7 @@ contains
          end if
          if (index('/&', scan%peek()) > 0) exit
          if (size(new%values) == most_items) then
-            call raise(error, input_error, new%place//': '//new%group//'%'//new%name//': more than ' &
+            call raise(error, input_error, new%origin//': '//new%group//'%'//new%name//': more than ' &
                & //to_text(most_items)//' values')
             return
          end if
@@ -244,7 +244,7 @@ contains
          comma = .false.
       end do
       if (size(new%values) == 0 .or. scan%peek() == ',' .or. scan%peek() == '=') then
-         call raise(error, input_error, new%place//': '//new%group//'%'//new%name//': a value is missing')
+         call raise(error, input_error, new%origin//': '//new%group//'%'//new%name//': a value is missing')
       end if
    end subroutine parse_values
 
@@ -261,7 +261,7 @@ contains
       do
          scan%at = scan%at + 1
          if (len(scan%peek()) == 0 .or. scan%peek() == newline) then
-            call raise(error, input_error, new%place//': '//new%group//'%'//new%name//': the quote is not closed')
+            call raise(error, input_error, new%origin//': '//new%group//'%'//new%name//': the quote is not closed')
             return
          else if (scan%peek() == quote) then
             scan%at = scan%at + 1

@@ -3,13 +3,15 @@ module namelist_writer
    use kinds, only: wp
    use text, only: to_text, exact_text
    use scene, only: scene_type
-   use scene_fields, only: field_visitor, range_type, visit_scene
+   use assignments, only: token_type, value_text
+   use field_visitor, only: visitor_type, field_type
+   use scene_fields, only: visit_scene
    implicit none (type, external)
    private
    public :: scene_text
 
    !> Writes a scene as namelist text.
-   type, extends(field_visitor) :: scene_writer
+   type, extends(visitor_type) :: scene_writer
       character(len=:), allocatable :: text
    contains
       procedure :: group => write_group
@@ -49,48 +51,40 @@ contains
       self%text = self%text//'  '//name//' = '//value//newline
    end subroutine line
 
-   subroutine write_word(self, name, value, choices, meaning)
+   subroutine write_word(self, value, field)
       class(scene_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, choices, meaning
       character(len=:), allocatable, intent(inout) :: value
-      character(len=:), allocatable :: quoted
-      integer :: i
-      quoted = ''
-      do i = 1, len(value)
-         quoted = quoted//value(i:i)
-         if (value(i:i) == '''') quoted = quoted//''''
-      end do
-      call self%line(name, ''''//quoted//'''')
+      type(field_type), intent(in) :: field
+      type(token_type) :: token
+      token%text = value
+      token%quoted = .true.
+      call self%line(field%name, value_text(token))
    end subroutine write_word
 
-   subroutine write_whole(self, name, value, allowed, meaning)
+   subroutine write_whole(self, value, field)
       class(scene_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, meaning
       integer, intent(inout) :: value
-      type(range_type), intent(in) :: allowed
-      call self%line(name, to_text(value))
+      type(field_type), intent(in) :: field
+      call self%line(field%name, to_text(value))
    end subroutine write_whole
 
-   subroutine write_numbers(self, name, values, allowed, unit, meaning)
+   subroutine write_numbers(self, values, field)
       class(scene_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, meaning
       real(wp), intent(inout) :: values(:)
-      type(range_type), intent(in) :: allowed
+      type(field_type), intent(in) :: field
       character(len=:), allocatable :: list
       integer :: i
       list = exact_text(values(1))
       do i = 2, size(values)
          list = list//', '//exact_text(values(i))
       end do
-      call self%line(name, list)
+      call self%line(field%name, list)
    end subroutine write_numbers
 
-   subroutine write_per_pad(self, name, values, fixes_pads, allowed, unit, meaning)
+   subroutine write_per_pad(self, values, field)
       class(scene_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, meaning
       real(wp), allocatable, intent(inout) :: values(:)
-      logical, intent(in) :: fixes_pads
-      type(range_type), intent(in) :: allowed
-      call self%numbers(name, values, allowed, unit, meaning)
+      type(field_type), intent(in) :: field
+      call self%numbers(values, field)
    end subroutine write_per_pad
 end module namelist_writer

@@ -4,7 +4,7 @@ module number_syntax
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: is_number, is_special, read_number
+   public :: is_special, read_number
 
 contains
 

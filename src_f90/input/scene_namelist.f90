@@ -1,54 +1,51 @@
-!> Scene from namelist text. Values are checked where they are read, so that the message can
-!> name file, line, group, variable, value and what is allowed.
+!> Scene from namelist text. Each value is checked where it is read, so that the message can say where it stands.
 module scene_namelist
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use text, only: to_text, lower_case, is_utf8
+   use text, only: to_text
    use errors, only: error_type, raise, add_context, input_error
    use scene, only: scene_type, max_pads
-   use scene_fields, only: field_visitor, range_type, visit_scene
-   use number_syntax, only: is_special, read_number
-   use assignments, only: namelist_type, assignment_type, assignment_text, sweep_group
-   use case_text, only: parse_case
+   use field_visitor, only: visitor_type, field_type
+   use scene_fields, only: visit_scene
+   use assignments, only: namelist_type, assignment_type, sweep_group
+   use assigned_values, only: read_word, read_reals, refuse_values
+   use namelist_text, only: parse_namelist
    implicit none (type, external)
    private
    public :: scene_from_text, scene_from_namelist, fill_scene
 
-   !> Longest text in it, bytes.
-   integer, parameter :: longest_text = 1000
-
-   !> Fills a scene from assignments.
-   type, extends(field_visitor) :: scene_reader
+   !> Fills a scene from assignments, up to the first error.
+   type, extends(visitor_type) :: scene_reader
       type(namelist_type) :: namelist
+      !> Assignments to a known variable, and groups that are known.
       logical, allocatable :: used(:), known_group(:)
+      !> The group just visited, the groups and its variables so far, for messages.
       character(len=:), allocatable :: this_group, groups, variables
       integer :: pad_count = 0
       type(error_type), allocatable :: error
    contains
-      procedure :: group => read_group
-      procedure :: word => read_word
-      procedure :: whole => read_whole
-      procedure :: numbers => read_numbers
-      procedure :: per_pad => read_per_pad
+      procedure :: group => visit_group
+      procedure :: word => visit_word
+      procedure :: whole => visit_whole
+      procedure :: numbers => visit_numbers
+      procedure :: per_pad => visit_per_pad
+      procedure, private :: look_up
       procedure, private :: check_unused
-      procedure, private :: reals
-      procedure, private :: take
-      procedure, private :: refuse
+      procedure, private :: refuse_unknown_group
    end type scene_reader
 
 contains
 
-   !> The scene of a case's text, everything checked; a sweep is refused.
-   subroutine scene_from_text(text, file, overrides, scene, error)
-      character(len=*), intent(in) :: text, file, overrides(:)
+   !> The scene of a case's text, everything checked; a sweep is refused. `file` is for messages.
+   subroutine scene_from_text(text, file, scene, error)
+      character(len=*), intent(in) :: text, file
       type(scene_type), intent(out) :: scene
       type(error_type), allocatable, intent(out) :: error
       type(namelist_type) :: parsed
       integer :: i
-      call parse_case(text, file, overrides, parsed, error)
+      call parse_namelist(text, file, parsed, error)
       if (allocated(error)) return
       do i = 1, size(parsed%groups)
-         if (parsed%groups(i)%group == sweep_group) call raise(error, input_error, parsed%groups(i)%place &
+         if (parsed%groups(i)%group == sweep_group) call raise(error, input_error, parsed%groups(i)%origin &
             & //': a sweep, where one scene is expected; tiltpad --check --member K prints those of a sweep')
       end do
       if (.not. allocated(error)) call scene_from_namelist(parsed, scene, error)
@@ -74,33 +71,24 @@ contains
       type(scene_reader) :: reader
       integer :: i
       reader%namelist = parsed
-      allocate (reader%used(size(reader%namelist%assignments)), source=.false.)
-      allocate (reader%known_group(size(reader%namelist%groups)), source=.false.)
+      allocate (reader%used(size(parsed%assignments)), source=.false.)
+      allocate (reader%known_group(size(parsed%groups)), source=.false.)
       reader%this_group = ''
       reader%groups = ''
       scene = scene_type()
       scene%operation%final_speed_rpm = -1
       call visit_scene(scene, reader)
       call reader%group('', '')
-      do i = 1, size(reader%namelist%groups)
-         if (.not. reader%known_group(i)) call reader%refuse(reader%namelist%groups(i)%place//': unknown group &' &
-            & //reader%namelist%groups(i)%group//'; known:'//reader%groups)
+      do i = 1, size(parsed%groups)
+         if (.not. reader%known_group(i)) call reader%refuse_unknown_group(parsed%groups(i), '&')
       end do
-      do i = 1, size(reader%used)
-         if (.not. reader%used(i)) call reader%refuse(reader%namelist%assignments(i)%place//': unknown group ' &
-            & //reader%namelist%assignments(i)%group//'; known:'//reader%groups)
+      do i = 1, size(parsed%assignments)
+         if (.not. reader%used(i)) call reader%refuse_unknown_group(parsed%assignments(i), '')
       end do
       if (allocated(reader%error)) call move_alloc(reader%error, error)
    end subroutine fill_scene
 
-   !> Keeps the first error.
-   subroutine refuse(self, message)
-      class(scene_reader), intent(inout) :: self
-      character(len=*), intent(in) :: message
-      if (.not. allocated(self%error)) call raise(self%error, input_error, message)
-   end subroutine refuse
-
-   subroutine read_group(self, name, meaning)
+   subroutine visit_group(self, name, meaning)
       class(scene_reader), intent(inout) :: self
       character(len=*), intent(in) :: name, meaning
       integer :: i
@@ -111,225 +99,154 @@ contains
       do i = 1, size(self%namelist%groups)
          if (self%namelist%groups(i)%group == name) self%known_group(i) = .true.
       end do
-   end subroutine read_group
+   end subroutine visit_group
 
-   !> Refuses what was assigned in the group just left and not asked for.
+   !> Refuses what was assigned in the group just left to a variable that it does not have.
    subroutine check_unused(self)
       class(scene_reader), intent(inout) :: self
       integer :: i
       do i = 1, size(self%used)
+         if (allocated(self%error)) return
          associate (a => self%namelist%assignments(i))
             if (a%group /= self%this_group .or. self%used(i)) cycle
-            call self%refuse(a%place//': unknown variable '//a%group//'%'//a%name//'; known:'//self%variables)
-            self%used(i) = .true.
+            call raise(self%error, input_error, a%origin//': unknown variable '//a%group//'%'//a%name//'; known:' &
+               & //self%variables)
          end associate
       end do
    end subroutine check_unused
 
-   subroutine read_word(self, name, value, choices, meaning)
+   !> Of an assignment or the start of a group; the `prefix` stands before the group's name.
+   subroutine refuse_unknown_group(self, found, prefix)
       class(scene_reader), intent(inout) :: self
-      character(len=*), intent(in) :: name, choices, meaning
-      character(len=:), allocatable, intent(inout) :: value
-      character(len=:), allocatable :: found
+      type(assignment_type), intent(in) :: found
+      character(len=*), intent(in) :: prefix
+      if (allocated(self%error)) return
+      call raise(self%error, input_error, found%origin//': unknown group '//prefix//found%group//'; known:' &
+         & //self%groups)
+   end subroutine refuse_unknown_group
+
+   !> The assignments to a variable of this group, in their order; none after an error.
+   subroutine look_up(self, field, found)
+      class(scene_reader), intent(inout) :: self
+      type(field_type), intent(in) :: field
+      type(assignment_type), allocatable, intent(out) :: found(:)
       integer :: i
-      self%variables = self%variables//' '//name
+      self%variables = self%variables//' '//field%name
+      allocate (found(0))
+      if (allocated(self%error)) return
       do i = 1, size(self%used)
          associate (a => self%namelist%assignments(i))
-            if (a%group /= self%this_group .or. a%name /= name) cycle
+            if (a%group /= self%this_group .or. a%name /= field%name) cycle
             self%used(i) = .true.
-            found = a%values(1)%text
-            if (choices /= '') found = lower_case(trim(adjustl(found)))
-            if (size(a%values) > 1 .or. a%subscript > 0) then
-               call self%refuse(a%place//': '//assignment_text(a)//': takes one text')
-            else if (choices /= '' .and. .not. is_choice(found, choices)) then
-               call self%refuse(a%place//': '//assignment_text(a)//': must be one of '''//quoted_list(choices)//'''')
-            else if (choices == '' .and. .not. a%values(1)%quoted) then
-               call self%refuse(a%place//': '//assignment_text(a)//': text must stand in quotes')
-            else if (len(found) > longest_text) then
-               call self%refuse(a%place//': '//a%group//'%'//a%name//': '//to_text(len(found)) &
-                  & //' characters; a text has at most '//to_text(longest_text))
-            else if (.not. is_utf8(found)) then
-               call self%refuse(a%place//': '//assignment_text(a)//': must be UTF-8 text')
-            end if
-            value = found
+            found = [found, a]
          end associate
       end do
-   end subroutine read_word
+   end subroutine look_up
 
-   subroutine read_whole(self, name, value, allowed, meaning)
+   subroutine visit_word(self, value, field)
       class(scene_reader), intent(inout) :: self
-      character(len=*), intent(in) :: name, meaning
+      character(len=:), allocatable, intent(inout) :: value
+      type(field_type), intent(in) :: field
+      type(assignment_type), allocatable :: found(:)
+      integer :: i
+      call self%look_up(field, found)
+      do i = 1, size(found)
+         call read_word(found(i), field, value, self%error)
+         if (allocated(self%error)) return
+      end do
+   end subroutine visit_word
+
+   subroutine visit_whole(self, value, field)
+      class(scene_reader), intent(inout) :: self
       integer, intent(inout) :: value
-      type(range_type), intent(in) :: allowed
+      type(field_type), intent(in) :: field
+      type(assignment_type), allocatable :: found(:)
       real(wp), allocatable :: given(:)
       logical :: taken(1)
       integer :: i
-      self%variables = self%variables//' '//name
+      call self%look_up(field, found)
       taken = .false.
-      do i = 1, size(self%used)
-         associate (a => self%namelist%assignments(i))
-            if (a%group /= self%this_group .or. a%name /= name) cycle
-            self%used(i) = .true.
-            call self%reals(a, 1, allowed, given)
-            call self%take(a, size(given), taken)
-            if (allocated(self%error)) return
-            if (verify(a%values(1)%text, '+-0123456789*') /= 0) then
-               call self%refuse(a%place//': '//assignment_text(a)//': must be a whole number, '//allowed%text())
-               return
-            end if
-            value = nint(given(1))
-         end associate
+      do i = 1, size(found)
+         call read_reals(found(i), 1, field, given, self%error)
+         if (.not. allocated(self%error)) call take(found(i), size(given), taken, self%error)
+         if (allocated(self%error)) return
+         if (verify(found(i)%values(1)%text, '+-0123456789*') /= 0) then
+            call refuse_values(found(i), 'must be a whole number, '//field%range_text(), self%error)
+            return
+         end if
+         value = nint(given(1))
       end do
-   end subroutine read_whole
+   end subroutine visit_whole
 
-   subroutine read_numbers(self, name, values, allowed, unit, meaning)
+   subroutine visit_numbers(self, values, field)
       class(scene_reader), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, meaning
       real(wp), intent(inout) :: values(:)
-      type(range_type), intent(in) :: allowed
+      type(field_type), intent(in) :: field
+      type(assignment_type), allocatable :: found(:)
       real(wp), allocatable :: given(:)
       logical :: taken(size(values))
-      integer :: i
-      self%variables = self%variables//' '//name
+      integer :: i, first
+      call self%look_up(field, found)
       taken = .false.
-      do i = 1, size(self%used)
-         associate (a => self%namelist%assignments(i))
-            if (a%group /= self%this_group .or. a%name /= name) cycle
-            self%used(i) = .true.
-            call self%reals(a, size(values), allowed, given)
-            call self%take(a, size(given), taken)
-            if (allocated(self%error)) return
-            if (a%subscript == 0 .and. size(given) /= size(values)) then
-               call self%refuse(a%place//': '//assignment_text(a)//': takes '//to_text(size(values))//' values')
-               return
-            end if
-            values(max(1, a%subscript):max(1, a%subscript) + size(given) - 1) = given
-         end associate
+      do i = 1, size(found)
+         call read_reals(found(i), size(values), field, given, self%error)
+         if (.not. allocated(self%error)) call take(found(i), size(given), taken, self%error)
+         if (allocated(self%error)) return
+         if (found(i)%subscript == 0 .and. size(given) /= size(values)) then
+            call refuse_values(found(i), 'takes '//to_text(size(values))//' values', self%error)
+            return
+         end if
+         first = max(1, found(i)%subscript)
+         values(first:first + size(given) - 1) = given
       end do
-   end subroutine read_numbers
+   end subroutine visit_numbers
 
-   subroutine read_per_pad(self, name, values, fixes_pads, allowed, unit, meaning)
+   subroutine visit_per_pad(self, values, field)
       class(scene_reader), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, meaning
       real(wp), allocatable, intent(inout) :: values(:)
-      logical, intent(in) :: fixes_pads
-      type(range_type), intent(in) :: allowed
+      type(field_type), intent(in) :: field
+      type(assignment_type), allocatable :: found(:)
       real(wp), allocatable :: given(:)
       logical :: taken(max_pads)
       integer :: i, most
-      self%variables = self%variables//' '//name
-      most = merge(max_pads, self%pad_count, fixes_pads)
+      call self%look_up(field, found)
+      most = merge(max_pads, self%pad_count, field%fixes_pads)
       taken = .false.
-      if (.not. fixes_pads) values = spread(values(1), 1, self%pad_count)
-      do i = 1, size(self%used)
-         associate (a => self%namelist%assignments(i))
-            if (a%group /= self%this_group .or. a%name /= name) cycle
-            self%used(i) = .true.
-            call self%reals(a, most, allowed, given)
-            call self%take(a, size(given), taken(:most))
-            if (allocated(self%error)) exit
-            if (fixes_pads) then
-               if (a%subscript > 0) call self%refuse(a%place//': '//assignment_text(a) &
-                  & //': the number of angles is the number of pads; give all of them without subscript')
-               values = given
-            else if (a%subscript > 0) then
-               values(a%subscript:a%subscript + size(given) - 1) = given
-            else if (size(given) == 1) then
-               values = spread(given(1), 1, self%pad_count)
-            else if (size(given) == self%pad_count) then
-               values = given
-            else
-               call self%refuse(a%place//': '//assignment_text(a)//': takes one value for all pads or one each (' &
-                  & //to_text(self%pad_count)//')')
-            end if
-         end associate
+      if (.not. field%fixes_pads) values = spread(values(1), 1, self%pad_count)
+      do i = 1, size(found)
+         call read_reals(found(i), most, field, given, self%error)
+         if (.not. allocated(self%error)) call take(found(i), size(given), taken(:most), self%error)
+         if (allocated(self%error)) exit
+         if (field%fixes_pads) then
+            if (found(i)%subscript > 0) call refuse_values(found(i), &
+               & 'the number of angles is the number of pads; give all of them without subscript', self%error)
+            values = given
+         else if (found(i)%subscript > 0) then
+            values(found(i)%subscript:found(i)%subscript + size(given) - 1) = given
+         else if (size(given) == 1) then
+            values = spread(given(1), 1, self%pad_count)
+         else if (size(given) == self%pad_count) then
+            values = given
+         else
+            call refuse_values(found(i), 'takes one value for all pads or one each ('//to_text(self%pad_count)//')', &
+               & self%error)
+         end if
+         if (allocated(self%error)) exit
       end do
-      if (fixes_pads) self%pad_count = size(values)
-   end subroutine read_per_pad
-
-   !> The values of an assignment as reals, each within the range; at most `most` up to the last element.
-   subroutine reals(self, a, most, allowed, values)
-      class(scene_reader), intent(inout) :: self
-      type(assignment_type), intent(in) :: a
-      integer, intent(in) :: most
-      type(range_type), intent(in) :: allowed
-      real(wp), allocatable, intent(out) :: values(:)
-      real(wp) :: x
-      integer :: i, star, repeat, status
-      logical :: ok
-      character(len=:), allocatable :: digits
-      allocate (values(0))
-      do i = 1, size(a%values)
-         digits = lower_case(a%values(i)%text)
-         star = index(digits, '*')
-         repeat = 1
-         status = 0
-         if (star > 0) then
-            if (star == 1 .or. star > 7 .or. verify(digits(:star - 1), '0123456789') /= 0) then
-               status = 1
-            else
-               read (digits(:star - 1), *) repeat
-               if (repeat < 1) status = 1
-            end if
-            digits = digits(star + 1:)
-         end if
-         if (.not. a%values(i)%quoted .and. is_special(digits)) then
-            call self%refuse(a%place//': '//assignment_text(a)//': must be finite, '//allowed%text())
-            return
-         end if
-         call read_number(digits, x, ok)
-         if (status /= 0 .or. a%values(i)%quoted .or. .not. ok) then
-            call self%refuse(a%place//': '//assignment_text(a)//': must be a number, '//allowed%text())
-            return
-         end if
-         if (.not. ieee_is_finite(x)) then
-            call self%refuse(a%place//': '//assignment_text(a)//': must be finite, '//allowed%text())
-            return
-         end if
-         if (.not. allowed%allows(x)) then
-            call self%refuse(a%place//': '//assignment_text(a)//': must be '//allowed%text())
-            return
-         end if
-         if (max(1, a%subscript) - 1 + size(values) + repeat > most) then
-            call self%refuse(a%place//': '//assignment_text(a)//': at most '//to_text(most)//' values')
-            return
-         end if
-         values = [values, spread(x, 1, repeat)]
-      end do
-   end subroutine reals
+      if (field%fixes_pads) self%pad_count = size(values)
+   end subroutine visit_per_pad
 
    !> Notes which elements an assignment of the file takes for good, and refuses those taken before. Elements may
    !> follow the whole list; where the list is one element, that gives it twice. What --set says comes last.
-   subroutine take(self, a, count, taken)
-      class(scene_reader), intent(inout) :: self
+   subroutine take(a, count, taken, error)
       type(assignment_type), intent(in) :: a
       integer, intent(in) :: count
       logical, intent(inout) :: taken(:)
-      if (allocated(self%error) .or. a%overrides .or. a%subscript == 0 .and. size(taken) > 1) return
+      type(error_type), allocatable, intent(inout) :: error
+      if (a%overrides .or. a%subscript == 0 .and. size(taken) > 1) return
       associate (elements => taken(max(1, a%subscript):max(1, a%subscript) + count - 1))
-         if (any(elements)) call self%refuse(a%place//': '//assignment_text(a)//': given twice')
+         if (any(elements)) call refuse_values(a, 'given twice', error)
          elements = .true.
       end associate
    end subroutine take
-
-   !> True for one of the words that `choices` lists, separated by blanks.
-   pure logical function is_choice(word, choices)
-      character(len=*), intent(in) :: word, choices
-      is_choice = scan(word, ' ') == 0 .and. index(' '//choices//' ', ' '//word//' ') > 0
-   end function is_choice
-
-   !> "a b" to "a', 'b".
-   pure function quoted_list(choices) result(list)
-      character(len=*), intent(in) :: choices
-      character(len=:), allocatable :: list
-      integer :: i
-      list = ''
-      do i = 1, len(choices)
-         if (choices(i:i) == ' ') then
-            list = list//''', '''
-         else
-            list = list//choices(i:i)
-         end if
-      end do
-   end function quoted_list
 end module scene_namelist

@@ -8,6 +8,7 @@ module sweep
       & value_text, sweep_group
    use swept_values, only: swept_values_type, read_swept_values
    use case_text, only: read_text, parse_case
+   use scene_fields, only: title_variable
    use scene_namelist, only: scene_from_namelist, fill_scene
    use namelist_writer, only: scene_text
    implicit none (type, external)
@@ -24,7 +25,7 @@ module sweep
       type(swept_values_type) :: values
    end type variable_type
 
-   !> What a run is told of its place in a sweep.
+   !> Which member of a sweep a run is.
    type :: member_tag
       !> From 1; 0 for a run that is no member.
       integer :: number = 0, members = 0
@@ -66,13 +67,13 @@ contains
       type(sweep_type), intent(out) :: sweep
       type(error_type), allocatable, intent(out) :: error
       type(namelist_type) :: parsed
-      character(len=:), allocatable :: place
+      character(len=:), allocatable :: origin
       integer :: i
       allocate (sweep%variables(0))
       call parse_case(text, file, overrides, parsed, error)
       if (allocated(error)) return
       do i = 1, size(parsed%groups)
-         if (parsed%groups(i)%group == sweep_group) place = parsed%groups(i)%place
+         if (parsed%groups(i)%group == sweep_group) origin = parsed%groups(i)%origin
       end do
       sweep%base = parsed
       sweep%base%groups = pack(parsed%groups, [(parsed%groups(i)%group /= sweep_group, i=1, size(parsed%groups))])
@@ -80,12 +81,12 @@ contains
          & [(parsed%assignments(i)%group /= sweep_group, i=1, size(parsed%assignments))])
       do i = 1, size(parsed%assignments)
          if (parsed%assignments(i)%group /= sweep_group) cycle
-         if (.not. allocated(place)) place = parsed%assignments(i)%place
+         if (.not. allocated(origin)) origin = parsed%assignments(i)%origin
          call read_variable(parsed%assignments(i), sweep, error)
          if (allocated(error)) return
       end do
-      sweep%given = allocated(place)
-      if (sweep%given) call count_members(place, sweep, error)
+      sweep%given = allocated(origin)
+      if (sweep%given) call count_members(origin, sweep, error)
    end subroutine sweep_from_text
 
    !> One assignment of the group &sweep.
@@ -99,7 +100,7 @@ contains
       if (given%name == 'order') then
          order = lower_case(trim(adjustl(given%values(1)%text)))
          if (size(given%values) > 1 .or. given%subscript > 0 .or. order /= 'product' .and. order /= 'zip') then
-            call raise(error, input_error, given%place//': '//assignment_text(given) &
+            call raise(error, input_error, given%origin//': '//assignment_text(given) &
                & //': must be one of ''product'', ''zip''')
          end if
          sweep%zip = order == 'zip'
@@ -108,7 +109,7 @@ contains
       percent = index(given%name, '%')
       name = given%name(percent + 1:)
       if (percent <= 1 .or. name == '' .or. index(name, '%') > 0) then
-         call raise(error, input_error, given%place//': unknown variable '//given%group//'%'//given%name &
+         call raise(error, input_error, given%origin//': unknown variable '//given%group//'%'//given%name &
             & //'; expected order or group%name = values')
          return
       end if
@@ -116,41 +117,41 @@ contains
       new%target%group = given%name(:percent - 1)
       new%target%name = name
       new%target%overrides = .true.
-      if (new%target%group == sweep_group .or. given%name == 'case%title') then
-         call raise(error, input_error, given%place//': '//given%name//' cannot be swept')
+      if (new%target%group == sweep_group .or. given%name == title_variable) then
+         call raise(error, input_error, given%origin//': '//given%name//' cannot be swept')
          return
       end if
       do i = 1, size(sweep%variables)
          associate (other => sweep%variables(i)%target)
             if (.not. (undoes(new%target, other) .or. undoes(other, new%target))) cycle
-            call raise(error, input_error, given%place//': '//given%name//' is swept twice, first at '//other%place)
+            call raise(error, input_error, given%origin//': '//given%name//' is swept twice, first at '//other%origin)
             return
          end associate
       end do
       do i = 1, size(sweep%base%assignments)
          associate (a => sweep%base%assignments(i))
-            if (a%place /= '--set' .or. .not. undoes(new%target, a)) cycle
-            call raise(error, input_error, '--set '//assignment_text(a)//': is swept ('//given%place &
+            if (a%origin /= '--set' .or. .not. undoes(new%target, a)) cycle
+            call raise(error, input_error, '--set '//assignment_text(a)//': is swept ('//given%origin &
                & //'); give the sweep other values with --set sweep%'//given%name//'=...')
             return
          end associate
       end do
-      call read_swept_values(given%values, given%place//': '//sweep_group//'%'//given%name, new%values, error)
+      call read_swept_values(given%values, given%origin//': '//sweep_group//'%'//given%name, new%values, error)
       if (allocated(error)) return
       deallocate (new%target%values)
       sweep%variables = [sweep%variables, new]
    end subroutine read_variable
 
-   !> How many members there are; `place` of the sweep is for messages.
-   subroutine count_members(place, sweep, error)
-      character(len=*), intent(in) :: place
+   !> How many members there are; `origin` of the sweep is for messages.
+   subroutine count_members(origin, sweep, error)
+      character(len=*), intent(in) :: origin
       type(sweep_type), intent(inout) :: sweep
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: list
       integer(i8) :: members
       integer :: i
       if (size(sweep%variables) == 0) then
-         call raise(error, input_error, place//': &sweep sweeps nothing; expected group%name = values')
+         call raise(error, input_error, origin//': &sweep sweeps nothing; expected group%name = values')
          return
       end if
       list = ''
@@ -168,9 +169,9 @@ contains
          end associate
       end do
       if (sweep%zip .and. any([(sweep%variables(i)%values%count() /= members, i=1, size(sweep%variables))])) then
-         call raise(error, input_error, place//': &sweep with order = ''zip'' needs as many values of each: '//list)
+         call raise(error, input_error, origin//': &sweep with order = ''zip'' needs as many values of each: '//list)
       else if (members > most_members) then
-         call raise(error, input_error, place//': &sweep has more than '//to_text(most_members)//' members: '//list)
+         call raise(error, input_error, origin//': &sweep has more than '//to_text(most_members)//' members: '//list)
       end if
       sweep%members = int(members)
    end subroutine count_members
@@ -241,7 +242,7 @@ contains
       parsed%file = parsed%file//', member '//to_text(k)
       do i = 1, size(parsed%assignments)
          associate (a => parsed%assignments(i))
-            a%place = a%place//', member '//to_text(k)
+            a%origin = a%origin//', member '//to_text(k)
          end associate
       end do
    end subroutine member_namelist

@@ -58,7 +58,7 @@ contains
       type(piece_type), intent(out) :: piece
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: parts(:), word
-      real(wp) :: numbers(3), steps
+      real(wp) :: numbers(3)
       integer :: first, second, i
       logical :: ok
       piece%token = token
@@ -88,34 +88,41 @@ contains
       end do
       piece%first = numbers(1)
       piece%step = numbers(3)
-      associate (last => numbers(2))
-         if (piece%geometric) then
-            if (.not. piece%first*sign(1.0_wp, last) > 0 .or. .not. abs(last) > 0) then
-               call raise(error, input_error, 'first and last must be of one sign, and not 0, for a factor')
-            else if (piece%step <= 0 .or. .not. abs(piece%step - 1) > 0) then
-               call raise(error, input_error, 'the factor must be > 0, and not 1')
-            else if ((abs(last) - abs(piece%first))*(piece%step - 1) < 0) then
-               call raise(error, input_error, 'from first the factor leads away from last; it must be ' &
-                  & //trim(merge('> 1', '< 1', piece%step < 1)))
-            else
-               steps = log(last/piece%first)/log(piece%step)
-            end if
-         else if (.not. abs(piece%step) > 0) then
-            call raise(error, input_error, 'the stride must not be 0')
-         else if ((last - piece%first)*piece%step < 0) then
-            call raise(error, input_error, 'from first the stride leads away from last; it must be ' &
-               & //trim(merge('> 0', '< 0', piece%step < 0)))
+      call count_steps(numbers(2), piece, error)
+   end subroutine read_piece
+
+   !> How many values a range has whose first value, and stride or factor, are known.
+   subroutine count_steps(last, piece, error)
+      real(wp), intent(in) :: last
+      type(piece_type), intent(inout) :: piece
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: steps
+      if (piece%geometric) then
+         if (.not. piece%first*sign(1.0_wp, last) > 0 .or. .not. abs(last) > 0) then
+            call raise(error, input_error, 'first and last must be of one sign, and not 0, for a factor')
+         else if (piece%step <= 0 .or. .not. abs(piece%step - 1) > 0) then
+            call raise(error, input_error, 'the factor must be > 0, and not 1')
+         else if ((abs(last) - abs(piece%first))*(piece%step - 1) < 0) then
+            call raise(error, input_error, 'from first the factor leads away from last; it must be ' &
+               & //trim(merge('> 1', '< 1', piece%step < 1)))
          else
-            steps = (last - piece%first)/piece%step
+            steps = log(last/piece%first)/log(piece%step)
          end if
-      end associate
+      else if (.not. abs(piece%step) > 0) then
+         call raise(error, input_error, 'the stride must not be 0')
+      else if ((last - piece%first)*piece%step < 0) then
+         call raise(error, input_error, 'from first the stride leads away from last; it must be ' &
+            & //trim(merge('> 0', '< 0', piece%step < 0)))
+      else
+         steps = (last - piece%first)/piece%step
+      end if
       if (allocated(error)) return
       if (steps >= most_values) then
          call raise(error, input_error, 'more than '//to_text(most_values)//' values')
       else
          piece%count = 1 + floor(steps + rounding)
       end if
-   end subroutine read_piece
+   end subroutine count_steps
 
    pure integer function value_count(self)
       class(swept_values_type), intent(in) :: self

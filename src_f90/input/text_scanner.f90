@@ -13,7 +13,7 @@ module text_scanner
       procedure :: peek
       procedure :: skip_blank
       procedure :: word
-      procedure :: place
+      procedure :: origin
    end type scanner
 
    character(len=*), parameter :: newline = achar(10), tab = achar(9), carriage = achar(13)
@@ -74,10 +74,11 @@ contains
       self%at = self%at + length
    end function word
 
-   pure function place(self)
+   !> Where it is, for messages: "case.nml line 3".
+   pure function origin(self)
       class(scanner), intent(in) :: self
-      character(len=:), allocatable :: place
-      place = self%file
-      if (index(self%file, '--set') /= 1) place = self%file//' line '//to_text(self%line)
-   end function place
+      character(len=:), allocatable :: origin
+      origin = self%file
+      if (index(self%file, '--set') /= 1) origin = self%file//' line '//to_text(self%line)
+   end function origin
 end module text_scanner

@@ -3,6 +3,7 @@ module restart
    use text, only: to_text, on_one_line
    use errors, only: error_type, raise, add_context, system_error, numerics_error
    use scene, only: scene_type
+   use scene_fields, only: checkpoint_variable
    use scene_namelist, only: scene_from_text
    use namelist_writer, only: scene_text
    use hdf5_file, only: hdf5_type
@@ -78,7 +79,7 @@ contains
       end if
       call file%close()
       if (allocated(error)) return
-      call scene_from_text(input, path, [character(len=1) ::], found%scene, error)
+      call scene_from_text(input, path, found%scene, error)
       if (allocated(error)) then
          error%status = system_error
          call add_context(error, path//': its input cannot be read')
@@ -101,19 +102,16 @@ contains
       type(member_tag), intent(in) :: tag
       type(restart_type), intent(in) :: found
       type(error_type), allocatable, intent(out) :: error
-      type(scene_type) :: other
       character(len=:), allocatable :: left, right, left_line, right_line, group
-      other = found%scene
-      other%output%checkpoint_seconds = ours%output%checkpoint_seconds
       left = scene_text(ours)
-      right = scene_text(other)
+      right = scene_text(found%scene)
       group = ''
       ! both are written from the same list, a line a variable
       do while (left /= '' .and. right /= '')
          call take_line(left, left_line)
          call take_line(right, right_line)
          if (left_line(1:1) == '&') group = left_line(2:)
-         if (left_line == right_line) cycle
+         if (left_line == right_line .or. group//'%'//name_of(left_line) == checkpoint_variable) cycle
          call raise(error, system_error, path//': is the result of another case; '//group//'%' &
             & //trim(adjustl(right_line))//' there, '//value_of(left_line)//' here')
          return
@@ -135,6 +133,13 @@ contains
       line = text(:length)
       text = text(length + 2:)
    end subroutine take_line
+
+   !> "  name = value" to "name".
+   pure function name_of(line) result(name)
+      character(len=*), intent(in) :: line
+      character(len=:), allocatable :: name
+      name = trim(adjustl(line(:index(line, '=') - 1)))
+   end function name_of
 
    !> "  name = value" to "value".
    pure function value_of(line) result(value)

@@ -10,10 +10,12 @@ from commands import LIMIT
 SOURCES = (
     "input/namelist_text",
     "input/scene_namelist",
+    "input/assigned_values",
     "input/number_syntax",
     "input/sweep",
     "input/namelist_writer",
     "input/scene_fields",
+    "input/field_visitor",
 )
 
 PAGE = """\

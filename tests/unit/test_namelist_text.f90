@@ -125,9 +125,9 @@ contains
       type(namelist_type) :: found
       call parse(newline//'! comment'//newline//'&a'//return//newline//'  x = 1,'//newline//'      2'//newline &
          & //'  y = ''z'' /', found)
-      call expect(found%groups(1)%place == 'case.nml line 3', 'line of the group: '//found%groups(1)%place)
-      call expect(found%assignments(1)%place == 'case.nml line 4', 'line of x: '//found%assignments(1)%place)
-      call expect(found%assignments(2)%place == 'case.nml line 6', 'line of y: '//found%assignments(2)%place)
+      call expect(found%groups(1)%origin == 'case.nml line 3', 'line of the group: '//found%groups(1)%origin)
+      call expect(found%assignments(1)%origin == 'case.nml line 4', 'line of x: '//found%assignments(1)%origin)
+      call expect(found%assignments(2)%origin == 'case.nml line 6', 'line of y: '//found%assignments(2)%origin)
    end subroutine places
 
    !> An override takes the place of what the file says of the same element, and adds to the rest.
@@ -140,7 +140,7 @@ contains
       call expect(size(found%assignments) == 2, 'replaces')
       call expect_assignment(found, 1, 'a%y=2')
       call expect_assignment(found, 2, 'a%x=3')
-      call expect(found%assignments(2)%place == '--set', 'and says where it comes from')
+      call expect(found%assignments(2)%origin == '--set', 'and says where it comes from')
       call parse_override('b%title=''a/b''', found, error)
       call expect_assignment(found, 3, 'b%title="a/b"')
       call parse_override('a%y(2)=1,2', found, error)

@@ -1,13 +1,13 @@
 !> Scenes from text and back: defaults, one value for all pads, ranges, round trip to the last bit.
 module scene_probes
    use kinds, only: wp
-   use scene_fields, only: field_visitor, range_type
+   use field_visitor, only: visitor_type, field_type
    implicit none (type, external)
    private
    public :: collector, shaker
 
    !> Keeps every number and word in order.
-   type, extends(field_visitor) :: collector
+   type, extends(visitor_type) :: collector
       real(wp), allocatable :: numbers_found(:)
       character(len=:), allocatable :: words_found
    contains
@@ -36,43 +36,38 @@ contains
       self%words_found = self%words_found//'&'//name
    end subroutine collect_group
 
-   subroutine collect_word(self, name, value, choices, meaning)
+   subroutine collect_word(self, value, field)
       class(collector), intent(inout) :: self
-      character(len=*), intent(in) :: name, choices, meaning
       character(len=:), allocatable, intent(inout) :: value
+      type(field_type), intent(in) :: field
       self%words_found = self%words_found//'|'//value//'|'
    end subroutine collect_word
 
-   subroutine collect_whole(self, name, value, allowed, meaning)
+   subroutine collect_whole(self, value, field)
       class(collector), intent(inout) :: self
-      character(len=*), intent(in) :: name, meaning
       integer, intent(inout) :: value
-      type(range_type), intent(in) :: allowed
+      type(field_type), intent(in) :: field
       self%numbers_found = [self%numbers_found, real(value, wp)]
    end subroutine collect_whole
 
-   subroutine collect_numbers(self, name, values, allowed, unit, meaning)
+   subroutine collect_numbers(self, values, field)
       class(collector), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, meaning
       real(wp), intent(inout) :: values(:)
-      type(range_type), intent(in) :: allowed
+      type(field_type), intent(in) :: field
       self%numbers_found = [self%numbers_found, values]
    end subroutine collect_numbers
 
-   subroutine collect_per_pad(self, name, values, fixes_pads, allowed, unit, meaning)
+   subroutine collect_per_pad(self, values, field)
       class(collector), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, meaning
       real(wp), allocatable, intent(inout) :: values(:)
-      logical, intent(in) :: fixes_pads
-      type(range_type), intent(in) :: allowed
-      call self%numbers(name, values, allowed, unit, meaning)
+      type(field_type), intent(in) :: field
+      call self%numbers(values, field)
    end subroutine collect_per_pad
 
-   subroutine shake_numbers(self, name, values, allowed, unit, meaning)
+   subroutine shake_numbers(self, values, field)
       class(shaker), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, meaning
       real(wp), intent(inout) :: values(:)
-      type(range_type), intent(in) :: allowed
+      type(field_type), intent(in) :: field
       real(wp) :: share(size(values))
       call random_number(share)
       values = values*(1 - 1e-3_wp*share)
@@ -86,8 +81,9 @@ program test_scene_namelist
    use errors, only: error_type, input_error
    use scene, only: scene_type
    use scene_fields, only: visit_scene
-   use case_text, only: read_text
-   use scene_namelist, only: scene_from_text
+   use assignments, only: namelist_type
+   use case_text, only: read_text, parse_case
+   use scene_namelist, only: scene_from_text, scene_from_namelist
    use namelist_writer, only: scene_text
    use scene_probes, only: collector, shaker
    use check, only: expect, expect_close, report
@@ -118,7 +114,7 @@ contains
    type(scene_type) function scene_of(text) result(scene)
       character(len=*), intent(in) :: text
       type(error_type), allocatable :: error
-      call scene_from_text(text, 'case.nml', [character(len=1) ::], scene, error)
+      call scene_from_text(text, 'case.nml', scene, error)
       call expect(.not. allocated(error), 'accepted: '//text)
       if (allocated(error)) call expect(.false., '   but: '//error%message)
    end function scene_of
@@ -204,19 +200,29 @@ contains
    subroutine overrides()
       type(scene_type) :: s
       type(error_type), allocatable :: error
-      call scene_from_text('&rotor mass = 1/', 'case.nml', [character(len=30) :: 'rotor%mass=1500', &
+      call override('&rotor mass = 1/', [character(len=30) :: 'rotor%mass=1500', &
          & 'case%title=''a b''', 'rotor%mass=1600'], s, error)
       call expect(.not. allocated(error), 'overrides')
       call expect_list([s%rotor%mass], [1600.0_wp], 'the last override stands')
       call expect(s%about%title == 'a b', 'a group the file lacks')
-      call scene_from_text('&rotor mass = 1/', 'case.nml', ['rotor%mass=-1'], s, error)
+      call override('&rotor mass = 1/', ['rotor%mass=-1'], s, error)
       call expect(allocated(error), 'an override is checked')
       if (allocated(error)) call expect(index(error%message, '--set') == 1, 'and named: '//error%message)
-      call scene_from_text('&rotor static_load(1) = 1, 2 mass = 1/', 'case.nml', [character(len=30) :: &
+      call override('&rotor static_load(1) = 1, 2 mass = 1/', [character(len=30) :: &
          & 'rotor%static_load(2)=3', 'rotor%mass(1)=4', 'rotor%static_load(1)=5, 6'], s, error)
       call expect(.not. allocated(error), 'an override of an element')
       call expect_list([s%rotor%static_load, s%rotor%mass], [5.0_wp, 6.0_wp, 4.0_wp], 'the last one stands')
    end subroutine overrides
+
+   !> The scene of a text with overrides in place.
+   subroutine override(text, settings, scene, error)
+      character(len=*), intent(in) :: text, settings(:)
+      type(scene_type), intent(out) :: scene
+      type(error_type), allocatable, intent(out) :: error
+      type(namelist_type) :: parsed
+      call parse_case(text, 'case.nml', settings, parsed, error)
+      if (.not. allocated(error)) call scene_from_namelist(parsed, scene, error)
+   end subroutine override
 
    !> Every real with random last bits: text and back gives the same bits, whatever the writer thinks.
    subroutine round_trip()
@@ -228,7 +234,7 @@ contains
       scene%rotor%static_load = [1.0_wp/3, -1e7_wp/7]
       scene%about%title = 'a/b ! it''s "quoted" & more, x = 1  '
       call visit_scene(scene, shake)
-      call scene_from_text(scene_text(scene), 'scene', [character(len=1) ::], back, error)
+      call scene_from_text(scene_text(scene), 'scene', back, error)
       call expect(.not. allocated(error), 'the text of a scene is accepted')
       if (allocated(error)) call expect(.false., '   but: '//error%message)
       call visit_scene(scene, before)
@@ -250,7 +256,7 @@ contains
       scene = scene_type()
       do k = 1, size(titles)
          scene%about%title = trim(titles(k))
-         call scene_from_text(scene_text(scene), 'scene', [character(len=1) ::], back, error)
+         call scene_from_text(scene_text(scene), 'scene', back, error)
          call expect(.not. allocated(error), 'title '//trim(titles(k)))
          if (.not. allocated(error)) call expect(back%about%title == scene%about%title .and. &
             & len(back%about%title) == len(scene%about%title), 'title '//trim(titles(k))//' comes back')
@@ -262,7 +268,7 @@ contains
       character(len=*), intent(in) :: text, words
       type(scene_type) :: scene
       type(error_type), allocatable :: error
-      call scene_from_text(text, 'case.nml', [character(len=1) ::], scene, error)
+      call scene_from_text(text, 'case.nml', scene, error)
       call expect(allocated(error), 'refused: '//text)
       if (.not. allocated(error)) return
       call expect(error%status == input_error, 'an error of the input')
@@ -336,7 +342,7 @@ contains
       write (unit) '&rotor mass = 1234 /'
       close (unit)
       call read_text(name, text, error)
-      if (.not. allocated(error)) call scene_from_text(text, name, [character(len=1) ::], scene, error)
+      if (.not. allocated(error)) call scene_from_text(text, name, scene, error)
       call expect(.not. allocated(error), 'a file without a last line end')
       call expect_close(scene%rotor%mass, 1234.0_wp, 0.0_wp, 'its value')
       open (newunit=unit, file=name, status='old')

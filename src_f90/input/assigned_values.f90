@@ -1,0 +1,127 @@
+!> The values of an assignment, checked against what its variable allows. The message names file, line, group,
+!> variable, value and what is allowed.
+module assigned_values
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp
+   use text, only: to_text, lower_case, is_utf8
+   use errors, only: error_type, raise, input_error
+   use number_syntax, only: is_special, read_number
+   use assignments, only: assignment_type, token_type, assignment_text
+   use field_visitor, only: field_type
+   implicit none (type, external)
+   private
+   public :: read_word, read_reals, refuse_values
+
+   !> Longest text in a scene, bytes.
+   integer, parameter :: longest_text = 1000
+
+contains
+
+   !> The one text of an assignment; a word out of several is in lower case, without blanks around it.
+   subroutine read_word(a, field, word, error)
+      type(assignment_type), intent(in) :: a
+      type(field_type), intent(in) :: field
+      character(len=:), allocatable, intent(out) :: word
+      type(error_type), allocatable, intent(out) :: error
+      word = a%values(1)%text
+      if (field%choices /= '') word = lower_case(trim(adjustl(word)))
+      if (size(a%values) > 1 .or. a%subscript > 0) then
+         call refuse_values(a, 'takes one text', error)
+      else if (field%choices /= '' .and. .not. is_choice(word, field%choices)) then
+         call refuse_values(a, 'must be one of '''//quoted_list(field%choices)//'''', error)
+      else if (field%choices == '' .and. .not. a%values(1)%quoted) then
+         call refuse_values(a, 'text must stand in quotes', error)
+      else if (len(word) > longest_text) then
+         call raise(error, input_error, a%origin//': '//a%group//'%'//a%name//': '//to_text(len(word)) &
+            & //' characters; a text has at most '//to_text(longest_text))
+      else if (.not. is_utf8(word)) then
+         call refuse_values(a, 'must be UTF-8 text', error)
+      end if
+   end subroutine read_word
+
+   !> The values of an assignment as reals, each within the range; at most `most` up to the last element.
+   subroutine read_reals(a, most, field, values, error)
+      type(assignment_type), intent(in) :: a
+      integer, intent(in) :: most
+      type(field_type), intent(in) :: field
+      real(wp), allocatable, intent(out) :: values(:)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: x
+      integer :: i, repeat
+      allocate (values(0))
+      do i = 1, size(a%values)
+         call read_real(a, a%values(i), field, x, repeat, error)
+         if (allocated(error)) return
+         if (max(1, a%subscript) - 1 + size(values) + repeat > most) then
+            call refuse_values(a, 'at most '//to_text(most)//' values', error)
+            return
+         end if
+         values = [values, spread(x, 1, repeat)]
+      end do
+   end subroutine read_reals
+
+   !> One value of an assignment and how often it stands there: `repeat*value`.
+   subroutine read_real(a, token, field, x, repeat, error)
+      type(assignment_type), intent(in) :: a
+      type(token_type), intent(in) :: token
+      type(field_type), intent(in) :: field
+      real(wp), intent(out) :: x
+      integer, intent(out) :: repeat
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: digits
+      integer :: star
+      logical :: repeat_ok, ok
+      digits = lower_case(token%text)
+      star = index(digits, '*')
+      repeat = 1
+      repeat_ok = .true.
+      if (star > 0) then
+         repeat_ok = star > 1 .and. star <= 7 .and. verify(digits(:star - 1), '0123456789') == 0
+         if (repeat_ok) read (digits(:star - 1), *) repeat
+         repeat_ok = repeat_ok .and. repeat >= 1
+         digits = digits(star + 1:)
+      end if
+      x = 0
+      if (.not. token%quoted .and. is_special(digits)) then
+         call refuse_values(a, 'must be finite, '//field%range_text(), error)
+         return
+      end if
+      call read_number(digits, x, ok)
+      if (.not. repeat_ok .or. token%quoted .or. .not. ok) then
+         call refuse_values(a, 'must be a number, '//field%range_text(), error)
+      else if (.not. ieee_is_finite(x)) then
+         call refuse_values(a, 'must be finite, '//field%range_text(), error)
+      else if (.not. field%allows(x)) then
+         call refuse_values(a, 'must be '//field%range_text(), error)
+      end if
+   end subroutine read_real
+
+   !> "case.nml line 3: rotor%mass = -1: must be ...".
+   subroutine refuse_values(a, reason, error)
+      type(assignment_type), intent(in) :: a
+      character(len=*), intent(in) :: reason
+      type(error_type), allocatable, intent(inout) :: error
+      call raise(error, input_error, a%origin//': '//assignment_text(a)//': '//reason)
+   end subroutine refuse_values
+
+   !> True for one of the words that `choices` lists, separated by blanks.
+   pure logical function is_choice(word, choices)
+      character(len=*), intent(in) :: word, choices
+      is_choice = scan(word, ' ') == 0 .and. index(' '//choices//' ', ' '//word//' ') > 0
+   end function is_choice
+
+   !> "a b" to "a', 'b".
+   pure function quoted_list(choices) result(list)
+      character(len=*), intent(in) :: choices
+      character(len=:), allocatable :: list
+      integer :: i
+      list = ''
+      do i = 1, len(choices)
+         if (choices(i:i) == ' ') then
+            list = list//''', '''
+         else
+            list = list//choices(i:i)
+         end if
+      end do
+   end function quoted_list
+end module assigned_values
