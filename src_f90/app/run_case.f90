@@ -4,7 +4,7 @@ module run_case
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error, system_error, stopped
    use integrator_counts, only: integrator_counts_type
-   use cvode_march, only: march, march_options, sample_plan
+   use marching, only: march, march_options, sample_plan
    use spectra, only: one_sided_amplitude, full_amplitude
    use scene, only: scene_type
    use sweep, only: member_tag

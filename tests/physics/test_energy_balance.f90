@@ -154,7 +154,7 @@ program test_energy_balance
    use scene, only: scene_type
    use equations_of_motion, only: new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
-   use cvode_march, only: march, march_options, sample_plan
+   use marching, only: march, march_options, sample_plan
    use integrator_counts, only: integrator_counts_type
    use energy_ledger, only: ledger, energy_of, silent
    use check, only: expect, report

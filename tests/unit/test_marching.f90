@@ -189,11 +189,11 @@ contains
    end subroutine keep_state
 end module march_problems
 
-program test_cvode_march
+program test_marching
    use kinds, only: wp, i8
    use text, only: to_text
    use errors, only: error_type, numerics_error
-   use cvode_march, only: march, march_options, sample_plan
+   use marching, only: march, march_options, sample_plan
    use integrator_counts, only: integrator_counts_type
    use march_problems, only: stiff_cosine, robertson, keeper
    use check, only: expect, expect_close, report
@@ -223,6 +223,7 @@ contains
       real(wp) :: y(3), t
       integer(i8) :: steps
       integer :: k
+      model%n = 3
       plan = sample_plan(0.25_wp, 0.01_wp, 576_i8)
       y = exact(0.0_wp)
       t = 0
@@ -271,6 +272,7 @@ contains
       type(error_type), allocatable :: error
       real(wp) :: y(3)
       integer :: k
+      model%n = 3
       y = exact(0.0_wp)
       call march(model, tolerances(tolerance), 0.0_wp, 6.0_wp, sample_plan(0.0_wp, 0.01_wp, 601_i8), y, observer, &
          & statistics, error)
@@ -310,6 +312,7 @@ contains
       type(error_type), allocatable :: error
       real(wp) :: y(3)
       integer :: k
+      model%n = 3
       plan = sample_plan(0.5_wp, 0.125_wp, 13_i8)
       y = exact(0.5_wp)
       call march(model, tolerances(1e-8_wp), 0.5_wp, 2.0_wp, plan, y, observer, statistics, error)
@@ -332,6 +335,7 @@ contains
       type(integrator_counts_type) :: statistics
       type(error_type), allocatable :: error
       real(wp) :: y(3)
+      model%n = 3
       y = exact(0.0_wp)
       call march(model, tolerances(1e-8_wp), 0.0_wp, 1.0_wp, sample_plan(0.4_wp, 0.1_wp*(1 + 1e-9_wp), 7_i8), y, &
          & observer, statistics, error)
@@ -351,6 +355,7 @@ contains
       type(error_type), allocatable :: error
       real(wp), parameter :: expected(3) = [0.7158270688_wp, 9.185534765e-6_wp, 0.2841637457_wp]
       real(wp) :: y(3)
+      model%n = 3
       options%relative_tolerance = 1e-8_wp
       options%absolute_tolerance = [1e-10_wp, 1e-14_wp, 1e-10_wp]
       y = [1.0_wp, 0.0_wp, 0.0_wp]
@@ -370,6 +375,7 @@ contains
       type(error_type), allocatable :: error
       real(wp) :: y(3)
       integer :: before
+      model%n = 3
       model%refuse_after = 0.5_wp
       y = exact(0.0_wp)
       call march(model, tolerances(1e-6_wp), 0.0_wp, 1.0_wp, sample_plan(0.0_wp, 0.1_wp, 11_i8), y, observer, &
@@ -394,6 +400,7 @@ contains
       type(integrator_counts_type) :: statistics
       type(error_type), allocatable :: error
       real(wp) :: y(3)
+      model%n = 3
       model%refuse_first = 1
       y = exact(0.0_wp)
       call march(model, tolerances(1e-6_wp), 0.0_wp, 1.0_wp, sample_plan(), y, observer, statistics, error)
@@ -408,6 +415,7 @@ contains
       type(march_options) :: options
       type(error_type), allocatable :: error
       real(wp) :: y(3)
+      model%n = 3
       options = tolerances(1e-6_wp)
       options%max_steps = 20
       y = exact(0.0_wp)
@@ -429,6 +437,7 @@ contains
       type(integrator_counts_type) :: statistics
       type(error_type), allocatable :: error
       real(wp) :: y(3)
+      model%n = 3
       observer%stop_at = 3
       y = exact(0.0_wp)
       call march(model, tolerances(1e-6_wp), 0.0_wp, 1.0_wp, sample_plan(0.0_wp, 0.1_wp, 11_i8), y, observer, &
@@ -437,4 +446,4 @@ contains
       if (allocated(error)) call expect(error%message == 'the keeper is full', 'and comes back unchanged')
       call expect(size(observer%t) == 3, 'at once')
    end subroutine observer_stops
-end program test_cvode_march
+end program test_marching

@@ -1,0 +1,340 @@
+!> Integrates an ode_model step by step with CVODE (BDF, Newton). With sundials_context the only file that knows
+!> SUNDIALS.
+module cvode_integrator
+   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
+   use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodereinit, fcvodesvtolerances, fcvodesetuserdata, &
+      & fcvodesetlinearsolver, fcvodesetlinsysfn, fcvodesetlinearsolutionscaling, &
+      & fcvodesetjacevalfrequency, fcvodesetlsetupfrequency, fcvodegetcurrentgamma, &
+      & fcvodesetnonlinconvcoef, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, &
+      & fcvode, fcvodegetdky, fcvodefree, fcvodegetnumrhsevals, &
+      & fcvodegetnumjacevals, fcvodegetnumerrtestfails, fcvodegetnumnonlinsolvconvfails, &
+      & fcvodegetcurrentstep, fcvodegetlastorder, cv_bdf, cv_one_step, cv_err_failure, cv_conv_failure, &
+      & cv_too_much_acc, cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, &
+      & cv_unrec_rhsfunc_err, cv_lsetup_fail
+   use sundials_context, only: index_kind, new_context, free_context, silence, n_vector, fn_vgetarraypointer, &
+      & fn_vdestroy, sunmatrix, fsunmatdestroy, sunlinearsolver, sunlinearsolver_ops, sunlinearsolver_direct, &
+      & fsunlinsolnewempty, fsunlinsolfreeempty
+   use fnvector_serial_mod, only: fn_vmake_serial
+   use fsunmatrix_dense_mod, only: fsundensematrix
+   use kinds, only: wp
+   use text, only: to_text
+   use errors, only: error_type, raise, numerics_error
+   use ode_model, only: ode_model_type
+   use integrator_counts, only: integrator_counts_type
+   use step_history, only: step_history_type, new_step_history
+   implicit none (type, external)
+   private
+   public :: integrator_type, integrator_options
+
+   type :: integrator_options
+      real(wp) :: relative_tolerance = 1e-6_wp
+      !> Absolute tolerance of each state.
+      real(wp), allocatable :: absolute_tolerance(:)
+      !> Longest step, s; 0: no limit.
+      real(wp) :: max_step = 0
+      !> Tolerance of Newton's iteration over that of the error test.
+      real(wp) :: newton_coefficient = 0.1_wp
+   end type integrator_options
+
+   !> What CVODE holds pointers to, and hands back to the callbacks.
+   type :: core_type
+      class(ode_model_type), pointer :: model => null()
+      type(c_ptr) :: context = c_null_ptr, memory = c_null_ptr
+      type(n_vector), pointer :: y_vector => null(), between_vector => null()
+      type(sunmatrix), pointer :: matrix => null()
+      type(sunlinearsolver), pointer :: linear_solver => null()
+      integer(index_kind) :: n = 0
+      !> Time reached and last time, s; the state at the time reached, and one between the ends of the last step.
+      real(c_double) :: t(1) = 0, t_end = 0
+      real(wp), allocatable :: y(:), between(:)
+      !> Newton's last correction of the state.
+      real(wp), allocatable :: correction(:)
+      type(step_history_type) :: outputs
+      !> Order of the last step.
+      integer(c_int) :: order(1) = 0
+      type(integrator_counts_type) :: counts
+   end type core_type
+
+   !> One integration. It owns all it allocates, and must not be copied by assignment.
+   type :: integrator_type
+      private
+      type(core_type), pointer :: core => null()
+   contains
+      procedure :: start
+      procedure :: restart
+      procedure :: step
+      procedure :: time
+      procedure :: state
+      procedure :: interpolate
+      procedure :: counts
+      procedure :: finish
+      final :: finish_last
+   end type integrator_type
+
+   !> Steps after which the derivatives are taken anew (CVODE: 51): they are cheap, and fresh they save steps.
+   integer(c_long), parameter :: derivatives_age = 5
+
+contains
+
+   !> Readies the integration of a model from state y at time t, s, to t_end > t at most. The model is kept as a
+   !> pointer: it must be a target that lives until `finish`. A numerics error where it refuses the state.
+   subroutine start(self, model, options, t, y, t_end, error)
+      class(integrator_type), intent(inout) :: self
+      class(ode_model_type), intent(inout), target :: model
+      class(integrator_options), intent(in) :: options
+      real(wp), intent(in) :: t, y(:), t_end
+      type(error_type), allocatable, intent(out) :: error
+      type(n_vector), pointer :: tolerance_vector
+      type(sunlinearsolver_ops), pointer :: operations
+      real(wp), target :: tolerance(size(y))
+      integer(c_int) :: flag
+
+      call self%finish()
+      allocate (self%core)
+      associate (core => self%core)
+         core%model => model
+         core%n = size(y, kind=index_kind)
+         allocate (core%y, core%between, source=y)
+         core%context = new_context()
+         core%memory = fcvodecreate(cv_bdf, core%context)
+         core%y_vector => fn_vmake_serial(core%n, core%y, core%context)
+         core%between_vector => fn_vmake_serial(core%n, core%between, core%context)
+         flag = fcvodeinit(core%memory, c_funloc(rhs_callback), t, core%y_vector)
+         call silence(core%context, core%memory)
+         flag = fcvodesetuserdata(core%memory, c_loc(core))
+         tolerance = options%absolute_tolerance
+         tolerance_vector => fn_vmake_serial(core%n, tolerance, core%context)
+         flag = fcvodesvtolerances(core%memory, options%relative_tolerance, tolerance_vector)
+         call fn_vdestroy(tolerance_vector)
+         ! the model keeps its matrix and solves; CVODE wants to see one all the same
+         core%matrix => fsundensematrix(1_index_kind, 1_index_kind, core%context)
+         core%linear_solver => fsunlinsolnewempty(core%context)
+         core%linear_solver%content = c_loc(core)
+         call c_f_pointer(core%linear_solver%ops, operations)
+         operations%gettype = c_funloc(solver_type)
+         operations%solve = c_funloc(solve_callback)
+         flag = fcvodesetlinearsolver(core%memory, core%linear_solver, core%matrix)
+         flag = fcvodesetlinsysfn(core%memory, c_funloc(linear_system_callback))
+         ! the model solves with the gamma of the step
+         flag = fcvodesetlinearsolutionscaling(core%memory, 0_c_int)
+         flag = fcvodesetjacevalfrequency(core%memory, derivatives_age)
+         flag = fcvodesetlsetupfrequency(core%memory, derivatives_age)
+         flag = fcvodesetnonlinconvcoef(core%memory, options%newton_coefficient)
+         flag = fcvodesetmaxstep(core%memory, options%max_step)
+      end associate
+      call begin(self%core, t, t_end, error)
+   end subroutine start
+
+   !> Starts anew from another state y and time t, s, with the same model and options; counts begin at 0.
+   subroutine restart(self, t, y, t_end, error)
+      class(integrator_type), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:), t_end
+      type(error_type), allocatable, intent(out) :: error
+      integer(c_int) :: flag
+      self%core%y = y
+      flag = fcvodereinit(self%core%memory, t, self%core%y_vector)
+      call begin(self%core, t, t_end, error)
+   end subroutine restart
+
+   !> What starting and restarting have in common, once CVODE has the state y.
+   subroutine begin(core, t, t_end, error)
+      type(core_type), intent(inout) :: core
+      real(wp), intent(in) :: t, t_end
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: dydt(size(core%y))
+      integer(c_int) :: flag
+      logical :: ok
+      ! shorter steps would not move the time
+      flag = fcvodesetminstep(core%memory, epsilon(t_end)*t_end)
+      flag = fcvodesetstoptime(core%memory, t_end)
+      core%t = t
+      core%t_end = t_end
+      core%order = 0
+      core%counts = integrator_counts_type()
+      core%correction = spread(0.0_wp, 1, size(core%y))
+      call core%model%rhs(t, core%y, dydt, ok)
+      if (.not. ok) call raise(error, numerics_error, failure(core, cv_first_rhsfunc_err))
+      core%outputs = new_step_history(core%model%outputs)
+      call core%outputs%add(t, core%model%output(core%correction))
+   end subroutine begin
+
+   !> Does one step, which ends at t_end at the latest. A numerics error says why there is none.
+   subroutine step(self, error)
+      class(integrator_type), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+      integer(c_int) :: flag
+      associate (core => self%core)
+         if (allocated(core%model%refusal)) deallocate (core%model%refusal)
+         flag = fcvode(core%memory, core%t_end, core%y_vector, core%t, cv_one_step)
+         if (flag < 0) then
+            call raise(error, numerics_error, failure(core, flag))
+            return
+         end if
+         core%counts%steps = core%counts%steps + 1
+         flag = fcvodegetlastorder(core%memory, core%order)
+         call core%outputs%add(core%t(1), core%model%output(core%correction))
+      end associate
+   end subroutine step
+
+   !> Time reached, s.
+   pure real(wp) function time(self)
+      class(integrator_type), intent(in) :: self
+      time = self%core%t(1)
+   end function time
+
+   !> State at the time reached.
+   pure function state(self)
+      class(integrator_type), intent(in) :: self
+      real(wp) :: state(size(self%core%y))
+      state = self%core%y
+   end function state
+
+   !> State and outputs of the model at a time t, s, in the last step; before the first step, at the start. Nothing is
+   !> evaluated for them.
+   subroutine interpolate(self, t, y, output)
+      class(integrator_type), intent(in) :: self
+      real(wp), intent(in) :: t
+      real(wp), intent(out) :: y(:), output(:)
+      integer(c_int) :: flag
+      associate (core => self%core)
+         if (core%counts%steps == 0) then
+            y = core%y
+         else
+            flag = fcvodegetdky(core%memory, t, 0_c_int, core%between_vector)
+            y = core%between
+         end if
+         output = core%outputs%at(t, core%order(1))
+      end associate
+   end subroutine interpolate
+
+   !> What the integration cost since its start or restart.
+   type(integrator_counts_type) function counts(self)
+      class(integrator_type), intent(in) :: self
+      integer(c_long) :: count(1)
+      integer(c_int) :: flag
+      counts = self%core%counts
+      associate (memory => self%core%memory)
+         flag = fcvodegetnumrhsevals(memory, count)
+         counts%rhs_evaluations = count(1)
+         flag = fcvodegetnumjacevals(memory, count)
+         counts%jacobian_evaluations = count(1)
+         flag = fcvodegetnumerrtestfails(memory, count)
+         counts%error_test_failures = count(1)
+         flag = fcvodegetnumnonlinsolvconvfails(memory, count)
+         counts%convergence_failures = count(1)
+      end associate
+   end function counts
+
+   !> Frees what the integration holds; the end of the variable's life does so too.
+   subroutine finish(self)
+      class(integrator_type), intent(inout) :: self
+      if (.not. associated(self%core)) return
+      associate (core => self%core)
+         call fcvodefree(core%memory)
+         call fsunlinsolfreeempty(core%linear_solver)
+         call fsunmatdestroy(core%matrix)
+         call fn_vdestroy(core%between_vector)
+         call fn_vdestroy(core%y_vector)
+         call free_context(core%context)
+      end associate
+      deallocate (self%core)
+   end subroutine finish
+
+   subroutine finish_last(self)
+      type(integrator_type), intent(inout) :: self
+      call self%finish()
+   end subroutine finish_last
+
+   !> Says why there is no further step.
+   function failure(core, flag) result(reason)
+      type(core_type), intent(in) :: core
+      !> What CVODE returned.
+      integer(c_int), intent(in) :: flag
+      character(len=:), allocatable :: reason
+      real(c_double) :: h(1)
+      integer(c_int) :: ignored
+      ignored = fcvodegetcurrentstep(core%memory, h)
+      select case (flag)
+      case (cv_err_failure)
+         reason = 'the error test kept failing'
+      case (cv_conv_failure)
+         reason = 'the Newton iteration kept failing'
+      case (cv_too_much_acc)
+         reason = 'the tolerances are finer than the machine can resolve'
+      case (cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, cv_unrec_rhsfunc_err, &
+         & cv_lsetup_fail)
+         reason = 'the equations of motion could not be evaluated'
+      case default
+         reason = 'CVODE gave up with code '//to_text(int(flag))
+      end select
+      if (allocated(core%model%refusal)) then
+         reason = core%model%refusal//'; '//reason
+      else if (core%model%warning() /= '') then
+         reason = core%model%warning()//'; '//reason
+      end if
+      reason = reason//' (step size '//to_text(h(1))//' s)'
+   end function failure
+
+   !> CVODE's right-hand side function: 0 good, 1 refused, try a shorter step.
+   integer(c_int) function rhs_callback(t, y_vector, dydt_vector, user_pointer) bind(c)
+      real(c_double), value :: t
+      type(n_vector) :: y_vector, dydt_vector
+      type(c_ptr), value :: user_pointer
+      type(core_type), pointer :: core
+      real(c_double), pointer :: y(:), dydt(:)
+      logical :: ok
+      call c_f_pointer(user_pointer, core)
+      y(1:core%n) => fn_vgetarraypointer(y_vector)
+      dydt(1:core%n) => fn_vgetarraypointer(dydt_vector)
+      call core%model%rhs(t, y, dydt, ok)
+      rhs_callback = merge(0_c_int, 1_c_int, ok)
+   end function rhs_callback
+
+   !> CVODE's set-up of the linear systems: new derivatives, unless the last are still good.
+   integer(c_int) function linear_system_callback(t, y_vector, f_vector, matrix, still_good, are_new, gamma, &
+      & user_pointer, work1, work2, work3) bind(c)
+      real(c_double), value :: t, gamma
+      type(n_vector) :: y_vector, f_vector, work1, work2, work3
+      type(sunmatrix) :: matrix
+      integer(c_int), value :: still_good
+      integer(c_int) :: are_new
+      type(c_ptr), value :: user_pointer
+      type(core_type), pointer :: core
+      real(c_double), pointer :: y(:)
+      logical :: ok
+      ok = .true.
+      are_new = merge(0_c_int, 1_c_int, still_good /= 0)
+      if (still_good == 0) then
+         call c_f_pointer(user_pointer, core)
+         y(1:core%n) => fn_vgetarraypointer(y_vector)
+         call core%model%linearize(t, y, ok)
+      end if
+      linear_system_callback = merge(0_c_int, 1_c_int, ok)
+   end function linear_system_callback
+
+   integer(c_int) function solver_type(linear_solver) bind(c)
+      type(sunlinearsolver) :: linear_solver
+      solver_type = sunlinearsolver_direct
+   end function solver_type
+
+   !> CVODE's linear solver: x = (1 - gamma J)^(-1) b.
+   integer(c_int) function solve_callback(linear_solver, matrix, x_vector, b_vector, tolerance) bind(c)
+      type(sunlinearsolver) :: linear_solver
+      type(sunmatrix) :: matrix
+      type(n_vector) :: x_vector, b_vector
+      real(c_double), value :: tolerance
+      type(core_type), pointer :: core
+      real(c_double), pointer :: x(:), b(:)
+      real(c_double) :: gamma(1)
+      integer(c_int) :: flag
+      logical :: ok
+      call c_f_pointer(linear_solver%content, core)
+      x(1:core%n) => fn_vgetarraypointer(x_vector)
+      b(1:core%n) => fn_vgetarraypointer(b_vector)
+      flag = fcvodegetcurrentgamma(core%memory, gamma)
+      x = b
+      call core%model%solve(gamma(1), x, ok)
+      core%correction = x
+      solve_callback = merge(0_c_int, 1_c_int, ok)
+   end function solve_callback
+end module cvode_integrator

@@ -1,0 +1,112 @@
+!> A march: an integration that gives samples, states for checkpoints and its progress to an observer.
+module marching
+   use kinds, only: wp, i8
+   use text, only: to_text
+   use errors, only: error_type, raise, add_context, numerics_error
+   use ode_model, only: ode_model_type
+   use integrator_counts, only: integrator_counts_type
+   use cvode_integrator, only: integrator_type, integrator_options
+   use march_observer, only: march_observer_type
+   implicit none (type, external)
+   private
+   public :: march, march_options, sample_plan
+
+   type, extends(integrator_options) :: march_options
+      !> Most steps before the march gives up.
+      integer(i8) :: max_steps = huge(1_i8)
+   end type march_options
+
+   !> When the observer sees the state: at first + k interval, k = 0 .. count - 1; those before `next` it has seen.
+   type :: sample_plan
+      real(wp) :: first = 0, interval = 0
+      integer(i8) :: count = 0, next = 0
+   contains
+      procedure :: time => sample_time
+   end type sample_plan
+
+   !> Steps between two calls of the observer's report.
+   integer(i8), parameter :: steps_per_report = 64
+
+contains
+
+   !> Time of sample k = 0, 1, ..., s.
+   pure function sample_time(self, k) result(t)
+      class(sample_plan), intent(in) :: self
+      integer(i8), intent(in) :: k
+      real(wp) :: t
+      t = self%first + real(k, wp)*self%interval
+   end function sample_time
+
+   !> Marches y from t_start to t_end, s, or until the observer is satisfied. Numerics errors say why, where and when
+   !> the march stopped; samples taken before them stand.
+   subroutine march(model, options, t_start, t_end, plan, y, observer, counts, error)
+      class(ode_model_type), intent(inout), target :: model
+      type(march_options), intent(in) :: options
+      real(wp), intent(in) :: t_start, t_end
+      type(sample_plan), intent(in) :: plan
+      !> State at t_start on entry, at the time reached on return.
+      real(wp), intent(inout) :: y(:)
+      class(march_observer_type), intent(inout) :: observer
+      type(integrator_counts_type), intent(out) :: counts
+      type(error_type), allocatable, intent(out) :: error
+      type(integrator_type) :: integrator
+      real(wp) :: t
+      integer(i8) :: next
+
+      t = t_start
+      next = plan%next
+      call integrator%start(model, options, t, y, t_end, error)
+      if (allocated(error)) call add_context(error, stopped_at(t, counts%steps))
+      do while (.not. allocated(error))
+         call give_samples(integrator, model, plan, t_end, next, observer, error)
+         if (allocated(error) .or. observer%satisfied .or. t >= t_end) exit
+         if (observer%wants_state()) call observer%take_state(t, integrator%state(), integrator%counts(), error)
+         if (allocated(error)) exit
+         if (counts%steps >= options%max_steps) then
+            call raise(error, numerics_error, 'the march gave up at t = '//to_text(t)//' s, after ' &
+               & //to_text(counts%steps)//' steps (integration%max_steps)')
+            exit
+         end if
+         call integrator%step(error)
+         t = integrator%time()
+         if (allocated(error)) then
+            call add_context(error, stopped_at(t, counts%steps))
+            exit
+         end if
+         counts%steps = counts%steps + 1
+         if (mod(counts%steps, steps_per_report) == 0) call observer%report(t, counts%steps)
+      end do
+      y = integrator%state()
+      counts = integrator%counts()
+   end subroutine march
+
+   !> Gives the observer the samples that the time reached has passed. They never shorten a step.
+   subroutine give_samples(integrator, model, plan, t_end, next, observer, error)
+      type(integrator_type), intent(in) :: integrator
+      class(ode_model_type), intent(in) :: model
+      type(sample_plan), intent(in) :: plan
+      real(wp), intent(in) :: t_end
+      !> Number of the sample that comes next.
+      integer(i8), intent(inout) :: next
+      class(march_observer_type), intent(inout) :: observer
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: y(model%n), output(model%outputs), reached, t
+      reached = integrator%time()
+      do while (next < plan%count)
+         if (plan%time(next) > reached .and. reached < t_end) return
+         ! the last sample may lie a rounding error past the end
+         t = min(plan%time(next), reached)
+         call integrator%interpolate(t, y, output)
+         call observer%sample(t, y, output, error)
+         if (allocated(error) .or. observer%satisfied) return
+         next = next + 1
+      end do
+   end subroutine give_samples
+
+   function stopped_at(t, steps) result(context)
+      real(wp), intent(in) :: t
+      integer(i8), intent(in) :: steps
+      character(len=:), allocatable :: context
+      context = 'the march stopped at t = '//to_text(t)//' s, after '//to_text(steps)//' steps'
+   end function stopped_at
+end module marching
