@@ -9,7 +9,7 @@ import tempfile
 from pathlib import Path
 
 import tiltpad
-from tiltpad.errors import SIGNALS
+from tiltpad.calculate.deviations import SIGNALS
 
 CASES = Path(__file__).resolve().parent.parent / "input/paper"
 

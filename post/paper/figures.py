@@ -23,8 +23,8 @@ from settings import (
     TILTING_ONLY,
     VELOCITIES,
 )
-from tiltpad.layout import PAGE, top_axis
-from tiltpad.units import SHOWN
+from tiltpad.draw.layout import PAGE, top_axis
+from tiltpad.files.units import SHOWN
 
 #: Words of the legend, the run, and what its line looks like.
 Line = tuple[str, tiltpad.Run, dict[str, Any]]

@@ -7,8 +7,8 @@ from matplotlib.figure import Figure
 from measures import stribeck_curve
 from runs import Runs
 from settings import FANG_DIFFERENCES, FANG_LOAD, FANG_PENETRATION, FANG_PIVOT, LAW_DIFFERENCES, LAWS
-from tiltpad.layout import COLUMN, PAGE
-from tiltpad.units import SHOWN
+from tiltpad.draw.layout import COLUMN, PAGE
+from tiltpad.files.units import SHOWN
 
 PENETRATION, FORCE = SHOWN["pad_penetration"], SHOWN["contact_force"]
 

@@ -36,7 +36,7 @@ def sticking(run: Run) -> float:
     sinusoid of the same amplitude is: 1 where the pad swings freely, more where it comes to rest.
     """
     velocity = np.abs(tiltpad.sliding_velocity(run, PAD, LAST)).max()
-    harmonic = 2 / np.pi * np.arcsin(min(1.0, tiltpad.pivots.stick_velocity(run) / velocity))
+    harmonic = 2 / np.pi * np.arcsin(min(1.0, tiltpad.stick_velocity(run) / velocity))
     return tiltpad.stick_fraction(run, PAD, LAST) / harmonic
 
 
@@ -107,10 +107,10 @@ def loop_width(run: Run) -> float:
         speed, share = sense * velocity, sense * coefficient
         top = int(np.argmax(speed))
         speed, share = np.roll(speed[:-1], -top), np.roll(share[:-1], -top)
-        slow = np.flatnonzero(speed <= tiltpad.pivots.stick_velocity(run))
+        slow = np.flatnonzero(speed <= tiltpad.stick_velocity(run))
         if not len(slow):
             continue
-        levels = np.linspace(tiltpad.pivots.stick_velocity(run), 0.95 * speed.max(), 200)
+        levels = np.linspace(tiltpad.stick_velocity(run), 0.95 * speed.max(), 200)
         falling = np.interp(levels, speed[: slow[0] + 1][::-1], share[: slow[0] + 1][::-1])
         rising = np.interp(levels, speed[slow[-1] :], share[slow[-1] :])
         widest = max(widest, float(np.abs(rising - falling).max()))

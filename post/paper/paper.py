@@ -22,7 +22,7 @@ from page import machine, page
 from runs import Runs, run_all
 from settings import FOLDERS, ROOT
 from studies import REUSED, STUDIES
-from tiltpad.plots import STYLE
+from tiltpad.draw.plots import STYLE
 
 #: Pictures by their file's name, with the folder of their runs.
 PICTURES: dict[str, tuple[Callable, str]] = {

@@ -26,8 +26,8 @@ from settings import (
     map_name,
 )
 from tables import digits, table
-from tiltpad.layout import PAGE
-from tiltpad.units import SHOWN
+from tiltpad.draw.layout import PAGE
+from tiltpad.files.units import SHOWN
 
 RPM = SHOWN["speed"].label
 

@@ -5,17 +5,15 @@
     y, z = tiltpad.orbit(run)                     # m
     ax = tiltpad.plots.orbit(run)                 # matplotlib axes
 
-`tiltpad.plots` (one run on one pair of axes) and `tiltpad.figures` (whole pictures) load matplotlib, and
-are loaded when first used.
+`tiltpad.plots` (one run on one pair of axes), `tiltpad.figures` (whole pictures) and the other modules of
+MODULES are loaded when they are first used, most of them with matplotlib.
 """
 
 from importlib import import_module
 from typing import Any
 
-from tiltpad.archive import NotInRunError, RunError
-from tiltpad.collect import Collected, MemberWarning, collect
-from tiltpad.errors import deviations
-from tiltpad.library import (
+from tiltpad.calculate.deviations import deviations
+from tiltpad.calculate.library import (
     Contact,
     LibraryError,
     MissingLibraryError,
@@ -27,7 +25,7 @@ from tiltpad.library import (
     friction_force,
     pressure,
 )
-from tiltpad.pivots import (
+from tiltpad.calculate.pivots import (
     friction_coefficient,
     friction_power,
     friction_work,
@@ -39,8 +37,7 @@ from tiltpad.pivots import (
     stick_velocity,
     sticking,
 )
-from tiltpad.read import IncompleteRunWarning, Run, read
-from tiltpad.signals import (
+from tiltpad.calculate.signals import (
     envelope,
     last_revolutions,
     orbit,
@@ -49,8 +46,11 @@ from tiltpad.signals import (
     revolutions,
     waveform,
 )
-from tiltpad.spectra import full, full_spectrum, one_sided, order_track, spectrum, waterfall
-from tiltpad.study import Study, read_study
+from tiltpad.calculate.spectra import full, full_spectrum, one_sided, order_track, spectrum, waterfall
+from tiltpad.collect.collect import Collected, MemberWarning, collect
+from tiltpad.files.archive import NotInRunError, RunError
+from tiltpad.files.read import IncompleteRunWarning, Run, read
+from tiltpad.files.study import Study, read_study
 
 __all__ = [
     "Collected",
@@ -100,7 +100,15 @@ __all__ = [
 ]
 
 
+#: Modules with a name of their own here, and the floors that they are on.
+MODULES = {
+    **dict.fromkeys(("diagrams", "figures", "plots", "report"), "draw"),
+    "summary": "calculate",
+    "units": "files",
+}
+
+
 def __getattr__(name: str) -> Any:
-    if name in ("diagrams", "figures", "plots"):
-        return import_module(f"tiltpad.{name}")
+    if name in MODULES:
+        return import_module(f"tiltpad.{MODULES[name]}.{name}")
     raise AttributeError(f"module 'tiltpad' has no attribute {name!r}")

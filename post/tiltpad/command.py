@@ -9,12 +9,12 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import Any
 
-from tiltpad.archive import NotInRunError, RunError
-from tiltpad.collect import MemberWarning
-from tiltpad.collect import collect as collected
-from tiltpad.library import LibraryError, MissingLibraryError
-from tiltpad.read import IncompleteRunWarning, read
-from tiltpad.study import read_study
+from tiltpad.calculate.library import LibraryError, MissingLibraryError
+from tiltpad.collect.collect import MemberWarning
+from tiltpad.collect.collect import collect as collected
+from tiltpad.files.archive import NotInRunError, RunError
+from tiltpad.files.read import IncompleteRunWarning, read
+from tiltpad.files.study import read_study
 
 FORMATS = ("png", "pdf", "svg")
 #: Plots of files that are no results of runs.
@@ -124,7 +124,7 @@ def draw(options: argparse.Namespace, output: Path) -> None:
     if options.plot == STUDY:
         draw_study(options, output, form)
         return
-    from tiltpad import figures, plots
+    from tiltpad.draw import figures, plots
 
     with ExitStack() as stack:
         runs = [stack.enter_context(read(path)) for path in options.files]
@@ -139,7 +139,7 @@ def draw(options: argparse.Namespace, output: Path) -> None:
 
 def draw_study(options: argparse.Namespace, output: Path, form: str) -> None:
     """Reads a study, draws it and writes the picture."""
-    from tiltpad import figures, plots
+    from tiltpad.draw import figures, plots
 
     if len(options.files) > 1:
         raise ValueError("study: one file; tiltpad-collect puts several into one")
@@ -156,7 +156,7 @@ def write_report(path: str, output: Path) -> None:
     """Reads the run and writes the page about it."""
     needs_suffix(output, ("html", "htm"))
     matplotlib_for_files()
-    from tiltpad.report import report
+    from tiltpad.draw.report import report
 
     with read(path) as run:
         page = report(run)

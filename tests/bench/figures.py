@@ -10,8 +10,8 @@ from peers import OCTAVE, OWN, SCALED, SCIPY, SHORT, TILTPAD
 from runner import Row
 from settings import ALLOWED, DIAGRAM, FIGURES, FILM_SCENES, MAIN, MODE_CELLS
 from tables import film_time
-from tiltpad.figures import COLUMN, PAGE
-from tiltpad.plots import STYLE
+from tiltpad.draw.layout import COLUMN, PAGE
+from tiltpad.draw.plots import STYLE
 
 #: Colour, mark and words of the diagram's groups.
 LOOKS = {

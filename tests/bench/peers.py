@@ -23,7 +23,7 @@ from settings import (
     PEER_TIGHT,
     TOLERANCE_SPAN,
 )
-from tiltpad.errors import SIGNALS, deviation, natural_scale
+from tiltpad.calculate.deviations import SIGNALS, deviation, natural_scale
 
 HERE = Path(__file__).parent
 PROGRAM = "octave-cli"

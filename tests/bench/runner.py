@@ -11,6 +11,7 @@ from pathlib import Path
 
 import tiltpad
 from settings import ROOT, Scene
+from tiltpad.calculate.deviations import RESTING, natural_scale
 
 #: Seconds after which a run is killed.
 LIMIT = 600
@@ -157,7 +158,6 @@ def deviations(path: Path, reference: Path, whole: bool = False) -> dict[str, fl
 def resting(found: dict, true: tiltpad.Run) -> dict[str, float]:
     """Deviations of an equilibrium, over 5 % of the natural scales."""
     return {
-        name: float(abs(found[name] - true.equilibrium[name]).max())
-        / (tiltpad.errors.RESTING * tiltpad.errors.natural_scale(true, name))
+        name: float(abs(found[name] - true.equilibrium[name]).max()) / (RESTING * natural_scale(true, name))
         for name in ("journal_y", "journal_z", "pad_tilt")
     }

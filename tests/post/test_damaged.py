@@ -14,7 +14,8 @@ import numpy as np
 import pytest
 import tiltpad
 import xarray
-from tiltpad import command, heaps
+from tiltpad import command
+from tiltpad.files import heaps
 
 pytestmark = pytest.mark.usefixtures("closed_figures")
 

@@ -5,6 +5,7 @@ import matplotlib.pyplot as plt
 import pytest
 import tiltpad
 from tiltpad import figures
+from tiltpad.calculate import signals
 
 SECONDS, INTERVAL = 5, 5e-5
 
@@ -60,7 +61,7 @@ def test_the_last_revolutions_need_a_small_part_of_the_file(large, reads, plot):
 
 @pytest.mark.parametrize("plot", ["runup", "size", "orders", "waterfall"])
 def test_the_whole_run_is_read_in_pieces(large, reads, plot, monkeypatch):
-    monkeypatch.setattr(tiltpad.signals, "BLOCK", 4096)
+    monkeypatch.setattr(signals, "BLOCK", 4096)
     run = large("runup")
     reads.clear()
     figures.FIGURES[plot]([run])

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import tiltpad
-from tiltpad import library
+from tiltpad.calculate import library
 
 SCENES = ["lugre", "tilting", "four", "gumbel", "sor", "flooded", "runup"]
 LUGRE = "&friction model='lugre' /"

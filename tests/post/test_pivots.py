@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import tiltpad
-from tiltpad import pivots
+from tiltpad.calculate import pivots
 
 R1 = 13e-3 - 15e-6
 

@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 import pytest
 import tiltpad
-from tiltpad import namelist
+from tiltpad.files import namelist
 
 
 def test_items_and_attributes_are_the_datasets(run, result):

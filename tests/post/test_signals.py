@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import tiltpad
+from tiltpad.calculate import deviations, signals
 
 
 @pytest.mark.parametrize(("count", "samples"), [(1, 361), (2, 721), (0.5, 181), (100, 2341)])
@@ -71,7 +72,7 @@ def test_envelope_holds_every_sample(run):
 
 
 def test_a_run_does_not_deviate_from_itself(run):
-    assert tiltpad.deviations(run("lugre"), run("lugre")) == dict.fromkeys(tiltpad.errors.SIGNALS, 0.0)
+    assert tiltpad.deviations(run("lugre"), run("lugre")) == dict.fromkeys(deviations.SIGNALS, 0.0)
 
 
 def test_deviations_are_over_peak_to_peak_or_natural_scale(run):
@@ -115,7 +116,7 @@ def test_the_poincare_section_of_a_periodic_motion_is_a_point(made):
     np.testing.assert_allclose(section["journal_z"][::2], section["journal_z"][0], rtol=1e-5)
     assert section["journal_z"][0] == pytest.approx(-section["journal_z"][1], rel=1e-4)
     np.testing.assert_allclose(section["pad_tilt"][:, 1], turns, rtol=1e-12)
-    assert set(section) == {"revolution", "time", *tiltpad.signals.STATES}
+    assert set(section) == {"revolution", "time", *signals.STATES}
     with pytest.raises(tiltpad.NotInRunError, match="no Poincare section in this run: it has 0.542 shaft"):
         tiltpad.poincare(made("lugre", 0.005))
 

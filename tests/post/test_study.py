@@ -12,7 +12,9 @@ import numpy as np
 import pytest
 import tiltpad
 import xarray
-from tiltpad import command, namelist, parameters
+from tiltpad import command
+from tiltpad.collect import parameters
+from tiltpad.files import namelist
 
 SCENE = "&case title='Grid' / &operation duration=0.06 / &output samples_per_revolution=60 /"
 SPEEDS, MODELS = [4000, 5000, 6500], ["none", "lugre"]

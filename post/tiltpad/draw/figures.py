@@ -11,8 +11,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
-from tiltpad import diagrams, namelist, pivots, plots, signals
-from tiltpad.layout import (
+from tiltpad.calculate import pivots, signals
+from tiltpad.draw import diagrams, plots
+from tiltpad.draw.layout import (
     COLUMN,
     PAGE,
     drawn,
@@ -30,9 +31,10 @@ from tiltpad.layout import (
     top_axis,
     width,
 )
-from tiltpad.read import Run
-from tiltpad.study import Study
-from tiltpad.units import SHOWN
+from tiltpad.files import namelist
+from tiltpad.files.read import Run
+from tiltpad.files.study import Study
+from tiltpad.files.units import SHOWN
 
 
 def orbit(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:

@@ -6,11 +6,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tiltpad import pivots, signals
-from tiltpad.archive import NotInRunError, RunError, reading
-from tiltpad.parameters import swept
-from tiltpad.read import Run, read
-from tiltpad.study import POINTS, REVOLUTIONS
+from tiltpad.calculate import pivots, signals
+from tiltpad.collect.parameters import swept
+from tiltpad.files.archive import NotInRunError, RunError, reading
+from tiltpad.files.read import Run, read
+from tiltpad.files.study import POINTS, REVOLUTIONS
 
 #: Exit status of a member that was done, and those of one that did not end: running or killed, stopped.
 DONE, UNENDED = 0, (-1, 4)
@@ -28,7 +28,7 @@ class Member(NamedTuple):
         members, sweep    members of the whole sweep, and its own swept values by variable
         input             resolved namelist, None where the file cannot be read
         origin            version, title and input text
-        values            what was measured, by names of tiltpad.study: a number, (pad,), (revolution,),
+        values            what was measured, by names of tiltpad.files.study: a number, (pad,), (revolution,),
                           (revolution, pad)
         cost              the numbers of its group statistics
     """

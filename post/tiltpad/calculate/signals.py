@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tiltpad.archive import NotInRunError, damaged
-from tiltpad.read import Run
+from tiltpad.files.archive import NotInRunError, damaged
+from tiltpad.files.read import Run
 
 #: Samples that are read at once where a whole run is gone through.
 BLOCK = 1 << 16

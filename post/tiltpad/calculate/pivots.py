@@ -6,9 +6,9 @@ Where the scene has no friction all but `sliding_velocity` raise NotInRunError.
 
 import numpy as np
 
-from tiltpad.archive import NotInRunError
-from tiltpad.read import Run
-from tiltpad.signals import last_revolutions, lasted, needs_revolutions, series, turned
+from tiltpad.calculate.signals import last_revolutions, lasted, needs_revolutions, series, turned
+from tiltpad.files.archive import NotInRunError
+from tiltpad.files.read import Run
 
 #: A pivot sticks below this share of the velocity over which its friction falls from static to dynamic.
 STICKING = 0.05

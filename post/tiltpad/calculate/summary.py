@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tiltpad import pivots, signals, spectra
-from tiltpad.archive import NotInRunError
-from tiltpad.read import Run
+from tiltpad.calculate import pivots, signals, spectra
+from tiltpad.files.archive import NotInRunError
+from tiltpad.files.read import Run
 
 #: Revolutions at the end that friction and sticking are averaged over, and spectra taken of.
 LAST = 20

@@ -12,8 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import ConnectionPatch, Rectangle
 
-from tiltpad import namelist, signals
-from tiltpad.read import Run
+from tiltpad.calculate import signals
+from tiltpad.files import namelist
+from tiltpad.files.read import Run
 
 COLUMN, PAGE = 3.35, 6.9  # widths in a paper, inches
 LONGEST_LABEL = 90  # characters

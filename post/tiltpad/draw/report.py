@@ -13,11 +13,12 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from tiltpad import figures, plots, signals, summary
-from tiltpad.archive import NotInRunError
-from tiltpad.library import MissingLibraryError
-from tiltpad.read import Run
-from tiltpad.units import SHOWN
+from tiltpad.calculate import signals, summary
+from tiltpad.calculate.library import MissingLibraryError
+from tiltpad.draw import figures, plots
+from tiltpad.files.archive import NotInRunError
+from tiltpad.files.read import Run
+from tiltpad.files.units import SHOWN
 
 #: Pictures and what is said of them; those that a run cannot have are left out.
 PICTURES = {
@@ -51,7 +52,7 @@ def report(run: Run) -> str:
         section("Input", f"<pre>{escape(run.attributes['input'].strip())}</pre>"),
         section("Cost", statistics(run)),
     ]
-    style = files("tiltpad").joinpath("report.css").read_text(encoding="utf-8")
+    style = files("tiltpad.draw").joinpath("report.css").read_text(encoding="utf-8")
     head = f'<meta charset="utf-8"><title>{escape(title)}</title><style>{style}</style>'
     page = "\n".join(part for part in parts if part)
     return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head>\n<body>\n{page}\n</body></html>\n'

@@ -5,9 +5,9 @@ This is the error that docs/benchmarks.md and docs/verification.md quote.
 
 import numpy as np
 
-from tiltpad.archive import RunError
-from tiltpad.read import Run
-from tiltpad.signals import last_revolutions
+from tiltpad.calculate.signals import last_revolutions
+from tiltpad.files.archive import RunError
+from tiltpad.files.read import Run
 
 #: Journal orbit, pad tilts and friction moments.
 SIGNALS = ("journal_y", "journal_z", "pad_tilt", "friction_moment")

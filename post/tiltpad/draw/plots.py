@@ -16,12 +16,12 @@ from matplotlib.colors import LogNorm
 from matplotlib.patches import Arc, Circle, FancyArrowPatch
 from matplotlib.ticker import MaxNLocator
 
-from tiltpad import library, pivots, signals, spectra
-from tiltpad.read import Run
-from tiltpad.units import SHOWN
+from tiltpad.calculate import library, pivots, signals, spectra
+from tiltpad.files.read import Run
+from tiltpad.files.units import SHOWN
 
 #: Name of the package's own style, for matplotlib.style.use and .context.
-STYLE = "tiltpad.tiltpad"
+STYLE = "tiltpad.draw.tiltpad"
 #: A history of more revolutions is drawn as a band.
 BAND_FROM = 60
 #: States that a Poincare section is drawn in: the journal's y over z, a pad's tilt rate over its tilt.

@@ -7,9 +7,17 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tiltpad.archive import NotInRunError
-from tiltpad.read import Run
-from tiltpad.signals import at_angle, edges, ends, last_revolutions, needs_revolutions, series, steady
+from tiltpad.calculate.signals import (
+    at_angle,
+    edges,
+    ends,
+    last_revolutions,
+    needs_revolutions,
+    series,
+    steady,
+)
+from tiltpad.files.archive import NotInRunError
+from tiltpad.files.read import Run
 
 
 def spectrum(run: Run, name: str = "journal_y") -> tuple[np.ndarray, np.ndarray]:

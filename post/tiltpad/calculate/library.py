@@ -13,9 +13,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tiltpad import signals
-from tiltpad.archive import NotInRunError
-from tiltpad.read import Run
+from tiltpad.calculate import signals
+from tiltpad.files.archive import NotInRunError
+from tiltpad.files.read import Run
 
 try:
     from tiltpad._library import tiltpad_library as compiled

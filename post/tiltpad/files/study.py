@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tiltpad.archive import Archive, RunError, damaged, plain
+from tiltpad.files.archive import Archive, RunError, damaged, plain
 
 #: Dimensions of the arrays.
 MEMBER, PADS = ("member",), ("member", "pad")

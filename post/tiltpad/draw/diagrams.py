@@ -10,10 +10,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 
-from tiltpad.namelist import WORDS
-from tiltpad.plots import on_axes
-from tiltpad.study import POINTS, QUANTITIES, Study
-from tiltpad.units import SHOWN, Shown
+from tiltpad.draw.plots import on_axes
+from tiltpad.files.namelist import WORDS
+from tiltpad.files.study import POINTS, QUANTITIES, Study
+from tiltpad.files.units import SHOWN, Shown
 
 #: Kinds of diagrams.
 KINDS = ("lines", "map", "bifurcation")

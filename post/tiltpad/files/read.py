@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from tiltpad import namelist
-from tiltpad.archive import Archive, RunError, damaged, reading
+from tiltpad.files import namelist
+from tiltpad.files.archive import Archive, RunError, damaged, reading
 
 #: Datasets over which the others are drawn and integrated; they must be finite.
 AXES = ("time", "shaft_angle", "speed", "pivot_angle")

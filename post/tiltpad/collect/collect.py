@@ -16,11 +16,11 @@ from typing import Any, NamedTuple
 import h5py
 import numpy as np
 
-from tiltpad.archive import FORMAT_VERSION, RunError, opened
-from tiltpad.members import DONE, UNENDED, Member, member
-from tiltpad.parameters import differing, parameters
-from tiltpad.read import IncompleteRunWarning, read
-from tiltpad.study import MEMBER, QUANTITIES, Quantity
+from tiltpad.collect.members import DONE, UNENDED, Member, member
+from tiltpad.collect.parameters import differing, parameters
+from tiltpad.files.archive import FORMAT_VERSION, RunError, opened
+from tiltpad.files.read import IncompleteRunWarning, read
+from tiltpad.files.study import MEMBER, QUANTITIES, Quantity
 
 PathLike = str | os.PathLike
 

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tiltpad import namelist
+from tiltpad.files import namelist
 
 #: Names that a result has too.
 TAKEN = ("checkpoint_seconds",)

@@ -15,7 +15,7 @@ import h5py
 import numpy as np
 from h5py import h5t
 
-from tiltpad import heaps
+from tiltpad.files import heaps
 
 #: Newest format_version that this reader knows, of results and of studies.
 FORMAT_VERSION = 1

@@ -1,0 +1,1 @@
+"""How the results of many runs become a study, one file."""
