@@ -151,7 +151,7 @@ bench: build python $(VENV)/ready-bench $(B)/bench/film_bench
 
 # counterparts of the paper's figures, and its claims checked
 paper: build python
-	$(venv_python) post/paper/paper.py $(B)/bin/tiltpad
+	PYTHONPATH=post $(venv_python) -m paper $(B)/bin/tiltpad
 
 # ---- set-up ------------------------------------------------------------------------------------
 deps: build/deps-checked

@@ -9,8 +9,9 @@ from itertools import pairwise
 
 import numpy as np
 import tiltpad
-from laws import fang_force
-from measures import (
+
+from paper.laws import fang_force
+from paper.measures import (
     acceleration,
     breakaway,
     distance,
@@ -24,8 +25,8 @@ from measures import (
     sticking,
     stribeck_curve,
 )
-from runs import Runs
-from settings import (
+from paper.runs import Runs
+from paper.settings import (
     AGREEMENT,
     DIFFERENCES,
     FANG_DIFFERENCES,

@@ -8,9 +8,12 @@ import numpy as np
 import tiltpad
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from measures import of_pad, speed_window, stribeck_curve
-from runs import Runs
-from settings import (
+from tiltpad.draw.layout import PAGE, top_axis
+from tiltpad.files.units import SHOWN
+
+from paper.measures import of_pad, speed_window, stribeck_curve
+from paper.runs import Runs
+from paper.settings import (
     DETAIL,
     DIFFERENCES,
     HIGH_SPEED,
@@ -23,8 +26,6 @@ from settings import (
     TILTING_ONLY,
     VELOCITIES,
 )
-from tiltpad.draw.layout import PAGE, top_axis
-from tiltpad.files.units import SHOWN
 
 #: Words of the legend, the run, and what its line looks like.
 Line = tuple[str, tiltpad.Run, dict[str, Any]]

@@ -4,11 +4,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 import tiltpad
 from matplotlib.figure import Figure
-from measures import stribeck_curve
-from runs import Runs
-from settings import FANG_DIFFERENCES, FANG_LOAD, FANG_PENETRATION, FANG_PIVOT, LAW_DIFFERENCES, LAWS
 from tiltpad.draw.layout import COLUMN, PAGE
 from tiltpad.files.units import SHOWN
+
+from paper.measures import stribeck_curve
+from paper.runs import Runs
+from paper.settings import FANG_DIFFERENCES, FANG_LOAD, FANG_PENETRATION, FANG_PIVOT, LAW_DIFFERENCES, LAWS
 
 PENETRATION, FORCE = SHOWN["pad_penetration"], SHOWN["contact_force"]
 

@@ -2,8 +2,9 @@
 
 import numpy as np
 import tiltpad
-from settings import LAST, PAD
 from tiltpad import Run
+
+from paper.settings import LAST, PAD
 
 
 def size(run: Run) -> float:

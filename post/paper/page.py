@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import studies
-from claims import WHY, Checked
-from runs import Runs
-from settings import AGREEMENT, LAST, REFINED, RESOLUTION, RESTS, SHORT
-from tables import digits, table
+from paper import studies
+from paper.claims import WHY, Checked
+from paper.runs import Runs
+from paper.settings import AGREEMENT, LAST, REFINED, RESOLUTION, RESTS, SHORT
+from paper.tables import digits, table
 
 
 @dataclass(frozen=True)

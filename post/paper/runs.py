@@ -7,7 +7,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import tiltpad
-from settings import ROOT, Scene
+
+from paper.settings import ROOT, Scene
 
 #: Seconds after which a run is killed.
 LIMIT = 120

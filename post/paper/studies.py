@@ -3,13 +3,16 @@
 import matplotlib.pyplot as plt
 import numpy as np
 import tiltpad
-from figures import legend, named, orbit, panels
-from laws import law_text, laws4
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from measures import height, of_pad, peak_to_peak, size
-from runs import Runs
-from settings import (
+from tiltpad.draw.layout import PAGE
+from tiltpad.files.units import SHOWN
+
+from paper.figures import legend, named, orbit, panels
+from paper.laws import law_text, laws4
+from paper.measures import height, of_pad, peak_to_peak, size
+from paper.runs import Runs
+from paper.settings import (
     GRADE,
     GRADES,
     LAST,
@@ -25,9 +28,7 @@ from settings import (
     law_name,
     map_name,
 )
-from tables import digits, table
-from tiltpad.draw.layout import PAGE
-from tiltpad.files.units import SHOWN
+from paper.tables import digits, table
 
 RPM = SHOWN["speed"].label
 

@@ -1,6 +1,7 @@
 """Result files that the tests share: short runs of the program, one a scene."""
 
 import itertools
+import sys
 import warnings
 from pathlib import Path
 
@@ -10,6 +11,8 @@ import pytest
 import tiltpad as package
 
 mpl.use("agg")
+#: The paper's package, post/paper, is not installed.
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "post"))
 
 SCENES = {
     "lugre": "&case title='Steady, it''s LuGre' / &operation duration=0.06 / &friction model='lugre' /",

@@ -1,69 +1,52 @@
 """make paper: its claims can fail, its page has every picture, its scenes are accepted."""
 
-import sys
-from pathlib import Path
-
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import tiltpad as package
+from paper import __main__ as command
+from paper import claims, figures, measures, page
+from paper.runs import Runs, run_all
+from paper.settings import FOLDERS, SCENES, Scene
 
-ROOT = Path(__file__).resolve().parents[2]
 #: Runs of the claims tried here, shortened.
 SHORT = ("operation%duration=0.1", "output%start_time=0.04")
 NAMES = ("steady_to", "steady_tr", "steady_tr_ba", "steady_ba_10_05", "ba_slow")
 
 
 @pytest.fixture(scope="session")
-def modules():
-    """The modules of post/paper by their names."""
-    sys.path.insert(0, str(ROOT / "post/paper"))
-    try:
-        import claims
-        import figures
-        import measures
-        import page
-        import paper
-        import runs
-        import settings
-    finally:
-        sys.path.pop(0)
-    return {each.__name__: each for each in (claims, figures, measures, page, paper, runs, settings)}
-
-
-@pytest.fixture(scope="session")
-def folder(modules, program, tmp_path_factory):
+def folder(program, tmp_path_factory):
     """Folder with the results of some scenes."""
-    settings, place = modules["settings"], tmp_path_factory.mktemp("paper")
-    scenes = [scene for scene in settings.SCENES if scene.name in NAMES]
+    results = tmp_path_factory.mktemp("paper")
+    scenes = [scene for scene in SCENES if scene.name in NAMES]
     assert len(scenes) == len(NAMES)
-    shortened = [settings.Scene(each.name, each.case, (*each.overrides, *SHORT)) for each in scenes]
-    modules["runs"].run_all(program, [(each, place) for each in shortened])
-    return place
+    shortened = [Scene(each.name, each.case, (*each.overrides, *SHORT)) for each in scenes]
+    run_all(program, [(each, results) for each in shortened])
+    return results
 
 
 @pytest.fixture
-def runs(modules, folder):
-    with modules["runs"].Runs(folder) as found:
+def runs(folder):
+    with Runs(folder) as found:
         yield found
 
 
-def judged(modules, name):
+def judged(name):
     """The claim of that name."""
-    return next(each for each in modules["claims"].CLAIMS if each.name == name).judge
+    return next(each for each in claims.CLAIMS if each.name == name).judge
 
 
-def test_claims_hold_in_short_runs(modules, runs):
+def test_claims_hold_in_short_runs(runs):
     for name in (
         "tilting_only_smaller",
         "tilting_only_higher",
         "radial_motion_tilts",
         "friction_enlarges_tilting_radial",
     ):
-        assert judged(modules, name)(runs).holds, name
+        assert judged(name)(runs).holds, name
 
 
-def test_claims_fail_where_they_are_wrong(modules, runs):
+def test_claims_fail_where_they_are_wrong(runs):
     swapped = {"steady_to": runs["steady_tr"], "steady_tr": runs["steady_to"]}
     swapped["steady_tr_ba"] = swapped["steady_tr"]
     for name in (
@@ -72,11 +55,10 @@ def test_claims_fail_where_they_are_wrong(modules, runs):
         "radial_motion_tilts",
         "friction_enlarges_tilting_radial",
     ):
-        assert not judged(modules, name)(swapped).holds, name
+        assert not judged(name)(swapped).holds, name
 
 
-def test_a_difference_within_the_resolution_does_not_count(modules):
-    claims = modules["claims"]
+def test_a_difference_within_the_resolution_does_not_count():
     assert not claims.smaller(0.999).holds
     assert claims.smaller(0.9).holds
     assert not claims.larger(1.001).holds
@@ -84,14 +66,14 @@ def test_a_difference_within_the_resolution_does_not_count(modules):
     assert not claims.Verdict(np.nan, "<", 1).holds
 
 
-def test_a_pad_that_slides_does_not_count_as_stuck(modules, runs):
+def test_a_pad_that_slides_does_not_count_as_stuck(runs):
     stuck = {f"{model}_slow": runs["ba_slow"] for model in ("ba", "lugre")}
     sliding = {f"{model}_slow": runs["steady_tr_ba"] for model in ("ba", "lugre")}
-    assert judged(modules, "stuck_at_low_speed")(stuck).holds
-    assert not judged(modules, "stuck_at_low_speed")(sliding).holds
+    assert judged("stuck_at_low_speed")(stuck).holds
+    assert not judged("stuck_at_low_speed")(sliding).holds
 
 
-def test_sinusoid_does_not_rest(modules, changed):
+def test_sinusoid_does_not_rest(changed):
     """A pad that swings as a sinusoid is slow as long as a sinusoid is."""
 
     def swing(file):
@@ -99,10 +81,10 @@ def test_sinusoid_does_not_rest(modules, changed):
         file["pad_tilt_rate"][...] = 0.05 * np.column_stack([np.cos(phase), np.sin(phase)])
 
     with package.read(changed("lugre", swing)) as run:
-        assert modules["measures"].sticking(run) == pytest.approx(1, rel=1e-2)
+        assert measures.sticking(run) == pytest.approx(1, rel=1e-2)
 
 
-def test_loop_width(modules, changed):
+def test_loop_width(changed):
     """With v = V cos a and mu = 0.06 cos a - 0.02 sin a the branches are 0.04 sin a apart."""
 
     def loop(file):
@@ -115,21 +97,20 @@ def test_loop_width(modules, changed):
     with package.read(changed("lugre", loop)) as run:
         static = run.input["friction"]["static_coefficient"]
         width = 0.04 * np.sin(np.arccos(0.05)) / static
-        assert modules["measures"].loop_width(run) == pytest.approx(width, rel=1e-2)
+        assert measures.loop_width(run) == pytest.approx(width, rel=1e-2)
 
 
-def test_stribeck_curve_is_the_programs(modules, runs):
+def test_stribeck_curve_is_the_programs(runs):
     """The page's own formula against the archived friction of Bengisu-Akay."""
-    assert modules["measures"].off_curve(runs["steady_ba_10_05"]) == pytest.approx(0, abs=1e-6)
+    assert measures.off_curve(runs["steady_ba_10_05"]) == pytest.approx(0, abs=1e-6)
 
 
-def test_page_has_every_picture_and_claim(modules):
-    page, paper, claims = modules["page"], modules["paper"], modules["claims"]
+def test_page_has_every_picture_and_claim():
     shown = {f"fig{name}" for section in page.SECTIONS for name in section.pictures}
-    shown |= {name for name in paper.PICTURES if f"({name}.png)" in page.PAGE}
-    assert shown == set(paper.PICTURES)
-    figures = {"3", "4", "6", "7", "8", "9", "10", "11", "12", "13", "14", "15"}
-    assert figures <= {name.removeprefix("fig") for name in paper.PICTURES}
+    shown |= {name for name in command.PICTURES if f"({name}.png)" in page.PAGE}
+    assert shown == set(command.PICTURES)
+    numbers = {"3", "4", "6", "7", "8", "9", "10", "11", "12", "13", "14", "15"}
+    assert numbers <= {name.removeprefix("fig") for name in command.PICTURES}
     assert set(page.CAPTIONS) == {name for section in page.SECTIONS for name in section.pictures}
     where = [each for section in page.SECTIONS for each in section.where]
     assert len(where) == len(set(where))
@@ -137,8 +118,7 @@ def test_page_has_every_picture_and_claim(modules):
     assert set(claims.WHY) <= {each.name for each in claims.CLAIMS}
 
 
-def test_a_claim_that_fails_is_on_the_page(modules, runs):
-    claims, page = modules["claims"], modules["page"]
+def test_a_claim_that_fails_is_on_the_page(runs):
     claim = next(each for each in claims.CLAIMS if each.name == "sticking_wider_dynamic")
     wrong, right = claims.Verdict(0.9, ">", 1.01), claims.Verdict(1.1, ">", 1.01)
     failed = claims.Checked(claim, wrong, wrong, right)
@@ -151,25 +131,25 @@ def test_a_claim_that_fails_is_on_the_page(modules, runs):
     assert claim.statement in page.rule_changes([failed])
 
 
-def test_scenes_are_accepted(modules, tiltpad):
+def test_scenes_are_accepted(tiltpad, root):
     """Every scene is one that the program takes; names tell them apart."""
-    for scenes in modules["settings"].FOLDERS.values():
+    for scenes in FOLDERS.values():
         assert len({scene.name for scene in scenes}) == len(scenes)
         for scene in scenes:
             options = [word for each in scene.overrides for word in ("--set", each)]
-            done = tiltpad("--check", ROOT / scene.case, *options)
+            done = tiltpad("--check", root / scene.case, *options)
             assert done.returncode == 0, f"{scene.name}: {done.stderr}"
 
 
-def test_failed_run_is_told(modules, program, tmp_path):
-    scene = modules["settings"].Scene("wrong", "input/paper/steady_tr.nml", ("friction%model=glue",))
+def test_failed_run_is_told(program, tmp_path):
+    scene = Scene("wrong", "input/paper/steady_tr.nml", ("friction%model=glue",))
     with pytest.raises(RuntimeError, match=r"wrong: .*glue"):
-        modules["runs"].run_all(program, [(scene, tmp_path)])
+        run_all(program, [(scene, tmp_path)])
 
 
-def test_picture_has_equal_axes_and_units(modules, runs):
+def test_picture_has_equal_axes_and_units(runs):
     with plt.style.context(package.plots.STYLE):
-        fig = modules["figures"].FIGURES["9"](
+        fig = figures.FIGURES["9"](
             {"steady_to_ba": runs["steady_tr_ba"], **{name: runs[name] for name in NAMES[:3]}}
         )
     assert fig.axes[0].get_aspect() == 1

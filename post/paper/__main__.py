@@ -1,6 +1,6 @@
 """The paper, reproduced: runs all scenes, draws counterparts of its figures, checks its claims.
 
-usage: paper.py TILTPAD [--folder FOLDER] [--docs FOLDER] [--keep]
+usage: python -m paper TILTPAD [--folder FOLDER] [--docs FOLDER] [--keep]
 
 Writes the pictures, checks.csv and README.md, the page, into the docs folder.
 """
@@ -13,16 +13,17 @@ from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-import laws
 import matplotlib as mpl
 import matplotlib.pyplot as plt
-from claims import Checked, check
-from figures import FIGURES
-from page import machine, page
-from runs import Runs, run_all
-from settings import FOLDERS, ROOT
-from studies import REUSED, STUDIES
 from tiltpad.draw.plots import STYLE
+
+from paper import laws
+from paper.claims import Checked, check
+from paper.figures import FIGURES
+from paper.page import machine, page
+from paper.runs import Runs, run_all
+from paper.settings import FOLDERS, ROOT
+from paper.studies import REUSED, STUDIES
 
 #: Pictures by their file's name, with the folder of their runs.
 PICTURES: dict[str, tuple[Callable, str]] = {
@@ -32,7 +33,7 @@ PICTURES: dict[str, tuple[Callable, str]] = {
 
 def arguments() -> argparse.Namespace:
     """What the command line says."""
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser = argparse.ArgumentParser(prog="paper", description=__doc__.partition("\n")[0])
     parser.add_argument("program", type=lambda word: Path(word).resolve())
     parser.add_argument("--folder", type=Path, default=Path("build/paper"), help="for the result files")
     parser.add_argument("--docs", type=Path, default=ROOT / "docs/paper", help="where page and pictures go")
