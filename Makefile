@@ -65,6 +65,8 @@ objects := $(addsuffix .o,$(addprefix $(B)/obj/,$(basename $(notdir $(filter-out
            $(B)/obj/build_info.o
 tests   := $(sort $(wildcard tests/unit/test_*.f90 tests/physics/test_*.f90))
 test_programs := $(patsubst %.f90,$(B)/tests/%,$(notdir $(tests)))
+# what they share
+test_modules := $(wildcard tests/*.f90)
 film_bench := tests/bench/film_bench.f90
 fuzz_input := tests/fuzz/fuzz_input.f90
 wrapper := post/wrap/library.f90
@@ -101,7 +103,7 @@ venv_python := $(VENV)/bin/python
 
 help:
 	@echo 'make run      set up, build, run input/paper/steady_lugre.nml, draw it into build/run'
-	@echo 'make test     set up, build, run every test'
+	@echo 'make test     set up, build, run every test; ONLY=sweep: cases with that in program:case, and pytest -k'
 	@echo 'make test-slurm   the job scripts of input/slurm on a real Slurm of one node, two minutes (as root)'
 	@echo 'make stress   random scenes, some minutes; writes docs/stability.md (SCENES=300 SEED=1)'
 	@echo 'make fuzz     cases and arguments of every kind, right and wrong; writes docs/fuzzing.md (MINUTES=5 SEED=1)'
@@ -125,7 +127,8 @@ run: build python
 
 test: build python build/deps-test
 	@$(MAKE) --no-print-directory MODE=debug test-programs build/debug/fuzz/fuzz_input
-	@TILTPAD=$(abspath $(B)/bin/tiltpad) tests/run_all $(VENV)/bin/python build/debug/tests
+	@TILTPAD=$(abspath $(B)/bin/tiltpad) ONLY='$(ONLY)' tests/run_all $(VENV)/bin/python \
+	   $(patsubst %.f90,build/debug/tests/%,$(notdir $(tests)))
 
 # starts munged, slurmctld and slurmd in a temporary folder, and stops them
 test-slurm: build python build/deps-slurm
@@ -255,7 +258,7 @@ $(B)/lib/flags: src_f90/libraries.sh $(B)/flags | build/deps-checked
 $(B)/lib/unused.o: $(B)/lib/flags
 	$(CC) -O1 -fPIC -w -c $(B)/lib/unused.c -o $@
 
-$(B)/tests/%: $(B)/obj/%.o $(B)/obj/check.o $(library)
+$(B)/tests/%: $(B)/obj/%.o $(patsubst tests/%.f90,$(B)/obj/%.o,$(test_modules)) $(library)
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
 
@@ -283,7 +286,7 @@ $(shell awk -v b=$(B)/obj 'FNR == 1 { n = split(FILENAME, part, "/"); sub(/\.[fF
    tolower($$1) == "use" { used = tolower($$2); sub(/,.*/, "", used); uses[this] = uses[this] " " used } \
    END { own["build_info"] = 1; for (f in uses) { split(uses[f], m, " "); line = ""; \
    for (i in m) if (m[i] in own) line = line " " b "/" m[i] ".o"; if (line != "") print b "/" f ".o:" line } }' \
-   $(sources) $(tests) $(film_bench) $(fuzz_input) $(wrapper) tests/check.f90 > $(B)/depend.mk)
+   $(sources) $(tests) $(film_bench) $(fuzz_input) $(wrapper) $(test_modules) > $(B)/depend.mk)
 include $(B)/depend.mk
 
 fortran_style := --line-length 120 --ignore S241,C002,C061,C071

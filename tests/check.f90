@@ -1,24 +1,46 @@
-!> A tiny test frame: counts checks, prints those that fail, and ends with "N passed, N failed".
+!> A small test frame. A program calls its cases by name, each behind `if (runs('name'))`, and ends with `report`.
+!> The environment variable ONLY chooses: cases are run whose `program:case` contains it.
 module check
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: wp
+   use errors, only: error_type
    implicit none (type, external)
    private
-   public :: expect, expect_close, report
+   public :: runs, expect, expect_close, expect_no_error, between, report
 
-   integer :: passed = 0, failed = 0
+   integer :: passed = 0, failed = 0, calls = 0
+   !> "test_sweep:ranges", for messages.
+   character(len=:), allocatable :: this_case
 
 contains
 
-   !> A condition that must hold.
-   subroutine expect(condition, what)
-      logical, intent(in) :: condition
+   !> True where the case is wanted. What is checked from here on is its; its random numbers are the same in every
+   !> run, whatever runs before it, and others in every call.
+   logical function runs(name)
+      character(len=*), intent(in) :: name
+      character(len=200) :: text
+      real(wp) :: first(100)
+      integer :: length, i
+      call get_command_argument(0, text)
+      this_case = trim(text(index(text, '/', back=.true.) + 1:))//':'//name
+      call get_environment_variable('ONLY', text)
+      runs = text == '' .or. index(this_case, trim(text)) > 0
+      calls = calls + 1
+      call random_seed(size=length)
+      call random_seed(put=[(1000*calls + i, i=1, length)])
+      ! the first ones of seeds that are alike are alike
+      call random_number(first)
+   end function runs
+
+   !> What must hold.
+   subroutine expect(holds, what)
+      logical, intent(in) :: holds
       character(len=*), intent(in) :: what
-      if (condition) then
+      if (holds) then
          passed = passed + 1
       else
          failed = failed + 1
-         write (error_unit, '(a)') 'FAILED: '//what
+         write (error_unit, '(a)') 'FAILED: '//this_case//': '//what
       end if
    end subroutine expect
 
@@ -30,6 +52,21 @@ contains
       if (.not. abs(value - expected) <= tolerance) write (error_unit, '(3(a,es23.15))') &
          & '   value ', value, ' expected ', expected, ' tolerance ', tolerance
    end subroutine expect_close
+
+   !> No error is set.
+   subroutine expect_no_error(error, what)
+      type(error_type), allocatable, intent(in) :: error
+      character(len=*), intent(in) :: what
+      call expect(.not. allocated(error), what)
+      if (allocated(error)) write (error_unit, '(a)') '   but: '//error%message
+   end subroutine expect_no_error
+
+   !> A random number of the interval.
+   real(wp) function between(low, high)
+      real(wp), intent(in) :: low, high
+      call random_number(between)
+      between = low + (high - low)*between
+   end function between
 
    !> The last line of every test program.
    subroutine report()

@@ -6,7 +6,7 @@ program test_contact_table
    use text, only: to_text
    use contact_law, only: contact_law_type, contact_point, new_contact_law
    use contact_table, only: contact_table_type, new_contact_table
-   use check, only: expect, expect_close, report
+   use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
    !> Ends of the table, m.
@@ -14,12 +14,10 @@ program test_contact_table
    real(wp), parameter :: differences(*) = [0.0_wp, 1e-8_wp, 1e-6_wp, 15e-6_wp, 30e-6_wp, 1e-3_wp]
    integer :: i
 
-   ! the same numbers in every run
-   call random_init(.true., .false.)
    do i = 1, size(differences)
-      call one_table('fang', differences(i))
+      if (runs('one_table')) call one_table('fang', differences(i))
    end do
-   call one_table('hertz', 15e-6_wp)
+   if (runs('one_table')) call one_table('hertz', 15e-6_wp)
    call report()
 
 contains

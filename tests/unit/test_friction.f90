@@ -4,7 +4,7 @@ program test_friction
    use text, only: to_text
    use friction, only: friction_law, friction_response, no_friction, bengisu_akay_friction, lugre_friction, &
       & default_bristle_damping
-   use check, only: expect, expect_close, report
+   use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
    real(wp), parameter :: fs = 0.1_wp, fd = 0.05_wp, vc = 1e-5_wp, chi = 1000, vs = 1e-3_wp
@@ -14,17 +14,17 @@ program test_friction
    real(wp), parameter :: exponents(*) = [0.5_wp, 1.0_wp, 2.0_wp]
    integer :: i
 
-   call without_friction()
-   call bengisu_akay_values()
-   call bengisu_akay_slopes()
-   call bristle_damping_rule()
+   if (runs('without_friction')) call without_friction()
+   if (runs('bengisu_akay_values')) call bengisu_akay_values()
+   if (runs('bengisu_akay_slopes')) call bengisu_akay_slopes()
+   if (runs('bristle_damping_rule')) call bristle_damping_rule()
    do i = 1, size(exponents)
-      call steady_sliding(exponents(i))
-      call lugre_slopes(exponents(i))
+      if (runs('steady_sliding')) call steady_sliding(exponents(i))
+      if (runs('lugre_slopes')) call lugre_slopes(exponents(i))
    end do
-   call presliding()
-   call closed_cycles()
-   call coulomb_cycle()
+   if (runs('presliding')) call presliding()
+   if (runs('closed_cycles')) call closed_cycles()
+   if (runs('coulomb_cycle')) call coulomb_cycle()
    call report()
 
 contains

@@ -5,7 +5,7 @@ program test_kinematics
    use film_solver, only: film_motion
    use pad_film, only: pad_film_type
    use kinematics, only: pad_place, pad_frame, frame_of, motion_of, motion_slopes, to_global
-   use check, only: expect, expect_close, report
+   use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
    !> The paper's bearing: R_J, c_m, c_r, kappa, m.
@@ -13,15 +13,13 @@ program test_kinematics
    real(wp), parameter :: angles(*) = [-45.0_wp, 225.0_wp, 10.0_wp, 90.0_wp, 137.0_wp]
    integer :: i
 
-   ! the same numbers in every run
-   call random_init(.true., .false.)
    do i = 1, size(angles)
-      call unloaded(place_at(angles(i)))
-      call directions(place_at(angles(i)))
-      call against_geometry(place_at(angles(i)))
-      call rates(place_at(angles(i)))
-      call slopes(place_at(angles(i)))
-      call global_frame(place_at(angles(i)))
+      if (runs('unloaded')) call unloaded(place_at(angles(i)))
+      if (runs('directions')) call directions(place_at(angles(i)))
+      if (runs('against_geometry')) call against_geometry(place_at(angles(i)))
+      if (runs('rates')) call rates(place_at(angles(i)))
+      if (runs('slopes')) call slopes(place_at(angles(i)))
+      if (runs('global_frame')) call global_frame(place_at(angles(i)))
    end do
    call report()
 

@@ -8,24 +8,22 @@ program test_modal_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_gumbel, &
       & cavitation_reynolds
    use auto_film, only: auto_film_type, new_auto_film
-   use check, only: expect, expect_close, report
+   use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
    real(wp), parameter :: speed = 680, clearance = 100e-6_wp, theta_1 = 40*degree, theta_2 = 30*degree
    integer :: i
 
-   ! the same numbers in every run
-   call random_init(.true., .false.)
-   call slopes()
+   if (runs('slopes')) call slopes()
    do i = 0, 3
-      call heated_edge(2**i)
+      if (runs('heated_edge')) call heated_edge(2**i)
    end do
-   call few_modes()
-   call uniform_pressure()
-   call shifted_pressures()
-   call gumbel_clips()
-   call closed_film()
-   call choice()
+   if (runs('few_modes')) call few_modes()
+   if (runs('uniform_pressure')) call uniform_pressure()
+   if (runs('shifted_pressures')) call shifted_pressures()
+   if (runs('gumbel_clips')) call gumbel_clips()
+   if (runs('closed_film')) call closed_film()
+   if (runs('choice')) call choice()
    call report()
 
 contains
@@ -243,10 +241,4 @@ contains
       call expect(auto%counters%sor == 1 .and. auto%counters%modal == 1, 'each is counted')
       call expect(auto%counters%sweeps > 0, 'and so are the eliminations')
    end subroutine choice
-
-   real(wp) function between(low, high)
-      real(wp), intent(in) :: low, high
-      call random_number(between)
-      between = low + (high - low)*between
-   end function between
 end program test_modal_film

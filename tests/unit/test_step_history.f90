@@ -3,11 +3,11 @@ program test_step_history
    use kinds, only: wp
    use text, only: to_text
    use step_history, only: step_history_type, new_step_history
-   use check, only: expect_close, report
+   use check, only: runs, expect_close, report
    implicit none (type, external)
-   call polynomials()
-   call youngest_points()
-   call few_points()
+   if (runs('polynomials')) call polynomials()
+   if (runs('youngest_points')) call youngest_points()
+   if (runs('few_points')) call few_points()
    call report()
 
 contains
