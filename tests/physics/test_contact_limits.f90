@@ -10,8 +10,10 @@ program test_contact_limits
 
    real(wp), parameter :: socket = 13e-3_wp
 
-   if (runs('hertz_limit')) call hertz_limit(15e-6_wp)
-   if (runs('hertz_limit')) call hertz_limit(1e-3_wp)
+   if (runs('hertz_limit')) then
+      call hertz_limit(15e-6_wp)
+      call hertz_limit(1e-3_wp)
+   end if
    if (runs('printed_factor')) call printed_factor()
    if (runs('snug_limit')) call snug_limit()
    if (runs('order_of_differences')) call order_of_differences()

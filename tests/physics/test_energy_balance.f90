@@ -160,10 +160,12 @@ program test_energy_balance
    use check, only: runs, expect, expect_no_error, report
    implicit none (type, external)
 
-   if (runs('balance')) call balance('tilting_radial', 'none', 0.0_wp)
-   if (runs('balance')) call balance('tilting_radial', 'none', 0.05_wp)
-   if (runs('balance')) call balance('tilting_radial', 'lugre', 0.05_wp)
-   if (runs('balance')) call balance('tilting_only', 'none', 0.05_wp)
+   if (runs('balance')) then
+      call balance('tilting_radial', 'none', 0.0_wp)
+      call balance('tilting_radial', 'none', 0.05_wp)
+      call balance('tilting_radial', 'lugre', 0.05_wp)
+      call balance('tilting_only', 'none', 0.05_wp)
+   end if
    call report()
 
 contains

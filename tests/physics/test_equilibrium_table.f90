@@ -16,20 +16,25 @@ program test_equilibrium_table
    real(wp), parameter :: small = 0.08e-6_wp
 
    if (runs('tilting_radial_table')) call tilting_radial_table()
-   if (runs('tilting_only_table')) &
-      & call tilting_only_table(6500.0_wp, [-45.561_wp, 0.0234_wp], [-0.0920_wp, 0.9159_wp], 41.514_wp)
-   if (runs('tilting_only_table')) &
-      & call tilting_only_table(3000.0_wp, [-64.229_wp, 0.0174_wp], [-0.2848_wp, 1.1362_wp], 29.154_wp)
-   if (runs('tilting_only_table')) &
-      & call tilting_only_table(1500.0_wp, [-77.619_wp, 0.0129_wp], [-0.4295_wp, 1.2879_wp], 20.261_wp)
+   if (runs('tilting_only_table')) then
+      call tilting_only_table(6500.0_wp, [-45.561_wp, 0.0234_wp], [-0.0920_wp, 0.9159_wp], 41.514_wp)
+      call tilting_only_table(3000.0_wp, [-64.229_wp, 0.0174_wp], [-0.2848_wp, 1.1362_wp], 29.154_wp)
+      call tilting_only_table(1500.0_wp, [-77.619_wp, 0.0129_wp], [-0.4295_wp, 1.2879_wp], 20.261_wp)
+   end if
    if (runs('grid_convergence')) call grid_convergence()
-   if (runs('independent_balance')) call independent_balance('tilting_radial')
-   if (runs('independent_balance')) call independent_balance('tilting_only')
+   if (runs('independent_balance')) then
+      call independent_balance('tilting_radial')
+      call independent_balance('tilting_only')
+   end if
    if (runs('turned_bearing')) call turned_bearing()
-   if (runs('wide_range')) call wide_range('tilting_radial')
-   if (runs('wide_range')) call wide_range('tilting_only')
-   if (runs('no_equilibrium')) call no_equilibrium('tilting_radial')
-   if (runs('no_equilibrium')) call no_equilibrium('tilting_only')
+   if (runs('wide_range')) then
+      call wide_range('tilting_radial')
+      call wide_range('tilting_only')
+   end if
+   if (runs('no_equilibrium')) then
+      call no_equilibrium('tilting_radial')
+      call no_equilibrium('tilting_only')
+   end if
    call report()
 
 contains

@@ -63,7 +63,8 @@ contains
                call expect(group%states >= 25, 'enough states, '//trim(shape_names(shape_class))//': ' &
                   & //to_text(group%states))
                call expect(group%error <= tolerance, to_text(group%above)//' of '//to_text(group%states)//' ' &
-                  & //trim(shape_names(shape_class))//' pads, '//trim(kinds_of_load(load))//', worst '//described(group))
+                  & //trim(shape_names(shape_class))//' pads, '//trim(kinds_of_load(load))//', worst ' &
+                  & //described(group))
                if (group%error > all_states%error) then
                   all_states%state = group%state
                   all_states%error = group%error

@@ -33,22 +33,25 @@ program test_film_rupture
       & journal_path([-5*um, 30*um], [0.0_wp, 30*um], [20*um, 0.0_wp], still)]
    integer :: i
 
-   if (runs('guembel')) call guembel('diverging', pad(.false.), film_motion([10*um, 50*um], still))
-   if (runs('guembel')) call guembel('diverging, flooded', pad(.true.), film_motion([10*um, 50*um], still))
-   if (runs('guembel')) call guembel('diverging all over', pad(.false.), film_motion([20*um, 60*um], still))
-   if (runs('guembel')) call guembel('narrowest at the pivot', pad(.false.), film_motion([0.0_wp, 70*um], still))
-   if (runs('guembel')) call guembel('opening', pad(.false.), film_motion([-20*um, 50*um], [0.0_wp, -6e-3_wp]))
-   if (runs('guembel')) call guembel('opening, flooded', pad(.true.), film_motion([-20*um, 50*um], [0.0_wp, -6e-3_wp]))
-   if (runs('guembel')) &
-      & call guembel('opening fast, flooded', pad(.true.), film_motion([-20*um, 50*um], [0.0_wp, -40e-3_wp]))
-   if (runs('guembel')) call guembel('turning', pad(.false.), film_motion([-20*um, 50*um], [20e-3_wp, -10e-3_wp]))
-   if (runs('guembel')) call guembel('unloaded', pad(.false.), film_motion([1*um, -30*um], still))
-   if (runs('guembel')) call guembel('unloaded, flooded', pad(.true.), film_motion([20*um, -30*um], still))
+   if (runs('guembel')) then
+      call guembel('diverging', pad(.false.), film_motion([10*um, 50*um], still))
+      call guembel('diverging, flooded', pad(.true.), film_motion([10*um, 50*um], still))
+      call guembel('diverging all over', pad(.false.), film_motion([20*um, 60*um], still))
+      call guembel('narrowest at the pivot', pad(.false.), film_motion([0.0_wp, 70*um], still))
+      call guembel('opening', pad(.false.), film_motion([-20*um, 50*um], [0.0_wp, -6e-3_wp]))
+      call guembel('opening, flooded', pad(.true.), film_motion([-20*um, 50*um], [0.0_wp, -6e-3_wp]))
+      call guembel('opening fast, flooded', pad(.true.), film_motion([-20*um, 50*um], [0.0_wp, -40e-3_wp]))
+      call guembel('turning', pad(.false.), film_motion([-20*um, 50*um], [20e-3_wp, -10e-3_wp]))
+      call guembel('unloaded', pad(.false.), film_motion([1*um, -30*um], still))
+      call guembel('unloaded, flooded', pad(.true.), film_motion([20*um, -30*um], still))
+   end if
    if (runs('modal_slopes')) call modal_slopes()
    if (runs('auto_slopes')) call auto_slopes()
    do i = 1, size(paths)
-      if (runs('onset')) call onset(paths(i), 60, 15)
-      if (runs('onset')) call onset(paths(i), 120, 30)
+      if (runs('onset')) then
+         call onset(paths(i), 60, 15)
+         call onset(paths(i), 120, 30)
+      end if
       if (runs('no_chatter')) call no_chatter(paths(i))
    end do
    call report()

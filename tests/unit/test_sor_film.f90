@@ -20,15 +20,19 @@ program test_sor_film
       if (runs('uniform_pressure')) call uniform_pressure(kinds_of_rupture(i))
       if (runs('shifted_pressures')) call shifted_pressures(kinds_of_rupture(i))
    end do
-   if (runs('nothing_left')) call nothing_left(cavitation_gumbel)
-   if (runs('nothing_left')) call nothing_left(cavitation_reynolds)
+   if (runs('nothing_left')) then
+      call nothing_left(cavitation_gumbel)
+      call nothing_left(cavitation_reynolds)
+   end if
    if (runs('closed_film')) call closed_film()
    if (runs('sweep_cap')) call sweep_cap()
-   if (runs('relaxation_is_near_best')) call relaxation_is_near_best(60, 15, 0.1_wp)
-   if (runs('relaxation_is_near_best')) call relaxation_is_near_best(40, 10, 0.1_wp)
-   if (runs('relaxation_is_near_best')) call relaxation_is_near_best(24, 6, 0.1_wp)
-   if (runs('relaxation_is_near_best')) call relaxation_is_near_best(60, 15, 0.05_wp)
-   if (runs('relaxation_is_near_best')) call relaxation_is_near_best(60, 15, 0.3_wp)
+   if (runs('relaxation_is_near_best')) then
+      call relaxation_is_near_best(60, 15, 0.1_wp)
+      call relaxation_is_near_best(40, 10, 0.1_wp)
+      call relaxation_is_near_best(24, 6, 0.1_wp)
+      call relaxation_is_near_best(60, 15, 0.05_wp)
+      call relaxation_is_near_best(60, 15, 0.3_wp)
+   end if
    if (runs('pads_are_apart')) call pads_are_apart()
    call report()
 

@@ -17,10 +17,14 @@ program test_spectra
       if (runs('against_direct_full_transform')) call against_direct_full_transform(lengths(i))
       if (runs('parseval')) call parseval(lengths(i))
    end do
-   if (runs('sines')) call sines(64)
-   if (runs('sines')) call sines(99)
-   if (runs('whirl')) call whirl(64)
-   if (runs('whirl')) call whirl(99)
+   if (runs('sines')) then
+      call sines(64)
+      call sines(99)
+   end if
+   if (runs('whirl')) then
+      call whirl(64)
+      call whirl(99)
+   end if
    call report()
 
 contains
