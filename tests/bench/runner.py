@@ -141,7 +141,7 @@ def count(row: Row, path: Path) -> None:
             counts = run.statistics
             row.steps, row.rhs = int(counts["steps"]), int(counts["rhs_evaluations"])
             row.jacobians = int(counts["jacobian_evaluations"])
-            row.finite_volumes = int(counts["film_sor"])
+            row.finite_volumes = int(counts["film_volumes"])
             row.film_evaluations = int(counts["film_modal"]) + row.finite_volumes
             row.film_seconds = float(counts["film_seconds"])
             row.march_seconds = float(counts["wall_seconds"] - counts["output_seconds"])

@@ -51,7 +51,7 @@ def test_parameters_and_results_are_those_of_the_members(study, copy):
     np.testing.assert_array_equal(study.member, range(1, 7))
     np.testing.assert_array_equal(study.speed_rpm, np.repeat(SPEEDS, 2))
     assert list(study["model"]) == MODELS * 3
-    assert (study.title, study.task, study.format_version, study.members) == ("Grid", "study", 1, 6)
+    assert (study.title, study.task, study.format_version, study.members) == ("Grid", "study", 2, 6)
     for k in (0, 5):
         with tiltpad.read(copy / f"{k + 1:04d}.h5") as run:
             y, z = tiltpad.orbit_size(run)

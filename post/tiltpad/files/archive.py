@@ -18,7 +18,9 @@ from h5py import h5t
 from tiltpad.files import heaps
 
 #: Newest format_version that this reader knows, of results and of studies.
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
+#: Names in files of format_version 1 that are others today: today's name, and the one in the file.
+NAMES_OF_1 = {"film_volumes": "film_sor", "film_passes": "sor_sweeps"}
 #: Attributes of every file, and those that are numbers.
 REQUIRED = ("version", "created", "title", "task", "input")
 NUMBERS = ("format_version", "complete", "exit_status", "resumes", "member", "members")
@@ -41,6 +43,8 @@ class Archive:
 
     #: Kinds of numpy's types that its datasets may have.
     KINDS = "fiu"
+    #: What it sets itself: where such an attribute is missing, it is not looked for in the file.
+    OWN = ("file", "path", "attributes", "former", "found", "listed", "size")
 
     def __init__(self, path: str | os.PathLike):
         self.path = os.fspath(path)
@@ -55,6 +59,7 @@ class Archive:
                     name: plain(attrs[name]) for name in attrs if simple(attrs, name)
                 }
             check_origin(self.path, self.attributes)
+            self.former = NAMES_OF_1 if self.attributes["format_version"] == 1 else {}
             self.check_whole()
         except BaseException:
             self.file.close()
@@ -64,7 +69,15 @@ class Archive:
         return self.values(name)
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("_") or name in ("file", "path", "attributes", "found", "listed", "size"):
+        if name.startswith("_") or name in (
+            "file",
+            "path",
+            "attributes",
+            "former",
+            "found",
+            "listed",
+            "size",
+        ):
             raise AttributeError(name)
         return self.attributes[name] if name in self.attributes else self.values(name)
 
@@ -90,8 +103,10 @@ class Archive:
         """Names of the datasets and groups in the file or in a group of it, in alphabetical order."""
         if group not in self.listed:
             found = self.item(group) if group else self.file
+            today = {own: name for name, own in self.former.items()}
             with reading(self.path, group or "the list of datasets"):
-                self.listed[group] = [plain(name) for name in found] if isinstance(found, h5py.Group) else []
+                there = [plain(name) for name in found] if isinstance(found, h5py.Group) else []
+            self.listed[group] = sorted(today.get(own, own) for own in there)
         return self.listed[group]
 
     def values(self, name: str, part: slice | int = slice(None)) -> Any:
@@ -110,7 +125,8 @@ class Archive:
                 missing = name if group in self else group
                 raise NotInRunError(self.without(missing))
             with reading(self.path, name):
-                found = self.file[name]
+                group, slash, own = name.rpartition("/")
+                found = self.file[group + slash + self.former.get(own, own)]
                 if not isinstance(found, h5py.Group):
                     self.check_dataset(name, found)
             self.found[name] = found
