@@ -10,7 +10,7 @@ module check
 
    integer :: passed = 0, failed = 0, calls = 0
    !> "test_sweep:ranges", for messages.
-   character(len=:), allocatable :: this_case
+   character(len=300) :: this_case = 'outside a case'
 
 contains
 
@@ -40,7 +40,7 @@ contains
          passed = passed + 1
       else
          failed = failed + 1
-         write (error_unit, '(a)') 'FAILED: '//this_case//': '//what
+         write (error_unit, '(a)') 'FAILED: '//trim(this_case)//': '//what
       end if
    end subroutine expect
 

@@ -1,17 +1,18 @@
 !> Rupture of the film: the Reynolds condition as a complementarity problem, and the order of the models.
 program test_cavitation
-   use kinds, only: wp, degree
+   use kinds, only: wp
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_ok
    use pad_film, only: pad_film_type
    use film_grid, only: film_grid_type, new_film_grid
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel, &
       & cavitation_reynolds
+   use paper_bearing, only: offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
    integer, parameter :: nx = 40, nz = 8
-   real(wp), parameter :: speed = 680, clearance = 100e-6_wp, tolerance = 1e-9_wp
+   real(wp), parameter :: tolerance = 1e-9_wp
    integer :: i
 
    do i = 1, 12
@@ -26,7 +27,7 @@ contains
 
    pure type(pad_film_type) function pad(rupture)
       real(wp), intent(in) :: rupture
-      pad = pad_film_type(49.9e-3_wp, clearance, 0.1_wp, 40*degree, 30*degree, 19e-3_wp, 3e5_wp, 1e5_wp, rupture)
+      pad = offset_pad([3e5_wp, 1e5_wp, rupture])
    end function pad
 
    subroutine solve(rupture, cavitation, motion, solver, r)

@@ -3,8 +3,9 @@
 program test_contact_limits
    use kinds, only: wp, pi
    use text, only: to_text
-   use contact_law, only: contact_law_type, contact_point, new_contact_law
+   use contact_law, only: contact_law_type, contact_point
    use contact_table, only: contact_table_type, new_contact_table
+   use paper_bearing, only: paper_law
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
@@ -22,13 +23,6 @@ program test_contact_limits
 
 contains
 
-   function steel(name, difference, factor) result(law)
-      character(len=*), intent(in) :: name
-      real(wp), intent(in) :: difference, factor
-      class(contact_law_type), allocatable :: law
-      law = new_contact_law(name, socket, difference, [2.1e11_wp, 2.1e11_wp], [0.3_wp, 0.3_wp], factor)
-   end function steel
-
    !> With the factor 2 pi, a small contact is Hertz's. By (13), F = eta a/(2 k B (n + 1)), and by (14)
    !> a**2 (g dR + C)/dR is Hertz's a**2 2/pi, with g = 2/pi + (a/R2)**2 and C/dR = 1.28/pi ... (a/R2)**3:
    !> the force falls short by pi/4 (a/R2)**2 and terms of the third order, and n -> 1/2 within
@@ -39,8 +33,8 @@ contains
       type(contact_point) :: f, h
       real(wp) :: eta, ratio, deficit
       integer :: k
-      fang = steel('fang', difference, 2*pi)
-      hertz = steel('hertz', difference, 2*pi)
+      fang = paper_law('fang', difference, 2*pi)
+      hertz = paper_law('hertz', difference, 2*pi)
       do k = 0, 5
          ! contact radii of 4 to 0.1 hundredths of the socket's
          ratio = 0.04_wp/2**k
@@ -62,8 +56,8 @@ contains
    subroutine printed_factor()
       class(contact_law_type), allocatable :: printed, consistent
       integer :: e
-      printed = steel('fang', 15e-6_wp, 4.0_wp)
-      consistent = steel('fang', 15e-6_wp, 2*pi)
+      printed = paper_law('fang', 15e-6_wp)
+      consistent = paper_law('fang', 15e-6_wp, 2*pi)
       do e = -3, 6
          call expect_close(printed%penetration(10.0_wp**e)/consistent%penetration(10.0_wp**e), 2/pi, 1e-13_wp, &
             & 'printed over consistent factor at 1e'//to_text(e)//' N')
@@ -77,10 +71,10 @@ contains
       type(contact_point) :: point, limit
       real(wp) :: gap(8:10)
       integer :: e
-      snug = steel('fang', 0.0_wp, 4.0_wp)
+      snug = paper_law('fang', 0.0_wp)
       limit = snug%at(3e-6_wp)
       do e = 8, 10
-         law = steel('fang', 10.0_wp**(-e), 4.0_wp)
+         law = paper_law('fang', 10.0_wp**(-e))
          point = law%at(3e-6_wp)
          gap(e) = 1 - point%force/limit%force
          call expect(gap(e) > 0, 'any gap is softer than none')
@@ -89,7 +83,7 @@ contains
       call expect_close(gap(8)/gap(9), 10.0_wp, 1.0_wp, 'first order in dR')
       call expect_close(gap(9)/gap(10), 10.0_wp, 0.1_wp, 'first order in dR, further down')
       ! the law changes over at dR = 1e-9 R2: no step but the law's own slope there
-      law = steel('fang', 1.001e-9_wp*socket, 4.0_wp)
+      law = paper_law('fang', 1.001e-9_wp*socket)
       point = law%at(3e-6_wp)
       call expect_close(point%force/limit%force, 1.0_wp, 1.01_wp*gap(10)*0.13_wp, 'no step where the limit is taken')
    end subroutine snug_limit
@@ -102,7 +96,7 @@ contains
       integer :: e, k
       do e = 0, 6
          do k = 1, size(differences)
-            law = steel('fang', differences(k), 4.0_wp)
+            law = paper_law('fang', differences(k))
             depth(k) = law%penetration(10.0_wp**e)
          end do
          call expect(all(depth(2:) > depth(:size(depth) - 1)), 'looser is deeper at 1e'//to_text(e)//' N')
@@ -115,8 +109,8 @@ contains
       type(contact_table_type) :: hertz_table, snug_table
       real(wp) :: force, slope, eta
       integer :: k
-      hertz = steel('hertz', 15e-6_wp, 4.0_wp)
-      snug = steel('fang', 0.0_wp, 4.0_wp)
+      hertz = paper_law('hertz', 15e-6_wp)
+      snug = paper_law('fang', 0.0_wp)
       hertz_table = new_contact_table(hertz)
       snug_table = new_contact_table(snug)
       do k = 1, 4

@@ -1,15 +1,15 @@
 !> Pads so long or so narrow that the Reynolds equation has one dimension left: forces against quadrature
 !> and closed forms, with the second-order convergence of the grid.
 program test_film_limits
-   use kinds, only: wp, degree
+   use kinds, only: wp
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_ok
    use pad_film, only: pad_film_type
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none
+   use paper_bearing, only: offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
-   real(wp), parameter :: speed = 680, clearance = 100e-6_wp
    !> Wedge alone; squeeze alone; both, with the journal towards either edge.
    type(film_motion), parameter :: motions(4) = [film_motion([-3e-5_wp, 4e-5_wp], [0.0_wp, 0.0_wp]), &
       & film_motion([0.0_wp, 5e-5_wp], [2e-3_wp, 8e-3_wp]), film_motion([-2e-5_wp, 5e-5_wp], [-4e-3_wp, 6e-3_wp]), &
@@ -28,7 +28,7 @@ contains
    !> The paper's pad but for its length and pivot, with pressures at the leading edge and elsewhere.
    pure type(pad_film_type) function pad(length, supply, ambient)
       real(wp), intent(in) :: length, supply, ambient
-      pad = pad_film_type(49.9e-3_wp, clearance, length, 40*degree, 30*degree, 19e-3_wp, supply, ambient, 0.0_wp)
+      pad = offset_pad([supply, ambient, 0.0_wp], length)
    end function pad
 
    !> Force on a grid of nx by 4 cells, converged far below the error of the grid.

@@ -1,16 +1,16 @@
 !> The film of a pad of ordinary shape against an independent, much finer solution: axial harmonics, each
 !> on a fine circumferential grid with extrapolation. Orders of convergence of both film solvers.
 program test_film_order
-   use kinds, only: wp, pi, degree
+   use kinds, only: wp, pi
    use text, only: to_text
    use film_solver, only: film_solver_type, film_motion, film_response, film_ok
    use pad_film, only: pad_film_type
    use sor_film, only: sor_options, new_sor_film, cavitation_none
    use modal_film, only: new_modal_film
+   use paper_bearing, only: paper_pad, speed, clearance
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
-   real(wp), parameter :: speed = 680, clearance = 100e-6_wp
    type(film_motion), parameter :: motions(3) = [film_motion([-2e-5_wp, 4e-5_wp], [0.0_wp, 0.0_wp]), &
       & film_motion([-4e-5_wp, 4e-5_wp], [0.0_wp, 0.0_wp]), film_motion([-2e-5_wp, 5e-5_wp], [-4e-3_wp, 6e-3_wp])]
    real(wp), parameter :: lengths(3) = [0.1_wp, 0.05_wp, 0.2_wp]
@@ -24,12 +24,6 @@ program test_film_order
    call report()
 
 contains
-
-   pure type(pad_film_type) function pad(length)
-      real(wp), intent(in) :: length
-      pad = pad_film_type(49.9e-3_wp, clearance, length, 0.5_wp*69.3_wp*degree, 0.5_wp*69.3_wp*degree, 19e-3_wp, &
-         & 0.0_wp, 0.0_wp, 0.0_wp)
-   end function pad
 
    !> p = sum over odd m of q_m(phi) cos(m pi Z/L); each q_m solves (h^3 q')' - (m pi R/L)^2 h^3 q = b_m r with
    !> b_m = 4/(m pi) (-1)^((m-1)/2), central differences on n cells and elimination; then its integral over
@@ -85,7 +79,7 @@ contains
    subroutine reference_is_fine()
       type(pad_film_type) :: film
       real(wp) :: coarse(2), fine(2)
-      film = pad(0.1_wp)
+      film = paper_pad(length=0.1_wp)
       coarse = (4*harmonics_force(film, motions(3), 400) - harmonics_force(film, motions(3), 200))/3
       fine = reference_force(film, motions(3))
       call expect_close(norm2(coarse - fine), 0.0_wp, 1e-7_wp*norm2(fine), 'the reference has converged')
@@ -112,10 +106,10 @@ contains
       character(len=:), allocatable :: what
       integer :: k
       what = ', L = '//to_text(length)
-      reference = reference_force(pad(length), motion)
+      reference = reference_force(paper_pad(length=length), motion)
       do k = 0, 3
-         solver = new_sor_film([pad(length)], sor_options(20*2**k, 5*2**k, tolerance=1e-8_wp, max_sweeps=100000, &
-            & cavitation=cavitation_none))
+         solver = new_sor_film([paper_pad(length=length)], sor_options(20*2**k, 5*2**k, tolerance=1e-8_wp, &
+            & max_sweeps=100000, cavitation=cavitation_none))
          force(:, k) = solver_force(solver, motion)
          found(k) = norm2(force(:, k) - reference)/norm2(reference)
       end do
@@ -144,12 +138,12 @@ contains
       type(film_motion), intent(in) :: motion
       class(film_solver_type), allocatable :: solver
       real(wp) :: reference(2), coarse, fine, usual
-      reference = reference_force(pad(length), motion)
-      solver = new_modal_film([pad(length)], 24, 200, gumbel=.false.)
+      reference = reference_force(paper_pad(length=length), motion)
+      solver = new_modal_film([paper_pad(length=length)], 24, 200, gumbel=.false.)
       coarse = norm2(solver_force(solver, motion) - reference)/norm2(reference)
-      solver = new_modal_film([pad(length)], 48, 200, gumbel=.false.)
+      solver = new_modal_film([paper_pad(length=length)], 48, 200, gumbel=.false.)
       fine = norm2(solver_force(solver, motion) - reference)/norm2(reference)
-      solver = new_modal_film([pad(length)], 24, 8, gumbel=.false.)
+      solver = new_modal_film([paper_pad(length=length)], 24, 8, gumbel=.false.)
       usual = norm2(solver_force(solver, motion) - reference)/norm2(reference)
       call expect(fine < 0.25_wp*coarse + 1e-7_wp, 'modes converge, L = '//to_text(length)//': '//to_text(coarse) &
          & //' '//to_text(fine))

@@ -1,7 +1,7 @@
 !> Films that rupture: Guembel's condition by modes against over-relaxation, slopes where part of the film is
 !> gone, and the onset of rupture under the solver that chooses.
 program test_film_rupture
-   use kinds, only: wp, i8, pi, degree
+   use kinds, only: wp, i8, pi
    use text, only: to_text
    use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_ok
    use pad_film, only: pad_film_type
@@ -9,10 +9,10 @@ program test_film_rupture
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel
    use direct_film, only: direct_film_type, new_direct_film
    use auto_film, only: auto_film_type, new_auto_film
+   use paper_bearing, only: offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
-   real(wp), parameter :: speed = 680, clearance = 100e-6_wp
    integer, parameter :: cells = 24, modes = 8
    !> Error of the modes' force where the film is whole.
    real(wp), parameter :: modal_error = 1e-4_wp
@@ -61,7 +61,7 @@ contains
    !> The paper's pad with its pivot off the middle; dry: every pressure is that of rupture.
    pure type(pad_film_type) function pad(flooded)
       logical, intent(in) :: flooded
-      pad = pad_film_type(49.9e-3_wp, clearance, 0.1_wp, 40*degree, 30*degree, 19e-3_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+      pad = offset_pad()
       if (.not. flooded) return
       pad%supply_pressure = supply
       pad%ambient_pressure = ambient

@@ -3,6 +3,7 @@ program test_contact_law
    use kinds, only: wp, pi
    use text, only: to_text
    use contact_law, only: contact_law_type, contact_point, new_contact_law
+   use paper_bearing, only: paper_law
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
@@ -35,14 +36,6 @@ program test_contact_law
    call report()
 
 contains
-
-   !> The paper's pivot (Table 2) with a radius difference.
-   function paper_law(name, difference) result(law)
-      character(len=*), intent(in) :: name
-      real(wp), intent(in) :: difference
-      class(contact_law_type), allocatable :: law
-      law = new_contact_law(name, socket, difference, young, poisson, 4.0_wp)
-   end function paper_law
 
    !> Values of an independent solution, to the digits it gives.
    subroutine check_values()

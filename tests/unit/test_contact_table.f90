@@ -4,8 +4,9 @@ program test_contact_table
    use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_invalid
    use kinds, only: wp
    use text, only: to_text
-   use contact_law, only: contact_law_type, contact_point, new_contact_law
+   use contact_law, only: contact_law_type, contact_point
    use contact_table, only: contact_table_type, new_contact_table
+   use paper_bearing, only: paper_law
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
@@ -28,7 +29,7 @@ contains
       class(contact_law_type), allocatable :: law
       type(contact_table_type) :: table
       character(len=:), allocatable :: what
-      law = new_contact_law(name, 13e-3_wp, difference, [2.1e11_wp, 2.1e11_wp], [0.3_wp, 0.3_wp], 4.0_wp)
+      law = paper_law(name, difference)
       table = new_contact_table(law)
       what = ' ('//name//', dR = '//to_text(difference)//')'
       call against_law(law, table, what)

@@ -1,15 +1,15 @@
 !> The film by elimination against over-relaxation of the same equations, its slopes, and its starts.
 program test_direct_film
-   use kinds, only: wp, degree
+   use kinds, only: wp
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_counters, film_ok, film_closed
    use pad_film, only: pad_film_type
    use direct_film, only: direct_film_type, new_direct_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_reynolds
+   use paper_bearing, only: paper_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
-   real(wp), parameter :: speed = 680, clearance = 100e-6_wp
    integer, parameter :: grids(2, 3) = reshape([24, 6, 30, 9, 12, 2], [2, 3])
    integer :: i
 
@@ -29,13 +29,6 @@ program test_direct_film
    call report()
 
 contains
-
-   !> The paper's pad with pressures at the leading edge, at the others, at rupture.
-   pure type(pad_film_type) function paper_pad(pressures)
-      real(wp), intent(in) :: pressures(3)
-      paper_pad = pad_film_type(49.9e-3_wp, clearance, 0.1_wp, 0.5_wp*69.3_wp*degree, 0.5_wp*69.3_wp*degree, &
-         & 19e-3_wp, pressures(1), pressures(2), pressures(3))
-   end function paper_pad
 
    !> A film that converges or diverges, with squeeze of either sign.
    type(film_motion) function random_motion()
@@ -137,10 +130,10 @@ contains
       type(film_motion) :: motion
       type(film_response) :: r, expected
       integer :: trial
-      warm = new_direct_film(paper_pad([0.0_wp, 0.0_wp, 0.0_wp]), 60, 15)
+      warm = new_direct_film(paper_pad(), 60, 15)
       do trial = 1, 50
          motion = random_motion()
-         cold = new_direct_film(paper_pad([0.0_wp, 0.0_wp, 0.0_wp]), 60, 15)
+         cold = new_direct_film(paper_pad(), 60, 15)
          call warm%evaluate(motion, speed, .true., .false., counters, r)
          call cold%evaluate(motion, speed, .true., .false., counters, expected)
          call expect_close(norm2(r%force - expected%force), 0.0_wp, 1e-12_wp*norm2(expected%force), 'any start')
@@ -155,7 +148,7 @@ contains
       type(film_counters) :: counters
       type(film_motion) :: motion
       type(film_response) :: r, before
-      direct = new_direct_film(paper_pad([0.0_wp, 0.0_wp, 0.0_wp]), 24, 6)
+      direct = new_direct_film(paper_pad(), 24, 6)
       motion%position = clearance*[-0.2_wp, 0.3_wp]
       call direct%evaluate(motion, speed, .true., .true., counters, before)
       motion%velocity = [0.0_wp, -10*clearance*speed]
@@ -171,7 +164,7 @@ contains
       type(direct_film_type) :: direct
       type(film_counters) :: counters
       type(film_response) :: r
-      direct = new_direct_film(paper_pad([0.0_wp, 0.0_wp, 0.0_wp]), 24, 6)
+      direct = new_direct_film(paper_pad(), 24, 6)
       call direct%evaluate(film_motion([0.0_wp, clearance], [0.0_wp, 0.0_wp]), speed, .true., .true., counters, r)
       call expect(r%status == film_closed, 'a closed film is refused')
    end subroutine closed_film

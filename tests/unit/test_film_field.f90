@@ -7,10 +7,11 @@ program test_film_field
    use modal_film, only: modal_film_type, new_modal_film
    use sor_film, only: sor_film_type, new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
    use auto_film, only: auto_film_type, new_auto_film
+   use paper_bearing, only: offset_pad, speed
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
-   real(wp), parameter :: speed = 680, clearance = 100e-6_wp, theta_1 = 40*degree, theta_2 = 30*degree
+   real(wp), parameter :: theta_1 = 40*degree, theta_2 = 30*degree
    real(wp), parameter :: length = 0.1_wp, um = 1e-6_wp
    !> Points along the arc and across half the width, in the middle of equal parts: what the midpoint rule leaves
    !> of an integral is a few 1e-6 of it.
@@ -30,12 +31,6 @@ program test_film_field
    call report()
 
 contains
-
-   !> The paper's pad with its pivot off the middle; pressures at the leading edge, and at the others.
-   pure type(pad_film_type) function pad(supply, ambient)
-      real(wp), intent(in) :: supply, ambient
-      pad = pad_film_type(49.9e-3_wp, clearance, length, theta_1, theta_2, 19e-3_wp, supply, ambient, 0.0_wp)
-   end function pad
 
    !> Angles in the middle of equal parts of the arc, (angle, 1).
    pure function angles()
@@ -80,15 +75,15 @@ contains
    subroutine force_of_modes()
       type(modal_film_type) :: solver
       real(wp) :: coarse
-      solver = new_modal_film([pad(0.0_wp, 0.0_wp)], 8, 8, gumbel=.false.)
+      solver = new_modal_film([offset_pad()], 8, 8, gumbel=.false.)
       coarse = missing(solver, whole)
-      solver = new_modal_film([pad(0.0_wp, 0.0_wp)], 24, 8, gumbel=.false.)
+      solver = new_modal_film([offset_pad()], 24, 8, gumbel=.false.)
       call expect_close(missing(solver, whole), 0.0_wp, 1e-5_wp, 'integral of the modes')
       call expect(missing(solver, whole) < 0.1_wp*coarse, 'integral with a third of the cells')
-      solver = new_modal_film([pad(3e5_wp, 1e5_wp)], 24, 16, gumbel=.false.)
+      solver = new_modal_film([offset_pad([3e5_wp, 1e5_wp, 0.0_wp])], 24, 16, gumbel=.false.)
       call expect_close(missing(solver, whole), 0.0_wp, 1e-4_wp, 'integral of the modes, flooded')
       call expect_close(missing(solver, torn), 0.0_wp, 1e-3_wp, 'integral of the modes, tension')
-      solver = new_modal_film([pad(0.0_wp, 0.0_wp)], 24, 8, gumbel=.true.)
+      solver = new_modal_film([offset_pad()], 24, 8, gumbel=.true.)
       call expect_close(missing(solver, torn), 0.0_wp, 1e-3_wp, 'integral of the clipped modes')
       call expect(minval(field_of(solver, torn)) >= 0, 'nothing below the pressure of rupture')
       call expect(any(field_of(solver, torn) <= 0), 'and some at it')
@@ -107,7 +102,7 @@ contains
       do k = 0, 2
          do i = 1, 2
             do level = 1, 2
-               solver = new_sor_film([pad(0.0_wp, 0.0_wp)], sor_options(30*level, 8*level, tolerance=1e-10_wp, &
+               solver = new_sor_film([offset_pad()], sor_options(30*level, 8*level, tolerance=1e-10_wp, &
                   & cavitation=kinds(k)))
                error(level) = missing(solver, motions(i))
             end do
@@ -126,7 +121,7 @@ contains
       real(wp), allocatable :: p(:, :)
       integer :: i
       motions = [whole, slight, torn, unloaded]
-      solver = new_auto_film([pad(0.0_wp, 0.0_wp)], 24, 8, 80, 8)
+      solver = new_auto_film([offset_pad()], 24, 8, 80, 8)
       do i = 1, size(motions)
          p = field_of(solver, motions(i))
          call expect_close(missing(solver, motions(i)), 0.0_wp, tolerances(i), 'integral of auto, motion '//to_text(i))
@@ -145,19 +140,19 @@ contains
       real(wp), allocatable :: p(:, :), q(:, :)
       type(film_motion) :: motions(3)
       integer :: i
-      modes = new_modal_film([pad(0.0_wp, 0.0_wp)], 24, 8, gumbel=.false.)
-      volumes = new_sor_film([pad(0.0_wp, 0.0_wp)], fine(cavitation_none))
+      modes = new_modal_film([offset_pad()], 24, 8, gumbel=.false.)
+      volumes = new_sor_film([offset_pad()], fine(cavitation_none))
       p = field_of(modes, whole)
       q = field_of(volumes, whole)
       call expect_close(maxval(abs(p - q)), 0.0_wp, 1e-3_wp*maxval(q), 'modes against over-relaxation')
-      modes = new_modal_film([pad(4e6_wp, 1e6_wp)], 24, 16, gumbel=.false.)
-      volumes = new_sor_film([pad(4e6_wp, 1e6_wp)], fine(cavitation_none))
+      modes = new_modal_film([offset_pad([4e6_wp, 1e6_wp, 0.0_wp])], 24, 16, gumbel=.false.)
+      volumes = new_sor_film([offset_pad([4e6_wp, 1e6_wp, 0.0_wp])], fine(cavitation_none))
       p = field_of(modes, whole)
       q = field_of(volumes, whole)
       p(175:, 392:) = q(175:, 392:)
       call expect_close(maxval(abs(p - q)), 0.0_wp, 3e-3_wp*maxval(q), 'modes against over-relaxation, flooded')
-      auto = new_auto_film([pad(0.0_wp, 0.0_wp)], 24, 8, 80, 8)
-      volumes = new_sor_film([pad(0.0_wp, 0.0_wp)], fine(cavitation_reynolds))
+      auto = new_auto_film([offset_pad()], 24, 8, 80, 8)
+      volumes = new_sor_film([offset_pad()], fine(cavitation_reynolds))
       motions = [slight, torn, unloaded]
       do i = 1, size(motions)
          p = field_of(auto, motions(i))
@@ -177,9 +172,9 @@ contains
       type(modal_film_type) :: modes
       type(sor_film_type) :: volumes
       type(auto_film_type) :: auto
-      modes = new_modal_film([pad(3e5_wp, 3e5_wp)], 24, 8, gumbel=.false.)
-      volumes = new_sor_film([pad(3e5_wp, 3e5_wp)], sor_options(24, 8, tolerance=1e-13_wp))
-      auto = new_auto_film([pad(3e5_wp, 3e5_wp)], 24, 8, 24, 8)
+      modes = new_modal_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
+      volumes = new_sor_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], sor_options(24, 8, tolerance=1e-13_wp))
+      auto = new_auto_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], 24, 8, 24, 8)
       call expect_close(unevenness(modes), 0.0_wp, 1e-9_wp, 'uniform pressure, modes')
       call expect_close(unevenness(volumes), 0.0_wp, 1e-9_wp, 'uniform pressure, volumes')
       call expect_close(unevenness(auto), 0.0_wp, 1e-9_wp, 'uniform pressure, auto')
@@ -203,7 +198,7 @@ contains
       arc = theta_1 + theta_2
       x = [0.0_wp, 1e-4_wp, 0.01_wp, 0.2_wp]*arc
       phi(:, 1) = theta_1 - x
-      solver = new_modal_film([pad(rise, 0.0_wp)], 24, 16, gumbel=.false.)
+      solver = new_modal_film([offset_pad([rise, 0.0_wp, 0.0_wp])], 24, 16, gumbel=.false.)
       call solver%field([film_motion([0.0_wp, 0.0_wp])], 0.0_wp, phi, z, p)
       do i = 1, 4
          exact = rise*plate(z, x(i))
@@ -227,7 +222,7 @@ contains
       real(wp), allocatable :: p(:, :, :)
       real(wp) :: phi(along, 2)
       allocate (p(across, along, 2))
-      films = pad(0.0_wp, 0.0_wp)
+      films = offset_pad()
       films(2)%leading_angle = theta_2
       films(2)%trailing_angle = theta_1
       phi(:, 1) = reshape(angles(), [along])

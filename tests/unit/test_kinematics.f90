@@ -5,6 +5,7 @@ program test_kinematics
    use film_solver, only: film_motion
    use pad_film, only: pad_film_type
    use kinematics, only: pad_place, pad_frame, frame_of, motion_of, motion_slopes, to_global
+   use paper_bearing, only: offset_pad
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
@@ -35,7 +36,7 @@ contains
    end function place_at
 
    pure type(pad_film_type) function film()
-      film = pad_film_type(journal_radius, c_m, 0.1_wp, 40*degree, 30*degree, 19e-3_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+      film = offset_pad()
    end function film
 
    !> Film thickness at angle phi from the pivot, with everything at rest.

@@ -8,10 +8,11 @@ program test_modal_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_gumbel, &
       & cavitation_reynolds
    use auto_film, only: auto_film_type, new_auto_film
+   use paper_bearing, only: offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
-   real(wp), parameter :: speed = 680, clearance = 100e-6_wp, theta_1 = 40*degree, theta_2 = 30*degree
+   real(wp), parameter :: theta_1 = 40*degree, theta_2 = 30*degree
    integer :: i
 
    if (runs('slopes')) call slopes()
@@ -27,12 +28,6 @@ program test_modal_film
    call report()
 
 contains
-
-   !> The paper's pad with its pivot off the middle; pressures at the leading edge, elsewhere, at rupture.
-   pure type(pad_film_type) function pad(supply, ambient, rupture)
-      real(wp), intent(in) :: supply, ambient, rupture
-      pad = pad_film_type(49.9e-3_wp, clearance, 0.1_wp, theta_1, theta_2, 19e-3_wp, supply, ambient, rupture)
-   end function pad
 
    type(film_motion) function random_motion()
       random_motion%position = clearance*[between(-0.5_wp, 0.2_wp), between(0.0_wp, 0.6_wp)]
@@ -59,7 +54,7 @@ contains
       type(film_response) :: r, at(4)
       real(wp) :: scale(4), expected(2), worst
       integer :: trial, column, k
-      solver = new_modal_film([pad(2e5_wp, 1e5_wp, 0.0_wp)], 24, 8, gumbel=.false.)
+      solver = new_modal_film([offset_pad([2e5_wp, 1e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
       scale = clearance*[1.0_wp, 1.0_wp, speed, speed]
       worst = 0
       do trial = 1, 20
@@ -110,7 +105,7 @@ contains
             & *(integral(lambda, theta_1) - decay*integral(lambda, -theta_2) &
             & - decay**2*integral(-lambda, theta_1) + decay*integral(-lambda, -theta_2))
       end do
-      solver = new_modal_film([pad(rise, 0.0_wp, 0.0_wp)], 96, modes, gumbel=.false.)
+      solver = new_modal_film([offset_pad([rise, 0.0_wp, 0.0_wp])], 96, modes, gumbel=.false.)
       r = answer(solver, film_motion([0.0_wp, 0.0_wp]), 0.0_wp)
       call expect_close(norm2(r%force - exact), 0.0_wp, 0.02_wp/modes**3*norm2(exact), 'pressure at the edge, modes ' &
          & //to_text(modes))
@@ -133,10 +128,10 @@ contains
       type(film_motion) :: motion
       integer :: k
       motion = film_motion([-2e-5_wp, 4e-5_wp], [1e-3_wp, -2e-3_wp])
-      solver = new_modal_film([pad(0.0_wp, 0.0_wp, 0.0_wp)], 96, 12, gumbel=.false.)
+      solver = new_modal_film([offset_pad()], 96, 12, gumbel=.false.)
       most = answer(solver, motion, speed)
       do k = 0, 2
-         solver = new_modal_film([pad(0.0_wp, 0.0_wp, 0.0_wp)], 96, 2**k, gumbel=.false.)
+         solver = new_modal_film([offset_pad()], 96, 2**k, gumbel=.false.)
          few = answer(solver, motion, speed)
          call expect_close(norm2(few%force - most%force), 0.0_wp, 2*0.1_wp**(k + 2)*norm2(most%force), &
             & 'tail of modes beyond '//to_text(2**k))
@@ -149,7 +144,7 @@ contains
       type(modal_film_type) :: solver
       type(film_response) :: r
       real(wp) :: exact(2)
-      solver = new_modal_film([pad(p, p, 0.0_wp)], 24, 8, gumbel=.false.)
+      solver = new_modal_film([offset_pad([p, p, 0.0_wp])], 24, 8, gumbel=.false.)
       r = answer(solver, film_motion([-2e-5_wp, 4e-5_wp]), 0.0_wp)
       exact = -p*0.1_wp*50e-3_wp*[cos(theta_2) - cos(theta_1), sin(theta_1) + sin(theta_2)]
       call expect_close(norm2(r%force - exact), 0.0_wp, 1e-7_wp*norm2(exact), 'force of a uniform pressure')
@@ -164,9 +159,9 @@ contains
       type(film_response) :: low, high
       real(wp) :: force(2)
       type(film_motion), parameter :: motion = film_motion([-1e-5_wp, 5e-5_wp], [1e-3_wp, -2e-3_wp])
-      solver = new_modal_film([pad(2e5_wp, 1e5_wp, 0.0_wp)], 24, 8, gumbel=.false.)
+      solver = new_modal_film([offset_pad([2e5_wp, 1e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
       low = answer(solver, motion, speed)
-      solver = new_modal_film([pad(2e5_wp + shift, 1e5_wp + shift, shift)], 24, 8, gumbel=.false.)
+      solver = new_modal_film([offset_pad([2e5_wp + shift, 1e5_wp + shift, shift])], 24, 8, gumbel=.false.)
       high = answer(solver, motion, speed)
       force = -shift*0.1_wp*50e-3_wp*[cos(theta_2) - cos(theta_1), sin(theta_1) + sin(theta_2)]
       call expect_close(norm2(high%force - low%force - force), 0.0_wp, 1e-7_wp*norm2(force), &
@@ -185,8 +180,8 @@ contains
       type(film_response) :: r, r_clipped, r_fine
       type(film_motion), parameter :: pressed = film_motion([-3e-5_wp, 5e-5_wp], [0.0_wp, 2e-3_wp])
       type(film_motion), parameter :: torn = film_motion([1e-5_wp, 5e-5_wp], [0.0_wp, 0.0_wp])
-      whole = new_modal_film([pad(1e5_wp, 1e5_wp, 0.0_wp)], 24, 8, gumbel=.false.)
-      clipped = new_modal_film([pad(1e5_wp, 1e5_wp, 0.0_wp)], 24, 8, gumbel=.true.)
+      whole = new_modal_film([offset_pad([1e5_wp, 1e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
+      clipped = new_modal_film([offset_pad([1e5_wp, 1e5_wp, 0.0_wp])], 24, 8, gumbel=.true.)
       r = answer(whole, pressed, speed)
       r_clipped = answer(clipped, pressed, speed)
       call expect(r%min_pressure > 0, 'a pressed film is whole')
@@ -194,7 +189,7 @@ contains
       call expect_close(norm2(r%force - r_clipped%force), 0.0_wp, 1e-4_wp*norm2(r%force), 'nothing to clip')
       r = answer(whole, torn, speed)
       r_clipped = answer(clipped, torn, speed)
-      fine = new_sor_film([pad(1e5_wp, 1e5_wp, 0.0_wp)], sor_options(120, 30, tolerance=1e-8_wp, &
+      fine = new_sor_film([offset_pad([1e5_wp, 1e5_wp, 0.0_wp])], sor_options(120, 30, tolerance=1e-8_wp, &
          & cavitation=cavitation_gumbel))
       call fine%evaluate_pad(1, torn, speed, .false., r_fine)
       call expect(-r_clipped%force(2) > -r%force(2), 'clipping takes tension away')
@@ -205,7 +200,7 @@ contains
    subroutine closed_film()
       type(modal_film_type) :: solver
       type(film_response) :: r
-      solver = new_modal_film([pad(0.0_wp, 0.0_wp, 0.0_wp)], 24, 8, gumbel=.false.)
+      solver = new_modal_film([offset_pad()], 24, 8, gumbel=.false.)
       r = answer(solver, film_motion([0.0_wp, 1.1_wp*clearance]), speed)
       call expect(r%status == film_closed, 'a journal in the pad closes the film')
       call expect_close(r%min_film, -0.1_wp*clearance, 1e-18_wp, 'by how much')
@@ -223,7 +218,7 @@ contains
       type(sor_options) :: options
       type(film_response) :: r(2), by_modes(2), by_cells
       type(film_motion) :: motion(2)
-      films = pad(0.0_wp, 0.0_wp, 0.0_wp)
+      films = offset_pad()
       options = sor_options(24, 6, tolerance=1e-12_wp, cavitation=cavitation_reynolds)
       auto = new_auto_film(films, 24, 8, options%circumferential_cells, options%axial_cells)
       modal = new_modal_film(films, 24, 8, gumbel=.false.)

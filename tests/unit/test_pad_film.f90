@@ -4,10 +4,9 @@ program test_pad_film
    use text, only: to_text
    use film_solver, only: film_motion
    use pad_film, only: pad_film_type
+   use paper_bearing, only: paper_pad, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
-
-   real(wp), parameter :: clearance = 100e-6_wp
 
    if (runs('sizes')) call sizes()
    if (runs('known_thickness')) call known_thickness()
@@ -25,8 +24,9 @@ contains
    !> The paper's pad with a leading and a trailing angle in degrees.
    pure type(pad_film_type) function pad(leading, trailing)
       real(wp), intent(in) :: leading, trailing
-      pad = pad_film_type(49.9e-3_wp, clearance, 0.1_wp, leading*degree, trailing*degree, 19e-3_wp, &
-         & 0.0_wp, 0.0_wp, 0.0_wp)
+      pad = paper_pad()
+      pad%leading_angle = leading*degree
+      pad%trailing_angle = trailing*degree
    end function pad
 
    subroutine sizes()

@@ -6,10 +6,10 @@ program test_sor_film
    use pad_film, only: pad_film_type
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel, &
       & cavitation_reynolds
+   use paper_bearing, only: paper_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
-   real(wp), parameter :: speed = 680, clearance = 100e-6_wp
    integer, parameter :: kinds_of_rupture(*) = [cavitation_none, cavitation_gumbel, cavitation_reynolds]
    character(len=*), parameter :: names(0:2) = [character(len=8) :: 'none', 'gumbel', 'reynolds']
    integer :: i
@@ -37,13 +37,6 @@ program test_sor_film
    call report()
 
 contains
-
-   !> The paper's pad, with an axial length and pressures at the leading edge, at the others, at rupture.
-   pure type(pad_film_type) function paper_pad(length, pressures)
-      real(wp), intent(in) :: length, pressures(3)
-      paper_pad = pad_film_type(49.9e-3_wp, clearance, length, 0.5_wp*69.3_wp*degree, 0.5_wp*69.3_wp*degree, &
-         & 19e-3_wp, pressures(1), pressures(2), pressures(3))
-   end function paper_pad
 
    pure type(sor_options) function options(cavitation, tolerance)
       integer, intent(in) :: cavitation
@@ -80,7 +73,7 @@ contains
       real(wp) :: scale(4), expected(2), worst
       integer :: trial, compared, ruptured, column, k
       logical :: same
-      solver = new_sor_film([paper_pad(0.1_wp, [2e5_wp, 1e5_wp, 0.0_wp])], options(cavitation, 1e-12_wp))
+      solver = new_sor_film([paper_pad([2e5_wp, 1e5_wp, 0.0_wp])], options(cavitation, 1e-12_wp))
       scale = clearance*[1.0_wp, 1.0_wp, speed, speed]
       compared = 0
       ruptured = 0
@@ -133,13 +126,13 @@ contains
       type(film_motion) :: motion
       real(wp) :: worst
       integer :: trial
-      warm = new_sor_film([paper_pad(0.1_wp, [0.0_wp, 0.0_wp, 0.0_wp])], options(cavitation, tolerance))
+      warm = new_sor_film([paper_pad()], options(cavitation, tolerance))
       worst = 0
       do trial = 1, 10
          call warm%evaluate_pad(1, random_motion(), speed, .true., other)
          motion = carrying_motion()
          call warm%evaluate_pad(1, motion, speed, .true., from_warm)
-         cold = new_sor_film([paper_pad(0.1_wp, [0.0_wp, 0.0_wp, 0.0_wp])], options(cavitation, tolerance))
+         cold = new_sor_film([paper_pad()], options(cavitation, tolerance))
          call cold%evaluate_pad(1, motion, speed, .true., from_cold)
          worst = max(worst, norm2(from_warm%force - from_cold%force)/norm2(from_cold%force))
          worst = max(worst, norm2(from_warm%slope(:, 1:2) - from_cold%slope(:, 1:2))/norm2(from_cold%slope(:, 1:2)))
@@ -156,7 +149,7 @@ contains
       type(sor_film_type) :: solver
       type(film_response) :: r
       real(wp) :: exact
-      solver = new_sor_film([paper_pad(0.1_wp, [p, p, 0.0_wp])], options(cavitation, 1e-12_wp))
+      solver = new_sor_film([paper_pad([p, p, 0.0_wp])], options(cavitation, 1e-12_wp))
       call solver%evaluate_pad(1, film_motion([-2e-5_wp, 4e-5_wp]), 0.0_wp, .false., r)
       exact = -p*0.1_wp*50e-3_wp*2*sin(half)
       call expect_close(maxval(abs(solver%pressure_field(1)/p - 1)), 0.0_wp, 1e-10_wp, 'uniform pressure, ' &
@@ -176,8 +169,8 @@ contains
       type(film_motion) :: motion
       real(wp) :: force
       motion = film_motion([1e-5_wp, 5e-5_wp], [1e-3_wp, -2e-3_wp])
-      solver = new_sor_film([paper_pad(0.1_wp, [2e5_wp, 1e5_wp, 0.0_wp])], options(cavitation, 1e-8_wp))
-      raised = new_sor_film([paper_pad(0.1_wp, [2e5_wp, 1e5_wp, 0.0_wp] + shift)], options(cavitation, 1e-8_wp))
+      solver = new_sor_film([paper_pad([2e5_wp, 1e5_wp, 0.0_wp])], options(cavitation, 1e-8_wp))
+      raised = new_sor_film([paper_pad([2e5_wp, 1e5_wp, 0.0_wp] + shift)], options(cavitation, 1e-8_wp))
       call solver%evaluate_pad(1, motion, speed, .true., r)
       call raised%evaluate_pad(1, motion, speed, .true., raised_r)
       force = -shift*0.1_wp*50e-3_wp*2*sin(half)*(0.5_wp*d)/sin(0.5_wp*d)
@@ -201,7 +194,7 @@ contains
       type(sor_film_type) :: solver
       type(film_response) :: full, empty
       integer(i8) :: sweeps
-      solver = new_sor_film([paper_pad(0.1_wp, [0.0_wp, 0.0_wp, 0.0_wp])], options(cavitation, 1e-6_wp))
+      solver = new_sor_film([paper_pad()], options(cavitation, 1e-6_wp))
       call solver%evaluate_pad(1, film_motion([-2e-5_wp, 4e-5_wp]), speed, .true., full)
       sweeps = solver%counters%sweeps
       call solver%evaluate_pad(1, film_motion([2e-5_wp, 4e-5_wp], [0.0_wp, -0.05_wp]), speed, .true., empty)
@@ -216,7 +209,7 @@ contains
    subroutine closed_film()
       type(sor_film_type) :: solver
       type(film_response) :: r
-      solver = new_sor_film([paper_pad(0.1_wp, [0.0_wp, 0.0_wp, 0.0_wp])], options(cavitation_reynolds, 1e-8_wp))
+      solver = new_sor_film([paper_pad()], options(cavitation_reynolds, 1e-8_wp))
       call solver%evaluate_pad(1, film_motion([0.0_wp, 1.1_wp*clearance]), speed, .true., r)
       call expect(r%status == film_closed, 'a journal in the pad closes the film')
       call expect_close(r%min_film, -0.1_wp*clearance, 1e-18_wp, 'by how much')
@@ -234,14 +227,14 @@ contains
       type(film_response) :: r
       few = options(cavitation_reynolds, 1e-8_wp)
       few%max_sweeps = 8
-      solver = new_sor_film([paper_pad(0.1_wp, [0.0_wp, 0.0_wp, 0.0_wp])], few)
+      solver = new_sor_film([paper_pad()], few)
       call solver%evaluate_pad(1, film_motion([-2e-5_wp, 5e-5_wp]), speed, .false., r)
       call expect(r%status == film_not_converged, 'the cap on the sweeps is told')
       call expect(r%residual > 1e-8_wp, 'with the residual')
       call expect(solver%counters%sweeps == 8 .and. solver%counters%sor == 1, 'and the sweeps are counted')
       call expect(all(abs(solver%pressure_field(1)) <= 0), 'what did not converge is dropped')
       few%max_sweeps = 5000
-      fresh = new_sor_film([paper_pad(0.1_wp, [0.0_wp, 0.0_wp, 0.0_wp])], few)
+      fresh = new_sor_film([paper_pad()], few)
       call fresh%evaluate_pad(1, film_motion([-2e-5_wp, 5e-5_wp]), speed, .false., r)
       call expect(r%status == film_ok, 'enough sweeps converge')
    end subroutine sweep_cap
@@ -268,7 +261,7 @@ contains
       real(wp), intent(in) :: length, relaxation
       type(sor_film_type) :: solver
       type(film_response) :: r
-      solver = new_sor_film([paper_pad(length, [0.0_wp, 0.0_wp, 0.0_wp])], sor_options(nx, nz, relaxation, &
+      solver = new_sor_film([paper_pad(length=length)], sor_options(nx, nz, relaxation, &
          & 1e-6_wp, 1000, cavitation_none))
       call solver%evaluate_pad(1, film_motion([-3e-5_wp, 4e-5_wp]), speed, .false., r)
       sweeps_at = solver%counters%sweeps
@@ -282,8 +275,8 @@ contains
       type(film_motion) :: motion(2)
       type(film_response) :: together(2), alone
       integer :: k
-      films(1) = paper_pad(0.1_wp, [0.0_wp, 0.0_wp, 0.0_wp])
-      films(2) = paper_pad(0.05_wp, [1e5_wp, 0.0_wp, 0.0_wp])
+      films(1) = paper_pad()
+      films(2) = paper_pad([1e5_wp, 0.0_wp, 0.0_wp], 0.05_wp)
       motion = [film_motion([-2e-5_wp, 5e-5_wp]), film_motion([1e-5_wp, 2e-5_wp])]
       both = new_sor_film(films, options(cavitation_reynolds, 1e-8_wp))
       call both%evaluate(motion, speed, .true., together)

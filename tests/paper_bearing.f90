@@ -1,0 +1,50 @@
+!> The paper's bearing (Dyk et al. 2023, Tables 1 and 2) as the modules take it that know no scene.
+module paper_bearing
+   use kinds, only: wp, degree
+   use pad_film, only: pad_film_type
+   use contact_law, only: contact_law_type, new_contact_law
+   implicit none (type, external)
+   private
+   public :: paper_pad, offset_pad, paper_law
+   public :: speed, clearance
+
+   !> Shaft speed of 6,494 rpm, rad/s; machined clearance, m.
+   real(wp), parameter :: speed = 680, clearance = 100e-6_wp
+
+contains
+
+   !> A pad with pressures (default: none) at the leading edge, at the others and where the film ruptures, and an axial
+   !> length (default: the paper's).
+   pure type(pad_film_type) function paper_pad(pressures, length)
+      real(wp), intent(in), optional :: pressures(3), length
+      paper_pad = pad_film_type(49.9e-3_wp, clearance, 0.1_wp, 0.5_wp*69.3_wp*degree, 0.5_wp*69.3_wp*degree, 19e-3_wp, &
+         & 0.0_wp, 0.0_wp, 0.0_wp)
+      if (present(pressures)) then
+         paper_pad%supply_pressure = pressures(1)
+         paper_pad%ambient_pressure = pressures(2)
+         paper_pad%cavitation_pressure = pressures(3)
+      end if
+      if (present(length)) paper_pad%axial_length = length
+   end function paper_pad
+
+   !> The same with the pivot behind the middle, 40 and 30 degrees from the edges, so that nothing is symmetric.
+   pure type(pad_film_type) function offset_pad(pressures, length)
+      real(wp), intent(in), optional :: pressures(3), length
+      offset_pad = paper_pad(pressures, length)
+      offset_pad%leading_angle = 40*degree
+      offset_pad%trailing_angle = 30*degree
+   end function offset_pad
+
+   !> The contact of ball and socket of steel, by law, difference of their radii, m, and factor of eq (13) (default: as
+   !> printed).
+   function paper_law(name, difference, factor) result(law)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: difference
+      real(wp), intent(in), optional :: factor
+      class(contact_law_type), allocatable :: law
+      real(wp) :: used
+      used = 4
+      if (present(factor)) used = factor
+      law = new_contact_law(name, 13e-3_wp, difference, [2.1e11_wp, 2.1e11_wp], [0.3_wp, 0.3_wp], used)
+   end function paper_law
+end module paper_bearing
