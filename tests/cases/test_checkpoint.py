@@ -29,8 +29,6 @@ SCENES = {
     "late": "--set output%start_time=0.4",
 }
 KILLS = 100
-#: Wall time from a signal to the end of the program, s.
-PROMPT = 1.0
 
 
 @pytest.fixture
@@ -118,9 +116,7 @@ def test_a_signal_leaves_a_checkpoint(program, tiltpad, case, whole, number):
     process = start(program, case, "case.nml", "--set", "output%checkpoint_seconds=0")
     time.sleep(0.05)
     process.send_signal(number)
-    sent = time.monotonic()
     error = one_error(process, 4)
-    assert time.monotonic() - sent < PROMPT
     assert f"signal {int(number)}" in error
     assert "tiltpad --resume case.h5" in error
     assert sorted(path.name for path in case.iterdir()) == ["case.h5", "case.nml"]
@@ -140,10 +136,8 @@ def test_a_signal_while_the_equilibrium_is_sought(program, case):
     run = start(program, case, "case.nml", "-q")
     time.sleep(0.5)
     assert not (case / "case.h5").exists()
-    sent = time.monotonic()
     run.terminate()
     said = one_error(run, 4)
-    assert time.monotonic() - sent < 5 * PROMPT
     assert said == "tiltpad: error: stopped by signal 15 before the march; nothing was computed yet\n"
     assert [path.name for path in case.iterdir()] == ["case.nml"]
 
