@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 import pytest
 import tiltpad
-from tiltpad.files import namelist
+from tiltpad.calculate import differences
 
 
 def test_items_and_attributes_are_the_datasets(run, result):
@@ -131,12 +131,12 @@ def test_an_incomplete_run_is_read_with_a_warning(changed):
 
 def test_what_tells_runs_apart(run):
     inputs = [run(scene).input for scene in ("lugre", "bengisu", "none")]
-    assert namelist.differences(inputs) == ["LuGre", "Bengisu-Akay", "no friction"]
+    assert differences.differences(inputs) == ["LuGre", "Bengisu-Akay", "no friction"]
     inputs = [run(scene).input for scene in ("lugre", "tilting")]
-    assert namelist.differences(inputs) == ["tilting radial", "tilting only"]
+    assert differences.differences(inputs) == ["tilting radial", "tilting only"]
     inputs = [run(scene).input for scene in ("four", "runup")]
-    assert namelist.differences(inputs) == [
+    assert differences.differences(inputs) == [
         "6500 rpm, 4 pads, duration = 0.02 s",
         "1500 to 6500 rpm, 2 pads, duration = 0.1 s",
     ]
-    assert namelist.differences([inputs[0], inputs[0]]) == ["", ""]
+    assert differences.differences([inputs[0], inputs[0]]) == ["", ""]

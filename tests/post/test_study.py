@@ -14,7 +14,7 @@ import tiltpad
 import xarray
 from tiltpad import command
 from tiltpad.collect import parameters
-from tiltpad.files import namelist
+from tiltpad.files import units
 
 SCENE = "&case title='Grid' / &operation duration=0.06 / &output samples_per_revolution=60 /"
 SPEEDS, MODELS = [4000, 5000, 6500], ["none", "lugre"]
@@ -269,4 +269,4 @@ def test_units_are_those_of_the_input_reference(tiltpad):
     for name, default, unit in said:
         if not default.startswith("`"):
             unit = {"1": ""}.get(unit.strip(), unit.strip()).replace("^2", "²")
-            assert namelist.named(name)[1] == unit, name
+            assert units.named(name)[1] == unit, name

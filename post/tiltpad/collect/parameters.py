@@ -6,12 +6,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tiltpad.files import namelist
+from tiltpad.calculate.differences import by_variable, shared
+from tiltpad.files import namelist, units
 
 #: Names that a result has too.
 TAKEN = ("checkpoint_seconds",)
-#: What differs between runs without being a parameter of theirs.
-LEFT_OUT = ("case%title", "case%task", "output%checkpoint_seconds")
 
 
 class Parameter(NamedTuple):
@@ -39,8 +38,9 @@ def swept(text: str) -> dict[str, Any]:
 
 def differing(inputs: Sequence[dict[str, dict[str, Any]]]) -> list[dict[str, Any]]:
     """Values by variable of each input, of the variables in which they differ; lists by their elements."""
-    flat = [namelist.by_variable(each) for each in inputs]
-    names = [name for name in dict.fromkeys(name for each in flat for name in each) if name not in LEFT_OUT]
+    flat = [by_variable(each) for each in inputs]
+    # a run and the equilibrium of the same input do not differ
+    names = [name for name in dict.fromkeys(name for each in flat for name in each) if name != "case%task"]
     if all(follows(each) for each in flat):
         names.remove("operation%final_speed_rpm")
     pads = [namelist.count(each["pads%pivot_angle_deg"]) for each in flat]
@@ -48,7 +48,7 @@ def differing(inputs: Sequence[dict[str, dict[str, Any]]]) -> list[dict[str, Any
     for name in names:
         values = [each.get(name) for each in flat]
         if len(set(values)) > 1:
-            alike = [namelist.shared(value) for value in values]
+            alike = [shared(value) for value in values]
             if not any(isinstance(value, tuple) for value in alike):
                 split = [{name: value} for value in alike] if len(set(alike)) > 1 else [{} for _ in alike]
             else:
@@ -78,7 +78,7 @@ def parameters(members: Sequence[dict[str, Any] | None]) -> list[Parameter]:
     found = []
     for variable in variables:
         values = [None if each is None else each.get(variable) for each in members]
-        name, (words, units) = short_name(variable), namelist.named(variable.partition("(")[0])
+        name, (words, unit) = short_name(variable), units.named(variable.partition("(")[0])
         group, _, rest = variable.rpartition("%")
         if short[name] > 1 or name in TAKEN:
             name, words = f"{group}_{name}", f"{words} ({group})"
@@ -89,7 +89,7 @@ def parameters(members: Sequence[dict[str, Any] | None]) -> list[Parameter]:
             found.append(Parameter(name, variable, words, "", ["" if v is None else f"{v}" for v in values]))
         else:
             numbers = [number(value) for value in values]
-            found.append(Parameter(name, variable, words, units or "1", numbers))
+            found.append(Parameter(name, variable, words, unit or "1", numbers))
     return found
 
 
@@ -100,5 +100,5 @@ def short_name(variable: str) -> str:
 
 def number(value: Any) -> float:
     """One number, which a list may repeat; nan where there is none."""
-    one = namelist.shared(value)
+    one = shared(value)
     return float(one) if isinstance(one, int | float) else np.nan

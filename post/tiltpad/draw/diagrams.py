@@ -10,8 +10,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 
+from tiltpad.calculate.differences import WORDS
 from tiltpad.draw.plots import on_axes
-from tiltpad.files.namelist import WORDS
+from tiltpad.files import units
 from tiltpad.files.study import POINTS, QUANTITIES, Study
 from tiltpad.files.units import SHOWN, Shown
 
@@ -230,10 +231,7 @@ def axis(study: Study, name: str, ax: Axes, which: str) -> tuple[Shown, np.ndarr
         )
         ax.set(**{f"{which}lim": (-0.5, len(names) - 0.5)})
         return Shown(text, 1, ""), place
-    unit = study.about(name, "units")
-    shown = Shown(text, 1, "" if unit == "1" else unit)
-    if unit == "m" and np.nanmax(np.abs(values), initial=0) < 1e-3:
-        shown = Shown(text, 1e6, "µm")
+    shown = units.shown(text, study.about(name, "units"), values)
     if spread_in_ratio(distinct(values)):
         ax.set(**{f"{which}scale": "log"})
     return shown, shown.factor * values

@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
-from tiltpad.calculate import pivots, signals
+from tiltpad.calculate import differences, pivots, signals
 from tiltpad.draw import diagrams, plots
 from tiltpad.draw.layout import (
     COLUMN,
@@ -31,7 +31,6 @@ from tiltpad.draw.layout import (
     top_axis,
     width,
 )
-from tiltpad.files import namelist
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN
@@ -260,7 +259,7 @@ def size(runs: Sequence[Run], last: float | None = None, pad: int | None = None)
         legend(fig, runs, parts(["$y$", "$z$"], runs))
         return fig
     sizes = SHOWN["size"].factor * np.array([signals.orbit_size(run, last or 1) for run in runs]).T
-    varied = namelist.varied([run.input for run in runs])
+    varied = differences.varied([run.input for run in runs])
     if varied:
         label, values = varied
         order = np.argsort(values)

@@ -12,8 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import ConnectionPatch, Rectangle
 
-from tiltpad.calculate import signals
-from tiltpad.files import namelist
+from tiltpad.calculate import differences, signals
 from tiltpad.files.read import Run
 
 COLUMN, PAGE = 3.35, 6.9  # widths in a paper, inches
@@ -25,7 +24,7 @@ def labels(runs: Sequence[Run]) -> list[str]:
     """Names to tell runs apart: their titles, else what differs in their inputs, else their files."""
     titles = [run.title for run in runs]
     stems = [Path(run.path).stem for run in runs]
-    for texts in (titles, namelist.differences([run.input for run in runs]), stems):
+    for texts in (titles, differences.differences([run.input for run in runs]), stems):
         if all(0 < len(text) <= LONGEST_LABEL for text in texts) and len(set(texts)) == len(runs):
             return texts
     return [run.path for run in runs]

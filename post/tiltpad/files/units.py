@@ -1,7 +1,10 @@
-"""Units that pictures are drawn in: the one place where SI values are converted."""
+"""Units: those of the input, and those of the pictures; SI values are converted here alone."""
 
+from collections.abc import Sequence
 from math import pi
 from typing import NamedTuple
+
+import numpy as np
 
 
 class Shown(NamedTuple):
@@ -59,3 +62,32 @@ SHOWN = {
     "equilibrium_max_pressure": Shown("highest pressure at rest", 1e-6, "MPa"),
     "axial": Shown("axial place", 1e3, "mm"),
 }
+
+#: Units of the input by the variable's name; what has none is a pure number or has a name in _rpm or _deg.
+UNITS = {
+    **{"mass": "kg", "unbalance": "kg m", "inertia": "kg m²", "characteristic_load": "N", "static_load": "N"},
+    **{"balance_grade": "mm/s", "gravity": "m/s²", "viscosity": "Pa s"},
+    **dict.fromkeys(("duration", "start_time", "max_step", "checkpoint_seconds"), "s"),
+    **dict.fromkeys(("supply_pressure", "ambient_pressure", "cavitation_pressure", "young_modulus"), "Pa"),
+    **dict.fromkeys(("radius_difference", "socket_radius", "journal_radius", "axial_length"), "m"),
+    **dict.fromkeys(("machined_clearance", "assembled_clearance", "pivot_distance"), "m"),
+    **dict.fromkeys(("centre_tangential", "centre_radial"), "m"),
+    **dict.fromkeys(("critical_velocity", "stribeck_velocity"), "m/s"),
+    **{"decay": "s/m", "bristle_stiffness": "1/m", "bristle_damping": "s/m", "viscous_coefficient": "s/m"},
+}
+
+
+def named(name: str) -> tuple[str, str]:
+    """Text and unit (may be empty) of "group%name"."""
+    name = name.split("%")[-1]
+    for ending in ("deg", "rpm"):
+        if name.endswith("_" + ending):
+            return name.removesuffix("_" + ending).replace("_", " "), ending
+    return name.replace("_", " "), UNITS.get(name, "")
+
+
+def shown(text: str, unit: str, values: Sequence[float] | np.ndarray) -> Shown:
+    """What values in a unit of the input are shown in: lengths in µm where all are below a millimetre."""
+    if unit == "m" and np.nanmax(np.abs(values), initial=0) < 1e-3:
+        return Shown(text, 1e6, "µm")
+    return Shown(text, 1, "" if unit == "1" else unit)

@@ -1,0 +1,71 @@
+"""What tells runs apart: the values in which their inputs differ, and these in words."""
+
+from typing import Any
+
+from tiltpad.files import units
+
+#: Variables that change nothing in what a run calculates: inputs that differ in them alone are the same.
+IGNORED = ("case%title", "output%checkpoint_seconds")
+#: Values that are names, as they are written.
+WORDS = {"none": "no friction", "bengisu_akay": "Bengisu-Akay", "lugre": "LuGre"}
+
+
+def differences(inputs: list[dict[str, dict[str, Any]]]) -> list[str]:
+    """What tells runs apart, one short text each: "LuGre, tilting only", from the values that differ."""
+    values = [flattened(each) for each in inputs]
+    names = list(dict.fromkeys(name for each in values for name in each))
+    varying = [name for name in names if len({each.get(name) for each in values}) > 1]
+    if "pads" in varying:
+        varying.remove("pads%pivot_angle_deg")
+    return [", ".join(described(name, each.get(name)) for name in varying) for each in values]
+
+
+def varied(inputs: list[dict[str, dict[str, Any]]]) -> tuple[str, list[float]] | None:
+    """The one number in which inputs differ, each time another: its label with the unit, and its values.
+
+    Lengths below a millimetre are in µm, all others as in the namelist.
+    """
+    values = [by_variable(each) for each in inputs]
+    names = {name for each in values for name in each if len({other.get(name) for other in values}) > 1}
+    names.discard("operation%final_speed_rpm")
+    if len(names) != 1:
+        return None
+    name = names.pop()
+    found = [shared(each.get(name)) for each in values]
+    if not all(isinstance(each, int | float) for each in found) or len(set(found)) < len(found):
+        return None
+    shown = units.shown(*units.named(name), found)
+    return shown.label, [shown.factor * each for each in found]
+
+
+def by_variable(groups: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """The same values by "group%name", without those that are IGNORED."""
+    flat = {f"{group}%{name}": value for group in groups for name, value in groups[group].items()}
+    return {name: value for name, value in flat.items() if name not in IGNORED}
+
+
+def shared(value: Any) -> Any:
+    """The value that a tuple repeats, or the value itself."""
+    return value[0] if isinstance(value, tuple) and len(set(value)) == 1 else value
+
+
+def flattened(groups: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """Values by "group%name" as a reader would say them: one speed or a range, pads alike once."""
+    values = by_variable(groups)
+    first, last = values.pop("operation%speed_rpm"), values.pop("operation%final_speed_rpm")
+    angles = values["pads%pivot_angle_deg"]
+    said = {"speed": f"{first:g} rpm" if first == last else f"{first:g} to {last:g} rpm"}
+    said["pads"] = f"{len(angles) if isinstance(angles, tuple) else 1} pads"
+    for name, value in values.items():
+        said[name] = shared(value) if name.startswith("pads%") else value
+    return said
+
+
+def described(name: str, value: Any) -> str:
+    text, unit = units.named(name)
+    if value is None:
+        return f"no {text}"
+    if isinstance(value, str):
+        return WORDS.get(value, value) if text == "model" else value.replace("_", " ")
+    numbers = value if isinstance(value, tuple) else (value,)
+    return f"{text} = {', '.join(f'{number:g}' for number in numbers)} {unit}".rstrip()
