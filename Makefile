@@ -113,7 +113,7 @@ help:
 	@echo 'make deps     install what is missing (root or sudo; otherwise print the list and stop)'
 	@echo 'make python   Python environment build/venv with the package tiltpad and its compiled part'
 	@echo 'make wheel    build/wheel/tiltpad-*.whl with the compiled part, tried in an environment of its own'
-	@echo 'make lint     style of Fortran and Python; make format mends what it can'
+	@echo 'make lint     style of Fortran and Python, order of the floors; make format mends what it can'
 	@echo 'make docs     write docs/inputs.md, docs/api.md, docs/verification.md and docs/images from the program'
 	@echo 'make install  program into PREFIX/bin    (PREFIX=$(PREFIX))'
 	@echo 'make clean    remove build/'
@@ -296,6 +296,7 @@ lint: python
 	$(VENV)/bin/fortitude check $(fortran_style) src_f90 post/wrap tests
 	$(VENV)/bin/ruff check --config post/pyproject.toml post tests docs
 	$(VENV)/bin/ruff format --check --config post/pyproject.toml post tests docs
+	$(venv_python) tests/floors.py
 
 format: python
 	-$(VENV)/bin/fortitude check --fix $(fortran_style) src_f90 post/wrap tests

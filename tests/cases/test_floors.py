@@ -1,0 +1,102 @@
+"""The check of floors (make lint) finds what it is to find, and nothing else."""
+
+import importlib.util
+from pathlib import Path
+
+import pytest
+
+spec = importlib.util.spec_from_file_location("floors", Path(__file__).parents[1] / "floors.py")
+floors = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(floors)
+
+
+@pytest.fixture
+def house(tmp_path):
+    """house({"base/kinds.f90": text, ...}) writes files and gives their folder."""
+
+    def build(files):
+        for name, text in files.items():
+            path = tmp_path / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+        return tmp_path
+
+    return build
+
+
+def procedure(lines, name="f", comment=""):
+    """A function of so many lines."""
+    return (
+        "\n".join(
+            [f"   pure function {name}(x)", *[comment or "      x = 1"] * (lines - 2), "   end function"]
+        )
+        + "\n"
+    )
+
+
+@pytest.mark.parametrize(
+    "use",
+    ["use cvode, only: march", "   USE, non_intrinsic :: cvode", "use::cvode", "      use cvode"],
+)
+def test_a_use_of_a_floor_above(house, use):
+    root = house(
+        {"base/kinds.f90": f"module kinds\n{use}\n", "integrate/cvode.f90": "   use kinds, only: wp\n"}
+    )
+    (found,) = floors.fortran_floors(root)
+    assert found == f"{root}/base/kinds.f90:2: base uses cvode of integrate, a floor above it"
+
+
+def test_uses_that_may_be(house):
+    beside = (
+        "   use hdf5, only: x\n   ! use cvode\n   use, intrinsic :: iso_c_binding\n   use text, only: y\n"
+    )
+    root = house(
+        {"base/kinds.f90": beside, "base/text.F90": "", "film/modal/a.f90": "use b\n", "film/b.f90": ""}
+    )
+    assert not list(floors.fortran_floors(root))
+
+
+def test_a_folder_that_is_no_floor(house):
+    (found,) = floors.fortran_floors(house({"cellar/a.f90": ""}))
+    assert "cellar: is no floor" in found
+
+
+def test_long_modules(house):
+    root = house({"base/a.f90": 350 * "!\n", "base/b.f90": 351 * "!\n"})
+    (found,) = floors.fortran_lengths(root)
+    assert found.startswith(f"{root}/base/b.f90:351: 351 lines")
+
+
+def test_long_procedures(house):
+    inner = procedure(62).replace("   end function", "   contains\n" + procedure(61, "g") + "   end function")
+    root = house(
+        {
+            "base/a.f90": procedure(60),
+            "base/b.f90": procedure(61),
+            "base/c.f90": procedure(61, comment="      ! long: a kernel"),
+            "base/d.f90": inner,
+        }
+    )
+    found = list(floors.fortran_lengths(root))
+    assert [line.removeprefix(f"{root}/base/").split(" lines")[0] for line in found] == [
+        "b.f90:1: f has 61",
+        "d.f90:63: g has 61",
+        "d.f90:1: f has 63",
+    ]
+
+
+def test_python_imports(house):
+    root = house(
+        {
+            "__init__.py": "from tiltpad.draw import plots\n",
+            "files/read.py": "def f():\n    from tiltpad.draw import plots\n",
+            "files/archive.py": "import tiltpad.files.read, numpy\nfrom tiltpad import _library\n",
+            "calculate/signals.py": "from tiltpad import files\nfrom tiltpad import collect\n",
+            "draw/plots.py": "import tiltpad.command\n",
+        }
+    )
+    assert [line.removeprefix(f"{root}/") for line in floors.python_floors(root)] == [
+        "calculate/signals.py:2: calculate imports tiltpad.collect, of a floor above it",
+        "draw/plots.py:1: draw imports tiltpad.command, of a floor above it",
+        "files/read.py:2: files imports tiltpad.draw.plots, of a floor above it",
+    ]
