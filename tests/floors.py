@@ -15,7 +15,8 @@ FORTRAN = (
     *("base", "system", "scene", "input", "film", "pivot", "bearing", "rotor", "integrate", "model"),
     *("analysis", "storage", "results", "app"),
 )
-PYTHON = ("files", "calculate", "draw", "collect")
+#: How high the folders of the Python package are; those of one height do not use each other.
+PYTHON = {"files": 0, "calculate": 1, "draw": 2, "collect": 2}
 
 #: Most lines of a Fortran module, and of a procedure without those in it. A procedure that is one list or
 #: one kernel may be longer; a comment in it says which: "! long: a kernel".
@@ -69,32 +70,34 @@ def fortran_lengths(root: Path) -> Iterator[str]:
 
 
 def python_floors(root: Path) -> Iterator[str]:
-    """Imports of modules of a folder above; what stands beside the folders is above them all."""
-
-    def floor(module: str) -> int:
-        part = module.split(".")[1]
-        return PYTHON.index(part) if part in PYTHON else len(PYTHON)
-
+    """Imports of modules of a floor above; what stands beside the folders is above them all."""
+    for name in sorted(path.parent.name for path in root.glob("*/__init__.py")):
+        if name not in PYTHON:
+            yield f"{root / name}: is no floor; tests/floors.py lists them"
     for path in sorted(root.rglob("*.py")):
-        own = floor(".".join(("tiltpad", *path.relative_to(root).parts)))
+        own, height = python_floor(".".join(("tiltpad", *path.relative_to(root).parts)))
         for node in ast.walk(ast.parse(path.read_text())):
             for module in imported(node):
-                # the compiled library lies beside the folders
-                if (
-                    module.startswith("tiltpad.")
-                    and not module.startswith("tiltpad._")
-                    and floor(module) > own
-                ):
-                    yield f"{path}:{node.lineno}: {PYTHON[own]} imports {module}, of a floor above it"
+                other, above = python_floor(module)
+                if above > height or (above == height and other != own):
+                    yield f"{path}:{node.lineno}: {own} imports {module}, which is not below it"
+
+
+def python_floor(module: str) -> tuple[str, int]:
+    """Floor of a module by its whole name, and its height."""
+    name = module.split(".")[1] if "." in module else ""
+    return (name, PYTHON[name]) if name in PYTHON else ("the package itself", len(PYTHON))
 
 
 def imported(node: ast.AST) -> list[str]:
-    """The modules that a statement imports, by their whole names."""
+    """The modules of tiltpad that a statement imports, by their whole names; the compiled library is below all."""
+    found = []
     if isinstance(node, ast.Import):
-        return [each.name for each in node.names]
-    if isinstance(node, ast.ImportFrom) and node.module:
-        return [f"{node.module}.{each.name}" for each in node.names]
-    return []
+        found = [each.name for each in node.names]
+    elif isinstance(node, ast.ImportFrom):
+        prefix = "tiltpad." * (node.level > 0) + (node.module or "")
+        found = [f"{prefix}.{each.name}" for each in node.names]
+    return [each for each in found if each.split(".")[0] == "tiltpad" and "._" not in each]
 
 
 def main() -> int:
