@@ -7,27 +7,21 @@ module recorder
    use integrator_counts, only: integrator_counts_type
    use loops, only: periodicity, new_periodicity
    use equations_of_motion, only: bearing_model
-   use run_file, only: run_file_type
-   use run_statistics, only: run_statistics_type
+   use march_results, only: add_sample
    use provenance, only: running
-   use signals, only: stop_requested, stop_reason
-   use progress, only: progress_type, wall_clock
+   use stop_signals, only: stop_requested, stop_reason
+   use case_run, only: case_run_type
+   use progress, only: progress_type, new_progress, wall_clock
    implicit none (type, external)
    private
-   public :: recorder_type, init_recorder
+   public :: recorder_type, begin_recording
 
    !> Completes each sample on a model of its own, so that sampling never changes the march.
    type, extends(march_observer_type) :: recorder_type
-      type(bearing_model) :: model
-      !> The model that is marched, for its counters.
-      type(bearing_model), pointer :: marched => null()
-      type(run_file_type) :: file
+      type(bearing_model), private :: model
+      type(case_run_type), pointer, private :: run => null()
       type(progress_type) :: progress
-      !> What the run cost before it was resumed.
-      type(run_statistics_type) :: earlier
-      !> Simulated time reached, s.
-      real(wp) :: reached = 0
-      real(wp), private :: started = 0, sampling = 0, checkpoints = 0, last_checkpoint = 0
+      real(wp), private :: last_checkpoint = 0
       logical, private :: checkpoint_due = .false.
       type(periodicity), private :: orbit
    contains
@@ -35,19 +29,22 @@ module recorder
       procedure :: report
       procedure :: wants_state
       procedure :: take_state
-      !> What the run has cost so far, with these figures of the march.
-      procedure :: cost
-      procedure :: follow_orbit
+      procedure, private :: follow_orbit
    end type recorder_type
 
 contains
 
-   !> Starts the clock.
-   subroutine init_recorder(self)
-      class(recorder_type), intent(inout) :: self
-      self%started = wall_clock()
-      self%last_checkpoint = self%started
-   end subroutine init_recorder
+   !> Readies the recording of a run's march from time t, s; its file has its series.
+   subroutine begin_recording(self, run, t)
+      type(recorder_type), intent(out) :: self
+      type(case_run_type), intent(in), target :: run
+      real(wp), intent(in) :: t
+      self%run => run
+      self%model = run%model
+      self%progress = new_progress(t, run%scene%operation%duration, run%quiet)
+      self%last_checkpoint = run%started
+      if (run%scene%integration%stop_when_periodic > 0) call self%follow_orbit()
+   end subroutine begin_recording
 
    !> Readies the watch for a periodic orbit, with what was sampled before the run was resumed.
    subroutine follow_orbit(self)
@@ -56,13 +53,13 @@ contains
       integer :: passed, n, i
       associate (samples => self%model%scene%output%samples_per_revolution, pads => self%model%scene%pad_count())
          ! the last whole revolution and what came after it; comparing begins with the revolution after
-         passed = max(0, int(self%file%samples()/samples) - 1)
-         n = int(self%file%samples() - int(passed, i8)*samples)
+         passed = max(0, int(self%run%file%samples()/samples) - 1)
+         n = int(self%run%file%samples() - int(passed, i8)*samples)
          self%orbit = new_periodicity(samples, 2 + pads, passed)
          if (n == 0) return
-         call self%file%last_samples('journal_y', n, y)
-         call self%file%last_samples('journal_z', n, z)
-         call self%file%last_samples('pad_tilt', n, tilt)
+         call self%run%file%last_samples('journal_y', n, y)
+         call self%run%file%last_samples('journal_z', n, z)
+         call self%run%file%last_samples('pad_tilt', n, tilt)
          allocate (none(pads), source=0.0_wp)
          do i = 1, n
             call self%orbit%add(self%model%positions(self%model%at_rest([y(1, i), z(1, i)], tilt(:, i), none)))
@@ -77,15 +74,15 @@ contains
       real(wp) :: started
       started = wall_clock()
       call self%model%recall(y, output)
-      call self%file%add_sample(self%model, t, y, error)
-      self%reached = t
+      call add_sample(self%run%file, self%model, t, y, error)
+      self%run%reached = t
       associate (limit => self%model%scene%integration%stop_when_periodic)
          if (limit > 0) then
             call self%orbit%add(self%model%positions(y))
             self%satisfied = self%orbit%change <= limit
          end if
       end associate
-      self%sampling = self%sampling + wall_clock() - started
+      self%run%sampling = self%run%sampling + wall_clock() - started
    end subroutine sample
 
    subroutine report(self, t, steps)
@@ -95,7 +92,7 @@ contains
       real(wp) :: now
       now = wall_clock()
       call self%progress%report(t, steps, now)
-      call self%file%beat(int(now - self%started))
+      call self%run%file%beat(int(now - self%run%started))
       associate (pause => self%model%scene%output%checkpoint_seconds)
          self%checkpoint_due = pause > 0 .and. now - self%last_checkpoint >= pause
       end associate
@@ -114,39 +111,19 @@ contains
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: reason
       real(wp) :: started
-      self%reached = t
+      self%run%reached = t
+      self%run%counts = counts
       started = wall_clock()
       if (stop_requested()) then
          reason = stop_reason()//' at t = '//to_text(t)//' s'
-         call self%file%checkpoint(t, y, self%cost(counts), stopped, reason, error)
+         call self%run%file%checkpoint(t, y, self%run%statistics(), stopped, reason, error)
          if (.not. allocated(error)) call raise(error, stopped, reason)
       else
-         call self%file%checkpoint(t, y, self%cost(counts), running, '', error)
+         call self%run%file%checkpoint(t, y, self%run%statistics(), running, '', error)
          call self%progress%note('checkpoint at t = '//to_text(t)//' s')
          self%checkpoint_due = .false.
          self%last_checkpoint = wall_clock()
-         self%checkpoints = self%checkpoints + self%last_checkpoint - started
+         self%run%checkpoints = self%run%checkpoints + self%last_checkpoint - started
       end if
    end subroutine take_state
-
-   function cost(self, march) result(total)
-      class(recorder_type), intent(in) :: self
-      type(integrator_counts_type), intent(in) :: march
-      type(run_statistics_type) :: total
-      total%steps = march%steps
-      total%rhs_evaluations = march%rhs_evaluations
-      total%jacobian_evaluations = march%jacobian_evaluations
-      total%error_test_failures = march%error_test_failures
-      total%convergence_failures = march%convergence_failures
-      if (associated(self%marched)) then
-         total%film_modal = self%marched%film%counters%modal
-         total%film_sor = self%marched%film%counters%sor
-         total%sor_sweeps = self%marched%film%counters%sweeps
-         total%film_seconds = self%marched%film_seconds
-      end if
-      total%output_seconds = self%sampling
-      total%checkpoint_seconds = self%checkpoints
-      total%wall_seconds = wall_clock() - self%started
-      total = self%earlier + total
-   end function cost
 end module recorder

@@ -47,12 +47,23 @@ contains
             & //mega(maxval(pressure(i, :)))//' MPa, friction work ' &
             & //fixed_text(1e3_wp*loop_area(tilt(i, :), moment(i, :)), 3)//' mJ'
       end do
-      print '(a)', 'cost: '//to_text(statistics%steps)//' steps, '//to_text(statistics%rhs_evaluations) &
-         & //' right-hand sides, '//to_text(statistics%jacobian_evaluations)//' Jacobians, films ' &
-         & //to_text(statistics%film_modal)//' modal and '//to_text(statistics%film_sor)//' on cells (' &
-         & //to_text(statistics%sor_sweeps)//' sweeps)'
-      print '(a)', '  wall time '//fixed_text(statistics%wall_seconds, 2)//' s, of it film ' &
-         & //fixed_text(statistics%film_seconds, 2)//' s and samples '//fixed_text(statistics%output_seconds, 2)//' s'
+      print '(a)', 'cost: '//count('steps')//' steps, '//count('rhs_evaluations')//' right-hand sides, ' &
+         & //count('jacobian_evaluations')//' Jacobians, films '//count('film_modal')//' modal and ' &
+         & //count('film_volumes')//' on finite volumes ('//count('film_passes')//' passes over their cells)'
+      print '(a)', '  wall time '//seconds('wall_seconds')//' s, of it film '//seconds('film_seconds') &
+         & //' s and samples '//seconds('output_seconds')//' s'
+   contains
+      function count(name)
+         character(len=*), intent(in) :: name
+         character(len=:), allocatable :: count
+         count = to_text(statistics%count(name))
+      end function count
+
+      function seconds(name)
+         character(len=*), intent(in) :: name
+         character(len=:), allocatable :: seconds
+         seconds = fixed_text(statistics%seconds(name), 2)
+      end function seconds
    end subroutine print_march
 
    !> Metres as micrometres, radians as milliradians, pascals as megapascals.

@@ -9,7 +9,7 @@ module run_sweep
    use processes, only: open_pipe, wait_for_record, ended, stop_process, make_folder, remove_folder
    use sweep_child, only: child_type, last_word, read_last_word, member_runner, pause
    use hdf5_base, only: start_hdf5
-   use signals, only: stop_requested, stop_reason
+   use stop_signals, only: stop_requested, stop_reason
    use progress, only: progress_type, new_progress, wall_clock
    implicit none (type, external)
    private

@@ -9,7 +9,7 @@ module sweep_child
    use posix, only: process_id
    use processes, only: record_length, new_process, end_child, end_with_parent, open_pipe, close_pipe, send_record, &
       & receive_record, wait_for_record, ended
-   use signals, only: stop_requested
+   use stop_signals, only: stop_requested
    implicit none (type, external)
    private
    public :: child_type, last_word, read_last_word, member_file, member_runner, pause

@@ -12,7 +12,7 @@ program tiltpad
    use processes, only: processors
    use build_info, only: program_version, program_commit
    use restart, only: restart_type, read_restart
-   use signals, only: catch_signals
+   use stop_signals, only: catch_signals
    use arguments, only: arguments_type, read_arguments, print_help
    use run_case, only: run_scene
    use sweep_child, only: member_file

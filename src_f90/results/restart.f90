@@ -8,7 +8,7 @@ module restart
    use namelist_writer, only: scene_text
    use hdf5_file, only: hdf5_type
    use hdf5_trial, only: can_be_read
-   use run_file, only: format_version
+   use file_format, only: format_version
    use sweep, only: member_tag
    use posix, only: is_regular
    implicit none (type, external)

@@ -1,4 +1,5 @@
-!> What a run cost, over all its stretches.
+!> What a run cost: a list of figures. Whoever counts one names it, once, in `put`; adding, writing and reading run
+!> over the list.
 module run_statistics
    use kinds, only: wp, i8
    use hdf5_file, only: hdf5_type
@@ -6,76 +7,126 @@ module run_statistics
    private
    public :: run_statistics_type
 
+   !> A number of things, or seconds.
+   type :: figure_type
+      character(len=:), allocatable :: name, long_name
+      logical :: counts = .true.
+      integer(i8) :: count = 0
+      real(wp) :: seconds = 0
+   end type figure_type
+
    type :: run_statistics_type
-      !> Of the march.
-      integer(i8) :: steps = 0, rhs_evaluations = 0, jacobian_evaluations = 0
-      integer(i8) :: error_test_failures = 0, convergence_failures = 0
-      !> Pads solved by axial modes and on finite volumes, and sweeps, in the march.
-      integer(i8) :: film_modal = 0, film_sor = 0, sor_sweeps = 0
-      !> Wall time, s.
-      real(wp) :: film_seconds = 0, output_seconds = 0, checkpoint_seconds = 0, wall_seconds = 0
+      private
+      type(figure_type), allocatable :: figures(:)
    contains
-      procedure :: put
-      procedure :: get
-      procedure, private :: plus
-      generic :: operator(+) => plus
+      !> Puts a figure on the list: a count, or s.
+      generic :: put => put_count, put_seconds
+      !> A figure of the list by its name; 0 where there is none.
+      procedure :: count => count_of
+      procedure :: seconds => seconds_of
+      procedure :: add
+      procedure :: write => write_all
+      procedure :: read => read_all
+      procedure, private :: put_count
+      procedure, private :: put_seconds
    end type run_statistics_type
+
+   !> Group of the file.
+   character(len=*), parameter :: group = 'statistics'
 
 contains
 
-   subroutine put(self, file)
+   subroutine put_count(self, name, value, long_name)
+      class(run_statistics_type), intent(inout) :: self
+      character(len=*), intent(in) :: name, long_name
+      integer(i8), intent(in) :: value
+      call append(self, figure_type(name, long_name, counts=.true., count=value))
+   end subroutine put_count
+
+   subroutine put_seconds(self, name, value, long_name)
+      class(run_statistics_type), intent(inout) :: self
+      character(len=*), intent(in) :: name, long_name
+      real(wp), intent(in) :: value
+      call append(self, figure_type(name, long_name, counts=.false., seconds=value))
+   end subroutine put_seconds
+
+   subroutine append(self, figure)
+      type(run_statistics_type), intent(inout) :: self
+      type(figure_type), intent(in) :: figure
+      type(figure_type), allocatable :: longer(:)
+      integer :: n
+      n = 0
+      if (allocated(self%figures)) n = size(self%figures)
+      allocate (longer(n + 1))
+      if (n > 0) longer(:n) = self%figures
+      longer(n + 1) = figure
+      call move_alloc(longer, self%figures)
+   end subroutine append
+
+   pure integer(i8) function count_of(self, name) result(count)
+      class(run_statistics_type), intent(in) :: self
+      character(len=*), intent(in) :: name
+      integer :: k
+      count = 0
+      if (.not. allocated(self%figures)) return
+      do k = 1, size(self%figures)
+         if (self%figures(k)%name == name) count = self%figures(k)%count
+      end do
+   end function count_of
+
+   pure real(wp) function seconds_of(self, name) result(seconds)
+      class(run_statistics_type), intent(in) :: self
+      character(len=*), intent(in) :: name
+      integer :: k
+      seconds = 0
+      if (.not. allocated(self%figures)) return
+      do k = 1, size(self%figures)
+         if (self%figures(k)%name == name) seconds = self%figures(k)%seconds
+      end do
+   end function seconds_of
+
+   !> Adds to each figure that of the same name in another list, if it is there.
+   subroutine add(self, other)
+      class(run_statistics_type), intent(inout) :: self
+      class(run_statistics_type), intent(in) :: other
+      integer :: k
+      do k = 1, size(self%figures)
+         associate (figure => self%figures(k))
+            figure%count = figure%count + other%count(figure%name)
+            figure%seconds = figure%seconds + other%seconds(figure%name)
+         end associate
+      end do
+   end subroutine add
+
+   subroutine write_all(self, file)
       class(run_statistics_type), intent(in) :: self
       type(hdf5_type), intent(inout) :: file
-      if (.not. file%has('statistics')) call file%make_group('statistics')
-      call file%put_count('statistics/steps', self%steps, 'time steps')
-      call file%put_count('statistics/rhs_evaluations', self%rhs_evaluations, 'right-hand sides')
-      call file%put_count('statistics/jacobian_evaluations', self%jacobian_evaluations, 'Jacobians')
-      call file%put_count('statistics/error_test_failures', self%error_test_failures, &
-         & 'steps refused by the error test')
-      call file%put_count('statistics/convergence_failures', self%convergence_failures, &
-         & 'Newton iterations that failed')
-      call file%put_count('statistics/film_modal', self%film_modal, 'pads solved by axial modes in the march')
-      call file%put_count('statistics/film_sor', self%film_sor, 'pads solved on finite volumes in the march')
-      call file%put_count('statistics/sor_sweeps', self%sor_sweeps, &
-         & 'sweeps of over-relaxation, or eliminations, in the march')
-      call file%put_real('statistics/film_seconds', self%film_seconds, 's', 'wall time of the film in the march')
-      call file%put_real('statistics/output_seconds', self%output_seconds, 's', 'wall time of sampling')
-      call file%put_real('statistics/checkpoint_seconds', self%checkpoint_seconds, 's', &
-         & 'wall time of the checkpoints before the last')
-      call file%put_real('statistics/wall_seconds', self%wall_seconds, 's', 'wall time of the run')
-   end subroutine put
+      integer :: k
+      if (.not. file%has(group)) call file%make_group(group)
+      do k = 1, size(self%figures)
+         associate (figure => self%figures(k))
+            if (figure%counts) then
+               call file%put_count(group//'/'//figure%name, figure%count, figure%long_name)
+            else
+               call file%put_real(group//'/'//figure%name, figure%seconds, 's', figure%long_name)
+            end if
+         end associate
+      end do
+   end subroutine write_all
 
-   subroutine get(self, file)
-      class(run_statistics_type), intent(out) :: self
+   !> Gives the figures of the list the values in a file.
+   subroutine read_all(self, file)
+      class(run_statistics_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file
-      self%steps = file%get_count('statistics/steps')
-      self%rhs_evaluations = file%get_count('statistics/rhs_evaluations')
-      self%jacobian_evaluations = file%get_count('statistics/jacobian_evaluations')
-      self%error_test_failures = file%get_count('statistics/error_test_failures')
-      self%convergence_failures = file%get_count('statistics/convergence_failures')
-      self%film_modal = file%get_count('statistics/film_modal')
-      self%film_sor = file%get_count('statistics/film_sor')
-      self%sor_sweeps = file%get_count('statistics/sor_sweeps')
-      self%film_seconds = file%get_real('statistics/film_seconds')
-      self%output_seconds = file%get_real('statistics/output_seconds')
-      self%checkpoint_seconds = file%get_real('statistics/checkpoint_seconds')
-      self%wall_seconds = file%get_real('statistics/wall_seconds')
-   end subroutine get
-
-   pure function plus(self, other) result(sum)
-      class(run_statistics_type), intent(in) :: self, other
-      type(run_statistics_type) :: sum
-      sum%steps = self%steps + other%steps
-      sum%rhs_evaluations = self%rhs_evaluations + other%rhs_evaluations
-      sum%jacobian_evaluations = self%jacobian_evaluations + other%jacobian_evaluations
-      sum%error_test_failures = self%error_test_failures + other%error_test_failures
-      sum%convergence_failures = self%convergence_failures + other%convergence_failures
-      sum%film_modal = self%film_modal + other%film_modal
-      sum%film_sor = self%film_sor + other%film_sor
-      sum%sor_sweeps = self%sor_sweeps + other%sor_sweeps
-      sum%film_seconds = self%film_seconds + other%film_seconds
-      sum%output_seconds = self%output_seconds + other%output_seconds
-      sum%checkpoint_seconds = self%checkpoint_seconds + other%checkpoint_seconds
-      sum%wall_seconds = self%wall_seconds + other%wall_seconds
-   end function plus
+      integer :: k
+      do k = 1, size(self%figures)
+         associate (figure => self%figures(k))
+            if (figure%counts) then
+               figure%count = file%get_count(group//'/'//figure%name)
+            else
+               figure%seconds = file%get_real(group//'/'//figure%name)
+            end if
+         end associate
+      end do
+   end subroutine read_all
 end module run_statistics

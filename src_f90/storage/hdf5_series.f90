@@ -1,4 +1,4 @@
-!> Datasets that grow along time. After a failure, which the file keeps, every routine does nothing.
+!> Datasets that grow along an axis. After a failure, which the file keeps, every routine does nothing.
 module hdf5_series
    use, intrinsic :: iso_c_binding, only: c_loc, c_ptr
    use hdf5, only: hid_t, hsize_t, size_t, h5s_unlimited_f, h5s_select_set_f, h5screate_simple_f, h5sclose_f, &
@@ -16,7 +16,7 @@ module hdf5_series
    !> More values a sample are the mark of a damaged file.
    integer, parameter :: widest = 1000
 
-   !> `width` values a sample: (time) or, in the order of h5py, (time, width).
+   !> `width` values a sample: (axis) or, in the order of h5py, (axis, width).
    type :: hdf5_series_type
       private
       integer(hid_t) :: id = -1
@@ -35,7 +35,7 @@ module hdf5_series
 
 contains
 
-   !> A dataset over time; with width > 0 of (time, width), with width 0 of (time).
+   !> A new dataset; with width > 0 of (axis, width), with width 0 of (axis). `scales` as in hdf5_file.
    subroutine create(self, file, path, width, units, long_name, scales)
       class(hdf5_series_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file
@@ -67,7 +67,7 @@ contains
       call h5sclose_f(space, status)
    end subroutine create
 
-   !> An existing dataset over time, of (time) or (time, width).
+   !> An existing dataset, of (axis) or (axis, width).
    subroutine open_series(self, file, path)
       class(hdf5_series_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file

@@ -1,4 +1,5 @@
-!> The samples of a run: series over time that grow together, written a chunk at a time.
+!> Series over one axis (time, or whatever a task follows) that grow together, a sample at a time; they are written a
+!> chunk at a time.
 module sample_table
    use kinds, only: wp, i8
    use hdf5_file, only: hdf5_type
@@ -15,6 +16,8 @@ module sample_table
 
    type :: sample_table_type
       private
+      !> Name of the series that is the scale of all; the first of a sample.
+      character(len=:), allocatable :: axis
       type(series_type), allocatable :: series(:)
       !> Samples held back; the series whose value comes next.
       integer :: held = 0, next = 1
@@ -36,18 +39,20 @@ module sample_table
 
 contains
 
-   subroutine begin(self, file)
+   subroutine begin(self, file, axis)
       class(sample_table_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file
-      type(hdf5_series_type) :: time
+      character(len=*), intent(in) :: axis
+      type(hdf5_series_type) :: scale
+      self%axis = axis
       if (allocated(self%series)) deallocate (self%series)
       allocate (self%series(0))
       self%held = 0
       self%samples = 0
-      if (.not. file%has('time')) return
-      call time%open(file, 'time')
-      self%samples = time%length
-      call time%close(file)
+      if (.not. file%has(axis)) return
+      call scale%open(file, axis)
+      self%samples = scale%length
+      call scale%close(file)
    end subroutine begin
 
    subroutine new_sample(self, file)
@@ -60,13 +65,12 @@ contains
       self%next = 1
    end subroutine new_sample
 
-   !> The next value of the sample: of a series of (time) with width 0, else of (time, width).
-   subroutine add(self, file, name, values, width, units, long_name)
+   !> The next value of the sample: of a series over the axis, or, where `across` names another scale, over both.
+   subroutine add(self, file, name, values, across, units, long_name)
       class(sample_table_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file
-      character(len=*), intent(in) :: name, units, long_name
+      character(len=*), intent(in) :: name, across, units, long_name
       real(wp), intent(in) :: values(:)
-      integer, intent(in) :: width
       integer :: k
       k = self%next
       self%next = k + 1
@@ -75,8 +79,8 @@ contains
             call self%open_series(file, name, size(values))
          else
             call new_series(self, name)
-            call self%series(k)%data%create(file, name, width, units, long_name, &
-               & merge('time pad', 'time    ', width > 0))
+            call self%series(k)%data%create(file, name, merge(size(values), 0, across /= ''), units, long_name, &
+               & trim(self%axis//' '//across))
          end if
          if (size(self%series) < k) return
          allocate (self%series(k)%buffer(size(values), chunk_samples))
@@ -155,6 +159,7 @@ contains
       real(wp), allocatable :: values(:, :)
       integer(i8) :: missing
       integer :: k
+      if (.not. allocated(self%series)) return
       do k = 1, size(self%series)
          associate (data => self%series(k)%data)
             call source%open(whole, self%series(k)%name)
@@ -175,6 +180,7 @@ contains
       class(sample_table_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file
       integer :: k
+      if (.not. allocated(self%series)) return
       do k = 1, size(self%series)
          call self%series(k)%data%open(file, self%series(k)%name)
       end do

@@ -9,7 +9,7 @@ module file_lock
       & c_ptr, c_size_t
    use text, only: to_text
    use errors, only: error_type, raise, system_error, stopped
-   use signals, only: stop_requested, stop_reason
+   use stop_signals, only: stop_requested, stop_reason
    use posix, only: c_fopen, c_fileno, c_fclose, c_statx, statx_shorts, delete_file, host_name, &
       & pause_seconds, process_alive, process_id
    use system_errors, only: refused_by_other, system_reason

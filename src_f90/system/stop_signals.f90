@@ -1,5 +1,5 @@
 !> Signals that ask the program to stop. The handler only takes a note; the program looks when it can stop well.
-module signals
+module stop_signals
    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t
    use text, only: to_text
    implicit none (type, external)
@@ -50,4 +50,4 @@ contains
       integer(c_int), value :: number
       received = number
    end subroutine note
-end module signals
+end module stop_signals

@@ -1,0 +1,78 @@
+!> One run of a case: what its task works on, and what it has cost so far.
+module case_run
+   use kinds, only: wp
+   use scene, only: scene_type
+   use sweep, only: member_tag
+   use integrator_counts, only: integrator_counts_type
+   use equations_of_motion, only: bearing_model
+   use run_file, only: run_file_type
+   use run_statistics, only: run_statistics_type
+   use progress, only: wall_clock
+   implicit none (type, external)
+   private
+   public :: case_run_type, begin_run
+
+   type :: case_run_type
+      type(scene_type) :: scene
+      !> Name of the result file, as given.
+      character(len=:), allocatable :: path
+      !> Which member of a sweep it is, if any.
+      type(member_tag) :: tag
+      logical :: quiet = .true.
+      !> True where the file is continued from its checkpoint.
+      logical :: resumed = .false.
+      !> True once there are results that are worth a file.
+      logical :: computed = .false.
+      type(run_file_type) :: file
+      type(bearing_model) :: model
+      !> Simulated time reached, s.
+      real(wp) :: reached = 0
+      !> What the integration cost; wall time of sampling and of the checkpoints, s.
+      type(integrator_counts_type) :: counts
+      real(wp) :: sampling = 0, checkpoints = 0
+      !> Clock at the start, s, and what the run cost before it was resumed.
+      real(wp) :: started = 0
+      type(run_statistics_type) :: earlier
+   contains
+      procedure :: statistics
+   end type case_run_type
+
+contains
+
+   !> Starts the clock of a run.
+   subroutine begin_run(run, scene, path, tag, quiet)
+      type(case_run_type), intent(out) :: run
+      type(scene_type), intent(in) :: scene
+      character(len=*), intent(in) :: path
+      type(member_tag), intent(in) :: tag
+      logical, intent(in) :: quiet
+      run%scene = scene
+      run%path = path
+      run%tag = tag
+      run%quiet = quiet
+      run%started = wall_clock()
+   end subroutine begin_run
+
+   !> What the run has cost so far, over all its stretches: the list of all figures.
+   type(run_statistics_type) function statistics(self)
+      class(case_run_type), intent(in) :: self
+      associate (counts => self%counts)
+         call statistics%put('steps', counts%steps, 'time steps')
+         call statistics%put('rhs_evaluations', counts%rhs_evaluations, 'right-hand sides')
+         call statistics%put('jacobian_evaluations', counts%jacobian_evaluations, 'Jacobians')
+         call statistics%put('error_test_failures', counts%error_test_failures, 'steps refused by the error test')
+         call statistics%put('convergence_failures', counts%convergence_failures, 'Newton iterations that failed')
+      end associate
+      associate (films => self%model%film%counters)
+         call statistics%put('film_modal', films%modal, 'pads solved by axial modes in the march')
+         call statistics%put('film_volumes', films%sor, 'pads solved on finite volumes in the march')
+         call statistics%put('film_passes', films%sweeps, &
+            & 'passes over the cells of these, sweeps of over-relaxation or eliminations, in the march')
+      end associate
+      call statistics%put('film_seconds', self%model%film_seconds, 'wall time of the film in the march')
+      call statistics%put('output_seconds', self%sampling, 'wall time of sampling')
+      call statistics%put('checkpoint_seconds', self%checkpoints, 'wall time of the checkpoints before the last')
+      call statistics%put('wall_seconds', wall_clock() - self%started, 'wall time of the run')
+      call statistics%add(self%earlier)
+   end function statistics
+end module case_run

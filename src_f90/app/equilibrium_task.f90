@@ -1,0 +1,43 @@
+!> The task 'equilibrium', with which a march starts too.
+module equilibrium_task
+   use kinds, only: wp
+   use errors, only: error_type, stopped
+   use equilibrium, only: equilibrium_type, find_equilibrium
+   use namelist_writer, only: scene_text
+   use equilibrium_results, only: put_equilibrium
+   use stop_signals, only: stop_requested, stop_reason
+   use case_run, only: case_run_type
+   use run_summary, only: print_equilibrium
+   implicit none (type, external)
+   private
+   public :: run_equilibrium, start_at_equilibrium
+
+contains
+
+   subroutine run_equilibrium(run, error)
+      type(case_run_type), intent(inout) :: run
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: y(:)
+      call start_at_equilibrium(run, y, error)
+   end subroutine run_equilibrium
+
+   !> Creates the file, finds the equilibrium and writes it; y is its state.
+   subroutine start_at_equilibrium(run, y, error)
+      type(case_run_type), intent(inout) :: run
+      real(wp), allocatable, intent(out) :: y(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(equilibrium_type) :: static
+      call run%file%create(run%scene, scene_text(run%scene), error)
+      if (allocated(error)) return
+      if (run%tag%number > 0) call run%file%put_member(run%tag%number, run%tag%members, run%tag%sweep)
+      call find_equilibrium(run%scene, static, error, run%model%contact, stop_requested)
+      if (allocated(error)) then
+         if (error%status == stopped) error%message = stop_reason()//' before the march; nothing was computed yet'
+         return
+      end if
+      call put_equilibrium(run%file%file, static, run%scene%tilting_radial())
+      run%computed = .true.
+      if (.not. run%quiet) call print_equilibrium(static)
+      y = run%model%at_rest(static%journal, static%tilt, static%penetration)
+   end subroutine start_at_equilibrium
+end module equilibrium_task

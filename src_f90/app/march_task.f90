@@ -1,0 +1,124 @@
+!> The task 'march': from the equilibrium, or from a checkpoint, over the duration; samples and their spectra.
+module march_task
+   use kinds, only: wp, i8, pi
+   use text, only: to_text
+   use errors, only: error_type, raise, system_error
+   use marching, only: march, march_options, sample_plan
+   use integrator_counts, only: integrator_counts_type
+   use spectra, only: one_sided_amplitude, full_amplitude
+   use scene, only: scene_type
+   use run_file, only: run_file_type
+   use march_results, only: put_spectrum
+   use case_run, only: case_run_type
+   use equilibrium_task, only: start_at_equilibrium
+   use recorder, only: recorder_type, begin_recording
+   implicit none (type, external)
+   private
+   public :: run_march
+
+   !> Without friction the motion is smooth and the steps are long; the error of Newton's iteration then shows
+   !> in the orbit at CVODE's 0.1 (measured, docs/benchmarks.md).
+   real(wp), parameter :: smooth_newton_coefficient = 0.02_wp
+
+contains
+
+   subroutine run_march(run, error)
+      type(case_run_type), intent(inout), target :: run
+      type(error_type), allocatable, intent(out) :: error
+      type(recorder_type) :: observer
+      type(sample_plan) :: plan
+      type(integrator_counts_type) :: counts
+      real(wp), allocatable :: y(:)
+      real(wp) :: t
+      if (run%resumed) then
+         call continue_from_checkpoint(run, t, y, error)
+      else
+         t = 0
+         call start_at_equilibrium(run, y, error)
+      end if
+      if (allocated(error)) return
+      call run%file%begin_series('time')
+      plan = planned(run)
+      if (run%resumed) call check_samples(run, plan, t, error)
+      if (allocated(error)) return
+      call begin_recording(observer, run, t)
+      call march(run%model, options(run), t, run%scene%operation%duration, plan, y, observer, counts, error)
+      run%counts = counts
+      call observer%progress%clear()
+      if (.not. allocated(error)) call write_spectra(run%scene, plan%interval, run%file)
+   end subroutine run_march
+
+   !> State and time, s, of the checkpoint in the file.
+   subroutine continue_from_checkpoint(run, t, y, error)
+      type(case_run_type), intent(inout) :: run
+      real(wp), intent(out) :: t
+      real(wp), allocatable, intent(out) :: y(:)
+      type(error_type), allocatable, intent(out) :: error
+      allocate (y(run%model%n))
+      run%earlier = run%statistics()
+      call run%file%resume(t, y, run%earlier, error)
+      if (allocated(error)) return
+      run%computed = .true.
+      if (.not. run%quiet) print '(a)', 'going on from t = '//to_text(t)//' s'
+   end subroutine continue_from_checkpoint
+
+   type(march_options) function options(run)
+      type(case_run_type), intent(in) :: run
+      associate (integration => run%scene%integration)
+         options%relative_tolerance = integration%relative_tolerance
+         options%absolute_tolerance = integration%relative_tolerance*integration%tolerance_scale*run%model%scale
+         options%max_step = integration%max_step
+         options%max_steps = integration%max_steps - run%earlier%count('steps')
+      end associate
+      if (run%scene%friction%model == 'none') options%newton_coefficient = smooth_newton_coefficient
+   end function options
+
+   type(sample_plan) function planned(run) result(plan)
+      type(case_run_type), intent(in) :: run
+      associate (scene => run%scene)
+         plan%first = scene%output%start_time
+         plan%interval = 2*pi/(scene%highest_speed()*scene%output%samples_per_revolution)
+         ! a last sample that misses the end by rounding alone is taken
+         plan%count = 1 + floor((scene%operation%duration - plan%first)/plan%interval + 1e-6_wp, i8)
+      end associate
+      plan%next = run%file%samples()
+   end function planned
+
+   !> Refuses a file whose samples end elsewhere than its checkpoint at time t, s, says.
+   subroutine check_samples(run, plan, t, error)
+      type(case_run_type), intent(in) :: run
+      type(sample_plan), intent(in) :: plan
+      real(wp), intent(in) :: t
+      type(error_type), allocatable, intent(out) :: error
+      call run%file%error_of(error)
+      if (allocated(error) .or. plan%next == 0) return
+      if (plan%time(plan%next - 1) > t .or. plan%time(plan%next) <= t) call raise(error, system_error, &
+         & run%path//': damaged: its samples and its checkpoint do not fit')
+   end subroutine check_samples
+
+   !> Spectra over the last whole revolutions of a run at constant speed; none where it was not sampled
+   !> over one.
+   subroutine write_spectra(scene, interval, file)
+      type(scene_type), intent(in) :: scene
+      !> Between samples, s.
+      real(wp), intent(in) :: interval
+      type(run_file_type), intent(inout) :: file
+      real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), amplitudes(:, :)
+      integer :: revolutions, n, i
+      if (scene%acceleration() /= 0) return
+      associate (samples => scene%output%samples_per_revolution)
+         revolutions = int(min(int(scene%output%spectrum_revolutions, i8), (file%samples() - 1)/samples))
+         n = revolutions*samples
+      end associate
+      if (revolutions == 0 .or. n < 2) return
+      call file%last_samples('journal_y', n, y)
+      call file%last_samples('journal_z', n, z)
+      call file%last_samples('pad_tilt', n, tilt)
+      allocate (amplitudes(n/2 + 1, scene%pad_count()))
+      do i = 1, scene%pad_count()
+         amplitudes(:, i) = one_sided_amplitude(tilt(i, :))
+      end do
+      call put_spectrum(file%file, interval, revolutions, scene%highest_speed(), one_sided_amplitude(y(1, :)), &
+         & one_sided_amplitude(z(1, :)), full_amplitude(cmplx(y(1, :), z(1, :), wp)), amplitudes)
+   end subroutine write_spectra
+end module march_task
