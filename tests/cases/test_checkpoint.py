@@ -76,9 +76,13 @@ def one_error(process, status):
     return error
 
 
+def series(file):
+    """Names of the series over time."""
+    return [name for name, each in file.items() if isinstance(each, h5py.Dataset) and name not in ("pad", "pivot_angle")]
+
+
 def lengths(file):
-    datasets = [each for each in file.values() if isinstance(each, h5py.Dataset)]
-    return {len(each) for each in datasets if each.name not in ("/pad", "/pivot_angle")}
+    return {len(file[name]) for name in series(file)}
 
 
 def check_checkpoint(path, reference):
@@ -232,6 +236,29 @@ def stopped(program, case):
     process.terminate()
     assert process.wait(10) == 4
     return case
+
+
+def test_a_file_of_format_version_1_is_continued(tiltpad, stopped):
+    """It becomes one of version 2, as good as if it had been so before; the counts go on from its own."""
+    older = stopped / "older.h5"
+    shutil.copy(stopped / "case.h5", older)
+    with h5py.File(older, "r+") as file:
+        file.attrs["format_version"] = np.int32(1)
+        file["statistics"].move("film_volumes", "film_sor")
+        file["statistics"].move("film_passes", "sor_sweeps")
+        file["statistics/film_sor"][()] += 1_000_000
+        file["statistics/sor_sweeps"][()] += 2_000_000
+    for name in ("older.h5", "case.h5"):
+        done = tiltpad("--resume", name, "-q", cwd=stopped)
+        assert (done.returncode, done.stderr) == (0, "")
+    with h5py.File(older) as file, h5py.File(stopped / "case.h5") as expected:
+        assert (file.attrs["format_version"], file.attrs["complete"]) == (2, 1)
+        assert set(file) == set(expected)
+        assert set(file["statistics"]) == set(expected["statistics"])
+        for name in series(file):
+            assert np.array_equal(file[name], expected[name]), name
+        for name, more in (("film_modal", 0), ("film_volumes", 1_000_000), ("film_passes", 2_000_000)):
+            assert file["statistics"][name][()] == expected["statistics"][name][()] + more
 
 
 @pytest.mark.parametrize(
