@@ -150,7 +150,7 @@ fuzz: python
 
 # PARTS='films pads' runs these alone and takes the others from their last run
 bench: build python $(VENV)/ready-bench $(B)/bench/film_bench
-	$(venv_python) tests/bench/bench.py $(B)/bin/tiltpad $(if $(PARTS),--only $(PARTS))
+	PYTHONPATH=post $(venv_python) tests/bench/bench.py $(B)/bin/tiltpad $(if $(PARTS),--only $(PARTS))
 
 # counterparts of the paper's figures, and its claims checked
 paper: build python

@@ -18,9 +18,11 @@ import matplotlib.pyplot as plt
 from tiltpad.draw.plots import STYLE
 
 from paper import laws
-from paper.claims import Checked, check
+from paper.claims import check
 from paper.figures import FIGURES
-from paper.page import machine, page
+from paper.judging import Checked
+from paper.machine import machine
+from paper.page import page
 from paper.runs import Runs, run_all
 from paper.settings import FOLDERS, ROOT
 from paper.studies import REUSED, STUDIES

@@ -5,8 +5,8 @@ import platform
 import re
 import subprocess
 from importlib.metadata import version
-from pathlib import Path
 
+from paper.machine import processor
 from peers import PROGRAM
 from settings import ROOT
 
@@ -28,15 +28,6 @@ def described(found: dict[str, dict]) -> str:
     else:
         lines += [f"- {name}: {mark}" for name, mark in marks.items()]
     return "\n".join(lines)
-
-
-def processor() -> str:
-    """Name of the processor."""
-    try:
-        found = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
-    except OSError:
-        found = None
-    return found[1] if found else platform.machine()
 
 
 def compiled() -> tuple[str, str]:

@@ -54,37 +54,44 @@ def result(tiltpad, tmp_path_factory):
 
 
 @pytest.fixture
-def run(result):
-    """run("lugre"): that scene's result, opened by the package; an incomplete one would be an error."""
-    opened = []
+def opened():
+    """opened(path): a result, opened by the package, and closed at the end of the test."""
+    runs = []
 
-    def read(scene: str) -> package.Run:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            opened.append(package.read(result(scene)))
-        return opened[-1]
+    def read(path: Path) -> package.Run:
+        runs.append(package.read(path))
+        return runs[-1]
 
     yield read
-    for each in opened:
+    for each in runs:
         each.close()
 
 
 @pytest.fixture
-def tiltpad_set(tiltpad, result, tmp_path):
+def run(result, opened):
+    """run("lugre"): that scene's result, opened; an incomplete one would be an error."""
+
+    def read(scene: str) -> package.Run:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            return opened(result(scene))
+
+    return read
+
+
+@pytest.fixture
+def tiltpad_set(tiltpad, result, opened, tmp_path):
     """tiltpad_set("none", "rotor%unbalance=0.02"): the result of that scene with that value changed."""
-    opened = []
+    numbers = itertools.count()
 
     def run(scene: str, change: str) -> package.Run:
-        output = tmp_path / f"set{len(opened)}.h5"
+        output = tmp_path / f"set{next(numbers)}.h5"
         case = result(scene).with_suffix(".nml")
         done = tiltpad("--quiet", case, "--set", change, "--output", output)
         assert done.returncode == 0, done.stderr
-        opened.append(package.read(output))
-        return opened[-1]
+        return opened(output)
 
-    yield run
-    for each in opened:
-        each.close()
+    return run
 
 
 @pytest.fixture
@@ -103,7 +110,7 @@ def changed(result, tmp_path):
 
 
 @pytest.fixture
-def made(result, tmp_path):
+def made(result, opened, tmp_path):
     """made("runup", seconds=2, journal_y=...): a run with a scene's input and signals of the test's own.
 
     Signals are arrays over the time, or functions of (time, shaft angle); what is not given is 0. The speed
@@ -112,10 +119,10 @@ def made(result, tmp_path):
     import h5py
     import numpy as np
 
-    opened = []
+    numbers = itertools.count()
 
     def run(scene: str, seconds: float, interval: float = 1e-4, **signals) -> package.Run:
-        path = tmp_path / f"made{len(opened)}.h5"
+        path = tmp_path / f"made{next(numbers)}.h5"
         with h5py.File(result(scene), "r") as source, h5py.File(path, "w") as file:
             file.attrs.update(source.attrs)
             time = interval * np.arange(round(seconds / interval) + 1)
@@ -132,12 +139,9 @@ def made(result, tmp_path):
                 values = own.get(name, 0.0)
                 values = np.transpose(values(time, angle) if callable(values) else values)
                 file[name] = np.broadcast_to(values, dataset.shape[:0:-1] + time.shape).T
-        opened.append(package.read(path))
-        return opened[-1]
+        return opened(path)
 
-    yield run
-    for each in opened:
-        each.close()
+    return run
 
 
 @pytest.fixture(scope="session")

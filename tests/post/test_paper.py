@@ -5,12 +5,19 @@ import numpy as np
 import pytest
 import tiltpad as package
 from paper import __main__ as command
-from paper import claims, figures, measures, page
+from paper import claims, figures, judging, measures, page, reasons, sections
 from paper.runs import Runs, run_all
 from paper.settings import FOLDERS, SCENES, Scene
 
 #: Runs of the claims tried here, shortened.
 SHORT = ("operation%duration=0.1", "output%start_time=0.04")
+#: Claims that these runs decide.
+DECIDED = (
+    "tilting_only_smaller",
+    "tilting_only_higher",
+    "radial_motion_tilts",
+    "friction_enlarges_tilting_radial",
+)
 NAMES = ("steady_to", "steady_tr", "steady_tr_ba", "steady_ba_10_05", "ba_slow")
 
 
@@ -37,33 +44,23 @@ def judged(name):
 
 
 def test_claims_hold_in_short_runs(runs):
-    for name in (
-        "tilting_only_smaller",
-        "tilting_only_higher",
-        "radial_motion_tilts",
-        "friction_enlarges_tilting_radial",
-    ):
+    for name in DECIDED:
         assert judged(name)(runs).holds, name
 
 
 def test_claims_fail_where_they_are_wrong(runs):
     swapped = {"steady_to": runs["steady_tr"], "steady_tr": runs["steady_to"]}
     swapped["steady_tr_ba"] = swapped["steady_tr"]
-    for name in (
-        "tilting_only_smaller",
-        "tilting_only_higher",
-        "radial_motion_tilts",
-        "friction_enlarges_tilting_radial",
-    ):
+    for name in DECIDED:
         assert not judged(name)(swapped).holds, name
 
 
 def test_a_difference_within_the_resolution_does_not_count():
-    assert not claims.smaller(0.999).holds
-    assert claims.smaller(0.9).holds
-    assert not claims.larger(1.001).holds
-    assert claims.larger(1.1).holds
-    assert not claims.Verdict(np.nan, "<", 1).holds
+    assert not judging.smaller(0.999).holds
+    assert judging.smaller(0.9).holds
+    assert not judging.larger(1.001).holds
+    assert judging.larger(1.1).holds
+    assert not judging.Verdict(np.nan, "<", 1).holds
 
 
 def test_a_pad_that_slides_does_not_count_as_stuck(runs):
@@ -106,28 +103,28 @@ def test_stribeck_curve_is_the_programs(runs):
 
 
 def test_page_has_every_picture_and_claim():
-    shown = {f"fig{name}" for section in page.SECTIONS for name in section.pictures}
+    shown = {f"fig{name}" for section in sections.SECTIONS for name in section.pictures}
     shown |= {name for name in command.PICTURES if f"({name}.png)" in page.PAGE}
     assert shown == set(command.PICTURES)
     numbers = {"3", "4", "6", "7", "8", "9", "10", "11", "12", "13", "14", "15"}
     assert numbers <= {name.removeprefix("fig") for name in command.PICTURES}
-    assert set(page.CAPTIONS) == {name for section in page.SECTIONS for name in section.pictures}
-    where = [each for section in page.SECTIONS for each in section.where]
+    assert set(sections.CAPTIONS) == {name for section in sections.SECTIONS for name in section.pictures}
+    where = [each for section in sections.SECTIONS for each in section.where]
     assert len(where) == len(set(where))
     assert {each.where for each in claims.CLAIMS} == set(where)
-    assert set(claims.WHY) <= {each.name for each in claims.CLAIMS}
+    assert set(reasons.WHY) <= {each.name for each in claims.CLAIMS}
 
 
 def test_a_claim_that_fails_is_on_the_page(runs):
     claim = next(each for each in claims.CLAIMS if each.name == "sticking_wider_dynamic")
-    wrong, right = claims.Verdict(0.9, ">", 1.01), claims.Verdict(1.1, ">", 1.01)
-    failed = claims.Checked(claim, wrong, wrong, right)
+    wrong, right = judging.Verdict(0.9, ">", 1.01), judging.Verdict(1.1, ">", 1.01)
+    failed = judging.Checked(claim, wrong, wrong, right)
     assert "**no**" in page.row(failed)
     assert claim.statement in page.failed_words([failed])
     text = page.why([failed], runs)
     assert "0.900" in text
     assert "f_s decides" in text
-    assert "numerics" in page.why([claims.Checked(claim, wrong, right, right)], runs)
+    assert "numerics" in page.why([judging.Checked(claim, wrong, right, right)], runs)
     assert claim.statement in page.rule_changes([failed])
 
 
