@@ -3,8 +3,7 @@
 VERSION := 0.1.0
 
 # ---- what can be set ---------------------------------------------------------------------------
-# MODE=release|debug   debug: bounds, floating-point traps, all warnings (wrap: for Python, set by make python;
-#                      fuzz: set by make fuzz)
+# MODE=release|debug   debug: bounds, floating-point traps, all warnings (others are set by make python, wheel, fuzz)
 # FC, FFLAGS           compiler and its optimisation flags
 # PREFIX               where make install puts things
 # SUNDIALS_PREFIX, HDF5_PREFIX, FFTW_PREFIX   libraries of a cluster; nothing is installed then
@@ -16,17 +15,57 @@ export LAPACK ARCHIVES CC
 ifeq ($(origin FC),default)
 FC := gfortran
 endif
+# all processors, unless -j says otherwise
+ifeq ($(MAKELEVEL)$(filter -j% --jobs%,$(MAKEFLAGS)),0)
+MAKEFLAGS += --jobs=$(shell nproc)
+endif
+
+# ---- flags by compiler: this is the one place ---------------------------------------------------
+# standard: always. heap: for modules whose arrays are as long as a run. modules: what goes before their folder.
+# release, debug: FFLAGS, where they are not given. any: FFLAGS of a program for any processor of its kind, and alone: what
+# links the compiler's own libraries into it (both for a wheel).
+machine := $(shell uname -m)
+family := $(or $(findstring flang,$(notdir $(FC))),$(findstring ifx,$(notdir $(FC))),gfortran)
+
+gfortran.standard := -std=f2018 -fimplicit-none -fopenmp-simd
+gfortran.heap     := -fno-stack-arrays
+gfortran.modules  := -J
+gfortran.release  := -O3 -march=native -mprefer-vector-width=256 -fstack-arrays
+gfortran.debug    := -O1 -g -fcheck=all,no-array-temps -fbacktrace -ffpe-trap=invalid,zero,overflow -Wall -Wextra \
+                     -Wno-unused-dummy-argument -Wno-uninitialized -Wno-maybe-uninitialized -Wno-compare-reals -Werror
+gfortran.any      := -O3 -fstack-arrays
+gfortran.alone    := -static-libgcc -static-libgfortran -l:libgfortran.a $(if $(filter x86_64,$(machine)),-l:libquadmath.a)
+
+flang.standard := -std=f2018 -fimplicit-none
+flang.heap     := -fno-stack-arrays
+flang.modules  := -J
+flang.release  := -O3 -march=native -fstack-arrays
+flang.debug    := -O1 -g
+flang.any      := -O3 -fstack-arrays
+flang.alone    :=
+
+ifx.standard := -stand f18 -implicitnone -qopenmp-simd
+ifx.heap     := -heap-arrays
+ifx.modules  := -module #
+ifx.release  := -O3 -xHost -fp-model=precise
+ifx.debug    := -O1 -g -check all -traceback -fpe0
+ifx.any      := -O3 -fp-model=precise
+ifx.alone    := -static-intel
+
 ifeq ($(MODE),debug)
-FFLAGS ?= -O1 -g -fcheck=all,no-array-temps -fbacktrace -ffpe-trap=invalid,zero,overflow -Wall -Wextra \
-          -Wno-unused-dummy-argument -Wno-uninitialized -Wno-maybe-uninitialized -Wno-compare-reals -Werror
+FFLAGS ?= $($(family).debug)
 B := build/debug
 else ifeq ($(MODE),release)
-FFLAGS ?= -O3 -march=native -mprefer-vector-width=256 -fstack-arrays
+FFLAGS ?= $($(family).release)
 B := build
 else ifeq ($(MODE),wrap)
 # for Python: position-independent, and for any machine of its kind, as a wheel travels
 override FFLAGS := -O2 -fPIC
 B := build/wrap
+else ifneq ($(filter any x86-64-v3,$(MODE)),)
+# for a wheel: any processor of its kind, and those of PCs since about 2013
+override FFLAGS := $($(family).any) $(if $(filter x86%,$(MODE)),-march=$(MODE))
+B := build/$(MODE)
 else ifeq ($(MODE),fuzz)
 # for make fuzz: whatever can tell a fault, and which lines and branches a case reaches
 override FFLAGS := -O1 -g -fcheck=all,no-array-temps -fbacktrace -ffpe-trap=invalid,zero,overflow \
@@ -46,10 +85,12 @@ INCLUDE := $(addprefix -I,$(modules)) $(patsubst %,-I%/include,$(SUNDIALS_PREFIX
 # what a program is linked with; how, is found out when linking, as the libraries may be installed only now
 library := $(B)/lib/libtiltpad.a $(B)/lib/unused.o
 LIBS := $$(cat $(B)/lib/flags)
+ifneq ($(filter any x86-64-v3,$(MODE)),)
+LIBS += $($(family).alone) -s
+endif
 # these have arrays as long as a run: not on the stack, wherever FFLAGS puts the short ones of the march
 run_long := $(addprefix src_f90/,analysis/spectra.f90 analysis/loops.f90 $(addsuffix /*.f90,system input storage results app))
-on_heap  := -fno-stack-arrays
-COMPILE = $(FC) -std=f2018 -fimplicit-none -fopenmp-simd $(FFLAGS) $(INCLUDE) -J$(B)/mod
+COMPILE = $(FC) $($(family).standard) $(FFLAGS) $(INCLUDE) $($(family).modules)$(B)/mod
 
 # ---- system packages ---------------------------------------------------------------------------
 PACKAGES := gfortran libc6-dev libsundials-dev libsundials-fortran-dev libhdf5-dev libfftw3-dev \
@@ -72,6 +113,10 @@ fuzz_input := tests/fuzz/fuzz_input.f90
 wrapper := post/wrap/library.f90
 # what the program says of itself; rewritten only when it changes
 commit := $(shell git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)
+define newline
+
+
+endef
 define build_info
 !> What the program says of its own making; written by the Makefile.
 module build_info
@@ -81,12 +126,12 @@ module build_info
 
    character(len=*), parameter :: program_version = '$(VERSION)'
    character(len=*), parameter :: program_commit = '$(commit)'
-   character(len=*), parameter :: program_flags = '$(subst ','',$(FFLAGS))'
+   character(len=*), parameter :: program_flags = ''$(foreach flag,$(FFLAGS), &$(newline)     & //' $(subst ','',$(flag))')
 end module build_info
 endef
 $(shell mkdir -p $(B)/obj $(B)/mod)
 $(file >$(B)/obj/build_info.new,$(build_info))
-$(file >$(B)/flags.new,$(COMPILE) $(prefixes) $(LAPACK) $(ARCHIVES) long:$(on_heap) $(run_long))
+$(file >$(B)/flags.new,$(COMPILE) $(prefixes) $(LAPACK) $(ARCHIVES) long:$($(family).heap) $(run_long))
 $(shell for f in $(B)/obj/build_info.f90:$(B)/obj/build_info.new $(B)/flags:$(B)/flags.new; do \
    cmp -s $${f#*:} $${f%:*} && rm $${f#*:} || mv $${f#*:} $${f%:*}; done)
 
@@ -96,8 +141,8 @@ vpath %.f90 $(sort $(dir $(sources) $(tests) $(film_bench) $(fuzz_input) $(wrapp
 VENV := build/venv
 venv_python := $(VENV)/bin/python
 
-.PHONY: help run build deps python wrap wheel test test-slurm stress fuzz bench paper test-programs lint format docs \
-        install clean
+.PHONY: help run build deps python wrap python_library wheel test test-slurm test-debian13 stress fuzz bench paper \
+        test-programs lint format docs install clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -105,6 +150,8 @@ help:
 	@echo 'make run      set up, build, run input/paper/steady_lugre.nml, draw it into build/run'
 	@echo 'make test     set up, build, run every test; ONLY=sweep: cases with that in program:case, and pytest -k'
 	@echo 'make test-slurm   the job scripts of input/slurm on a real Slurm of one node, two minutes (as root)'
+	@echo 'make test-debian13   both commands and the wheel on Debian 13, from nothing, ten minutes (as root);'
+	@echo '                     make test-debian-sid: on another release'
 	@echo 'make stress   random scenes, some minutes; writes docs/stability.md (SCENES=300 SEED=1)'
 	@echo 'make fuzz     cases and arguments of every kind, right and wrong; writes docs/fuzzing.md (MINUTES=5 SEED=1)'
 	@echo 'make bench    run time against error, peers, some ten minutes; writes docs/benchmarks.md'
@@ -112,7 +159,7 @@ help:
 	@echo 'make build    build/bin/tiltpad          (MODE=debug: build/debug/bin/tiltpad)'
 	@echo 'make deps     install what is missing (root or sudo; otherwise print the list and stop)'
 	@echo 'make python   Python environment build/venv with the package tiltpad and its compiled part'
-	@echo 'make wheel    build/wheel/tiltpad-*.whl with the compiled part, tried in an environment of its own'
+	@echo 'make wheel    build/wheel/tiltpad-*.whl: program, plots, library, for any Linux of this age or later'
 	@echo 'make lint     style of Fortran and Python, order of the floors; make format mends what it can'
 	@echo 'make docs     write docs/inputs.md, docs/api.md, docs/verification.md and docs/images from the program'
 	@echo 'make install  program into PREFIX/bin    (PREFIX=$(PREFIX))'
@@ -133,6 +180,12 @@ test: build python build/deps-test
 # starts munged, slurmctld and slurmd in a temporary folder, and stops them
 test-slurm: build python build/deps-slurm
 	@TILTPAD=$(abspath $(B)/bin/tiltpad) $(venv_python) -m pytest -q -rs -p no:cacheprovider tests/slurm
+
+# the two commands and the wheel on another release of Debian, from nothing (as root)
+test-debian13:
+	@$(MAKE) --no-print-directory test-debian-trixie
+test-debian-%: build/deps-debian
+	@tests/debian/try_suite $* build/debian/$*
 
 # random scenes; SCENES and SEED choose them
 SCENES ?= 300
@@ -174,6 +227,10 @@ ifeq ($(strip $(prefixes)),)
 endif
 	@touch $@
 
+build/deps-debian: build/deps-checked
+	@($(call install_missing,debootstrap)) || echo 'the test is skipped'
+	@touch $@
+
 build/deps-slurm: build/deps-checked
 	@($(call install_missing,$(SLURM_PACKAGES))) || echo 'tests that need them are skipped'
 	@touch $@
@@ -202,32 +259,52 @@ wrap: $(VENV)/ready
 	@$(MAKE) --no-print-directory MODE=wrap build/wrap/library
 
 build/wrap/library: $(B)/obj/library.o $(B)/lib/unused.o $(B)/flags $(VENV)/ready
-	@mkdir -p $(B)/f2py
 	@rm -f post/tiltpad/_library.*
-	cd $(B)/f2py && $(abspath $(venv_python)) -m numpy.f2py --quiet -m _library $(abspath $(wrapper)) >log 2>&1 || { cat log; exit 1; }
-	set -e; eval "$$($(venv_python) post/wrap/paths.py)"; \
-	$(COMPILE) -c $(B)/f2py/_library-f2pywrappers2.f90 -o $(B)/f2py/wrappers.o; \
-	$(CC) -O2 -fPIC -w -I$$python -I$$numpy -I$$f2py -c $(B)/f2py/_librarymodule.c -o $(B)/f2py/module.o; \
-	$(CC) -O2 -fPIC -w -I$$python -I$$numpy -I$$f2py -c $$f2py/fortranobject.c -o $(B)/f2py/fortranobject.o; \
-	$(FC) -shared -Wl,--as-needed $(B)/f2py/*.o $(B)/obj/*.o $(B)/lib/unused.o $(LIBS) -o post/tiltpad/_library$$suffix
+	@$(MAKE) --no-print-directory MODE=wrap python_library FOLDER=post/tiltpad
 	@touch $@
+
+# compiles it, in MODE=wrap, for the Python of VENV into FOLDER
+f2py = $(B)/f2py/$(FOLDER)
+python_library: $(B)/obj/library.o $(B)/lib/unused.o
+	@rm -rf $(f2py) && mkdir -p $(f2py)
+	cd $(f2py) && $(abspath $(venv_python)) -m numpy.f2py --quiet -m _library $(abspath $(wrapper)) >log 2>&1 || { cat log; exit 1; }
+	set -e; eval "$$($(venv_python) post/wrap/paths.py)"; \
+	$(COMPILE) -c $(f2py)/_library-f2pywrappers2.f90 -o $(f2py)/wrappers.o; \
+	$(CC) -O2 -fPIC -w -I$$python -I$$numpy -I$$f2py -c $(f2py)/_librarymodule.c -o $(f2py)/module.o; \
+	$(CC) -O2 -fPIC -w -I$$python -I$$numpy -I$$f2py -c $$f2py/fortranobject.c -o $(f2py)/fortranobject.o; \
+	$(FC) -shared -s -Wl,--as-needed $(f2py)/*.o $(B)/obj/*.o $(B)/lib/unused.o $(LIBS) -o $(FOLDER)/_library$$suffix
 
 $(VENV)/ready: post/pyproject.toml post/setup.py post/requirements.txt | build/deps-checked
 	$(PYTHON) -m venv $(VENV)
-	$(venv_python) -m pip install -q --disable-pip-version-check -r post/requirements.txt
+	$(venv_python) -m pip install -q --disable-pip-version-check --no-compile -r post/requirements.txt
 	$(venv_python) -m pip install -q --disable-pip-version-check --no-build-isolation --no-deps -e post
 	@touch $@
 
+# A wheel for each Python from 3.11 on whose headers are at hand: program, commands and library, with all that they
+# need but glibc, whose version the name of the wheel tells. Each is tried in an environment of its own.
+PYTHONS ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3.15; do \
+   $$p post/wrap/headers.py 2>/dev/null && echo $$p; done)
+processors := any $(if $(filter x86_64,$(machine)),x86-64-v3)
+wheel: python
+	@test -n '$(strip $(PYTHONS))' || { echo 'no Python from 3.11 on with its headers is at hand (PYTHONS=)'; exit 1; }
+	@for mode in $(processors); do $(MAKE) --no-print-directory MODE=$$mode build || exit 1; done
+	@rm -rf build/wheel
+	@$(MAKE) --no-print-directory $(addprefix wheel-,$(PYTHONS))
+	@ls -lh build/wheel/*.whl
+
 # from a copy, as setuptools leaves files beside what it packs
-wheel: build python
-	rm -rf build/wheel && mkdir -p build/wheel && cp -r post build/wheel/source
-	$(venv_python) -m pip wheel -q --disable-pip-version-check --no-build-isolation --no-deps \
-	   -w build/wheel build/wheel/source
-	$(PYTHON) -m venv build/wheel/venv
-	build/wheel/venv/bin/python -m pip install -q --disable-pip-version-check build/wheel/*.whl
-	cd build/wheel && echo "&case task='equilibrium' /" > case.nml && $(abspath $(B)/bin/tiltpad) --quiet case.nml && \
-	   venv/bin/python $(abspath tests/post/check_wheel.py) case.h5 && venv/bin/tiltpad-plot pressure case.h5
-	@ls build/wheel/*.whl
+wheel-%:
+	mkdir -p build/wheel/$*/programs && cp -r post build/wheel/$*/source && rm -f build/wheel/$*/source/tiltpad/_library.*
+	$(CC) -O2 -s post/wheel/start.c -o build/wheel/$*/programs/tiltpad
+	for mode in $(processors); do cp build/$$mode/bin/tiltpad build/wheel/$*/programs/$$mode || exit 1; done
+	mv build/wheel/$*/programs build/wheel/$*/source/
+	cp LICENSE build/wheel/$*/source && FC=$(FC) post/wheel/licences.sh build/any/lib/flags build/wheel/$*/source
+	$* -m venv build/wheel/$*/venv
+	grep -E '^(numpy|setuptools|wheel)=' post/requirements.txt | build/wheel/$*/venv/bin/pip install -q -r /dev/stdin
+	@$(MAKE) --no-print-directory MODE=wrap python_library VENV=build/wheel/$*/venv FOLDER=build/wheel/$*/source/tiltpad
+	build/wheel/$*/venv/bin/pip wheel -q --no-build-isolation --no-deps -w build/wheel/$*/raw build/wheel/$*/source
+	PATH=$(abspath $(VENV)/bin):$$PATH auditwheel repair -w build/wheel build/wheel/$*/raw/*.whl
+	tests/wheel/try_wheel build/wheel $* build/wheel/$*/try
 
 $(VENV)/ready-bench: tests/bench/requirements.txt $(VENV)/ready
 	$(venv_python) -m pip install -q --disable-pip-version-check -r $<
@@ -262,10 +339,7 @@ $(B)/tests/%: $(B)/obj/%.o $(patsubst tests/%.f90,$(B)/obj/%.o,$(test_modules)) 
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
 
-$(patsubst %.f90,$(B)/obj/%.o,$(notdir $(wildcard $(run_long)))): private override FFLAGS += $(on_heap)
-
-# the flags stand in one line of it
-$(B)/obj/build_info.o: override FFLAGS += -ffree-line-length-none
+$(patsubst %.f90,$(B)/obj/%.o,$(notdir $(wildcard $(run_long)))): private override FFLAGS += $($(family).heap)
 
 test-programs: $(test_programs)
 

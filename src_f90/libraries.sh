@@ -50,7 +50,7 @@ link() {
 }
 
 # links what only some builds of a library have
-link_if_there() { [ -z "$(find_library "$1")" ] || link "$1"; }
+link_if_there() { [ -z "$(find_library "$@")" ] || link "$@"; }
 
 # symbols that the archives want of libraries called so
 wanted() { [ -z "$archives" ] || nm -u $archives 2>/dev/null | sed -n "s/^ *U \($1\)\$/\1/p"; }
@@ -66,8 +66,10 @@ unused=$(wanted '\(MPI\|ompi\)_[A-Za-z0-9_]*')
 all_flags=$flags archives= flags=
 
 link hdf5_serialhl_fortran hdf5_serial_hl_fortran hdf5hl_fortran hdf5_hl_fortran
+link_if_there hdf5_serial_hl_f90cstub hdf5_hl_f90cstub
 link hdf5_serial_hl hdf5_hl
 link hdf5_serial_fortran hdf5_fortran
+link_if_there hdf5_serial_f90cstub hdf5_f90cstub
 link hdf5_serial hdf5
 if [ -n "$archives" ]; then for name in sz aec z; do link_if_there $name; done; flags="$flags -ldl -lpthread"; fi
 unused="$unused $(wanted '\(curl\|EVP\|aws\)_[A-Za-z0-9_]*\|HMAC\|SHA256')"
