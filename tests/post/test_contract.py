@@ -47,7 +47,7 @@ SPECTRUM = {
     "spectrum/journal_full": (("spectrum/full_frequency",), "m"),
 }
 COUNTS = ["steps", "rhs_evaluations", "jacobian_evaluations", "error_test_failures", "convergence_failures"]
-COUNTS += ["film_modal", "film_sor", "sor_sweeps"]
+COUNTS += ["film_modal", "film_volumes", "film_passes"]
 
 RADIAL = {"pad_penetration", "pad_penetration_rate", "equilibrium/pad_penetration"}
 BRISTLE = {"bristle_deflection"}
@@ -106,7 +106,7 @@ def test_pads_and_samples(file, scene):
 
 def test_attributes(file, scene):
     attributes = file.attrs
-    assert attributes["format_version"] == 1
+    assert attributes["format_version"] == 2
     assert attributes["complete"] == 1
     assert attributes["program"] == "tiltpad"
     assert attributes["title"] == ("Steady, it's LuGre" if scene == "lugre" else "")
@@ -124,7 +124,7 @@ def test_statistics(file, scene):
         assert statistics[name][()] >= 0, name
     marched = scene != "equilibrium"
     assert (statistics["steps"][()] > 0) == marched
-    assert (statistics["film_modal"][()] + statistics["film_sor"][()] > 0) == marched
+    assert (statistics["film_modal"][()] + statistics["film_volumes"][()] > 0) == marched
     for name in ("wall_seconds", "film_seconds"):
         assert statistics[name].attrs["units"] == "s"
     assert statistics["wall_seconds"][()] > 0
