@@ -90,7 +90,7 @@ def python_floor(module: str) -> tuple[str, int]:
 
 
 def imported(node: ast.AST) -> list[str]:
-    """The modules of tiltpad that a statement imports, by their whole names; the compiled library is below all."""
+    """Modules of tiltpad that a statement imports, by their whole names; the compiled one is below all."""
     found = []
     if isinstance(node, ast.Import):
         found = [each.name for each in node.names]
