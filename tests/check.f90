@@ -6,7 +6,7 @@ module check
    use errors, only: error_type
    implicit none (type, external)
    private
-   public :: runs, expect, expect_close, expect_no_error, between, report
+   public :: runs, expect, expect_close, expect_no_error, expect_error, between, report
 
    integer :: passed = 0, failed = 0, calls = 0
    !> "test_sweep:ranges", for messages.
@@ -60,6 +60,17 @@ contains
       call expect(.not. allocated(error), what)
       if (allocated(error)) write (error_unit, '(a)') '   but: '//error%message
    end subroutine expect_no_error
+
+   !> An error is set, of that exit status, and its message contains the words.
+   subroutine expect_error(error, status, words, what)
+      type(error_type), allocatable, intent(in) :: error
+      integer, intent(in) :: status
+      character(len=*), intent(in) :: words, what
+      call expect(allocated(error), what)
+      if (.not. allocated(error)) return
+      call expect(error%status == status, what//': exit status')
+      call expect(index(error%message, words) > 0, what//': "'//words//'" in "'//error%message//'"')
+   end subroutine expect_error
 
    !> A random number of the interval.
    real(wp) function between(low, high)

@@ -82,7 +82,7 @@ program test_scene_namelist
    use scene, only: scene_type
    use scene_fields, only: visit_scene
    use assignments, only: namelist_type
-   use case_text, only: read_text, parse_case
+   use case_text, only: parse_case
    use scene_namelist, only: scene_from_text, scene_from_namelist
    use namelist_writer, only: scene_text
    use scene_probes, only: collector, shaker
@@ -103,7 +103,6 @@ program test_scene_namelist
    if (runs('awkward_titles')) call awkward_titles()
    if (runs('refused_values')) call refused_values()
    if (runs('refused_scenes')) call refused_scenes()
-   if (runs('files')) call files()
    call report()
 
 contains
@@ -324,24 +323,4 @@ contains
       call expect_refused('&film circumferential_cells = 41/', 'must be even')
       call expect_refused('&output start_time = 3/', 'must not exceed operation%duration')
    end subroutine refused_scenes
-
-   subroutine files()
-      type(scene_type) :: scene
-      type(error_type), allocatable :: error
-      character(len=*), parameter :: name = 'test_scene_namelist.tmp'
-      character(len=:), allocatable :: text
-      integer :: unit
-      call read_text('no/such/file.nml', text, error)
-      call expect(allocated(error), 'a missing file')
-      if (allocated(error)) call expect(error%message == 'no/such/file.nml: no such file', error%message)
-      open (newunit=unit, file=name, access='stream', form='unformatted', status='replace', action='write')
-      write (unit) '&rotor mass = 1234 /'
-      close (unit)
-      call read_text(name, text, error)
-      if (.not. allocated(error)) call scene_from_text(text, name, scene, error)
-      call expect_no_error(error, 'a file without a last line end')
-      call expect_close(scene%rotor%mass, 1234.0_wp, 0.0_wp, 'its value')
-      open (newunit=unit, file=name, status='old')
-      close (unit, status='delete')
-   end subroutine files
 end program test_scene_namelist
