@@ -6,21 +6,18 @@ points and its cost. A study holds links to the members' files, not their series
 
 import os
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from contextlib import suppress
-from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-import h5py
 import numpy as np
 
-from tiltpad.collect.members import DONE, UNENDED, Member, member
-from tiltpad.collect.parameters import differing, parameters
-from tiltpad.files.archive import FORMAT_VERSION, RunError, opened
-from tiltpad.files.read import IncompleteRunWarning, read
-from tiltpad.files.study import MEMBER, QUANTITIES, Quantity
+from tiltpad.collect.members import DONE, UNENDED, Member, member, planned
+from tiltpad.collect.study_file import ranges, write
+from tiltpad.files.archive import RunError, opened
+from tiltpad.files.read import IncompleteRunWarning
 
 PathLike = str | os.PathLike
 
@@ -155,11 +152,6 @@ def kin(one: Member) -> str:
     return f"a member of a sweep over {', '.join(one.sweep)}" if one.members else "a run of its own"
 
 
-def planned(members: Sequence[Member]) -> int:
-    """How many members the sweep has, by the last that was run; 0 for runs of their own."""
-    return max(each.members or 0 for each in members)
-
-
 def numbered(members: Sequence[Member]) -> list[Member]:
     """The members in the order of their numbers; those without one get the next free ones."""
     if not any(each.members for each in members):
@@ -172,139 +164,3 @@ def numbered(members: Sequence[Member]) -> list[Member]:
             each, free = each._replace(number=free), free + 1
         found.append(each)
     return sorted(found, key=lambda each: each.number)
-
-
-def ranges(numbers: Sequence[int]) -> str:
-    """Rising numbers in few words: "3, 7-9"."""
-    ends: list[list[int]] = []
-    for number in numbers:
-        if ends and number == ends[-1][1] + 1:
-            ends[-1][1] = number
-        else:
-            ends.append([number, number])
-    return ", ".join(f"{low}" if low == high else f"{low}-{high}" for low, high in ends)
-
-
-def write(target: Path, members: Sequence[Member], missing: Sequence[int]) -> None:
-    """Writes the file under a temporary name, and renames it when it is whole."""
-    if not target.parent.is_dir():
-        raise RunError(f"{target.parent}: no such folder")
-    temporary = target.with_name(f"{target.name}.part{os.getpid()}")
-    try:
-        with h5py.File(temporary, "w") as file:
-            fill(file, members, missing, target.resolve().parent)
-        os.replace(temporary, target)
-    finally:
-        temporary.unlink(missing_ok=True)
-
-
-def fill(file: h5py.File, members: Sequence[Member], missing: Sequence[int], folder: Path) -> None:
-    """Attributes, dimension scales, parameters, results and links of a study."""
-    readable = [each for each in members if each.input]
-    first = readable[0]
-    if first.members:
-        known = {each.path: each.sweep for each in readable}
-    else:
-        own = differing([each.input for each in readable])
-        known = {each.path: values for each, values in zip(readable, own, strict=True)}
-    found = parameters([known.get(each.path) for each in members])
-    titles = {each.origin["title"] for each in readable}
-    file.attrs.update(
-        {
-            "format_version": FORMAT_VERSION,
-            "program": "tiltpad",
-            "version": first.origin["version"],
-            "created": datetime.now(UTC).isoformat(timespec="seconds"),
-            "title": titles.pop() if len(titles) == 1 else "",
-            "task": "study",
-            "input": first.origin["input"],
-            "parameters": " ".join(each.name for each in found),
-            "variables": "\n".join(each.variable for each in found),
-            "members": planned(members) or len(members),
-            "missing": ranges(missing),
-        }
-    )
-    scales(file, members)
-    coordinates = " ".join(each.name for each in found)
-    for each in found:
-        put(file, each.name, each.values, MEMBER, each.units, each.long_name)
-    paths = [os.path.relpath(each.path.resolve(), folder) for each in members]
-    texts = {"reason": ("why it failed", [each.reason for each in members])}
-    texts["file"] = ("its result, from the folder of this file", paths)
-    for name, (long_name, values) in texts.items():
-        put(file, name, values, MEMBER, "", long_name, coordinates)
-    for name, quantity, values in tables(members):
-        put(file, name, values, quantity.dimensions, quantity.units, quantity.long_name, coordinates)
-    links = file.create_group("members")
-    digits = max(4, len(str(members[-1].number)))
-    for each, path in zip(members, paths, strict=True):
-        links[f"{each.number:0{digits}d}"] = h5py.ExternalLink(path, "/")
-
-
-def scales(file: h5py.File, members: Sequence[Member]) -> None:
-    """The dimensions: members by their numbers, pads, revolutions counted from the last one, which is 0."""
-    read = [each for each in members if each.input]
-    pads = max(len(np.atleast_1d(each.input["pads"]["pivot_angle_deg"])) for each in read)
-    points = max((len(each.values["poincare_y"]) for each in read if "poincare_y" in each.values), default=0)
-    for name, values, long_name in (
-        ("member", [each.number for each in members], "number of the member"),
-        ("pad", range(1, pads + 1), "number of the pad"),
-        ("revolution", range(1 - points, 1), "revolutions before the last Poincare point"),
-    ):
-        if len(values):
-            file[name] = np.array(values, dtype=np.int64)
-            file[name].make_scale(name)
-            file[name].attrs.update({"units": "1", "long_name": long_name})
-
-
-def tables(members: Sequence[Member]) -> Iterator[tuple[str, Quantity, np.ndarray]]:
-    """Name, kind and array of every quantity that at least one member has; nan where a member has none."""
-    yield "status", QUANTITIES["status"], np.array([each.status for each in members], dtype=float)
-    for name, quantity in QUANTITIES.items():
-        values = [(each.values or {}).get(name) for each in members]
-        if any(each is not None for each in values):
-            yield name, quantity, padded(values, from_end=name.startswith("poincare"))
-    measured = [each for each in members if each.cost]
-    for name in dict.fromkeys(name for each in measured for name in each.cost):
-        first = next(each for each in measured if name in each.cost)
-        values = np.array([(each.cost or {}).get(name, np.nan) for each in members])
-        yield name, meaning(first.path, name), values
-
-
-def meaning(path: Path, name: str) -> Quantity:
-    """What a number of the cost is, by a file that has it."""
-    with warnings.catch_warnings(action="ignore"), read(path) as run:
-        units, long_name = (run.about(f"statistics/{name}", each) for each in ("units", "long_name"))
-    return Quantity(MEMBER, units, long_name)
-
-
-def padded(values: Sequence[Any], from_end: bool) -> np.ndarray:
-    """Arrays of several sizes, or none, as one: nan behind the shorter ones, or along axis 1 before them."""
-    sizes = [np.shape(each) for each in values if each is not None]
-    table = np.full((len(values), *np.max(sizes, axis=0).astype(int)), np.nan)
-    for k, each in enumerate(values):
-        if each is not None:
-            place = [slice(0, size) for size in np.shape(each)]
-            if from_end:
-                place[0] = slice(table.shape[1] - len(each), None)
-            table[k, *place] = each
-    return table
-
-
-def put(
-    file: h5py.File,
-    name: str,
-    values: Sequence[Any],
-    dimensions: Sequence[str],
-    units: str,
-    long_name: str,
-    coordinates: str = "",
-) -> None:
-    """A dataset along its dimension scales, with what CF readers look for."""
-    if isinstance(values[0], str):
-        values = np.array(values, dtype=h5py.string_dtype())
-    dataset = file.create_dataset(name, data=values)
-    for axis, dimension in enumerate(dimensions):
-        dataset.dims[axis].attach_scale(file[dimension])
-    told = {"units": units, "long_name": long_name, "coordinates": coordinates}
-    dataset.attrs.update({key: text for key, text in told.items() if text})

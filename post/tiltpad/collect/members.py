@@ -1,5 +1,6 @@
 """What a study keeps of each run: how it ended, its last revolution in numbers, Poincare points, cost."""
 
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -146,3 +147,8 @@ def friction(run: Run, part: slice) -> dict[str, Any]:
 def cost(run: Run) -> dict[str, float]:
     """The numbers of the group statistics; none of a run that has no such."""
     return {name: float(value) for name, value in run["statistics"].items()} if "statistics" in run else {}
+
+
+def planned(members: Sequence[Member]) -> int:
+    """How many members the sweep has, by the last that was run; 0 for runs of their own."""
+    return max(each.members or 0 for each in members)
