@@ -1,0 +1,164 @@
+!> What the rupture of a few cells adds to the force, against the same finite volumes relaxed cell by cell.
+program test_slight_rupture
+   use kinds, only: wp
+   use text, only: to_text
+   use film_solver, only: film_motion
+   use film_grid, only: film_grid_type, new_film_grid
+   use grid_modes, only: grid_modes_type, new_grid_modes
+   use slight_rupture, only: force_of_few
+   use paper_bearing, only: paper_pad, speed, clearance
+   use check, only: runs, expect, expect_close, between, report
+   implicit none (type, external)
+
+   integer, parameter :: columns = 24, rows = 6
+
+   if (runs('against_relaxation')) call against_relaxation()
+   if (runs('any_start')) call any_start()
+   if (runs('whole_film')) call whole_film()
+   if (runs('not_few')) call not_few()
+   call report()
+
+contains
+
+   !> A loaded film of the dry pad, its grid at that motion, and a start without ruptured cells.
+   subroutine loaded_film(grid, basis, film)
+      type(film_grid_type), intent(out) :: grid
+      type(grid_modes_type), intent(out) :: basis
+      real(wp), allocatable, intent(out) :: film(:, :)
+      type(film_motion) :: motion
+      motion%position = clearance*[between(-0.15_wp, -0.04_wp), between(0.2_wp, 0.6_wp)]
+      motion%velocity = clearance*speed*[between(-0.01_wp, 0.01_wp), between(-0.01_wp, 0.01_wp)]
+      call film_at(motion, grid, basis, film)
+   end subroutine loaded_film
+
+   subroutine film_at(motion, grid, basis, film)
+      type(film_motion), intent(in) :: motion
+      type(film_grid_type), intent(out) :: grid
+      type(grid_modes_type), intent(out) :: basis
+      real(wp), allocatable, intent(out) :: film(:, :)
+      grid = new_film_grid(paper_pad(), columns, rows)
+      basis = new_grid_modes(grid)
+      call grid%set_motion(motion, speed)
+      allocate (film(basis%m, columns), source=0.0_wp)
+      film(:rows, :) = 1
+   end subroutine film_at
+
+   !> The pressure of the finite volumes, (row, column), with rupture or without, by over-relaxation of each cell until
+   !> nothing changes.
+   function relaxed(grid, ruptures) result(p)
+      type(film_grid_type), intent(in) :: grid
+      logical, intent(in) :: ruptures
+      real(wp) :: p(rows, columns)
+      real(wp) :: flow, total, new, change
+      integer :: sweep, column, row
+      p = 0
+      do sweep = 1, 20000
+         change = 0
+         do column = 1, columns
+            do row = 1, rows
+               associate (inward => grid%beside(column)*grid%inward(row), &
+                  & outward => grid%beside(column)*grid%outward(row))
+                  flow = -grid%source(column)
+                  if (column > 1) flow = flow + grid%along(column - 1)*p(row, column - 1)
+                  if (column < columns) flow = flow + grid%along(column)*p(row, column + 1)
+                  if (row > 1) flow = flow + inward*p(row - 1, column)
+                  if (row < rows) flow = flow + outward*p(row + 1, column)
+                  if (row == rows) flow = flow - grid%edge_source(column)
+                  total = grid%along(column - 1) + grid%along(column) + inward + outward
+               end associate
+               new = p(row, column) + 1.5_wp*(flow/total - p(row, column))
+               if (ruptures) new = max(0.0_wp, new)
+               change = max(change, abs(new - p(row, column)))
+               p(row, column) = new
+            end do
+         end do
+         if (change <= 1e-15_wp*maxval(p)) exit
+      end do
+   end function relaxed
+
+   !> Force with rupture less force without, N.
+   function expected_force(grid) result(force)
+      type(film_grid_type), intent(in) :: grid
+      real(wp) :: force(2)
+      force = grid%force(matmul(grid%height, relaxed(grid, .true.) - relaxed(grid, .false.)))
+   end function expected_force
+
+   subroutine against_relaxation()
+      type(film_grid_type) :: grid
+      type(grid_modes_type) :: basis
+      real(wp), allocatable :: film(:, :)
+      real(wp) :: force(2), expected(2), p(rows, columns), all_of_it
+      logical :: few
+      integer :: trial, compared
+      compared = 0
+      do trial = 1, 60
+         call loaded_film(grid, basis, film)
+         p = relaxed(grid, .true.)
+         call force_of_few(grid, basis, film, force, few)
+         if (.not. (few .and. any(p <= 0))) cycle
+         compared = compared + 1
+         expected = expected_force(grid)
+         all_of_it = norm2(grid%force(matmul(grid%height, p)))
+         call expect_close(norm2(force - expected), 0.0_wp, 1e-10_wp*all_of_it, 'force, film '//to_text(trial))
+         call expect(norm2(expected) > 1e-7_wp*all_of_it, 'which is no rounding, film '//to_text(trial))
+         call expect(all((film(:rows, :) > 0) .eqv. p > 0), 'the cells that rupture, film '//to_text(trial))
+      end do
+      call expect(compared >= 40, 'most of these films rupture slightly: '//to_text(compared))
+   end subroutine against_relaxation
+
+   !> The answer does not depend on the cells that were ruptured before.
+   subroutine any_start()
+      type(film_grid_type) :: grid
+      type(grid_modes_type) :: basis
+      real(wp), allocatable :: film(:, :), other(:, :)
+      real(wp) :: force(2), again(2), draw(rows, columns)
+      logical :: few, still_few
+      integer :: trial, compared
+      compared = 0
+      do trial = 1, 60
+         call loaded_film(grid, basis, film)
+         other = film
+         call force_of_few(grid, basis, film, force, few)
+         call random_number(draw)
+         other(:rows, :) = nint(draw)
+         call force_of_few(grid, basis, other, again, still_few)
+         if (.not. (few .and. still_few .and. norm2(force) > 0)) cycle
+         compared = compared + 1
+         call expect_close(norm2(again - force), 0.0_wp, 1e-12_wp*norm2(force), 'the same force, film '//to_text(trial))
+         call expect(all(nint(other(:rows, :)) == nint(film(:rows, :))), 'the same cells, film '//to_text(trial))
+      end do
+      call expect(compared >= 40, 'most of these films rupture slightly: '//to_text(compared))
+   end subroutine any_start
+
+   !> Squeezed everywhere, with no wedge: nothing ruptures.
+   subroutine whole_film()
+      type(film_grid_type) :: grid
+      type(grid_modes_type) :: basis
+      real(wp), allocatable :: film(:, :)
+      real(wp) :: force(2)
+      logical :: few
+      call film_at(film_motion(clearance*[-0.3_wp, 0.2_wp], clearance*speed*[0.0_wp, 0.1_wp]), grid, basis, film)
+      call expect(minval(relaxed(grid, .false.)) >= 0, 'a film that does not rupture')
+      call force_of_few(grid, basis, film, force, few)
+      call expect(few, 'is slight rupture')
+      call expect_close(norm2(force), 0.0_wp, 0.0_wp, 'without a force')
+   end subroutine whole_film
+
+   !> A film that opens over much of the pad, at the leading edge, or all over.
+   subroutine not_few()
+      type(film_motion), parameter :: motions(3) = [film_motion([20e-6_wp, 30e-6_wp], [0.0_wp, 0.0_wp]), &
+         & film_motion([-10e-6_wp, 30e-6_wp], [-20e-3_wp, 0.0_wp]), film_motion([0.0_wp, 0.0_wp], [0.0_wp, -1.0_wp])]
+      type(film_grid_type) :: grid
+      type(grid_modes_type) :: basis
+      real(wp), allocatable :: film(:, :)
+      real(wp) :: force(2)
+      logical :: few
+      integer :: k
+      do k = 1, size(motions)
+         call film_at(motions(k), grid, basis, film)
+         call expect(any(relaxed(grid, .true.) <= 0), 'a film that ruptures, '//to_text(k))
+         call force_of_few(grid, basis, film, force, few)
+         call expect(.not. few, 'far or wide, '//to_text(k))
+      end do
+   end subroutine not_few
+end program test_slight_rupture
