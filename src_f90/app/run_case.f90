@@ -1,6 +1,6 @@
 !> A run from scene to result file: opens the file, has the scene's task done, closes the file.
 module run_case
-   use errors, only: error_type, numerics_error, stopped
+   use errors, only: error_type, raise, input_error, numerics_error, stopped
    use scene, only: scene_type
    use sweep, only: member_tag
    use equations_of_motion, only: new_bearing_model
@@ -37,6 +37,8 @@ contains
          call run_equilibrium(run, error)
       case ('march')
          call run_march(run, error)
+      case default
+         call raise(error, input_error, 'case%task: there is no task '//scene%about%task)
       end select
       call close_file(run, error)
    end subroutine run_scene
