@@ -101,8 +101,9 @@ TEST_PACKAGES := chromium-headless-shell
 SLURM_PACKAGES := slurmctld slurmd slurm-client munge
 
 sources := $(sort $(shell find src_f90 -name '*.[fF]90'))
+c_sources := $(sort $(shell find src_f90 -name '*.c'))
 main    := src_f90/app/tiltpad.f90
-objects := $(addsuffix .o,$(addprefix $(B)/obj/,$(basename $(notdir $(filter-out $(main),$(sources)))))) \
+objects := $(addsuffix .o,$(addprefix $(B)/obj/,$(basename $(notdir $(filter-out $(main),$(sources)) $(c_sources))))) \
            $(B)/obj/build_info.o
 tests   := $(sort $(wildcard tests/unit/test_*.f90 tests/physics/test_*.f90))
 test_programs := $(patsubst %.f90,$(B)/tests/%,$(notdir $(tests)))
@@ -136,6 +137,7 @@ $(shell for f in $(B)/obj/build_info.f90:$(B)/obj/build_info.new $(B)/flags:$(B)
    cmp -s $${f#*:} $${f%:*} && rm $${f#*:} || mv $${f#*:} $${f%:*}; done)
 
 vpath %.F90 $(sort $(dir $(sources)))
+vpath %.c $(sort $(dir $(c_sources)))
 vpath %.f90 $(sort $(dir $(sources) $(tests) $(film_bench) $(fuzz_input) $(wrapper))) tests $(B)/obj
 
 VENV := build/venv
@@ -327,6 +329,9 @@ $(B)/obj/%.o: %.f90 $(B)/flags | build/deps-checked
 
 $(B)/obj/%.o: %.F90 $(B)/flags | build/deps-checked
 	$(COMPILE) -c $< -o $@
+
+$(B)/obj/%.o: %.c $(B)/flags | build/deps-checked
+	$(CC) -O2 -Wall -Wextra -c $< -o $@
 
 $(B)/lib/flags: src_f90/libraries.sh $(B)/flags | build/deps-checked
 	@mkdir -p $(@D)

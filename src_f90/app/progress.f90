@@ -4,7 +4,7 @@ module progress
    use, intrinsic :: iso_fortran_env, only: output_unit
    use kinds, only: wp, i8
    use text, only: to_text
-   use posix, only: is_terminal
+   use standard_output, only: is_terminal
    implicit none (type, external)
    private
    public :: progress_type, new_progress, wall_clock

@@ -54,7 +54,7 @@ contains
       call run%file%claim(run%path, error)
       if (allocated(error)) return
       if (.not. run%quiet .and. run%file%taken_from() /= '') print '(a)', run%path//': ' &
-         & //run%file%taken_from()//', which wrote it, is no more'
+         & //run%file%taken_from()//', which wrote it, has ended'
       if (go_on) inquire (file=run%path, exist=run%resumed)
       if (.not. run%resumed) return
       call read_restart(run%path, found, error)

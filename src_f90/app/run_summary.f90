@@ -20,7 +20,7 @@ contains
       do i = 1, size(static%tilt)
          print '(a)', '  pad '//to_text(i)//': tilt '//milli(static%tilt(i))//' mrad, penetration ' &
             & //micro(static%penetration(i))//' um, contact '//fixed_text(static%contact_force(i), 1) &
-            & //' N, least film '//micro(static%min_film(i))//' um, highest pressure ' &
+            & //' N, minimum film '//micro(static%min_film(i))//' um, maximum pressure ' &
             & //mega(static%max_pressure(i))//' MPa'
       end do
    end subroutine print_equilibrium
@@ -43,7 +43,8 @@ contains
          & //micro(minval(z))//' to '//micro(maxval(z))//' um'
       do i = 1, size(tilt, 1)
          print '(a)', '  pad '//to_text(i)//': tilt '//milli(minval(tilt(i, :)))//' to ' &
-            & //milli(maxval(tilt(i, :)))//' mrad, least film '//micro(minval(film(i, :)))//' um, highest pressure ' &
+            & //milli(maxval(tilt(i, :)))//' mrad, minimum film '//micro(minval(film(i, :))) &
+            & //' um, maximum pressure ' &
             & //mega(maxval(pressure(i, :)))//' MPa, friction work ' &
             & //fixed_text(1e3_wp*loop_area(tilt(i, :), moment(i, :)), 3)//' mJ'
       end do

@@ -5,9 +5,8 @@ module run_sweep
    use errors, only: error_type, raise, system_error, stopped
    use scene, only: scene_type
    use sweep, only: sweep_type, member_tag
-   use posix, only: process_id
-   use processes, only: open_pipe, wait_for_record, ended, stop_process, make_folder, remove_folder
-   use sweep_child, only: child_type, last_word, read_last_word, member_runner, pause
+   use processes, only: process_id, open_pipe, wait_for_record, ended, stop_process, make_folder, remove_folder
+   use sweep_child, only: child_type, report_type, read_report, member_runner, pause
    use hdf5_base, only: start_hdf5
    use stop_signals, only: stop_requested, stop_reason
    use progress, only: progress_type, new_progress, wall_clock
@@ -38,22 +37,22 @@ contains
       end do
    end subroutine check_members
 
-   !> The folder of the members is made if it is not there, and tried.
+   !> Makes the folder of the members if it is not there, and tries to write into it.
    subroutine prepare_folder(folder, error)
       character(len=*), intent(in) :: folder
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: trouble, trial
+      character(len=:), allocatable :: refusal, trial
       trial = folder//'/.part'//to_text(int(process_id()))
-      call make_folder(folder, trouble)
-      if (trouble == '') then
-         call make_folder(trial, trouble)
+      call make_folder(folder, refusal)
+      if (refusal == '') then
+         call make_folder(trial, refusal)
          call remove_folder(trial)
       end if
-      if (trouble /= '') call raise(error, system_error, 'cannot write into the folder '//folder//': '//trouble)
+      if (refusal /= '') call raise(error, system_error, 'cannot write into the folder '//folder//': '//refusal)
    end subroutine prepare_folder
 
    !> Runs all members of a checked sweep into a prepared folder, `jobs` at a time. A failed member stops no other;
-   !> a noted signal does: then those under way are told and waited for. `failures` has one error a failed member;
+   !> a noted signal does: then those that run are sent it, and waited for. `failures` has one error a failed member;
    !> `error` says how many failed, or which signal came.
    subroutine run_members(sweep, folder, jobs, quiet, run_member, failures, error)
       type(sweep_type), intent(in) :: sweep
@@ -68,19 +67,19 @@ contains
       type(progress_type) :: progress
       real(wp) :: started
       integer :: pipe(2), next, i
-      logical :: ok, told
+      logical :: ok, stopping
 
       allocate (failures(0), tally%errors(sweep%members))
       call open_pipe(pipe, ok)
       if (.not. ok) then
-         call raise(error, system_error, 'no pipe to be had for the members of the sweep')
+         call raise(error, system_error, 'the system has no pipe for the members of the sweep')
          return
       end if
       call start_hdf5()
       started = wall_clock()
       progress = new_progress(0.0_wp, real(sweep%members, wp), quiet)
       next = 1
-      told = .false.
+      stopping = .false.
       do
          do i = 1, size(children)
             if (children(i)%member /= 0 .or. next > sweep%members .or. stop_requested()) cycle
@@ -90,14 +89,14 @@ contains
                call children(i)%start(sweep, folder, next, pipe(2), run_member)
             end if
             if (children(i)%member == 0) then
-               ! no process to be had: later, when one of ours has ended, if there is one
+               ! no process could be started: later, when one of ours has ended, if there is one
                if (any(children%member /= 0)) exit
-               call note(next, system_error, 'no process to be had for it', tally)
+               call note(next, system_error, 'no process could be started for it', tally)
             end if
             next = next + 1
          end do
-         if (stop_requested() .and. .not. told) then
-            told = .true.
+         if (stop_requested() .and. .not. stopping) then
+            stopping = .true.
             do i = 1, size(children)
                if (children(i)%member /= 0) call stop_process(children(i)%process)
             end do
@@ -115,12 +114,12 @@ contains
          & //fixed_text(wall_clock() - started, 2)//' s; in '//folder
    end subroutine run_members
 
-   !> Waits for a last word, and a while at most, and takes note of the children that have ended.
+   !> Waits a while for a report, reads all that are there, and enters the members that have ended.
    subroutine look(children, pipe, tally)
       type(child_type), intent(inout) :: children(:)
       integer, intent(in) :: pipe
       type(tally_type), intent(inout) :: tally
-      type(last_word) :: word
+      type(report_type) :: report
       character(len=:), allocatable :: how
       integer :: i
       logical :: ok
@@ -131,18 +130,18 @@ contains
          end do
       end if
       do while (wait_for_record(pipe, 0))
-         call read_last_word(pipe, word, ok)
+         call read_report(pipe, report, ok)
          if (.not. ok) exit
-         call note(word%member, word%error%status, word%error%message, tally)
-         i = findloc(children%member, word%member, dim=1)
+         call note(report%member, report%error%status, report%error%message, tally)
+         i = findloc(children%member, report%member, dim=1)
          children(i)%member = 0
-         if (.not. word%stays) call children(i)%bury()
+         if (.not. report%stays) call children(i)%wait_for_end()
       end do
-      ! what they had to say has been read
+      ! their reports have been read
       do i = 1, size(children)
          if (.not. allocated(children(i)%how)) cycle
          if (children(i)%member /= 0) call note(children(i)%member, system_error, children(i)%how, tally)
-         call children(i)%bury()
+         call children(i)%wait_for_end()
       end do
    end subroutine look
 

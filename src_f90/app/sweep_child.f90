@@ -1,21 +1,20 @@
-!> A child process that runs members of a sweep, one after another, told which, as a new process for each would cost
-!> as much as a short run.
+!> A child process that runs members of a sweep one after another: its parent orders each. A new process for each would
+!> cost as much as a short run.
 module sweep_child
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
    use text, only: to_text
    use errors, only: error_type
    use scene, only: scene_type
    use sweep, only: sweep_type, member_tag
-   use posix, only: process_id
-   use processes, only: record_length, new_process, end_child, end_with_parent, open_pipe, close_pipe, send_record, &
-      & receive_record, wait_for_record, ended
+   use processes, only: process_id, record_length, new_process, end_child, end_with_parent, open_pipe, close_pipe, &
+      & send_record, receive_record, wait_for_record, ended
    use stop_signals, only: stop_requested
    implicit none (type, external)
    private
-   public :: child_type, last_word, read_last_word, member_file, member_runner, pause
+   public :: child_type, report_type, read_report, member_file, member_runner, pause
 
    abstract interface
-      !> Runs one member to its result file, saying nothing.
+      !> Runs one member to its result file, and prints nothing.
       subroutine member_runner(scene, path, tag, error)
          import :: scene_type, member_tag, error_type
          type(scene_type), intent(in) :: scene
@@ -25,34 +24,34 @@ module sweep_child
       end subroutine member_runner
    end interface
 
-   !> Milliseconds between two looks at those who may have ended without a word.
+   !> Milliseconds between two looks for children that ended without a report.
    integer, parameter :: pause = 100
-   !> Members that a child runs before a new one takes its place: what they may leave behind does not add up.
+   !> Members that a child runs before a new one replaces it, so that what they may leave in memory does not add up.
    integer, parameter :: members_a_child = 50
-   !> Number and status of a member and whether its child stays, in a member's last word; its message follows.
+   !> In the report of a member: its number, its status, and whether its child stays; its message follows.
    character(len=*), parameter :: head_format = '(2i12,l1,a)'
    integer, parameter :: head = 25
 
-   !> What a child says of a member that has ended.
-   type :: last_word
+   !> What a child reports of a member that has ended.
+   type :: report_type
       integer :: member = 0
       type(error_type) :: error
-      !> Whether the child waits to be told another.
+      !> Whether the child waits for the order of another.
       logical :: stays = .false.
-   end type last_word
+   end type report_type
 
-   !> A child process, if its number is not 0, and the member that it runs; 0: it waits to be told another.
+   !> A child process, if its number is not 0, and the member that it runs; 0: it waits for the order of another.
    type :: child_type
       integer :: process = 0, member = 0
-      !> The pipe through which it is told.
+      !> The pipe of its orders.
       integer :: orders(2) = 0
-      !> How it ended, where that is known before its last word was read.
+      !> How it ended, where that is known before its last report is read.
       character(len=:), allocatable :: how
    contains
       procedure :: start
       procedure :: order
       procedure :: dismiss
-      procedure :: bury
+      procedure :: wait_for_end
    end type child_type
 
 contains
@@ -66,7 +65,7 @@ contains
       path = folder//'/'//repeat('0', max(4, len(to_text(members))) - len(digits))//digits//'.h5'
    end function member_file
 
-   !> Tells a child that waits to run the k-th member.
+   !> Orders a child that waits to run the k-th member.
    subroutine order(child, k)
       class(child_type), intent(inout) :: child
       integer, intent(in) :: k
@@ -76,15 +75,15 @@ contains
       call send_record(child%orders(2), record)
    end subroutine order
 
-   !> Tells a child that waits to end.
+   !> Orders a child that waits to end, and waits for it.
    subroutine dismiss(child)
       class(child_type), intent(inout) :: child
       call child%order(0)
-      call child%bury()
+      call child%wait_for_end()
    end subroutine dismiss
 
    !> Waits for the end of a child that has nothing more to do.
-   subroutine bury(child)
+   subroutine wait_for_end(child)
       class(child_type), intent(inout) :: child
       character(len=:), allocatable :: how
       logical :: ignored
@@ -96,9 +95,9 @@ contains
       call close_pipe(child%orders)
       child%process = 0
       child%member = 0
-   end subroutine bury
+   end subroutine wait_for_end
 
-   !> Starts a child with its first member; `child` has no member where there is no process to be had.
+   !> Starts a child with its first member; `child` has no member where no process could be started.
    subroutine start(child, sweep, folder, k, pipe, run_member)
       class(child_type), intent(inout) :: child
       type(sweep_type), intent(in) :: sweep
@@ -116,7 +115,7 @@ contains
       process = new_process()
       if (process == 0) then
          call end_with_parent(parent)
-         call live(sweep, folder, k, child%orders(1), pipe, run_member)
+         call run_in_child(sweep, folder, k, child%orders(1), pipe, run_member)
       else if (process < 0) then
          call close_pipe(child%orders)
       else
@@ -125,12 +124,12 @@ contains
       end if
    end subroutine start
 
-   !> The child's life: runs its first member and those it is told to, and sends a last word of each. After one that
-   !> failed it ends, as a library may not be what it was.
-   subroutine live(sweep, folder, first, orders, pipe, run_member)
+   !> What a child does: it runs its first member and those that it is ordered to, and sends a report of each. It ends
+   !> after one that failed, as a library may then be in a bad state.
+   subroutine run_in_child(sweep, folder, first, orders, pipe, run_member)
       type(sweep_type), intent(in) :: sweep
       character(len=*), intent(in) :: folder
-      !> Its first member; the end of a pipe that its orders come from, and that of one for its last words.
+      !> Its first member; the end of a pipe that its orders come from, and that of one for its reports.
       integer, intent(in) :: first, orders, pipe
       procedure(member_runner) :: run_member
       integer :: k, count
@@ -143,7 +142,7 @@ contains
          if (k == 0) exit
       end do
       call end_child(0)
-   end subroutine live
+   end subroutine run_in_child
 
    !> Waits for an order: the number of a member; 0 for the end, also where a signal has come.
    subroutine receive_order(orders, k)
@@ -162,7 +161,7 @@ contains
       if (ok) read (record, '(i12)') k
    end subroutine receive_order
 
-   !> Runs a member and sends its last word, with whether the child stays for another.
+   !> Runs a member and sends its report, with whether the child stays for another.
    subroutine run_one(sweep, folder, k, pipe, may_stay, run_member, stays)
       type(sweep_type), intent(in) :: sweep
       character(len=*), intent(in) :: folder
@@ -183,15 +182,15 @@ contains
       call send_record(pipe, record)
    end subroutine run_one
 
-   !> A last word that waits in the pipe; ok is false where there is none.
-   subroutine read_last_word(pipe, word, ok)
+   !> A report that waits in the pipe; ok is false where there is none.
+   subroutine read_report(pipe, report, ok)
       integer, intent(in) :: pipe
-      type(last_word), intent(out) :: word
+      type(report_type), intent(out) :: report
       logical, intent(out) :: ok
       character(len=record_length) :: record
       call receive_record(pipe, record, ok)
       if (.not. ok) return
-      read (record(:head), head_format) word%member, word%error%status, word%stays
-      word%error%message = trim(record(head + 1:))
-   end subroutine read_last_word
+      read (record(:head), head_format) report%member, report%error%status, report%stays
+      report%error%message = trim(record(head + 1:))
+   end subroutine read_report
 end module sweep_child

@@ -8,11 +8,12 @@ program tiltpad
    use sweep, only: sweep_type, member_tag, read_sweep
    use namelist_writer, only: scene_text
    use input_reference, only: reference_text
-   use posix, only: real_path, write_output, keep_file_size_quiet
+   use files, only: real_path
+   use standard_output, only: write_output
    use processes, only: processors
    use build_info, only: program_version, program_commit
    use restart, only: restart_type, read_restart
-   use stop_signals, only: catch_signals
+   use stop_signals, only: catch_signals, ignore_file_limit
    use arguments, only: arguments_type, read_arguments, print_help
    use run_case, only: run_scene
    use sweep_child, only: member_file
@@ -28,7 +29,7 @@ program tiltpad
 
    type(arguments_type) :: given
    type(error_type), allocatable :: error
-   call keep_file_size_quiet()
+   call ignore_file_limit()
    call read_arguments(given, error)
    if (.not. allocated(error)) then
       select case (given%task)
@@ -173,7 +174,7 @@ contains
       end do
    end subroutine run_sweep_members
 
-   !> Runs a member of a sweep, or what is left of it, without a word.
+   !> Runs a member of a sweep, or what is left of it, and prints nothing.
    subroutine run_member(scene, path, tag, error)
       type(scene_type), intent(in) :: scene
       character(len=*), intent(in) :: path

@@ -5,7 +5,7 @@ module case_text
    use errors, only: error_type, raise, input_error
    use assignments, only: namelist_type
    use namelist_text, only: parse_namelist, parse_override
-   use posix, only: is_regular
+   use files, only: is_regular
    implicit none (type, external)
    private
    public :: read_text, parse_case

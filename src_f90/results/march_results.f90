@@ -41,8 +41,8 @@ contains
       call each('film_force_tangential', model%response%force(1), 'N', &
          & 'film force on the journal along the pad (y'')')
       call each('film_force_radial', model%response%force(2), 'N', 'film force on the journal outward (z'')')
-      call each('min_film_thickness', model%response%min_film, 'm', 'least film thickness')
-      call each('max_pressure', model%response%max_pressure, 'Pa', 'highest film pressure')
+      call each('min_film_thickness', model%response%min_film, 'm', 'minimum film thickness')
+      call each('max_pressure', model%response%max_pressure, 'Pa', 'maximum film pressure')
       call file%error_of(error)
    contains
       !> The i-th state of every pad.

@@ -5,7 +5,7 @@ module provenance
    use text, only: to_text
    use build_info, only: program_version, program_commit, program_flags
    use hdf5_file, only: hdf5_type
-   use posix, only: host_name
+   use processes, only: host_name
    implicit none (type, external)
    private
    public :: provenance_type, running

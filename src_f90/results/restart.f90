@@ -10,7 +10,7 @@ module restart
    use hdf5_trial, only: can_be_read
    use file_format, only: format_version
    use sweep, only: member_tag
-   use posix, only: is_regular
+   use files, only: is_regular
    implicit none (type, external)
    private
    public :: restart_type, read_restart, refuse_other_scene

@@ -8,7 +8,7 @@ module hdf5_base
       & h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, h5aget_type_f, h5adelete_f, h5aexists_f, &
       & h5lexists_f, h5ldelete_f, h5lmove_f, h5t_native_integer
    use c_strings, only: fortran_text
-   use posix, only: set_environment
+   use processes, only: set_environment
    use system_errors, only: write_refusal
    implicit none (type, external)
    private

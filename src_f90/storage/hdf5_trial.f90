@@ -1,32 +1,18 @@
 !> Tries whether an HDF5 file can be read at all. Over a damaged one the library may crash or run for ever; it does
 !> so in a child process.
 module hdf5_trial
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr
    use hdf5, only: hid_t, h5gn_members_f, h5gget_obj_info_idx_f, h5g_group_f
    use kinds, only: wp
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: hdf5_series_type
-   use posix, only: c_fopen, c_fileno
-   use processes, only: new_process, end_child, ended
+   use processes, only: new_process, end_child, limit_child, ended
    implicit none (type, external)
    private
    public :: can_be_read
 
    !> Seconds after which the reading is given up.
-   integer(c_int), parameter :: patience = 60
+   integer, parameter :: patience = 60
    integer, parameter :: longest_name = 200
-
-   interface
-      integer(c_int) function c_alarm(seconds) bind(c, name='alarm')
-         import :: c_int
-         integer(c_int), value :: seconds
-      end function c_alarm
-
-      integer(c_int) function c_dup2(old, new) bind(c, name='dup2')
-         import :: c_int
-         integer(c_int), value :: old, new
-      end function c_dup2
-   end interface
 
 contains
 
@@ -35,29 +21,18 @@ contains
    logical function can_be_read(path)
       character(len=*), intent(in) :: path
       character(len=:), allocatable :: how
-      integer(c_int) :: ignored
       integer :: child
       can_be_read = .true.
       child = new_process()
       if (child < 0) return
       if (child == 0) then
-         call be_silent()
-         ignored = c_alarm(patience)
+         ! the library and the runtime would report the crash
+         call limit_child(patience)
          call read_all(path)
          call end_child(0)
       end if
       can_be_read = ended(child, .true., how) .and. index(how, 'status 0 ') > 0
    end function can_be_read
-
-   !> The library and the runtime would report the crash.
-   subroutine be_silent()
-      type(c_ptr) :: nothing
-      integer(c_int) :: ignored
-      nothing = c_fopen('/dev/null'//c_null_char, 'w'//c_null_char)
-      if (.not. c_associated(nothing)) return
-      ignored = c_dup2(c_fileno(nothing), 1_c_int)
-      ignored = c_dup2(c_fileno(nothing), 2_c_int)
-   end subroutine be_silent
 
    subroutine read_all(path)
       character(len=*), intent(in) :: path

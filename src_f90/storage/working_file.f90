@@ -6,7 +6,7 @@
 !> then lacks only the last stretch.
 module working_file
    use errors, only: error_type, raise, system_error
-   use posix, only: rename_file, link_file, delete_file, copy_file, sync_file, begin_sync, real_path, is_regular
+   use files, only: rename_file, link_file, delete_file, copy_file, sync_file, begin_sync, real_path, is_regular
    use system_errors, only: system_reason
    use file_lock, only: file_lock_type
    implicit none (type, external)

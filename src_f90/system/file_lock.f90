@@ -5,23 +5,19 @@
 !> to the file system (NFS 4: yes; Lustre, BeeGFS: as mounted; some: not at all). A holder therefore counts beats
 !> in the file as it goes, and one on another machine whose beats stand still is taken for dead.
 module file_lock
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_int16_t, c_long, c_null_char, c_null_ptr, &
-      & c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
    use text, only: to_text
    use errors, only: error_type, raise, system_error, stopped
    use stop_signals, only: stop_requested, stop_reason
-   use posix, only: c_fopen, c_fileno, c_fclose, c_statx, statx_shorts, delete_file, host_name, &
-      & pause_seconds, process_alive, process_id
-   use system_errors, only: refused_by_other, system_reason
+   use files, only: delete_file
+   use processes, only: host_name, pause_seconds, process_alive, process_id
+   use system_errors, only: system_reason
    implicit none (type, external)
    private
    public :: file_lock_type
 
    !> Seconds in which a living holder beats.
    integer, parameter :: beat_seconds = 10
-   !> Linux' numbers for lockf and statx; the short in struct statx where the number of links is.
-   integer(c_int), parameter :: try_lock = 2, at_empty_path = 4096, statx_links = 4
-   integer, parameter :: links_at = 9
    !> Characters of a lock file.
    integer, parameter :: longest = 300
    !> What an attempt found.
@@ -30,7 +26,8 @@ module file_lock
    type :: file_lock_type
       private
       character(len=:), allocatable :: path
-      type(c_ptr) :: stream = c_null_ptr
+      !> Of the open lock file; negative where it is not open.
+      integer(c_int) :: descriptor = -1
       integer :: beats = 0, last_beat = 0
       !> Seconds for which a holder on another machine is watched where its lock is free or locks are not known
       !> here, and where its lock is held (a dead NFS client's is freed after 90 s).
@@ -50,28 +47,38 @@ module file_lock
    end type file_lock_type
 
    interface
-      integer(c_int) function c_lockf(descriptor, command, length) bind(c, name='lockf')
-         import :: c_int, c_long
-         integer(c_int), value :: descriptor, command
-         integer(c_long), value :: length
-      end function c_lockf
+      integer(c_int) function c_open_lock(path) bind(c, name='tiltpad_open_lock')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_open_lock
 
-      integer(c_size_t) function c_pread(descriptor, buffer, count, offset) bind(c, name='pread')
-         import :: c_char, c_int, c_long, c_size_t, longest
+      !> One of `free`, `held`, `unknown`.
+      integer(c_int) function c_try_lock(descriptor) bind(c, name='tiltpad_try_lock')
+         import :: c_int
          integer(c_int), value :: descriptor
+      end function c_try_lock
+
+      integer(c_int) function c_has_name(descriptor) bind(c, name='tiltpad_has_name')
+         import :: c_int
+         integer(c_int), value :: descriptor
+      end function c_has_name
+
+      integer(c_int) function c_read_start(descriptor, buffer, length) bind(c, name='tiltpad_read_start')
+         import :: c_char, c_int, longest
+         integer(c_int), value :: descriptor, length
          character(kind=c_char), intent(inout) :: buffer(longest)
-         integer(c_size_t), value :: count
-         integer(c_long), value :: offset
-      end function c_pread
+      end function c_read_start
 
-      integer(c_size_t) function c_pwrite(descriptor, buffer, count, offset) bind(c, name='pwrite')
-         import :: c_char, c_int, c_long, c_size_t
+      integer(c_int) function c_write_start(descriptor, bytes, length) bind(c, name='tiltpad_write_start')
+         import :: c_char, c_int
+         integer(c_int), value :: descriptor, length
+         character(kind=c_char), intent(in) :: bytes(*)
+      end function c_write_start
+
+      integer(c_int) function c_close(descriptor) bind(c, name='close')
+         import :: c_int
          integer(c_int), value :: descriptor
-         character(kind=c_char), intent(in) :: buffer(*)
-         integer(c_size_t), value :: count
-         integer(c_long), value :: offset
-      end function c_pwrite
-
+      end function c_close
    end interface
 
 contains
@@ -141,11 +148,10 @@ contains
       character(len=:), allocatable, intent(out) :: holder
       holder = ''
       do
-         call open_lock_file(self)
+         self%descriptor = c_open_lock(self%path//c_null_char)
          found = failed
-         if (.not. c_associated(self%stream)) return
-         found = free
-         if (c_lockf(c_fileno(self%stream), try_lock, 0_c_long) /= 0) found = merge(held, unknown, refused_by_other())
+         if (self%descriptor < 0) return
+         found = int(c_try_lock(self%descriptor))
          ! its holder may have deleted it after we opened it
          if (is_there(self)) exit
          call let_go(self)
@@ -153,24 +159,10 @@ contains
       holder = content(self)
    end subroutine attempt
 
-   !> For writing in place; made where there is none.
-   subroutine open_lock_file(self)
-      class(file_lock_type), intent(inout) :: self
-      self%stream = c_fopen(self%path//c_null_char, 'r+'//c_null_char)
-      if (c_associated(self%stream)) return
-      self%stream = c_fopen(self%path//c_null_char, 'a'//c_null_char)
-      if (.not. c_associated(self%stream)) return
-      call let_go(self)
-      self%stream = c_fopen(self%path//c_null_char, 'r+'//c_null_char)
-   end subroutine open_lock_file
-
    !> False where the open lock file has been deleted.
    logical function is_there(self)
       class(file_lock_type), intent(in) :: self
-      integer(c_int16_t) :: status(statx_shorts)
-      status(links_at) = 1
-      is_there = c_statx(c_fileno(self%stream), c_null_char, at_empty_path, statx_links, status) /= 0
-      if (.not. is_there) is_there = status(links_at) > 0
+      is_there = c_has_name(self%descriptor) == 1
    end function is_there
 
    !> The first line of the open lock file.
@@ -178,11 +170,9 @@ contains
       class(file_lock_type), intent(in) :: self
       character(len=:), allocatable :: content
       character(kind=c_char) :: buffer(longest)
-      integer(c_size_t) :: length
       integer :: i
       content = ''
-      length = c_pread(c_fileno(self%stream), buffer, int(longest, c_size_t), 0_c_long)
-      do i = 1, int(length)
+      do i = 1, int(c_read_start(self%descriptor, buffer, int(longest, c_int)))
          if (buffer(i) == achar(10)) exit
          content = content//buffer(i)
       end do
@@ -193,7 +183,7 @@ contains
    logical function is_ours(self)
       class(file_lock_type), intent(in) :: self
       is_ours = .false.
-      if (.not. c_associated(self%stream)) return
+      if (self%descriptor < 0) return
       if (is_there(self)) is_ours = index(content(self), self%us()) == 1
    end function is_ours
 
@@ -222,22 +212,22 @@ contains
       ! of one length, so that it replaces what is there and needs no room on the disk
       line = self%us()//to_text(self%beats)
       line(longest:) = achar(10)
-      ok = c_pwrite(c_fileno(self%stream), line, len(line, c_size_t), 0_c_long) == len(line)
+      ok = c_write_start(self%descriptor, line, len(line, c_int)) == 1
    end function write_beat
 
    !> Deletes the lock file, if it is ours, and frees the lock.
    subroutine release(self)
       class(file_lock_type), intent(inout) :: self
       if (self%is_ours()) call delete_file(self%path)
-      if (.not. c_associated(self%stream)) return
+      if (self%descriptor < 0) return
       call let_go(self)
    end subroutine release
 
    subroutine let_go(self)
       class(file_lock_type), intent(inout) :: self
       integer(c_int) :: ignored
-      ignored = c_fclose(self%stream)
-      self%stream = c_null_ptr
+      ignored = c_close(self%descriptor)
+      self%descriptor = -1
    end subroutine let_go
 
    !> "node1 12 3" to "process 12 on node1".

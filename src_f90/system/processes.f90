@@ -1,41 +1,55 @@
-!> Child processes: what the runner of many members asks of Linux.
+!> This process and its children: what the runner of many members asks of the system.
 module processes
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int8_t, c_int16_t, c_long, c_null_char, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_loc, c_null_char, c_size_t
    use text, only: to_text
-   use posix, only: c_kill, c_write
-   use system_errors, only: error_number, system_reason
+   use c_strings, only: fortran_text
+   use system_errors, only: system_reason
    implicit none (type, external)
    private
-   public :: processors, make_folder, remove_folder, new_process, end_child, end_with_parent, ended, stop_process
+   public :: process_id, process_alive, host_name, pause_seconds, set_environment, processors
+   public :: make_folder, remove_folder, new_process, end_child, limit_child, end_with_parent, ended, stop_process
    public :: record_length, open_pipe, close_pipe, send_record, receive_record, wait_for_record
 
    !> Bytes of a record; a pipe keeps up to 4096 together.
    integer, parameter :: record_length = 4000
-   !> Linux' numbers.
-   integer(c_int), parameter :: sigterm = 15, already_there = 17, wait_no_hang = 1, set_parent_death_signal = 1
-   integer(c_int16_t), parameter :: readable = 1
-   !> Permissions of a new folder, before the user's mask; bytes of a set of processors.
-   integer(c_int), parameter :: all_may = int(o'777', c_int), set_bytes = 8192
-
-   !> struct pollfd.
-   type, bind(c) :: poll_type
-      integer(c_int) :: descriptor
-      integer(c_int16_t) :: wanted, found
-   end type poll_type
+   !> Room for the name of a machine.
+   integer, parameter :: name_length = 256
 
    interface
-      integer(c_int) function c_sched_getaffinity(process, bytes, set) bind(c, name='sched_getaffinity')
-         import :: c_int, c_int8_t, c_size_t
-         integer(c_int), value :: process
-         integer(c_size_t), value :: bytes
-         integer(c_int8_t), intent(inout) :: set(*)
-      end function c_sched_getaffinity
+      integer(c_int) function process_id() bind(c, name='getpid')
+         import :: c_int
+      end function process_id
 
-      integer(c_int) function c_mkdir(path, mode) bind(c, name='mkdir')
+      integer(c_int) function c_is_alive(process) bind(c, name='tiltpad_is_alive')
+         import :: c_int
+         integer(c_int), value :: process
+      end function c_is_alive
+
+      integer(c_int) function c_gethostname(name, length) bind(c, name='gethostname')
+         import :: c_int, c_char, c_size_t, name_length
+         character(kind=c_char), intent(inout) :: name(name_length)
+         integer(c_size_t), value :: length
+      end function c_gethostname
+
+      integer(c_int) function c_sleep(seconds) bind(c, name='sleep')
+         import :: c_int
+         integer(c_int), value :: seconds
+      end function c_sleep
+
+      integer(c_int) function c_setenv(name, value, overwrite) bind(c, name='setenv')
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: name(*), value(*)
+         integer(c_int), value :: overwrite
+      end function c_setenv
+
+      integer(c_int) function c_processors() bind(c, name='tiltpad_processors')
+         import :: c_int
+      end function c_processors
+
+      integer(c_int) function c_make_folder(path) bind(c, name='tiltpad_make_folder')
          import :: c_int, c_char
          character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: mode
-      end function c_mkdir
+      end function c_make_folder
 
       integer(c_int) function c_rmdir(path) bind(c, name='rmdir')
          import :: c_int, c_char
@@ -46,25 +60,41 @@ module processes
          import :: c_int
       end function c_fork
 
-      integer(c_int) function c_getppid() bind(c, name='getppid')
-         import :: c_int
-      end function c_getppid
-
       subroutine c_leave(status) bind(c, name='_exit')
          import :: c_int
          integer(c_int), value :: status
       end subroutine c_leave
 
-      integer(c_int) function c_prctl(what, argument) bind(c, name='prctl')
-         import :: c_int, c_long
-         integer(c_int), value :: what
-         integer(c_long), value :: argument
-      end function c_prctl
+      subroutine c_limit_child(seconds) bind(c, name='tiltpad_limit_child')
+         import :: c_int
+         integer(c_int), value :: seconds
+      end subroutine c_limit_child
+
+      integer(c_int) function c_end_with_parent(parent) bind(c, name='tiltpad_end_with_parent')
+         import :: c_int
+         integer(c_int), value :: parent
+      end function c_end_with_parent
+
+      integer(c_int) function c_child_state(process, wait, code) bind(c, name='tiltpad_child_state')
+         import :: c_int
+         integer(c_int), value :: process, wait
+         integer(c_int), intent(inout) :: code
+      end function c_child_state
+
+      subroutine c_stop(process) bind(c, name='tiltpad_stop')
+         import :: c_int
+         integer(c_int), value :: process
+      end subroutine c_stop
 
       integer(c_int) function c_pipe(ends) bind(c, name='pipe')
          import :: c_int
          integer(c_int), intent(out) :: ends(2)
       end function c_pipe
+
+      integer(c_int) function c_close(descriptor) bind(c, name='close')
+         import :: c_int
+         integer(c_int), value :: descriptor
+      end function c_close
 
       integer(c_size_t) function c_read(descriptor, bytes, count) bind(c, name='read')
          import :: c_int, c_char, c_size_t, record_length
@@ -73,42 +103,60 @@ module processes
          integer(c_size_t), value :: count
       end function c_read
 
-      integer(c_int) function c_poll(list, count, milliseconds) bind(c, name='poll')
-         import :: c_int, c_long, poll_type
-         type(poll_type), intent(inout) :: list
-         integer(c_long), value :: count
-         integer(c_int), value :: milliseconds
-      end function c_poll
-
-      integer(c_int) function c_waitpid(process, status, options) bind(c, name='waitpid')
-         import :: c_int
-         integer(c_int), value :: process, options
-         integer(c_int), intent(out) :: status
-      end function c_waitpid
-
-      integer(c_int) function c_close(descriptor) bind(c, name='close')
-         import :: c_int
+      integer(c_size_t) function c_write(descriptor, bytes, count) bind(c, name='write')
+         import :: c_int, c_char, c_size_t
          integer(c_int), value :: descriptor
-      end function c_close
+         character(kind=c_char), intent(in) :: bytes(*)
+         integer(c_size_t), value :: count
+      end function c_write
+
+      integer(c_int) function c_can_read(pipe, milliseconds) bind(c, name='tiltpad_can_read')
+         import :: c_int
+         integer(c_int), value :: pipe, milliseconds
+      end function c_can_read
    end interface
 
 contains
 
+   !> False where no process of this number runs on this machine.
+   logical function process_alive(process)
+      integer, intent(in) :: process
+      process_alive = c_is_alive(int(process, c_int)) == 1
+   end function process_alive
+
+   !> Name of this machine.
+   function host_name()
+      character(len=:), allocatable :: host_name
+      character(kind=c_char), target :: buffer(name_length)
+      host_name = 'unknown'
+      if (c_gethostname(buffer, int(name_length, c_size_t)) == 0) host_name = fortran_text(c_loc(buffer))
+   end function host_name
+
+   !> Does nothing for so many seconds, or until a signal comes.
+   subroutine pause_seconds(seconds)
+      integer, intent(in) :: seconds
+      integer(c_int) :: ignored
+      ignored = c_sleep(int(seconds, c_int))
+   end subroutine pause_seconds
+
+   !> Sets an environment variable that is not set yet.
+   subroutine set_environment(name, value)
+      character(len=*), intent(in) :: name, value
+      integer(c_int) :: ignored
+      ignored = c_setenv(name//c_null_char, value//c_null_char, 0_c_int)
+   end subroutine set_environment
+
    !> Processors that this process may use.
    integer function processors()
-      integer(c_int8_t) :: set(set_bytes)
-      set = 0
-      processors = 1
-      if (c_sched_getaffinity(0_c_int, size(set, kind=c_size_t), set) == 0) processors = max(1, sum(popcnt(set)))
+      processors = max(1, int(c_processors()))
    end function processors
 
-   !> Makes a folder unless something of its name is there; `trouble` is the system's reason, empty if all is well.
-   subroutine make_folder(path, trouble)
+   !> Makes a folder unless something of its name is there; `refusal` is the system's reason, empty if all is well.
+   subroutine make_folder(path, refusal)
       character(len=*), intent(in) :: path
-      character(len=:), allocatable, intent(out) :: trouble
-      trouble = ''
-      if (c_mkdir(path//c_null_char, all_may) == 0) return
-      if (error_number() /= already_there) trouble = system_reason()
+      character(len=:), allocatable, intent(out) :: refusal
+      refusal = ''
+      if (c_make_folder(path//c_null_char) == 0) refusal = system_reason()
    end subroutine make_folder
 
    !> Removes an empty folder, if it is there.
@@ -129,15 +177,44 @@ contains
       call c_leave(int(status, c_int))
    end subroutine end_child
 
+   !> Called in a child: it prints nothing from now on, and ends after so many seconds.
+   subroutine limit_child(seconds)
+      integer, intent(in) :: seconds
+      call c_limit_child(int(seconds, c_int))
+   end subroutine limit_child
+
    !> Called in a child: SIGTERM will come when the parent ends, or ends the child now if it has.
    subroutine end_with_parent(parent)
       integer, intent(in) :: parent
-      integer(c_int) :: ignored
-      ignored = c_prctl(set_parent_death_signal, int(sigterm, c_long))
-      if (c_getppid() /= parent) call c_leave(1_c_int)
+      if (c_end_with_parent(int(parent, c_int)) == 0) call c_leave(1_c_int)
    end subroutine end_with_parent
 
-   !> Ends for reading and for writing; ok is false if there are none to be had.
+   !> True once a child has ended, and how. With `wait` true it waits for that.
+   logical function ended(process, wait, how)
+      integer, intent(in) :: process
+      logical, intent(in) :: wait
+      character(len=:), allocatable, intent(out) :: how
+      integer(c_int) :: code
+      ended = .true.
+      code = 0
+      select case (c_child_state(int(process, c_int), merge(1_c_int, 0_c_int, wait), code))
+      case (1)
+         how = 'ended with status '//to_text(int(code))//' and without a report'
+      case (2)
+         how = 'ended by signal '//to_text(int(code))
+      case default
+         how = ''
+         ended = .false.
+      end select
+   end function ended
+
+   !> Sends a process SIGTERM.
+   subroutine stop_process(process)
+      integer, intent(in) :: process
+      call c_stop(int(process, c_int))
+   end subroutine stop_process
+
+   !> Ends for reading and for writing; ok is false if the system has none.
    subroutine open_pipe(ends, ok)
       integer, intent(out) :: ends(2)
       logical, intent(out) :: ok
@@ -174,38 +251,6 @@ contains
    !> Waits until a record is there, or so many milliseconds, or until a signal comes; true if one is there.
    logical function wait_for_record(pipe, milliseconds)
       integer, intent(in) :: pipe, milliseconds
-      type(poll_type) :: list
-      list%descriptor = int(pipe, c_int)
-      list%wanted = readable
-      list%found = 0
-      wait_for_record = c_poll(list, 1_c_long, int(milliseconds, c_int)) == 1
+      wait_for_record = c_can_read(int(pipe, c_int), int(milliseconds, c_int)) == 1
    end function wait_for_record
-
-   !> True once a child has ended, and how. With `wait` true it waits for that.
-   logical function ended(process, wait, how)
-      integer, intent(in) :: process
-      logical, intent(in) :: wait
-      character(len=:), allocatable, intent(out) :: how
-      integer(c_int) :: status, found
-      how = ''
-      do
-         found = c_waitpid(int(process, c_int), status, merge(0_c_int, wait_no_hang, wait))
-         ! a signal may end the waiting early
-         if (found /= -1 .or. .not. wait) exit
-      end do
-      ended = found == process
-      if (.not. ended) return
-      if (iand(status, 127) /= 0) then
-         how = 'ended by signal '//to_text(iand(int(status), 127))
-      else
-         how = 'ended with status '//to_text(iand(ishft(int(status), -8), 255))//' and without a word'
-      end if
-   end function ended
-
-   !> Sends a process SIGTERM.
-   subroutine stop_process(process)
-      integer, intent(in) :: process
-      integer(c_int) :: ignored
-      ignored = c_kill(int(process, c_int), sigterm)
-   end subroutine stop_process
 end module processes

@@ -345,7 +345,7 @@ def test_the_second_writer_is_refused(program, tiltpad, case):
     assert done.returncode == 0
     done = tiltpad("case.nml", cwd=case)
     assert done.returncode == 0
-    assert f"process {long.pid} on {os.uname().nodename}, which wrote it, is no more" in done.stdout
+    assert f"process {long.pid} on {os.uname().nodename}, which wrote it, has ended" in done.stdout
     assert not list(case.glob("*.lock"))
     assert not list(case.glob("*.part"))
 

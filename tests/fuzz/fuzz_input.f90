@@ -14,7 +14,7 @@ program fuzz_input
    use sweep, only: sweep_type, sweep_from_text
    use namelist_writer, only: scene_text
    use input_reference, only: reference_text
-   use posix, only: write_output
+   use standard_output, only: write_output
    implicit none (type, external)
 
    interface

@@ -2,7 +2,8 @@
 program test_file_lock
    use errors, only: error_type, system_error
    use text, only: to_text
-   use posix, only: host_name, process_id, delete_file
+   use files, only: delete_file
+   use processes, only: host_name, process_id
    use file_lock, only: file_lock_type
    use check, only: runs, expect, expect_no_error, report
    implicit none (type, external)
