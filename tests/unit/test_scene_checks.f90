@@ -1,0 +1,244 @@
+!> What no single value of a scene can tell: each check lets pass what is just allowed and names what is not.
+program test_scene_checks
+   use kinds, only: wp
+   use errors, only: error_type, input_error
+   use scene, only: scene_type
+   use check, only: runs, expect, expect_no_error, expect_error, report
+   implicit none (type, external)
+
+   if (runs('paper')) call paper()
+   if (runs('film')) call film()
+   if (runs('memory')) call memory()
+   if (runs('clearances')) call clearances()
+   if (runs('pressures')) call pressures()
+   if (runs('speeds')) call speeds()
+   if (runs('friction')) call friction()
+   if (runs('pivots')) call pivots()
+   if (runs('samples')) call samples()
+   if (runs('centre_of_gravity')) call centre_of_gravity()
+   if (runs('room_for_pads')) call room_for_pads()
+   if (runs('first_of_several')) call first_of_several()
+   call report()
+
+contains
+
+   subroutine expect_allowed(s, what)
+      type(scene_type), intent(in) :: s
+      character(len=*), intent(in) :: what
+      type(error_type), allocatable :: error
+      call s%validate(error)
+      call expect_no_error(error, what)
+   end subroutine expect_allowed
+
+   !> The message begins with the variable and says the words.
+   subroutine expect_refused(s, variable, words)
+      type(scene_type), intent(in) :: s
+      character(len=*), intent(in) :: variable, words
+      type(error_type), allocatable :: error
+      call s%validate(error)
+      call expect_error(error, input_error, words, variable//' is refused')
+      if (allocated(error)) call expect(index(error%message, variable//' = ') == 1, variable//' in '//error%message)
+   end subroutine expect_refused
+
+   subroutine paper()
+      call expect_allowed(scene_type(), 'the paper''s bearing')
+   end subroutine paper
+
+   subroutine film()
+      type(scene_type) :: s
+      s = scene_type()
+      s%film%circumferential_cells = 8
+      call expect_allowed(s, '8 cells')
+      s%film%circumferential_cells = 6
+      call expect_refused(s, 'film%circumferential_cells', 'must be even, and 0 or at least 8')
+      s%film%circumferential_cells = 41
+      call expect_refused(s, 'film%circumferential_cells', 'must be even')
+      s = scene_type()
+      s%film%axial_cells = 2
+      call expect_allowed(s, 'two cells across half the width')
+      s%film%axial_cells = 1
+      call expect_refused(s, 'film%axial_cells', 'must be 2 or more')
+      s = scene_type()
+      s%film%solver = 'modal'
+      call expect_refused(s, 'film%solver', 'needs film%cavitation = ''gumbel'' or ''none''')
+      s%film%cavitation = 'gumbel'
+      call expect_allowed(s, 'modes, clipped')
+      s%film%cavitation = 'none'
+      call expect_allowed(s, 'modes without rupture')
+   end subroutine film
+
+   !> (axial cells/2)^2 values a column and pad, 5e7 at most; where films rupture, by `auto` alone.
+   subroutine memory()
+      type(scene_type) :: s
+      s = scene_type()
+      s%film%circumferential_cells = 2000
+      s%film%axial_cells = 223
+      call expect_allowed(s, 'two pads of 2000 columns and 223 rows')
+      s%film%axial_cells = 224
+      call expect_refused(s, 'film%axial_cells', 'at most 223 with film%circumferential_cells = 2000 and 2 pads')
+      s%film%cavitation = 'none'
+      call expect_allowed(s, 'as many without rupture')
+      s%film%cavitation = 'reynolds'
+      s%film%solver = 'sor'
+      call expect_allowed(s, 'as many by over-relaxation')
+      s%film%solver = 'auto'
+      s%film%circumferential_cells = 0
+      s%film%axial_cells = 1000
+      call expect_allowed(s, '1000 rows with as many columns as are enough')
+   end subroutine memory
+
+   subroutine clearances()
+      type(scene_type) :: s
+      s = scene_type()
+      s%bearing%machined_clearance = 0.0501_wp*s%bearing%journal_radius
+      call expect_refused(s, 'bearing%machined_clearance', '1e-5 to 0.05 of bearing%journal_radius')
+      s%bearing%machined_clearance = 0.0499_wp*s%bearing%journal_radius
+      call expect_allowed(s, 'a wide clearance')
+      s = scene_type()
+      s%bearing%machined_clearance = 0.99e-5_wp*s%bearing%journal_radius
+      s%bearing%assembled_clearance = s%bearing%machined_clearance
+      call expect_refused(s, 'bearing%machined_clearance', '1e-5 to 0.05 of bearing%journal_radius')
+      s%bearing%machined_clearance = 1.01e-5_wp*s%bearing%journal_radius
+      call expect_allowed(s, 'a narrow clearance')
+      s = scene_type()
+      s%bearing%assembled_clearance = 2*s%bearing%machined_clearance
+      call expect_allowed(s, 'twice the machined clearance')
+      s%bearing%assembled_clearance = 2.01_wp*s%bearing%machined_clearance
+      call expect_refused(s, 'bearing%assembled_clearance', 'at most twice bearing%machined_clearance')
+      s = scene_type()
+      s%bearing%axial_length = 0.021_wp*s%bearing%journal_radius
+      call expect_allowed(s, 'a short pad')
+      s%bearing%axial_length = 0.019_wp*s%bearing%journal_radius
+      call expect_refused(s, 'bearing%axial_length', '0.02 to 50 times bearing%journal_radius')
+      s%bearing%axial_length = 49*s%bearing%journal_radius
+      call expect_allowed(s, 'a long pad')
+      s%bearing%axial_length = 51*s%bearing%journal_radius
+      call expect_refused(s, 'bearing%axial_length', '0.02 to 50 times bearing%journal_radius')
+   end subroutine clearances
+
+   subroutine pressures()
+      type(scene_type) :: s
+      s = scene_type()
+      s%bearing%cavitation_pressure = 1e4_wp
+      s%bearing%supply_pressure = 1e4_wp
+      s%bearing%ambient_pressure = 1e4_wp
+      call expect_allowed(s, 'all pressures alike')
+      s%bearing%supply_pressure = 0.9e4_wp
+      call expect_refused(s, 'bearing%cavitation_pressure', 'must not exceed bearing%supply_pressure = 9000')
+      s%bearing%supply_pressure = 1e4_wp
+      s%bearing%ambient_pressure = 0.9e4_wp
+      call expect_refused(s, 'bearing%cavitation_pressure', 'bearing%ambient_pressure = 9000')
+      s%film%cavitation = 'none'
+      call expect_allowed(s, 'a film that cannot rupture')
+   end subroutine pressures
+
+   subroutine speeds()
+      type(scene_type) :: s
+      s = scene_type()
+      s%integration%stop_when_periodic = 1e-3_wp
+      call expect_allowed(s, 'periodic at one speed')
+      s%operation%final_speed_rpm = 7000
+      call expect_refused(s, 'integration%stop_when_periodic', 'must be 0 where operation%final_speed_rpm differs')
+      s%integration%stop_when_periodic = 0
+      call expect_allowed(s, 'a run-up')
+      s%rotor%balance_speed_rpm = 1
+      call expect_allowed(s, 'balanced at 1 rpm')
+      s%rotor%balance_speed_rpm = 0.5_wp
+      call expect_refused(s, 'rotor%balance_speed_rpm', 'must be < 0 (the highest of the run) or >= 1')
+      s%rotor%balance_speed_rpm = 0
+      call expect_refused(s, 'rotor%balance_speed_rpm', 'must be < 0')
+   end subroutine speeds
+
+   subroutine friction()
+      type(scene_type) :: s
+      s = scene_type()
+      s%friction%dynamic_coefficient = s%friction%static_coefficient
+      call expect_allowed(s, 'one coefficient for both')
+      s%friction%dynamic_coefficient = 1.01_wp*s%friction%static_coefficient
+      call expect_refused(s, 'friction%dynamic_coefficient', 'must not exceed friction%static_coefficient')
+      s%friction%dynamic_coefficient = 0
+      s%friction%model = 'bengisu_akay'
+      call expect_allowed(s, 'no dynamic friction, Bengisu-Akay')
+      s%friction%model = 'lugre'
+      call expect_refused(s, 'friction%dynamic_coefficient', 'must be > 0 for model = ''lugre''')
+   end subroutine friction
+
+   subroutine pivots()
+      type(scene_type) :: s
+      s = scene_type()
+      s%pivot%radius_difference = 0.5_wp*s%pivot%socket_radius
+      call expect_allowed(s, 'a ball of half the socket''s radius')
+      s%pivot%radius_difference = 0.51_wp*s%pivot%socket_radius
+      call expect_refused(s, 'pivot%radius_difference', 'at most half of pivot%socket_radius')
+      s%pivot%radius_difference = 0
+      call expect_allowed(s, 'a ball that fits')
+      s%pivot%law = 'hertz'
+      call expect_refused(s, 'pivot%radius_difference', 'must be > 0 for law = ''hertz''')
+   end subroutine pivots
+
+   subroutine samples()
+      type(scene_type) :: s
+      s = scene_type()
+      s%output%start_time = s%operation%duration
+      call expect_allowed(s, 'one sample at the end')
+      s%output%start_time = 1.001_wp*s%operation%duration
+      call expect_refused(s, 'output%start_time', 'must not exceed operation%duration = 2')
+      s = scene_type()
+      s%operation%speed_rpm = 6000
+      s%operation%final_speed_rpm = 6000
+      ! 100 revolutions a second
+      s%output%samples_per_revolution = 1000
+      s%operation%duration = 0.99e4_wp
+      call expect_allowed(s, 'almost 1e9 samples')
+      s%operation%duration = 1.01e4_wp
+      call expect_refused(s, 'operation%duration', 'more than 1e9 samples at output%samples_per_revolution = 1000')
+   end subroutine samples
+
+   !> The inertia about the pivot is more than that of the mass in its centre.
+   subroutine centre_of_gravity()
+      type(scene_type) :: s
+      real(wp) :: least
+      s = scene_type()
+      s%pads%centre_tangential(2) = 3e-3_wp
+      least = s%pads%mass(2)*(3e-3_wp**2 + s%pads%centre_radial(2)**2)
+      s%pads%inertia(2) = 1.01_wp*least
+      call expect_allowed(s, 'almost a point')
+      s%pads%inertia(2) = 0.99_wp*least
+      call expect_refused(s, 'pads%inertia', 'must exceed mass times')
+      call expect_refused(s, 'pads%inertia', '(pad 2)')
+   end subroutine centre_of_gravity
+
+   !> Pads reach from theta - theta_2 to theta + theta_1, with the pivot at its part of the arc from the leading edge.
+   subroutine room_for_pads()
+      type(scene_type) :: s
+      s = scene_type()
+      s%pads%arc_deg = 60
+      s%pads%pivot_angle_deg = [-45.0_wp, 16.0_wp]
+      call expect_allowed(s, 'one degree between pads')
+      s%pads%pivot_angle_deg = [-45.0_wp, 14.0_wp]
+      call expect_refused(s, 'pads%pivot_angle_deg', 'pads 1 and 2 overlap')
+      s%pads%pivot_angle_deg = [14.0_wp, -45.0_wp]
+      call expect_refused(s, 'pads%pivot_angle_deg', 'overlap')
+      s%pads%pivot_angle_deg = [-45.0_wp, -45.0_wp + 299]
+      call expect_allowed(s, 'one degree on the other side')
+      s%pads%pivot_angle_deg = [-45.0_wp, -45.0_wp + 301]
+      call expect_refused(s, 'pads%pivot_angle_deg', 'overlap')
+      ! the first pad reaches 42 degrees on from its pivot, the second 18 degrees back from its own
+      s%pads%pivot_ratio = [0.7_wp, 0.7_wp]
+      s%pads%pivot_angle_deg = [0.0_wp, 61.0_wp]
+      call expect_allowed(s, 'pivots behind the middle')
+      s%pads%pivot_ratio = [0.7_wp, 0.5_wp]
+      s%pads%pivot_angle_deg = [0.0_wp, 71.0_wp]
+      call expect_refused(s, 'pads%pivot_angle_deg', 'pads 1 and 2 overlap')
+      s%pads%pivot_angle_deg = [0.0_wp, 73.0_wp]
+      call expect_allowed(s, 'one pivot behind the middle')
+   end subroutine room_for_pads
+
+   subroutine first_of_several()
+      type(scene_type) :: s
+      s = scene_type()
+      s%film%circumferential_cells = 41
+      s%friction%dynamic_coefficient = 1
+      call expect_refused(s, 'film%circumferential_cells', 'must be even')
+   end subroutine first_of_several
+end program test_scene_checks
