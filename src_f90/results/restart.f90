@@ -28,55 +28,29 @@ module restart
 
 contains
 
-   !> Reads a result file. Refused with one line: what is no result, damaged, of a later format, without a
-   !> checkpoint, and (a numerics error) a run whose numerics failed: it would fail again.
+   !> Reads a result file. It is refused with one line if it is no result, damaged, of a later format, without a
+   !> checkpoint, or (a numerics error) if the numerics of its run failed: they would fail again.
    subroutine read_restart(path, found, error)
       character(len=*), intent(in) :: path
       type(restart_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
       type(hdf5_type) :: file
-      character(len=:), allocatable :: program, input, reason
-      integer :: version, complete, status
-      logical :: checkpoint, exists
-      inquire (file=path, exist=exists)
-      if (.not. exists) then
-         call raise(error, system_error, path//': no such file')
-         return
+      character(len=:), allocatable :: input, reason
+      integer :: complete, status
+      logical :: checkpoint
+      call open_result(path, file, error)
+      if (allocated(error)) return
+      call file%get_flag('complete', complete)
+      call file%get_text('input', input)
+      checkpoint = file%has('checkpoint/state')
+      status = 0
+      if (file%has_attribute('exit_status')) call file%get_flag('exit_status', status)
+      if (status /= 0) call file%get_text('reason', reason)
+      if (file%has_attribute('member')) then
+         call file%get_flag('member', found%tag%number)
+         call file%get_text('sweep', found%tag%sweep)
       end if
-      if (.not. is_regular(path)) then
-         call raise(error, system_error, path//': a directory, device or pipe, not a result file')
-         return
-      end if
-      if (can_be_read(path)) call file%open(path, writing=.false.)
-      if (file%id < 0) then
-         call raise(error, system_error, path//': no HDF5 file, or damaged')
-         return
-      end if
-      if (.not. file%has_attribute('program')) then
-         call raise(error, system_error, path//': not a result of tiltpad')
-      else
-         call file%get_text('program', program)
-         call file%get_flag('format_version', version)
-         if (program /= 'tiltpad') then
-            call raise(error, system_error, path//': not a result of tiltpad')
-         else if (version > format_version) then
-            call raise(error, system_error, path//': written by a later version of tiltpad; update the program')
-         else
-            call file%get_flag('complete', complete)
-            call file%get_text('input', input)
-            checkpoint = file%has('checkpoint/state')
-            status = 0
-            if (file%has_attribute('exit_status')) call file%get_flag('exit_status', status)
-            if (status /= 0) call file%get_text('reason', reason)
-            if (file%has_attribute('member')) then
-               call file%get_flag('member', found%tag%number)
-               call file%get_text('sweep', found%tag%sweep)
-            end if
-         end if
-      end if
-      if (.not. allocated(error) .and. allocated(file%failure)) then
-        call raise(error, system_error, path//': damaged: '//file%failure)
-      end if
+      if (allocated(file%failure)) call raise(error, system_error, path//': damaged: '//file%failure)
       call file%close()
       if (allocated(error)) return
       call scene_from_text(input, path, found%scene, error)
@@ -93,6 +67,42 @@ contains
          call raise(error, system_error, path//': holds no checkpoint to go on from')
       end if
    end subroutine read_restart
+
+   !> Opens the file for reading if it is a result that this program knows.
+   subroutine open_result(path, file, error)
+      character(len=*), intent(in) :: path
+      type(hdf5_type), intent(inout) :: file
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: program
+      integer :: version
+      logical :: exists
+      inquire (file=path, exist=exists)
+      if (.not. exists) then
+         call raise(error, system_error, path//': no such file')
+         return
+      end if
+      if (.not. is_regular(path)) then
+         call raise(error, system_error, path//': a directory, device or pipe, not a result file')
+         return
+      end if
+      if (can_be_read(path)) call file%open(path, writing=.false.)
+      if (file%id < 0) then
+         call raise(error, system_error, path//': no HDF5 file, or damaged')
+         return
+      end if
+      program = ''
+      if (file%has_attribute('program')) call file%get_text('program', program)
+      if (program /= 'tiltpad' .and. .not. allocated(file%failure)) then
+         call raise(error, system_error, path//': not a result of tiltpad')
+      else
+         call file%get_flag('format_version', version)
+         if (version > format_version) call raise(error, system_error, path &
+            & //': written by a later version of tiltpad; update the program')
+      end if
+      if (.not. allocated(error) .and. allocated(file%failure)) call raise(error, system_error, path//': damaged: ' &
+         & //file%failure)
+      if (allocated(error)) call file%close()
+   end subroutine open_result
 
    !> Refuses a scene that is not that of the file, and names the variable. Only the time between checkpoints may
    !> differ. A member of a sweep must have been this one also; the sweep may have grown.

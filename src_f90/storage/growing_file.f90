@@ -13,7 +13,7 @@ module growing_file
    public :: growing_file_type
 
    type :: growing_file_type
-      type(working_file_type), private :: place
+      type(working_file_type), private :: working
       !> The open file, and its series of samples.
       type(hdf5_type) :: file
       type(sample_table_type), private :: table
@@ -49,21 +49,21 @@ contains
       class(growing_file_type), intent(inout) :: self
       character(len=*), intent(in) :: path
       type(error_type), allocatable, intent(out) :: error
-      call self%place%claim(path, error)
+      call self%working%claim(path, error)
    end subroutine claim
 
    !> Starts a new file under the name claimed.
    subroutine begin(self)
       class(growing_file_type), intent(inout) :: self
-      call self%file%create(self%place%part)
+      call self%file%create(self%working%part)
    end subroutine begin
 
    !> Opens a copy of the file of the name claimed, to continue it.
    subroutine reopen(self, error)
       class(growing_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
-      call self%place%copy_published(error)
-      if (.not. allocated(error)) call self%file%open(self%place%part, writing=.true.)
+      call self%working%copy_published(error)
+      if (.not. allocated(error)) call self%file%open(self%working%part, writing=.true.)
    end subroutine reopen
 
    !> Series over an axis, 'time' or another, follow; they start from the samples that are in the file, if any.
@@ -111,7 +111,7 @@ contains
       call self%table%close(self%file)
       call self%file%close()
       call self%error_of(error)
-      if (.not. allocated(error)) call self%place%publish(exchanged, error)
+      if (.not. allocated(error)) call self%working%publish(exchanged, error)
       if (.not. allocated(error) .and. continued) call self%catch_up(exchanged, error)
       if (allocated(error) .or. .not. continued) call self%abandon()
    end subroutine publish
@@ -124,8 +124,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(hdf5_type) :: published
       if (exchanged) then
-         call self%file%open(self%place%part, writing=.true.)
-         call published%open(self%place%path, writing=.false.)
+         call self%file%open(self%working%part, writing=.true.)
+         call published%open(self%working%path, writing=.false.)
          call self%table%open(self%file)
          call self%table%copy_missing(self%file, published)
          call published%close()
@@ -133,9 +133,9 @@ contains
          call self%table%close(self%file)
          call self%file%close()
       end if
-      call self%place%copy_published(error)
+      call self%working%copy_published(error)
       if (allocated(error)) return
-      call self%file%open(self%place%part, writing=.true.)
+      call self%file%open(self%working%part, writing=.true.)
       call self%table%open(self%file)
       call self%error_of(error)
    end subroutine catch_up
@@ -144,7 +144,7 @@ contains
       class(growing_file_type), intent(inout) :: self
       call self%table%close(self%file)
       call self%file%close()
-      call self%place%release()
+      call self%working%release()
    end subroutine abandon
 
    subroutine beat(self, now)
@@ -152,21 +152,21 @@ contains
       integer, intent(in) :: now
       if (now == self%last_beat) return
       self%last_beat = now
-      call self%place%lock%beat(now)
-      call self%place%begin_sync()
+      call self%working%lock%beat(now)
+      call self%working%begin_sync()
    end subroutine beat
 
    function taken_from(self)
       class(growing_file_type), intent(in) :: self
       character(len=:), allocatable :: taken_from
-      taken_from = self%place%lock%taken_from
+      taken_from = self%working%lock%taken_from
    end function taken_from
 
    !> Name of the file, links followed.
    function path(self)
       class(growing_file_type), intent(in) :: self
       character(len=:), allocatable :: path
-      path = self%place%path
+      path = self%working%path
    end function path
 
    subroutine error_of(self, error)
@@ -174,9 +174,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
       if (.not. allocated(self%file%failure)) return
       if (self%file%damaged) then
-         call raise(error, system_error, self%place%path//': damaged: '//self%file%failure)
+         call raise(error, system_error, self%working%path//': damaged: '//self%file%failure)
       else
-         call raise(error, system_error, 'cannot write '//self%place%path//': '//self%file%failure)
+         call raise(error, system_error, 'cannot write '//self%working%path//': '//self%file%failure)
       end if
    end subroutine error_of
 end module growing_file

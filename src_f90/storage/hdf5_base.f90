@@ -27,7 +27,7 @@ module hdf5_base
       procedure :: open => open_file
       procedure :: close => close_file
       procedure :: make_group
-      !> True where there is a dataset, group or root attribute of that name.
+      !> True where there is a dataset or group, or a root attribute, of that name.
       procedure :: has
       procedure :: has_attribute
       !> Deletes, or renames, a dataset or group.
@@ -38,7 +38,7 @@ module hdf5_base
       procedure :: put_flag
       procedure :: get_text
       procedure :: get_flag
-      !> For what builds on it: notes a failed action; an attribute of any object.
+      !> For modules that build on it: keep a failed action, in writing and reading; write an attribute of any object.
       procedure :: check
       procedure :: check_read
       procedure :: write_attribute

@@ -27,7 +27,7 @@ module hdf5_file
       !> For hdf5_series: refuses numbers of another kind; describes a dataset.
       procedure :: expect_type
       procedure :: describe
-      procedure, private :: place
+      procedure, private :: open_or_create
       procedure, private :: write_all
       procedure, private :: read_all
       procedure, private :: write_reals
@@ -44,7 +44,7 @@ contains
       if (allocated(self%failure)) return
       buffer = value
       kind = h5kind_to_type(i8, h5_integer_kind)
-      call self%place(path, kind, [integer(hsize_t) ::], '1', long_name, '', dataset)
+      call self%open_or_create(path, kind, [integer(hsize_t) ::], '1', long_name, '', dataset)
       call self%write_all(dataset, kind, c_loc(buffer), path)
    end subroutine put_count
 
@@ -78,12 +78,12 @@ contains
       integer(hid_t) :: dataset
       if (allocated(self%failure)) return
       buffer = values
-      call self%place(path, h5t_native_double, dims, units, long_name, scales, dataset)
+      call self%open_or_create(path, h5t_native_double, dims, units, long_name, scales, dataset)
       call self%write_all(dataset, h5t_native_double, c_loc(buffer), path)
    end subroutine write_reals
 
-   !> Opens a dataset, or makes it.
-   subroutine place(self, path, kind, dims, units, long_name, scales, dataset)
+   !> Opens a dataset, or creates it.
+   subroutine open_or_create(self, path, kind, dims, units, long_name, scales, dataset)
       class(hdf5_type), intent(inout) :: self
       character(len=*), intent(in) :: path, units, long_name, scales
       integer(hid_t), intent(in) :: kind
@@ -105,7 +105,7 @@ contains
       call self%check(status, 'create '//path)
       call self%describe(dataset, units, long_name, scales, path)
       call h5sclose_f(space, status)
-   end subroutine place
+   end subroutine open_or_create
 
    !> Writes all of a dataset and closes it.
    subroutine write_all(self, dataset, kind, buffer, path)
@@ -171,7 +171,7 @@ contains
       call h5dclose_f(dataset, status)
    end subroutine read_all
 
-   !> Numbers in the file are as in memory; of a damaged file HDF5 would convert what is none.
+   !> Refuses numbers that are not stored as in memory: HDF5 would convert the rubbish in a damaged file.
    subroutine expect_type(self, dataset, kind, path)
       class(hdf5_type), intent(inout) :: self
       integer(hid_t), intent(in) :: dataset, kind

@@ -1,9 +1,9 @@
-!> Where a file is written so that a crash at any moment leaves a whole one in its place: under the name NAME.part
-!> beside it, to be renamed.
+!> A file that is written as NAME.part and renamed to NAME when it is whole, so that a crash at any moment leaves a
+!> whole file under that name.
 !>
-!> A growing file is published again and again without copying all of it each time: there are two of them, and
-!> while one stands in its place the other, NAME.part, is written. Publishing exchanges them; what was published
-!> then lacks only the last stretch.
+!> A growing file is published again and again without copying all of it each time: there are two of them, and while
+!> one bears the name, the other, NAME.part, is written. Publishing exchanges their names; the part then lacks only the
+!> last stretch.
 module working_file
    use errors, only: error_type, raise, system_error
    use files, only: rename_file, link_file, delete_file, copy_file, sync_file, begin_sync, real_path, is_regular
@@ -14,13 +14,13 @@ module working_file
    public :: working_file_type
 
    type :: working_file_type
-      !> The file's place, links followed, and where it is written.
+      !> Name of the file, links followed, and the name under which it is written.
       character(len=:), allocatable :: path, part
-      !> True once this run stands in the file's place; true where the part is all that is left of it.
+      !> True once this run has published; true where the part could not be renamed and is kept.
       logical :: published = .false., stranded = .false.
       type(file_lock_type) :: lock
    contains
-      !> Locks the file's place; nobody else writes there until `release`.
+      !> Locks the name; no other run writes under it until `release`.
       procedure :: claim
       !> Makes the part a copy of the published file.
       procedure :: copy_published
@@ -60,8 +60,8 @@ contains
          & 'cannot write '//self%part//': '//system_reason())
    end subroutine copy_published
 
-   !> Puts the closed part into the file's place, safe on disk. `exchanged` tells whether the part is now what
-   !> this run published before; otherwise there is none.
+   !> Gives the closed part the file's name, safe on disk. `exchanged` tells whether the part is now what this run
+   !> published before; otherwise there is no part.
    subroutine publish(self, exchanged, error)
       class(working_file_type), intent(inout) :: self
       logical, intent(out) :: exchanged

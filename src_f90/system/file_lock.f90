@@ -1,9 +1,9 @@
 !> A lock that keeps a second writer off a file: a file NAME.lock beside it that is locked (fcntl) and says who
 !> holds it: "host process beats".
 !>
-!> The system frees the lock of a process that ended, however it ended. Whether locks reach across machines is up
-!> to the file system (NFS 4: yes; Lustre, BeeGFS: as mounted; some: not at all). A holder therefore counts beats
-!> in the file as it goes, and one on another machine whose beats stand still is taken for dead.
+!> The system frees the lock of a process that ended, however it ended. Whether locks reach across machines depends
+!> on the file system (NFS 4: yes; Lustre, BeeGFS: as mounted; some: not at all). A holder therefore counts beats in
+!> the file while it runs; if the beats of one on another machine stand still, it is taken for dead.
 module file_lock
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
    use text, only: to_text
@@ -41,7 +41,7 @@ module file_lock
       procedure :: release
       procedure :: is_ours
       procedure, private :: attempt
-      procedure, nopass, private :: us
+      procedure, nopass, private :: identity
       procedure, private :: patience_with
       procedure, private :: write_beat
    end type file_lock_type
@@ -103,7 +103,7 @@ contains
          if (waited == 0) first = holder
          patience = self%patience_with(found, holder)
          if (found /= held .and. waited >= patience) exit
-         call let_go(self)
+         call close_lock(self)
          if (holder /= first .or. waited >= patience) then
             call raise(error, system_error, 'cannot write '//path//': '//described(holder)//' is writing it')
             return
@@ -120,12 +120,12 @@ contains
       self%beats = 0
       if (.not. self%write_beat()) then
          call delete_file(self%path)
-         call let_go(self)
+         call close_lock(self)
          call raise(error, system_error, 'cannot write '//path//': no lock file beside it: '//system_reason())
       end if
    end subroutine acquire
 
-   !> Seconds to watch for a sign of life.
+   !> Seconds for which the holder's beats are watched.
    integer function patience_with(self, found, holder) result(patience)
       class(file_lock_type), intent(in) :: self
       integer, intent(in) :: found
@@ -154,7 +154,7 @@ contains
          found = int(c_try_lock(self%descriptor))
          ! its holder may have deleted it after we opened it
          if (is_there(self)) exit
-         call let_go(self)
+         call close_lock(self)
       end do
       holder = content(self)
    end subroutine attempt
@@ -179,19 +179,20 @@ contains
       content = trim(content)
    end function content
 
-   !> False once somebody took us for dead and took the lock, or deleted it: then we must not write any more.
+   !> False once another process took this one for dead and took the lock, or deleted it: then this one must not write
+   !> any more.
    logical function is_ours(self)
       class(file_lock_type), intent(in) :: self
       is_ours = .false.
       if (self%descriptor < 0) return
-      if (is_there(self)) is_ours = index(content(self), self%us()) == 1
+      if (is_there(self)) is_ours = index(content(self), self%identity()) == 1
    end function is_ours
 
    !> "host process ".
-   function us()
-      character(len=:), allocatable :: us
-      us = host_name()//' '//to_text(int(process_id()))//' '
-   end function us
+   function identity()
+      character(len=:), allocatable :: identity
+      identity = host_name()//' '//to_text(int(process_id()))//' '
+   end function identity
 
    !> Cheap: writes only every ten seconds. `now` is a clock, s.
    subroutine beat(self, now)
@@ -210,7 +211,7 @@ contains
       class(file_lock_type), intent(in) :: self
       character(kind=c_char, len=longest) :: line
       ! of one length, so that it replaces what is there and needs no room on the disk
-      line = self%us()//to_text(self%beats)
+      line = self%identity()//to_text(self%beats)
       line(longest:) = achar(10)
       ok = c_write_start(self%descriptor, line, len(line, c_int)) == 1
    end function write_beat
@@ -220,15 +221,15 @@ contains
       class(file_lock_type), intent(inout) :: self
       if (self%is_ours()) call delete_file(self%path)
       if (self%descriptor < 0) return
-      call let_go(self)
+      call close_lock(self)
    end subroutine release
 
-   subroutine let_go(self)
+   subroutine close_lock(self)
       class(file_lock_type), intent(inout) :: self
       integer(c_int) :: ignored
       ignored = c_close(self%descriptor)
       self%descriptor = -1
-   end subroutine let_go
+   end subroutine close_lock
 
    !> "node1 12 3" to "process 12 on node1".
    pure function described(holder)
