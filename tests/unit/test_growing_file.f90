@@ -78,7 +78,8 @@ contains
       call file%close()
       if (size(axis, 2) /= n .or. size(values, 2) /= n) return
       call expect_close(maxval(abs(axis(1, :) - [(real(k, wp), k=1, n)])), 0.0_wp, 0.0_wp, 'the axis to '//to_text(n))
-      call expect_close(maxval([(norm2(values(:, k) - amplitude(k)), k=1, n)]), 0.0_wp, 0.0_wp, 'values to '//to_text(n))
+      call expect_close(maxval([(norm2(values(:, k) - amplitude(k)), k=1, n)]), 0.0_wp, 0.0_wp, &
+         & 'values to '//to_text(n))
    end subroutine expect_samples
 
    !> Each publishing has all samples so far, also where they end in the middle of a chunk, at its end, and after
@@ -133,8 +134,8 @@ contains
       call add_samples(file, 1, 5000)
       call file%last_samples('amplitude', 1500, values)
       call expect(all(shape(values) == [2, 1500]), 'as many as asked for')
-      call expect_close(norm2(values(:, 1) - amplitude(3501)) + norm2(values(:, 1500) - amplitude(5000)), 0.0_wp, 0.0_wp, &
-         & 'the last ones')
+      call expect_close(norm2(values(:, 1) - amplitude(3501)) + norm2(values(:, 1500) - amplitude(5000)), 0.0_wp, &
+         & 0.0_wp, 'the last ones')
       call file%publish(continued=.false., error=error)
       call later%claim(path, error)
       call later%reopen(error)
@@ -197,8 +198,8 @@ contains
       call add_samples(file, 4, 4)
       call file%error_of(error)
       call expect(allocated(error), 'uneven series are refused')
-      if (allocated(error)) call expect(index(error%message, 'damaged') > 0 .and. index(error%message, 'amplitude') > 0, &
-         & 'with the name: '//error%message)
+      if (allocated(error)) call expect(index(error%message, 'damaged') > 0 &
+         & .and. index(error%message, 'amplitude') > 0, 'with the name: '//error%message)
       call file%abandon()
    end subroutine uneven_series
 end program test_growing_file

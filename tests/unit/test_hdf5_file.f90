@@ -54,8 +54,8 @@ contains
       call expect(file%get_count('group/count') == 2_i8**60 + 1, 'a count')
       call expect_close(file%get_real('group/value'), 1/3.0_wp, 0.0_wp, 'a number')
       call file%get_list('over_axis', list)
-      call expect_close(maxval(abs([list(1) - 3, list(2)/tiny(1.0_wp) - 1, list(3)/huge(1.0_wp) + 1])), 0.0_wp, 0.0_wp, &
-         & 'a list')
+      call expect_close(maxval(abs([list(1) - 3, list(2)/tiny(1.0_wp) - 1, list(3)/huge(1.0_wp) + 1])), 0.0_wp, &
+         & 0.0_wp, 'a list')
       call file%get_list('table', list)
       call expect_close(norm2(list - [1.0_wp, 2.0_wp, 3.0_wp]), 0.0_wp, 0.0_wp, 'a table')
       call expect_well(file, 'read')
