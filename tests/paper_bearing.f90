@@ -1,7 +1,7 @@
 !> The paper's bearing (Dyk et al. 2023, Tables 1 and 2) as the modules take it that know no scene.
 module paper_bearing
    use kinds, only: wp, degree
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    use contact_law, only: contact_law_type, new_contact_law
    implicit none (type, external)
    private
@@ -15,9 +15,9 @@ contains
 
    !> A pad with pressures (default: none) at the leading edge, at the others and where the film ruptures, and an axial
    !> length (default: the paper's).
-   pure type(pad_film_type) function paper_pad(pressures, length)
+   pure type(pad_gap_type) function paper_pad(pressures, length)
       real(wp), intent(in), optional :: pressures(3), length
-      paper_pad = pad_film_type(49.9e-3_wp, clearance, 0.1_wp, 0.5_wp*69.3_wp*degree, 0.5_wp*69.3_wp*degree, 19e-3_wp, &
+      paper_pad = pad_gap_type(49.9e-3_wp, clearance, 0.1_wp, 0.5_wp*69.3_wp*degree, 0.5_wp*69.3_wp*degree, 19e-3_wp, &
          & 0.0_wp, 0.0_wp, 0.0_wp)
       if (present(pressures)) then
          paper_pad%supply_pressure = pressures(1)
@@ -28,7 +28,7 @@ contains
    end function paper_pad
 
    !> The same with the pivot behind the middle, 40 and 30 degrees from the edges, so that nothing is symmetric.
-   pure type(pad_film_type) function offset_pad(pressures, length)
+   pure type(pad_gap_type) function offset_pad(pressures, length)
       real(wp), intent(in), optional :: pressures(3), length
       offset_pad = paper_pad(pressures, length)
       offset_pad%leading_angle = 40*degree

@@ -9,6 +9,8 @@ module tiltpad_library
    use scene, only: scene_type
    use scene_namelist, only: scene_from_text
    use components, only: new_law, new_friction
+   use kinematics, only: journal_motion, pad_state
+   use pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
    use contact_law, only: contact_law_type, contact_point
    use friction, only: friction_law, friction_response
@@ -22,7 +24,7 @@ contains
 
    !> Pressure of every pad's film, and what the program samples of it, in one state of the bearing.
    subroutine film_pressure(text, name, time, journal, tilt, penetration, along, across, phi, z, pressure, force, &
-      & max_pressure, min_film, status, message, pads, n, m)
+      & max_pressure, min_film_thickness, status, message, pads, n, m)
       integer(c_int), intent(in) :: pads, n, m
       character(len=*), intent(in) :: text, name
       !> s, of which the speed follows; y, z of the journal, m, and their rates, m/s.
@@ -36,12 +38,13 @@ contains
       real(c_double), intent(out) :: phi(n, pads), z(m), pressure(m, n, pads)
       !> Force on the journal in the pad frame, N; highest pressure at the solver's own points, Pa; least film
       !> thickness, m.
-      real(c_double), intent(out) :: force(2, pads), max_pressure(pads), min_film(pads)
+      real(c_double), intent(out) :: force(2, pads), max_pressure(pads), min_film_thickness(pads)
       integer(c_int), intent(out) :: status
       character(len=2000), intent(out) :: message
       type(error_type), allocatable :: error
       type(scene_type) :: scene
       type(bearing_model) :: model
+      type(pad_sample) :: samples(pads)
       real(c_double), allocatable :: y(:)
       integer :: i
       logical :: ok
@@ -50,7 +53,7 @@ contains
       pressure = 0
       force = 0
       max_pressure = 0
-      min_film = 0
+      min_film_thickness = 0
       call read_case(text, name, scene, error)
       if (.not. allocated(error)) then
          if (scene%pad_count() /= pads) call raise(error, input_error, name//': '//to_text(scene%pad_count()) &
@@ -58,14 +61,8 @@ contains
       end if
       if (.not. allocated(error)) then
          model = new_bearing_model(scene)
-         y = model%at_rest(journal(:2), tilt(1, :), penetration(1, :))
-         y(3:4) = journal(3:4)
-         do i = 1, pads
-            associate (o => model%offset(i))
-               y(o + 2) = tilt(2, i)
-               if (model%radial) y(o + 4) = penetration(2, i)
-            end associate
-         end do
+         y = model%state(journal_motion(journal(:2), journal(3:4)), &
+            & [(pad_state(tilt(1, i), tilt(2, i), penetration(1, i), penetration(2, i)), i=1, pads)])
          call model%evaluate(time, y, .false., ok)
          if (.not. ok) call raise(error, numerics_error, name//': '//model%refusal)
       end if
@@ -73,13 +70,15 @@ contains
          associate (arc => scene%pads%arc_deg*degree)
             do i = 1, pads
                phi(:, i) = (along - 1 + scene%pads%pivot_ratio(i))*arc(i)
-               force(:, i) = model%response(i)%force
             end do
          end associate
-         max_pressure = model%response%max_pressure
-         min_film = model%response%min_film
+         samples = model%sampled()
+         force(1, :) = samples%film_force(1)
+         force(2, :) = samples%film_force(2)
+         max_pressure = samples%max_pressure
+         min_film_thickness = samples%min_film_thickness
          z = 0.5_c_double*scene%bearing%axial_length*across
-         call model%film%field(model%motion, scene%speed(time), phi, z, pressure)
+         call model%pressure_field(time, phi, z, pressure)
       end if
       call tell(error, status, message)
    end subroutine film_pressure

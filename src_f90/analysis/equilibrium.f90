@@ -8,12 +8,11 @@ module equilibrium
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error, stopped
-   use scene, only: scene_type
-   use contact_law, only: contact_law_type
-   use contact_table, only: contact_table_type
-   use kinematics, only: pad_frame, frame_of
-   use components, only: new_law
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use lapack, only: dgesv
+   use operating_point, only: operating_point_type
+   use kinematics, only: journal_motion, pad_frame, pad_state
+   use pad_bearing, only: pad_sample
+   use equations_of_motion, only: bearing_model
    implicit none (type, external)
    private
    public :: equilibrium_type, find_equilibrium
@@ -22,8 +21,8 @@ module equilibrium
       !> Journal, m; per pad tilt, rad, penetration, m (0 tilting-only), contact force, N.
       real(wp) :: journal(2) = 0
       real(wp), allocatable :: tilt(:), penetration(:), contact_force(:)
-      !> Per pad least film thickness, m, and highest pressure, Pa.
-      real(wp), allocatable :: min_film(:), max_pressure(:)
+      !> Per pad minimum film thickness, m, and highest pressure, Pa.
+      real(wp), allocatable :: min_film_thickness(:), max_pressure(:)
       !> Largest unbalanced force over the load.
       real(wp) :: residual = huge(1.0_wp)
       integer :: iterations = 0
@@ -35,8 +34,11 @@ module equilibrium
    real(wp), parameter :: longest_move = 0.2_wp
    !> Move below which an iteration without progress is the last.
    real(wp), parameter :: shortest_move = 1e-12_wp
+   !> Accuracy of films that are solved by iteration: below the residual limit.
+   real(wp), parameter :: film_tolerance = 0.1_wp*residual_limit
+   integer, parameter :: film_sweeps = 100000
 
-   !> Places of the journal to start from, in assembled clearances down the load.
+   !> Positions of the journal to start from, in assembled clearances down the load.
    real(wp), parameter :: fractions(*) = [-0.6_wp, -0.3_wp, 0.0_wp, 0.3_wp, 0.6_wp, 0.9_wp]
 
    abstract interface
@@ -45,47 +47,32 @@ module equilibrium
       end function asked_to_stop
    end interface
 
-   interface
-      !> LAPACK: solves a x = b.
-      subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
-         import :: wp
-         integer, intent(in) :: n, nrhs, lda, ldb
-         real(wp), intent(inout) :: a(lda, *), b(ldb, *)
-         integer, intent(out) :: ipiv(*), info
-      end subroutine dgesv
-   end interface
-
 contains
 
-   !> The equilibrium of a scene at its initial speed; an error where none is found, or, of status `stopped`, where
-   !> `give_up`, asked between evaluations of the films, says so. The table of its pivots' contact is made where it
-   !> is not given.
-   subroutine find_equilibrium(scene, found, error, contact, give_up)
-      type(scene_type), intent(in) :: scene
+   !> The equilibrium of a model under its load at its initial speed; an error where none is found, or, of status
+   !> `stopped`, where `give_up`, asked between evaluations of the films, says so.
+   subroutine find_equilibrium(model, found, error, give_up)
+      type(bearing_model), intent(in) :: model
       type(equilibrium_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
-      type(contact_table_type), intent(in), optional :: contact
       procedure(asked_to_stop), optional :: give_up
-      type(scene_type) :: whole_film
-      type(bearing_model) :: model
+      type(bearing_model) :: static
       type(error_type), allocatable :: second_error
       real(wp), allocatable :: y(:)
 
-      model = new_bearing_model(static_scene(scene), contact)
-      y = best_start(model, give_up)
-      call settle(model, y, found, error, give_up)
-      if (.not. allocated(error) .or. scene%film%cavitation == 'none') return
+      static = static_model(model, model%point%rupture)
+      y = best_start(static, give_up)
+      call follow_motion(static, y, found, error, give_up)
+      if (.not. allocated(error) .or. .not. static%bearing%films_rupture()) return
       if (error%status == stopped) return
       ! on the way a pad may lose its film and with it all stiffness: take the way of a film that
       ! does not rupture, which has neither kinks nor slack
-      whole_film = static_scene(scene)
-      whole_film%film%cavitation = 'none'
-      model = new_bearing_model(whole_film, contact)
-      y = best_start(model, give_up)
-      call settle(model, y, found, second_error, give_up)
+      static = static_model(model, .false.)
+      y = best_start(static, give_up)
+      call follow_motion(static, y, found, second_error, give_up)
       if (.not. allocated(second_error)) then
-         model = new_bearing_model(static_scene(scene), contact)
-         call settle(model, y, found, second_error, give_up)
+         static = static_model(model, model%point%rupture)
+         call follow_motion(static, y, found, second_error, give_up)
       end if
       if (.not. allocated(second_error)) then
          deallocate (error)
@@ -94,24 +81,34 @@ contains
       end if
    end subroutine find_equilibrium
 
+   !> A copy of the model at the static operating point, its films solved closely.
+   function static_model(model, rupture) result(static)
+      type(bearing_model), intent(in) :: model
+      logical, intent(in) :: rupture
+      type(bearing_model) :: static
+      type(operating_point_type) :: point
+      point = model%point%static()
+      point%rupture = rupture
+      static = model
+      call static%set_point(point)
+      call static%bearing%set_accuracy(film_tolerance, film_sweeps)
+   end function static_model
+
    !> Follows the motion without inertia from y to rest.
-   subroutine settle(model, y, found, error, give_up)
+   subroutine follow_motion(model, y, found, error, give_up)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       type(equilibrium_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      real(wp) :: slopes(model%n, model%n), f(model%n), f_trial(model%n), trial(model%n)
-      real(wp) :: time_step, residual, move
+      real(wp) :: f(model%n), time_step, residual, move
       real(wp), allocatable :: step(:)
-      integer, allocatable :: x(:), v(:)
       character(len=:), allocatable :: none_found
       logical :: ok, stuck
 
-      none_found = 'no equilibrium found at '//to_text(model%scene%operation%speed_rpm)//' rpm: '
+      none_found = 'no equilibrium found at '//to_text(model%point%speed_rpm)//' rpm: '
       stuck = .false.
-      call unknowns(model, x, v)
-      time_step = 1/model%scene%highest_speed()
+      time_step = 1/model%point%speed(0.0_wp)
       call model%rhs(0.0_wp, y, f, ok)
       if (.not. ok) then
          call raise(error, numerics_error, none_found//model%refusal//' at the start')
@@ -130,42 +127,71 @@ contains
             call raise(error, stopped, 'stopped while the equilibrium was sought')
             return
          end if
-         call model%jacobian(0.0_wp, y, slopes, ok)
-         do while (ok)
-            call newton_step(model, slopes(v, x), slopes(v, v), f(v), time_step, step, ok)
-            if (.not. all(ieee_is_finite(step))) ok = .false.
-            if (.not. ok) exit
-            move = maxval(abs(step/clearance_scale(model, x)))
-            if (move <= longest_move) exit
-            ! a shorter step in time, and not of its result, stays on the way of the motion
-            time_step = time_step*min(0.5_wp, longest_move/move)
-         end do
+         call find_step(model, y, f, time_step, step, move, ok)
          if (.not. ok) then
             call raise(error, numerics_error, none_found//'the equations are singular, the unbalanced force is still ' &
                & //to_text(found%residual)//' of the load')
             return
          end if
-         do
-            trial = y
-            trial(x) = y(x) + step
-            call model%rhs(0.0_wp, trial, f_trial, ok)
-            if (ok) exit
-            step = 0.5_wp*step
-            time_step = 0.5_wp*time_step
-            if (maxval(abs(step/model%scale(x))) < epsilon(step)) then
-               call raise(error, numerics_error, none_found//model%refusal)
-               return
-            end if
-         end do
-         residual = residual_of(model, f_trial)
+         call take_step(model, y, f, time_step, step, ok)
+         if (.not. ok) then
+            call raise(error, numerics_error, none_found//model%refusal)
+            return
+         end if
+         residual = residual_of(model, f)
          stuck = move < shortest_move .and. residual > 0.5_wp*found%residual
          time_step = time_step*max(0.3_wp, 1.5_wp*found%residual/max(residual, 0.15_wp*found%residual))
-         y = trial
-         f = f_trial
          found%residual = residual
       end do
       call describe(model, y, found)
-   end subroutine settle
+   end subroutine follow_motion
+
+   !> The step of the positions from y, where the rates are f, in a time step that is shortened until nothing moves
+   !> too far. `ok` is false where the equations are singular.
+   subroutine find_step(model, y, f, time_step, step, move, ok)
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:), f(:)
+      real(wp), intent(inout) :: time_step
+      real(wp), allocatable, intent(out) :: step(:)
+      !> Longest move, in assembled clearances.
+      real(wp), intent(out) :: move
+      logical, intent(out) :: ok
+      real(wp) :: derivatives(model%n, model%n)
+      move = 0
+      call model%jacobian(0.0_wp, y, derivatives, ok)
+      associate (x => model%layout%positions(), v => model%layout%rates())
+         do while (ok)
+            call newton_step(model, derivatives(v, x), derivatives(v, v), f(v), time_step, step, ok)
+            if (.not. all(ieee_is_finite(step))) ok = .false.
+            if (.not. ok) exit
+            move = maxval(abs(step/clearances(model)))
+            if (move <= longest_move) exit
+            ! a shorter step in time, and not of its result, stays on the way of the motion
+            time_step = time_step*min(0.5_wp, longest_move/move)
+         end do
+      end associate
+   end subroutine find_step
+
+   !> Moves y by the step, or by a part of it that the model admits, and evaluates the rates f there. `ok` is false
+   !> where it admits none.
+   subroutine take_step(model, y, f, time_step, step, ok)
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(inout) :: y(:), f(:), time_step, step(:)
+      logical, intent(out) :: ok
+      real(wp) :: trial(model%n)
+      integer, allocatable :: x(:)
+      x = model%layout%positions()
+      do
+         trial = y
+         trial(x) = y(x) + step
+         call model%rhs(0.0_wp, trial, f, ok)
+         if (ok) exit
+         step = 0.5_wp*step
+         time_step = 0.5_wp*time_step
+         if (maxval(abs(step/clearances(model))) < epsilon(step)) return
+      end do
+      y = trial
+   end subroutine take_step
 
    logical function asked(give_up)
       procedure(asked_to_stop), optional :: give_up
@@ -173,56 +199,26 @@ contains
       if (present(give_up)) asked = give_up()
    end function asked
 
-   !> The start, among places along the load, with the smallest unbalanced force.
+   !> The start, among positions along the load, with the smallest unbalanced force.
    function best_start(model, give_up) result(y)
       type(bearing_model), intent(inout) :: model
       procedure(asked_to_stop), optional :: give_up
-      real(wp) :: y(model%n), trial(model%n), f(model%n), least
+      real(wp) :: y(model%n), trial(model%n), f(model%n), smallest
       integer :: i
       logical :: ok
-      least = huge(least)
+      smallest = huge(smallest)
       y = start(model, 0.0_wp)
       do i = 1, size(fractions)
          if (asked(give_up)) exit
          trial = start(model, fractions(i))
          call model%rhs(0.0_wp, trial, f, ok)
          if (.not. ok) cycle
-         if (residual_of(model, f) < least) then
-            least = residual_of(model, f)
+         if (residual_of(model, f) < smallest) then
+            smallest = residual_of(model, f)
             y = trial
          end if
       end do
    end function best_start
-
-   !> The same bearing without unbalance, friction and run-up, its film solved closely.
-   pure function static_scene(scene) result(static)
-      type(scene_type), intent(in) :: scene
-      type(scene_type) :: static
-      static = scene
-      static%rotor%unbalance = 0
-      static%rotor%balance_grade = -1
-      static%operation%final_speed_rpm = scene%operation%speed_rpm
-      static%friction%model = 'none'
-      static%film%tolerance = min(scene%film%tolerance, 0.1_wp*residual_limit)
-      static%film%max_sweeps = max(scene%film%max_sweeps, 100000)
-   end function static_scene
-
-   !> Indices of the positions and of their rates in the state.
-   pure subroutine unknowns(model, x, v)
-      type(bearing_model), intent(in) :: model
-      integer, allocatable, intent(out) :: x(:), v(:)
-      integer :: i
-      x = [1, 2]
-      v = [3, 4]
-      do i = 1, size(model%places)
-         x = [x, model%offset(i) + 1]
-         v = [v, model%offset(i) + 2]
-         if (model%radial) then
-            x = [x, model%offset(i) + 3]
-            v = [v, model%offset(i) + 4]
-         end if
-      end do
-   end subroutine unknowns
 
    !> Journal a fraction of the clearance down the load, pivots carrying a share of it, and the pads
    !> tilted so that every film converges.
@@ -230,39 +226,36 @@ contains
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: fraction
       real(wp) :: y(model%n)
-      class(contact_law_type), allocatable :: law
+      type(journal_motion) :: journal
+      type(pad_state) :: pads(model%layout%pads)
       type(pad_frame) :: frame
-      real(wp) :: load(2), penetration
       integer :: i
-      y = 0
-      penetration = 0
-      load = model%scene%load()
-      if (norm2(load) > 0) then
-         y(1:2) = fraction*model%scene%bearing%assembled_clearance*load/norm2(load)
-         if (model%radial) then
-            law = new_law(model%scene)
-            penetration = law%penetration(norm2(load)/size(model%places))
+      associate (load => model%point%load, bearing => model%scene%bearing)
+         if (norm2(load) > 0) then
+            journal%position = fraction*bearing%assembled_clearance*load/norm2(load)
+            if (model%layout%radial) pads%penetration = model%bearing%penetration(norm2(load)/size(pads))
          end if
-      end if
-      do i = 1, size(model%places)
-         frame = frame_of(model%places(i), y(1:2), 0.0_wp, penetration)
-         y(model%offset(i) + 1) = (frame%along + model%scene%bearing%machined_clearance/3) &
-            & /model%places(i)%centre_distance
-         if (model%radial) y(model%offset(i) + 3) = penetration
-      end do
+         do i = 1, size(pads)
+            frame = model%bearing%pads(i)%frame(journal, pads(i))
+            pads(i)%tilt = (frame%along + bearing%machined_clearance/3)/model%bearing%pads(i)%position%centre_distance
+         end do
+      end associate
+      y = model%state(journal, pads)
    end function start
 
    !> Assembled clearance in the unit of each position (tilt: at the pad's edge).
-   pure function clearance_scale(model, x) result(scale)
+   pure function clearances(model)
       type(bearing_model), intent(in) :: model
-      integer, intent(in) :: x(:)
-      real(wp) :: scale(size(x))
+      real(wp), allocatable :: clearances(:)
+      real(wp) :: scale(model%n)
       integer :: i
-      scale = model%scale(x)
-      do i = 1, size(model%places)
-         where (x == model%offset(i) + 3) scale = model%scene%bearing%assembled_clearance
-      end do
-   end function clearance_scale
+      scale = model%scale
+      if (model%layout%radial) scale(model%layout%penetration([(i, i=1, model%layout%pads)])) &
+         & = model%scene%bearing%assembled_clearance
+      if (.not. model%layout%radial) scale(model%layout%tilt([(i, i=2, model%layout%pads)])) &
+         & = model%scene%bearing%assembled_clearance
+      clearances = scale(model%layout%positions())
+   end function clearances
 
    !> Solves (K + C / time step) step = -f.
    subroutine newton_step(model, stiffness, damping, f, time_step, step, ok)
@@ -275,7 +268,7 @@ contains
       matrix = stiffness + damping/time_step
       ! a trace of damping for pads whose film has ruptured everywhere
       do i = 1, size(f)
-         matrix(i, i) = matrix(i, i) - 1e-3_wp*model%scene%highest_speed()/time_step
+         matrix(i, i) = matrix(i, i) - 1e-3_wp*model%point%speed(0.0_wp)/time_step
       end do
       step = -f
       call dgesv(size(f), 1, matrix, size(f), pivots, step, size(f), info)
@@ -286,15 +279,15 @@ contains
    pure real(wp) function residual_of(model, f)
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: f(:)
-      integer :: i, o
-      associate (pads => model%scene%pads, rotor => model%scene%rotor)
-         residual_of = rotor%mass*norm2(f(3:4))
-         do i = 1, size(model%places)
-            o = model%offset(i)
-            residual_of = max(residual_of, abs(f(o + 2))*pads%inertia(i)/model%places(i)%centre_distance)
-            if (model%radial) residual_of = max(residual_of, abs(f(o + 4))*pads%mass(i))
-         end do
-         residual_of = residual_of/max(norm2(model%scene%load()), maxval(pads%mass)*rotor%gravity, 1.0_wp)
+      type(journal_motion) :: journal
+      type(pad_state) :: rates(model%layout%pads)
+      journal = model%rotor%journal(f(:model%rotor%states))
+      rates = model%layout%pad_states(f)
+      associate (pads => model%bearing%pads)
+         residual_of = max(model%rotor%mass*norm2(journal%velocity), &
+            & maxval(abs(rates%tilt_rate)*pads%inertia/pads%position%centre_distance), &
+            & maxval(abs(rates%penetration_rate)*pads%mass))
+         residual_of = residual_of/max(norm2(model%point%load), maxval(pads%weight), 1.0_wp)
       end associate
    end function residual_of
 
@@ -303,13 +296,17 @@ contains
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(equilibrium_type), intent(inout) :: found
-      integer :: i
-      found%journal = y(1:2)
-      found%tilt = [(y(model%offset(i) + 1), i=1, size(model%places))]
-      found%penetration = spread(0.0_wp, 1, size(model%places))
-      if (model%radial) found%penetration = [(y(model%offset(i) + 3), i=1, size(model%places))]
-      found%contact_force = model%loads%contact
-      found%min_film = model%response%min_film
-      found%max_pressure = model%response%max_pressure
+      type(journal_motion) :: journal
+      type(pad_state) :: pads(model%layout%pads)
+      type(pad_sample) :: samples(model%layout%pads)
+      journal = model%rotor%journal(y(:model%rotor%states))
+      pads = model%layout%pad_states(y)
+      samples = model%sampled()
+      found%journal = journal%position
+      found%tilt = pads%tilt
+      found%penetration = pads%penetration
+      found%contact_force = samples%contact_force
+      found%min_film_thickness = samples%min_film_thickness
+      found%max_pressure = samples%max_pressure
    end subroutine describe
 end module equilibrium

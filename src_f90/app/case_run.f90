@@ -63,13 +63,13 @@ contains
          call statistics%put('error_test_failures', counts%error_test_failures, 'steps refused by the error test')
          call statistics%put('convergence_failures', counts%convergence_failures, 'Newton iterations that failed')
       end associate
-      associate (films => self%model%film%counters)
+      associate (films => self%model%film_counters())
          call statistics%put('film_modal', films%modal, 'pads solved by axial modes in the march')
-         call statistics%put('film_volumes', films%sor, 'pads solved on finite volumes in the march')
-         call statistics%put('film_passes', films%sweeps, &
+         call statistics%put('film_volumes', films%volumes, 'pads solved on finite volumes in the march')
+         call statistics%put('film_passes', films%passes, &
             & 'passes over the cells of these, sweeps of over-relaxation or eliminations, in the march')
+         call statistics%put('film_seconds', films%seconds, 'wall time of the film in the march')
       end associate
-      call statistics%put('film_seconds', self%model%film_seconds, 'wall time of the film in the march')
       call statistics%put('output_seconds', self%sampling, 'wall time of sampling')
       call statistics%put('checkpoint_seconds', self%checkpoints, 'wall time of the checkpoints before the last')
       call statistics%put('wall_seconds', wall_clock() - self%started, 'wall time of the run')

@@ -105,7 +105,7 @@ contains
       type(run_file_type), intent(inout) :: file
       real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), amplitudes(:, :)
       integer :: revolutions, n, i
-      if (scene%acceleration() /= 0) return
+      if (abs(scene%operation%final_speed_rpm - scene%operation%speed_rpm) > 0) return
       associate (samples => scene%output%samples_per_revolution)
          revolutions = int(min(int(scene%output%spectrum_revolutions, i8), (file%samples() - 1)/samples))
          n = revolutions*samples

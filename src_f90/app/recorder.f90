@@ -6,7 +6,6 @@ module recorder
    use march_observer, only: march_observer_type
    use integrator_counts, only: integrator_counts_type
    use loops, only: periodicity, new_periodicity
-   use equations_of_motion, only: bearing_model
    use march_results, only: add_sample
    use provenance, only: running
    use stop_signals, only: stop_requested, stop_reason
@@ -16,9 +15,7 @@ module recorder
    private
    public :: recorder_type, begin_recording
 
-   !> Completes each sample on a model of its own, so that sampling never changes the march.
    type, extends(march_observer_type) :: recorder_type
-      type(bearing_model), private :: model
       type(case_run_type), pointer, private :: run => null()
       type(progress_type) :: progress
       real(wp), private :: last_checkpoint = 0
@@ -40,7 +37,6 @@ contains
       type(case_run_type), intent(in), target :: run
       real(wp), intent(in) :: t
       self%run => run
-      self%model = run%model
       self%progress = new_progress(t, run%scene%operation%duration, run%quiet)
       self%last_checkpoint = run%started
       if (run%scene%integration%stop_when_periodic > 0) call self%follow_orbit()
@@ -51,7 +47,7 @@ contains
       class(recorder_type), intent(inout) :: self
       real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), none(:)
       integer :: passed, n, i
-      associate (samples => self%model%scene%output%samples_per_revolution, pads => self%model%scene%pad_count())
+      associate (samples => self%run%scene%output%samples_per_revolution, pads => self%run%scene%pad_count())
          ! the last whole revolution and what came after it; comparing begins with the revolution after
          passed = max(0, int(self%run%file%samples()/samples) - 1)
          n = int(self%run%file%samples() - int(passed, i8)*samples)
@@ -62,7 +58,7 @@ contains
          call self%run%file%last_samples('pad_tilt', n, tilt)
          allocate (none(pads), source=0.0_wp)
          do i = 1, n
-            call self%orbit%add(self%model%positions(self%model%at_rest([y(1, i), z(1, i)], tilt(:, i), none)))
+            call self%orbit%add(self%run%model%positions(self%run%model%at_rest([y(1, i), z(1, i)], tilt(:, i), none)))
          end do
       end associate
    end subroutine follow_orbit
@@ -73,12 +69,11 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: started
       started = wall_clock()
-      call self%model%recall(y, output)
-      call add_sample(self%run%file, self%model, t, y, error)
+      call add_sample(self%run%file, self%run%model%sample(t, y, output), error)
       self%run%reached = t
-      associate (limit => self%model%scene%integration%stop_when_periodic)
+      associate (limit => self%run%scene%integration%stop_when_periodic)
          if (limit > 0) then
-            call self%orbit%add(self%model%positions(y))
+            call self%orbit%add(self%run%model%positions(y))
             self%satisfied = self%orbit%change <= limit
          end if
       end associate
@@ -93,7 +88,7 @@ contains
       now = wall_clock()
       call self%progress%report(t, steps, now)
       call self%run%file%beat(int(now - self%run%started))
-      associate (pause => self%model%scene%output%checkpoint_seconds)
+      associate (pause => self%run%scene%output%checkpoint_seconds)
          self%checkpoint_due = pause > 0 .and. now - self%last_checkpoint >= pause
       end associate
    end subroutine report

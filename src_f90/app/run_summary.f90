@@ -20,7 +20,7 @@ contains
       do i = 1, size(static%tilt)
          print '(a)', '  pad '//to_text(i)//': tilt '//milli(static%tilt(i))//' mrad, penetration ' &
             & //micro(static%penetration(i))//' um, contact '//fixed_text(static%contact_force(i), 1) &
-            & //' N, minimum film '//micro(static%min_film(i))//' um, maximum pressure ' &
+            & //' N, minimum film '//micro(static%min_film_thickness(i))//' um, maximum pressure ' &
             & //mega(static%max_pressure(i))//' MPa'
       end do
    end subroutine print_equilibrium

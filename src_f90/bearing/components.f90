@@ -1,9 +1,9 @@
-!> Builds the film solver, contact table, friction law and pad places of a scene: the only place
-!> that turns names of the input into types.
+!> Builds the film solver, contact law, friction law and pads of a scene: the only module that turns names of the
+!> input into types.
 module components
    use kinds, only: wp, degree
    use scene, only: scene_type
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    use film_solver, only: film_solver_type
    use modal_film, only: new_modal_film, enough_cells, enough_modes
    use auto_film, only: new_auto_film
@@ -11,10 +11,10 @@ module components
    use contact_law, only: contact_law_type, new_contact_law
    use friction, only: friction_law, no_friction, bengisu_akay_friction, lugre_friction, &
       & default_bristle_damping
-   use kinematics, only: pad_place
+   use bearing_pad, only: bearing_pad_type
    implicit none (type, external)
    private
-   public :: make_film, new_gaps, new_law, new_friction, new_places
+   public :: make_film, new_law, new_friction, new_pads
 
    !> Finite volumes along the arc and along half the width where the input leaves them to the solver, by the
    !> errors in docs/benchmarks.md.
@@ -27,7 +27,7 @@ contains
    subroutine make_film(scene, film)
       type(scene_type), intent(in) :: scene
       class(film_solver_type), allocatable, intent(out) :: film
-      type(pad_film_type) :: films(scene%pad_count())
+      type(pad_gap_type) :: films(scene%pad_count())
       type(sor_options) :: options
       integer :: cavitation, cells, modes, volumes(2)
       films = new_gaps(scene)
@@ -56,17 +56,19 @@ contains
          else
             film = new_modal_film(films, cells, modes, cavitation == cavitation_gumbel)
          end if
+         film%tolerance = options%tolerance
+         film%max_sweeps = options%max_sweeps
       end associate
    end subroutine make_film
 
    !> The gaps between pads and journal.
    pure function new_gaps(scene) result(gaps)
       type(scene_type), intent(in) :: scene
-      type(pad_film_type) :: gaps(scene%pad_count())
+      type(pad_gap_type) :: gaps(scene%pad_count())
       integer :: i
       associate (b => scene%bearing, p => scene%pads)
          do i = 1, size(gaps)
-            gaps(i) = pad_film_type(b%journal_radius, b%machined_clearance, b%axial_length, &
+            gaps(i) = pad_gap_type(b%journal_radius, b%machined_clearance, b%axial_length, &
                & p%pivot_ratio(i)*p%arc_deg(i)*degree, (1 - p%pivot_ratio(i))*p%arc_deg(i)*degree, &
                & b%viscosity, b%supply_pressure, b%ambient_pressure, b%cavitation_pressure)
          end do
@@ -104,19 +106,29 @@ contains
       end associate
    end function new_friction
 
-   !> Where the pads sit.
-   pure function new_places(scene) result(places)
+   !> The pads.
+   pure function new_pads(scene) result(pads)
       type(scene_type), intent(in) :: scene
-      type(pad_place) :: places(scene%pad_count())
+      type(bearing_pad_type) :: pads(scene%pad_count())
       integer :: i
-      associate (b => scene%bearing, p => scene%pads)
-         do i = 1, size(places)
-            places(i)%angle = p%pivot_angle_deg(i)*degree
-            places(i)%sin_angle = sin(places(i)%angle)
-            places(i)%cos_angle = cos(places(i)%angle)
-            places(i)%pivot_radius = b%journal_radius + b%assembled_clearance + p%pivot_distance(i)
-            places(i)%centre_distance = b%journal_radius + b%machined_clearance + p%pivot_distance(i)
-         end do
-      end associate
-   end function new_places
+      pads%gap = new_gaps(scene)
+      do i = 1, size(pads)
+         associate (b => scene%bearing, p => scene%pads, v => scene%pivot, pad => pads(i), position => pads(i)%position)
+            position%angle = p%pivot_angle_deg(i)*degree
+            position%sin_angle = sin(position%angle)
+            position%cos_angle = cos(position%angle)
+            position%pivot_radius = b%journal_radius + b%assembled_clearance + p%pivot_distance(i)
+            position%centre_distance = b%journal_radius + b%machined_clearance + p%pivot_distance(i)
+            pad%directions = pad%gap%directions()
+            pad%largest_tilt = 0.5_wp*p%arc_deg(i)*degree
+            pad%mass = p%mass(i)
+            pad%inertia = p%inertia(i)
+            pad%weight = p%mass(i)*scene%rotor%gravity
+            pad%centre_tangential = p%centre_tangential(i)
+            pad%centre_radial = p%centre_radial(i)
+            pad%ball_radius = v%socket_radius - v%radius_difference
+            pad%radial = scene%tilting_radial()
+         end associate
+      end do
+   end function new_pads
 end module components

@@ -8,7 +8,7 @@
 module auto_film
    use kinds, only: wp
    use film_solver, only: film_solver_type, film_motion, film_response, film_ok
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    use modal_film, only: modal_film_type, new_modal_film
    use direct_film, only: direct_film_type, new_direct_film
    implicit none (type, external)
@@ -29,7 +29,10 @@ module auto_film
       real(wp), allocatable :: cavitation_pressure(:), clearance(:)
       type(modal_film_type) :: modal
       type(direct_film_type), allocatable :: direct(:)
+      logical :: may_rupture = .true.
    contains
+      procedure :: ruptures
+      procedure :: set_rupture
       procedure :: evaluate
       procedure :: field
    end type auto_film_type
@@ -39,7 +42,7 @@ contains
    !> Both solvers for the same films: cells along the arc and modes of the one; cells along the arc and
    !> along half the width of the other.
    function new_auto_film(films, cells, modes, columns, rows) result(solver)
-      type(pad_film_type), intent(in) :: films(:)
+      type(pad_gap_type), intent(in) :: films(:)
       integer, intent(in) :: cells, modes, columns, rows
       type(auto_film_type) :: solver
       integer :: i
@@ -52,36 +55,47 @@ contains
       end do
    end function new_auto_film
 
-   subroutine evaluate(self, motion, speed, want_slopes, response)
+   pure logical function ruptures(self)
+      class(auto_film_type), intent(in) :: self
+      ruptures = self%may_rupture
+   end function ruptures
+
+   pure subroutine set_rupture(self, allowed)
+      class(auto_film_type), intent(inout) :: self
+      logical, intent(in) :: allowed
+      self%may_rupture = allowed
+   end subroutine set_rupture
+
+   subroutine evaluate(self, motion, speed, want_derivatives, response)
       class(auto_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
       real(wp), intent(in) :: speed
-      logical, intent(in) :: want_slopes
+      logical, intent(in) :: want_derivatives
       type(film_response), intent(out) :: response(:)
       type(film_response) :: changed
       real(wp) :: tension, height, force(2)
       integer :: i
       logical :: few
-      call self%modal%evaluate(motion, speed, want_slopes, response)
+      call self%modal%evaluate(motion, speed, want_derivatives, response)
       do i = 1, size(motion)
          if (response(i)%status /= film_ok) cycle
          tension = self%cavitation_pressure(i) - response(i)%min_pressure
          height = response(i)%max_pressure - self%cavitation_pressure(i)
-         if (tension <= slight_tension*height) then
+         if (tension <= slight_tension*height .or. .not. self%may_rupture) then
             self%counters%modal = self%counters%modal + 1
             cycle
          end if
-         self%counters%sor = self%counters%sor + 1
+         self%counters%volumes = self%counters%volumes + 1
          few = .false.
          if (tension <= loaded_tension*height) then
             call self%direct(i)%force_of_rupture(motion(i), speed, self%counters, force, few)
          end if
          if (few) then
-            if (want_slopes) response(i)%slope = response(i)%slope + slopes_of_rupture(self, i, motion(i), speed, force)
+            if (want_derivatives) response(i)%slope = response(i)%slope + slopes_of_rupture(self, i, motion(i), speed, force)
             response(i)%force = response(i)%force + force
             response(i)%min_pressure = self%cavitation_pressure(i)
          else
-            call change_of_rupture(self, i, motion(i), speed, want_slopes, response(i), changed)
+            call change_of_rupture(self, i, motion(i), speed, want_derivatives, response(i), changed)
             response(i) = changed
          end if
       end do
@@ -109,20 +123,20 @@ contains
    end function slopes_of_rupture
 
    !> A pad's ruptured film by elimination, from that of the modes.
-   subroutine change_of_rupture(self, i, motion, speed, want_slopes, modal, ruptured)
+   subroutine change_of_rupture(self, i, motion, speed, want_derivatives, modal, ruptured)
       class(auto_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
-      logical, intent(in) :: want_slopes
+      logical, intent(in) :: want_derivatives
       type(film_response), intent(in) :: modal
       type(film_response), intent(out) :: ruptured
       type(film_response) :: whole
       real(wp) :: c
       c = share_of_modes(self, i, modal)
-      call self%direct(i)%evaluate(motion, speed, .true., want_slopes, self%counters, ruptured)
+      call self%direct(i)%evaluate(motion, speed, .true., want_derivatives, self%counters, ruptured)
       if (ruptured%status /= film_ok .or. .not. c > 0) return
-      call self%direct(i)%evaluate(motion, speed, .false., want_slopes, self%counters, whole)
+      call self%direct(i)%evaluate(motion, speed, .false., want_derivatives, self%counters, whole)
       ruptured%force = ruptured%force + c*(modal%force - whole%force)
       ruptured%slope = ruptured%slope + c*(modal%slope - whole%slope)
       ruptured%max_pressure = ruptured%max_pressure + c*(modal%max_pressure - whole%max_pressure)
@@ -153,6 +167,7 @@ contains
       integer :: i
       call self%modal%evaluate(motion, speed, .false., response)
       call self%modal%field(motion, speed, phi, z, pressure)
+      if (.not. self%may_rupture) return
       do i = 1, size(motion)
          associate (lowest => self%cavitation_pressure(i))
             if (lowest - response(i)%min_pressure <= slight_tension*(response(i)%max_pressure - lowest)) then

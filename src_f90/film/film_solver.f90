@@ -23,34 +23,56 @@ module film_solver
       !> d force / d (position, velocity), N/m and N s/m; set on request.
       real(wp) :: slope(2, 4) = 0
       !> Lowest and highest pressure at the grid points, Pa; least film thickness, m.
-      real(wp) :: min_pressure = 0, max_pressure = 0, min_film = 0
+      real(wp) :: min_pressure = 0, max_pressure = 0, min_film_thickness = 0
       !> Relative residual of an iterative solution; 0 for a direct one.
       real(wp) :: residual = 0
    end type film_response
 
    !> Work done since the solver was made.
    type :: film_counters
-      !> Pads evaluated by axial modes and by over-relaxation; sweeps of the latter.
-      integer(i8) :: modal = 0, sor = 0, sweeps = 0
+      !> Pads evaluated by axial modes and on finite volumes; passes over these volumes: sweeps of over-relaxation,
+      !> or eliminations.
+      integer(i8) :: modal = 0, volumes = 0, passes = 0
+      !> Wall time, s, where the solver's user takes it.
+      real(wp) :: seconds = 0
    end type film_counters
 
    type, abstract :: film_solver_type
       type(film_counters) :: counters
+      !> An iterative solution ends at this relative residual, or has failed after so many sweeps. Direct solvers
+      !> do without.
+      real(wp) :: tolerance = 0
+      integer :: max_sweeps = 0
    contains
       procedure(evaluate_film), deferred :: evaluate
       procedure(evaluate_field), deferred :: field
+      procedure(can_rupture), deferred :: ruptures
+      procedure(choose_rupture), deferred :: set_rupture
    end type film_solver_type
 
    abstract interface
       !> The film of every pad at a motion each and a journal speed, rad/s.
-      subroutine evaluate_film(self, motion, speed, want_slopes, response)
+      subroutine evaluate_film(self, motion, speed, want_derivatives, response)
          import :: film_solver_type, film_motion, film_response, wp
          class(film_solver_type), intent(inout) :: self
          type(film_motion), intent(in) :: motion(:)
          real(wp), intent(in) :: speed
-         logical, intent(in) :: want_slopes
+         logical, intent(in) :: want_derivatives
          type(film_response), intent(out) :: response(:)
       end subroutine evaluate_film
+
+      !> True where pressures below the cavitation pressure are not kept.
+      pure logical function can_rupture(self)
+         import :: film_solver_type
+         class(film_solver_type), intent(in) :: self
+      end function can_rupture
+
+      !> Lets films rupture as the solver was made to, or keeps them whole.
+      pure subroutine choose_rupture(self, allowed)
+         import :: film_solver_type
+         class(film_solver_type), intent(inout) :: self
+         logical, intent(in) :: allowed
+      end subroutine choose_rupture
 
       !> Pressure of every pad's film, Pa, (axial place, angle, pad), at a motion each that leaves the film open,
       !> and a journal speed, rad/s.

@@ -2,15 +2,15 @@
 !>
 !> Pad coordinates: the angle phi from the pivot, positive towards the leading edge; the axial
 !> coordinate from the middle of the pad.
-module pad_film
+module pad_gap
    use kinds, only: wp
    use film_solver, only: film_motion
    implicit none (type, external)
    private
-   public :: pad_film_type, pad_directions
+   public :: pad_gap_type, pad_directions
 
    !> Geometry, oil and boundary pressures of one pad's film.
-   type :: pad_film_type
+   type :: pad_gap_type
       !> Journal radius R_J, machined clearance c_m, axial length L, m.
       real(wp) :: journal_radius, machined_clearance, axial_length
       !> Angles from the pivot to the leading and trailing edge, theta_1 and theta_2, rad, > 0.
@@ -24,8 +24,8 @@ module pad_film
       procedure :: arc
       procedure :: thickness
       procedure :: directions
-      procedure :: least_thickness
-   end type pad_film_type
+      procedure :: min_film_thickness
+   end type pad_gap_type
 
    !> (sin phi, cos phi) at the edges and the middle of the arc; cosine of half the arc.
    type :: pad_directions
@@ -36,21 +36,21 @@ contains
 
    !> R = R_J + c_m, m.
    pure function pad_radius(self)
-      class(pad_film_type), intent(in) :: self
+      class(pad_gap_type), intent(in) :: self
       real(wp) :: pad_radius
       pad_radius = self%journal_radius + self%machined_clearance
    end function pad_radius
 
    !> Arc of the pad, rad.
    pure function arc(self)
-      class(pad_film_type), intent(in) :: self
+      class(pad_gap_type), intent(in) :: self
       real(wp) :: arc
       arc = self%leading_angle + self%trailing_angle
    end function arc
 
    !> h = c_m - e_y' sin(phi) - e_z' cos(phi), m.
    elemental function thickness(self, motion, sin_phi, cos_phi) result(h)
-      class(pad_film_type), intent(in) :: self
+      class(pad_gap_type), intent(in) :: self
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: sin_phi, cos_phi
       real(wp) :: h
@@ -58,7 +58,7 @@ contains
    end function thickness
 
    pure function directions(self)
-      class(pad_film_type), intent(in) :: self
+      class(pad_gap_type), intent(in) :: self
       type(pad_directions) :: directions
       directions%leading = [sin(self%leading_angle), cos(self%leading_angle)]
       directions%trailing = [-sin(self%trailing_angle), cos(self%trailing_angle)]
@@ -69,8 +69,8 @@ contains
    end function directions
 
    !> Least film thickness on the pad, m: inside the arc where h has a minimum there, else at an edge.
-   pure function least_thickness(self, motion, directions) result(h)
-      class(pad_film_type), intent(in) :: self
+   pure function min_film_thickness(self, motion, directions) result(h)
+      class(pad_gap_type), intent(in) :: self
       type(film_motion), intent(in) :: motion
       !> The pad's own, computed once.
       type(pad_directions), intent(in) :: directions
@@ -82,5 +82,5 @@ contains
          h = self%machined_clearance - max(dot_product(motion%position, directions%leading), &
             & dot_product(motion%position, directions%trailing))
       end if
-   end function least_thickness
-end module pad_film
+   end function min_film_thickness
+end module pad_gap

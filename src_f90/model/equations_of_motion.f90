@@ -1,44 +1,62 @@
-!> Equations of motion (1)-(4) of journal and pads as an ODE, with their linearisation; states as in
-!> bearing_forces.
+!> Equations of motion (1)-(4) of a rotor and the pads of its bearing as an ODE, with their linearisation.
 module equations_of_motion
    use kinds, only: wp, degree
    use scene, only: scene_type
-   use contact_law, only: contact_law_type
-   use bearing_forces, only: bearing_forces_type, init_forces, pad_outputs
-   use arrow_system, only: arrow_matrix, new_arrow_matrix
-   use kinematics, only: motion_slopes, to_global
-   use contact_table, only: contact_table_type
-   use components, only: new_law
+   use operating_point, only: operating_point_type
+   use film_solver, only: film_counters
+   use kinematics, only: journal_motion, pad_state, columns, journal_columns
+   use pad_bearing, only: pad_bearing_type, pad_sample, new_pad_bearing, pad_outputs
+   use rigid_journal, only: rigid_journal_type
+   use ode_model, only: ode_model_type
+   use state_layout, only: state_layout_type, new_state_layout, at_tilt, at_tilt_rate, at_penetration, &
+      & at_penetration_rate
+   use bordered_system, only: bordered_matrix, new_bordered_matrix
    implicit none (type, external)
    private
-   public :: bearing_model, new_bearing_model
+   public :: bearing_model, model_sample, new_bearing_model
 
-   !> Columns of a pad's slopes: journal y, z, vy, vz, tilt, tilt rate, penetration, its rate.
-   integer, parameter :: columns = 8, tilt = 5, tilt_rate = 6, penetration = 7
+   !> What is sampled at a time, s: shaft angle, rad; speed, rad/s; journal; states and loads of the pads.
+   type :: model_sample
+      real(wp) :: time = 0, shaft_angle = 0, speed = 0
+      !> Whether the pads have penetrations and bristle deflections.
+      logical :: radial = .false., bristles = .false.
+      type(journal_motion) :: journal
+      type(pad_state), allocatable :: states(:)
+      type(pad_sample), allocatable :: loads(:)
+   end type model_sample
 
-   type, extends(bearing_forces_type) :: bearing_model
+   type, extends(ode_model_type) :: bearing_model
+      type(scene_type) :: scene
+      type(operating_point_type) :: point
+      type(state_layout_type) :: layout
+      type(rigid_journal_type) :: rotor
+      type(pad_bearing_type) :: bearing
       !> Natural size of each state.
       real(wp), allocatable :: scale(:)
-      !> Inverse of the mass matrix of (3)-(4), (2, 2, pad): rates of tilt rate and penetration rate per
-      !> moment and force. Tilting-only pads have no second row.
-      real(wp), allocatable :: per_mass(:, :, :)
-      !> From the last linearisation, without friction: slopes of the contact force (column, pad), of the
-      !> film force and of the rates of tilt rate and penetration rate (2, column, pad), and the Jacobian.
-      real(wp), allocatable, private :: contact_slopes(:, :), film_slopes(:, :, :), rate_slopes(:, :, :)
-      type(arrow_matrix), private :: matrix
+      !> Of each pad rates of tilt rate and penetration rate per moment and force, (2, 2, pad).
+      real(wp), allocatable, private :: per_mass(:, :, :)
+      !> From the last linearisation, without friction: derivatives of these rates, (2, column, pad), and the Jacobian.
+      real(wp), allocatable, private :: rate_derivatives(:, :, :)
+      type(bordered_matrix), private :: matrix
    contains
       procedure :: rhs
       procedure :: linearize
       procedure :: jacobian_times
       procedure :: solve
       procedure :: output
-      !> The whole Jacobian at (t, y).
+      procedure :: warning
       procedure :: jacobian
-      procedure, private :: add_friction
-      !> The state with journal and pads at rest at given places, bristles undeflected.
+      procedure :: evaluate
+      procedure :: set_point
+      procedure :: state
       procedure :: at_rest
-      !> Journal y, z and the tilts, each over its scale.
       procedure :: positions
+      procedure :: sample
+      procedure :: sampled
+      procedure :: smooth
+      procedure :: pressure_field
+      procedure :: film_counters => counters_of_films
+      procedure, private :: add_friction
    end type bearing_model
 
    !> Scale of the tilt rate over that at which Bengisu-Akay friction changes its direction.
@@ -46,32 +64,36 @@ module equations_of_motion
 
 contains
 
-   !> The model of a valid scene; with the contact's table of another model of the same pivots, if given.
-   function new_bearing_model(scene, contact) result(model)
+   !> The model of a valid scene, at its operating point.
+   function new_bearing_model(scene) result(model)
       type(scene_type), intent(in) :: scene
-      type(contact_table_type), intent(in), optional :: contact
       type(bearing_model) :: model
-      real(wp) :: coupling, determinant
       integer :: i, n
-      call init_forces(model, scene, contact)
-      model%scale = state_scales(model)
       n = scene%pad_count()
-      model%matrix = new_arrow_matrix(model%states_per_pad, n)
-      allocate (model%per_mass(2, 2, n), model%contact_slopes(columns, n), source=0.0_wp)
-      allocate (model%film_slopes(2, columns, n), model%rate_slopes(2, columns, n), source=0.0_wp)
+      model%scene = scene
+      model%bearing = new_pad_bearing(scene)
+      model%rotor%mass = scene%rotor%mass
+      model%layout = new_state_layout(model%rotor%states, n, scene%tilting_radial(), model%bearing%friction%has_bristle)
+      model%n = model%layout%n
+      model%outputs = pad_outputs*n
+      call model%set_point(operating_point_type(scene))
+      model%scale = state_scales(model)
+      model%matrix = new_bordered_matrix(model%rotor%states, model%layout%per_pad, n)
+      allocate (model%per_mass(2, 2, n))
       do i = 1, n
-         associate (mass => scene%pads%mass(i), inertia => scene%pads%inertia(i))
-            if (model%radial) then
-               ! coupled where C_xi /= 0
-               coupling = mass*scene%pads%centre_tangential(i)
-               determinant = inertia*mass - coupling**2
-               model%per_mass(:, :, i) = reshape([mass, -coupling, -coupling, inertia], [2, 2])/determinant
-            else
-               model%per_mass(1, 1, i) = 1/inertia
-            end if
-         end associate
+         model%per_mass(:, :, i) = model%bearing%pads(i)%inverse_masses()
       end do
+      allocate (model%rate_derivatives(2, columns, n), source=0.0_wp)
    end function new_bearing_model
+
+   !> Another operating point; tables and films stay.
+   subroutine set_point(self, point)
+      class(bearing_model), intent(inout) :: self
+      type(operating_point_type), intent(in) :: point
+      if (point%rupture .neqv. self%point%rupture) call self%bearing%set_rupture(point%rupture)
+      self%bearing%rubs = point%friction
+      self%point = point
+   end subroutine set_point
 
    !> Natural size of each state: clearance; clearance over pad length; the penetration under the load;
    !> the deflection at which bristles yield; rates: times the highest speed, but the tilt rate not above
@@ -79,155 +101,149 @@ contains
    function state_scales(model) result(scale)
       type(bearing_model), intent(in) :: model
       real(wp) :: scale(model%n)
-      class(contact_law_type), allocatable :: law
+      type(pad_state) :: pads(model%layout%pads)
       real(wp) :: speed, force
-      integer :: i, o
-      associate (scene => model%scene, b => model%scene%bearing)
+      integer :: i
+      associate (scene => model%scene, b => model%scene%bearing, friction => model%bearing%friction)
          speed = scene%highest_speed()
-         scale(1:2) = b%assembled_clearance
-         scale(3:4) = b%assembled_clearance*speed
-         do i = 1, scene%pad_count()
-            o = model%offset(i)
-            scale(o + 1) = b%assembled_clearance/((b%journal_radius + b%machined_clearance) &
+         scale(:model%rotor%states) = model%rotor%scales(b%assembled_clearance, speed)
+         do i = 1, size(pads)
+            pads(i)%tilt = b%assembled_clearance/((b%journal_radius + b%machined_clearance) &
                & *scene%pads%arc_deg(i)*degree)
-            scale(o + 2) = min(scale(o + 1)*speed, sticking_scale*model%friction%sticking_velocity()/model%ball_radius)
-            if (model%radial) then
-               law = new_law(scene)
-               force = norm2(scene%load()) + model%unbalance*speed**2
-               scale(o + 3) = 1e-3_wp*b%assembled_clearance
-               if (force > 0) scale(o + 3) = max(scale(o + 3), law%penetration(force))
-               scale(o + 4) = scale(o + 3)*speed
+            pads(i)%tilt_rate = min(pads(i)%tilt*speed, sticking_scale*friction%sticking_velocity() &
+               & /model%bearing%pads(i)%ball_radius)
+            if (model%layout%radial) then
+               force = norm2(model%point%load) + model%point%unbalance*speed**2
+               pads(i)%penetration = 1e-3_wp*b%assembled_clearance
+               if (force > 0) pads(i)%penetration = max(pads(i)%penetration, model%bearing%penetration(force))
+               pads(i)%penetration_rate = pads(i)%penetration*speed
             end if
-            if (model%friction%has_bristle) scale(model%bristle(i)) = &
-               & model%friction%static_coefficient/scene%friction%bristle_stiffness
+            if (model%layout%bristles) pads(i)%deflection = friction%static_coefficient &
+               & /scene%friction%bristle_stiffness
          end do
       end associate
+      call model%layout%put_pads(pads, scale)
    end function state_scales
 
+   !> The state with journal and pads at rest at given positions, m, tilts, rad, and penetrations, m (tilting-only:
+   !> they do not matter), bristles undeflected.
    pure function at_rest(self, journal, tilt, penetration) result(y)
       class(bearing_model), intent(in) :: self
       real(wp), intent(in) :: journal(2), tilt(:), penetration(:)
       real(wp) :: y(self%n)
       integer :: i
-      y = 0
-      y(1:2) = journal
-      do i = 1, size(tilt)
-         y(self%offset(i) + 1) = tilt(i)
-         if (self%radial) y(self%offset(i) + 3) = penetration(i)
-      end do
+      y = self%state(journal_motion(journal), [(pad_state(tilt(i), 0.0_wp, penetration(i)), i=1, size(tilt))])
    end function at_rest
 
+   !> The state with this motion of the journal and these states of the pads.
+   pure function state(self, journal, pads) result(y)
+      class(bearing_model), intent(in) :: self
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(in) :: pads(:)
+      real(wp) :: y(self%n)
+      y(:self%rotor%states) = self%rotor%with_journal(journal)
+      call self%layout%put_pads(pads, y)
+   end function state
+
+   !> Journal y, z and the tilts, each over its scale.
    pure function positions(self, y)
       class(bearing_model), intent(in) :: self
       real(wp), intent(in) :: y(:)
-      real(wp) :: positions(2 + size(self%places))
-      integer :: i, at(2 + size(self%places))
-      at = [1, 2, (self%offset(i) + 1, i=1, size(self%places))]
-      positions = y(at)/self%scale(at)
+      real(wp) :: positions(2 + self%layout%pads)
+      type(journal_motion) :: journal, scale
+      integer :: i, tilts(self%layout%pads)
+      journal = self%rotor%journal(y(:self%rotor%states))
+      scale = self%rotor%journal(self%scale(:self%rotor%states))
+      positions(:2) = journal%position/scale%position
+      tilts = self%layout%tilt([(i, i=1, self%layout%pads)])
+      positions(3:) = y(tilts)/self%scale(tilts)
    end function positions
+
+   !> Evaluates the bearing at (t, y): loads and, where they are wanted, their derivatives.
+   subroutine evaluate(self, t, y, want_derivatives, ok)
+      class(bearing_model), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      logical, intent(in) :: want_derivatives
+      logical, intent(out) :: ok
+      call self%bearing%evaluate(self%rotor%journal(y(:self%rotor%states)), self%layout%pad_states(y), &
+         & self%point%speed(t), want_derivatives, self%refusal, ok)
+   end subroutine evaluate
 
    subroutine rhs(self, t, y, dydt, ok)
       class(bearing_model), intent(inout) :: self
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:)
       logical, intent(out) :: ok
-      real(wp) :: force(2), phase, speed, direction(2)
+      real(wp) :: force(2)
       integer :: i, o
       call self%evaluate(t, y, .false., ok)
       if (.not. ok) return
-      phase = self%scene%shaft_angle(t)
-      speed = self%scene%speed(t)
-      direction = [cos(phase), sin(phase)]
-      force = self%scene%load() + self%unbalance*(speed**2*direction &
-         & + self%scene%acceleration()*[direction(2), -direction(1)])
-      do i = 1, size(self%places)
-         o = self%offset(i)
-         force = force + to_global(self%frame(i), self%response(i)%force)
-         dydt(o + 1) = y(o + 2)
-         associate (rates => matmul(self%per_mass(:, :, i), [self%loads(i)%moment, self%loads(i)%radial]))
-            dydt(o + 2) = rates(1)
-            if (self%radial) dydt(o + 3:o + 4) = [y(o + 4), rates(2)]
+      force = self%rotor%force(self%point, t)
+      do i = 1, self%layout%pads
+         associate (loads => self%bearing%loads(i), layout => self%layout)
+            force = force + loads%journal
+            o = layout%first(i) - 1
+            dydt(o + at_tilt) = y(o + at_tilt_rate)
+            associate (rates => matmul(self%per_mass(:, :, i), [loads%moment, loads%radial]))
+               dydt(o + at_tilt_rate) = rates(1)
+               if (layout%radial) then
+                  dydt(o + at_penetration) = y(o + at_penetration_rate)
+                  dydt(o + at_penetration_rate) = rates(2)
+               end if
+            end associate
+            if (layout%bristles) dydt(o + layout%per_pad) = loads%friction%rate
          end associate
-         if (self%friction%has_bristle) dydt(self%bristle(i)) = self%loads(i)%friction%rate
       end do
-      dydt(1:2) = y(3:4)
-      dydt(3:4) = force/self%scene%rotor%mass
+      dydt(:self%rotor%states) = self%rotor%rates(y(:self%rotor%states), force)
    end subroutine rhs
 
-   !> Slopes of film and contact at (t, y), for `solve`.
+   !> Derivatives of film and contact at (t, y), for `solve`.
    subroutine linearize(self, t, y, ok)
       class(bearing_model), intent(inout) :: self
       real(wp), intent(in) :: t, y(:)
       logical, intent(out) :: ok
-      real(wp) :: force(2, columns), global(2, columns), moment(columns), radial(columns)
-      integer :: i, k, m, offset
-
+      real(wp) :: journal(self%rotor%states, columns)
+      integer :: i, k
       call self%evaluate(t, y, .true., ok)
       if (.not. ok) return
-      m = merge(4, 2, self%radial)
-      associate (matrix => self%matrix)
-         matrix%corner = 0
-         matrix%corner(1, 3) = 1
-         matrix%corner(2, 4) = 1
-         do i = 1, size(self%places)
-            offset = self%offset(i)
-            associate (frame => self%frame(i), film => self%response(i), loads => self%loads(i), &
-               & pads => self%scene%pads, weight => self%scene%pads%mass(i)*self%scene%rotor%gravity, &
-               & rate => y(offset + 2))
-               force = matmul(film%slope, motion_slopes(self%places(i), frame, self%motion(i), rate))
-               self%film_slopes(:, :, i) = force
-               radial = -force(2, :)
-               radial(tilt) = radial(tilt) + weight*frame%c
-               radial(tilt_rate) = radial(tilt_rate) + 2*pads%mass(i)*pads%centre_radial(i)*rate
-               associate (contact => self%contact_slopes(:, i))
-                  if (self%radial) then
-                     contact = 0
-                     contact(penetration) = loads%contact_slope
-                  else
-                     contact = merge(radial, 0.0_wp, loads%contact > 0)
-                  end if
-                  radial = radial - contact
-               end associate
-               moment = -force(1, :)*self%places(i)%centre_distance
-               moment(tilt) = moment(tilt) + weight*(pads%centre_tangential(i)*frame%c + pads%centre_radial(i)*frame%s)
+      associate (matrix => self%matrix, own => journal_columns + 1, last => journal_columns + self%layout%motion)
+         matrix%corner = self%rotor%own_derivatives()
+         do i = 1, self%layout%pads
+            associate (pad => self%bearing%derivatives(i))
                do k = 1, columns
-                  global(:, k) = to_global(frame, force(:, k))
-                  self%rate_slopes(:, k, i) = matmul(self%per_mass(:, :, i), [moment(k), radial(k)])
+                  self%rate_derivatives(:, k, i) = matmul(self%per_mass(:, :, i), [pad%moment(k), pad%radial(k)])
                end do
-               ! the frame turns with the pad
-               global(:, tilt) = global(:, tilt) + to_global(frame, [-film%force(2), film%force(1)])
-               global = global/self%scene%rotor%mass
-               matrix%corner(3:4, :) = matrix%corner(3:4, :) + global(:, :4)
-               matrix%across(3:4, :m, i) = global(:, 5:4 + m)
-               matrix%block(1, 2, i) = 1
-               if (self%radial) matrix%block(3, 4, i) = 1
+               journal = self%rotor%rate_derivatives(pad%journal)
+               matrix%corner = matrix%corner + journal(:, :journal_columns)
+               matrix%across(:, :self%layout%motion, i) = journal(:, own:last)
+               matrix%block(at_tilt, at_tilt_rate, i) = 1
+               if (self%layout%radial) matrix%block(at_penetration, at_penetration_rate, i) = 1
             end associate
          end do
       end associate
    end subroutine linearize
 
-   !> Puts the rates' slopes, with those of friction in the state evaluated last, into the Jacobian.
+   !> Puts the derivatives of the rates, with those of friction in the state evaluated last, into the Jacobian.
    subroutine add_friction(self)
       class(bearing_model), intent(inout) :: self
-      real(wp) :: moment(columns), rates(2, columns)
-      integer :: i, m
-      m = merge(4, 2, self%radial)
-      associate (matrix => self%matrix, bristle => self%states_per_pad)
-         do i = 1, size(self%places)
-            associate (friction => self%loads(i)%friction, per_moment => self%per_mass(:, 1, i))
-               moment = -self%ball_radius*friction%force_normal*self%contact_slopes(:, i)
-               moment(tilt_rate) = moment(tilt_rate) - self%ball_radius**2*friction%force_velocity
-               rates(1, :) = self%rate_slopes(1, :, i) + per_moment(1)*moment
-               rates(2, :) = self%rate_slopes(2, :, i) + per_moment(2)*moment
-               matrix%down(2, :, i) = rates(1, :4)
-               matrix%block(2, :m, i) = rates(1, 5:4 + m)
-               if (self%radial) then
-                  matrix%down(4, :, i) = rates(2, :4)
-                  matrix%block(4, :4, i) = rates(2, 5:)
+      real(wp) :: moment(columns), deflection, rates(2, columns)
+      integer :: i
+      associate (matrix => self%matrix, m => self%layout%motion, bristle => self%layout%per_pad)
+         do i = 1, self%layout%pads
+            associate (pad => self%bearing%pads(i), friction => self%bearing%loads(i)%friction, &
+               & per_moment => self%per_mass(:, 1, i))
+               call pad%friction_derivatives(friction, self%bearing%derivatives(i)%contact, moment, deflection)
+               rates(1, :) = self%rate_derivatives(1, :, i) + per_moment(1)*moment
+               rates(2, :) = self%rate_derivatives(2, :, i) + per_moment(2)*moment
+               matrix%down(at_tilt_rate, :, i) = rates(1, :journal_columns)
+               matrix%block(at_tilt_rate, :m, i) = rates(1, journal_columns + 1:journal_columns + m)
+               if (self%layout%radial) then
+                  matrix%down(at_penetration_rate, :, i) = rates(2, :journal_columns)
+                  matrix%block(at_penetration_rate, :m, i) = rates(2, journal_columns + 1:journal_columns + m)
                end if
-               if (self%friction%has_bristle) then
-                  matrix%block(2:m:2, bristle, i) = -self%ball_radius*friction%force_deflection*per_moment(:m/2)
-                  matrix%block(bristle, 2, i) = friction%rate_velocity*self%ball_radius
+               if (self%layout%bristles) then
+                  matrix%block(at_tilt_rate:m:2, bristle, i) = deflection*per_moment(:m/2)
+                  matrix%block(bristle, at_tilt_rate, i) = friction%rate_velocity*pad%ball_radius
                   matrix%block(bristle, bristle, i) = friction%rate_deflection
                end if
             end associate
@@ -244,8 +260,8 @@ contains
       jv = matmul(self%matrix%dense(), v)
    end subroutine jacobian_times
 
-   !> b := (1 - gamma J)^(-1) b, with film and contact as linearised last and friction as evaluated last:
-   !> Newton's iteration then crosses the kinks of friction, where old slopes would lead it astray.
+   !> b := (1 - gamma J)^(-1) b, with film and contact as linearised last and friction as evaluated last: Newton's
+   !> iteration then crosses the kinks of friction, where old derivatives would lead it astray.
    subroutine solve(self, gamma, b, ok)
       class(bearing_model), intent(inout) :: self
       real(wp), intent(in) :: gamma
@@ -261,20 +277,17 @@ contains
    pure function output(self, correction)
       class(bearing_model), intent(in) :: self
       real(wp), intent(in) :: correction(:)
-      real(wp) :: output(self%outputs), change(columns)
-      integer :: i, m
-      m = merge(4, 2, self%radial)
-      change = 0
-      change(:4) = correction(:4)
-      do i = 1, size(self%response)
-         associate (film => self%response(i), o => self%offset(i))
-            change(5:4 + m) = correction(o + 1:o + m)
-            output(pad_outputs*(i - 1) + 1:pad_outputs*i) = &
-               & [film%force + matmul(self%film_slopes(:, :, i), change), film%max_pressure]
-         end associate
-      end do
+      real(wp) :: output(self%outputs)
+      output = self%bearing%output(self%layout%over_columns(correction(:self%rotor%states), correction))
    end function output
 
+   function warning(self)
+      class(bearing_model), intent(in) :: self
+      character(len=:), allocatable :: warning
+      warning = self%bearing%warning()
+   end function warning
+
+   !> The whole Jacobian at (t, y).
    subroutine jacobian(self, t, y, matrix, ok)
       class(bearing_model), intent(inout) :: self
       real(wp), intent(in) :: t, y(:)
@@ -285,4 +298,47 @@ contains
       call self%add_friction()
       matrix = self%matrix%dense()
    end subroutine jacobian
+
+   !> What is sampled at (t, y), where these outputs are known; no film is evaluated.
+   pure function sample(self, t, y, output)
+      class(bearing_model), intent(in) :: self
+      real(wp), intent(in) :: t, y(:), output(:)
+      type(model_sample) :: sample
+      sample%radial = self%layout%radial
+      sample%bristles = self%layout%bristles
+      sample%time = t
+      sample%shaft_angle = self%point%shaft_angle(t)
+      sample%speed = self%point%speed(t)
+      sample%journal = self%rotor%journal(y(:self%rotor%states))
+      sample%states = self%layout%pad_states(y)
+      sample%loads = self%bearing%samples(sample%journal, sample%states, output)
+   end function sample
+
+   !> What is sampled of the pads where the model was evaluated last.
+   pure function sampled(self)
+      class(bearing_model), intent(in) :: self
+      type(pad_sample) :: sampled(self%layout%pads)
+      sampled = self%bearing%sampled()
+   end function sampled
+
+   !> True where no friction puts kinks into the motion.
+   pure logical function smooth(self)
+      class(bearing_model), intent(in) :: self
+      smooth = self%bearing%smooth()
+   end function smooth
+
+   !> Pressure of every film at (t, y), where the model was evaluated, Pa, (axial position, angle, pad), at angles from
+   !> the pivot, rad, (angle, pad), and distances from the middle plane, m.
+   subroutine pressure_field(self, t, phi, z, pressure)
+      class(bearing_model), intent(inout) :: self
+      real(wp), intent(in) :: t, phi(:, :), z(:)
+      real(wp), intent(out) :: pressure(:, :, :)
+      call self%bearing%pressure_field(self%point%speed(t), phi, z, pressure)
+   end subroutine pressure_field
+
+   !> What the films have cost so far.
+   pure type(film_counters) function counters_of_films(self)
+      class(bearing_model), intent(in) :: self
+      counters_of_films = self%bearing%counters()
+   end function counters_of_films
 end module equations_of_motion

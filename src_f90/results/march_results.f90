@@ -4,7 +4,7 @@ module march_results
    use kinds, only: wp, i8, pi
    use errors, only: error_type
    use hdf5_file, only: hdf5_type
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: model_sample
    use run_file, only: run_file_type
    implicit none (type, external)
    private
@@ -12,46 +12,40 @@ module march_results
 
 contains
 
-   !> Adds the state y at time t; the model has been evaluated there.
-   subroutine add_sample(file, model, t, y, error)
+   !> Adds a sample.
+   subroutine add_sample(file, sample, error)
       type(run_file_type), intent(inout) :: file
-      type(bearing_model), intent(in) :: model
-      real(wp), intent(in) :: t, y(:)
+      type(model_sample), intent(in) :: sample
       type(error_type), allocatable, intent(out) :: error
-      integer :: n
-      n = size(model%places)
       call file%new_sample()
-      call one('time', t, 's', 'time')
-      call one('shaft_angle', model%scene%shaft_angle(t), 'rad', 'shaft angle')
-      call one('speed', model%scene%speed(t), 'rad/s', 'shaft speed')
-      call one('journal_y', y(1), 'm', 'journal displacement, vertical')
-      call one('journal_z', y(2), 'm', 'journal displacement, horizontal')
-      call one('journal_vy', y(3), 'm/s', 'journal velocity, vertical')
-      call one('journal_vz', y(4), 'm/s', 'journal velocity, horizontal')
-      call each('pad_tilt', state(1), 'rad', 'pad tilt')
-      call each('pad_tilt_rate', state(2), 'rad/s', 'pad tilt rate')
-      if (model%radial) then
-         call each('pad_penetration', state(3), 'm', 'pivot penetration')
-         call each('pad_penetration_rate', state(4), 'm/s', 'pivot penetration rate')
-      end if
-      if (model%friction%has_bristle) call each('bristle_deflection', state(model%states_per_pad), 'm', &
-         & 'bristle deflection')
-      call each('contact_force', model%loads%contact, 'N', 'pivot contact force')
-      call each('friction_moment', model%ball_radius*model%loads%friction%force, 'N m', 'pivot friction moment')
-      call each('film_force_tangential', model%response%force(1), 'N', &
-         & 'film force on the journal along the pad (y'')')
-      call each('film_force_radial', model%response%force(2), 'N', 'film force on the journal outward (z'')')
-      call each('min_film_thickness', model%response%min_film, 'm', 'minimum film thickness')
-      call each('max_pressure', model%response%max_pressure, 'Pa', 'maximum film pressure')
+      call one('time', sample%time, 's', 'time')
+      call one('shaft_angle', sample%shaft_angle, 'rad', 'shaft angle')
+      call one('speed', sample%speed, 'rad/s', 'shaft speed')
+      associate (journal => sample%journal)
+         call one('journal_y', journal%position(1), 'm', 'journal displacement, vertical')
+         call one('journal_z', journal%position(2), 'm', 'journal displacement, horizontal')
+         call one('journal_vy', journal%velocity(1), 'm/s', 'journal velocity, vertical')
+         call one('journal_vz', journal%velocity(2), 'm/s', 'journal velocity, horizontal')
+      end associate
+      associate (pads => sample%states)
+         call each('pad_tilt', pads%tilt, 'rad', 'pad tilt')
+         call each('pad_tilt_rate', pads%tilt_rate, 'rad/s', 'pad tilt rate')
+         if (sample%radial) then
+            call each('pad_penetration', pads%penetration, 'm', 'pivot penetration')
+            call each('pad_penetration_rate', pads%penetration_rate, 'm/s', 'pivot penetration rate')
+         end if
+         if (sample%bristles) call each('bristle_deflection', pads%deflection, 'm', 'bristle deflection')
+      end associate
+      associate (pads => sample%loads)
+         call each('contact_force', pads%contact_force, 'N', 'pivot contact force')
+         call each('friction_moment', pads%friction_moment, 'N m', 'pivot friction moment')
+         call each('film_force_tangential', pads%film_force(1), 'N', 'film force on the journal along the pad (y'')')
+         call each('film_force_radial', pads%film_force(2), 'N', 'film force on the journal outward (z'')')
+         call each('min_film_thickness', pads%min_film_thickness, 'm', 'minimum film thickness')
+         call each('max_pressure', pads%max_pressure, 'Pa', 'maximum film pressure')
+      end associate
       call file%error_of(error)
    contains
-      !> The i-th state of every pad.
-      function state(i)
-         integer, intent(in) :: i
-         real(wp) :: state(n)
-         state = y(4 + i:4 + (n - 1)*model%states_per_pad + i:model%states_per_pad)
-      end function state
-
       subroutine one(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value

@@ -117,10 +117,6 @@ module scene
       procedure :: tilting_radial
       procedure :: highest_speed
       procedure :: unbalance
-      procedure :: acceleration
-      procedure :: speed
-      procedure :: shaft_angle
-      procedure :: load
       procedure :: settle
       procedure :: validate
    end type scene_type
@@ -187,33 +183,6 @@ contains
       end if
    end function unbalance
 
-   !> Angular acceleration of the shaft, rad/s^2.
-   pure real(wp) function acceleration(self)
-      class(scene_type), intent(in) :: self
-      acceleration = (self%operation%final_speed_rpm - self%operation%speed_rpm)*rpm/self%operation%duration
-   end function acceleration
-
-   !> Shaft speed at time t, rad/s.
-   pure real(wp) function speed(self, t)
-      class(scene_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      speed = self%operation%speed_rpm*rpm + self%acceleration()*t
-   end function speed
-
-   !> Shaft angle at time t, rad: the integral of the speed.
-   pure real(wp) function shaft_angle(self, t)
-      class(scene_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      shaft_angle = (self%operation%speed_rpm*rpm + 0.5_wp*self%acceleration()*t)*t
-   end function shaft_angle
-
-   !> Steady force on the journal along y and z, N.
-   pure function load(self)
-      class(scene_type), intent(in) :: self
-      real(wp) :: load(2)
-      load = self%rotor%static_load - [self%rotor%mass*self%rotor%gravity, 0.0_wp]
-   end function load
-
    !> Checks what no single value can tell. The message names the variables, values and what is allowed.
    subroutine validate(self, error)
       class(scene_type), intent(in) :: self
@@ -237,7 +206,8 @@ contains
          call require(b%assembled_clearance <= 2*b%machined_clearance, 'bearing%assembled_clearance = ' &
             & //to_text(b%assembled_clearance)//': must be at most twice bearing%machined_clearance = ' &
             & //to_text(b%machined_clearance))
-         call require(self%integration%stop_when_periodic <= 0 .or. .not. abs(self%acceleration()) > 0, &
+         call require(self%integration%stop_when_periodic <= 0 &
+            & .or. abs(self%operation%final_speed_rpm - self%operation%speed_rpm) <= 0, &
             & 'integration%stop_when_periodic = '//to_text(self%integration%stop_when_periodic) &
             & //': must be 0 where operation%final_speed_rpm differs from operation%speed_rpm')
          call require(.not. (self%rotor%balance_speed_rpm >= 0 .and. self%rotor%balance_speed_rpm < 1), &

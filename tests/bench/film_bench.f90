@@ -9,7 +9,7 @@ program film_bench
    use kinds, only: wp, i8, pi, degree
    use text, only: to_text
    use film_solver, only: film_solver_type, film_motion, film_response
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    use modal_film, only: modal_film_type, new_modal_film
    use auto_film, only: auto_film_type, new_auto_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel, &
@@ -24,9 +24,9 @@ program film_bench
    integer, parameter :: round = 180
    real(wp), parameter :: radius = 0.02_wp
    integer, parameter :: pads = 2
-   type(pad_film_type) :: films(pads)
+   type(pad_gap_type) :: films(pads)
 
-   films = pad_film_type(49.9e-3_wp, clearance, 100e-3_wp, 0.5_wp*69.3_wp*degree, 0.5_wp*69.3_wp*degree, 19e-3_wp, &
+   films = pad_gap_type(49.9e-3_wp, clearance, 100e-3_wp, 0.5_wp*69.3_wp*degree, 0.5_wp*69.3_wp*degree, 19e-3_wp, &
       & 0.0_wp, 0.0_wp, 0.0_wp)
    write (output_unit, '(a)') 'film,condition,state,slopes,microseconds,error,sweeps'
    call compare('whole', [-0.35_wp, 0.5_wp], cavitation_none, 'none')
@@ -115,10 +115,10 @@ contains
    end subroutine forces
 
    !> Wall time of an evaluation, s a pad: the shortest of three batches of at least 20 ms. Sweeps a pad.
-   subroutine timed(film, centre, want_slopes, seconds, sweeps)
+   subroutine timed(film, centre, want_derivatives, seconds, sweeps)
       class(film_solver_type), intent(inout) :: film
       real(wp), intent(in) :: centre(2)
-      logical, intent(in) :: want_slopes
+      logical, intent(in) :: want_derivatives
       real(wp), intent(out) :: seconds
       integer(i8), intent(out) :: sweeps
       type(film_motion) :: places(pads, 0:round - 1)
@@ -131,18 +131,18 @@ contains
       seconds = huge(seconds)
       do batch = 1, 3
          rounds = 0
-         before = film%counters%sweeps
+         before = film%counters%passes
          call system_clock(start, rate)
          do
             do k = 0, round - 1
-               call film%evaluate(places(:, k), speed, want_slopes, response)
+               call film%evaluate(places(:, k), speed, want_derivatives, response)
             end do
             rounds = rounds + 1
             call system_clock(finish)
             if (real(finish - start, wp) > 0.02_wp*rate) exit
          end do
          seconds = min(seconds, real(finish - start, wp)/real(rate, wp)/(pads*round*rounds))
-         sweeps = (film%counters%sweeps - before)/(pads*round*rounds)
+         sweeps = (film%counters%passes - before)/(pads*round*rounds)
       end do
    end subroutine timed
    !> Time of the contact table of the paper's pivot: the shortest of ten.

@@ -3,7 +3,7 @@ program test_cavitation
    use kinds, only: wp
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_ok
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type, new_film_grid
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel, &
       & cavitation_reynolds
@@ -25,7 +25,7 @@ program test_cavitation
 
 contains
 
-   pure type(pad_film_type) function pad(rupture)
+   pure type(pad_gap_type) function pad(rupture)
       real(wp), intent(in) :: rupture
       pad = offset_pad([3e5_wp, 1e5_wp, rupture])
    end function pad
@@ -52,7 +52,7 @@ contains
    !> pressure, less the pressure. The plain finite volumes of the Reynolds equation on the grid's rows, written
    !> out anew.
    function imbalance(film, motion, p) result(change)
-      type(pad_film_type), intent(in) :: film
+      type(pad_gap_type), intent(in) :: film
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: p(nx, nz)
       real(wp) :: change(nx, nz), d, dz, r, phi, left, right, side(2), here, flows, sum_of

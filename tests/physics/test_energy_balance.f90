@@ -5,6 +5,7 @@ module energy_ledger
    use errors, only: error_type
    use ode_model, only: ode_model_type
    use march_observer, only: march_observer_type
+   use pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model
    implicit none (type, external)
    private
@@ -33,6 +34,7 @@ contains
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:)
       logical, intent(out) :: ok
+      type(pad_sample), allocatable :: films(:)
       real(wp) :: power(4), film(2), frame(2, 2), a, speed, phase, weight
       integer :: pad
       associate (b => self%bearing, p => self%bearing%scene%pads, n => self%bearing%n)
@@ -41,22 +43,23 @@ contains
             self%refusal = b%refusal
             return
          end if
-         speed = b%scene%speed(t)
-         phase = b%scene%shaft_angle(t)
+         films = b%sampled()
+         speed = b%point%speed(t)
+         phase = b%point%shaft_angle(t)
          ! unbalance; films on journal and pads; friction; what eqs (3)-(4) hold beside a potential
          power = 0
-         power(1) = b%unbalance*speed**2*(cos(phase)*y(3) + sin(phase)*y(4))
-         do pad = 1, size(b%places)
-            associate (o => b%offset(pad), force => b%response(pad)%force)
-               a = b%places(pad)%angle - y(o + 1)
+         power(1) = b%point%unbalance*speed**2*(cos(phase)*y(3) + sin(phase)*y(4))
+         do pad = 1, b%layout%pads
+            associate (force => films(pad)%film_force)
+               a = b%bearing%pads(pad)%position%angle - y(b%layout%tilt(pad))
                frame = reshape([cos(a), -sin(a), sin(a), cos(a)], [2, 2])
                film = matmul(frame, force)
-               power(2) = power(2) + dot_product(film, y(3:4)) - force(1)*b%places(pad)%centre_distance*y(o + 2)
-               power(3) = power(3) - b%ball_radius*b%loads(pad)%friction%force*y(o + 2)
-               if (b%radial) then
+               power(2) = power(2) + dot_product(film, y(3:4)) - force(1)*b%bearing%pads(pad)%position%centre_distance*y(b%layout%tilt_rate(pad))
+               power(3) = power(3) - b%bearing%pads(pad)%ball_radius*b%bearing%loads(pad)%friction%force*y(b%layout%tilt_rate(pad))
+               if (b%layout%radial) then
                   weight = p%mass(pad)*b%scene%rotor%gravity
-                  power(2) = power(2) - force(2)*y(o + 4)
-                  power(4) = power(4) + (p%mass(pad)*p%centre_radial(pad)*y(o + 2)**2 - weight*sin(a))*y(o + 4)
+                  power(2) = power(2) - force(2)*y(b%layout%penetration_rate(pad))
+                  power(4) = power(4) + (p%mass(pad)*p%centre_radial(pad)*y(b%layout%tilt_rate(pad))**2 - weight*sin(a))*y(b%layout%penetration_rate(pad))
                end if
             end associate
          end do
@@ -101,15 +104,15 @@ contains
       associate (b => bearing, p => bearing%scene%pads, r => bearing%scene%rotor)
          energy(1) = 0.5_wp*r%mass*dot_product(y(3:4), y(3:4))
          energy(3) = r%mass*r%gravity*y(1) - dot_product(r%static_load, y(1:2))
-         do pad = 1, size(b%places)
-            associate (o => b%offset(pad))
-               a = b%places(pad)%angle - y(o + 1)
-               energy(2) = energy(2) + 0.5_wp*p%inertia(pad)*y(o + 2)**2
+         do pad = 1, b%layout%pads
+            associate (layout => b%layout)
+               a = b%bearing%pads(pad)%position%angle - y(b%layout%tilt(pad))
+               energy(2) = energy(2) + 0.5_wp*p%inertia(pad)*y(b%layout%tilt_rate(pad))**2
                energy(3) = energy(3) + p%mass(pad)*r%gravity &
                   & *(p%centre_tangential(pad)*cos(a) + p%centre_radial(pad)*sin(a))
-               if (b%radial) then
-                  energy(2) = energy(2) + p%mass(pad)*(0.5_wp*y(o + 4)**2 + p%centre_tangential(pad)*y(o + 2)*y(o + 4))
-                  energy(4) = energy(4) + stored(b, y(o + 3))
+               if (b%layout%radial) then
+                  energy(2) = energy(2) + p%mass(pad)*(0.5_wp*y(b%layout%penetration_rate(pad))**2 + p%centre_tangential(pad)*y(b%layout%tilt_rate(pad))*y(b%layout%penetration_rate(pad)))
+                  energy(4) = energy(4) + stored(b, y(b%layout%penetration(pad)))
                end if
             end associate
          end do
@@ -123,13 +126,13 @@ contains
       type(bearing_model), intent(in) :: bearing
       real(wp), intent(in) :: depth
       integer, parameter :: n = 2000
-      real(wp) :: s, force, slope
+      real(wp) :: s, force
       integer :: k
       stored = 0
       if (depth <= 0) return
       do k = 1, n
          s = real(k, wp)/n
-         call bearing%contact%lookup(s**2*depth, force, slope)
+         force = bearing%bearing%contact_force(s**2*depth)
          stored = stored + force*2*s*depth/n*merge(1.0_wp, merge(4.0_wp, 2.0_wp, mod(k, 2) == 1), k == n)/3
       end do
    end function stored
@@ -220,7 +223,7 @@ contains
       type(integrator_counts_type) :: statistics
       type(error_type), allocatable :: error
       real(wp), allocatable :: y(:), start(:)
-      call find_equilibrium(scene, static, error)
+      call find_equilibrium(new_bearing_model(scene), static, error)
       call expect_no_error(error, 'the equilibrium is found')
       model%bearing = new_bearing_model(scene)
       model%n = model%bearing%n + 3

@@ -8,7 +8,7 @@ program test_film_accuracy
    use kinds, only: wp, degree
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_ok
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    use modal_film, only: modal_film_type, new_modal_film, enough_cells, enough_modes
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none
    use check, only: runs, expect, expect_close, report
@@ -81,16 +81,16 @@ contains
    end subroutine ranges
 
    !> The pad of a state; the supply pressure comes later.
-   pure type(pad_film_type) function pad(state)
+   pure type(pad_gap_type) function pad(state)
       type(film_state), intent(in) :: state
-      pad = pad_film_type(journal_radius, state%clearance, state%length_to_diameter*2*journal_radius, &
+      pad = pad_gap_type(journal_radius, state%clearance, state%length_to_diameter*2*journal_radius, &
          & state%pivot*state%arc*degree, (1 - state%pivot)*state%arc*degree, viscosity, 0.0_wp, 0.0_wp, 0.0_wp)
    end function pad
 
    !> The journal at which the film has the thicknesses of a state at its edges.
    pure type(film_motion) function motion(state)
       type(film_state), intent(in) :: state
-      type(pad_film_type) :: film
+      type(pad_gap_type) :: film
       real(wp) :: leading, trailing
       film = pad(state)
       leading = state%clearance*(1 - state%leading)
@@ -105,7 +105,7 @@ contains
    pure logical function asked_for(state)
       type(film_state), intent(in) :: state
       integer, parameter :: n = 200
-      type(pad_film_type) :: film
+      type(pad_gap_type) :: film
       real(wp) :: phi(0:n), h(0:n)
       integer :: i
       film = pad(state)
@@ -115,7 +115,7 @@ contains
    end function asked_for
 
    type(film_response) function answer(film, at, columns, most_modes)
-      type(pad_film_type), intent(in) :: film
+      type(pad_gap_type), intent(in) :: film
       type(film_motion), intent(in) :: at
       integer, intent(in) :: columns, most_modes
       type(modal_film_type) :: solver
@@ -127,7 +127,7 @@ contains
    end function answer
 
    !> The pad with its supply pressure.
-   type(pad_film_type) function supplied(state)
+   type(pad_gap_type) function supplied(state)
       type(film_state), intent(in) :: state
       type(film_response) :: r
       supplied = pad(state)
@@ -160,7 +160,7 @@ contains
    subroutine against_relaxation(state, columns, rows)
       type(film_state), intent(in) :: state
       integer, intent(in) :: columns, rows
-      type(pad_film_type) :: film
+      type(pad_gap_type) :: film
       type(sor_film_type) :: solver
       type(film_response) :: r
       real(wp) :: grids(2, 0:2), extrapolated(2, 2), reference(2), ratio, allowed
@@ -193,7 +193,7 @@ contains
    !> not cancel is a sixth to a half.
    subroutine compare(state)
       type(film_state), intent(in) :: state
-      type(pad_film_type) :: film
+      type(pad_gap_type) :: film
       type(film_motion) :: at
       type(film_response) :: r, reference
       real(wp) :: scale, error, slenderness

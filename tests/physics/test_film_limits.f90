@@ -4,7 +4,7 @@ program test_film_limits
    use kinds, only: wp
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_ok
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none
    use paper_bearing, only: offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, report
@@ -26,14 +26,14 @@ program test_film_limits
 contains
 
    !> The paper's pad but for its length and pivot, with pressures at the leading edge and elsewhere.
-   pure type(pad_film_type) function pad(length, supply, ambient)
+   pure type(pad_gap_type) function pad(length, supply, ambient)
       real(wp), intent(in) :: length, supply, ambient
       pad = offset_pad([supply, ambient, 0.0_wp], length)
    end function pad
 
    !> Force on a grid of nx by 4 cells, converged far below the error of the grid.
    function grid_force(film, motion, nx) result(force)
-      type(pad_film_type), intent(in) :: film
+      type(pad_gap_type), intent(in) :: film
       type(film_motion), intent(in) :: motion
       integer, intent(in) :: nx
       real(wp) :: force(2)
@@ -49,7 +49,7 @@ contains
    !> Errors on 20, 40, 80, 160 cells fall fourfold. The next term of the error series is h**2 smaller:
    !> 1/20**2 times some 50, so the first ratio may miss 4 by a quarter, the last by a hundredth.
    subroutine expect_second_order(film, motion, exact, what)
-      type(pad_film_type), intent(in) :: film
+      type(pad_gap_type), intent(in) :: film
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: exact(2)
       character(len=*), intent(in) :: what
@@ -73,7 +73,7 @@ contains
       type(film_motion), intent(in) :: motion
       integer, parameter :: n = 4000
       real(wp), parameter :: length = 1e4_wp, supply = 4e5_wp, ambient = 1e5_wp
-      type(pad_film_type) :: film
+      type(pad_gap_type) :: film
       real(wp) :: phi(0:n), weight(0:n), h(0:n), flow(0:n), slope(0:n), constant, exact(2), r
       integer :: k
       film = pad(length, supply, ambient)
@@ -98,7 +98,7 @@ contains
       type(film_motion), intent(in) :: motion
       integer, parameter :: n = 4000
       real(wp), parameter :: length = 1e-7_wp
-      type(pad_film_type) :: film
+      type(pad_gap_type) :: film
       type(sor_film_type) :: solver
       type(film_response) :: r
       real(wp) :: phi(0:n), weight(0:n), h(0:n), right(0:n), exact(2), force(2)
@@ -127,7 +127,7 @@ contains
    subroutine linear_pressure()
       real(wp), parameter :: supply = 5e5_wp, ambient = 1e5_wp
       integer, parameter :: n = 40
-      type(pad_film_type) :: film
+      type(pad_gap_type) :: film
       type(sor_film_type) :: solver
       type(film_response) :: r
       real(wp), allocatable :: p(:, :)

@@ -4,7 +4,7 @@ program test_film_order
    use kinds, only: wp, pi
    use text, only: to_text
    use film_solver, only: film_solver_type, film_motion, film_response, film_ok
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    use sor_film, only: sor_options, new_sor_film, cavitation_none
    use modal_film, only: new_modal_film
    use paper_bearing, only: paper_pad, speed, clearance
@@ -30,7 +30,7 @@ contains
    !> the width is 2 L/(m pi) (-1)^((m-1)/2) q_m. Terms fall as m^-4: the sum up to m has an error of about
    !> 1/(3 m^3) of its first left out, 1e-8 for 300.
    function harmonics_force(film, motion, n) result(force)
-      type(pad_film_type), intent(in) :: film
+      type(pad_gap_type), intent(in) :: film
       type(film_motion), intent(in) :: motion
       integer, intent(in) :: n
       real(wp) :: force(2)
@@ -69,7 +69,7 @@ contains
 
    !> Extrapolated from 400 and 800 cells: an error of (1/400)**4 times some hundred, 1e-8.
    function reference_force(film, motion) result(force)
-      type(pad_film_type), intent(in) :: film
+      type(pad_gap_type), intent(in) :: film
       type(film_motion), intent(in) :: motion
       real(wp) :: force(2)
       force = (4*harmonics_force(film, motion, 800) - harmonics_force(film, motion, 400))/3
@@ -77,7 +77,7 @@ contains
 
    !> Two extrapolations from different grids agree to what is said of them.
    subroutine reference_is_fine()
-      type(pad_film_type) :: film
+      type(pad_gap_type) :: film
       real(wp) :: coarse(2), fine(2)
       film = paper_pad(length=0.1_wp)
       coarse = (4*harmonics_force(film, motions(3), 400) - harmonics_force(film, motions(3), 200))/3

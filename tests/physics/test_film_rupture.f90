@@ -4,7 +4,7 @@ program test_film_rupture
    use kinds, only: wp, i8, pi
    use text, only: to_text
    use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_ok
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    use modal_film, only: modal_film_type, new_modal_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel
    use direct_film, only: direct_film_type, new_direct_film
@@ -59,7 +59,7 @@ program test_film_rupture
 contains
 
    !> The paper's pad with its pivot off the middle; dry: every pressure is that of rupture.
-   pure type(pad_film_type) function pad(flooded)
+   pure type(pad_gap_type) function pad(flooded)
       logical, intent(in) :: flooded
       pad = offset_pad()
       if (.not. flooded) return
@@ -85,7 +85,7 @@ contains
    !> kink in its cell, and is not extrapolated: a quarter of the last change from grid to grid is allowed.
    subroutine guembel(what, film, motion)
       character(len=*), intent(in) :: what
-      type(pad_film_type), intent(in) :: film
+      type(pad_gap_type), intent(in) :: film
       type(film_motion), intent(in) :: motion
       type(modal_film_type) :: clipped, whole
       type(sor_film_type) :: fine
@@ -113,7 +113,7 @@ contains
 
    !> What the Gauss points across miss at most at the kinks of a clipped field.
    pure real(wp) function missed_across(film, p)
-      type(pad_film_type), intent(in) :: film
+      type(pad_gap_type), intent(in) :: film
       real(wp), intent(in) :: p(:, :)
       real(wp) :: d_phi, d_z
       integer :: i
@@ -246,7 +246,7 @@ contains
          motion = opening_motion()
          r = answer(solver, motion)
          r_modes = answer(by_modes, motion)
-         if (solver%counters%sor == 0 .or. .not. norm2(r%slope(:, 2)) > 0) cycle
+         if (solver%counters%volumes == 0 .or. .not. norm2(r%slope(:, 2)) > 0) cycle
          r_cells = answer(by_cells, motion)
          do column = 1, 4
             call differences(solver, motion, column, expected, smooth)

@@ -4,6 +4,7 @@ program test_newton_euler
    use kinds, only: wp
    use text, only: to_text
    use scene, only: scene_type
+   use pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -44,9 +45,9 @@ contains
          & 9e-6_wp)])
       y(3:4) = [between(-0.02_wp, 0.02_wp), between(-0.02_wp, 0.02_wp)]
       do pad = 1, 2
-         y(model%offset(pad) + 2) = between(-5.0_wp, 5.0_wp)
-         if (model%radial) y(model%offset(pad) + 4) = between(-5e-3_wp, 5e-3_wp)
-         y(model%bristle(pad)) = between(-1e-7_wp, 1e-7_wp)
+         y(model%layout%tilt_rate(pad)) = between(-5.0_wp, 5.0_wp)
+         if (model%layout%radial) y(model%layout%penetration_rate(pad)) = between(-5e-3_wp, 5e-3_wp)
+         y(model%layout%bristle(pad)) = between(-1e-7_wp, 1e-7_wp)
       end do
    end function random_state
 
@@ -57,6 +58,7 @@ contains
    subroutine pad_radial()
       type(bearing_model) :: model
       real(wp), allocatable :: y(:), f(:)
+      type(pad_sample), allocatable :: films(:)
       real(wp) :: a, tilt_acceleration, radial_acceleration, rate, acceleration(2), weight(2), film(2), tangential
       real(wp) :: moment, inertia, friction, sizes(2), total
       integer :: pad
@@ -65,25 +67,26 @@ contains
       y = random_state(model)
       allocate (f(model%n))
       call model%rhs(0.01_wp, y, f, ok)
+      films = model%sampled()
       call expect(ok, 'a state with films')
       do pad = 1, 2
-         associate (p => model%scene%pads, o => model%offset(pad), loads => model%loads(pad), &
-            & arm => model%places(pad)%centre_distance)
-            a = model%places(pad)%angle - y(o + 1)
-            rate = y(o + 2)
-            tilt_acceleration = f(o + 2)
-            radial_acceleration = f(o + 4)
+         associate (p => model%scene%pads, loads => model%bearing%loads(pad), &
+            & arm => model%bearing%pads(pad)%position%centre_distance)
+            a = model%bearing%pads(pad)%position%angle - y(model%layout%tilt(pad))
+            rate = y(model%layout%tilt_rate(pad))
+            tilt_acceleration = f(model%layout%tilt_rate(pad))
+            radial_acceleration = f(model%layout%penetration_rate(pad))
             ! C = (C_xi, C_eta) turns with the pad: C' = rate (-C_eta, C_xi) and so on
             associate (c_t => p%centre_tangential(pad), c_r => p%centre_radial(pad), m => p%mass(pad))
                acceleration = [-tilt_acceleration*c_r - rate**2*c_t, &
                   & radial_acceleration + tilt_acceleration*c_t - rate**2*c_r]
                weight = m*500*[-cos(a), -sin(a)]
-               film = -model%response(pad)%force
+               film = -films(pad)%film_force
                tangential = m*acceleration(1) - film(1) - weight(1)
                total = film(2) + weight(2) - loads%contact
                sizes(1) = abs(film(2)) + abs(weight(2)) + abs(loads%contact)
                call expect_close(m*acceleration(2), total, rounding*sizes(1), 'Newton, pad '//to_text(pad))
-               friction = model%ball_radius*loads%friction%force
+               friction = model%bearing%pads(pad)%ball_radius*loads%friction%force
                ! arms from C: arc centre (-c_t, -arm - c_r); pivot (-c_t, -c_r)
                moment = -c_t*film(2) + (arm + c_r)*film(1) - c_t*(-loads%contact) + c_r*tangential - friction
                inertia = p%inertia(pad) - m*(c_t**2 + c_r**2)
@@ -98,6 +101,7 @@ contains
    subroutine pad_tilting_only()
       type(bearing_model) :: model
       real(wp), allocatable :: y(:), f(:)
+      type(pad_sample), allocatable :: films(:)
       real(wp) :: a, moment, friction, sizes
       integer :: pad
       logical :: ok
@@ -105,16 +109,17 @@ contains
       y = random_state(model)
       allocate (f(model%n))
       call model%rhs(0.01_wp, y, f, ok)
+      films = model%sampled()
       call expect(ok, 'a state with films')
       do pad = 1, 2
-         associate (p => model%scene%pads, o => model%offset(pad), arm => model%places(pad)%centre_distance)
-            a = model%places(pad)%angle - y(o + 1)
-            friction = model%ball_radius*model%loads(pad)%friction%force
+         associate (p => model%scene%pads, arm => model%bearing%pads(pad)%position%centre_distance)
+            a = model%bearing%pads(pad)%position%angle - y(model%layout%tilt(pad))
+            friction = model%bearing%pads(pad)%ball_radius*model%bearing%loads(pad)%friction%force
             ! C x weight, with weight along (-cos a, -sin a)
-            moment = -model%response(pad)%force(1)*arm - friction + p%mass(pad)*500 &
+            moment = -films(pad)%film_force(1)*arm - friction + p%mass(pad)*500 &
                & *(-p%centre_tangential(pad)*sin(a) + p%centre_radial(pad)*cos(a))
-            sizes = abs(model%response(pad)%force(1))*arm + abs(friction) + p%mass(pad)*500*0.03_wp
-            call expect_close(p%inertia(pad)*f(o + 2), moment, rounding*sizes, 'moments about the pivot')
+            sizes = abs(films(pad)%film_force(1))*arm + abs(friction) + p%mass(pad)*500*0.03_wp
+            call expect_close(p%inertia(pad)*f(model%layout%tilt_rate(pad)), moment, rounding*sizes, 'moments about the pivot')
          end associate
       end do
    end subroutine pad_tilting_only
@@ -124,6 +129,7 @@ contains
       type(bearing_model) :: model
       type(scene_type) :: scene
       real(wp), allocatable :: y(:), f(:)
+      type(pad_sample), allocatable :: films(:)
       real(wp) :: total(2), sizes, a, t
       integer :: pad
       logical :: ok
@@ -134,13 +140,14 @@ contains
       allocate (f(model%n))
       t = between(0.0_wp, 0.01_wp)
       call model%rhs(t, y, f, ok)
-      associate (w => scene%speed(0.0_wp))
+      films = model%sampled()
+      associate (w => model%point%speed(0.0_wp))
          total = scene%rotor%static_load + [-2000*500.0_wp, 0.0_wp] + 0.01_wp*w**2*[cos(w*t), sin(w*t)]
       end associate
       sizes = norm2(total)
       do pad = 1, 2
-         a = model%places(pad)%angle - y(model%offset(pad) + 1)
-         associate (force => model%response(pad)%force)
+         a = model%bearing%pads(pad)%position%angle - y(model%layout%tilt(pad))
+         associate (force => films(pad)%film_force)
             total = total + force(1)*[cos(a), -sin(a)] + force(2)*[sin(a), cos(a)]
             sizes = sizes + norm2(force)
          end associate
@@ -160,14 +167,14 @@ contains
       model = new_bearing_model(offset_scene('tilting_radial'))
       allocate (f(model%n))
       do pad = 1, 2
-         associate (p => model%scene%pads, o => model%offset(pad))
+         associate (p => model%scene%pads)
             do k = 1, 2
                y = model%at_rest([-3e-5_wp, 0.0_wp], [2e-4_wp, 5e-4_wp], merge(9e-6_wp, 1e-7_wp, k == 1)*[1.0_wp, &
                   & 1.0_wp])
-               y(o + 2) = merge(0.0_wp, 3.0_wp, k == 1)
+               y(model%layout%tilt_rate(pad)) = merge(0.0_wp, 3.0_wp, k == 1)
                call model%rhs(0.0_wp, y, f, ok)
-               loads(:, k) = [model%loads(pad)%moment, model%loads(pad)%radial]
-               rates(:, k) = f([o + 2, o + 4])
+               loads(:, k) = [model%bearing%loads(pad)%moment, model%bearing%loads(pad)%radial]
+               rates(:, k) = f([model%layout%tilt_rate(pad), model%layout%penetration_rate(pad)])
             end do
             det = loads(1, 1)*loads(2, 2) - loads(1, 2)*loads(2, 1)
             inverse = matmul(rates, reshape([loads(2, 2), -loads(2, 1), -loads(1, 2), loads(1, 1)], [2, 2]))/det

@@ -3,7 +3,7 @@ program test_direct_film
    use kinds, only: wp
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_counters, film_ok, film_closed
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    use direct_film, only: direct_film_type, new_direct_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_reynolds
    use paper_bearing, only: paper_pad, speed, clearance
@@ -44,7 +44,7 @@ contains
       real(wp), intent(in) :: pressures(3)
       real(wp), parameter :: tolerance = 1e-9_wp
       integer, parameter :: trials = 40
-      type(pad_film_type) :: film
+      type(pad_gap_type) :: film
       type(direct_film_type) :: direct
       type(sor_film_type) :: sor
       type(film_counters) :: counters

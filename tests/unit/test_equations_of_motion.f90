@@ -1,8 +1,10 @@
 !> The equations of motion: layout of the state, Jacobian, unbalance and run-up, what is refused.
 program test_equations_of_motion
-   use kinds, only: wp, i8
+   use kinds, only: wp
    use text, only: to_text
    use scene, only: scene_type
+   use operating_point, only: operating_point_type
+   use pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -44,18 +46,18 @@ contains
       own = 2
       if (motion == 'tilting_radial') own = 4
       if (friction == 'lugre') own = own + 1
-      call expect(model%states_per_pad == own, 'states of a pad, '//motion//' '//friction)
+      call expect(model%layout%per_pad == own, 'states of a pad, '//motion//' '//friction)
       call expect(model%n == 4 + 2*own .and. size(model%scale) == model%n, 'states, '//motion//' '//friction)
       call expect(all(model%scale > 0), 'every state has a scale')
       y = model%at_rest([1.0_wp, 2.0_wp], [3.0_wp, 4.0_wp], [5.0_wp, 6.0_wp])
       call expect(size(y) == model%n, 'size of a state at rest')
       call expect_close(norm2(y(1:4) - [1.0_wp, 2.0_wp, 0.0_wp, 0.0_wp]), 0.0_wp, 0.0_wp, 'journal of a state at rest')
       do pad = 1, 2
-         call expect(model%offset(pad) == 4 + (pad - 1)*own, 'offset of a pad')
-         call expect_close(y(model%offset(pad) + 1), 2.0_wp + pad, 0.0_wp, 'tilt of a state at rest')
-         if (motion == 'tilting_radial') call expect_close(y(model%offset(pad) + 3), 4.0_wp + pad, 0.0_wp, &
+         call expect(model%layout%first(pad) == 5 + (pad - 1)*own, 'first state of a pad')
+         call expect_close(y(model%layout%tilt(pad)), 2.0_wp + pad, 0.0_wp, 'tilt of a state at rest')
+         if (motion == 'tilting_radial') call expect_close(y(model%layout%penetration(pad)), 4.0_wp + pad, 0.0_wp, &
             & 'penetration of a state at rest')
-         if (friction == 'lugre') call expect(model%bristle(pad) == model%offset(pad) + own, 'bristle of a pad')
+         if (friction == 'lugre') call expect(model%layout%bristle(pad) == 4 + pad*own, 'bristle of a pad')
       end do
       call expect_close(sum(y), merge(21.0_wp, 10.0_wp, motion == 'tilting_radial'), 0.0_wp, 'nothing else at rest')
    end subroutine layout
@@ -129,7 +131,7 @@ contains
       integer :: pad
       step_scale = model%scale(column)
       do pad = 1, 2
-         if (column == model%offset(pad) + 2) step_scale = 0.2_wp
+         if (column == model%layout%tilt_rate(pad)) step_scale = 0.2_wp
       end do
    end function step_scale
 
@@ -143,9 +145,9 @@ contains
          & 8e-6_wp)])
       y(3:4) = [between(-5e-3_wp, 5e-3_wp), between(-5e-3_wp, 5e-3_wp)]
       do pad = 1, 2
-         y(model%offset(pad) + 2) = sign(between(0.3_wp, 0.6_wp), between(-1.0_wp, 1.0_wp))
-         if (model%radial) y(model%offset(pad) + 4) = between(-2e-3_wp, 2e-3_wp)
-         if (model%friction%has_bristle) y(model%bristle(pad)) = between(-1e-7_wp, 1e-7_wp)
+         y(model%layout%tilt_rate(pad)) = sign(between(0.3_wp, 0.6_wp), between(-1.0_wp, 1.0_wp))
+         if (model%layout%radial) y(model%layout%penetration_rate(pad)) = between(-2e-3_wp, 2e-3_wp)
+         if (model%layout%bristles) y(model%layout%bristle(pad)) = between(-1e-7_wp, 1e-7_wp)
       end do
    end function moving_state
 
@@ -163,10 +165,8 @@ contains
       call expect(ok .and. all(f < huge(f)), 'every rate is set, '//motion)
       call expect_close(norm2(f(1:2) - y(3:4)), 0.0_wp, 0.0_wp, 'rates of the journal, '//motion)
       do pad = 1, 2
-         associate (o => model%offset(pad))
-            call expect_close(f(o + 1), y(o + 2), 0.0_wp, 'rate of the tilt, '//motion)
-            if (model%radial) call expect_close(f(o + 3), y(o + 4), 0.0_wp, 'rate of the penetration')
-         end associate
+         call expect_close(f(model%layout%tilt(pad)), y(model%layout%tilt_rate(pad)), 0.0_wp, 'rate of the tilt, '//motion)
+         if (model%layout%radial) call expect_close(f(model%layout%penetration(pad)), y(model%layout%penetration_rate(pad)), 0.0_wp, 'rate of the penetration')
       end do
    end subroutine trivial_rows
 
@@ -194,9 +194,9 @@ contains
          t = 0.013_wp*k
          call with%rhs(t, y, f, ok)
          call without%rhs(t, y, f0, ok)
-         d = 1e-2_wp/scene%speed(t)
-         expected = -0.5_wp*(16*(place(scene, t + d) + place(scene, t - d)) - 30*place(scene, t) &
-            & - place(scene, t + 2*d) - place(scene, t - 2*d))/(12*d**2)/scene%rotor%mass
+         d = 1e-2_wp/with%point%speed(t)
+         expected = -0.5_wp*(16*(mass_position(with%point, t + d) + mass_position(with%point, t - d)) - 30*mass_position(with%point, t) &
+            & - mass_position(with%point, t + 2*d) - mass_position(with%point, t - 2*d))/(12*d**2)/scene%rotor%mass
          call expect_close(norm2(f(3:4) - f0(3:4) - expected), 0.0_wp, 1e-8_wp*norm2(expected) &
             & + 10*epsilon(d)*norm2(f0(3:4)), 'unbalance at t = '//to_text(t))
          call expect_close(norm2(f(5:) - f0(5:)), 0.0_wp, 0.0_wp, 'pads know no unbalance')
@@ -205,41 +205,43 @@ contains
    end subroutine unbalance_force
 
    !> Where a mass on the shaft stands, over its radius.
-   pure function place(scene, time)
-      type(scene_type), intent(in) :: scene
+   pure function mass_position(point, time)
+      type(operating_point_type), intent(in) :: point
       real(wp), intent(in) :: time
-      real(wp) :: place(2)
-      place = [cos(scene%shaft_angle(time)), sin(scene%shaft_angle(time))]
-   end function place
+      real(wp) :: mass_position(2)
+      mass_position = [cos(point%shaft_angle(time)), sin(point%shaft_angle(time))]
+   end function mass_position
 
    !> Contact only pushes: none without penetration; tilting only, it is the radial reaction or nothing.
    subroutine forces_by_definition()
       type(bearing_model) :: model
       real(wp), allocatable :: y(:), f(:)
+      type(pad_sample), allocatable :: films(:)
       real(wp) :: reaction
       logical :: ok
       integer :: pad
       model = new_bearing_model(paper_scene('tilting_radial', 'lugre'))
       y = model%at_rest([-2e-5_wp, 0.0_wp], [-2e-4_wp, 1e-3_wp], [-1e-6_wp, 5e-6_wp])
-      y(model%bristle(1)) = 1e-7_wp
-      y(model%bristle(2)) = 1e-7_wp
+      y(model%layout%bristle(1)) = 1e-7_wp
+      y(model%layout%bristle(2)) = 1e-7_wp
       allocate (f(model%n))
       call model%rhs(0.0_wp, y, f, ok)
-      call expect_close(model%loads(1)%contact, 0.0_wp, 0.0_wp, 'no contact without penetration')
-      call expect_close(model%loads(1)%friction%force, 0.0_wp, 0.0_wp, 'no friction without contact')
-      call expect_close(model%loads(2)%friction%force, 0.1_wp*model%loads(2)%contact, &
-         & 1e-14_wp*model%loads(2)%contact, 'bristles carry in contact')
-      call expect(model%loads(2)%contact > 1e3_wp, 'contact under penetration')
+      call expect_close(model%bearing%loads(1)%contact, 0.0_wp, 0.0_wp, 'no contact without penetration')
+      call expect_close(model%bearing%loads(1)%friction%force, 0.0_wp, 0.0_wp, 'no friction without contact')
+      call expect_close(model%bearing%loads(2)%friction%force, 0.1_wp*model%bearing%loads(2)%contact, &
+         & 1e-14_wp*model%bearing%loads(2)%contact, 'bristles carry in contact')
+      call expect(model%bearing%loads(2)%contact > 1e3_wp, 'contact under penetration')
       deallocate (f)
       model = new_bearing_model(heavy_scene('tilting_only', 'none', 0.0_wp))
       y = moving_state(model)
       allocate (f(model%n))
       call model%rhs(0.0_wp, y, f, ok)
+      films = model%sampled()
       do pad = 1, 2
-         associate (p => model%scene%pads, a => model%places(pad)%angle - y(model%offset(pad) + 1))
-            reaction = -model%response(pad)%force(2) - p%mass(pad)*300*sin(a) &
-               & + p%mass(pad)*p%centre_radial(pad)*y(model%offset(pad) + 2)**2
-            call expect_close(model%loads(pad)%contact, max(0.0_wp, reaction), 1e-12_wp*abs(reaction), &
+         associate (p => model%scene%pads, a => model%bearing%pads(pad)%position%angle - y(model%layout%tilt(pad)))
+            reaction = -films(pad)%film_force(2) - p%mass(pad)*300*sin(a) &
+               & + p%mass(pad)*p%centre_radial(pad)*y(model%layout%tilt_rate(pad))**2
+            call expect_close(model%bearing%loads(pad)%contact, max(0.0_wp, reaction), 1e-12_wp*abs(reaction), &
                & 'radial reaction of pad '//to_text(pad))
          end associate
       end do
@@ -257,13 +259,13 @@ contains
       scene%pads%pivot_angle_deg = [45.0_wp, 135.0_wp]
       model = new_bearing_model(scene)
       y = model%at_rest([0.0_wp, 0.0_wp], [3e-4_wp, 3e-4_wp], [0.0_wp, 0.0_wp])
-      y([model%offset(1), model%offset(2)] + 2) = 0.3_wp
+      y(model%layout%tilt_rate([1, 2])) = 0.3_wp
       allocate (f(model%n))
       call model%rhs(0.0_wp, y, f, ok)
       do pad = 1, 2
-         call expect(model%loads(pad)%radial < -1e3_wp, 'weight pulls a pad off its pivot')
-         call expect_close(model%loads(pad)%contact, 0.0_wp, 0.0_wp, 'a pivot does not pull')
-         call expect_close(model%loads(pad)%friction%force, 0.0_wp, 0.0_wp, 'nor rub then')
+         call expect(model%bearing%loads(pad)%radial < -1e3_wp, 'weight pulls a pad off its pivot')
+         call expect_close(model%bearing%loads(pad)%contact, 0.0_wp, 0.0_wp, 'a pivot does not pull')
+         call expect_close(model%bearing%loads(pad)%friction%force, 0.0_wp, 0.0_wp, 'nor rub then')
       end do
    end subroutine hanging_pads
 
@@ -283,6 +285,5 @@ contains
       call model%rhs(0.0_wp, y, f, ok)
       call expect(.not. ok, 'a pad turned over is refused')
       if (.not. ok) call expect(index(model%refusal, 'pad 2 turned over') > 0, 'and says so: '//model%refusal)
-      call expect(model%evaluations == 2_i8, 'evaluations are counted')
    end subroutine refusals
 end program test_equations_of_motion

@@ -3,7 +3,7 @@ program test_film_field
    use kinds, only: wp, pi, degree
    use text, only: to_text
    use film_solver, only: film_solver_type, film_motion, film_response
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    use modal_film, only: modal_film_type, new_modal_film
    use sor_film, only: sor_film_type, new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
    use auto_film, only: auto_film_type, new_auto_film
@@ -218,7 +218,7 @@ contains
    !> Every pad at its own motion and angles.
    subroutine pads_apart()
       type(auto_film_type) :: solver, alone
-      type(pad_film_type) :: films(2)
+      type(pad_gap_type) :: films(2)
       real(wp), allocatable :: p(:, :, :)
       real(wp) :: phi(along, 2)
       allocate (p(across, along, 2))

@@ -3,8 +3,8 @@ program test_kinematics
    use kinds, only: wp, degree
    use text, only: to_text
    use film_solver, only: film_motion
-   use pad_film, only: pad_film_type
-   use kinematics, only: pad_place, pad_frame, frame_of, motion_of, motion_slopes, to_global
+   use pad_gap, only: pad_gap_type
+   use kinematics, only: pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global
    use paper_bearing, only: offset_pad
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
@@ -26,7 +26,7 @@ program test_kinematics
 
 contains
 
-   pure type(pad_place) function place_at(angle_deg)
+   pure type(pad_position) function place_at(angle_deg)
       real(wp), intent(in) :: angle_deg
       place_at%angle = angle_deg*degree
       place_at%sin_angle = sin(place_at%angle)
@@ -35,15 +35,15 @@ contains
       place_at%centre_distance = journal_radius + c_m + kappa
    end function place_at
 
-   pure type(pad_film_type) function film()
+   pure type(pad_gap_type) function film()
       film = offset_pad()
    end function film
 
    !> Film thickness at angle phi from the pivot, with everything at rest.
    pure real(wp) function thickness(place, journal, tilt, penetration, phi)
-      type(pad_place), intent(in) :: place
+      type(pad_position), intent(in) :: place
       real(wp), intent(in) :: journal(2), tilt, penetration, phi
-      type(pad_film_type) :: gap
+      type(pad_gap_type) :: gap
       gap = film()
       thickness = gap%thickness(motion_of(place, frame_of(place, journal, tilt, penetration), [0.0_wp, 0.0_wp], &
          & 0.0_wp, 0.0_wp), sin(phi), cos(phi))
@@ -55,7 +55,7 @@ contains
    end function rounding
 
    subroutine unloaded(place)
-      type(pad_place), intent(in) :: place
+      type(pad_position), intent(in) :: place
       real(wp), parameter :: centre(2) = 0
       call expect_close(thickness(place, centre, 0.0_wp, 0.0_wp, 0.0_wp), c_r, rounding(), &
          & 'the assembled clearance at the pivot')
@@ -65,7 +65,7 @@ contains
    end subroutine unloaded
 
    subroutine directions(place)
-      type(pad_place), intent(in) :: place
+      type(pad_position), intent(in) :: place
       real(wp), parameter :: centre(2) = 0, step = 10e-6_wp
       real(wp) :: towards(2), h
       towards = [place%sin_angle, place%cos_angle]
@@ -87,7 +87,7 @@ contains
    !> The gap measured in the plane, between a point of the bore and the journal's circle, with the pad
    !> turned about its pivot. It differs from the thickness by e**2/(2 R_J) and less.
    subroutine against_geometry(place)
-      type(pad_place), intent(in) :: place
+      type(pad_position), intent(in) :: place
       real(wp) :: journal(2), tilt, penetration, phi, pivot(2), along(2), outward(2), point(2), gap, allowed, worst
       integer :: k
       worst = 0
@@ -118,7 +118,7 @@ contains
    !> Velocities are the time derivatives of positions along a path: central differences of a step h have
    !> an error of h**2/6 of the third derivative (here 1e-10) and rounding 1e-17/h = 1e-12 m/s.
    subroutine rates(place)
-      type(pad_place), intent(in) :: place
+      type(pad_position), intent(in) :: place
       real(wp), parameter :: h = 1e-5_wp
       type(film_motion) :: motion, before, after
       real(wp) :: worst
@@ -135,7 +135,7 @@ contains
 
    !> The motion at a time on some smooth path with velocities of order 1e-3 and a tilt far from small.
    pure type(film_motion) function on_path(place, t)
-      type(pad_place), intent(in) :: place
+      type(pad_position), intent(in) :: place
       real(wp), intent(in) :: t
       real(wp) :: journal(2), velocity(2), tilt, tilt_rate, penetration, penetration_rate
       journal = 1e-3_wp*[sin(t), cos(1.3_wp*t)]
@@ -150,7 +150,7 @@ contains
    !> Slopes against central differences, each in the unit of its state: the relations are at most
    !> quadratic but for sines of the tilt, so a step of 1e-4 leaves 1e-9 and rounding 1e-12.
    subroutine slopes(place)
-      type(pad_place), intent(in) :: place
+      type(pad_position), intent(in) :: place
       real(wp), parameter :: h = 1e-4_wp
       real(wp) :: local(8), up(8), down(8), found(4, 8), expected(4)
       integer :: k, trial
@@ -161,7 +161,7 @@ contains
             local(k) = random(1.0_wp)
          end do
          local(5) = 0.2_wp*local(5)
-         found = motion_slopes(place, frame_of(place, local(1:2), local(5), local(7)), motion_at(place, local), &
+         found = motion_derivatives(place, frame_of(place, local(1:2), local(5), local(7)), motion_at(place, local), &
             & local(6))
          do k = 1, 8
             up = local
@@ -175,7 +175,7 @@ contains
    end subroutine slopes
 
    pure type(film_motion) function motion_at(place, local)
-      type(pad_place), intent(in) :: place
+      type(pad_position), intent(in) :: place
       real(wp), intent(in) :: local(8)
       motion_at = motion_of(place, frame_of(place, local(1:2), local(5), local(7)), local(3:4), local(6), local(8))
    end function motion_at
@@ -188,7 +188,7 @@ contains
 
    !> Eq (5): the pad's y' and z' in global directions, a proper rotation.
    subroutine global_frame(place)
-      type(pad_place), intent(in) :: place
+      type(pad_position), intent(in) :: place
       type(pad_frame) :: frame
       real(wp) :: along(2), outward(2), a
       real(wp), parameter :: small = 10*epsilon(1.0_wp)

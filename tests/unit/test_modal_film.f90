@@ -3,7 +3,7 @@ program test_modal_film
    use kinds, only: wp, pi, degree
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_ok, film_closed
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    use modal_film, only: modal_film_type, new_modal_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_gumbel, &
       & cavitation_reynolds
@@ -203,7 +203,7 @@ contains
       solver = new_modal_film([offset_pad()], 24, 8, gumbel=.false.)
       r = answer(solver, film_motion([0.0_wp, 1.1_wp*clearance]), speed)
       call expect(r%status == film_closed, 'a journal in the pad closes the film')
-      call expect_close(r%min_film, -0.1_wp*clearance, 1e-18_wp, 'by how much')
+      call expect_close(r%min_film_thickness, -0.1_wp*clearance, 1e-18_wp, 'by how much')
       r = answer(solver, film_motion([0.0_wp, 0.5_wp*clearance]), speed)
       call expect(r%status == film_ok, 'the film opens again')
    end subroutine closed_film
@@ -211,7 +211,7 @@ contains
    !> The solver that chooses gives the modes' answer to a whole film and the cells' to a ruptured one, pad
    !> by pad.
    subroutine choice()
-      type(pad_film_type) :: films(2)
+      type(pad_gap_type) :: films(2)
       type(auto_film_type) :: auto
       type(modal_film_type) :: modal
       type(sor_film_type) :: sor
@@ -233,7 +233,7 @@ contains
       call expect_close(norm2(r(2)%force - by_cells%force), 0.0_wp, 1e-9_wp*norm2(by_cells%force), &
          & 'cells for the ruptured one')
       call expect_close(norm2(r(2)%slope - by_cells%slope), 0.0_wp, 1e-9_wp*norm2(by_cells%slope), 'with their slopes')
-      call expect(auto%counters%sor == 1 .and. auto%counters%modal == 1, 'each is counted')
-      call expect(auto%counters%sweeps > 0, 'and so are the eliminations')
+      call expect(auto%counters%volumes == 1 .and. auto%counters%modal == 1, 'each is counted')
+      call expect(auto%counters%passes > 0, 'and so are the eliminations')
    end subroutine choice
 end program test_modal_film

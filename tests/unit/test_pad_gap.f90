@@ -1,9 +1,9 @@
 !> The gap of a pad: thickness against exact circles, least thickness against a scan.
-program test_pad_film
+program test_pad_gap
    use kinds, only: wp, pi, degree
    use text, only: to_text
    use film_solver, only: film_motion
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    use paper_bearing, only: paper_pad, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -22,7 +22,7 @@ program test_pad_film
 contains
 
    !> The paper's pad with a leading and a trailing angle in degrees.
-   pure type(pad_film_type) function pad(leading, trailing)
+   pure type(pad_gap_type) function pad(leading, trailing)
       real(wp), intent(in) :: leading, trailing
       pad = paper_pad()
       pad%leading_angle = leading*degree
@@ -30,14 +30,14 @@ contains
    end function pad
 
    subroutine sizes()
-      type(pad_film_type) :: film
+      type(pad_gap_type) :: film
       film = pad(50.0_wp, 20.0_wp)
       call expect_close(film%pad_radius(), 50e-3_wp, 1e-17_wp, 'bore radius')
       call expect_close(film%arc(), 70*degree, 4*epsilon(1.0_wp), 'arc')
    end subroutine sizes
 
    subroutine known_thickness()
-      type(pad_film_type) :: film
+      type(pad_gap_type) :: film
       film = pad(50.0_wp, 20.0_wp)
       call expect_close(film%thickness(film_motion([0.0_wp, 0.0_wp]), 0.6_wp, 0.8_wp), clearance, 0.0_wp, &
          & 'a centred journal leaves the machined clearance')
@@ -50,7 +50,7 @@ contains
    !> The true gap along the radius of the pad, between circles of radius R and R_J with centres e apart,
    !> is larger by no more than e**2/(2 R_J) (1 + e/R_J): the next term of its series.
    subroutine thickness_against_circles()
-      type(pad_film_type) :: film
+      type(pad_gap_type) :: film
       type(film_motion) :: motion
       real(wp) :: phi, along, across, gap, worst, e
       integer :: i
@@ -73,7 +73,7 @@ contains
    subroutine least_against_scan(leading, trailing)
       real(wp), intent(in) :: leading, trailing
       integer, parameter :: n = 2000
-      type(pad_film_type) :: film
+      type(pad_gap_type) :: film
       type(film_motion) :: motion
       real(wp) :: phi(0:n), least, scanned, miss, worst_above, worst_below
       integer :: i, inside
@@ -84,7 +84,7 @@ contains
       inside = 0
       do i = 1, 300
          motion = random_motion()
-         least = film%least_thickness(motion, film%directions())
+         least = film%min_film_thickness(motion, film%directions())
          scanned = minval(film%thickness(motion, sin(phi), cos(phi)))
          miss = norm2(motion%position)*(film%arc()/n)**2/8
          worst_above = max(worst_above, (least - scanned)/clearance)
@@ -106,4 +106,4 @@ contains
       angle = between(-pi, pi)
       random_motion%position = e*[sin(angle), cos(angle)]
    end function random_motion
-end program test_pad_film
+end program test_pad_gap

@@ -3,7 +3,7 @@ program test_sor_film
    use kinds, only: wp, i8, degree
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_ok, film_closed, film_not_converged
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel, &
       & cavitation_reynolds
    use paper_bearing, only: paper_pad, speed, clearance
@@ -196,14 +196,14 @@ contains
       integer(i8) :: sweeps
       solver = new_sor_film([paper_pad()], options(cavitation, 1e-6_wp))
       call solver%evaluate_pad(1, film_motion([-2e-5_wp, 4e-5_wp]), speed, .true., full)
-      sweeps = solver%counters%sweeps
+      sweeps = solver%counters%passes
       call solver%evaluate_pad(1, film_motion([2e-5_wp, 4e-5_wp], [0.0_wp, -0.05_wp]), speed, .true., empty)
       call expect(full%status == film_ok .and. empty%status == film_ok, 'full and empty film are fine, ' &
          & //trim(names(cavitation)))
       call expect_close(norm2(empty%force) + norm2(empty%slope), 0.0_wp, 0.0_wp, 'an empty film is nothing, ' &
          & //trim(names(cavitation)))
-      call expect(solver%counters%sweeps <= 2*sweeps, 'sweeps of an empty film, '//trim(names(cavitation))//': ' &
-         & //to_text(solver%counters%sweeps - sweeps)//' after '//to_text(sweeps))
+      call expect(solver%counters%passes <= 2*sweeps, 'sweeps of an empty film, '//trim(names(cavitation))//': ' &
+         & //to_text(solver%counters%passes - sweeps)//' after '//to_text(sweeps))
    end subroutine nothing_left
 
    subroutine closed_film()
@@ -212,12 +212,12 @@ contains
       solver = new_sor_film([paper_pad()], options(cavitation_reynolds, 1e-8_wp))
       call solver%evaluate_pad(1, film_motion([0.0_wp, 1.1_wp*clearance]), speed, .true., r)
       call expect(r%status == film_closed, 'a journal in the pad closes the film')
-      call expect_close(r%min_film, -0.1_wp*clearance, 1e-18_wp, 'by how much')
+      call expect_close(r%min_film_thickness, -0.1_wp*clearance, 1e-18_wp, 'by how much')
       call solver%evaluate_pad(1, film_motion([0.0_wp, clearance]), speed, .true., r)
       call expect(r%status == film_closed, 'touching closes the film')
       call solver%evaluate_pad(1, film_motion([0.0_wp, 0.5_wp*clearance]), speed, .true., r)
       call expect(r%status == film_ok .and. r%force(2) < 0, 'the film opens again')
-      call expect_close(r%min_film, 0.5_wp*clearance, 1e-18_wp, 'least thickness')
+      call expect_close(r%min_film_thickness, 0.5_wp*clearance, 1e-18_wp, 'least thickness')
    end subroutine closed_film
 
    !> A film given up is told, and is no start for the next.
@@ -231,7 +231,7 @@ contains
       call solver%evaluate_pad(1, film_motion([-2e-5_wp, 5e-5_wp]), speed, .false., r)
       call expect(r%status == film_not_converged, 'the cap on the sweeps is told')
       call expect(r%residual > 1e-8_wp, 'with the residual')
-      call expect(solver%counters%sweeps == 8 .and. solver%counters%sor == 1, 'and the sweeps are counted')
+      call expect(solver%counters%passes == 8 .and. solver%counters%volumes == 1, 'and the sweeps are counted')
       call expect(all(abs(solver%pressure_field(1)) <= 0), 'what did not converge is dropped')
       few%max_sweeps = 5000
       fresh = new_sor_film([paper_pad()], few)
@@ -264,13 +264,13 @@ contains
       solver = new_sor_film([paper_pad(length=length)], sor_options(nx, nz, relaxation, &
          & 1e-6_wp, 1000, cavitation_none))
       call solver%evaluate_pad(1, film_motion([-3e-5_wp, 4e-5_wp]), speed, .false., r)
-      sweeps_at = solver%counters%sweeps
+      sweeps_at = solver%counters%passes
       if (r%status /= film_ok) sweeps_at = huge(sweeps_at)
    end function sweeps_at
 
    !> All pads at once answer what each answers alone.
    subroutine pads_are_apart()
-      type(pad_film_type) :: films(2)
+      type(pad_gap_type) :: films(2)
       type(sor_film_type) :: both, single
       type(film_motion) :: motion(2)
       type(film_response) :: together(2), alone
@@ -280,7 +280,7 @@ contains
       motion = [film_motion([-2e-5_wp, 5e-5_wp]), film_motion([1e-5_wp, 2e-5_wp])]
       both = new_sor_film(films, options(cavitation_reynolds, 1e-8_wp))
       call both%evaluate(motion, speed, .true., together)
-      call expect(both%counters%sor == 2, 'two pads are two films')
+      call expect(both%counters%volumes == 2, 'two pads are two films')
       do k = 1, 2
          single = new_sor_film(films(k:k), options(cavitation_reynolds, 1e-8_wp))
          call single%evaluate_pad(1, motion(k), speed, .true., alone)

@@ -9,7 +9,7 @@
 module modal_field
    use kinds, only: wp, pi
    use film_solver, only: film_motion
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    implicit none (type, external)
    private
    public :: axial_profile, left_out, field_of_modes
@@ -28,7 +28,7 @@ contains
 
    !> Sum of b_k cos(lambda_k Z)/Lambda_k^2 over the modes beyond the first so many, at Z over half the width.
    elemental real(wp) function left_out(film, modes, place)
-      type(pad_film_type), intent(in) :: film
+      type(pad_gap_type), intent(in) :: film
       integer, intent(in) :: modes
       real(wp), intent(in) :: place
       real(wp) :: unit
@@ -43,7 +43,7 @@ contains
    !> Pressure, Pa, (axial place, angle), with tension where there is any: the cubic through four nodes along
    !> the arc, the modes across.
    pure function field_of_modes(film, motion, modes, per_g, s, q, phi, z) result(pressure)
-      type(pad_film_type), intent(in) :: film
+      type(pad_gap_type), intent(in) :: film
       type(film_motion), intent(in) :: motion
       !> How many modes there are; further lanes of q idle.
       integer, intent(in) :: modes

@@ -12,7 +12,7 @@
 module modal_film
    use kinds, only: wp, pi
    use film_solver, only: film_solver_type, film_motion, film_response, film_closed
-   use pad_film, only: pad_film_type, pad_directions
+   use pad_gap, only: pad_gap_type, pad_directions
    use clipped_quadrature, only: gregory_weights, clipped_weights
    use modal_field, only: axial_profile, left_out, field_of_modes
    use modal_sweeps, only: lanes, weigh_nodes, solve_modes, solve_adjoints, sum_modes, &
@@ -41,7 +41,7 @@ module modal_film
    !> One pad: grid, modes, and the last solution. Nodes 0:n run from the trailing to the leading edge;
    !> `d` is their distance, rad. Modes fill up blocks of `lanes`; idle lanes have c = 0.
    type :: modal_pad
-      type(pad_film_type) :: film
+      type(pad_gap_type) :: film
       type(pad_directions) :: directions
       integer :: n, modes, blocks
       real(wp) :: d, radius
@@ -64,9 +64,12 @@ module modal_film
 
    type, extends(film_solver_type) :: modal_film_type
       private
-      logical :: gumbel = .false.
+      !> Guembel's condition: as the solver was made; in force.
+      logical :: made_gumbel = .false., gumbel = .false.
       type(modal_pad), allocatable :: pads(:)
    contains
+      procedure :: ruptures
+      procedure :: set_rupture
       procedure :: evaluate => evaluate_all
       procedure :: field => field_all
    end type modal_film_type
@@ -78,42 +81,58 @@ contains
    !> pad's length over its arc: a narrow film has thin layers along its edges, a wide one takes more modes,
    !> most of all where the supply pressure bends the profile at the leading edge.
    pure integer function enough_cells(films)
-      type(pad_film_type), intent(in) :: films(:)
+      type(pad_gap_type), intent(in) :: films(:)
       enough_cells = max(24, 2*ceiling(8/minval(aspect(films))))
    end function enough_cells
 
    pure integer function enough_modes(films)
-      type(pad_film_type), intent(in) :: films(:)
+      type(pad_gap_type), intent(in) :: films(:)
       enough_modes = lanes*maxval(ceiling(aspect(films) &
          & /merge(1.2_wp, 2.5_wp, films%supply_pressure > films%ambient_pressure)))
    end function enough_modes
 
    !> Axial length over the length of the arc.
    elemental real(wp) function aspect(film)
-      type(pad_film_type), intent(in) :: film
+      type(pad_gap_type), intent(in) :: film
       aspect = film%axial_length/(film%pad_radius()*film%arc())
    end function aspect
 
    !> A solver for the films of a bearing's pads with an even number of cells along the arc and at most so
    !> many modes; with Guembel's condition or none.
    pure function new_modal_film(films, cells, modes, gumbel) result(solver)
-      type(pad_film_type), intent(in) :: films(:)
+      type(pad_gap_type), intent(in) :: films(:)
       integer, intent(in) :: cells, modes
       logical, intent(in) :: gumbel
       type(modal_film_type) :: solver
       integer :: i
+      solver%made_gumbel = gumbel
       solver%gumbel = gumbel
       allocate (solver%pads(size(films)))
       do i = 1, size(films)
-         call init_pad(solver%pads(i), films(i), cells, modes, gumbel)
+         call init_pad(solver%pads(i), films(i), cells, modes)
+         call set_weights(solver%pads(i), gumbel)
       end do
    end function new_modal_film
 
-   pure subroutine init_pad(pad, film, n, most, gumbel)
+   pure logical function ruptures(self)
+      class(modal_film_type), intent(in) :: self
+      ruptures = self%gumbel
+   end function ruptures
+
+   pure subroutine set_rupture(self, allowed)
+      class(modal_film_type), intent(inout) :: self
+      logical, intent(in) :: allowed
+      integer :: i
+      self%gumbel = self%made_gumbel .and. allowed
+      do i = 1, size(self%pads)
+         call set_weights(self%pads(i), self%gumbel)
+      end do
+   end subroutine set_rupture
+
+   pure subroutine init_pad(pad, film, n, most)
       type(modal_pad), intent(out) :: pad
-      type(pad_film_type), intent(in) :: film
+      type(pad_gap_type), intent(in) :: film
       integer, intent(in) :: n, most
-      logical, intent(in) :: gumbel
       real(wp) :: phi(0:n), lambda(most), unit, profile(all_places)
       integer :: i, k
       pad%film = film
@@ -143,34 +162,40 @@ contains
       allocate (pad%sine(0:n), pad%cosine(0:n), pad%weight(0:n), pad%along(0:n), pad%outward(0:n))
       pad%sine(:) = sin(phi)
       pad%cosine(:) = cos(phi)
-      if (gumbel .or. n < 6) then
-         ! the weights of what may be clipped
-         call clipped_weights(n, spread(1.0_wp, 1, n + 1), pad%weight)
-      else
-         ! the layers at the edges are thin: the order of the ends decides
-         pad%weight(:) = gregory_weights(n)
-      end if
-      pad%weight = pad%d*pad%weight
-      pad%along(:) = pad%weight*pad%sine
-      pad%outward(:) = pad%weight*pad%cosine
       allocate (pad%h(0:n), pad%h_slope(0:n), pad%per_g(0:n), pad%v(0:n), pad%r(0:n), pad%s(0:n))
       allocate (pad%a(lanes, 0:n, pad%blocks), pad%f(lanes, 0:n, pad%blocks), pad%q(lanes, 0:n, pad%blocks))
       allocate (pad%share(lanes, 0:n, pad%blocks), pad%narrow_share(0:n))
    end subroutine init_pad
 
-   subroutine evaluate_all(self, motion, speed, want_slopes, response)
+   !> The quadrature's weights at the nodes, for a film that is clipped or not.
+   pure subroutine set_weights(pad, clipped)
+      type(modal_pad), intent(inout) :: pad
+      logical, intent(in) :: clipped
+      if (clipped .or. pad%n < 6) then
+         ! the weights of what may be clipped
+         call clipped_weights(pad%n, spread(1.0_wp, 1, pad%n + 1), pad%weight)
+      else
+         ! the layers at the edges are thin: the order of the ends decides
+         pad%weight(:) = gregory_weights(pad%n)
+      end if
+      pad%weight = pad%d*pad%weight
+      pad%along(:) = pad%weight*pad%sine
+      pad%outward(:) = pad%weight*pad%cosine
+   end subroutine set_weights
+
+   subroutine evaluate_all(self, motion, speed, want_derivatives, response)
       class(modal_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
       real(wp), intent(in) :: speed
-      logical, intent(in) :: want_slopes
+      logical, intent(in) :: want_derivatives
       type(film_response), intent(out) :: response(:)
       real(wp) :: rise
       logical :: clip
       integer :: i, b
       do i = 1, size(motion)
          associate (pad => self%pads(i))
-            response(i)%min_film = pad%film%least_thickness(motion(i), pad%directions)
-            if (.not. response(i)%min_film > 0) then
+            response(i)%min_film_thickness = pad%film%min_film_thickness(motion(i), pad%directions)
+            if (.not. response(i)%min_film_thickness > 0) then
                response(i)%status = film_closed
                cycle
             end if
@@ -184,9 +209,9 @@ contains
             end do
             call sum_up(pad, rise, response(i))
             clip = self%gumbel .and. response(i)%min_pressure < pad%film%cavitation_pressure
-            if (pad%ruptured .and. want_slopes) call whole_shares(pad)
-            if (clip) call rupture(pad, rise, want_slopes, response(i))
-            if (want_slopes) call add_slopes(pad, rise, source_factors(pad, speed), response(i))
+            if (pad%ruptured .and. want_derivatives) call whole_shares(pad)
+            if (clip) call rupture(pad, rise, want_derivatives, response(i))
+            if (want_derivatives) call add_slopes(pad, rise, source_factors(pad, speed), response(i))
          end associate
       end do
    end subroutine evaluate_all

@@ -9,7 +9,7 @@
 module direct_film
    use kinds, only: wp
    use film_solver, only: film_motion, film_response, film_counters, film_closed, film_not_converged
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type, new_film_grid
    use grid_modes, only: grid_modes_type, new_grid_modes
    use slight_rupture, only: force_of_few
@@ -45,7 +45,7 @@ contains
 
    !> The film of one pad on a grid of so many cells along the arc and along half the width.
    function new_direct_film(film, columns, rows) result(self)
-      type(pad_film_type), intent(in) :: film
+      type(pad_gap_type), intent(in) :: film
       integer, intent(in) :: columns, rows
       type(direct_film_type) :: self
       integer :: n
@@ -59,19 +59,19 @@ contains
 
    !> The film at a motion and a journal speed, rad/s, with the Reynolds condition or without rupture.
    !> Counts a pad and the eliminations.
-   subroutine evaluate(self, motion, speed, ruptures, want_slopes, counters, response)
+   subroutine evaluate(self, motion, speed, ruptures, want_derivatives, counters, response)
       class(direct_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
-      logical, intent(in) :: ruptures, want_slopes
+      logical, intent(in) :: ruptures, want_derivatives
       type(film_counters), intent(inout) :: counters
       type(film_response), intent(out) :: response
       real(wp) :: weight(self%grid%columns, 2)
       integer :: m, round
       logical :: changed
       associate (grid => self%grid)
-         response%min_film = grid%film%least_thickness(motion, grid%directions)
-         if (.not. response%min_film > 0) then
+         response%min_film_thickness = grid%film%min_film_thickness(motion, grid%directions)
+         if (.not. response%min_film_thickness > 0) then
             response%status = film_closed
             return
          end if
@@ -79,14 +79,14 @@ contains
          do round = 1, max_rounds
             call eliminate(self, ruptures)
             call solve(self, -grid%source, -grid%edge_source, self%pressure)
-            counters%sweeps = counters%sweeps + 1
+            counters%passes = counters%passes + 1
             changed = .false.
             if (ruptures) call update_film(self, changed)
             if (.not. changed) exit
          end do
          if (changed) response%status = film_not_converged
          call sum_up(self, response)
-         if (want_slopes) then
+         if (want_derivatives) then
             call to_rows(self, self%pressure)
             weight = grid%weight()
             do m = 1, 2
@@ -130,7 +130,7 @@ contains
       logical, intent(out) :: few
       call self%grid%set_motion(motion, speed)
       call force_of_few(self%grid, self%basis, self%film, force, few)
-      counters%sweeps = counters%sweeps + 1
+      counters%passes = counters%passes + 1
    end subroutine force_of_rupture
 
    !> Force; lowest and highest pressure in the middle plane and at the edges.

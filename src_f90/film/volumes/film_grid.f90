@@ -11,7 +11,7 @@
 module film_grid
    use kinds, only: wp
    use film_solver, only: film_motion
-   use pad_film, only: pad_film_type, pad_directions
+   use pad_gap, only: pad_gap_type, pad_directions
    implicit none (type, external)
    private
    public :: film_grid_type, new_film_grid
@@ -21,7 +21,7 @@ module film_grid
    real(wp), parameter :: grading = 0.85_wp
 
    type :: film_grid_type
-      type(pad_film_type) :: film
+      type(pad_gap_type) :: film
       type(pad_directions) :: directions
       integer :: columns, rows
       !> Angular and mean axial size of a cell, rad and m; heights of the rows over their mean.
@@ -54,7 +54,7 @@ contains
 
    !> A grid of so many cells along the arc and along half the width.
    pure function new_film_grid(film, columns, rows) result(grid)
-      type(pad_film_type), intent(in) :: film
+      type(pad_gap_type), intent(in) :: film
       integer, intent(in) :: columns, rows
       type(film_grid_type) :: grid
       !> Faces between the rows over their mean height; mean of the square from the middle plane in a row.

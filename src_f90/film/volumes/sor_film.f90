@@ -7,7 +7,7 @@
 module sor_film
    use kinds, only: wp, pi
    use film_solver, only: film_solver_type, film_motion, film_response, film_closed, film_not_converged
-   use pad_film, only: pad_film_type
+   use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type, new_film_grid
    use sor_sweeps, only: relax, relative_residual
    implicit none (type, external)
@@ -51,8 +51,12 @@ module sor_film
    type, extends(film_solver_type) :: sor_film_type
       private
       type(sor_options) :: options
+      !> The one in force.
+      integer :: cavitation
       type(sor_pad), allocatable :: pads(:)
    contains
+      procedure :: ruptures
+      procedure :: set_rupture
       procedure :: evaluate => evaluate_all
       procedure :: field => field_all
       !> One pad only.
@@ -65,11 +69,14 @@ contains
 
    !> A solver for the films of a bearing's pads; their fields start at zero.
    pure function new_sor_film(films, options) result(solver)
-      type(pad_film_type), intent(in) :: films(:)
+      type(pad_gap_type), intent(in) :: films(:)
       type(sor_options), intent(in) :: options
       type(sor_film_type) :: solver
       integer :: i
       solver%options = options
+      solver%cavitation = options%cavitation
+      solver%tolerance = options%tolerance
+      solver%max_sweeps = options%max_sweeps
       allocate (solver%pads(size(films)))
       do i = 1, size(films)
          call init_pad(solver%pads(i), films(i), options)
@@ -78,7 +85,7 @@ contains
 
    pure subroutine init_pad(pad, film, options)
       type(sor_pad), intent(out) :: pad
-      type(pad_film_type), intent(in) :: film
+      type(pad_gap_type), intent(in) :: film
       type(sor_options), intent(in) :: options
       integer :: nk
       associate (nx => options%circumferential_cells, nz => options%axial_cells)
@@ -106,15 +113,26 @@ contains
       best_relaxation = 2/(1 + sqrt(gap*(2 - gap)))
    end function best_relaxation
 
-   subroutine evaluate_all(self, motion, speed, want_slopes, response)
+   pure logical function ruptures(self)
+      class(sor_film_type), intent(in) :: self
+      ruptures = self%cavitation /= cavitation_none
+   end function ruptures
+
+   pure subroutine set_rupture(self, allowed)
+      class(sor_film_type), intent(inout) :: self
+      logical, intent(in) :: allowed
+      self%cavitation = merge(self%options%cavitation, cavitation_none, allowed)
+   end subroutine set_rupture
+
+   subroutine evaluate_all(self, motion, speed, want_derivatives, response)
       class(sor_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
       real(wp), intent(in) :: speed
-      logical, intent(in) :: want_slopes
+      logical, intent(in) :: want_derivatives
       type(film_response), intent(out) :: response(:)
       integer :: i
       do i = 1, size(self%pads)
-         call self%evaluate_pad(i, motion(i), speed, want_slopes, response(i))
+         call self%evaluate_pad(i, motion(i), speed, want_derivatives, response(i))
       end do
    end subroutine evaluate_all
 
@@ -126,7 +144,7 @@ contains
       type(film_response) :: response(size(motion))
       real(wp) :: floor
       integer :: i
-      floor = merge(-huge(floor), 0.0_wp, self%options%cavitation == cavitation_none)
+      floor = merge(-huge(floor), 0.0_wp, self%cavitation == cavitation_none)
       call self%evaluate(motion, speed, .false., response)
       do i = 1, size(motion)
          associate (pad => self%pads(i), grid => self%pads(i)%grid)
@@ -136,36 +154,36 @@ contains
       end do
    end subroutine field_all
 
-   subroutine evaluate_pad(self, i, motion, speed, want_slopes, response)
+   subroutine evaluate_pad(self, i, motion, speed, want_derivatives, response)
       class(sor_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
-      logical, intent(in) :: want_slopes
+      logical, intent(in) :: want_derivatives
       type(film_response), intent(out) :: response
       real(wp) :: floor
       logical :: ok
 
       associate (pad => self%pads(i), film => self%pads(i)%grid%film)
-         response%min_film = film%least_thickness(motion, pad%grid%directions)
-         if (.not. response%min_film > 0) then
+         response%min_film_thickness = film%min_film_thickness(motion, pad%grid%directions)
+         if (.not. response%min_film_thickness > 0) then
             response%status = film_closed
             return
          end if
          call pad%grid%set_motion(motion, speed)
          call set_operator(pad)
-         self%counters%sor = self%counters%sor + 1
+         self%counters%volumes = self%counters%volumes + 1
          floor = -huge(floor)
-         if (self%options%cavitation == cavitation_reynolds) floor = 0
+         if (self%cavitation == cavitation_reynolds) floor = 0
          call solve(self, pad, pad%source, pad%cells, floor, pad%pressure, response%residual, ok)
          if (ok) then
             floor = -huge(floor)
-            if (self%options%cavitation /= cavitation_none) floor = 0
+            if (self%cavitation /= cavitation_none) floor = 0
             response%force = pad%grid%force(column_sums(pad, floor))
             response%min_pressure = film%cavitation_pressure + minval(pad%pressure, mask=pad%cells > 0)
             response%max_pressure = film%cavitation_pressure &
                & + max(floor, maxval(pad%pressure, mask=pad%cells > 0))
-            if (want_slopes) call add_slopes(self, pad, speed, response, ok)
+            if (want_derivatives) call add_slopes(self, pad, speed, response, ok)
          end if
          if (.not. ok) then
             response%status = film_not_converged
@@ -211,13 +229,13 @@ contains
       integer :: nk, nz, sweeps
       nk = ubound(field, 1) - 1
       nz = ubound(field, 2) - 1
-      do sweeps = sweeps_per_look, self%options%max_sweeps + sweeps_per_look - 1, sweeps_per_look
+      do sweeps = sweeps_per_look, self%max_sweeps + sweeps_per_look - 1, sweeps_per_look
          call relax(nk, nz, sweeps_per_look, pad%relaxation, floor, pad%before, pad%after, pad%beside, &
             & pad%grid%inward, pad%grid%outward, pad%per_diagonal, source, whole, field)
          residual = relative_residual(nk, nz, floor, pad%before, pad%after, pad%beside, pad%grid%inward, &
             & pad%grid%outward, pad%per_diagonal, source, whole, field)
-         self%counters%sweeps = self%counters%sweeps + sweeps_per_look
-         ok = residual <= self%options%tolerance
+         self%counters%passes = self%counters%passes + sweeps_per_look
+         ok = residual <= self%tolerance
          if (ok) return
       end do
    end subroutine solve
@@ -234,7 +252,7 @@ contains
       real(wp), dimension(0:ubound(pad%cells, 1), 0:ubound(pad%cells, 2), 2) :: positive, region
       integer :: m, j
       positive = pad%cells
-      if (self%options%cavitation /= cavitation_none) then
+      if (self%cavitation /= cavitation_none) then
          where (.not. pad%pressure > 0) positive = 0
       end if
       ok = .true.
@@ -244,7 +262,7 @@ contains
          return
       end if
       region = pad%cells
-      if (self%options%cavitation == cavitation_reynolds) region = positive
+      if (self%cavitation == cavitation_reynolds) region = positive
       associate (grid => pad%grid, nk => pad%grid%columns/2, nz => pad%grid%rows)
          p = natural(pad%pressure(1:nk, 1:nz, :))
          weights = grid%weight()
@@ -282,7 +300,7 @@ contains
       real(wp), allocatable :: p(:, :)
       associate (pad => self%pads(i))
          p = transpose(natural(pad%pressure(1:pad%grid%columns/2, 1:pad%grid%rows, :)))
-         if (self%options%cavitation /= cavitation_none) p = max(p, 0.0_wp)
+         if (self%cavitation /= cavitation_none) p = max(p, 0.0_wp)
          p = p + pad%grid%film%cavitation_pressure
       end associate
    end function pressure_field

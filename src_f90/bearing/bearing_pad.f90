@@ -1,0 +1,161 @@
+!> One pad: loads on it and on the journal in a state, and their derivatives, which are not divided by masses.
+module bearing_pad
+   use kinds, only: wp
+   use film_solver, only: film_motion, film_response
+   use pad_gap, only: pad_gap_type, pad_directions
+   use contact_table, only: contact_table_type
+   use friction, only: friction_law, friction_response
+   use kinematics, only: journal_motion, pad_state, pad_position, pad_frame, frame_of, motion_of, motion_derivatives, &
+      & to_global, columns, tilt_column, tilt_rate_column, penetration_column
+   implicit none (type, external)
+   private
+   public :: bearing_pad_type, pad_loads, pad_derivatives
+
+   !> What a pad is; SI units.
+   type :: bearing_pad_type
+      type(pad_position) :: position
+      type(pad_gap_type) :: gap
+      type(pad_directions) :: directions
+      !> Tilt at which the pad counts as turned over, rad.
+      real(wp) :: largest_tilt
+      !> Mass; moment of inertia about the pivot; weight; centre of gravity from the pivot.
+      real(wp) :: mass, inertia, weight, centre_tangential, centre_radial
+      !> R1 of the pivot.
+      real(wp) :: ball_radius
+      !> Whether the pivot yields: then its penetration is a state, else its force is the reaction.
+      logical :: radial
+   contains
+      procedure :: frame
+      procedure :: motion
+      procedure :: loads
+      procedure :: derivatives
+      procedure :: friction_derivatives
+      procedure :: inverse_masses
+   end type bearing_pad_type
+
+   !> Loads of one pad at one instant.
+   type :: pad_loads
+      !> Film force on the journal along global y and z, N.
+      real(wp) :: journal(2) = 0
+      !> Contact force F_bs, N, and its derivative over the penetration, N/m (0 tilting-only).
+      real(wp) :: contact = 0, contact_stiffness = 0
+      !> Friction of the pivot.
+      type(friction_response) :: friction
+      !> Moment of eq (3), N m, and force of eq (4), N, on the pad.
+      real(wp) :: moment = 0, radial = 0
+   end type pad_loads
+
+   !> Derivatives of the loads over the columns of kinematics, without what friction adds.
+   type :: pad_derivatives
+      !> Of the film force on the journal in the pad frame; of `journal`, `contact`, `moment` and `radial` of the loads.
+      real(wp) :: film(2, columns) = 0, journal(2, columns) = 0
+      real(wp) :: contact(columns) = 0, moment(columns) = 0, radial(columns) = 0
+   end type pad_derivatives
+
+contains
+
+   !> The pad's frame in a state.
+   pure type(pad_frame) function frame(self, journal, state)
+      class(bearing_pad_type), intent(in) :: self
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(in) :: state
+      frame = frame_of(self%position, journal%position, state%tilt, state%penetration)
+   end function frame
+
+   !> The motion of the journal seen from the pad.
+   pure type(film_motion) function motion(self, frame, journal, state)
+      class(bearing_pad_type), intent(in) :: self
+      type(pad_frame), intent(in) :: frame
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(in) :: state
+      motion = motion_of(self%position, frame, journal%velocity, state%tilt_rate, state%penetration_rate)
+   end function motion
+
+   !> The loads in a state with a film force in the pad frame, N.
+   pure subroutine loads(self, frame, state, film_force, contact, friction, answer)
+      class(bearing_pad_type), intent(in) :: self
+      type(pad_frame), intent(in) :: frame
+      type(pad_state), intent(in) :: state
+      real(wp), intent(in) :: film_force(2)
+      type(contact_table_type), intent(in) :: contact
+      class(friction_law), intent(in) :: friction
+      type(pad_loads), intent(inout) :: answer
+      real(wp) :: inertial
+      answer%journal = to_global(frame, film_force)
+      inertial = self%mass*self%centre_radial*state%tilt_rate**2
+      answer%radial = -film_force(2) - self%weight*frame%s + inertial
+      if (self%radial) then
+         call contact%lookup(state%penetration, answer%contact, answer%contact_stiffness)
+      else
+         answer%contact = max(0.0_wp, answer%radial)
+      end if
+      answer%radial = answer%radial - answer%contact
+      call friction%evaluate(self%ball_radius*state%tilt_rate, state%deflection, answer%contact, answer%friction)
+      answer%moment = -film_force(1)*self%position%centre_distance - self%ball_radius*answer%friction%force &
+         & - self%weight*(self%centre_tangential*frame%s - self%centre_radial*frame%c)
+   end subroutine loads
+
+   !> The derivatives of the loads in the state in which these and the film were evaluated, film derivatives included.
+   pure subroutine derivatives(self, frame, motion, state, film, loads, answer)
+      class(bearing_pad_type), intent(in) :: self
+      type(pad_frame), intent(in) :: frame
+      type(film_motion), intent(in) :: motion
+      type(pad_state), intent(in) :: state
+      type(film_response), intent(in) :: film
+      type(pad_loads), intent(in) :: loads
+      type(pad_derivatives), intent(inout) :: answer
+      real(wp) :: force(2, columns)
+      integer :: k
+      force = matmul(film%slope, motion_derivatives(self%position, frame, motion, state%tilt_rate))
+      answer%film = force
+      associate (journal => answer%journal, contact => answer%contact, moment => answer%moment, radial => answer%radial)
+         radial = -force(2, :)
+         radial(tilt_column) = radial(tilt_column) + self%weight*frame%c
+         radial(tilt_rate_column) = radial(tilt_rate_column) + 2*self%mass*self%centre_radial*state%tilt_rate
+         if (self%radial) then
+            contact = 0
+            contact(penetration_column) = loads%contact_stiffness
+         else
+            contact = merge(radial, 0.0_wp, loads%contact > 0)
+         end if
+         radial = radial - contact
+         moment = -force(1, :)*self%position%centre_distance
+         moment(tilt_column) = -force(1, tilt_column)*self%position%centre_distance &
+            & + (self%weight*(self%centre_tangential*frame%c + self%centre_radial*frame%s))
+         do k = 1, columns
+            journal(:, k) = to_global(frame, force(:, k))
+         end do
+         ! the frame turns with the pad
+         journal(:, tilt_column) = journal(:, tilt_column) + to_global(frame, [-film%force(2), film%force(1)])
+      end associate
+   end subroutine derivatives
+
+   !> What friction adds to the derivatives of the moment: over the columns, and over the bristles' deflection.
+   pure subroutine friction_derivatives(self, friction, contact, over_columns, over_deflection)
+      class(bearing_pad_type), intent(in) :: self
+      type(friction_response), intent(in) :: friction
+      !> Derivatives of the contact force.
+      real(wp), intent(in) :: contact(columns)
+      real(wp), intent(out) :: over_columns(columns), over_deflection
+      over_columns = -self%ball_radius*friction%force_normal*contact
+      over_columns(tilt_rate_column) = -self%ball_radius*friction%force_normal*contact(tilt_rate_column) &
+         & - self%ball_radius**2*friction%force_velocity
+      over_deflection = -self%ball_radius*friction%force_deflection
+   end subroutine friction_derivatives
+
+   !> Inverse of the mass matrix of eqs (3)-(4): rates of tilt rate and penetration rate per moment and force. A pad
+   !> that only tilts has no second row and column.
+   pure function inverse_masses(self) result(inverse)
+      class(bearing_pad_type), intent(in) :: self
+      real(wp) :: inverse(2, 2), coupling, determinant
+      inverse = 0
+      if (self%radial) then
+         ! coupled where C_xi /= 0
+         coupling = self%mass*self%centre_tangential
+         determinant = self%inertia*self%mass - coupling**2
+         inverse = reshape([self%mass, -coupling, -coupling, self%inertia], [2, 2])/determinant
+      else
+         inverse(1, 1) = 1/self%inertia
+      end if
+   end function inverse_masses
+end module bearing_pad

@@ -1,0 +1,311 @@
+!> A bearing of tilting pads: the motion of the journal, the states of the pads and the speed go in, the loads of
+!> every pad and their derivatives come out. One evaluation of the film solver serves all pads.
+module pad_bearing
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp, i8
+   use text, only: to_text
+   use scene, only: scene_type
+   use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_closed, film_not_converged
+   use contact_law, only: contact_law_type
+   use contact_table, only: contact_table_type, new_contact_table
+   use friction, only: friction_law, no_friction
+   use kinematics, only: journal_motion, pad_state, pad_frame, columns
+   use bearing_pad, only: bearing_pad_type, pad_loads, pad_derivatives
+   use components, only: make_film, new_law, new_friction, new_pads
+   implicit none (type, external)
+   private
+   public :: pad_bearing_type, pad_sample, new_pad_bearing, pad_outputs
+
+   !> Outputs of a pad: film force on the journal in its frame, N, highest pressure, Pa.
+   integer, parameter :: pad_outputs = 3
+
+   !> What is sampled of a pad beside its state.
+   type :: pad_sample
+      !> N; N m; film force on the journal in the pad frame, N.
+      real(wp) :: contact_force = 0, friction_moment = 0, film_force(2) = 0
+      !> m; Pa.
+      real(wp) :: min_film_thickness = 0, max_pressure = 0
+   end type pad_sample
+
+   type :: pad_bearing_type
+      type(bearing_pad_type), allocatable :: pads(:)
+      !> The loads of each pad in the state evaluated last; their derivatives where they were taken last.
+      type(pad_loads), allocatable :: loads(:)
+      type(pad_derivatives), allocatable :: derivatives(:)
+      class(friction_law), allocatable :: friction
+      !> False: the pivots slide freely, whatever the law.
+      logical :: rubs = .true.
+      class(film_solver_type), allocatable, private :: film
+      class(contact_law_type), allocatable, private :: law
+      type(contact_table_type), private :: contact
+      !> Assembled clearance, m.
+      real(wp), private :: clearance
+      !> The state evaluated last.
+      type(pad_state), allocatable, private :: state(:)
+      type(pad_frame), allocatable, private :: frame(:)
+      type(film_motion), allocatable, private :: motion(:)
+      type(film_response), allocatable, private :: response(:)
+      integer(i8), private :: evaluations = 0
+   contains
+      procedure :: evaluate
+      procedure :: output
+      procedure :: sampled
+      procedure :: samples
+      procedure :: pressure_field
+      procedure :: warning
+      procedure :: smooth
+      procedure :: penetration
+      procedure :: contact_force
+      procedure :: counters
+      procedure :: films_rupture
+      procedure :: set_rupture
+      procedure :: set_accuracy
+      procedure, private :: evaluate_films
+      procedure, private :: set_loads
+      procedure, private :: refusal
+   end type pad_bearing_type
+
+   !> Every so many evaluations of the films one is timed.
+   integer(i8), parameter :: timing_stride = 16
+   !> Film thickness over assembled clearance below which a failed march is put down to it.
+   real(wp), parameter :: nearly_closed = 1e-2_wp
+   type(no_friction), parameter :: no_rubbing = no_friction()
+
+contains
+
+   !> The bearing of a valid scene.
+   function new_pad_bearing(scene) result(bearing)
+      type(scene_type), intent(in) :: scene
+      type(pad_bearing_type) :: bearing
+      integer :: n
+      n = scene%pad_count()
+      bearing%pads = new_pads(scene)
+      bearing%clearance = scene%bearing%assembled_clearance
+      bearing%friction = new_friction(scene)
+      call make_film(scene, bearing%film)
+      bearing%law = new_law(scene)
+      if (scene%tilting_radial()) bearing%contact = new_contact_table(bearing%law)
+      allocate (bearing%loads(n), bearing%derivatives(n), bearing%state(n))
+      allocate (bearing%frame(n), bearing%motion(n), bearing%response(n))
+   end function new_pad_bearing
+
+   !> Sets the loads in a state, the speed in rad/s, and their derivatives where they are wanted. Refuses a state whose
+   !> film is closed or did not converge, or whose pad has turned over: then `refusal` says why.
+   subroutine evaluate(self, journal, pads, speed, want_derivatives, refusal, ok)
+      class(pad_bearing_type), intent(inout) :: self
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(in) :: pads(:)
+      real(wp), intent(in) :: speed
+      logical, intent(in) :: want_derivatives
+      character(len=:), allocatable, intent(inout) :: refusal
+      logical, intent(out) :: ok
+      integer :: i
+      self%state = pads
+      do i = 1, size(self%pads)
+         self%frame(i) = self%pads(i)%frame(journal, pads(i))
+         self%motion(i) = self%pads(i)%motion(self%frame(i), journal, pads(i))
+      end do
+      call self%evaluate_films(speed, want_derivatives)
+      do i = 1, size(self%pads)
+         ok = admitted(self%pads(i), pads(i), self%response(i))
+         if (.not. ok) then
+            refusal = self%refusal(i)
+            return
+         end if
+      end do
+      do i = 1, size(self%pads)
+         call self%set_loads(i, self%frame(i), pads(i), self%response(i)%force, self%loads(i))
+         if (want_derivatives) call self%pads(i)%derivatives(self%frame(i), self%motion(i), pads(i), self%response(i), &
+            & self%loads(i), self%derivatives(i))
+      end do
+   end subroutine evaluate
+
+   !> The films at the motions set; some evaluations are timed, for all.
+   subroutine evaluate_films(self, speed, want_derivatives)
+      class(pad_bearing_type), intent(inout) :: self
+      real(wp), intent(in) :: speed
+      logical, intent(in) :: want_derivatives
+      integer(i8) :: start, finish, rate
+      if (mod(self%evaluations, timing_stride) == 0) then
+         call system_clock(start, rate)
+         call self%film%evaluate(self%motion, speed, want_derivatives, self%response)
+         call system_clock(finish)
+         associate (seconds => self%film%counters%seconds)
+            seconds = seconds + real(timing_stride*(finish - start), wp)/real(rate, wp)
+         end associate
+      else
+         call self%film%evaluate(self%motion, speed, want_derivatives, self%response)
+      end if
+      self%evaluations = self%evaluations + 1
+   end subroutine evaluate_films
+
+   !> The loads of a pad with a film force in its frame, N.
+   pure subroutine set_loads(self, pad, frame, state, film_force, loads)
+      class(pad_bearing_type), intent(in) :: self
+      integer, intent(in) :: pad
+      type(pad_frame), intent(in) :: frame
+      type(pad_state), intent(in) :: state
+      real(wp), intent(in) :: film_force(2)
+      type(pad_loads), intent(inout) :: loads
+      if (self%rubs) then
+         call self%pads(pad)%loads(frame, state, film_force, self%contact, self%friction, loads)
+      else
+         call self%pads(pad)%loads(frame, state, film_force, self%contact, no_rubbing, loads)
+      end if
+   end subroutine set_loads
+
+   !> True where a pad stands and its film has a force.
+   pure logical function admitted(pad, state, film)
+      type(bearing_pad_type), intent(in) :: pad
+      type(pad_state), intent(in) :: state
+      type(film_response), intent(in) :: film
+      admitted = abs(state%tilt) < pad%largest_tilt .and. film%status /= film_closed &
+         & .and. film%status /= film_not_converged .and. all(ieee_is_finite(film%force))
+   end function admitted
+
+   !> Why the state evaluated last is refused for a pad.
+   function refusal(self, pad) result(reason)
+      class(pad_bearing_type), intent(in) :: self
+      integer, intent(in) :: pad
+      character(len=:), allocatable :: reason, thickness
+      associate (film => self%response(pad), tilt => self%state(pad)%tilt)
+         thickness = ': thickness '//to_text(film%min_film_thickness)//' m'
+         if (.not. abs(tilt) < self%pads(pad)%largest_tilt) then
+            reason = 'pad '//to_text(pad)//' turned over: tilt '//to_text(tilt)//' rad'
+         else if (film%status == film_closed) then
+            reason = 'the film of pad '//to_text(pad)//' closed'//thickness
+         else if (film%status == film_not_converged) then
+            reason = 'the film of pad '//to_text(pad)//' did not converge: residual '//to_text(film%residual) &
+               & //' after film%max_sweeps = '//to_text(self%film%max_sweeps)
+         else
+            reason = 'the film force of pad '//to_text(pad)//' is not finite'//thickness
+         end if
+      end associate
+   end function refusal
+
+   !> What a sample takes from the films, pad by pad: force and highest pressure as evaluated last, the force with what
+   !> a change of the state, (column, pad), adds to first order.
+   pure function output(self, change)
+      class(pad_bearing_type), intent(in) :: self
+      real(wp), intent(in) :: change(:, :)
+      real(wp) :: output(pad_outputs*size(self%pads))
+      real(wp) :: added(2)
+      integer :: i, k
+      do i = 1, size(self%pads)
+         associate (film => self%response(i), derivatives => self%derivatives(i)%film)
+            added = 0
+            do k = 1, columns
+               added = added + derivatives(:, k)*change(k, i)
+            end do
+            output(pad_outputs*(i - 1) + 1:pad_outputs*i) = [film%force + added, film%max_pressure]
+         end associate
+      end do
+   end function output
+
+   !> The samples of all pads in a state whose outputs are known: without the film solver.
+   pure function samples(self, journal, pads, output)
+      class(pad_bearing_type), intent(in) :: self
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(in) :: pads(:)
+      real(wp), intent(in) :: output(:)
+      type(pad_sample) :: samples(size(pads))
+      type(pad_frame) :: frame
+      type(pad_loads) :: loads
+      integer :: i
+      do i = 1, size(pads)
+         frame = self%pads(i)%frame(journal, pads(i))
+         associate (film => output(pad_outputs*(i - 1) + 1:pad_outputs*i), pad => self%pads(i), gap => self%pads(i)%gap)
+            call self%set_loads(i, frame, pads(i), film(1:2), loads)
+            ! between steps at which it leaps a polynomial may undershoot
+            samples(i) = pad_sample(loads%contact, pad%ball_radius*loads%friction%force, film(1:2), &
+               & gap%min_film_thickness(pad%motion(frame, journal, pads(i)), pad%directions), &
+               & max(film(3), gap%supply_pressure, gap%ambient_pressure))
+         end associate
+      end do
+   end function samples
+
+   !> The samples of all pads in the state evaluated last.
+   pure function sampled(self)
+      class(pad_bearing_type), intent(in) :: self
+      type(pad_sample) :: sampled(size(self%pads))
+      integer :: i
+      do i = 1, size(self%pads)
+         associate (film => self%response(i), loads => self%loads(i))
+            sampled(i) = pad_sample(loads%contact, self%pads(i)%ball_radius*loads%friction%force, film%force, &
+               & film%min_film_thickness, film%max_pressure)
+         end associate
+      end do
+   end function sampled
+
+   !> Pressure of every film in the state evaluated last, Pa, (axial position, angle, pad), at angles from the pivot,
+   !> rad, (angle, pad), and distances from the middle plane, m; speed in rad/s.
+   subroutine pressure_field(self, speed, phi, z, pressure)
+      class(pad_bearing_type), intent(inout) :: self
+      real(wp), intent(in) :: speed, phi(:, :), z(:)
+      real(wp), intent(out) :: pressure(:, :, :)
+      call self%film%field(self%motion, speed, phi, z, pressure)
+   end subroutine pressure_field
+
+   !> Names the pad whose film was nearly closed in the state evaluated last, if there is one; else empty.
+   function warning(self)
+      class(pad_bearing_type), intent(in) :: self
+      character(len=:), allocatable :: warning
+      integer :: i
+      warning = ''
+      i = minloc(self%response%min_film_thickness, dim=1)
+      associate (thickness => self%response(i)%min_film_thickness)
+         if (thickness < nearly_closed*self%clearance) then
+            warning = 'the film of pad '//to_text(i)//' is closing: thickness '//to_text(thickness)//' m'
+         end if
+      end associate
+   end function warning
+
+   !> True where no friction puts kinks into the motion.
+   pure logical function smooth(self)
+      class(pad_bearing_type), intent(in) :: self
+      smooth = .not. self%rubs .or. same_type_as(self%friction, no_rubbing)
+   end function smooth
+
+   !> Penetration of a pivot, m, that carries a force > 0, N.
+   pure real(wp) function penetration(self, force)
+      class(pad_bearing_type), intent(in) :: self
+      real(wp), intent(in) :: force
+      penetration = self%law%penetration(force)
+   end function penetration
+
+   !> Contact force of a pivot, N, at a penetration, m.
+   pure real(wp) function contact_force(self, penetration)
+      class(pad_bearing_type), intent(in) :: self
+      real(wp), intent(in) :: penetration
+      real(wp) :: stiffness
+      call self%contact%lookup(penetration, contact_force, stiffness)
+   end function contact_force
+
+   !> What the films have cost so far.
+   pure type(film_counters) function counters(self)
+      class(pad_bearing_type), intent(in) :: self
+      counters = self%film%counters
+   end function counters
+
+   !> True where the films rupture.
+   pure logical function films_rupture(self)
+      class(pad_bearing_type), intent(in) :: self
+      films_rupture = self%film%ruptures()
+   end function films_rupture
+
+   !> Lets the films rupture by their condition, or keeps them whole.
+   subroutine set_rupture(self, allowed)
+      class(pad_bearing_type), intent(inout) :: self
+      logical, intent(in) :: allowed
+      call self%film%set_rupture(allowed)
+   end subroutine set_rupture
+
+   !> Makes iterative film solutions at least so close, with as many sweeps as this at least.
+   subroutine set_accuracy(self, tolerance, max_sweeps)
+      class(pad_bearing_type), intent(inout) :: self
+      real(wp), intent(in) :: tolerance
+      integer, intent(in) :: max_sweeps
+      self%film%tolerance = min(self%film%tolerance, tolerance)
+      self%film%max_sweeps = max(self%film%max_sweeps, max_sweeps)
+   end subroutine set_accuracy
+end module pad_bearing

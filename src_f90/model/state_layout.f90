@@ -1,0 +1,154 @@
+!> Where the states lie, the only module that knows: first those of the rotor, displacements and then their rates;
+!> then for each pad tilt, tilt rate, (pivots that yield) penetration and its rate, (LuGre) bristle deflection. A state
+!> that a model lacks is not there.
+module state_layout
+   use kinds, only: wp
+   use kinematics, only: pad_state, columns, journal_columns
+   implicit none (type, external)
+   private
+   public :: state_layout_type, new_state_layout
+   public :: at_tilt, at_tilt_rate, at_penetration, at_penetration_rate
+
+   !> Places among a pad's own states; those of the motion stand in the order of the columns of its derivatives.
+   integer, parameter :: at_tilt = 1, at_tilt_rate = 2, at_penetration = 3, at_penetration_rate = 4
+
+   type :: state_layout_type
+      !> States of the rotor, pads, states of a pad (its motion and its bristles), all states.
+      integer :: rotor = 0, pads = 0, motion = 0, per_pad = 0, n = 0
+      !> Whether the pivots yield; whether there are bristles.
+      logical :: radial = .false., bristles = .false.
+   contains
+      procedure :: first
+      procedure :: tilt
+      procedure :: tilt_rate
+      procedure :: penetration
+      procedure :: penetration_rate
+      procedure :: bristle
+      procedure :: positions
+      procedure :: rates
+      procedure :: pad_states
+      procedure :: put_pads
+      procedure :: over_columns
+   end type state_layout_type
+
+contains
+
+   !> The layout for a rotor of so many states and so many pads.
+   pure type(state_layout_type) function new_state_layout(rotor, pads, radial, bristles) result(layout)
+      integer, intent(in) :: rotor, pads
+      logical, intent(in) :: radial, bristles
+      layout%rotor = rotor
+      layout%pads = pads
+      layout%radial = radial
+      layout%bristles = bristles
+      layout%motion = merge(at_penetration_rate, at_tilt_rate, radial)
+      layout%per_pad = layout%motion + merge(1, 0, bristles)
+      layout%n = rotor + pads*layout%per_pad
+   end function new_state_layout
+
+   !> Index of the first state of a pad.
+   elemental integer function first(self, pad)
+      class(state_layout_type), intent(in) :: self
+      integer, intent(in) :: pad
+      first = self%rotor + (pad - 1)*self%per_pad + 1
+   end function first
+
+   !> Index of a pad's tilt.
+   elemental integer function tilt(self, pad)
+      class(state_layout_type), intent(in) :: self
+      integer, intent(in) :: pad
+      tilt = self%first(pad) + at_tilt - 1
+   end function tilt
+
+   elemental integer function tilt_rate(self, pad)
+      class(state_layout_type), intent(in) :: self
+      integer, intent(in) :: pad
+      tilt_rate = self%first(pad) + at_tilt_rate - 1
+   end function tilt_rate
+
+   !> Index of a pad's penetration; only where the pivots yield.
+   elemental integer function penetration(self, pad)
+      class(state_layout_type), intent(in) :: self
+      integer, intent(in) :: pad
+      penetration = self%first(pad) + at_penetration - 1
+   end function penetration
+
+   elemental integer function penetration_rate(self, pad)
+      class(state_layout_type), intent(in) :: self
+      integer, intent(in) :: pad
+      penetration_rate = self%first(pad) + at_penetration_rate - 1
+   end function penetration_rate
+
+   !> Index of a pad's bristle deflection; only where there are bristles.
+   elemental integer function bristle(self, pad)
+      class(state_layout_type), intent(in) :: self
+      integer, intent(in) :: pad
+      bristle = self%first(pad) + self%per_pad - 1
+   end function bristle
+
+   !> Indices of the displacements of rotor and pads, in the order of the states.
+   pure function positions(self)
+      class(state_layout_type), intent(in) :: self
+      integer, allocatable :: positions(:)
+      integer :: i, k
+      positions = [(i, i=1, self%rotor/2), ((self%first(i) + k, k=0, self%motion - 1, 2), i=1, self%pads)]
+   end function positions
+
+   !> Indices of their rates, in the same order.
+   pure function rates(self)
+      class(state_layout_type), intent(in) :: self
+      integer, allocatable :: rates(:)
+      integer :: i, k
+      rates = [(i, i=self%rotor/2 + 1, self%rotor), ((self%first(i) + k, k=1, self%motion - 1, 2), i=1, self%pads)]
+   end function rates
+
+   !> The states of the pads; what they lack is 0.
+   pure function pad_states(self, y) result(pads)
+      class(state_layout_type), intent(in) :: self
+      real(wp), intent(in) :: y(:)
+      type(pad_state) :: pads(self%pads)
+      integer :: i, o
+      do i = 1, self%pads
+         o = self%first(i) - 1
+         pads(i)%tilt = y(o + at_tilt)
+         pads(i)%tilt_rate = y(o + at_tilt_rate)
+         if (self%radial) then
+            pads(i)%penetration = y(o + at_penetration)
+            pads(i)%penetration_rate = y(o + at_penetration_rate)
+         end if
+         if (self%bristles) pads(i)%deflection = y(o + self%per_pad)
+      end do
+   end function pad_states
+
+   !> Puts the states of the pads into y, as far as the model has them.
+   pure subroutine put_pads(self, pads, y)
+      class(state_layout_type), intent(in) :: self
+      type(pad_state), intent(in) :: pads(:)
+      real(wp), intent(inout) :: y(:)
+      integer :: i, o
+      do i = 1, self%pads
+         o = self%first(i) - 1
+         y(o + at_tilt) = pads(i)%tilt
+         y(o + at_tilt_rate) = pads(i)%tilt_rate
+         if (self%radial) then
+            y(o + at_penetration) = pads(i)%penetration
+            y(o + at_penetration_rate) = pads(i)%penetration_rate
+         end if
+         if (self%bristles) y(o + self%per_pad) = pads(i)%deflection
+      end do
+   end subroutine put_pads
+
+   !> A change of the state over the columns of each pad's derivatives, (column, pad), with that of the journal.
+   pure function over_columns(self, journal, y) result(change)
+      class(state_layout_type), intent(in) :: self
+      real(wp), intent(in) :: journal(journal_columns), y(:)
+      real(wp) :: change(columns, self%pads)
+      integer :: i, o
+      change = 0
+      do i = 1, self%pads
+         o = self%first(i) - 1
+         change(:journal_columns, i) = journal
+         change(journal_columns + 1:journal_columns + self%motion, i) = y(o + 1:o + self%motion)
+      end do
+   end function over_columns
+end module state_layout

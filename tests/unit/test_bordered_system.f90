@@ -1,0 +1,74 @@
+!> The bordered solver against LAPACK on full matrices, with borders and blocks of several sizes.
+program test_bordered_system
+   use kinds, only: wp
+   use text, only: to_text
+   use lapack, only: dgesv
+   use bordered_system, only: bordered_matrix, new_bordered_matrix
+   use check, only: runs, expect, expect_close, report
+   implicit none (type, external)
+
+   !> A rigid journal's border is of 4 unknowns; the others have rows that fill their vectors, just not, and by far.
+   integer, parameter :: borders(*) = [4, 1, 2, 6, 7, 11, 24], blocks(*) = [1, 2, 4, 24]
+   integer :: i, k, m
+
+   do k = 1, size(borders)
+      do m = 1, 8
+         do i = 1, size(blocks)
+            if (runs('against_lapack')) call against_lapack(borders(k), m, blocks(i))
+         end do
+      end do
+      if (runs('singular')) call singular(borders(k))
+   end do
+   call report()
+
+contains
+
+   !> Entries of order 1 and gamma = 0.2/sqrt(n): no pivoting is needed, and rounding is amplified little.
+   subroutine against_lapack(border, m, blocks)
+      integer, intent(in) :: border, m, blocks
+      type(bordered_matrix) :: matrix
+      real(wp), allocatable :: full(:, :), b(:, :), x(:)
+      integer, allocatable :: pivots(:)
+      character(len=:), allocatable :: what
+      real(wp) :: gamma
+      integer :: n, k, info
+      logical :: ok
+      what = to_text(blocks)//' blocks of '//to_text(m)//', border of '//to_text(border)
+      n = border + m*blocks
+      matrix = new_bordered_matrix(border, m, blocks)
+      call random_number(matrix%corner)
+      call random_number(matrix%across)
+      call random_number(matrix%down)
+      call random_number(matrix%block)
+      allocate (b(n, 1), pivots(n))
+      call random_number(b)
+      gamma = 0.2_wp/sqrt(real(n, wp))
+      x = b(:, 1)
+      call matrix%solve(gamma, x, ok)
+      full = -gamma*matrix%dense()
+      do k = 1, n
+         full(k, k) = full(k, k) + 1
+      end do
+      call dgesv(n, 1, full, n, pivots, b, n, info)
+      call expect(ok .and. info == 0, 'both solve '//what)
+      call expect_close(norm2(x - b(:, 1)), 0.0_wp, 1e-12_wp*norm2(x), what)
+   end subroutine against_lapack
+
+   !> A block and then the border of which nothing is left.
+   subroutine singular(border)
+      integer, intent(in) :: border
+      type(bordered_matrix) :: matrix
+      real(wp) :: b(border + 2)
+      logical :: ok
+      matrix = new_bordered_matrix(border, 2, 1)
+      matrix%block(1, 1, 1) = 2
+      b = 1
+      call matrix%solve(0.5_wp, b, ok)
+      call expect(.not. ok, 'a singular block is refused')
+      matrix%block = 0
+      matrix%corner(border, border) = 2
+      b = 1
+      call matrix%solve(0.5_wp, b, ok)
+      call expect(.not. ok, 'a singular border is refused')
+   end subroutine singular
+end program test_bordered_system
