@@ -5,6 +5,7 @@ module energy_ledger
    use errors, only: error_type
    use ode_model, only: ode_model_type
    use march_observer, only: march_observer_type
+   use kinematics, only: pad_state
    use pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model
    implicit none (type, external)
@@ -35,6 +36,7 @@ contains
       real(wp), intent(out) :: dydt(:)
       logical, intent(out) :: ok
       type(pad_sample), allocatable :: films(:)
+      type(pad_state), allocatable :: pads(:)
       real(wp) :: power(4), film(2), frame(2, 2), a, speed, phase, weight
       integer :: pad
       associate (b => self%bearing, p => self%bearing%scene%pads, n => self%bearing%n)
@@ -44,6 +46,7 @@ contains
             return
          end if
          films = b%sampled()
+         pads = b%layout%pad_states(y)
          speed = b%point%speed(t)
          phase = b%point%shaft_angle(t)
          ! unbalance; films on journal and pads; friction; what eqs (3)-(4) hold beside a potential
@@ -51,15 +54,17 @@ contains
          power(1) = b%point%unbalance*speed**2*(cos(phase)*y(3) + sin(phase)*y(4))
          do pad = 1, b%layout%pads
             associate (force => films(pad)%film_force)
-               a = b%bearing%pads(pad)%position%angle - y(b%layout%tilt(pad))
+               a = b%bearing%pads(pad)%position%angle - pads(pad)%tilt
                frame = reshape([cos(a), -sin(a), sin(a), cos(a)], [2, 2])
                film = matmul(frame, force)
-               power(2) = power(2) + dot_product(film, y(3:4)) - force(1)*b%bearing%pads(pad)%position%centre_distance*y(b%layout%tilt_rate(pad))
-               power(3) = power(3) - b%bearing%pads(pad)%ball_radius*b%bearing%loads(pad)%friction%force*y(b%layout%tilt_rate(pad))
+               power(2) = power(2) + dot_product(film, y(3:4)) &
+                  & - force(1)*b%bearing%pads(pad)%position%centre_distance*pads(pad)%tilt_rate
+               power(3) = power(3) - films(pad)%friction_moment*pads(pad)%tilt_rate
                if (b%layout%radial) then
                   weight = p%mass(pad)*b%scene%rotor%gravity
-                  power(2) = power(2) - force(2)*y(b%layout%penetration_rate(pad))
-                  power(4) = power(4) + (p%mass(pad)*p%centre_radial(pad)*y(b%layout%tilt_rate(pad))**2 - weight*sin(a))*y(b%layout%penetration_rate(pad))
+                  power(2) = power(2) - force(2)*pads(pad)%penetration_rate
+                  power(4) = power(4) + (p%mass(pad)*p%centre_radial(pad)*pads(pad)%tilt_rate**2 - weight*sin(a)) &
+                     & *pads(pad)%penetration_rate
                end if
             end associate
          end do
@@ -99,20 +104,23 @@ contains
       type(bearing_model), intent(in) :: bearing
       real(wp), intent(in) :: y(:)
       real(wp) :: energy(4), a
+      type(pad_state), allocatable :: pads(:)
       integer :: pad
       energy = 0
+      pads = bearing%layout%pad_states(y)
       associate (b => bearing, p => bearing%scene%pads, r => bearing%scene%rotor)
          energy(1) = 0.5_wp*r%mass*dot_product(y(3:4), y(3:4))
          energy(3) = r%mass*r%gravity*y(1) - dot_product(r%static_load, y(1:2))
          do pad = 1, b%layout%pads
-            associate (layout => b%layout)
-               a = b%bearing%pads(pad)%position%angle - y(b%layout%tilt(pad))
-               energy(2) = energy(2) + 0.5_wp*p%inertia(pad)*y(b%layout%tilt_rate(pad))**2
+            associate (state => pads(pad))
+               a = b%bearing%pads(pad)%position%angle - state%tilt
+               energy(2) = energy(2) + 0.5_wp*p%inertia(pad)*state%tilt_rate**2
                energy(3) = energy(3) + p%mass(pad)*r%gravity &
                   & *(p%centre_tangential(pad)*cos(a) + p%centre_radial(pad)*sin(a))
                if (b%layout%radial) then
-                  energy(2) = energy(2) + p%mass(pad)*(0.5_wp*y(b%layout%penetration_rate(pad))**2 + p%centre_tangential(pad)*y(b%layout%tilt_rate(pad))*y(b%layout%penetration_rate(pad)))
-                  energy(4) = energy(4) + stored(b, y(b%layout%penetration(pad)))
+                  energy(2) = energy(2) + p%mass(pad)*(0.5_wp*state%penetration_rate**2 &
+                     & + p%centre_tangential(pad)*state%tilt_rate*state%penetration_rate)
+                  energy(4) = energy(4) + stored(b, state%penetration)
                end if
             end associate
          end do

@@ -119,7 +119,8 @@ contains
             moment = -films(pad)%film_force(1)*arm - friction + p%mass(pad)*500 &
                & *(-p%centre_tangential(pad)*sin(a) + p%centre_radial(pad)*cos(a))
             sizes = abs(films(pad)%film_force(1))*arm + abs(friction) + p%mass(pad)*500*0.03_wp
-            call expect_close(p%inertia(pad)*f(model%layout%tilt_rate(pad)), moment, rounding*sizes, 'moments about the pivot')
+            call expect_close(p%inertia(pad)*f(model%layout%tilt_rate(pad)), moment, rounding*sizes, &
+               & 'moments about the pivot')
          end associate
       end do
    end subroutine pad_tilting_only

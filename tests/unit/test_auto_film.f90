@@ -59,7 +59,7 @@ contains
       call by_modes%evaluate([motion], speed, .true., expected)
       call expect_same(found(1), expected(1), 'a whole film')
       call expect_close(norm2(found(1)%force - expected(1)%force), 0.0_wp, 0.0_wp, 'to the last bit')
-      call expect(auto%counters%modal == 1 .and. auto%counters%sor == 0, 'is counted as one')
+      call expect(auto%counters%modal == 1 .and. auto%counters%volumes == 0, 'is counted as one')
    end subroutine whole
 
    !> A little rupture adds to the modes what it adds to the finite volumes; the slopes are those of that sum.
@@ -85,7 +85,7 @@ contains
       call expect_close(norm2(found(1)%force - of_modes(1)%force - change), 0.0_wp, 1e-9_wp*norm2(of_modes(1)%force), &
          & 'force of slight rupture')
       call expect_close(found(1)%min_pressure, 0.0_wp, 0.0_wp, 'the minimum is the cavitation pressure')
-      call expect(auto%counters%modal == 0 .and. auto%counters%sor == 1, 'it is counted as ruptured')
+      call expect(auto%counters%modal == 0 .and. auto%counters%volumes == 1, 'it is counted as ruptured')
       do k = 1, 4
          step = 1e-5_wp*clearance*merge(1.0_wp, speed, k <= 2)
          shift = 0
@@ -151,8 +151,8 @@ contains
       auto = new_auto_film([paper_pad()], cells, modes, columns, rows)
       call auto%evaluate([film_motion([0.0_wp, 1.1_wp*clearance], [0.0_wp, 0.0_wp])], speed, .true., found)
       call expect(found(1)%status == film_closed, 'a closed film')
-      call expect_close(found(1)%min_film, -0.1_wp*clearance, 1e-18_wp, 'and by how much')
-      call expect(auto%counters%modal == 0 .and. auto%counters%sor == 0, 'none was solved')
+      call expect_close(found(1)%min_film_thickness, -0.1_wp*clearance, 1e-18_wp, 'and by how much')
+      call expect(auto%counters%modal == 0 .and. auto%counters%volumes == 0, 'none was solved')
    end subroutine closed
 
    !> Pads do not disturb each other, whatever film each has.

@@ -165,7 +165,8 @@ contains
       call expect(ok .and. all(f < huge(f)), 'every rate is set, '//motion)
       call expect_close(norm2(f(1:2) - y(3:4)), 0.0_wp, 0.0_wp, 'rates of the journal, '//motion)
       do pad = 1, 2
-         call expect_close(f(model%layout%tilt(pad)), y(model%layout%tilt_rate(pad)), 0.0_wp, 'rate of the tilt, '//motion)
+         call expect_close(f(model%layout%tilt(pad)), y(model%layout%tilt_rate(pad)), 0.0_wp, &
+            & 'rate of the tilt, '//motion)
          if (model%layout%radial) call expect_close(f(model%layout%penetration(pad)), &
             & y(model%layout%penetration_rate(pad)), 0.0_wp, 'rate of the penetration')
       end do

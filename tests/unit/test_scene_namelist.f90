@@ -152,7 +152,6 @@ contains
       call expect_list([s%operation%speed_rpm, s%operation%final_speed_rpm, s%operation%duration], &
          & [6500.0_wp, 6500.0_wp, 2.0_wp], 'steady running for 2 s')
       call expect(s%pads%motion == 'tilting_radial' .and. s%pivot%law == 'fang' .and. s%about%task == 'march', 'words')
-      call expect_list(s%load(), [-2000*9.81_wp, 0.0_wp], 'load')
    end subroutine paper_tables
 
    subroutine one_value_for_all_pads()
