@@ -20,7 +20,8 @@ contains
       if (radial) call file%put_list('equilibrium/pad_penetration', found%penetration, 'm', &
          & 'pivot penetration', 'pad')
       call file%put_list('equilibrium/contact_force', found%contact_force, 'N', 'pivot contact force', 'pad')
-      call file%put_list('equilibrium/min_film_thickness', found%min_film_thickness, 'm', 'minimum film thickness', 'pad')
+      call file%put_list('equilibrium/min_film_thickness', found%min_film_thickness, 'm', &
+         & 'minimum film thickness', 'pad')
       call file%put_list('equilibrium/max_pressure', found%max_pressure, 'Pa', 'maximum film pressure', 'pad')
       call file%put_real('equilibrium/residual', found%residual, '1', 'unbalanced force over load')
    end subroutine put_equilibrium
