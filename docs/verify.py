@@ -26,7 +26,7 @@ no code with this one; in brackets ROSS 3 (open-source rotordynamics, finite ele
 references know no cavitation, so the first three rows of each block have `film%cavitation = 'none'`; the last
 has the default, which differs where the film ruptures near the trailing edge, at low speed.
 
-| pads, rpm | film | y um | reference | z um | reference | tilts mrad | reference | least film um | reference | deviation of y, % of c_r |
+| pads, rpm | film | y um | reference | z um | reference | tilts mrad | reference | minimum film um | reference | deviation of y, % of c_r |
 |---|---|---|---|---|---|---|---|---|---|---|
 {equilibria}
 
@@ -48,7 +48,7 @@ clearance over pad radius) where a pad hardly moves; tight: {tight}.
 {settings}
 """  # noqa: E501
 
-# Converged equilibria: motion, rpm: y, z um, tilts mrad, least film um, y by ROSS um.
+# Converged equilibria: motion, rpm: y, z um, tilts mrad, minimum film um, y by ROSS um.
 REFERENCES = {
     ("tilting_radial", 6500): (-55.595, 0.0266, (-0.2029, 1.0269), 41.512, None),
     ("tilting_only", 6500): (-45.561, 0.0234, (-0.0920, 0.9159), 41.514, -45.61),

@@ -17,19 +17,19 @@ from tiltpad.files.read import IncompleteRunWarning, read
 from tiltpad.files.study import read_study
 
 FORMATS = ("png", "pdf", "svg")
-#: Plots of files that are no results of runs.
+#: The plot of a study.
 STUDY = "study"
 #: Options of one plot alone.
 OWN_OPTIONS = {"time": "pressure", "show": STUDY, "over": STUDY, "kind": STUDY, "where": STUDY}
-#: Plots that show no last revolutions.
+#: Plots without the option --last.
 WITHOUT_LAST = ("equilibrium", "runup", "orders", "waterfall", "pressure", STUDY)
 #: Exit status, as the program's own.
 INPUT_ERROR, FILE_ERROR = 1, 3
 
 PLOTS = {
     "orbit": "path of the journal in its clearance circle, and enlarged (last revolution)",
-    "equilibrium": "rest of the journal in its clearance circle",
-    "size": "peak-to-peak of the journal: of one run, over what differs between runs, over speed",
+    "equilibrium": "equilibrium of the journal in its clearance circle",
+    "size": "peak-to-peak of the journal: of one run, over the difference between runs, over speed",
     "poincare": "journal and a pad once a revolution (last 50 revolutions, pad 1)",
     "waveform": "journal, tilt and tilt rate over the last revolutions (5)",
     "spectrum": "amplitudes of the journal, one-sided and full, at constant speed (those in the file)",
@@ -73,11 +73,11 @@ def collect(arguments: Sequence[str] | None = None) -> int:
 
 
 def tell(result: object) -> None:
-    """Prints it; RunError where standard output cannot be written."""
+    """Prints it; raises RunError if standard output cannot be written."""
     try:
         print(result, flush=True)
     except OSError as error:
-        # what is left in the buffer would be tried again at the end
+        # Python would try again at its end to write the rest of the buffer
         sys.stdout = None
         raise RunError(f"standard output cannot be written: {error.strerror}") from error
 
@@ -107,7 +107,9 @@ def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
     except KeyboardInterrupt:
         return complain(command, "stopped", 130)
     except Exception as error:
-        return complain(command, f"please report this fault: {type(error).__name__}: {error}", FILE_ERROR)
+        return complain(
+            command, f"please report this error of the program: {type(error).__name__}: {error}", FILE_ERROR
+        )
     return 0
 
 
@@ -164,7 +166,7 @@ def write_report(path: str, output: Path) -> None:
 
 
 def needs_suffix(output: Path, allowed: Sequence[str]) -> str:
-    """The suffix of a file's name in small letters; ValueError where it is not allowed."""
+    """The suffix of a file's name in small letters; ValueError if it is not allowed."""
     suffix = output.suffix.lower().removeprefix(".")
     if suffix not in allowed:
         *others, last = (f".{each}" for each in allowed)
@@ -173,7 +175,7 @@ def needs_suffix(output: Path, allowed: Sequence[str]) -> str:
 
 
 def matplotlib_for_files() -> Any:
-    """matplotlib without a display; loaded after --help and wrong options, which need not wait for it."""
+    """matplotlib without a display; loaded only when a picture is drawn, as that takes a second."""
     import matplotlib as mpl
 
     mpl.use("agg")
@@ -230,9 +232,9 @@ def plot_parser() -> Parser:
     parser.add_argument("--time", type=float, metavar="T", help="of the pressure: the sample next to T, s")
     study = parser.add_argument_group("of a study")
     study.add_argument(
-        "--show", metavar="RESULT", help="what is drawn (orbit_size, max_pressure, steps, ...)"
+        "--show", metavar="RESULT", help="result to draw (orbit_size, max_pressure, steps, ...)"
     )
-    study.add_argument("--over", metavar="PARAMETER", help="along the axis (speed_rpm, ...)")
+    study.add_argument("--over", metavar="PARAMETER", help="parameter of the axis (speed_rpm, ...)")
     study.add_argument("--as", dest="kind", choices=("lines", "map", "bifurcation"))
     study.add_argument(
         "--where",

@@ -102,7 +102,7 @@ def test_a_map_over_two_parameters(study):
     edges = mesh.get_coordinates()[:, 0, 1]
     np.testing.assert_allclose(edges[1:] / edges[:-1], 10)
     assert (ax.get_xscale(), ax.get_yscale()) == ("linear", "log")
-    assert ax.figure.axes[1].get_ylabel() == "highest pressure (MPa)"
+    assert ax.figure.axes[1].get_ylabel() == "maximum pressure (MPa)"
     wide = diagrams.diagram(study("wide"))
     assert wide.collections
     assert (wide.get_xscale(), wide.get_yscale()) == ("linear", "linear")
@@ -123,7 +123,7 @@ def test_points_of_a_bifurcation(study):
 def test_results_of_a_pad(study):
     opened = study("both")
     ax = diagrams.diagram(opened, show="pad_max_pressure", over="speed_rpm", pad=2)
-    assert ax.get_ylabel() == "highest pressure, pad 2 (MPa)"
+    assert ax.get_ylabel() == "maximum pressure, pad 2 (MPa)"
     drawn = np.concatenate([line.get_ydata() for line in ax.get_lines()])
     assert sorted(drawn) == pytest.approx(sorted(1e-6 * opened.pad_max_pressure[:, 1]))
     ax = diagrams.diagram(opened, show="poincare_tilt", over="speed_rpm", kind="bifurcation", pad=1)

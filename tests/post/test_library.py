@@ -39,9 +39,9 @@ def test_rebuilt_forces_are_those_archived(run, scene):
     """A sample is the polynomial of the step through the values at its ends (docs/theory.md), not a film
     solved there, and the states it is rebuilt from are CVODE's interpolation: both are as good as the march,
     1e-5 of the states' scales at the default tolerance. Squeeze turns that into several times as much of the
-    force's range. The highest pressure is that at the solver's points: it has kinks as it passes from one to
-    the next, which no polynomial follows; they weigh 1e-3 of the range. The least film is archived from the
-    states.
+    force's range. The maximum pressure is that at the solver's points: it has kinks as it passes from one to
+    the next, which no polynomial follows; they weigh 1e-3 of the range. The minimum film thickness is archived
+    from the states.
     """
     case = run(scene)
     force = np.stack([case.film_force_tangential, case.film_force_radial], axis=2)

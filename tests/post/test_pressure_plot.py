@@ -15,7 +15,7 @@ def test_the_pressure_over_the_unrolled_pad(run):
     film = tiltpad.pressure(case, 0.01)
     np.testing.assert_allclose(ax.get_xlim(), np.degrees(film.phi[1, [0, -1]]))
     np.testing.assert_allclose(ax.get_ylim(), [-50, 50])
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("angle from pivot (deg)", "axial place (mm)")
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("angle from pivot (deg)", "axial position (mm)")
     levels = ax.collections[0].levels
     assert levels[0] == 0
     assert levels[-2] < film.pressure[1].max() / 1e6 <= levels[-1]

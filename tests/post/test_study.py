@@ -213,7 +213,7 @@ def test_the_output(copy, tmp_path, monkeypatch, capsys):
     )
     capsys.readouterr()
     for arguments, status, message in (
-        (["grid", "-o", "grid/0001.h5"], 1, "grid/0001.h5: it is there and no study"),
+        (["grid", "-o", "grid/0001.h5"], 1, "grid/0001.h5: it exists and is not a study"),
         (["grid", "-o", "a.nc"], 1, "a.nc: the name must end in .h5"),
         (["grid", "-o", "no/a.h5"], 3, "no: no such folder"),
         (["grid/0001.h5"], 1, "give its output"),

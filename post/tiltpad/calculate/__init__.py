@@ -1,1 +1,1 @@
-"""What is calculated from a run: parts of its motion, spectra, friction, film pressure, key figures."""
+"""Calculating with runs: parts of the motion, spectra, friction, film pressure, key figures."""

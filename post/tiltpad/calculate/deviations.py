@@ -1,6 +1,6 @@
-"""How far a run is from a better one.
+"""The deviation of a run from a more accurate one.
 
-This is the error that docs/benchmarks.md and docs/verification.md quote.
+docs/benchmarks.md and docs/verification.md quote it as the error.
 """
 
 import numpy as np
@@ -11,12 +11,12 @@ from tiltpad.files.read import Run
 
 #: Journal orbit, pad tilts and friction moments.
 SIGNALS = ("journal_y", "journal_z", "pad_tilt", "friction_moment")
-#: Share of its natural scale over which a signal is measured where it hardly moves.
+#: The deviation of a signal that hardly moves is taken over this share of its natural scale.
 RESTING = 0.05
 
 
 def natural_scale(run: Run, name: str) -> float:
-    """Of journal positions the assembled clearance, of tilts that over the pad's radius; 0: there is none."""
+    """Assembled clearance for journal positions, clearance over pad radius for tilts; 0 for others."""
     bearing = run.input["bearing"]
     radius = bearing["journal_radius"] + bearing["machined_clearance"]
     return {"journal": run.clearance, "pad": run.clearance / radius}.get(name.split("_")[0], 0.0)
@@ -33,8 +33,8 @@ def deviation(values: np.ndarray, true: np.ndarray, scale: float = 0.0) -> float
 
 def deviations(run: Run, reference: Run, part: slice | None = None) -> dict[str, float]:
     """The deviation of each of SIGNALS from a reference run of the same scene, over the samples `part` of the
-    reference (default: its last revolution). One that cannot be measured (friction where there is none) is
-    left out.
+    reference (default: its last revolution). A signal without a scale
+    (the friction moment of a run without friction) is left out.
     """
     part = last_revolutions(reference) if part is None else part
     found = {}

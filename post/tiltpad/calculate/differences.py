@@ -1,17 +1,17 @@
-"""What tells runs apart: the values in which their inputs differ, and these in words."""
+"""Differences between the inputs of runs, as values and in words."""
 
 from typing import Any
 
 from tiltpad.files import units
 
-#: Variables that change nothing in what a run calculates: inputs that differ in them alone are the same.
+#: Variables without influence on the results: inputs that differ in them alone count as the same.
 IGNORED = ("case%title", "output%checkpoint_seconds")
-#: Values that are names, as they are written.
+#: Names of friction models as they are written in pictures.
 WORDS = {"none": "no friction", "bengisu_akay": "Bengisu-Akay", "lugre": "LuGre"}
 
 
 def differences(inputs: list[dict[str, dict[str, Any]]]) -> list[str]:
-    """What tells runs apart, one short text each: "LuGre, tilting only", from the values that differ."""
+    """The values in which inputs differ, a short text for each run: "LuGre, tilting only"."""
     values = [flattened(each) for each in inputs]
     names = list(dict.fromkeys(name for each in values for name in each))
     varying = [name for name in names if len({each.get(name) for each in values}) > 1]
@@ -21,7 +21,7 @@ def differences(inputs: list[dict[str, dict[str, Any]]]) -> list[str]:
 
 
 def varied(inputs: list[dict[str, dict[str, Any]]]) -> tuple[str, list[float]] | None:
-    """The one number in which inputs differ, each time another: its label with the unit, and its values.
+    """The one number in which all inputs differ: its label with the unit, and its values.
 
     Lengths below a millimetre are in µm, all others as in the namelist.
     """
@@ -50,15 +50,15 @@ def shared(value: Any) -> Any:
 
 
 def flattened(groups: dict[str, dict[str, Any]]) -> dict[str, Any]:
-    """Values by "group%name" as a reader would say them: one speed or a range, pads alike once."""
+    """Values by "group%name" for a reader: one speed or a range, a value that all pads share once."""
     values = by_variable(groups)
     first, last = values.pop("operation%speed_rpm"), values.pop("operation%final_speed_rpm")
     angles = values["pads%pivot_angle_deg"]
-    said = {"speed": f"{first:g} rpm" if first == last else f"{first:g} to {last:g} rpm"}
-    said["pads"] = f"{len(angles) if isinstance(angles, tuple) else 1} pads"
+    told = {"speed": f"{first:g} rpm" if first == last else f"{first:g} to {last:g} rpm"}
+    told["pads"] = f"{len(angles) if isinstance(angles, tuple) else 1} pads"
     for name, value in values.items():
-        said[name] = shared(value) if name.startswith("pads%") else value
-    return said
+        told[name] = shared(value) if name.startswith("pads%") else value
+    return told
 
 
 def described(name: str, value: Any) -> str:

@@ -1,11 +1,11 @@
-"""What the solver's own library calculates: film pressure, contact, friction, spectra; all in SI units.
+"""Calculations by the solver's own library: film pressure, contact, friction, spectra; all in SI units.
 
-It is the Fortran library of the program itself, compiled into this package; without that part the functions
-raise MissingLibraryError, and everything else of the package works.
+The Fortran library of the program is compiled into this package. Without this part the functions raise
+MissingLibraryError, and the rest of the package works.
 
-`case` is a run, whose resolved input then counts, or the text of a namelist ("&pivot law='hertz' /"; what it
-leaves out is the paper's), read and checked as the program reads it. What the library refuses raises
-LibraryError with the program's message.
+`case` is a run, of which the resolved input counts, or the text of a namelist ("&pivot law='hertz' /"). The
+text is read and checked as by the program; a variable that it leaves out has its default. Where the library
+refuses the input, LibraryError has the message of the program.
 """
 
 from collections.abc import Callable
@@ -46,9 +46,9 @@ class Pressure(NamedTuple):
         time                  s; None for the equilibrium
         pressure              (pad, phi, z), Pa
         phi                   angle from the pivot, (pad, phi), rad, from the trailing to the leading edge
-        z                     axial place from the middle plane, (z,), m
+        z                     axial position from the middle plane, (z,), m
         force                 on the journal along y' and z' of each pad, (pad, 2), N
-        max_pressure          highest pressure at the solver's own points, (pad,), Pa
+        max_pressure          maximum pressure at the solver's own points, (pad,), Pa
         min_film_thickness    (pad,), m
     """
 
@@ -66,7 +66,7 @@ class Contact(NamedTuple):
 
     Its fields:
 
-        force, slope              normal force, N, and its slope over the penetration, N/m
+        force, slope              normal force, N, and its derivative by the penetration, N/m
         radius                    projected radius of the contact, m
         exponent, peak_pressure   of the contact pressure, eq (11), 1 and Pa
     """
@@ -83,13 +83,13 @@ def pressure(
 ) -> Pressure:
     """Film pressure and force of every pad at the sample next to `time`, s; None: at the equilibrium.
 
-    The points are so many, evenly spread along the arc and across the width, edges included; or they are
-    given: shares of the arc, 0 at the trailing edge to 1 at the leading edge, and of half the width, -1 to 1.
+    `along` and `across` are numbers of points, evenly spread from edge to edge, or the points themselves: as
+    shares of the arc, 0 at the trailing edge to 1 at the leading edge, and of half the width, -1 to 1.
     Raises NotInRunError for a time that the run does not reach, LibraryError where a film is closed.
     """
     at, journal, pads = state(run, time)
     outside = "shares of the arc must be between 0 and 1", "shares of half the width must be between -1 and 1"
-    phi, z, field, force, highest, least = called(
+    phi, z, field, force, max_pressure, min_film_thickness = called(
         "film_pressure",
         run,
         0.0 if at is None else at,
@@ -98,7 +98,7 @@ def pressure(
         shares(along, 0, outside[0]),
         shares(across, -1, outside[1]),
     )
-    return Pressure(at, field.T, phi.T, z, force.T, highest, least)
+    return Pressure(at, field.T, phi.T, z, force.T, max_pressure, min_film_thickness)
 
 
 def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple[np.ndarray, np.ndarray]]:
@@ -130,17 +130,17 @@ def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple
 
 
 def shares(points: int | np.ndarray, first: float, outside: str) -> np.ndarray:
-    """So many evenly spaced from `first` to 1, or those that are given."""
+    """Shares as they are given, or a number of them, evenly spaced from `first` to 1."""
     if isinstance(points, int | np.integer):
         return np.linspace(first, 1, points)
-    places = np.atleast_1d(np.asarray(points, dtype=float))
-    if not np.all((places >= first) & (places <= 1)):
+    given = np.atleast_1d(np.asarray(points, dtype=float))
+    if not np.all((given >= first) & (given <= 1)):
         raise ValueError(outside)
-    return places
+    return given
 
 
 def contact(penetration: float | np.ndarray, case: Run | str = PAPER) -> Contact:
-    """Contact of a pivot at penetrations, m; all zero where these are not positive."""
+    """Contact of a pivot at penetrations, m; zero where these are not positive."""
     return Contact(*elementwise("contact", case, penetration))
 
 
@@ -191,7 +191,7 @@ def full_amplitude(y: float | np.ndarray, z: float | np.ndarray) -> np.ndarray:
 
 
 def elementwise(name: str, case: Run | str, *arguments: float | np.ndarray) -> list[np.ndarray]:
-    """The results of a routine that takes equally many of each argument, in their common shape."""
+    """The results of a routine that takes arrays of one length, in the common shape of the arguments."""
     arrays = np.broadcast_arrays(*(np.asarray(each, dtype=float) for each in arguments))
     if not arrays[0].size:
         raise ValueError(f"{name}: empty arrays")
@@ -200,7 +200,7 @@ def elementwise(name: str, case: Run | str, *arguments: float | np.ndarray) -> l
 
 
 def called(name: str, case: Run | str, *arguments: Any) -> list[Any]:
-    """The results of a routine of the library for a case; its error, if it has one, as an exception."""
+    """The results of a routine of the library for a case; an error of the library is raised."""
     text, source = (case.attributes["input"], case.path) if isinstance(case, Run) else (case, "case")
     *results, status, message = routine(name)(text.encode(), source.encode(), *arguments)
     if status:

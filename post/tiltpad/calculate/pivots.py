@@ -1,7 +1,7 @@
-"""Friction of the pivots: sliding, sticking, work lost.
+"""Friction of the pivots: sliding, sticking, work.
 
 Everything is in SI units; `last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ...
-Where the scene has no friction all but `sliding_velocity` raise NotInRunError.
+Without friction in the scene all but `sliding_velocity` raise NotInRunError.
 """
 
 import numpy as np
@@ -10,7 +10,7 @@ from tiltpad.calculate.signals import last_revolutions, lasted, needs_revolution
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 
-#: A pivot sticks below this share of the velocity over which its friction falls from static to dynamic.
+#: A pivot sticks below this share of the velocity over which friction falls from static to dynamic.
 STICKING = 0.05
 
 
@@ -37,7 +37,7 @@ def hysteresis(run: Run, pad: int = 1, last: float = 1) -> tuple[np.ndarray, np.
 def loop_area(x: np.ndarray, y: np.ndarray) -> float:
     """Area of the closed loop through the points, positive when it runs clockwise.
 
-    Of friction moment over tilt: the work lost in the loop, J.
+    For friction moment over tilt it is the work that the loop dissipates, J.
     """
     return path_integral(np.append(x, x[0]), np.append(y, y[0]))
 
@@ -48,9 +48,9 @@ def path_integral(x: np.ndarray, y: np.ndarray) -> float:
 
 
 def friction_work(run: Run, pad: int = 1, last: float = 1) -> float:
-    """Work that friction in a pad's pivot takes out in a shaft revolution, J; the mean over the last ones.
+    """Work that friction in the pivot of a pad dissipates in a shaft revolution, J; mean over the last ones.
 
-    The integral of the friction moment over the tilt. At least one revolution is needed.
+    It is the integral of the friction moment over the tilt. At least one revolution is needed.
     """
     tilt, moment = hysteresis(run, pad, last)
     needs_revolutions(run, "friction work per revolution")
@@ -58,7 +58,7 @@ def friction_work(run: Run, pad: int = 1, last: float = 1) -> float:
 
 
 def friction_power(run: Run, pad: int = 1, last: float = 1) -> float:
-    """Mean power that friction in a pad's pivot takes out over the last revolutions, W."""
+    """Mean power that friction in the pivot of a pad dissipates over the last revolutions, W."""
     return path_integral(*hysteresis(run, pad, last)) / lasted(run, last_revolutions(run, last))
 
 
@@ -70,8 +70,8 @@ def sliding_velocity(run: Run, pad: int = 1, last: float = 1) -> np.ndarray:
 def friction_coefficient(run: Run, pad: int = 1, last: float = 1) -> tuple[np.ndarray, np.ndarray]:
     """Sliding velocity, m/s, and friction coefficient of a pivot, each (time,).
 
-    The coefficient is the friction moment over contact force and R1, of the sign of the moment; nan where
-    the pivot carries nothing.
+    The coefficient is the friction moment over contact force and R1, with the sign of the moment; nan where
+    the pivot carries no load.
     """
     moment, part = hysteresis(run, pad, last)[1], last_revolutions(run, last)
     limit = ball_radius(run) * series(run, "contact_force", part, pad)
@@ -80,11 +80,11 @@ def friction_coefficient(run: Run, pad: int = 1, last: float = 1) -> tuple[np.nd
 
 
 def stick_velocity(run: Run) -> float:
-    """Sliding velocity below which a pivot is said to stick, m/s.
+    """Sliding velocity below which a pivot counts as sticking, m/s.
 
-    5 % of the law's Stribeck velocity, over which its friction falls from static to dynamic: v_s of LuGre,
-    1/chi of Bengisu-Akay (v_c where chi is 0). The paper's values give 5e-5 m/s for both. It is neither v_c,
-    which says how a law is smoothed, nor a share of the motion, which a pad at rest has too.
+    It is 5 % of the velocity over which friction falls from static to dynamic: v_s of LuGre, 1/chi of
+    Bengisu-Akay (v_c where chi is 0). The values of the paper give 5e-5 m/s for both. It is not v_c, which
+    only smooths the law, and not a share of the motion, which a pad at rest would have too.
     """
     law = run.input["friction"]
     if friction_model(run) == "lugre":
@@ -95,7 +95,7 @@ def stick_velocity(run: Run) -> float:
 def sticking(run: Run, pad: int = 1, last: float = 1, below: float | None = None) -> np.ndarray:
     """True in the samples where a pivot sticks, (time,): it slides slower than `below`, m/s.
 
-    Without `below`, slower than stick_velocity(run).
+    Without `below` the limit is stick_velocity(run).
     """
     limit = stick_velocity(run) if below is None else below
     return np.abs(sliding_velocity(run, pad, last)) < limit
@@ -104,8 +104,8 @@ def sticking(run: Run, pad: int = 1, last: float = 1, below: float | None = None
 def stick_intervals(run: Run, pad: int = 1, last: float = 1, below: float | None = None) -> np.ndarray:
     """Times between which a pivot sticks, (k, 2), s, cut off at the ends of the last revolutions.
 
-    Between samples the velocity is taken as a straight line, so that the times do not hang on the sampling:
-    a pad that merely turns round has a short interval too. `below` as in sticking.
+    Between samples the velocity is a straight line, so that the times do not depend on the sampling: a pad
+    that only changes its direction has a short interval too. `below` as in sticking.
     """
     limit = stick_velocity(run) if below is None else below
     time = run.values("time", last_revolutions(run, last))
@@ -116,7 +116,7 @@ def slow_intervals(time: np.ndarray, velocity: np.ndarray, limit: float) -> np.n
     """Times between which a velocity (time,), straight between samples, stays within +-limit: (k, 2)."""
     start, stop = velocity[:-1], velocity[1:]
     with np.errstate(divide="ignore", invalid="ignore"):
-        # where the straight line from 0 to 1 meets the two limits; resting ones are slow throughout or never
+        # the straight line from 0 to 1 meets the two limits here; a constant velocity is slow always or never
         meets = (np.array([[-limit], [limit]]) - start) / (stop - start)
     low, high = np.clip(np.sort(meets, axis=0), 0, 1)
     resting = start == stop
@@ -125,7 +125,7 @@ def slow_intervals(time: np.ndarray, velocity: np.ndarray, limit: float) -> np.n
     slow = high > low
     step = np.diff(time)
     begin, end = time[:-1] + low * step, time[:-1] + high * step
-    # an interval goes on where a line ends slow and the next one begins so
+    # an interval continues where a line ends slow and the next one begins slow
     goes_on = slow[:-1] & slow[1:] & (high[:-1] == 1) & (low[1:] == 0)
     first = slow & ~np.append(False, goes_on)
     final = slow & ~np.append(goes_on, False)

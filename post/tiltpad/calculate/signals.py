@@ -1,4 +1,4 @@
-"""Parts of a run, and what is calculated from its motion.
+"""Parts of a run, and quantities of its motion.
 
 Everything is in SI units; `last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ...
 """
@@ -10,7 +10,7 @@ import numpy as np
 from tiltpad.files.archive import NotInRunError, damaged
 from tiltpad.files.read import Run
 
-#: Samples that are read at once where a whole run is gone through.
+#: Samples that are read at once where a whole run is read.
 BLOCK = 1 << 16
 #: States of the motion, as far as the scene has them.
 STATES = (
@@ -22,8 +22,8 @@ STATES = (
 def last_revolutions(run: Run, count: float = 1) -> slice:
     """Samples of the last `count` shaft revolutions, both ends included; all where there are fewer.
 
-    At constant speed and n samples a revolution these are count * n + 1 samples. They are searched for in the
-    file: the shaft angle is not loaded.
+    At constant speed and n samples a revolution these are count * n + 1 samples. They are searched for
+    in the file; the shaft angle is not loaded.
     """
     if run.samples < 2:
         reason = "it has one sample" if run.samples else run.why_not("time")
@@ -48,7 +48,7 @@ def ends(run: Run, name: str, part: slice = slice(None)) -> np.ndarray:
 
 
 def lasted(run: Run, part: slice = slice(None)) -> float:
-    """Time from the first to the last of the samples `part`, s; more than 0."""
+    """Time from the first to the last of the samples `part`, s; it is positive."""
     start, end = ends(run, "time", part)
     if not end > start:
         raise damaged(run.path, "time", "it does not rise")
@@ -109,7 +109,7 @@ def waveform(run: Run, name: str, last: float = 5) -> tuple[np.ndarray, np.ndarr
 def at_angle(angle: np.ndarray, values: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """Values, (time,) or (time, pad), where the rising `angle` (time,) has the `wanted` values (n,).
 
-    The cubic through the four samples around.
+    Interpolates by the cubic through the four nearest samples.
     """
     count = min(4, len(angle))
     first = np.clip(np.searchsorted(angle, wanted) - count // 2, 0, len(angle) - count)
@@ -137,7 +137,7 @@ def poincare(
     part = last_revolutions(run, last)
     angle = run.values("shaft_angle", part)
     turns = (angle[[0, -1]] - phase) / (2 * np.pi)
-    # one that an end meets but for rounding is there; where both ends do, the last ones are those asked for
+    # a point at an end counts in spite of rounding; where both ends have one, the last points are taken
     final = np.floor(turns[1] + 1e-9)
     first = max(np.ceil(turns[0] - 1e-9), final + 1 - max(1, int(min(last, len(angle)))))
     whole = np.arange(first, final + 1)
@@ -153,7 +153,7 @@ def edges(run: Run, angles: np.ndarray) -> np.ndarray:
 
 
 def envelope(run: Run, name: str, spans: int = 800) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Time (k,), s, and least and greatest value of a dataset, (k,) or (k, pad), in each of k spans.
+    """Time (k,), s, and minimum and maximum of a dataset, (k,) or (k, pad), in each of k spans.
 
     The spans turn the shaft by equal angles of at least one revolution, so that the band is that of the
     vibration; there are at most `spans` of them. The run is read a span at a time.

@@ -23,7 +23,7 @@ from tiltpad.files.read import Run
 def spectrum(run: Run, name: str = "journal_y") -> tuple[np.ndarray, np.ndarray]:
     """Frequency (k,), Hz, and one-sided amplitude of journal_y, journal_z (k,), m, or pad_tilt (pad, k), rad.
 
-    The spectrum that is in the file. At frequency 0 stands the magnitude of the mean.
+    The spectrum is that in the file. The value at frequency 0 is the magnitude of the mean.
     """
     return run["spectrum/frequency"], run["spectrum/" + name]
 
@@ -31,7 +31,7 @@ def spectrum(run: Run, name: str = "journal_y") -> tuple[np.ndarray, np.ndarray]
 def full_spectrum(run: Run) -> tuple[np.ndarray, np.ndarray]:
     """Frequency (k,), Hz, and amplitude (k,), m, of y + i z: forward whirl at positive frequencies.
 
-    The spectrum that is in the file.
+    The spectrum is that in the file.
     """
     return run["spectrum/full_frequency"], run["spectrum/journal_full"]
 
@@ -41,8 +41,8 @@ def one_sided(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Frequency (k,), Hz, and one-sided amplitude of any dataset over the last revolutions.
 
-    At constant speed. Amplitudes, in the dataset's unit, are (k,), or (pad, k) of a dataset of all pads
-    without `pad`. At frequency 0 stands the magnitude of the mean.
+    The speed must be constant. Amplitudes, in the unit of the dataset, are (k,), or (pad, k) for a dataset of
+    all pads without `pad`. The value at frequency 0 is the magnitude of the mean.
     """
     part, interval = sampled_evenly(run, last)
     values = series(run, name, part, pad).T
@@ -57,7 +57,7 @@ def one_sided(
 def full(run: Run, last: float = 10) -> tuple[np.ndarray, np.ndarray]:
     """Frequency (k,), Hz, rising, and amplitude (k,), m, of y + i z over the last revolutions.
 
-    At constant speed. Forward whirl is at positive frequencies, backward whirl at negative ones.
+    The speed must be constant. Forward whirl is at positive frequencies, backward whirl at negative ones.
     """
     part, interval = sampled_evenly(run, last)
     values = run.values("journal_y", part) + 1j * run.values("journal_z", part)
@@ -66,7 +66,7 @@ def full(run: Run, last: float = 10) -> tuple[np.ndarray, np.ndarray]:
 
 
 def sampled_evenly(run: Run, last: float) -> tuple[slice, float]:
-    """Samples of the last revolutions without the one that begins the next, and their interval, s."""
+    """Samples of the last revolutions, without the sample that begins the next one, and their interval, s."""
     if not steady(run):
         raise NotInRunError(f"{run.path}: no spectrum in this run: the speed changes; see waterfall")
     needs_revolutions(run, "spectrum")
@@ -86,8 +86,8 @@ def waterfall(
     """Speed (n,), rad/s, order (k,), and amplitudes (n, k) of a run whose speed changes.
 
     Short spectra over the shaft angle, of `revolutions` revolutions each, up to `orders` times the speed and
-    at most `spans` of them along the run; amplitudes in the dataset's unit. Order 0 stands for the mean. A
-    dataset of all pads needs `pad`. The windows are Hann's, read one at a time.
+    at most `spans` of them along the run; amplitudes in the unit of the dataset. Order 0 is the
+    mean. A dataset of all pads needs `pad`. The windows are Hann windows, read one at a time.
     """
     needs_pad(run, name, pad)
     speed, found = [], []
@@ -111,8 +111,8 @@ def order_track(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Speed (n,), rad/s, amplitude (n,) and phase (n,), rad, of one order of a run whose speed changes.
 
-    Amplitudes in the dataset's unit. The signal is amplitude * cos(order * shaft angle + phase), the phase
-    between -pi and pi. Windows as in waterfall.
+    Amplitudes have the unit of the dataset. The signal is amplitude * cos(order * shaft angle + phase), the
+    phase between -pi and pi. The windows are those of waterfall.
     """
     needs_pad(run, name, pad)
     found = [
@@ -150,6 +150,6 @@ def windows(
 
 
 def needs_pad(run: Run, name: str, pad: int | None) -> None:
-    """Raises ValueError where a dataset of all pads is asked for without a pad, or the other way round."""
+    """Raises ValueError for a dataset of all pads without a pad, and for another dataset with one."""
     if (run.dimensions(name) == 2) != (pad is not None):
         raise ValueError(f"{name}: {'pad must be given' if pad is None else 'has no pads'}")

@@ -12,12 +12,12 @@ from tiltpad.calculate import pivots, signals, spectra
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 
-#: Revolutions at the end that friction and sticking are averaged over, and spectra taken of.
+#: Revolutions at the end over which friction and sticking are averaged and spectra are taken.
 LAST = 20
 
 
 class Figure(NamedTuple):
-    """A number, or one a pad: what it is, its quantity in tiltpad.units.SHOWN, its value or values."""
+    """A number, or one for each pad: meaning, quantity in tiltpad.units.SHOWN, value or values."""
 
     text: str
     quantity: str
@@ -34,17 +34,17 @@ class Peak(NamedTuple):
 
 
 def journal(run: Run) -> list[Figure]:
-    """Key figures of the run as a whole, as far as it has them."""
+    """Key figures of the whole run; those that it does not have are left out."""
     return list(those_there(run, JOURNAL))
 
 
 def pads(run: Run) -> list[Figure]:
-    """Key figures of the pads, (pad,) each, as far as the run has them."""
+    """Key figures of the pads, (pad,) each; those that the run does not have are left out."""
     return list(those_there(run, PADS))
 
 
 def peaks(run: Run, count: int = 8) -> list[Peak]:
-    """The highest peaks of the journal over the last revolutions, at constant speed, down to a thousandth."""
+    """The highest peaks of the journal over the last revolutions, at constant speed, above 0.1 % of the first."""
     frequency, y = spectra.one_sided(run, "journal_y", LAST)
     z = spectra.one_sided(run, "journal_z", LAST)[1]
     size = np.hypot(y, z)
@@ -57,7 +57,7 @@ def peaks(run: Run, count: int = 8) -> list[Peak]:
 
 
 def extremes(run: Run, name: str) -> tuple[np.ndarray, np.ndarray]:
-    """Least and greatest value of a dataset over the whole run, () or (pad,); it is read in blocks."""
+    """Minimum and maximum of a dataset over the whole run, () or (pad,); it is read in blocks."""
     signals.last_revolutions(run)
     starts = range(0, run.samples, signals.BLOCK)
     found = [run.values(name, slice(start, start + signals.BLOCK)) for start in starts]
@@ -68,7 +68,7 @@ def extremes(run: Run, name: str) -> tuple[np.ndarray, np.ndarray]:
 def those_there(
     run: Run, wanted: list[tuple[str, str, Callable[[Run], float | np.ndarray]]]
 ) -> Iterator[Figure]:
-    """The figures that can be had of this run."""
+    """The figures that this run has."""
     for text, quantity, calculate in wanted:
         try:
             yield Figure(text, quantity, calculate(run))
@@ -77,8 +77,13 @@ def those_there(
 
 
 def each_pad(calculate: Callable[..., float]) -> Callable[[Run], np.ndarray]:
-    """A function of a run and a pad, over the last revolutions, as one of all pads."""
+    """Makes a function of a run, for all pads, of one of a run, a pad and revolutions."""
     return lambda run: np.array([calculate(run, pad, LAST) for pad in range(1, run.pads + 1)])
+
+
+def min_film(run: Run) -> np.ndarray:
+    """Minimum film thickness over the last revolution, (time, pad), m."""
+    return last_one(run, "min_film_thickness")
 
 
 def last_one(run: Run, name: str) -> np.ndarray:
@@ -94,10 +99,14 @@ JOURNAL = [
     ("orbit, peak to peak of z", "size", lambda run: signals.orbit_size(run)[1]),
     ("orbit, mean y", "size", lambda run: last_one(run, "journal_y").mean()),
     ("orbit, mean z", "size", lambda run: last_one(run, "journal_z").mean()),
-    ("least film thickness, last revolution", "size", lambda run: last_one(run, "min_film_thickness").min()),
-    ("least film thickness, whole run", "size", lambda run: extremes(run, "min_film_thickness")[0].min()),
-    ("highest pressure, last revolution", "max_pressure", lambda run: last_one(run, "max_pressure").max()),
-    ("highest pressure, whole run", "max_pressure", lambda run: extremes(run, "max_pressure")[1].max()),
+    (
+        "minimum film thickness, last revolution",
+        "size",
+        lambda run: last_one(run, "min_film_thickness").min(),
+    ),
+    ("minimum film thickness, whole run", "size", lambda run: extremes(run, "min_film_thickness")[0].min()),
+    ("maximum pressure, last revolution", "max_pressure", lambda run: last_one(run, "max_pressure").max()),
+    ("maximum pressure, whole run", "max_pressure", lambda run: extremes(run, "max_pressure")[1].max()),
     ("equilibrium, speed", "speed", lambda run: run.input["operation"]["speed_rpm"] * np.pi / 30),
     ("equilibrium y", "size", lambda run: run["equilibrium/journal_y"]),
     ("equilibrium z", "size", lambda run: run["equilibrium/journal_z"]),
@@ -106,22 +115,22 @@ JOURNAL = [
 PADS = [
     ("tilt, peak to peak", "pad_tilt", lambda run: np.ptp(last_one(run, "pad_tilt"), axis=0)),
     ("mean tilt", "pad_tilt", lambda run: last_one(run, "pad_tilt").mean(axis=0)),
-    ("least film thickness", "size", lambda run: last_one(run, "min_film_thickness").min(axis=0)),
-    ("highest pressure", "max_pressure", lambda run: last_one(run, "max_pressure").max(axis=0)),
+    ("minimum film thickness", "size", lambda run: min_film(run).min(axis=0)),
+    ("maximum pressure", "max_pressure", lambda run: last_one(run, "max_pressure").max(axis=0)),
     ("mean contact force", "contact_force", lambda run: last_one(run, "contact_force").mean(axis=0)),
-    ("greatest friction moment", "friction_moment", lambda run: greatest_moment(run)),
+    ("maximum friction moment", "friction_moment", lambda run: max_moment(run)),
     ("friction work per revolution", "work", each_pad(pivots.friction_work)),
     ("mean friction power", "power", each_pad(pivots.friction_power)),
-    ("sticks, share of the time", "share", each_pad(pivots.stick_fraction)),
+    ("share of the time in which it sticks", "share", each_pad(pivots.stick_fraction)),
     ("equilibrium tilt", "pad_tilt", lambda run: run["equilibrium/pad_tilt"]),
     ("equilibrium penetration", "pad_penetration", lambda run: run["equilibrium/pad_penetration"]),
     ("equilibrium contact force", "contact_force", lambda run: run["equilibrium/contact_force"]),
-    ("equilibrium film thickness", "size", lambda run: run["equilibrium/min_film_thickness"]),
-    ("equilibrium highest pressure", "max_pressure", lambda run: run["equilibrium/max_pressure"]),
+    ("equilibrium minimum film thickness", "size", lambda run: run["equilibrium/min_film_thickness"]),
+    ("equilibrium maximum pressure", "max_pressure", lambda run: run["equilibrium/max_pressure"]),
 ]
 
 
-def greatest_moment(run: Run) -> np.ndarray:
-    """Greatest friction moment over the last revolution, (pad,), N m."""
+def max_moment(run: Run) -> np.ndarray:
+    """Maximum friction moment over the last revolution, (pad,), N m."""
     pivots.friction_model(run)
     return np.abs(last_one(run, "friction_moment")).max(axis=0)

@@ -1,1 +1,1 @@
-"""How the results of many runs become a study, one file."""
+"""Collecting: the results of many runs become a study, one file."""

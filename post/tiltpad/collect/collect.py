@@ -1,7 +1,8 @@
 """Studies: the results of many runs in one file.
 
-The members of a sweep, or any runs; of each its parameters, its last revolution in numbers, its Poincare
-points and its cost. A study holds links to the members' files, not their series.
+The members of a study are those of a sweep, or any runs. The study has the parameters, results of the last
+revolution, Poincare points and the cost of each member, and links to the files of the members; it does not
+have their series over time.
 """
 
 import os
@@ -22,7 +23,7 @@ from tiltpad.files.read import IncompleteRunWarning
 PathLike = str | os.PathLike
 
 
-#: Files for which a further process is worth its start, and files handed to one at a time.
+#: Number of files from which on a further process saves time, and of files that a process takes at a time.
 WORTH_A_PROCESS, CHUNK = 100, 20
 
 
@@ -31,7 +32,7 @@ class MemberWarning(UserWarning):
 
 
 class Collected(NamedTuple):
-    """How many members a study has, what became of them, which numbers are missing, and its file."""
+    """Members of a study by how they ended, the numbers that are missing, and the file."""
 
     members: int
     done: int
@@ -53,13 +54,13 @@ def collect(
 ) -> Collected:
     """Writes the study of a folder of results, or of result files, into one HDF5 file.
 
-    `output` is by default the folder's name with .h5, in the working directory. A file that cannot be read is
-    a member without values, and a MemberWarning. Raises ValueError for members of different sweeps and for an
-    output that would replace anything but a study, RunError where there is nothing to read.
+    `output` is by default the folder's name with .h5, in the working directory. A file that cannot be read
+    becomes a member without values, with a MemberWarning. Raises ValueError for members of different sweeps
+    and for an output that would replace anything but a study, RunError where no file can be read.
     """
     given = [Path(each) for each in ([paths] if isinstance(paths, str | os.PathLike) else paths)]
     target = Path(output) if output is not None else default_output(given)
-    # each once, however often it is named
+    # every file once, even if it is named twice
     files = list({file.resolve(): file for path in given for file in results(path, target)}.values())
     if not files:
         raise RunError(f"{given[0] if given else 'nothing'}: no result files (*.h5) in it")
@@ -85,7 +86,7 @@ def collect(
 
 
 def gathered(files: Sequence[Path]) -> list[Member]:
-    """What is kept of each file, by as many processes as there are processors."""
+    """The members of the files, read by as many processes as there are processors."""
     jobs = min(len(os.sched_getaffinity(0)), len(files) // WORTH_A_PROCESS)
     if jobs < 2:
         return [silent_member(file) for file in files]
@@ -97,7 +98,7 @@ def gathered(files: Sequence[Path]) -> list[Member]:
 
 
 def silent_member(path: Path) -> Member:
-    """What is kept of a file; that its run is incomplete is in its status."""
+    """The member of a file, without the warning for an incomplete run, which its status shows."""
     with warnings.catch_warnings(action="ignore", category=IncompleteRunWarning):
         return member(path)
 
@@ -109,7 +110,7 @@ def default_output(given: Sequence[Path]) -> Path:
             raise RunError(f"{path}: no such file or folder")
     folder = next((path for path in given if path.is_dir()), None)
     if folder is None:
-        raise ValueError("of single files the study needs a name: give its output")
+        raise ValueError("a study of single files needs a name: give its output")
     return Path(f"{folder.resolve().name}.h5")
 
 
@@ -121,39 +122,41 @@ def results(path: Path, target: Path) -> list[Path]:
 
 
 def check_replaceable(target: Path) -> None:
-    """Refuses to replace what is no study, such as the result of a run."""
+    """Refuses to replace a file that is not a study, such as the result of a run."""
     if target.suffix != ".h5":
         raise ValueError(f"{target}: the name must end in .h5")
     if target.exists():
         with suppress(RunError), opened(os.fspath(target)) as file:
             if file.attrs.get("task") == "study":
                 return
-        raise ValueError(f"{target}: it is there and no study; remove it, or give the study another name")
+        raise ValueError(f"{target}: it exists and is not a study; remove it, or give the study another name")
 
 
 def check_one_study(members: Sequence[Member]) -> None:
-    """Raises ValueError for members of two sweeps, and for a member that is there twice.
+    """Raises ValueError for members of two sweeps, and for two files of one member.
 
-    A sweep may have grown since its first members were run.
+    The sweep may have got more members since the first ones were run.
     """
     readable = [each for each in members if each.input]
     first = readable[0]
     for each in readable[1:]:
         if (each.members is None, *each.sweep) != (first.members is None, *first.sweep):
-            raise ValueError(f"{first.path} and {each.path}: not of one study: {kin(first)}, and {kin(each)}")
+            raise ValueError(
+                f"{first.path} and {each.path}: not of one study: {kind(first)}, and {kind(each)}"
+            )
     seen: dict[int, Path] = {}
     for each in readable:
         if each.number is not None and seen.setdefault(each.number, each.path) != each.path:
             raise ValueError(f"{seen[each.number]} and {each.path}: both are member {each.number}")
 
 
-def kin(one: Member) -> str:
-    """Which study a member is from, in words."""
+def kind(one: Member) -> str:
+    """The study that a member is from, in words."""
     return f"a member of a sweep over {', '.join(one.sweep)}" if one.members else "a run of its own"
 
 
 def numbered(members: Sequence[Member]) -> list[Member]:
-    """The members in the order of their numbers; those without one get the next free ones."""
+    """The members in the order of their numbers; members without a number get the next free ones."""
     if not any(each.members for each in members):
         return [each._replace(number=k) for k, each in enumerate(members, 1)]
     known = {each.number for each in members if each.input}

@@ -1,4 +1,4 @@
-"""What a study keeps of each run: how it ended, its last revolution in numbers, Poincare points, cost."""
+"""Members of a study: how a run ended, results of its last revolution, Poincare points, cost."""
 
 from collections.abc import Sequence
 from contextlib import suppress
@@ -15,21 +15,21 @@ from tiltpad.files.study import POINTS, REVOLUTIONS
 
 #: Exit status of a member that was done, and those of one that did not end: running or killed, stopped.
 DONE, UNENDED = 0, (-1, 4)
-#: A whole revolution, but for rounding.
+#: A whole revolution, less a rounding error.
 WHOLE = 1 - 1e-9
 
 
 class Member(NamedTuple):
-    """What a study keeps of one run.
+    """A run as a study has it.
 
     Its fields:
 
         path, number      its file; its number in the sweep, None of a run that is no member
-        status, reason    exit status (nan: the file cannot be read), and why it failed
+        status, reason    exit status (nan: the file cannot be read), and the reason where it failed
         members, sweep    members of the whole sweep, and its own swept values by variable
         input             resolved namelist, None where the file cannot be read
         origin            version, title and input text
-        values            what was measured, by names of tiltpad.files.study: a number, (pad,), (revolution,),
+        values            results by names of tiltpad.files.study: a number, (pad,), (revolution,),
                           (revolution, pad)
         cost              the numbers of its group statistics
     """
@@ -47,7 +47,7 @@ class Member(NamedTuple):
 
 
 def member(path: Path) -> Member:
-    """What is kept of one file; where it cannot be read, the reason."""
+    """The member of a file; only with the reason where the file cannot be read."""
     try:
         with read(path) as run:
             return measured(path, run)
@@ -57,21 +57,21 @@ def member(path: Path) -> Member:
 
 
 def measured(path: Path, run: Run) -> Member:
-    """What is kept of a run that can be read."""
-    told = run.attributes
+    """The member of a run that can be read."""
+    attributes = run.attributes
     complete = bool(run.complete)
     with reading(run.path, "attribute 'sweep'"):
-        sweep = swept(told.get("sweep", ""))
-    status = int(told.get("exit_status", DONE if complete else 2))
+        sweep = swept(attributes.get("sweep", ""))
+    status = int(attributes.get("exit_status", DONE if complete else 2))
     if not complete and status == DONE:
         status = UNENDED[0]
-    reason = f"{told.get('reason', '')}" if status != DONE else ""
+    reason = f"{attributes.get('reason', '')}" if status != DONE else ""
     values = {
         "complete": float(complete),
         "time_reached": float(run.values("time", -1)) if run.samples else 0.0,
     }
-    if "resumes" in told:
-        values["resumes"] = float(told["resumes"])
+    if "resumes" in attributes:
+        values["resumes"] = float(attributes["resumes"])
     with suppress(NotInRunError):
         values |= at_rest(run)
     if complete and status == DONE:
@@ -84,13 +84,13 @@ def measured(path: Path, run: Run) -> Member:
             values |= {name: points[state] for name, state in POINTS.items()}
     return Member(
         path,
-        int(told["member"]) if "member" in told else None,
+        int(attributes["member"]) if "member" in attributes else None,
         status,
         reason,
-        int(told["members"]) if "members" in told else None,
+        int(attributes["members"]) if "members" in attributes else None,
         sweep,
         run.input,
-        {name: told[name] for name in ("version", "title", "input")},
+        {name: attributes[name] for name in ("version", "title", "input")},
         values,
         cost(run),
     )
@@ -145,10 +145,10 @@ def friction(run: Run, part: slice) -> dict[str, Any]:
 
 
 def cost(run: Run) -> dict[str, float]:
-    """The numbers of the group statistics; none of a run that has no such."""
+    """The numbers of the group statistics; none where the run has no such group."""
     return {name: float(value) for name, value in run["statistics"].items()} if "statistics" in run else {}
 
 
 def planned(members: Sequence[Member]) -> int:
-    """How many members the sweep has, by the last that was run; 0 for runs of their own."""
+    """Number of members that the sweep has, by the file that says most; 0 for single runs."""
     return max(each.members or 0 for each in members)

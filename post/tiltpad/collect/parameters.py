@@ -1,4 +1,4 @@
-"""What the members of a study differ in: what was swept, or what differs between inputs."""
+"""Parameters of a study: the swept variables, or those in which the inputs differ."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -9,12 +9,12 @@ import numpy as np
 from tiltpad.calculate.differences import by_variable, shared
 from tiltpad.files import namelist, units
 
-#: Names that a result has too.
+#: Names of results, which parameters get with their group.
 TAKEN = ("checkpoint_seconds",)
 
 
 class Parameter(NamedTuple):
-    """What members differ in, with each member's value; its fields:
+    """A variable in which members differ, with the value of each member; its fields:
 
     name         short and without special characters: speed_rpm, arc_deg_1
     variable     as in the namelist: operation%speed_rpm, pads%arc_deg(1)
@@ -59,12 +59,12 @@ def differing(inputs: Sequence[dict[str, dict[str, Any]]]) -> list[dict[str, Any
 
 
 def follows(flat: dict[str, Any]) -> bool:
-    """True where the final speed is not a value of its own: the speed stays the same."""
+    """True where the final speed is the speed: it is constant."""
     return flat["operation%final_speed_rpm"] == flat["operation%speed_rpm"]
 
 
 def elements(name: str, values: Sequence[Any]) -> list[dict[str, Any]]:
-    """A list's elements, by name(1), name(2), ..., of those that differ."""
+    """The elements of a list that differ, by name(1), name(2), ..."""
     lists = [value if isinstance(value, tuple) else (value,) for value in values]
     places = range(max(map(len, lists)))
     differ = [k for k in places if len({each[k] if k < len(each) else None for each in lists}) > 1]
@@ -99,6 +99,6 @@ def short_name(variable: str) -> str:
 
 
 def number(value: Any) -> float:
-    """One number, which a list may repeat; nan where there is none."""
+    """The number, or the one that all elements of a list share; nan where there is none."""
     one = shared(value)
     return float(one) if isinstance(one, int | float) else np.nan

@@ -1,4 +1,4 @@
-"""The file of a study: what is written of its members, with dimensions, units and links."""
+"""The file of a study: parameters and results of the members with dimensions and units, links to files."""
 
 import os
 import warnings
@@ -61,8 +61,8 @@ def fill(file: h5py.File, members: Sequence[Member], missing: Sequence[int], fol
     for each in found:
         put(file, each.name, each.values, MEMBER, each.units, each.long_name)
     paths = [os.path.relpath(each.path.resolve(), folder) for each in members]
-    texts = {"reason": ("why it failed", [each.reason for each in members])}
-    texts["file"] = ("its result, from the folder of this file", paths)
+    texts = {"reason": ("reason of the failure", [each.reason for each in members])}
+    texts["file"] = ("result file, relative to the folder of this file", paths)
     for name, (long_name, values) in texts.items():
         put(file, name, values, MEMBER, "", long_name, coordinates)
     for name, quantity, values in tables(members):
@@ -90,7 +90,7 @@ def scales(file: h5py.File, members: Sequence[Member]) -> None:
 
 
 def tables(members: Sequence[Member]) -> Iterator[tuple[str, Quantity, np.ndarray]]:
-    """Name, kind and array of every quantity that at least one member has; nan where a member has none."""
+    """Name, meaning and array of every quantity that a member has; nan for members that do not have it."""
     yield "status", QUANTITIES["status"], np.array([each.status for each in members], dtype=float)
     for name, quantity in QUANTITIES.items():
         values = [(each.values or {}).get(name) for each in members]
@@ -104,22 +104,22 @@ def tables(members: Sequence[Member]) -> Iterator[tuple[str, Quantity, np.ndarra
 
 
 def meaning(path: Path, name: str) -> Quantity:
-    """What a number of the cost is, by a file that has it."""
+    """Unit and meaning of a number of the cost, from a file that has it."""
     with warnings.catch_warnings(action="ignore"), read(path) as run:
         units, long_name = (run.about(f"statistics/{name}", each) for each in ("units", "long_name"))
     return Quantity(MEMBER, units, long_name)
 
 
 def padded(values: Sequence[Any], from_end: bool) -> np.ndarray:
-    """Arrays of several sizes, or none, as one: nan behind the shorter ones, or along axis 1 before them."""
+    """One array of several: nan fills up the shorter ones at their ends, or at the start of axis 1."""
     sizes = [np.shape(each) for each in values if each is not None]
     table = np.full((len(values), *np.max(sizes, axis=0).astype(int)), np.nan)
     for k, each in enumerate(values):
         if each is not None:
-            place = [slice(0, size) for size in np.shape(each)]
+            part = [slice(0, size) for size in np.shape(each)]
             if from_end:
-                place[0] = slice(table.shape[1] - len(each), None)
-            table[k, *place] = each
+                part[0] = slice(table.shape[1] - len(each), None)
+            table[k, *part] = each
     return table
 
 
@@ -143,11 +143,11 @@ def put(
     long_name: str,
     coordinates: str = "",
 ) -> None:
-    """A dataset along its dimension scales, with what CF readers look for."""
+    """A dataset along its dimension scales, with the attributes of the CF conventions."""
     if isinstance(values[0], str):
         values = np.array(values, dtype=h5py.string_dtype())
     dataset = file.create_dataset(name, data=values)
     for axis, dimension in enumerate(dimensions):
         dataset.dims[axis].attach_scale(file[dimension])
-    told = {"units": units, "long_name": long_name, "coordinates": coordinates}
-    dataset.attrs.update({key: text for key, text in told.items() if text})
+    attributes = {"units": units, "long_name": long_name, "coordinates": coordinates}
+    dataset.attrs.update({key: text for key, text in attributes.items() if text})

@@ -1,1 +1,1 @@
-"""What is drawn: pictures of runs and of studies, and the page about a run; these modules load matplotlib."""
+"""Drawing: pictures of runs and of studies, and the page about a run; these modules load matplotlib."""

@@ -1,6 +1,6 @@
 """Diagrams of a study on one pair of axes.
 
-Everything is drawn from the arrays of the study; members that failed are marked, not left out.
+They are drawn from the arrays of the study alone. Members that failed are marked.
 """
 
 from collections.abc import Mapping, Sequence
@@ -18,15 +18,15 @@ from tiltpad.files.units import SHOWN, Shown
 
 #: Kinds of diagrams.
 KINDS = ("lines", "map", "bifurcation")
-#: Most lines that a reader tells apart.
+#: Maximum number of lines in one diagram.
 MOST_LINES = 10
-#: A second parameter of more values than this makes a map, of fewer a line each.
+#: Up to this number of values of a second parameter there is a line for each, beyond it a map.
 LINES_UP_TO = 6
-#: Values of the members, and what they are shown in.
+#: Values of the members, and the unit in which they are shown.
 Result = tuple[np.ndarray, Shown]
-#: An axis is logarithmic where its values are evenly spread in ratio over at least this one.
+#: An axis is logarithmic if its values rise by equal factors, over this ratio at least.
 LOG_FROM = 9.9
-#: From so many places along the axis on points are small.
+#: With so many values along the axis points are small.
 DENSE = 60
 FAILED = {"linestyle": "", "marker": "x", "color": "0.4", "markersize": 5, "zorder": 4}
 
@@ -43,10 +43,10 @@ def diagram(
 ) -> Axes:
     """A result of the members over a parameter: lines, a map over two of them, or a bifurcation diagram.
 
-    `show` is a result, by default orbit_size (of a bifurcation poincare_y), one that the pads have of the pad
-    `pad` (1, 2, ...); `over` a parameter, by default the number with the most values; `kind` one of KINDS;
-    `where` keeps the members with these values of parameters. What is left open follows from the parameters.
-    Raises ValueError for what does not fit.
+    `show` is a result, by default orbit_size (poincare_y for a bifurcation diagram); with `pad` (1, 2, ...)
+    it is a result of the pads; `over` is a parameter, by default the number with the most values; `kind` is
+    one of KINDS; `where` keeps the members with these values of parameters. Defaults follow from the study.
+    Raises ValueError for arguments that do not fit the study.
     """
     chosen = selected(study, where or {})
     several = [name for name in study.parameters if len(distinct(study[name][chosen])) > 1]
@@ -64,7 +64,7 @@ def diagram(
 
 
 def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str], chosen: np.ndarray) -> Axes:
-    """A line for every combination of the other parameters; a cross at the foot where a member failed."""
+    """A line for every combination of the other parameters; a cross at the bottom where a member failed."""
     values, shown = show
     at, place = axis(study, over, ax, "x")
     groups = grouped(study, others, chosen)
@@ -75,7 +75,7 @@ def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
         text = text if np.isfinite(values[order][whole]).any() else f"{text}: none"
         line = {"color": f"C{color}", "marker": "o", "markersize": 3, "label": text}
         if not is_number(study, over):
-            line["linestyle"] = ""  # nothing lies between texts
+            line["linestyle"] = ""  # there are no values between texts
         ax.plot(place[order], np.where(whole, shown.factor * values[order], np.nan), **line)
         mark_failed(ax, place[order][~whole], color if len(groups) > 1 else None)
     ax.set(xlabel=at.label, ylabel=shown.label)
@@ -84,10 +84,12 @@ def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
 
 
 def field(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str], chosen: np.ndarray) -> Axes:
-    """Colours over two parameters; a cross where a member failed, nothing where there is none."""
+    """Colours over two parameters; a cross where a member failed, white where there is no member."""
     numeric = [name for name in others if is_number(study, name)]
     if not is_number(study, over) or not numeric:
-        raise ValueError(f"{study.path}: a map needs two parameters that are numbers: {told(study)}")
+        raise ValueError(
+            f"{study.path}: a map needs two parameters that are numbers: {parameters_in_words(study)}"
+        )
     second = max(numeric, key=lambda name: len(distinct(study[name][chosen])))
     values, shown = show
     (at, x), (beside, y) = (axis(study, name, ax, which) for name, which in ((over, "x"), (second, "y")))
@@ -95,16 +97,16 @@ def field(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
     table = np.full((len(rows), len(columns)), np.nan)
     taken = np.zeros(table.shape, dtype=bool)
     for k in np.flatnonzero(chosen & np.isfinite(x) & np.isfinite(y)):
-        place = np.searchsorted(rows, y[k]), np.searchsorted(columns, x[k])
-        if taken[place]:
+        cell = np.searchsorted(rows, y[k]), np.searchsorted(columns, x[k])
+        if taken[cell]:
             rest = ", ".join(name for name in others if name != second) or "nothing"
             raise ValueError(
-                f"{study.path}: a map has one member at each place, here are several that differ in {rest}: "
+                f"{study.path}: a map has one member in each cell, here are several that differ in {rest}: "
                 "choose by --where"
             )
-        taken[place] = True
+        taken[cell] = True
         if study.done[k]:
-            table[place] = shown.factor * values[k]
+            table[cell] = shown.factor * values[k]
         else:
             ax.plot(x[k], y[k], **FAILED)
     if not np.isfinite(table).any():
@@ -125,7 +127,7 @@ def field(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
 def bifurcation(
     study: Study, ax: Axes, show: Result, over: str, others: Sequence[str], chosen: np.ndarray
 ) -> Axes:
-    """A state once a revolution over a parameter: one point where the motion repeats every revolution."""
+    """A state once a revolution over a parameter: one point if the motion repeats every revolution."""
     values, shown = show
     at, place = axis(study, over, ax, "x")
     groups = grouped(study, others, chosen)
@@ -149,7 +151,7 @@ def bifurcation(
 
 
 def selected(study: Study, where: Mapping[str, str]) -> np.ndarray:
-    """True for the members with the given values of parameters, (member,); all that can be read are left."""
+    """True for the members with the given values of parameters, (member,)."""
     chosen = np.ones(study.length("member"), dtype=bool)
     for name, text in where.items():
         needs(name, study.parameters, "where", "a parameter")
@@ -171,16 +173,16 @@ def selected(study: Study, where: Mapping[str, str]) -> np.ndarray:
 
 
 def default_over(study: Study, several: Sequence[str], chosen: np.ndarray) -> str:
-    """The number with the most values; else the text with the most."""
+    """The number with the most values; without numbers the text with the most."""
     if not study.parameters:
-        raise ValueError(f"{study.path}: its members differ in nothing that they could be drawn over")
+        raise ValueError(f"{study.path}: its members differ in no parameter that they could be drawn over")
     names = several or study.parameters
     numeric = [name for name in names if is_number(study, name)]
     return max(numeric or names, key=lambda name: len(distinct(study[name][chosen])))
 
 
 def default_kind(study: Study, show: str | None, over: str, others: Sequence[str], chosen: np.ndarray) -> str:
-    """Points for Poincare points, a map over two numbers of many values each, else lines."""
+    """A bifurcation diagram for Poincare points, a map over two numbers of many values, otherwise lines."""
     if show in POINTS:
         return "bifurcation"
     if len(others) == 1 and is_number(study, over) and is_number(study, others[0]):
@@ -189,9 +191,7 @@ def default_kind(study: Study, show: str | None, over: str, others: Sequence[str
 
 
 def result(study: Study, name: str, revolutions: bool, pad: int | None) -> Result:
-    """A result, (member,) or, where points of the revolutions are asked for, (member, revolution), of a pad
-    where one is given.
-    """
+    """A result, (member,) or with `revolutions` (member, revolution); with `pad` that of a pad."""
     if name in QUANTITIES and name not in study:
         raise ValueError(f"{study.path}: no {name} in this study: no member has it")
     results = [
@@ -217,7 +217,7 @@ def result(study: Study, name: str, revolutions: bool, pad: int | None) -> Resul
 
 
 def axis(study: Study, name: str, ax: Axes, which: str) -> tuple[Shown, np.ndarray]:
-    """What a parameter is shown in, and the members' places along it, (member,); sets scale and ticks."""
+    """Unit of a parameter, positions of the members along its axis, (member,); sets scale and ticks."""
     values = study[name]
     text = study.about(name, "long_name") or name
     if not is_number(study, name):
@@ -242,14 +242,14 @@ def is_number(study: Study, name: str) -> bool:
 
 
 def distinct(values: np.ndarray) -> list:
-    """The different values in rising order, texts in their own; without nan and empty texts."""
+    """The different values in rising order, texts in the order of the study; without nan and empty texts."""
     if values.dtype.kind == "O":
         return [value for value in dict.fromkeys(values) if value]
     return list(np.unique(values[np.isfinite(values)]))
 
 
 def spread_in_ratio(values: Sequence[float]) -> bool:
-    """True for values that rise by equal factors, to some per cent, over a decade or more."""
+    """True for values that rise by nearly equal factors, over LOG_FROM or more."""
     if len(values) < 3 or values[0] <= 0 or values[-1] / values[0] < LOG_FROM:
         return False
     steps = np.diff(np.log(values))
@@ -257,7 +257,7 @@ def spread_in_ratio(values: Sequence[float]) -> bool:
 
 
 def grouped(study: Study, others: Sequence[str], chosen: np.ndarray) -> list[tuple[str, np.ndarray]]:
-    """Name and members of every combination of the other parameters; of members whose are not known none."""
+    """Name and members of every combination of the other parameters; without members of unknown values."""
     keys = list(zip(*(study[name] for name in others), strict=True)) if others else [()] * len(chosen)
     found: dict[tuple, list[int]] = {}
     for k in np.flatnonzero(chosen):
@@ -277,19 +277,19 @@ def too_many(groups: Sequence[tuple[str, np.ndarray]], others: Sequence[str]) ->
 
 
 def written(value: Any) -> str:
-    """A value of a parameter as a reader is told it."""
+    """A value of a parameter in words."""
     return WORDS.get(value, value.replace("_", " ")) if isinstance(value, str) else f"{value:g}"
 
 
 def mark_failed(ax: Axes, place: np.ndarray, color: int | None) -> None:
-    """Crosses at the foot of the axes."""
+    """Crosses at the bottom of the axes."""
     style = FAILED if color is None else FAILED | {"color": f"C{color}"}
     if len(place):
         ax.plot(place, np.full(len(place), 0.02), transform=ax.get_xaxis_transform(), **style)
 
 
 def explain(study: Study, ax: Axes, others: Sequence[str], chosen: np.ndarray) -> None:
-    """The legend above the axes: what the lines are, and how many members were not done."""
+    """The legend above the axes: the meaning of the lines, and the number of members that were not done."""
     handles, texts = ax.get_legend_handles_labels() if others else ([], [])
     if failed := int((~study.done[chosen]).sum()):
         handles = [*handles, plt.Line2D([], [], **FAILED)]
@@ -318,11 +318,11 @@ def edges(values: np.ndarray, scale: str) -> np.ndarray:
     return np.exp(found) if scale == "log" else found
 
 
-def told(study: Study) -> str:
+def parameters_in_words(study: Study) -> str:
     return f"its parameters are {', '.join(study.parameters) or 'none'}"
 
 
 def needs(name: str, allowed: Sequence[str], option: str, what: str) -> None:
-    """Raises ValueError where a name is none of those allowed."""
+    """Raises ValueError for a name that is not allowed."""
     if name not in allowed:
         raise ValueError(f"--{option}: {name} is not {what} of this study: {', '.join(allowed)}")

@@ -44,7 +44,7 @@ def orbit(runs: Sequence[Run], last: float | None = None, pad: int | None = None
     for i, run in enumerate(runs):
         plots.orbit(run, whole, last or 1, direction=False, **look(i, 0, runs))
         plots.orbit(run, enlarged, last or 1, **look(i, 0, runs))
-    enlarged.yaxis.tick_right()  # out of the way of the lines that lead there
+    enlarged.yaxis.tick_right()  # the lines between the panels are on the left
     enlarged.yaxis.set_label_position("right")
     enlarged.yaxis.set_ticks_position("both")
     enlarged.tick_params(labelleft=False, labelright=True)
@@ -91,7 +91,7 @@ def spectrum(runs: Sequence[Run], last: float | None = None, pad: int | None = N
 
 
 def hysteresis(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
-    """Friction moment over tilt, a panel a pad, with the work lost in a revolution."""
+    """Friction moment over tilt, a panel for each pad, with the work dissipated in a revolution."""
     fig, panels = panel_a_pad(runs, pad)
     for k, ax in panels.items():
         work = []
@@ -106,7 +106,7 @@ def hysteresis(runs: Sequence[Run], last: float | None = None, pad: int | None =
 
 
 def friction(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
-    """Friction coefficient over sliding velocity, a panel a pad."""
+    """Friction coefficient over sliding velocity, a panel for each pad."""
     fig, panels = panel_a_pad(runs, pad)
     for k, ax in panels.items():
         for i, run in enumerate(runs):
@@ -117,7 +117,7 @@ def friction(runs: Sequence[Run], last: float | None = None, pad: int | None = N
 
 
 def sticking(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
-    """Tilt rate, bold where the pivot sticks, a panel a pad, with the share of the time that it does."""
+    """Tilt rate, bold where the pivot sticks, a panel for each pad, with the share of time that it sticks."""
     last = last or 2
     fig, panels = panel_a_pad(runs, pad)
     for k, ax in panels.items():
@@ -227,7 +227,7 @@ def orders(runs: Sequence[Run], last: float | None = None, pad: int | None = Non
 
 
 def waterfall(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
-    """Amplitudes over speed and order of a run-up: a column of the journal's y and z (a pad's tilt) a run."""
+    """Amplitudes over speed and order of run-ups: for each run a column of y and z (with a pad: its tilt)."""
     names = ["pad_tilt"] if pad else ["journal_y", "journal_z"]
     fig = plt.figure(figsize=(COLUMN if len(runs) == 1 else PAGE, 0.5 + 2.1 * len(names)))
     panels = fig.subplots(len(names), len(runs), squeeze=False, sharex=len(runs) == 1)
@@ -244,9 +244,10 @@ def waterfall(runs: Sequence[Run], last: float | None = None, pad: int | None = 
 
 
 def size(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
-    """Peak-to-peak of the journal's y and z.
+    """Peak-to-peak of y and z of the journal.
 
-    With a run-up over the speed; of runs in which one number differs over that number; else a bar a run.
+    They are drawn over the speed if a run is a run-up, over a number of the input if runs differ in it alone,
+    and otherwise as bars.
     """
     fig = plt.figure(figsize=(COLUMN, 2.6))
     ax = fig.subplots()
@@ -288,7 +289,7 @@ def study(
     where: Mapping[str, str] | None = None,
     pad: int | None = None,
 ) -> Figure:
-    """A diagram of a study; what is left open follows from its parameters, see tiltpad.diagrams.diagram."""
+    """A diagram of a study; the arguments are those of tiltpad.diagrams.diagram."""
     fig = plt.figure(figsize=(COLUMN, 2.6))
     diagrams.diagram(study, fig.subplots(), show, over, kind, where, pad)
     kept = ", ".join(f"{name} = {value}" for name, value in (where or {}).items())

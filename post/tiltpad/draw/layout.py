@@ -1,4 +1,4 @@
-"""What the pictures of several runs share: names, colours, legends, panels, further axes."""
+"""Parts of pictures: names of runs, colours, legends, panels, further axes."""
 
 import textwrap
 from collections.abc import Hashable, Iterable, Sequence
@@ -21,7 +21,7 @@ DASHES = ("-", "--", ":", "-.")
 
 
 def labels(runs: Sequence[Run]) -> list[str]:
-    """Names to tell runs apart: their titles, else what differs in their inputs, else their files."""
+    """Different names for runs: their titles, else the differences of their inputs, else their files."""
     titles = [run.title for run in runs]
     stems = [Path(run.path).stem for run in runs]
     for texts in (titles, differences.differences([run.input for run in runs]), stems):
@@ -31,20 +31,20 @@ def labels(runs: Sequence[Run]) -> list[str]:
 
 
 def look(run: int, part: int | None, runs: Sequence[Run]) -> dict[str, Any]:
-    """Colour and dashes of a line: colours tell parts (y, z; pads) of one run apart, or else runs."""
+    """Colour and dashes of a line: colours are for the parts (y, z; pads) of one run, or for several runs."""
     if len(runs) == 1:
         return {"color": "0.2" if part is None else f"C{part}"}
     return {"color": f"C{run}", "linestyle": DASHES[(part or 0) % len(DASHES)]}
 
 
 def parts(texts: Sequence[str], runs: Sequence[Run]) -> list[tuple[str, dict[str, Any]]]:
-    """Legend entries of the parts of every run; none where there is one part."""
+    """Legend entries of the parts of every run; none for a single part."""
     neutral = {"color": "0.3"} if len(runs) > 1 else {}
     return [(text, look(0, k, runs) | neutral) for k, text in enumerate(texts) if len(texts) > 1]
 
 
 def legend(fig: Figure, runs: Sequence[Run], marks: Sequence[tuple[str, dict[str, Any]]]) -> None:
-    """Above the panels: the runs (of one run its title), and what the lines and marks are."""
+    """Above the panels: the runs (for one run its title), and the meaning of lines and marks."""
     names = labels(runs) if len(runs) > 1 else [runs[0].title]
     names = [plain(name, width(fig)) for name in names]
     if len(runs) > 1:
@@ -54,7 +54,7 @@ def legend(fig: Figure, runs: Sequence[Run], marks: Sequence[tuple[str, dict[str
 
 
 def heading(fig: Figure, entries: Sequence[tuple[str, dict[str, Any]]], title: str) -> None:
-    """Above the panels: a title (may be empty), and lines and marks with what they are."""
+    """Above the panels: a title (may be empty), and lines and marks with their meaning."""
     if not entries:
         fig.suptitle(title)
         return
@@ -67,17 +67,17 @@ def heading(fig: Figure, entries: Sequence[tuple[str, dict[str, Any]]], title: s
 
 
 def plain(text: str, characters: int) -> str:
-    """A text in lines of so many characters, in which a dollar sign is one, not the start of a formula."""
+    """A text in lines of a number of characters, in which a dollar sign does not start a formula."""
     return textwrap.fill(text.replace("$", r"\$"), characters)
 
 
 def width(fig: Figure) -> int:
-    """Characters that fit beside each other."""
+    """Number of characters that fit on a line."""
     return int(15 * fig.get_figwidth())
 
 
 def shown_pads(runs: Sequence[Run], pad: int | None) -> list[int]:
-    """The pad asked for, or all pads that every run has."""
+    """The given pad, or all pads that every run has."""
     if pad is None:
         return list(range(1, min(run.pads for run in runs) + 1))
     for run in runs:
@@ -86,12 +86,12 @@ def shown_pads(runs: Sequence[Run], pad: int | None) -> list[int]:
 
 
 def drawn(name: str, pads: Sequence[int]) -> Iterable[tuple[int | None, int | None]]:
-    """Number among the parts and pad of every line of a dataset; nothing of both for the journal."""
+    """Number of the part and pad of every line of a dataset; (None, None) for the journal."""
     return enumerate(pads) if name.startswith("pad") else [(None, None)]
 
 
 def stacked(names: Sequence[Hashable]) -> tuple[Figure, dict[Hashable, Axes]]:
-    """Panels above each other that share the horizontal axis, one a dataset."""
+    """Panels above each other, one for each dataset, with one horizontal axis."""
     fig = plt.figure(figsize=(COLUMN, 0.6 + 1.2 * len(names)))
     panels = fig.subplots(len(names), 1, sharex=True)
     fig.align_ylabels(panels)
@@ -102,7 +102,7 @@ def stacked(names: Sequence[Hashable]) -> tuple[Figure, dict[Hashable, Axes]]:
 
 
 def panel_a_pad(runs: Sequence[Run], pad: int | None) -> tuple[Figure, dict[int, Axes]]:
-    """A panel for each of the pads shown, two beside each other."""
+    """A panel for each of the shown pads, two in a row."""
     pads = shown_pads(runs, pad)
     columns = min(2, len(pads))
     rows = -(-len(pads) // columns)
@@ -116,8 +116,8 @@ def panel_a_pad(runs: Sequence[Run], pad: int | None) -> tuple[Figure, dict[int,
 
 
 def mark_enlarged(whole: Axes, part: Axes) -> None:
-    """Frames in `whole` what `part`, to its right, enlarges, and leads from one to the other."""
-    part.figure.draw_without_rendering()  # equal axes settle their limits when drawn
+    """Draws a frame in `whole` around the limits of `part`, to its right, and lines from one to the other."""
+    part.figure.draw_without_rendering()  # equal axes get their limits when they are drawn
     (left, right), (low, high) = part.get_xlim(), part.get_ylim()
     line = {"edgecolor": "0.65", "linewidth": 0.6, "in_layout": False}
     whole.add_patch(Rectangle((left, low), right - left, high - low, facecolor="none", **line))
@@ -133,7 +133,7 @@ def order_axis(ax: Axes, frequency: float, step: int) -> None:
 
 
 def top_axis(ax: Axes, x: np.ndarray, value: np.ndarray, label: str) -> None:
-    """Along the top: what `value` is at x, straight on beyond the ends; both rise or fall throughout."""
+    """Along the top: `value` at x, extrapolated beyond the ends; both rise or fall throughout."""
     x, value = (np.concatenate([[2 * a[0] - a[1]], a, [2 * a[-1] - a[-2]]]) for a in (x, value))
     order = np.argsort(value)
     functions = (lambda at: np.interp(at, x, value), lambda at: np.interp(at, value[order], x[order]))

@@ -24,16 +24,16 @@ from tiltpad.files.units import SHOWN
 STYLE = "tiltpad.draw.tiltpad"
 #: A history of more revolutions is drawn as a band.
 BAND_FROM = 60
-#: States that a Poincare section is drawn in: the journal's y over z, a pad's tilt rate over its tilt.
+#: Axes of a Poincare section: y over z of the journal, tilt rate over tilt of a pad.
 ORBIT, PHASE = ("journal_z", "journal_y"), ("pad_tilt", "pad_tilt_rate")
-#: Revolutions of the path under a Poincare section.
+#: Revolutions of the path that is drawn under a Poincare section.
 PATH = 4
 #: Line of a pivot that sticks.
 STUCK = {"linewidth": 3, "linestyle": "-", "solid_capstyle": "butt"}
 
 
 def on_axes(draw: Callable[..., Axes]) -> Callable[..., Axes]:
-    """Lets `draw` be called without axes: it then gets new ones in the package's style."""
+    """Lets `draw` be called without axes; it then gets new ones in the style of the package."""
 
     @wraps(draw)
     def drawn(run: Run, ax: Axes | None = None, *arguments: Any, **options: Any) -> Axes:
@@ -52,7 +52,7 @@ def on_axes(draw: Callable[..., Axes]) -> Callable[..., Axes]:
 def orbit(run: Run, ax: Axes, last: float = 1, direction: bool = True, **line: Any) -> Axes:
     """Path of the journal centre, z to the right and y up, with its direction.
 
-    A cross marks the equilibrium, where the speed stays the same.
+    A cross marks the equilibrium if the speed is constant.
     """
     shown = SHOWN["journal_y"]
     y, z = (shown.factor * each for each in signals.orbit(run, last))
@@ -105,9 +105,9 @@ def poincare(
     phase: float = 0.0,
     **line: Any,
 ) -> Axes:
-    """One state over another once a revolution, at a phase of the shaft, on the path of the last PATH ones.
+    """One state over another once a revolution, at a phase of the shaft, on the path of the last revolutions.
 
-    ORBIT is the journal's y over its z, PHASE the tilt rate over the tilt of a pad.
+    ORBIT is y over z of the journal, PHASE the tilt rate over the tilt of a pad.
     """
     column = {
         name: () if name.startswith("journal") else (..., signals.pad_column(run, pad)) for name in names
@@ -125,7 +125,7 @@ def poincare(
 
 @on_axes
 def orbit_size(run: Run, ax: Axes, name: str = "journal_y", last: float = 1, **line: Any) -> Axes:
-    """Peak-to-peak of journal_y or journal_z over the speed; of a run at constant speed a point."""
+    """Peak-to-peak of journal_y or journal_z over the speed; a run at constant speed is a point."""
     shown, speed = SHOWN["size"], SHOWN["speed"]
     if signals.steady(run):
         at, size = run.values("speed", slice(-1, None)), np.ptp(signals.waveform(run, name, last)[1])
@@ -145,7 +145,7 @@ def spectrum(
 ) -> Axes:
     """One-sided amplitudes of journal_y or journal_z, without the mean, up to `orders` times the speed.
 
-    The spectrum in the file; with `last`, or where the file has none, that of the last revolutions.
+    It is the spectrum in the file; with `last`, or if the file has none, that of the last revolutions.
     """
     own = last is None and "spectrum" in run
     found = spectra.spectrum(run, name) if own else spectra.one_sided(run, name, last or 10)
@@ -157,7 +157,7 @@ def spectrum(
 def full_spectrum(run: Run, ax: Axes, orders: float = 5, last: float | None = None, **line: Any) -> Axes:
     """Spectrum of y + i z, without the mean: forward whirl to the right, backward whirl to the left.
 
-    The spectrum in the file; with `last`, or where the file has none, that of the last revolutions.
+    It is the spectrum in the file; with `last`, or if the file has none, that of the last revolutions.
     """
     found = (
         spectra.full_spectrum(run) if last is None and "spectrum" in run else spectra.full(run, last or 10)
@@ -182,7 +182,7 @@ def order_track(
 def order_phase(
     run: Run, ax: Axes, name: str = "journal_y", order: float = 1, pad: int | None = None, **line: Any
 ) -> Axes:
-    """Phase of one order of a dataset, ahead of as many shaft angles, over the speed of a run-up."""
+    """Phase of one order of a dataset relative to the shaft angle, over the speed of a run-up."""
     speed, _, phase = spectra.order_track(run, name, order, pad)
     ax.plot(SHOWN["speed"].factor * speed, np.degrees(np.unwrap(phase)), **line)
     ax.set(xlabel=SHOWN["speed"].label, ylabel="phase (deg)")
@@ -196,7 +196,7 @@ def waterfall(
     """Amplitudes of a dataset over the speed of a run-up and the order, four decades of colours."""
     speed, order, amplitude = spectra.waterfall(run, name, pad, orders)
     shown = SHOWN[name]
-    # the mean and what of it Hann's window lays beside it would hide the motion
+    # without the mean, which the Hann window spreads over the next orders: it would hide the motion
     moving = order >= 2 * order[1]
     table = shown.factor * amplitude[:, moving].T
     peak = max(table.max(), 1e-12)
@@ -217,7 +217,7 @@ def waterfall(
 
 @on_axes
 def hysteresis(run: Run, ax: Axes, pad: int = 1, last: float = 1, **line: Any) -> Axes:
-    """Friction moment over the tilt of a pad; the loop's area is the work lost."""
+    """Friction moment over the tilt of a pad; the area of the loop is the work that friction dissipates."""
     tilt, moment = pivots.hysteresis(run, pad, last)
     x, y = SHOWN["pad_tilt"].factor * tilt, SHOWN["friction_moment"].factor * moment
     (path,) = ax.plot(x, y, **line)
@@ -228,11 +228,11 @@ def hysteresis(run: Run, ax: Axes, pad: int = 1, last: float = 1, **line: Any) -
 
 @on_axes
 def friction_coefficient(run: Run, ax: Axes, pad: int = 1, last: float = 1, **line: Any) -> Axes:
-    """Friction coefficient of a pivot over its sliding velocity, where it carries anything."""
+    """Friction coefficient of a pivot over its sliding velocity, where it carries load."""
     velocity, coefficient = pivots.friction_coefficient(run, pad, last)
     ax.plot(SHOWN["sliding_velocity"].factor * velocity, coefficient, **line)
     if np.isnan(coefficient).all():
-        ax.text(0.5, 0.5, "carries nothing", transform=ax.transAxes, ha="center", va="center", color="0.3")
+        ax.text(0.5, 0.5, "carries no load", transform=ax.transAxes, ha="center", va="center", color="0.3")
     ax.set(xlabel=SHOWN["sliding_velocity"].label, ylabel=SHOWN["friction_coefficient"].label)
     return ax
 
@@ -251,7 +251,7 @@ def sticking(run: Run, ax: Axes, pad: int = 1, last: float = 2, **line: Any) -> 
 def waveform(
     run: Run, ax: Axes, name: str = "journal_y", last: float = 5, pad: int | None = None, **line: Any
 ) -> Axes:
-    """A dataset over the last revolutions, counted from their start; of one pad where it has pads."""
+    """A dataset over the last revolutions, counted from their start; of one pad if it has pads."""
     part = signals.last_revolutions(run, last)
     turns, values = signals.revolutions(run, part), signals.series(run, name, part, pad)
     ax.plot(turns - turns[0], SHOWN[name].factor * values, **line)
@@ -261,7 +261,7 @@ def waveform(
 
 @on_axes
 def history(run: Run, ax: Axes, name: str = "journal_y", pad: int | None = None, **line: Any) -> Axes:
-    """A dataset over the time of the whole run; of many revolutions, the band that they fill."""
+    """A dataset over the time of the whole run; many revolutions are drawn as the band that they fill."""
     shown = SHOWN[name]
     column = () if pad is None else (slice(None), signals.pad_column(run, pad))
     signals.last_revolutions(run)
@@ -271,10 +271,10 @@ def history(run: Run, ax: Axes, name: str = "journal_y", pad: int | None = None,
     else:
         middle, *band = signals.envelope(run, name)
         low, high = (np.atleast_2d((shown.factor * each[column]).T) for each in band)
-        for least, most in zip(low, high, strict=True):
-            (edge,) = ax.plot(middle, least, **{**line, "linewidth": 0.6})
-            ax.plot(middle, most, **{**line, "color": edge.get_color(), "linewidth": 0.6})
-            ax.fill_between(middle, least, most, facecolor=edge.get_color(), alpha=0.35, linewidth=0)
+        for lower, upper in zip(low, high, strict=True):
+            (edge,) = ax.plot(middle, lower, **{**line, "linewidth": 0.6})
+            ax.plot(middle, upper, **{**line, "color": edge.get_color(), "linewidth": 0.6})
+            ax.fill_between(middle, lower, upper, facecolor=edge.get_color(), alpha=0.35, linewidth=0)
     ax.set(xlabel=SHOWN["time"].label, ylabel=shown.label, xlim=signals.ends(run, "time"))
     return ax
 
@@ -283,8 +283,8 @@ def history(run: Run, ax: Axes, name: str = "journal_y", pad: int | None = None,
 def pressure(run: Run, ax: Axes, time: float | None = None, pad: int = 1, **contours: Any) -> Axes:
     """Film pressure over an unrolled pad, with its colour bar, at the sample next to `time`, s.
 
-    None is the equilibrium. The journal's surface moves from right to left, from the leading to the trailing
-    edge.
+    Without `time` it is that of the equilibrium. The surface of the journal moves from right to left, from
+    the leading to the trailing edge.
     """
     column, film, shown = signals.pad_column(run, pad), library.pressure(run, time), SHOWN["pressure"]
     field = shown.factor * film.pressure[column].T
@@ -292,15 +292,15 @@ def pressure(run: Run, ax: Axes, time: float | None = None, pad: int = 1, **cont
     x, y = SHOWN["phi"].factor * film.phi[column], SHOWN["axial"].factor * film.z
     filled = ax.contourf(x, y, field, **{"levels": levels, **contours})
     ax.figure.colorbar(filled, ax=ax, label=shown.label)
-    for place, edge in ((0.025, "trailing edge"), (0.975, "leading edge")):
+    for x, edge in ((0.025, "trailing edge"), (0.975, "leading edge")):
         note = {"rotation": 90, "ha": "center", "va": "center", "fontsize": "x-small", "color": "white"}
-        ax.text(place, 0.5, edge, transform=ax.transAxes, **note)
+        ax.text(x, 0.5, edge, transform=ax.transAxes, **note)
     ax.set(xlabel=SHOWN["phi"].label, ylabel=SHOWN["axial"].label)
     return ax
 
 
 def polar(radius: float, degrees: float) -> tuple[float, float]:
-    """Place in the picture of a point at an angle from +z towards +y."""
+    """Coordinates in the picture of a point at an angle from +z towards +y."""
     return radius * np.cos(np.radians(degrees)), radius * np.sin(np.radians(degrees))
 
 
@@ -312,7 +312,7 @@ def shaft_frequency(run: Run) -> float:
 def draw_amplitude(
     ax: Axes, frequency: np.ndarray, amplitude: np.ndarray, span: tuple[float, float], line: dict[str, Any]
 ) -> None:
-    """Amplitudes within `span` on a logarithmic axis, six decades at most; nothing at frequency 0."""
+    """Amplitudes within `span` on a logarithmic axis, six decades at most, without frequency 0."""
     inside = (frequency >= span[0]) & (frequency <= span[1])
     x, y = frequency[inside], np.where(frequency == 0, np.nan, SHOWN["amplitude"].factor * amplitude)[inside]
     ax.semilogy(x, y, **line)
@@ -323,7 +323,7 @@ def draw_amplitude(
 
 
 def direction_arrow(ax: Axes, x: np.ndarray, y: np.ndarray, color: str) -> None:
-    """An arrow head on a path where it runs fastest along x."""
+    """An arrow head on a path, at the point where x changes fastest."""
     reach = max(1, len(x) // 90)
     if len(x) <= reach:
         return

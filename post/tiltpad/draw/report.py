@@ -1,6 +1,6 @@
 """A page about a run.
 
-It is whole in itself: no script, nothing from elsewhere.
+It is one file, without scripts and links.
 """
 
 import base64
@@ -20,26 +20,26 @@ from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.units import SHOWN
 
-#: Pictures and what is said of them; those that a run cannot have are left out.
+#: Pictures and their captions; those that a run cannot have are left out.
 PICTURES = {
     "orbit": "Journal in its clearance circle and enlarged, last revolution.",
     "equilibrium": "Equilibrium of the journal in its clearance circle.",
     "waveform": "The last revolutions.",
     "spectrum": "Amplitudes of the journal: one-sided, and full with backward and forward whirl.",
-    "runup": "The whole run; of many revolutions the band that they fill.",
+    "runup": "The whole run; many revolutions are drawn as the band that they fill.",
     "size": "Peak to peak of the journal over the speed.",
     "orders": "Amplitude of the first orders over the speed, and the phase of the first.",
     "waterfall": "Amplitudes over speed and order.",
-    "hysteresis": "Friction moment over tilt: the area is the work lost in the last revolution.",
+    "hysteresis": "Friction moment over tilt: the area is the work dissipated in the last revolution.",
     "friction": "Friction coefficient over sliding velocity, last revolution.",
     "sticking": "Tilt rate, bold where the pivot sticks, over the last two revolutions.",
-    "poincare": "Once a revolution, on the path of the last ones.",
+    "poincare": "States once a revolution, on the path of the last revolutions.",
     "pressure": "Film pressure over the unrolled pads at the equilibrium.",
 }
 
 
 def report(run: Run) -> str:
-    """The page as text; what the run does not have is not on it."""
+    """The page as text; tables and pictures that the run cannot have are left out."""
     title = run.title or Path(run.path).stem
     parts = [
         f"<h1>{escape(title)}</h1>",
@@ -59,9 +59,9 @@ def report(run: Run) -> str:
 
 
 def origin(run: Run) -> str:
-    """File, and what wrote it when."""
-    told = run.attributes
-    written = f"written by {told['program']} {told['version']} ({told['commit']}), {told['created']}"
+    """File, program and time."""
+    by = run.attributes
+    written = f"written by {by['program']} {by['version']} ({by['commit']}), {by['created']}"
     return f"{Path(run.path).name}: {written}"
 
 
@@ -81,7 +81,7 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def number(value: float, quantity: str) -> str:
-    """A value in the unit that it is shown in, four digits."""
+    """A value in its unit for pictures, four digits."""
     value = SHOWN[quantity].factor * float(value)
     if value == 0:
         return "0"
@@ -99,9 +99,7 @@ def pad_figures(run: Run) -> str:
     rows = [
         (text, *(number(each, q) for each in values), SHOWN[q].unit) for text, q, values in summary.pads(run)
     ]
-    note = (
-        f"Last revolution; friction and sticking over the last {summary.LAST}, or all where there are fewer."
-    )
+    note = f"Last revolution; friction and sticking over the last {summary.LAST}, or all if there are fewer."
     return table(head, [angles, *rows]) + (f"<p>{note}</p>" if run.samples else "")
 
 
@@ -121,7 +119,7 @@ def spectrum_peaks(run: Run) -> str:
         )
         for each in found
     ]
-    note = f"Highest peaks of the last {summary.LAST} revolutions, or of all where there are fewer."
+    note = f"Highest peaks of the last {summary.LAST} revolutions, or of all if there are fewer."
     return table(head, rows) + f"<p>{note}</p>" if rows else ""
 
 
@@ -160,4 +158,4 @@ def statistics(run: Run) -> str:
         )
         for name, value in run["statistics"].items()
     ]
-    return table(("of the computation", "value", "unit"), rows)
+    return table(("cost of the computation", "value", "unit"), rows)

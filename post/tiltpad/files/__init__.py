@@ -1,1 +1,1 @@
-"""What is read: result files and studies, their input as a namelist, units."""
+"""Reading: result files and studies, the namelist in them, units."""

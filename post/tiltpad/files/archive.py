@@ -1,7 +1,7 @@
 """HDF5 files of tiltpad: opening them, and one line about what is wrong with them.
 
-What the HDF5 library says of a damaged file becomes a RunError that names it, and sizes that such a file
-claims are compared with its own before anything is allocated.
+Any error of the HDF5 library over a damaged file becomes a RunError that names the file. Sizes that a file
+claims are compared with its own size before memory is allocated.
 """
 
 import math
@@ -24,7 +24,7 @@ NAMES_OF_1 = {"film_volumes": "film_sor", "film_passes": "sor_sweeps"}
 #: Attributes of every file, and those that are numbers.
 REQUIRED = ("version", "created", "title", "task", "input")
 NUMBERS = ("format_version", "complete", "exit_status", "resumes", "member", "members")
-#: What no text of a page or a picture can hold: control characters, halves of characters.
+#: Characters that no page and no picture can show: control characters, halves of characters.
 UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f\ud800-\udfff]")
 #: The highest ratio that the filters of HDF5 (deflate) reach.
 COMPRESSION = 1100
@@ -35,15 +35,15 @@ class RunError(Exception):
 
 
 class NotInRunError(RunError, AttributeError):
-    """The run has no such dataset; the message says why."""
+    """The run has no such dataset; the message gives the reason."""
 
 
 class Archive:
-    """An HDF5 file of tiltpad, open for reading; nothing is loaded before it is asked for."""
+    """An HDF5 file of tiltpad, open for reading; a dataset is loaded when it is used."""
 
     #: Kinds of numpy's types that its datasets may have.
     KINDS = "fiu"
-    #: What it sets itself: where such an attribute is missing, it is not looked for in the file.
+    #: Its own attributes: where one is not set yet, no dataset of that name is looked for.
     OWN = ("file", "path", "attributes", "former", "found", "listed", "size")
 
     def __init__(self, path: str | os.PathLike):
@@ -137,28 +137,28 @@ class Archive:
         return self.item(name).shape[0]
 
     def about(self, name: str, which: str) -> str:
-        """An attribute of a dataset, `units` or `long_name`; empty where it has none."""
+        """An attribute of a dataset, `units` or `long_name`; empty where the dataset has none."""
         found = self.item(name)
         with reading(self.path, name):
             attrs = found.attrs
             return f"{plain(attrs[which])}" if which in attrs and simple(attrs, which) else ""
 
     def without(self, name: str) -> str:
-        """What to say where a dataset is missing."""
+        """The message for a dataset that is missing."""
         return f"{self.path}: no {name} in this file: there are {', '.join(self.names())}"
 
     def check_whole(self) -> None:
-        """Refuses a file whose parts do not fit together; what a kind of file has to check."""
+        """Refuses a file whose parts do not fit together; each kind of file has its own checks."""
 
     def check_dataset(self, name: str, found: h5py.Dataset) -> None:
-        """Raises ValueError for what is no array of numbers, greater than the file can hold, or of another
-        shape than the others ask for.
+        """Raises ValueError for anything but an array of numbers, for an array larger than the file can hold,
+        and for a shape that does not fit the other datasets.
         """
         if not isinstance(found, h5py.Dataset) or (kind := found.dtype).kind not in self.KINDS:
             raise ValueError("not an array of numbers")
         if kind.kind == "O" and h5py.check_string_dtype(kind) is None:
             raise ValueError("neither numbers nor texts")
-        # chunks are allocated whole, and of deflated data more than the file holds is possible
+        # HDF5 allocates whole chunks; deflated data may be larger than the file
         claimed = kind.itemsize * max(math.prod(found.shape), math.prod(found.chunks or (0,)))
         if claimed > self.size and (
             claimed > COMPRESSION * self.size or not found.id.get_create_plist().get_nfilters()
@@ -172,16 +172,16 @@ class Archive:
             fits(found.shape, [self.length(each) for each in scales])
 
     def scales(self, name: str) -> Sequence[str] | None:
-        """Dimensions that a dataset must have, of a scale itself; None of one that is not known."""
+        """Dimensions that a dataset must have (a scale: its own name); None for an unknown dataset."""
 
     def sound(self, name: str, values: Any) -> Any:
-        """The values that were read; ValueError where they cannot be."""
+        """The values that were read; ValueError where they are impossible."""
         return values
 
 
 @contextmanager
 def reading(path: str, what: str) -> Iterator[None]:
-    """Makes whatever goes wrong while h5py reads a RunError; it may be any exception in a damaged file."""
+    """Turns every exception of h5py into a RunError; a damaged file can raise any of them."""
     try:
         yield
     except RunError:
@@ -199,17 +199,17 @@ def damaged(path: str, what: str, why: object) -> RunError:
 
 
 def simple(attrs: h5py.AttributeManager, name: str) -> bool:
-    """True where an attribute is a text or a number; the library can crash over others that are damaged."""
+    """True where an attribute is a text or a number; the library can crash over other, damaged types."""
     return attrs.get_id(name).get_type().get_class() in (h5t.STRING, h5t.INTEGER, h5t.FLOAT)
 
 
 def plain(value: Any) -> Any:
-    """A text in which what cannot be printed is replaced; other values as they are."""
+    """A text with every character replaced that cannot be printed; other values as they are."""
     if isinstance(value, bytes):
         value = value.decode("utf-8", "replace")
     if not isinstance(value, str):
         return value
-    # bytes that are no UTF-8 come from h5py as surrogates
+    # h5py gives bytes that are not UTF-8 as surrogates
     return UNPRINTABLE.sub("\ufffd", value)
 
 
@@ -237,7 +237,7 @@ def opened(path: str) -> h5py.File:
 
 
 def check_origin(path: str, attributes: dict[str, Any]) -> None:
-    """Refuses files of other programs, of a later format, and without what every file has."""
+    """Refuses files of other programs, of a later format, and files without the attributes of every file."""
     if attributes.get("program") != "tiltpad" or "input" not in attributes:
         raise RunError(f"{path}: not a result of tiltpad (attribute 'program' is not 'tiltpad')")
     for name in ("format_version", *REQUIRED):
@@ -257,6 +257,6 @@ def check_origin(path: str, attributes: dict[str, Any]) -> None:
 
 
 def fits(shape: Sequence[int], wanted: Sequence[int]) -> None:
-    """Raises ValueError where a dataset's shape is not the one that the others ask for."""
+    """Raises ValueError where the shape of a dataset does not fit the other datasets."""
     if tuple(shape) != tuple(wanted):
         raise ValueError(f"its shape is {tuple(shape)}, {tuple(wanted)} fits the others")

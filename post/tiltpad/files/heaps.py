@@ -1,13 +1,14 @@
-"""A guard before the HDF5 library: it never ends on a global heap in which an object has no length.
+"""Finds global heaps over which the HDF5 library, up to version 2.0 at least, would loop for ever.
 
-The heaps hold the texts and lists of attributes, and are walked here as the library walks them. Up to 2.0 it
-checks that the objects' lengths stay inside a heap, not that they lead on.
+The heaps hold the texts and lists of attributes. An object of length 0 in a damaged heap is followed by
+itself; the library checks only that an object ends inside its heap. The program tries a damaged file in a
+child process instead. Here the search costs less, and it does not fork a process that may have threads.
 """
 
 import os
 from collections.abc import Iterator
 
-#: Of a greater file only so much is searched at its beginning and its end, where attributes are.
+#: Bytes that are searched at the beginning and at the end of a larger file, where attributes are.
 SEARCHED = 1 << 22
 #: A heap begins with its signature, version 1 and three zeros; then its length, 8 bytes.
 SIGNATURE = b"GCOL\x01\x00\x00\x00"
@@ -17,7 +18,7 @@ ALIGNED, BITS = 8, 64
 
 
 def endless(path: str) -> bool:
-    """True where the library would walk a heap of the file without end."""
+    """True where the library would loop over a heap of the file for ever."""
     size = os.path.getsize(path)
     parts = [(0, size)] if size <= 2 * SEARCHED else [(0, SEARCHED), (size - SEARCHED, SEARCHED)]
     with open(path, "rb", buffering=0) as stream:
@@ -30,7 +31,7 @@ def endless(path: str) -> bool:
 
 
 def heaps(content: bytes) -> Iterator[int]:
-    """Where heaps begin."""
+    """First bytes of the heaps."""
     start = content.find(SIGNATURE)
     while start >= 0:
         yield start
@@ -38,19 +39,19 @@ def heaps(content: bytes) -> Iterator[int]:
 
 
 def stands_still(content: bytes, start: int) -> bool:
-    """True where an object of the heap has no length, so that the next one is itself."""
+    """True where an object of the heap has the length 0, so that the next object is the same one."""
     stop = min(len(content), start + number(content, start + len(SIGNATURE), 8))
-    place = start + HEAD
-    while place + HEAD <= stop:
-        length = number(content, place + 8, 8)
-        # object 0 is the space that is free, its own head included
-        if number(content, place, 2) != 0:
+    first = start + HEAD
+    while first + HEAD <= stop:
+        length = number(content, first + 8, 8)
+        # object 0 is the free space, whose length includes its own head
+        if number(content, first, 2) != 0:
             length = (HEAD + -(-length // ALIGNED) * ALIGNED) % (1 << BITS)
         if length == 0:
             return True
-        place += length
+        first += length
     return False
 
 
-def number(content: bytes, place: int, length: int) -> int:
-    return int.from_bytes(content[place : place + length], "little")
+def number(content: bytes, first: int, length: int) -> int:
+    return int.from_bytes(content[first : first + length], "little")

@@ -5,10 +5,10 @@ from typing import Any
 
 ASSIGNMENT = re.compile(r"^&(?P<group>\w+)|^\s+(?P<name>\w+) = (?P<value>.*)$", re.MULTILINE)
 
-#: No variable's range goes further.
+#: The range of no variable reaches beyond it.
 LARGEST = 1e30
 
-#: What the package takes from the input: one number each, one or several, texts.
+#: Variables that the package uses: those of one number, those of one or several numbers, texts.
 ONE_NUMBER = (
     *("operation%speed_rpm", "operation%final_speed_rpm", "operation%duration"),
     *("bearing%journal_radius", "bearing%machined_clearance", "bearing%assembled_clearance"),
@@ -20,7 +20,7 @@ TEXTS = ("friction%model", "pads%motion")
 
 
 def resolved(text: str) -> dict[str, dict[str, Any]]:
-    """Groups of the namelist text of a result; ValueError where it is none or lacks what is needed."""
+    """Groups of the namelist text of a result; ValueError where a variable that is used is missing."""
     groups = parse(text)
     for names, kinds in ((ONE_NUMBER, int | float), (NUMBERS, int | float | tuple), (TEXTS, str)):
         for group, _, name in (each.partition("%") for each in names):

@@ -1,4 +1,4 @@
-"""Result files: opening them, and saying what is wrong with them."""
+"""Result files: opening them, and the reason where one cannot be read."""
 
 import os
 import warnings
@@ -14,7 +14,7 @@ from tiltpad.files.archive import Archive, RunError, damaged, reading
 
 #: Datasets over which the others are drawn and integrated; they must be finite.
 AXES = ("time", "shaft_angle", "speed", "pivot_angle")
-#: Dimensions of the known datasets; what a later program adds is read as it is.
+#: Dimensions of the known datasets; those of a later program are read as they are.
 DIMENSIONS = {
     **dict.fromkeys(
         ("time", "shaft_angle", "speed", "journal_y", "journal_z", "journal_vy", "journal_vz"), ("time",)
@@ -46,7 +46,7 @@ DIMENSIONS = {
 
 
 class IncompleteRunWarning(UserWarning):
-    """The run ended before its time; what was computed is there."""
+    """The run did not reach its end; the file has the samples up to there."""
 
 
 def read(path: str | os.PathLike) -> "Run":
@@ -55,9 +55,9 @@ def read(path: str | os.PathLike) -> "Run":
 
 
 class Run(Archive):
-    """One result file, open for reading; nothing is loaded before it is asked for.
+    """One result file, open for reading; a dataset is loaded when it is used.
 
-    What is in the file goes by its name:
+    Everything in the file has its name here:
 
         run.journal_y, run["journal_y"]      dataset as an array, (time,) or (time, pad), SI units
         run.values("journal_y", part)        the same, only the samples of the slice `part`
@@ -101,7 +101,7 @@ class Run(Archive):
 
     @property
     def samples(self) -> int:
-        """Number of samples in time; 0 where nothing was marched."""
+        """Number of samples in time; 0 for an equilibrium."""
         return self.length("time") if "time" in self else 0
 
     def check_whole(self) -> None:
@@ -124,18 +124,18 @@ class Run(Archive):
         return values
 
     def end(self) -> str:
-        """Where an incomplete run ended, as the end of a sentence."""
+        """The time at which an incomplete run ended, as the end of a sentence."""
         if not self.samples:
             return " without samples in time"
         duration = self.input["operation"]["duration"]
         return f", ended at {self.values('time', -1):g} s of {duration:g} s"
 
     def without(self, name: str) -> str:
-        """What to say where a dataset is missing."""
+        """The message for a dataset that is missing."""
         return f"{self.path}: no {name} in this run: {self.why_not(name)}"
 
     def why_not(self, name: str) -> str:
-        """Why the run has no such dataset."""
+        """The reason why the run has no such dataset."""
         friction, motion = self.input["friction"]["model"], self.input["pads"]["motion"]
         if name == "bristle_deflection" and friction != "lugre":
             return f"friction model is '{friction}'"

@@ -10,21 +10,21 @@ from tiltpad.files.archive import Archive, RunError, damaged, plain
 
 #: Dimensions of the arrays.
 MEMBER, PADS = ("member",), ("member", "pad")
-#: Most revolutions of which Poincare points are kept.
+#: Maximum number of revolutions of which Poincare points are kept.
 REVOLUTIONS = 50
 
 
 class Quantity(NamedTuple):
-    """What a study has of every member: dimensions, unit, meaning."""
+    """A result of every member in a study: dimensions, unit, meaning."""
 
     dimensions: tuple[str, ...]
     units: str
     long_name: str
 
 
-#: What is measured of a member, beside its cost. Revolution means the last one.
+#: Results of a member, beside its cost. Motion, film and friction are those of the last revolution.
 QUANTITIES = {
-    "status": Quantity(MEMBER, "1", "exit status: 0 done, nan cannot be read"),
+    "status": Quantity(MEMBER, "1", "exit status: 0 done, nan if the file cannot be read"),
     "complete": Quantity(MEMBER, "1", "1 where the run reached its end"),
     "time_reached": Quantity(MEMBER, "s", "time reached"),
     "resumes": Quantity(MEMBER, "1", "times that the run was resumed"),
@@ -34,19 +34,19 @@ QUANTITIES = {
     "orbit_size": Quantity(MEMBER, "m", "orbit, the larger of both peak to peak"),
     "mean_y": Quantity(MEMBER, "m", "mean of journal y"),
     "mean_z": Quantity(MEMBER, "m", "mean of journal z"),
-    "min_film_thickness": Quantity(MEMBER, "m", "least film thickness"),
-    "max_pressure": Quantity(MEMBER, "Pa", "highest pressure"),
+    "min_film_thickness": Quantity(MEMBER, "m", "minimum film thickness"),
+    "max_pressure": Quantity(MEMBER, "Pa", "maximum pressure"),
     "friction_work": Quantity(MEMBER, "J", "friction work a revolution, all pads"),
     "stick_fraction": Quantity(MEMBER, "1", "share of time that pivots stick, mean of the pads"),
     "pad_tilt_size": Quantity(PADS, "rad", "tilt, peak to peak"),
-    "pad_min_film_thickness": Quantity(PADS, "m", "least film thickness of the pad"),
-    "pad_max_pressure": Quantity(PADS, "Pa", "highest pressure of the pad"),
+    "pad_min_film_thickness": Quantity(PADS, "m", "minimum film thickness of the pad"),
+    "pad_max_pressure": Quantity(PADS, "Pa", "maximum pressure of the pad"),
     "pad_friction_work": Quantity(PADS, "J", "friction work a revolution"),
     "pad_stick_fraction": Quantity(PADS, "1", "share of time that the pivot sticks"),
     "equilibrium_y": Quantity(MEMBER, "m", "journal y at the equilibrium"),
     "equilibrium_z": Quantity(MEMBER, "m", "journal z at the equilibrium"),
-    "equilibrium_min_film_thickness": Quantity(MEMBER, "m", "least film thickness at the equilibrium"),
-    "equilibrium_max_pressure": Quantity(MEMBER, "Pa", "highest pressure at the equilibrium"),
+    "equilibrium_min_film_thickness": Quantity(MEMBER, "m", "minimum film thickness at the equilibrium"),
+    "equilibrium_max_pressure": Quantity(MEMBER, "Pa", "maximum pressure at the equilibrium"),
     "poincare_y": Quantity(("member", "revolution"), "m", "journal y once a revolution"),
     "poincare_z": Quantity(("member", "revolution"), "m", "journal z once a revolution"),
     "poincare_tilt": Quantity(("member", "revolution", "pad"), "rad", "tilt once a revolution"),
@@ -61,9 +61,9 @@ def read_study(path: str | os.PathLike) -> "Study":
 
 
 class Study(Archive):
-    """One study, open for reading; nothing is loaded before it is asked for.
+    """One study, open for reading; a dataset is loaded when it is used.
 
-    What is in the file goes by its name:
+    Everything in the file has its name here:
 
         study.orbit_y, study["orbit_y"]      a result, (member,), in SI units; nan of a member that failed
         study.speed_rpm                      a parameter, (member,), as in the input

@@ -45,8 +45,8 @@ SHOWN = {
     "number": Shown("number", 1, ""),
     "film_force_tangential": Shown("film force, tangential", 1e-3, "kN"),
     "film_force_radial": Shown("film force, radial", 1e-3, "kN"),
-    "min_film_thickness": Shown("least film thickness", 1e6, "µm"),
-    "max_pressure": Shown("highest pressure", 1e-6, "MPa"),
+    "min_film_thickness": Shown("minimum film thickness", 1e6, "µm"),
+    "max_pressure": Shown("maximum pressure", 1e-6, "MPa"),
     "pressure": Shown("film pressure", 1e-6, "MPa"),
     "phi": Shown("angle from pivot", 180 / pi, "deg"),
     "orbit_size": Shown("orbit, peak to peak", 1e6, "µm"),
@@ -56,14 +56,14 @@ SHOWN = {
     "mean_z": Shown("mean of journal $z$", 1e6, "µm"),
     "friction_work": Shown("friction work a revolution", 1e3, "mJ"),
     "stick_fraction": Shown("share of time that pivots stick", 100, "%"),
-    "equilibrium_y": Shown("journal $y$ at rest", 1e6, "µm"),
-    "equilibrium_z": Shown("journal $z$ at rest", 1e6, "µm"),
-    "equilibrium_min_film_thickness": Shown("least film thickness at rest", 1e6, "µm"),
-    "equilibrium_max_pressure": Shown("highest pressure at rest", 1e-6, "MPa"),
-    "axial": Shown("axial place", 1e3, "mm"),
+    "equilibrium_y": Shown("journal $y$ at equilibrium", 1e6, "µm"),
+    "equilibrium_z": Shown("journal $z$ at equilibrium", 1e6, "µm"),
+    "equilibrium_min_film_thickness": Shown("minimum film thickness at equilibrium", 1e6, "µm"),
+    "equilibrium_max_pressure": Shown("maximum pressure at equilibrium", 1e-6, "MPa"),
+    "axial": Shown("axial position", 1e3, "mm"),
 }
 
-#: Units of the input by the variable's name; what has none is a pure number or has a name in _rpm or _deg.
+#: Units of the input variables by name. Others are pure numbers, or their names end in _rpm or _deg.
 UNITS = {
     **{"mass": "kg", "unbalance": "kg m", "inertia": "kg m²", "characteristic_load": "N", "static_load": "N"},
     **{"balance_grade": "mm/s", "gravity": "m/s²", "viscosity": "Pa s"},
@@ -87,7 +87,7 @@ def named(name: str) -> tuple[str, str]:
 
 
 def shown(text: str, unit: str, values: Sequence[float] | np.ndarray) -> Shown:
-    """What values in a unit of the input are shown in: lengths in µm where all are below a millimetre."""
+    """The unit in which values of an input variable are shown: µm for lengths below a millimetre."""
     if unit == "m" and np.nanmax(np.abs(values), initial=0) < 1e-3:
         return Shown(text, 1e6, "µm")
     return Shown(text, 1, "" if unit == "1" else unit)
