@@ -11,10 +11,10 @@ VERSION := 0.1.0
 MODE   ?= release
 PREFIX ?= /usr/local
 PYTHON ?= python3
-export LAPACK ARCHIVES CC
 ifeq ($(origin FC),default)
 FC := gfortran
 endif
+export FC CC LAPACK ARCHIVES
 # all processors, unless -j says otherwise
 ifeq ($(MAKELEVEL)$(filter -j% --jobs%,$(MAKEFLAGS)),0)
 MAKEFLAGS += --jobs=$(shell nproc)
@@ -300,7 +300,7 @@ wheel-%:
 	$(CC) -O2 -s post/wheel/start.c -o build/wheel/$*/programs/tiltpad
 	for mode in $(processors); do cp build/$$mode/bin/tiltpad build/wheel/$*/programs/$$mode || exit 1; done
 	mv build/wheel/$*/programs build/wheel/$*/source/
-	cp LICENSE build/wheel/$*/source && FC=$(FC) post/wheel/licences.sh build/any/lib/flags build/wheel/$*/source
+	cp LICENSE build/wheel/$*/source && post/wheel/licences.sh build/any/lib/flags build/wheel/$*/source
 	$* -m venv build/wheel/$*/venv
 	grep -E '^(numpy|setuptools|wheel)=' post/requirements.txt | build/wheel/$*/venv/bin/pip install -q -r /dev/stdin
 	@$(MAKE) --no-print-directory MODE=wrap python_library VENV=build/wheel/$*/venv FOLDER=build/wheel/$*/source/tiltpad

@@ -2,7 +2,8 @@
 # Prints how to link SUNDIALS, HDF5, FFTW and LAPACK: their archives where there are any, else their shared libraries.
 # A program of archives starts in a third of the time, and needs nothing on the machine that runs it.
 #
-# usage: libraries.sh FOLDER [PREFIX...]     environment: CC; LAPACK (flags of one's own); ARCHIVES=no (shared libraries)
+# usage: libraries.sh FOLDER [PREFIX...]     environment: FC, CC; LAPACK (flags of one's own); ARCHIVES=no (shared
+# libraries)
 #
 # An archive may refer to what this program never uses: SUNDIALS of some distributions to MPI, which would bring some
 # 60 libraries and a sixth of a second to every start; HDF5 to libraries for files in web storage. Such references are
@@ -79,6 +80,8 @@ link fftw3
 if [ -n "$LAPACK" ]; then
    flags="$flags $LAPACK"
 else
+   # a distribution's is built by gfortran: for another compiler, the shared one brings gfortran's own library along
+   case $FC in *gfortran*) ;; *) endings=.so ;; esac
    folder_of_its_own=lapack/ && link lapack
    folder_of_its_own=blas/ && link blas
 fi
