@@ -60,12 +60,12 @@ def larger(value: float) -> Verdict:
 
 
 def growth(values: Iterable[float]) -> float:
-    """Least ratio of a value to the one before it."""
+    """Minimum ratio of a value to the one before it."""
     return min(after / before for before, after in pairwise(values))
 
 
 def fall(values: Iterable[float]) -> float:
-    """Greatest ratio of a value to the one before it."""
+    """Maximum ratio of a value to the one before it."""
     return max(after / before for before, after in pairwise(values))
 
 

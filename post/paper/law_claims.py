@@ -32,14 +32,14 @@ CLAIMS = Claims()
 # ---- contact and friction laws ---------------------------------------------------------------------------
 @CLAIMS.add("Fig. 4", "The snug fit is the stiffest option: the larger dR, the smaller the force")
 def snug_fit_stiffest(runs: Runs) -> Verdict:
-    """Greatest ratio of the force to that of the next smaller dR at the same penetration, R_2 = 100 mm."""
+    """Maximum ratio of the force to that of the next smaller dR at the same penetration, R_2 = 100 mm."""
     forces = [fang_force(difference)[1][1:] for difference in FANG_DIFFERENCES]
     return smaller(max(float((b / a).max()) for a, b in pairwise(forces)))
 
 
 @CLAIMS.add("Fig. 6", "For gamma = 1 and chi = 1/v_s the Stribeck curve is equal for both models")
 def one_stribeck_curve(runs: Runs) -> Verdict:
-    """Greatest difference of (22) and (25) over f_s, at sliding velocities from v_c up."""
+    """Maximum difference of (22) and (25) over f_s, at sliding velocities from v_c up."""
     bengisu, lugre = runs["steady_ba_20_10"], runs["steady_lugre_20_10"]
     law = bengisu.input["friction"]
     velocity = np.geomspace(law["critical_velocity"], 1e-2, 1000)
@@ -56,7 +56,7 @@ def coarse_velocity_slides(runs: Runs) -> Verdict:
 
 @CLAIMS.add("Fig. 7", "With lower v_c sticking is more apparent")
 def fine_velocity_sticks(runs: Runs) -> Verdict:
-    """The same, the least ratio of one v_c to the next higher."""
+    """The same, the minimum ratio of one v_c to the next higher."""
     return larger(growth(sticking(runs[name]) for name in VELOCITIES.values()))
 
 
@@ -74,7 +74,7 @@ def soft_bristles_slide(runs: Runs) -> Verdict:
 
 @CLAIMS.add("Fig. 8", "With higher sigma_0 the pads stick")
 def stiff_bristles_stick(runs: Runs) -> Verdict:
-    """The same, the least of all sigma_0 from 1e6 1/m."""
+    """The same, the minimum of all sigma_0 from 1e6 1/m."""
     return Verdict(min(sticking(runs[name]) for name in list(STIFFNESSES.values())[1:]), ">", RESTS)
 
 
@@ -130,7 +130,7 @@ def friction_enlarges_tilting_radial(runs: Runs) -> Verdict:
 
 @CLAIMS.add("Fig. 9", "The larger influence of friction occurs in TR")
 def friction_more_in_tilting_radial(runs: Runs) -> Verdict:
-    """What friction adds to the size of the orbit (with friction over frictionless, less 1), TR over TO."""
+    """Growth of the orbit by friction (size with friction over frictionless, minus 1), TR over TO."""
     only, radial = (
         size(runs[f"steady_{each}_ba"]) / size(runs[f"steady_{each}"]) - 1 for each in ("to", "tr")
     )
@@ -147,30 +147,30 @@ for column, words in enumerate(("frictionless", "with friction")):
 
     @CLAIMS.add("Fig. 10", f"A larger radius difference moves the journal downwards, {words}")
     def lowers(runs: Runs, friction: int = column) -> Verdict:
-        """Least step down of the mean height from one dR to the next, over the assembled clearance."""
+        """Minimum step down of the mean height from one dR to the next, over the assembled clearance."""
         found = by_difference(runs, friction)
         steps = [(height(a) - height(b)) / a.clearance for a, b in pairwise(found)]
         return Verdict(min(steps), ">", RESOLUTION)
 
     @CLAIMS.add("Fig. 10", f"... and raises the peak-to-peak tilt, {words}")
     def raises_tilt(runs: Runs, friction: int = column) -> Verdict:
-        """Least ratio of the peak-to-peak tilt to that of the next smaller dR."""
+        """Minimum ratio of the peak-to-peak tilt to that of the next smaller dR."""
         return larger(growth(peak_to_peak(run, "pad_tilt") for run in by_difference(runs, friction)))
 
     @CLAIMS.add("Fig. 10", f"... and the peak-to-peak tilt velocity, {words}")
     def raises_tilt_rate(runs: Runs, friction: int = column) -> Verdict:
-        """Least ratio of the peak-to-peak tilt rate to that of the next smaller dR."""
+        """Minimum ratio of the peak-to-peak tilt rate to that of the next smaller dR."""
         return larger(growth(peak_to_peak(run, "pad_tilt_rate") for run in by_difference(runs, friction)))
 
     @CLAIMS.add("Fig. 10", f"... and lets the journal perform larger orbits, {words}")
     def enlarges(runs: Runs, friction: int = column) -> Verdict:
-        """Least ratio of the orbit's size to that of the next smaller dR."""
+        """Minimum ratio of the orbit's size to that of the next smaller dR."""
         return larger(growth(size(run) for run in by_difference(runs, friction)))
 
 
 @CLAIMS.add("Fig. 10", "With friction the waveforms flatten due to sticking")
 def friction_flattens(runs: Runs) -> Verdict:
-    """Time below the stick velocity, over that of a sinusoid of the same amplitude; the least of the three
+    """Time below the stick velocity, over that of a sinusoid of the same amplitude; the minimum of the three
     dR.
     """
     return Verdict(min(sticking(run) for run in by_difference(runs, 1)), ">", RESTS)

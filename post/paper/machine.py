@@ -7,7 +7,7 @@ from pathlib import Path
 
 
 def machine(version: str, seconds: float | None) -> str:
-    """On what the page was made, in so many seconds; None: from the runs of an earlier time."""
+    """Program, machine and time of the page; without `seconds` the runs are those of an earlier time."""
     system = platform.freedesktop_os_release().get("PRETTY_NAME", platform.system())
     spent = "runs kept from an earlier time" if seconds is None else f"{seconds:.0f} s of runs and drawing"
     return f"{version}; {processor()}, {os.cpu_count()} cores, {system}; {spent}."

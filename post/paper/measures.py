@@ -1,4 +1,4 @@
-"""What is measured in the runs: one number each, over the last revolutions unless a part is named."""
+"""Numbers that are measured in the runs, over the last revolutions unless a part is given."""
 
 import numpy as np
 import tiltpad
@@ -51,7 +51,7 @@ def breakaway(run: Run) -> float:
 
 
 def distance(run: Run, other: Run, part: slice | None = None) -> float:
-    """Greatest distance of the journal's paths at the same shaft angle, over the orbit's size in `other`."""
+    """Maximum distance of the journal's paths at the same shaft angle, over the orbit's size in `other`."""
     part = tiltpad.last_revolutions(other, LAST) if part is None else part
     gap, sizes = [], []
     for name in ("journal_y", "journal_z"):
@@ -91,16 +91,16 @@ def stribeck_curve(run: Run, velocity: np.ndarray) -> np.ndarray:
 
 
 def off_curve(run: Run) -> float:
-    """Greatest distance of the friction coefficient of the first pad from the steady law, over f_s."""
+    """Maximum distance of the friction coefficient of the first pad from the steady law, over f_s."""
     velocity, coefficient = tiltpad.friction_coefficient(run, PAD, LAST)
     gap = np.abs(coefficient - stribeck_curve(run, velocity)).max()
     return float(gap) / run.input["friction"]["static_coefficient"]
 
 
 def loop_width(run: Run) -> float:
-    """Greatest difference of the friction coefficient at the same sliding velocity, speeding up and slowing
+    """Maximum difference of the friction coefficient at the same sliding velocity, speeding up and slowing
     down, over f_s; of the first pad, both directions of sliding, from the stick velocity to 95 % of the
-    greatest.
+    maximum.
     """
     velocity, coefficient = tiltpad.friction_coefficient(run, PAD, 1)
     widest = 0.0

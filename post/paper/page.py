@@ -14,27 +14,27 @@ PAGE = """\
 # The paper, reproduced
 
 Š. Dyk, J. Rendl, R. Bulín, L. Smolík, *Influence of detailed ball-and-socket modelling on tilting pad
-journal bearings dynamics*, Nonlinear Dynamics (2023), CC BY 4.0. Written by `make paper` from the program's
-own runs; no number on this page was typed in but those that the paper says. All checks:
+journal bearings dynamics*, Nonlinear Dynamics (2023), CC BY 4.0. `make paper` writes this page: all its
+numbers are calculated from runs of the program, except those that are quoted from the paper. All checks:
 [checks.csv](checks.csv).
 
 {machine}
 
-**{count} claims checked: {good} hold, {bad} do not.** Why: *Where a claim does not hold* below. {failed}
+**{count} claims checked: {good} hold, {bad} do not.** The reasons: *Claims that do not hold* below. {failed}
 
-Every claim is decided by one number over the last {last} revolutions (of 2 s at 6500 rpm, or as said) of
-pad 1. A number is larger or smaller if it is so by {resolution}, ten times the error that the default
-settings are held to ([benchmarks](../benchmarks.md)). Orbits whose greatest distance at the same shaft
-angle is below {agreement} of their size agree. A pad sticks while its pivot slides slower than 5 % of the
-Stribeck velocity; it comes to rest where it does so {rests:g} times as long as a sinusoid of the same
-amplitude would. Beside the number stand two more, from the same runs again: *refined* with {refined} and,
-but for the run-ups, {short}; and *rule (26)* with the unbalance that the paper's rule gives for G 6.3,
-where the paper's Table 1, which all pictures and verdicts here take, says 0.010 kg m (the rule:
-{unbalance} kg m at 6500 rpm).
+One number decides a claim. It is taken over the last {last} revolutions, for pad 1, and from runs of 2 s at
+6500 rpm, unless the claim names others. A number counts as larger or smaller if the difference is more than
+{resolution}, ten times the limit of the error of the default settings ([benchmarks](../benchmarks.md)).
+Orbits agree if their maximum distance at the same shaft angle is below {agreement} of their size. A pad
+sticks while its pivot slides slower than 5 % of the Stribeck velocity; it comes to rest if it sticks
+{rests:g} times as long as a sinusoid of the same amplitude would. Two columns have the same number from
+other runs: *refined* with {refined} and, except for the run-ups, {short}; *rule (26)* with the unbalance
+that the rule of the paper gives for G 6.3, {unbalance} kg m at 6500 rpm. All pictures and verdicts have the
+unbalance of Table 1 of the paper, 0.010 kg m.
 
 {sections}
 
-## Where a claim does not hold
+## Claims that do not hold
 
 {why}
 
@@ -44,8 +44,8 @@ where the paper's Table 1, which all pictures and verdicts here take, says 0.010
 
 ## Friction work
 
-Friction takes energy out of the tilting motion: work per revolution and mean power over each pivot, what
-fretting is judged by. The run-ups (unbalance of Table 1):
+Friction dissipates energy of the tilting motion. Fretting is judged by its work per revolution and its mean
+power in each pivot. In the run-ups (unbalance of Table 1) they are:
 
 ![Friction work per revolution and mean power over speed](work.png)
 
@@ -68,9 +68,9 @@ Time in which pad 1 sticks, %:
 
 ## Penetration factor and Hertz's law
 
-Eq. (13) as printed has the factor 4; 2 pi meets Hertz's approach for small contacts. What this changes in
-Fig. 4, for the pivot of the bearing (grey: the load of its frictionless orbit), and in Fig. 10 (Hertz's law
-knows no dR = 0):
+Eq. (13) as printed has the factor 4; with 2 pi the law agrees with Hertz's law for small contacts. The
+pictures show the difference in Fig. 4, for the pivot of the bearing (grey: the load of its frictionless
+orbit), and in Fig. 10. Hertz's law is not defined for dR = 0.
 
 ![Force over penetration by contact law](laws4.png)
 
@@ -80,8 +80,8 @@ knows no dR = 0):
 
 ## Unbalance rule
 
-Rule (26) with the grade of the balance, and with the speed that it takes: each speed its own, or the
-highest one of the machine. Table 1 of the paper stands at G {grade}.
+The unbalance of rule (26) depends on the balance grade and on a speed: that of the run, or the maximum
+speed of the machine. The unbalance of Table 1 of the paper corresponds to G {grade}.
 
 ![Size of the orbit over balance grade and over speed](rule.png)
 
@@ -90,7 +90,7 @@ highest one of the machine. Table 1 of the paper stands at G {grade}.
 {rule_words}
 """
 
-#: What is said before the claims that change with the unbalance.
+#: Introduction to the claims that change with the unbalance.
 RULE_WORDS = """\
 With the unbalance of rule (26) the orbits are larger (*Unbalance rule* below), the pads are driven harder,
 faster than 1e-3 m/s, so that they come to rest even with that v_c, and the journal comes nearer the upper
@@ -168,7 +168,7 @@ def said(holds: bool) -> str:
 
 
 def why(failed: Sequence[Checked], runs: Runs) -> str:
-    """What is said of the claims that fail, each reason once."""
+    """The reasons why claims fail, each once."""
     if not failed:
         return "All of them do."
     texts = []
@@ -176,7 +176,7 @@ def why(failed: Sequence[Checked], runs: Runs) -> str:
         same = [each for each in failed if each.claim.name == name]
         texts.append("\n".join(f"- {short(each)}; refined {digits(each.refined.value)}" for each in same))
         if any(each.refined.holds for each in same):
-            texts.append("The refined runs say otherwise: the numerics.")
+            texts.append("The claim holds in the refined runs: the reason is the numerics.")
         else:
             texts.append(WHY[name](runs) if name in WHY else "Not explained yet.")
     return "\n\n".join(texts)

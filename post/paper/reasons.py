@@ -59,7 +59,7 @@ def why_loops(runs: Runs) -> str:
     )
 
 
-#: What is said of a claim that does not hold.
+#: Reasons by the name of the claim.
 WHY = {
     "amplitude_below_frictionless": why_amplitude,
     "sticking_wider_dynamic": why_sticking,

@@ -1,11 +1,11 @@
-"""Parts of the page: what the paper says in them, and their pictures."""
+"""Parts of the page: quotations from the paper, and their pictures."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class Section:
-    """A part of the page: pictures, what the paper says, and the claims by where they stand."""
+    """A part of the page: pictures, a quotation from the paper, and the figures or sections of its claims."""
 
     title: str
     pictures: tuple[str, ...]
@@ -95,7 +95,7 @@ SECTIONS = (
         "motion of the pad. Hence, the pads remain in the sticking regime. Similarly, the lower "
         "unbalance causes a stick in the BS coupling concerning the given nominal rotor speed.",
         ("Sec. 4",),
-        "Up to which speed they stay stuck, by friction coefficient: the map further down.",
+        "The map further down shows up to which speed they stick, for each friction coefficient.",
     ),
     Section(
         "Section 3: the upper pads",

@@ -1,4 +1,4 @@
-"""What is run and what counts: scenes, windows and limits, all in one place."""
+"""Settings: scenes, windows and limits."""
 
 from dataclasses import dataclass
 from math import pi
@@ -9,7 +9,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 
 @dataclass(frozen=True)
 class Scene:
-    """A case of input/, with what is changed in it."""
+    """A case of input/, with overrides."""
 
     name: str
     case: str

@@ -27,7 +27,7 @@ CLAIMS = Claims()
 # ---- operating conditions --------------------------------------------------------------------------------
 @CLAIMS.add("Sec. 4", "At low speed, with the unbalance of that speed, the pads stay stuck")
 def stuck_at_low_speed(runs: Runs) -> Verdict:
-    """Greatest part of the static friction used, both pads and models, at the lowest speed of the paper;
+    """Maximum part of the static friction used, both pads and models, at the lowest speed of the paper;
     where it stays below 1 no pivot breaks away.
     """
     return Verdict(max(breakaway(runs[f"{model}_slow"]) for model in ("ba", "lugre")), "<", 1 - RESOLUTION)
@@ -41,7 +41,7 @@ def stuck_when_balanced(runs: Runs) -> Verdict:
 
 @CLAIMS.add("Sec. 3", "The upper pads flutter")
 def upper_pads_flutter(runs: Runs) -> Verdict:
-    """Peak-to-peak tilt, upper over lower pads, the least of both upper ones, four pads with LuGre."""
+    """Peak-to-peak tilt, upper over lower pads, the minimum of both upper ones, four pads with LuGre."""
     run = runs["four_pads"]
     tilt = np.ptp(run.values("pad_tilt", tiltpad.last_revolutions(run, LAST)), axis=0)
     return larger(float(tilt[2:].min() / tilt[:2].max()))
@@ -51,7 +51,7 @@ for suffix, words in (("", "LuGre"), ("_none", "frictionless")):
 
     @CLAIMS.add("Sec. 3", f"The upper pads change the orbit little, {words}")
     def upper_pads_matter_little(runs: Runs, end: str = suffix) -> Verdict:
-        """Greatest distance of the paths with four and two pads at the same shaft angle, over the orbit's
+        """Maximum distance of the paths with four and two pads at the same shaft angle, over the orbit's
         size; cavitation 'gumbel'.
         """
         return Verdict(distance(runs[f"four_pads{end}"], runs[f"two_pads{end}"]), "<", AGREEMENT)
@@ -59,14 +59,14 @@ for suffix, words in (("", "LuGre"), ("_none", "frictionless")):
 
 # ---- run-up ----------------------------------------------------------------------------------------------
 def runup_distance(runs: Runs, model: str, rpm: float) -> float:
-    """Greatest distance of a run-up from that with Bengisu-Akay, over the orbit's size, from a speed on."""
+    """Maximum distance of a run-up from that with Bengisu-Akay, over the orbit's size, from a speed on."""
     true = runs[RUNUPS["Bengisu-Akay"]]
     return distance(runs[RUNUPS[model]], true, speed_window(true, rpm, LAST))
 
 
 @CLAIMS.add("Fig. 15", "In the run-up LuGre's trajectory deviates from Bengisu-Akay's at low speed")
 def runups_differ_at_low_speed(runs: Runs) -> Verdict:
-    """Greatest distance at the same shaft angle over the orbit's size, five revolutions from 2000 rpm; the
+    """Maximum distance at the same shaft angle over the orbit's size, five revolutions from 2000 rpm; the
     smaller of both sigma_0.
     """
     return Verdict(min(runup_distance(runs, model, LOW_SPEED) for model in list(RUNUPS)[1:]), ">", AGREEMENT)
@@ -101,7 +101,7 @@ def soft_bristles_differ_at_low_speed(runs: Runs) -> Verdict:
 
 @CLAIMS.add("Fig. 15", "The run-up does not greatly affect the influence of the friction models")
 def runup_ends_as_steady_state(runs: Runs) -> Verdict:
-    """Greatest distance of the last five revolutions from the steady run's over the orbit's size, all
+    """Maximum distance of the last five revolutions from the steady run's over the orbit's size, all
     models.
     """
     names = [MODELS[model][0] for model in RUNUPS]
@@ -113,7 +113,7 @@ def runup_ends_as_steady_state(runs: Runs) -> Verdict:
 
 
 def aligned_distance(run: tiltpad.Run, steady: tiltpad.Run) -> float:
-    """Greatest distance of a run's last orbit from the nearest point of a steady orbit, over its size."""
+    """Maximum distance of a run's last orbit from the nearest point of a steady orbit, over its size."""
     path, true = (np.column_stack(tiltpad.orbit(each, 1)) for each in (run, steady))
     gap = np.linalg.norm(path[:, None] - true[None], axis=2).min(axis=1)
     return float(gap.max() / size(steady))

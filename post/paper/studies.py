@@ -137,14 +137,14 @@ def map_table(runs: Runs) -> str:
 
 
 def map_words(runs: Runs) -> str:
-    """Up to which speed the pad sticks all the time."""
+    """The speed up to which the pad sticks all the time."""
     parts = []
     for f, shares in zip(MAP_COEFFICIENTS, stick_map(runs), strict=True):
         # the first speed at which it slides
         first = int(np.argmax(shares < 1)) if np.any(shares < 1) else len(shares)
         if first:
             parts.append(f"{MAP_SPEEDS[first - 1]} rpm (f_s = {f:g})")
-    return f"Of these speeds it sticks all the time up to {', '.join(parts)}." if parts else ""
+    return f"The pad sticks all the time up to {', '.join(parts)}." if parts else ""
 
 
 # ---- contact laws ----------------------------------------------------------------------------------------
@@ -167,7 +167,7 @@ def laws_figure(runs: Runs) -> Figure:
 
 
 def laws_table(runs: Runs) -> str:
-    """What the laws change in Fig. 10."""
+    """The influence of the laws on Fig. 10."""
     rows = []
     for friction in (False, True):
         for law in LAWS:
@@ -225,7 +225,7 @@ def rule_sizes(runs: Runs, model: str, kind: str) -> np.ndarray:
 
 
 def rule_table(runs: Runs) -> str:
-    """Size of the orbit over the speed, um, and what friction makes of it."""
+    """Size of the orbit over the speed, um, and its ratio with and without friction."""
     sizes = {
         (kind, model): rule_sizes(runs, model, kind)
         for kind in ("own", "highest")

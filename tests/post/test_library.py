@@ -38,7 +38,7 @@ def test_the_equilibrium_is_as_archived(run, scene):
 def test_rebuilt_forces_are_those_archived(run, scene):
     """A sample is the polynomial of the step through the values at its ends (docs/theory.md), not a film
     solved there, and the states for the rebuilt film are CVODE's interpolation. Both are as accurate as the
-    march, 1e-5 of the scales of the states at the default tolerance; squeeze makes it several times as much of
+    march, 1e-5 of the scales of the states at the default tolerance; squeeze makes it several times that of
     the range of the force. The maximum pressure is that at the points of the solver. It has kinks where it
     passes from one point to the next, of 1e-3 of the range, which no polynomial follows. The minimum film
     thickness in the file is calculated from the states.

@@ -44,7 +44,7 @@ def pads(run: Run) -> list[Figure]:
 
 
 def peaks(run: Run, count: int = 8) -> list[Peak]:
-    """The highest peaks of the journal, above 0.1 % of the first, over the last revolutions at constant speed."""
+    """The highest peaks in the spectrum of the journal at constant speed, above 0.1 % of the first."""
     frequency, y = spectra.one_sided(run, "journal_y", LAST)
     z = spectra.one_sided(run, "journal_z", LAST)[1]
     size = np.hypot(y, z)
