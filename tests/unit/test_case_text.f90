@@ -1,15 +1,15 @@
 !> Case files: their bytes as they are, what is refused, and overrides in their order.
 program test_case_text
-   use text, only: to_text
    use errors, only: error_type, input_error
-   use posix, only: process_id
    use assignments, only: namelist_type, assignment_text
    use case_text, only: read_text, parse_case
+   use files, only: delete_file
+   use scratch, only: scratch_path, write_bytes
    use check, only: runs, expect, expect_no_error, expect_error, report
    implicit none (type, external)
    character(len=:), allocatable :: path
 
-   path = 'test_case_text_'//to_text(int(process_id()))//'.nml'
+   path = scratch_path('case.nml')
    if (runs('bytes')) call bytes()
    if (runs('longest')) call longest()
    if (runs('no_case')) call no_case()
@@ -24,13 +24,9 @@ contains
       character(len=*), intent(in) :: bytes
       character(len=:), allocatable, intent(out) :: text
       type(error_type), allocatable, intent(out) :: error
-      integer :: unit
-      open (newunit=unit, file=path, access='stream', form='unformatted', status='replace', action='write')
-      write (unit) bytes
-      close (unit)
+      call write_bytes(path, bytes)
       call read_text(path, text, error)
-      open (newunit=unit, file=path, status='old')
-      close (unit, status='delete')
+      call delete_file(path)
    end subroutine read_back
 
    subroutine expect_bytes(bytes, what)

@@ -1,20 +1,26 @@
-!> HDF5 files: what is put is what is got; a failure is kept, named, and ends all that follows.
+!> Datasets of an HDF5 file: numbers to the last bit, dimension scales, and what is refused.
 program test_hdf5_file
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_positive_inf
+   use hdf5, only: hid_t, h5dopen_f, h5dclose_f
+   use h5ds, only: h5dsis_scale_f, h5dsis_attached_f
    use kinds, only: wp, i8
-   use text, only: to_text
-   use files, only: delete_file
-   use processes, only: process_id
    use hdf5_file, only: hdf5_type
+   use files, only: delete_file
+   use scratch, only: scratch_path
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
    character(len=:), allocatable :: path
 
-   path = 'test_hdf5_file_'//to_text(int(process_id()))//'.h5'
-   if (runs('round_trip')) call round_trip()
-   if (runs('replacing')) call replacing()
-   if (runs('names')) call names()
-   if (runs('reading_failures')) call reading_failures()
-   if (runs('writing_failures')) call writing_failures()
+   path = scratch_path('file.h5')
+   if (runs('numbers')) call numbers()
+   if (runs('tables')) call tables()
+   if (runs('overwritten')) call overwritten()
+   if (runs('in_groups')) call in_groups()
+   if (runs('scales')) call scales()
+   if (runs('missing')) call missing()
+   if (runs('wrong_size')) call wrong_size()
+   if (runs('wrong_kind')) call wrong_kind()
+   if (runs('nothing_after_a_failure')) call nothing_after_a_failure()
    call delete_file(path)
    call report()
 
@@ -24,148 +30,186 @@ contains
       type(hdf5_type), intent(in) :: file
       character(len=*), intent(in) :: what
       call expect(.not. allocated(file%failure), what)
-      if (allocated(file%failure)) call expect(.false., file%failure)
+      if (allocated(file%failure)) call expect(.false., '   but: '//file%failure)
    end subroutine expect_well
 
-   subroutine round_trip()
-      type(hdf5_type) :: file
-      character(len=:), allocatable :: text
-      real(wp) :: list(3)
-      integer :: flag
-      call file%create(path)
-      call file%put_text('title', 'Größe, two'//new_line('a')//'lines')
-      call file%put_text('nothing', '')
-      call file%put_flag('complete', -7)
-      call file%make_group('group')
-      call file%put_count('group/count', 2_i8**60 + 1, 'a large count')
-      call file%put_real('group/value', 1/3.0_wp, 'm', 'a third')
-      call file%put_list('axis', [1.0_wp, 2.0_wp, 4.0_wp], 's', 'an axis', 'axis')
-      call file%put_list('over_axis', [3.0_wp, tiny(1.0_wp), -huge(1.0_wp)], 'N', 'values', 'axis')
-      call file%put_table('table', reshape([1.0_wp, 2.0_wp, 3.0_wp], [3, 1]), 'N', 'a table', '')
-      call file%close()
-      call expect_well(file, 'written')
-      call file%open(path, writing=.false.)
-      call file%get_text('title', text)
-      call expect(text == 'Größe, two'//new_line('a')//'lines', 'a text')
-      call file%get_text('nothing', text)
-      call expect(len(text) == 0, 'an empty text')
-      call file%get_flag('complete', flag)
-      call expect(flag == -7, 'a flag')
-      call expect(file%get_count('group/count') == 2_i8**60 + 1, 'a count')
-      call expect_close(file%get_real('group/value'), 1/3.0_wp, 0.0_wp, 'a number')
-      call file%get_list('over_axis', list)
-      call expect_close(maxval(abs([list(1) - 3, list(2)/tiny(1.0_wp) - 1, list(3)/huge(1.0_wp) + 1])), 0.0_wp, &
-         & 0.0_wp, 'a list')
-      call file%get_list('table', list)
-      call expect_close(norm2(list - [1.0_wp, 2.0_wp, 3.0_wp]), 0.0_wp, 0.0_wp, 'a table')
-      call expect_well(file, 'read')
-      call file%close()
-   end subroutine round_trip
-
-   !> A value of the name and size is overwritten, in this opening of the file or another.
-   subroutine replacing()
-      type(hdf5_type) :: file
-      character(len=:), allocatable :: text
-      real(wp) :: list(2)
-      integer :: flag, k
-      call file%create(path)
-      do k = 1, 3
-         call file%put_text('text', repeat('x', k))
-         call file%put_flag('flag', k)
-         call file%put_count('count', int(k, i8), 'a count')
-         call file%put_list('list', [1.0_wp*k, 2.0_wp*k], '1', 'a list', '')
-         call file%close()
-         call file%open(path, writing=.true.)
-      end do
-      call file%get_text('text', text)
-      call file%get_flag('flag', flag)
-      call file%get_list('list', list)
-      call expect(text == 'xxx' .and. flag == 3 .and. file%get_count('count') == 3, 'the last text, flag and count')
-      call expect_close(norm2(list - [3.0_wp, 6.0_wp]), 0.0_wp, 0.0_wp, 'the last list')
-      call expect_well(file, 'replaced')
-      call file%close()
-   end subroutine replacing
-
-   subroutine names()
-      type(hdf5_type) :: file
-      call file%create(path)
-      call file%make_group('a')
-      call file%put_real('a/x', 5.0_wp, '1', 'x')
-      call file%put_flag('flag', 1)
-      call expect(file%has('a') .and. file%has('a/x') .and. file%has_attribute('flag'), 'what was put is there')
-      call expect(.not. (file%has('a/y') .or. file%has('b/x') .or. file%has_attribute('a')), 'and nothing else')
-      call file%rename('a/x', 'a/y')
-      call file%rename('a/none', 'a/z')
-      call expect(file%has('a/y') .and. .not. (file%has('a/x') .or. file%has('a/z')), 'renamed')
-      call expect_close(file%get_real('a/y'), 5.0_wp, 0.0_wp, 'with its value')
-      call file%delete('a')
-      call file%delete('a')
-      call expect(.not. file%has('a'), 'deleted')
-      call expect_well(file, 'names changed')
-      call file%close()
-   end subroutine names
-
-   !> Opens a file with a count, a list of two and no texts.
-   subroutine open_small(file)
+   !> Damaged, with these words; the file is closed.
+   subroutine expect_damaged(file, words)
       type(hdf5_type), intent(inout) :: file
-      call file%create(path)
-      call file%put_count('count', 3_i8, 'a count')
-      call file%put_list('list', [1.0_wp, 2.0_wp], '1', 'a list', '')
-      call file%close()
-      call file%open(path, writing=.false.)
-   end subroutine open_small
-
-   !> What a failed reading must leave behind.
-   subroutine expect_damaged(file, named)
-      type(hdf5_type), intent(inout) :: file
-      character(len=*), intent(in) :: named
-      call expect(allocated(file%failure) .and. file%damaged, named//': a failure in reading')
-      if (allocated(file%failure)) call expect(index(file%failure, named) > 0, 'names '//named//': '//file%failure)
-      call expect(file%get_count('count') == 0 .and. .not. file%has('count'), 'nothing more is read')
+      character(len=*), intent(in) :: words
+      call expect(allocated(file%failure) .and. file%damaged, 'a failure in reading: '//words)
+      if (allocated(file%failure)) call expect(index(file%failure, words) > 0, words//' in '//file%failure)
       call file%close()
    end subroutine expect_damaged
 
-   subroutine reading_failures()
+   !> Every bit of a number, also of those that are none.
+   subroutine numbers()
       type(hdf5_type) :: file
-      character(len=:), allocatable :: text
-      real(wp) :: list(3), number
-      integer :: flag
-      call open_small(file)
-      number = file%get_real('missing')
-      call expect_close(number, 0.0_wp, 0.0_wp, 'nothing is read as 0')
-      call expect_damaged(file, 'missing')
-      call open_small(file)
-      number = file%get_real('count')
-      call expect_damaged(file, 'count')
-      call open_small(file)
-      call file%get_list('list', list)
-      call expect_damaged(file, 'list')
-      call open_small(file)
-      call file%get_text('title', text)
-      call expect(text == '', 'no text is read as an empty one')
-      call expect_damaged(file, 'title')
-      call open_small(file)
-      call file%get_flag('flag', flag)
-      call expect_damaged(file, 'flag')
-      call file%open('no_such_file.h5', writing=.false.)
-      call expect(allocated(file%failure) .and. file%id < 0, 'no file, no number of one')
-      call open_small(file)
-      call expect_well(file, 'another opening starts anew')
+      real(wp) :: list(6), found(6)
+      list = [1.0_wp/3, -0.0_wp, tiny(1.0_wp), huge(1.0_wp), ieee_value(1.0_wp, ieee_positive_inf), &
+         & ieee_value(1.0_wp, ieee_quiet_nan)]
+      call file%create(path)
+      call file%put_real('real', list(1), 'm', 'a number')
+      call file%put_count('count', 2_i8**62 + 1, 'a large number')
+      call file%put_list('list', list, 'm', 'several', '')
       call file%close()
-   end subroutine reading_failures
+      call file%open(path, writing=.false.)
+      call expect_close(file%get_real('real'), list(1), 0.0_wp, 'a number')
+      call expect(file%get_count('count') == 2_i8**62 + 1, 'a count')
+      call file%get_list('list', found)
+      call expect(all(transfer(found, [1_i8]) == transfer(list, [1_i8])), 'a list')
+      call file%close()
+      call expect_well(file, 'numbers')
+   end subroutine numbers
 
-   subroutine writing_failures()
+   subroutine tables()
       type(hdf5_type) :: file
-      call file%create('no_such_folder/file.h5')
-      call expect(allocated(file%failure) .and. .not. file%damaged, 'no file where there is no folder')
-      if (allocated(file%failure)) call expect(index(file%failure, 'no such file') > 0, &
-         & 'and the system''s reason: '//file%failure)
-      call open_small(file)
-      call file%put_real('value', 1.0_wp, '1', 'a value')
-      call expect(allocated(file%failure), 'nothing is written into a file that was opened for reading')
+      real(wp) :: table(3, 2), found(6)
+      table = reshape([1, 2, 3, 4, 5, 6], [3, 2])
+      call file%create(path)
+      call file%put_table('table', table, '1', 'a table', '')
+      call file%get_list('table', found)
+      call expect_close(maxval(abs(found - [table])), 0.0_wp, 0.0_wp, 'in the order of the memory')
       call file%close()
-      call open_small(file)
-      call expect(.not. file%has('value'), 'and nothing is')
+      call expect_well(file, 'a table')
+   end subroutine tables
+
+   !> What is put again takes the old dataset's numbers, and leaves its units.
+   subroutine overwritten()
+      type(hdf5_type) :: file
+      real(wp) :: found(2)
+      call file%create(path)
+      call file%put_real('real', 1.0_wp, 'm', 'a number')
+      call file%put_count('count', 1_i8, 'a count')
+      call file%put_list('list', [1.0_wp, 2.0_wp], 'm', 'a list', '')
       call file%close()
-   end subroutine writing_failures
+      call file%open(path, writing=.true.)
+      call file%put_real('real', 3.0_wp, 'm', 'a number')
+      call file%put_count('count', 4_i8, 'a count')
+      call file%put_list('list', [5.0_wp, 6.0_wp], 'm', 'a list', '')
+      call file%close()
+      call file%open(path, writing=.false.)
+      call file%get_list('list', found)
+      call expect_close(file%get_real('real'), 3.0_wp, 0.0_wp, 'a number')
+      call expect(file%get_count('count') == 4_i8, 'a count')
+      call expect_close(maxval(abs(found - [5.0_wp, 6.0_wp])), 0.0_wp, 0.0_wp, 'a list')
+      call file%close()
+      call expect_well(file, 'overwritten')
+   end subroutine overwritten
+
+   subroutine in_groups()
+      type(hdf5_type) :: file
+      call file%create(path)
+      call file%make_group('inner')
+      call file%put_real('inner/real', 1.0_wp, 'm', 'a number')
+      call file%put_real('real', 2.0_wp, 'm', 'another')
+      call expect(file%has('inner/real') .and. .not. file%has('inner/other'), 'what is in a group')
+      call expect_close(file%get_real('inner/real'), 1.0_wp, 0.0_wp, 'the number in it')
+      call file%delete('inner/real')
+      call expect(.not. file%has('inner/real') .and. file%has('real'), 'is deleted alone')
+      call file%close()
+      call expect_well(file, 'groups')
+   end subroutine in_groups
+
+   !> A dataset whose scale is itself is one; others name theirs, slowest first.
+   subroutine scales()
+      type(hdf5_type) :: file
+      call file%create(path)
+      call file%put_list('x', [1.0_wp, 2.0_wp, 3.0_wp], 'm', 'places', 'x')
+      call file%put_list('y', [1.0_wp, 2.0_wp], 'm', 'others', 'y')
+      call file%put_table('table', reshape([1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp, 5.0_wp, 6.0_wp], [3, 2]), '1', 'a table', &
+         & 'y x')
+      call expect(is_scale(file, 'x') .and. is_scale(file, 'y') .and. .not. is_scale(file, 'table'), 'what is a scale')
+      call expect(is_attached(file, 'table', 'y', 1) .and. is_attached(file, 'table', 'x', 2), 'of which dimension')
+      call expect(.not. is_attached(file, 'table', 'x', 1), 'and of which not')
+      call file%put_list('z', [1.0_wp, 2.0_wp], 'm', 'no such scale', 'nowhere')
+      call expect(allocated(file%failure), 'a scale that is not there')
+      if (allocated(file%failure)) call expect(index(file%failure, 'attach nowhere to z') > 0, file%failure)
+      call file%close()
+   end subroutine scales
+
+   logical function is_scale(file, name)
+      type(hdf5_type), intent(in) :: file
+      character(len=*), intent(in) :: name
+      integer(hid_t) :: dataset
+      integer :: status
+      call h5dopen_f(file%id, name, dataset, status)
+      call h5dsis_scale_f(dataset, is_scale, status)
+      call h5dclose_f(dataset, status)
+   end function is_scale
+
+   !> Dimensions are counted as Fortran has them.
+   logical function is_attached(file, name, scale, dimension)
+      type(hdf5_type), intent(in) :: file
+      character(len=*), intent(in) :: name, scale
+      integer, intent(in) :: dimension
+      integer(hid_t) :: dataset, of_scale
+      integer :: status
+      call h5dopen_f(file%id, name, dataset, status)
+      call h5dopen_f(file%id, scale, of_scale, status)
+      call h5dsis_attached_f(dataset, of_scale, dimension, is_attached, status)
+      call h5dclose_f(dataset, status)
+      call h5dclose_f(of_scale, status)
+   end function is_attached
+
+   !> Numbers are 0 then.
+   subroutine missing()
+      type(hdf5_type) :: file
+      real(wp) :: list(2)
+      call file%create(path)
+      call expect_close(file%get_real('real'), 0.0_wp, 0.0_wp, 'a missing number')
+      call expect_damaged(file, 'open real')
+      call file%open(path, writing=.false.)
+      call expect(file%get_count('inner/count') == 0, 'a missing count')
+      call expect_damaged(file, 'open inner/count')
+      call file%open(path, writing=.false.)
+      list = 7
+      call file%get_list('list', list)
+      call expect_close(maxval(abs(list)), 0.0_wp, 0.0_wp, 'a missing list')
+      call expect_damaged(file, 'open list')
+   end subroutine missing
+
+   subroutine wrong_size()
+      type(hdf5_type) :: file
+      real(wp) :: list(2)
+      call file%create(path)
+      call file%put_list('list', [1.0_wp, 2.0_wp, 3.0_wp], 'm', 'a list', '')
+      call file%get_list('list', list)
+      call expect_close(maxval(abs(list)), 0.0_wp, 0.0_wp, 'a list of another size')
+      call expect_damaged(file, 'read list')
+      call file%open(path, writing=.false.)
+      call expect_close(file%get_real('list'), 0.0_wp, 0.0_wp, 'a list as a number')
+      call expect_damaged(file, 'read list')
+   end subroutine wrong_size
+
+   subroutine wrong_kind()
+      type(hdf5_type) :: file
+      call file%create(path)
+      call file%put_count('count', 1_i8, 'a count')
+      call file%put_real('real', 1.0_wp, 'm', 'a number')
+      call expect_close(file%get_real('count'), 0.0_wp, 0.0_wp, 'a count as a number')
+      call expect_damaged(file, 'find numbers of the right kind in count')
+      call file%open(path, writing=.false.)
+      call expect(file%get_count('real') == 0, 'a number as a count')
+      call expect_damaged(file, 'find numbers of the right kind in real')
+   end subroutine wrong_kind
+
+   subroutine nothing_after_a_failure()
+      type(hdf5_type) :: file
+      real(wp) :: list(1)
+      call file%create(path)
+      call file%put_real('before', 1.0_wp, 'm', 'a number')
+      call expect_close(file%get_real('missing'), 0.0_wp, 0.0_wp, 'a failure')
+      call file%put_real('behind', 1.0_wp, 'm', 'a number')
+      call file%put_count('behind', 1_i8, 'a count')
+      call file%put_list('behind', [1.0_wp], 'm', 'a list', '')
+      call file%put_table('behind', reshape([1.0_wp], [1, 1]), 'm', 'a table', '')
+      call file%get_list('before', list)
+      call expect_close(list(1), 0.0_wp, 0.0_wp, 'nothing is read')
+      call expect_damaged(file, 'open missing')
+      call file%open(path, writing=.false.)
+      call expect(file%has('before') .and. .not. file%has('behind'), 'nothing is written')
+      call file%close()
+      call expect_well(file, 'the file is whole')
+   end subroutine nothing_after_a_failure
 end program test_hdf5_file
