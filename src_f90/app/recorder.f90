@@ -95,7 +95,8 @@ contains
 
    logical function wants_state(self)
       class(recorder_type), intent(in) :: self
-      wants_state = self%checkpoint_due .or. stop_requested()
+      wants_state = stop_requested()
+      if (self%checkpoint_due) wants_state = .true.
    end function wants_state
 
    !> A checkpoint; the last one where a signal asks for the end.

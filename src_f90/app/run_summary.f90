@@ -48,23 +48,23 @@ contains
             & //mega(maxval(pressure(i, :)))//' MPa, friction work ' &
             & //fixed_text(1e3_wp*loop_area(tilt(i, :), moment(i, :)), 3)//' mJ'
       end do
-      print '(a)', 'cost: '//count('steps')//' steps, '//count('rhs_evaluations')//' right-hand sides, ' &
-         & //count('jacobian_evaluations')//' Jacobians, films '//count('film_modal')//' modal and ' &
-         & //count('film_volumes')//' on finite volumes ('//count('film_passes')//' passes over their cells)'
-      print '(a)', '  wall time '//seconds('wall_seconds')//' s, of it film '//seconds('film_seconds') &
-         & //' s and samples '//seconds('output_seconds')//' s'
+      print '(a)', 'cost: '//number('steps')//' steps, '//number('rhs_evaluations')//' right-hand sides, ' &
+         & //number('jacobian_evaluations')//' Jacobians, films '//number('film_modal')//' modal and ' &
+         & //number('film_volumes')//' on finite volumes ('//number('film_passes')//' passes over their cells)'
+      print '(a)', '  wall time '//duration('wall_seconds')//' s, of it film '//duration('film_seconds') &
+         & //' s and samples '//duration('output_seconds')//' s'
    contains
-      function count(name)
+      function number(name)
          character(len=*), intent(in) :: name
-         character(len=:), allocatable :: count
-         count = to_text(statistics%count(name))
-      end function count
+         character(len=:), allocatable :: number
+         number = to_text(statistics%count(name))
+      end function number
 
-      function seconds(name)
+      function duration(name)
          character(len=*), intent(in) :: name
-         character(len=:), allocatable :: seconds
-         seconds = fixed_text(statistics%seconds(name), 2)
-      end function seconds
+         character(len=:), allocatable :: duration
+         duration = fixed_text(statistics%seconds(name), 2)
+      end function duration
    end subroutine print_march
 
    !> Metres as micrometres, radians as milliradians, pascals as megapascals.

@@ -67,7 +67,7 @@ contains
       type(progress_type) :: progress
       real(wp) :: started
       integer :: pipe(2), next, i
-      logical :: ok, stopping
+      logical :: ok, stopping, children_know
 
       allocate (failures(0), tally%errors(sweep%members))
       call open_pipe(pipe, ok)
@@ -79,10 +79,11 @@ contains
       started = wall_clock()
       progress = new_progress(0.0_wp, real(sweep%members, wp), quiet)
       next = 1
-      stopping = .false.
+      children_know = .false.
       do
+         stopping = stop_requested()
          do i = 1, size(children)
-            if (children(i)%member /= 0 .or. next > sweep%members .or. stop_requested()) cycle
+            if (children(i)%member /= 0 .or. next > sweep%members .or. stopping) cycle
             if (children(i)%process /= 0) then
                call children(i)%order(next)
             else
@@ -95,13 +96,13 @@ contains
             end if
             next = next + 1
          end do
-         if (stop_requested() .and. .not. stopping) then
-            stopping = .true.
+         if (stopping .and. .not. children_know) then
+            children_know = .true.
             do i = 1, size(children)
                if (children(i)%member /= 0) call stop_process(children(i)%process)
             end do
          end if
-         if (all(children%member == 0) .and. (next > sweep%members .or. stop_requested())) exit
+         if (all(children%member == 0) .and. (next > sweep%members .or. stopping)) exit
          call look(children, pipe(1), tally)
          call progress%report_members(tally%done + tally%failed, tally%failed)
       end do

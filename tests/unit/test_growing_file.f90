@@ -101,7 +101,7 @@ contains
          call expect_samples(ends(i))
          before = ends(i)
       end do
-      call expect(.not. (is_there('.part') .or. is_there('.old') .or. is_there('.lock')), 'nothing is left beside it')
+      call expect(.not. any([is_there('.part'), is_there('.old'), is_there('.lock')]), 'nothing is left beside it')
    end subroutine published_again
 
    !> Samples are added to those in the file, in the chunk that they left unfilled too.
@@ -154,9 +154,9 @@ contains
       call file%publish(continued=.false., error=error)
       call begin_new(later)
       call add_samples(later, 1, 20)
-      call expect(is_there('.part') .and. is_there('.lock'), 'a part and its lock while it is written')
+      call expect(all([is_there('.part'), is_there('.lock')]), 'a part and its lock while it is written')
       call later%abandon()
-      call expect(.not. (is_there('.part') .or. is_there('.lock')), 'and none afterwards')
+      call expect(.not. any([is_there('.part'), is_there('.lock')]), 'and none afterwards')
       call expect_samples(10)
    end subroutine given_up
 

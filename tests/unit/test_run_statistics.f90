@@ -80,7 +80,7 @@ contains
          call expect(version == format_version, 'the present version')
          call list%read(file)
          call expect(list%count('film_volumes') == 5 .and. list%count('film_passes') == 9, 'the present names')
-         call expect(.not. (file%has('statistics/film_sor') .or. file%has('statistics/sor_sweeps')), 'and no others')
+         call expect(.not. any([file%has('statistics/film_sor'), file%has('statistics/sor_sweeps')]), 'and no others')
       end do
       call expect(.not. allocated(file%failure), 'all is well')
       call file%close()
