@@ -4,15 +4,15 @@ program test_growing_file
    use text, only: to_text
    use errors, only: error_type
    use files, only: delete_file
-   use processes, only: process_id
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: hdf5_series_type
    use growing_file, only: growing_file_type
+   use scratch, only: scratch_path, file_there
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
    character(len=:), allocatable :: path
 
-   path = 'test_growing_file_'//to_text(int(process_id()))//'.h5'
+   path = scratch_path('run.h5')
    if (runs('published_again')) call published_again()
    if (runs('continued')) call continued()
    if (runs('last_samples')) call last_samples()
@@ -23,11 +23,6 @@ program test_growing_file
    call report()
 
 contains
-
-   logical function is_there(suffix)
-      character(len=*), intent(in) :: suffix
-      inquire (file=path//suffix, exist=is_there)
-   end function is_there
 
    !> Sample k of the series: frequency (of the sample), and amplitude (of each pad).
    pure function amplitude(k)
@@ -90,7 +85,7 @@ contains
       type(error_type), allocatable :: error
       integer :: i, before
       call begin_new(file)
-      call expect(.not. is_there(''), 'nothing is seen before')
+      call expect(.not. file_there(path), 'nothing is seen before')
       before = 0
       do i = 1, size(ends)
          call add_samples(file, before + 1, ends(i))
@@ -101,7 +96,7 @@ contains
          call expect_samples(ends(i))
          before = ends(i)
       end do
-      call expect(.not. any([is_there('.part'), is_there('.old'), is_there('.lock')]), 'nothing is left beside it')
+      call expect(.not. any([file_there(path//'.part'), file_there(path//'.old'), file_there(path//'.lock')]), 'nothing is left beside it')
    end subroutine published_again
 
    !> Samples are added to those in the file, in the chunk that they left unfilled too.
@@ -154,9 +149,9 @@ contains
       call file%publish(continued=.false., error=error)
       call begin_new(later)
       call add_samples(later, 1, 20)
-      call expect(all([is_there('.part'), is_there('.lock')]), 'a part and its lock while it is written')
+      call expect(all([file_there(path//'.part'), file_there(path//'.lock')]), 'a part and its lock while it is written')
       call later%abandon()
-      call expect(.not. any([is_there('.part'), is_there('.lock')]), 'and none afterwards')
+      call expect(.not. any([file_there(path//'.part'), file_there(path//'.lock')]), 'and none afterwards')
       call expect_samples(10)
    end subroutine given_up
 

@@ -1,17 +1,16 @@
 !> Statistics of a run: a list that adds, writes and reads itself; older names of its figures in files.
 program test_run_statistics
    use kinds, only: wp, i8
-   use text, only: to_text
    use files, only: delete_file
-   use processes, only: process_id
    use hdf5_file, only: hdf5_type
    use run_statistics, only: run_statistics_type
    use file_format, only: format_version, upgrade
+   use scratch, only: scratch_path
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
    character(len=:), allocatable :: path
 
-   path = 'test_run_statistics_'//to_text(int(process_id()))//'.h5'
+   path = scratch_path('run.h5')
    if (runs('adding')) call adding()
    if (runs('file')) call file_round_trip()
    if (runs('version_1')) call version_1()
