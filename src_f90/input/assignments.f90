@@ -1,4 +1,4 @@
-!> Assignments of namelist text, and what they are called in messages.
+!> Assignments of namelist text, and their texts in messages.
 module assignments
    use text, only: to_text, shortened
    implicit none (type, external)
@@ -6,7 +6,7 @@ module assignments
    public :: namelist_type, assignment_type, token_type
    public :: put_assignment, undoes, assignment_text, target_text, value_text, sweep_group
 
-   !> The group whose variables are those of other groups, with values for one run each: `group%name = values`.
+   !> The group of a sweep. Its variables are those of other groups, `group%name = values`, with one value for each run.
    character(len=*), parameter :: sweep_group = 'sweep'
 
    !> One value; `repeat*value` stands for several of them.
@@ -15,12 +15,12 @@ module assignments
       logical :: quoted = .false.
    end type token_type
 
-   !> `group%name(subscript) = values`, and where: "case.nml line 3" or "--set".
+   !> `group%name(subscript) = values`, and where it was found: "case.nml line 3" or "--set".
    type :: assignment_type
       character(len=:), allocatable :: group, name, origin
       !> First element that the values go to; 0 where no subscript is given.
       integer :: subscript = 0
-      !> Comes after what the file says, and may give elements again: from --set, or a member's of a sweep.
+      !> True for an assignment of --set or of a member of a sweep: it may set an element that the file sets too.
       logical :: overrides = .false.
       type(token_type), allocatable :: values(:)
    end type assignment_type
@@ -34,8 +34,8 @@ module assignments
 
 contains
 
-   !> Puts an assignment in place of those it replaces: behind all others, but a sweep's where the first of them stood,
-   !> as their order is that of the members.
+   !> Adds an assignment and removes those that it replaces. It comes last; only that of a sweep takes the position of
+   !> the first one that it replaces, as the order of swept variables is the order of the members.
    subroutine put_assignment(new, parsed)
       type(assignment_type), intent(in) :: new
       type(namelist_type), intent(inout) :: parsed
@@ -68,7 +68,7 @@ contains
          & .and. (new%subscript == 0 .or. new%subscript == earlier%subscript)
    end function undoes
 
-   !> The same, and nothing of the earlier one's is lost: an element does not stand for a list that starts there.
+   !> True where it also sets all that the earlier one set: an element does not replace a list that starts there.
    pure logical function replaces(new, earlier)
       type(assignment_type), intent(in) :: new, earlier
       replaces = undoes(new, earlier)
@@ -97,7 +97,7 @@ contains
       if (a%subscript > 0) text = text//'('//to_text(a%subscript)//')'
    end function target_text
 
-   !> A value as it stands in a case: a quoted one in quotes, those in it doubled.
+   !> A value as a case has it: a text in quotes, and quotes within the text doubled.
    pure function value_text(token) result(text)
       type(token_type), intent(in) :: token
       character(len=:), allocatable :: text

@@ -55,7 +55,7 @@ contains
       if (status /= 0) call raise(error, input_error, file//': cannot be read: '//trim(message))
    end subroutine read_text
 
-   !> The assignments of a case's text with the overrides ("group%name=value") in place; `file` is for messages.
+   !> The assignments of a case's text, with the overrides ("group%name=value"); `file` is for messages.
    subroutine parse_case(text, file, overrides, parsed, error)
       character(len=*), intent(in) :: text, file, overrides(:)
       type(namelist_type), intent(out) :: parsed

@@ -1,4 +1,4 @@
-!> What is said of one input variable, and who may look at all of them: readers and writers extend `field_visitor`.
+!> The record of an input variable, and the abstract visitor that all readers and writers of variables extend.
 module field_visitor
    use kinds, only: wp
    use text, only: to_text
@@ -13,7 +13,7 @@ module field_visitor
       !> Of numbers: unit, and allowed values.
       character(len=:), allocatable :: unit
       real(wp) :: low = -huge(1.0_wp), high = huge(1.0_wp)
-      !> Of texts: the words that it may be, separated by blanks; empty where any text is allowed.
+      !> Of texts: the allowed words, separated by blanks; empty where any text is allowed.
       character(len=:), allocatable :: choices
       !> For the input reference.
       character(len=:), allocatable :: meaning
@@ -32,7 +32,7 @@ module field_visitor
       procedure(visit_whole), deferred :: whole
       !> A fixed number of reals.
       procedure(visit_numbers), deferred :: numbers
-      !> One real a pad.
+      !> One real for each pad.
       procedure(visit_per_pad), deferred :: per_pad
       !> One real.
       procedure, non_overridable :: number
@@ -91,7 +91,7 @@ contains
       if (present(fixes_pads)) new%fixes_pads = fixes_pads
    end function field
 
-   !> A variable that is a text: one of the words in `choices`, or any where there are none.
+   !> A variable that is a text: one of the words in `choices`, or any text where `choices` is empty.
    pure function choice(name, choices, meaning) result(new)
       character(len=*), intent(in) :: name, choices, meaning
       type(field_type) :: new

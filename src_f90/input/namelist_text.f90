@@ -1,4 +1,4 @@
-!> Splits namelist text into assignments that know where they stand. Values are not interpreted.
+!> Splits namelist text into assignments, each with its origin. Values are not interpreted.
 module namelist_text
    use text, only: to_text, lower_case, shortened
    use errors, only: error_type, raise, input_error
@@ -8,7 +8,7 @@ module namelist_text
    private
    public :: parse_namelist, parse_override
 
-   !> Most groups, assignments, or values of one assignment: far more than any case has; longest name.
+   !> Maximum number of groups, assignments, or values of one assignment, and maximum length of a name.
    integer, parameter :: most_items = 1000, longest_name = 60
 
    character(len=*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyz_'
@@ -77,7 +77,7 @@ contains
          & file//': no namelist group in it; expected &name ... /')
    end subroutine parse_namelist
 
-   !> Parses the argument of --set, "group%name=value", and puts it in place of what the file says.
+   !> Parses the argument of --set, "group%name=value"; it replaces what the file says.
    subroutine parse_override(text, parsed, error)
       character(len=*), intent(in) :: text
       type(namelist_type), intent(inout) :: parsed
@@ -116,7 +116,7 @@ contains
       call put_assignment(new(1), parsed)
    end subroutine parse_override
 
-   !> From behind the group's name to behind its end.
+   !> Reads a group from behind its name to behind its end.
    subroutine parse_group(scan, group, assignments, error)
       type(scanner), intent(inout) :: scan
       type(assignment_type), intent(in) :: group
@@ -160,7 +160,7 @@ contains
       end do
    end subroutine parse_group
 
-   !> name [(subscript)] =
+   !> Reads "name [(subscript)] =".
    subroutine parse_target(scan, new, error)
       type(scanner), intent(inout) :: scan
       type(assignment_type), intent(inout) :: new
@@ -197,7 +197,7 @@ contains
       scan%at = scan%at + 1
    end subroutine parse_target
 
-   !> Values up to the next name, the end of the group or of the text.
+   !> Reads values up to the next name, the end of the group or of the text.
    subroutine parse_values(scan, new, error)
       type(scanner), intent(inout) :: scan
       type(assignment_type), intent(inout) :: new
@@ -248,7 +248,7 @@ contains
       end if
    end subroutine parse_values
 
-   !> A string in quotes on one line; a doubled quote stands for itself.
+   !> Reads a text in quotes on one line; a doubled quote means one.
    subroutine quoted(scan, token, new, error)
       type(scanner), intent(inout) :: scan
       type(token_type), intent(out) :: token

@@ -29,7 +29,7 @@ contains
       is_number = len(mantissa) > 0 .and. verify(mantissa, '0123456789') == 0
    end function is_number
 
-   !> The number that a word in lower case stands for, infinite where it is too large; ok is false where it is none.
+   !> The number that a word in lower case means, infinite where it is too large; `ok` is false where it is no number.
    subroutine read_number(word, x, ok)
       character(len=*), intent(in) :: word
       real(wp), intent(out) :: x
@@ -48,13 +48,13 @@ contains
       ok = status == 0
    end subroutine read_number
 
-   !> Not a number, or infinite.
+   !> True for words that mean infinity or no number.
    pure logical function is_special(word)
       character(len=*), intent(in) :: word
       is_special = any(unsigned(word) == [character(len=8) :: 'nan', 'inf', 'infinity'])
    end function is_special
 
-   !> Without its sign.
+   !> A word without its sign.
    pure function unsigned(word)
       character(len=*), intent(in) :: word
       character(len=:), allocatable :: unsigned

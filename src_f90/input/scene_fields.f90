@@ -1,5 +1,5 @@
-!> The one list of all input variables: where the value stands in the scene, name, allowed values, unit and meaning.
-!> Reading, writing and the input reference all walk along it with a visitor of their own.
+!> The list of all input variables: each with its component of the scene, name, allowed values, unit and meaning.
+!> The reader, the writer and the input reference each visit this list.
 module scene_fields
    use kinds, only: wp
    use field_visitor, only: visitor_type, field, choice
@@ -9,8 +9,8 @@ module scene_fields
    private
    public :: visit_scene, title_variable, checkpoint_variable
 
-   !> Variables without effect on what is calculated: a sweep cannot give the title several values; a run may go on
-   !> with another time between checkpoints.
+   !> Variables without effect on what is calculated: a sweep cannot vary the title, and a resumed run may have
+   !> another time between checkpoints.
    character(len=*), parameter :: title_variable = 'case%title'
    character(len=*), parameter :: checkpoint_variable = 'output%checkpoint_seconds'
 

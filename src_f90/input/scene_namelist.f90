@@ -63,7 +63,7 @@ contains
       call add_context(error, parsed%file)
    end subroutine scene_from_namelist
 
-   !> The same before `settle`: each value is checked by itself, and one that stands for another's is kept.
+   !> The scene before `settle`: each value is checked by itself; a value that means another variable's is not replaced.
    subroutine fill_scene(parsed, scene, error)
       type(namelist_type), intent(in) :: parsed
       type(scene_type), intent(out) :: scene
@@ -115,7 +115,7 @@ contains
       end do
    end subroutine check_unused
 
-   !> Of an assignment or the start of a group; the `prefix` stands before the group's name.
+   !> Refuses an assignment or the start of a group; the message has `prefix` before the group's name.
    subroutine refuse_unknown_group(self, found, prefix)
       class(scene_reader), intent(inout) :: self
       type(assignment_type), intent(in) :: found
@@ -236,8 +236,8 @@ contains
       if (field%fixes_pads) self%pad_count = size(values)
    end subroutine visit_per_pad
 
-   !> Notes which elements an assignment of the file takes for good, and refuses those taken before. Elements may
-   !> follow the whole list; where the list is one element, that gives it twice. What --set says comes last.
+   !> Marks the elements that an assignment of the file sets, and refuses those that were set before. An element may be
+   !> set after the whole list, unless the list has only one. An assignment of --set may set anything again.
    subroutine take(a, count, taken, error)
       type(assignment_type), intent(in) :: a
       integer, intent(in) :: count

@@ -1,4 +1,4 @@
-!> Sweeps: a case whose group &sweep gives variables several values stands for many scenes, its members.
+!> Sweeps: in a case with the group &sweep variables have several values; the case means many scenes, its members.
 module sweep
    use kinds, only: i8
    use text, only: to_text, lower_case
@@ -19,7 +19,7 @@ module sweep
    integer, parameter :: most_members = 100000, most_listed = 8
    character(len=*), parameter :: newline = achar(10)
 
-   !> A swept variable: what is assigned, without values, and those.
+   !> A swept variable: its assignment without values, and the values.
    type :: variable_type
       type(assignment_type) :: target
       type(swept_values_type) :: values
@@ -29,7 +29,7 @@ module sweep
    type :: member_tag
       !> From 1; 0 for a run that is no member.
       integer :: number = 0, members = 0
-      !> A line a swept variable: "operation%speed_rpm = 1500".
+      !> A line for each swept variable: "operation%speed_rpm = 1500".
       character(len=:), allocatable :: sweep
    end type member_tag
 
@@ -187,7 +187,7 @@ contains
       call scene_from_namelist(parsed, scene, error)
    end subroutine member_scene
 
-   !> What the k-th member is.
+   !> Number and values of the k-th member.
    subroutine tag(self, k, found)
       class(sweep_type), intent(in) :: self
       integer, intent(in) :: k
@@ -204,8 +204,8 @@ contains
       end do
    end subroutine tag
 
-   !> The case with every default, and the sweep behind it, as namelist text. What is swept has the first member's
-   !> value, and what stands for another variable's value still does.
+   !> The case with every default, followed by the sweep, as namelist text. A swept variable has the first member's
+   !> value; a value that means another variable's is not replaced.
    subroutine resolved(self, text, error)
       class(sweep_type), intent(in) :: self
       character(len=:), allocatable, intent(out) :: text
@@ -226,7 +226,7 @@ contains
       text = text//'/'//newline
    end subroutine resolved
 
-   !> The case's assignments with those of the k-th member in place.
+   !> The case's assignments with those of the k-th member.
    subroutine member_namelist(self, k, parsed)
       class(sweep_type), intent(in) :: self
       integer, intent(in) :: k
@@ -247,7 +247,7 @@ contains
       end do
    end subroutine member_namelist
 
-   !> What the k-th member assigns to the i-th swept variable. The first variable is the slowest.
+   !> The k-th member's assignment to the i-th swept variable. The first variable changes slowest.
    subroutine member_value(self, i, k, found)
       class(sweep_type), intent(in) :: self
       integer, intent(in) :: i, k

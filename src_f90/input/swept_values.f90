@@ -1,4 +1,4 @@
-!> The values that a sweep gives a variable: some as they stand, some the numbers of ranges.
+!> The values of a swept variable: single values, and the numbers of ranges.
 module swept_values
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, i8
@@ -17,7 +17,7 @@ module swept_values
    !> Numbers of a range are 0 or between these in size, so that nothing overflows on the way.
    real(wp), parameter :: smallest = 1e-100_wp, largest = 1e100_wp
 
-   !> One value as it stands, or the numbers of a range.
+   !> A single value, or the numbers of a range.
    type :: piece_type
       type(token_type) :: token
       integer :: count = 1
@@ -159,7 +159,7 @@ contains
       end associate
    end subroutine value
 
-   !> All of them as they stand in a case.
+   !> All values as the case has them.
    pure function values_text(self) result(text)
       class(swept_values_type), intent(in) :: self
       character(len=:), allocatable :: text

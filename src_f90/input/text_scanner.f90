@@ -5,7 +5,7 @@ module text_scanner
    private
    public :: scanner, control_character, newline
 
-   !> Where it is.
+   !> The text, and the position in it.
    type :: scanner
       character(len=:), allocatable :: text, file
       integer :: at = 1, line = 1
@@ -20,8 +20,8 @@ module text_scanner
 
 contains
 
-   !> Where the first character stands that is no text; 0 if there is none. A carriage return alone is one: it would
-   !> neither end a comment nor count as a line.
+   !> Position of the first character that is no text; 0 if there is none. A carriage return that ends no line is such a
+   !> character: it would neither end a comment nor count as a line.
    pure integer function control_character(text) result(at)
       character(len=*), intent(in) :: text
       character :: c
@@ -74,7 +74,7 @@ contains
       self%at = self%at + length
    end function word
 
-   !> Where it is, for messages: "case.nml line 3".
+   !> The position for messages: "case.nml line 3".
    pure function origin(self)
       class(scanner), intent(in) :: self
       character(len=:), allocatable :: origin

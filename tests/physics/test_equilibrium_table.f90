@@ -66,7 +66,7 @@ contains
       call expect_close(found%journal(1), journal(1)*1e-6_wp, small, 'journal y, '//what)
       call expect_close(found%journal(2), journal(2)*1e-6_wp, small, 'journal z, '//what)
       call expect_close(maxval(abs(found%tilt - tilt*1e-3_wp)), 0.0_wp, 2.6e-6_wp, 'tilts, '//what)
-      call expect_close(minval(found%min_film_thickness), film*1e-6_wp, small, 'least film, '//what)
+      call expect_close(minval(found%min_film_thickness), film*1e-6_wp, small, 'minimum film thickness, '//what)
       call expect(found%residual <= 1e-8_wp, 'residual, '//what)
    end subroutine expect_place
 

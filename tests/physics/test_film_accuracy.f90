@@ -18,7 +18,7 @@ program test_film_accuracy
    real(wp), parameter :: tolerance = 1e-4_wp
    integer, parameter :: fine_cells = 192, fine_modes = 64
    real(wp), parameter :: journal_radius = 49.9e-3_wp, speed = 680, viscosity = 19e-3_wp
-   !> Highest film thickness over the least, and the least over the clearance.
+   !> Maximum film thickness over the minimum, and the minimum over the clearance.
    real(wp), parameter :: most_uneven = 5, least_film = 0.05_wp
 
    !> A pad and its film, by numbers without dimension but for arc (degrees) and clearance (m).

@@ -1,4 +1,4 @@
-!> The gap of a pad: thickness against exact circles, least thickness against a scan.
+!> The gap of a pad: thickness against exact circles, minimum thickness against a scan.
 program test_pad_gap
    use kinds, only: wp, pi, degree
    use text, only: to_text
@@ -93,9 +93,9 @@ contains
             & film%thickness(motion, sin(phi(n)), cos(phi(n))))) inside = inside + 1
       end do
       call expect(inside > 5 .and. inside < 295, 'minima inside and at edges are both met')
-      call expect(worst_above < 100*epsilon(least), 'the least thickness is no more than the scan''s, arc ' &
+      call expect(worst_above < 100*epsilon(least), 'the minimum thickness is no more than the scan''s, arc ' &
          & //to_text(leading)//' + '//to_text(trailing)//' deg: '//to_text(worst_above))
-      call expect(worst_below < 100*epsilon(least), 'the least thickness is met by the scan, arc ' &
+      call expect(worst_below < 100*epsilon(least), 'the minimum thickness is met by the scan, arc ' &
          & //to_text(leading)//' + '//to_text(trailing)//' deg: '//to_text(worst_below))
    end subroutine least_against_scan
 

@@ -58,7 +58,7 @@ contains
 
    !> Adjoint slopes against central differences with a step of h = 1e-3 of the clearance (and of the
    !> clearance times the speed) in the five-point form: error h**4/30 of the fifth derivative, which the
-   !> clearance over the least film, up to 4, raises to the fifth power: 1e-12 * 1024 * some 10 = 1e-8.
+   !> clearance over the minimum film thickness, up to 4, raises to the fifth power: 1e-12 * 1024 * some 10 = 1e-8.
    !> Solutions converged to 1e-12 (residual, amplified by 50 on this grid) give 1e-10/h = 1e-7.
    !> With rupture the force has a kink where a cell leaves or joins the film; where the cells of the film
    !> are not the same at all places of the stencil, the motion is passed over.
@@ -217,7 +217,7 @@ contains
       call expect(r%status == film_closed, 'touching closes the film')
       call solver%evaluate_pad(1, film_motion([0.0_wp, 0.5_wp*clearance]), speed, .true., r)
       call expect(r%status == film_ok .and. r%force(2) < 0, 'the film opens again')
-      call expect_close(r%min_film_thickness, 0.5_wp*clearance, 1e-18_wp, 'least thickness')
+      call expect_close(r%min_film_thickness, 0.5_wp*clearance, 1e-18_wp, 'minimum thickness')
    end subroutine closed_film
 
    !> A film given up is told, and is no start for the next.
