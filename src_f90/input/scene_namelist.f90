@@ -4,6 +4,7 @@ module scene_namelist
    use text, only: to_text
    use errors, only: error_type, raise, add_context, input_error
    use scene, only: scene_type, max_pads
+   use scene_checks, only: check_scene
    use field_visitor, only: visitor_type, field_type
    use scene_fields, only: visit_scene
    use assignments, only: namelist_type, assignment_type, sweep_group
@@ -58,8 +59,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       call fill_scene(parsed, scene, error)
       if (allocated(error)) return
-      call scene%settle()
-      call scene%validate(error)
+      call scene%set_final_speed()
+      call check_scene(scene, error)
       call add_context(error, parsed%file)
    end subroutine scene_from_namelist
 

@@ -1,18 +1,15 @@
 !> What a run is about: one derived type per namelist group. The defaults are Tables 1 and 2 of
 !> Dyk et al. 2023, so a default scene is the paper's bearing. SI units unless a name says otherwise.
 module scene
-   use kinds, only: wp, rpm, degree
-   use text, only: to_text
-   use errors, only: error_type, raise, input_error
+   use kinds, only: wp, rpm
    implicit none (type, external)
    private
    public :: scene_type, max_pads
    public :: case_type, rotor_type, operation_type, bearing_type, pads_type, pivot_type, friction_type
    public :: film_type, integration_type, output_type
 
+   !> Most pads of a bearing.
    integer, parameter :: max_pads = 24
-   !> Most values in the blocks of all columns and pads, times four: 400 MB.
-   real(wp), parameter :: most_in_blocks = 2e8_wp
 
    type :: case_type
       character(len=:), allocatable :: title
@@ -73,9 +70,9 @@ module scene
    type :: film_type
       !> 'auto', 'modal' or 'sor'.
       character(len=:), allocatable :: solver
-      !> Cells along the arc, 0: the solver's own number; along half the width (sor); modes (modal).
+      !> Cells along the arc and, on finite volumes, along half the width; modes. 0: the solver's own number.
       integer :: circumferential_cells = 0, axial_cells = 0, axial_modes = 0
-      !> 0: the grid's optimum.
+      !> Of an iterative solution: relaxation factor, 0: the grid's optimum; residual at which it ends; most sweeps.
       real(wp) :: relaxation = 0, tolerance = 1e-6_wp
       integer :: max_sweeps = 5000
       !> 'reynolds', 'gumbel' or 'none'.
@@ -117,8 +114,7 @@ module scene
       procedure :: tilting_radial
       procedure :: highest_speed
       procedure :: unbalance
-      procedure :: settle
-      procedure :: validate
+      procedure :: set_final_speed
    end type scene_type
 
    !> The paper's bearing.
@@ -145,14 +141,14 @@ contains
       scene%friction%model = 'none'
       scene%film%solver = 'auto'
       scene%film%cavitation = 'reynolds'
-      call scene%settle()
+      call scene%set_final_speed()
    end function new_scene
 
-   !> Puts the value that stands for another variable's in its place.
-   pure subroutine settle(self)
+   !> The final speed where the input leaves it out: the speed at the start.
+   pure subroutine set_final_speed(self)
       class(scene_type), intent(inout) :: self
       if (self%operation%final_speed_rpm < 0) self%operation%final_speed_rpm = self%operation%speed_rpm
-   end subroutine settle
+   end subroutine set_final_speed
 
    pure integer function pad_count(self)
       class(scene_type), intent(in) :: self
@@ -182,108 +178,4 @@ contains
          unbalance = 9549*self%rotor%balance_grade*self%rotor%mass/balance_rpm*1e-6_wp
       end if
    end function unbalance
-
-   !> Checks what no single value can tell. The message names the variables, values and what is allowed.
-   subroutine validate(self, error)
-      class(scene_type), intent(in) :: self
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: ratio
-      integer :: i
-
-      associate (b => self%bearing, p => self%pads, f => self%friction, v => self%pivot)
-         associate (cells => self%film%circumferential_cells)
-            call require(mod(cells, 2) == 0 .and. (cells == 0 .or. cells >= 8), 'film%circumferential_cells = ' &
-               & //to_text(cells)//': must be even, and 0 or at least 8')
-         end associate
-         call require(self%film%axial_cells /= 1, 'film%axial_cells = 1: must be 2 or more, or 0 for enough')
-         call require(self%film%solver /= 'modal' .or. self%film%cavitation /= 'reynolds', 'film%solver = ''modal''' &
-            & //': needs film%cavitation = ''gumbel'' or ''none''; film%solver = ''auto'' knows ''reynolds''')
-         call require_memory()
-         ratio = b%machined_clearance/b%journal_radius
-         call require(ratio >= 1e-5_wp .and. ratio <= 0.05_wp, 'bearing%machined_clearance = ' &
-            & //to_text(b%machined_clearance)//': must be 1e-5 to 0.05 of bearing%journal_radius = ' &
-            & //to_text(b%journal_radius)//' (both in m)')
-         call require(b%assembled_clearance <= 2*b%machined_clearance, 'bearing%assembled_clearance = ' &
-            & //to_text(b%assembled_clearance)//': must be at most twice bearing%machined_clearance = ' &
-            & //to_text(b%machined_clearance))
-         call require(self%integration%stop_when_periodic <= 0 &
-            & .or. abs(self%operation%final_speed_rpm - self%operation%speed_rpm) <= 0, &
-            & 'integration%stop_when_periodic = '//to_text(self%integration%stop_when_periodic) &
-            & //': must be 0 where operation%final_speed_rpm differs from operation%speed_rpm')
-         call require(.not. (self%rotor%balance_speed_rpm >= 0 .and. self%rotor%balance_speed_rpm < 1), &
-            & 'rotor%balance_speed_rpm = '//to_text(self%rotor%balance_speed_rpm) &
-            & //': must be < 0 (the highest of the run) or >= 1')
-         ratio = b%axial_length/b%journal_radius
-         call require(ratio >= 0.02_wp .and. ratio <= 50, 'bearing%axial_length = '//to_text(b%axial_length) &
-            & //': must be 0.02 to 50 times bearing%journal_radius = '//to_text(b%journal_radius)//' (both in m)')
-         call require(b%cavitation_pressure <= min(b%supply_pressure, b%ambient_pressure) &
-            & .or. self%film%cavitation == 'none', 'bearing%cavitation_pressure = ' &
-            & //to_text(b%cavitation_pressure)//': must not exceed bearing%supply_pressure = ' &
-            & //to_text(b%supply_pressure)//' and bearing%ambient_pressure = '//to_text(b%ambient_pressure))
-         call require(f%dynamic_coefficient <= f%static_coefficient, 'friction%dynamic_coefficient = ' &
-            & //to_text(f%dynamic_coefficient)//': must not exceed friction%static_coefficient = ' &
-            & //to_text(f%static_coefficient))
-         call require(f%model /= 'lugre' .or. f%dynamic_coefficient > 0, &
-            & 'friction%dynamic_coefficient = 0: must be > 0 for model = ''lugre''')
-         call require(v%radius_difference <= 0.5_wp*v%socket_radius, 'pivot%radius_difference = ' &
-            & //to_text(v%radius_difference)//': must be at most half of pivot%socket_radius = ' &
-            & //to_text(v%socket_radius))
-         call require(v%law /= 'hertz' .or. v%radius_difference > 0, &
-            & 'pivot%radius_difference = 0: must be > 0 for law = ''hertz''')
-         call require(self%output%start_time <= self%operation%duration, 'output%start_time = ' &
-            & //to_text(self%output%start_time)//': must not exceed operation%duration = ' &
-            & //to_text(self%operation%duration))
-         call require(self%operation%duration*self%highest_speed()/360/degree &
-            & *self%output%samples_per_revolution < 1e9_wp, 'operation%duration = ' &
-            & //to_text(self%operation%duration)//': more than 1e9 samples at output%samples_per_revolution = ' &
-            & //to_text(self%output%samples_per_revolution))
-         do i = 1, self%pad_count()
-            call require(p%inertia(i) > p%mass(i)*(p%centre_tangential(i)**2 + p%centre_radial(i)**2), &
-               & 'pads%inertia = '//to_text(p%inertia(i))//': must exceed mass times the squared distance of ' &
-               & //'the centre of gravity from the pivot, '//to_text(p%mass(i)*(p%centre_tangential(i)**2 &
-               & + p%centre_radial(i)**2))//' (pad '//to_text(i)//')')
-            call require_room(i)
-         end do
-      end associate
-
-   contains
-
-      !> Keeps the first unmet requirement.
-      subroutine require(met, message)
-         logical, intent(in) :: met
-         character(len=*), intent(in) :: message
-         if (.not. met .and. .not. allocated(error)) call raise(error, input_error, message)
-      end subroutine require
-
-      !> Where films rupture, `auto` keeps a block of (axial cells/2)**2 values a column and pad.
-      subroutine require_memory()
-         integer :: most
-         associate (cells => self%film%circumferential_cells)
-            ! 0 stands for fewer than 100
-            most = int(sqrt(most_in_blocks/(max(cells, 100)*self%pad_count())))
-            call require(self%film%solver /= 'auto' .or. self%film%cavitation /= 'reynolds' &
-               & .or. self%film%axial_cells <= most, 'film%axial_cells = '//to_text(self%film%axial_cells) &
-               & //': must be at most '//to_text(most)//' with film%circumferential_cells = '//to_text(cells)//' and ' &
-               & //to_text(self%pad_count())//' pads, or film%solver = ''sor''')
-         end associate
-      end subroutine require_memory
-
-      !> A pad reaches from theta - theta_2 to theta + theta_1; the next one must start after that.
-      subroutine require_room(i)
-         integer, intent(in) :: i
-         real(wp) :: gap
-         integer :: j
-         associate (p => self%pads)
-            do j = 1, self%pad_count()
-               if (i == j) cycle
-               ! from pivot i on to pivot j, going up
-               gap = modulo(p%pivot_angle_deg(j) - p%pivot_angle_deg(i), 360.0_wp)
-               call require(gap > p%pivot_ratio(i)*p%arc_deg(i) + (1 - p%pivot_ratio(j))*p%arc_deg(j), &
-                  & 'pads%pivot_angle_deg = '//to_text(p%pivot_angle_deg(i))//', ' &
-                  & //to_text(p%pivot_angle_deg(j))//': pads '//to_text(i)//' and '//to_text(j) &
-                  & //' overlap; the pivots must be further apart or pads%arc_deg smaller')
-            end do
-         end associate
-      end subroutine require_room
-   end subroutine validate
 end module scene

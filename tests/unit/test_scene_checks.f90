@@ -3,6 +3,7 @@ program test_scene_checks
    use kinds, only: wp
    use errors, only: error_type, input_error
    use scene, only: scene_type
+   use scene_checks, only: check_scene
    use check, only: runs, expect, expect_no_error, expect_error, report
    implicit none (type, external)
 
@@ -26,7 +27,7 @@ contains
       type(scene_type), intent(in) :: s
       character(len=*), intent(in) :: what
       type(error_type), allocatable :: error
-      call s%validate(error)
+      call check_scene(s, error)
       call expect_no_error(error, what)
    end subroutine expect_allowed
 
@@ -35,7 +36,7 @@ contains
       type(scene_type), intent(in) :: s
       character(len=*), intent(in) :: variable, words
       type(error_type), allocatable :: error
-      call s%validate(error)
+      call check_scene(s, error)
       call expect_error(error, input_error, words, variable//' is refused')
       if (allocated(error)) call expect(index(error%message, variable//' = ') == 1, variable//' in '//error%message)
    end subroutine expect_refused

@@ -1,0 +1,171 @@
+!> Checks of a scene: what no single value can tell. A message names the variables, their values and what is allowed.
+module scene_checks
+   use kinds, only: wp, degree
+   use text, only: to_text
+   use errors, only: error_type, raise, input_error
+   use scene, only: scene_type
+   implicit none (type, external)
+   private
+   public :: check_scene
+
+   !> Most values in the blocks of all columns and pads, times four: 400 MB.
+   real(wp), parameter :: most_in_blocks = 2e8_wp
+
+contains
+
+   !> Raises an error for the first requirement that a scene does not meet.
+   subroutine check_scene(scene, error)
+      type(scene_type), intent(in) :: scene
+      type(error_type), allocatable, intent(out) :: error
+      call check_film(scene, error)
+      call check_bearing(scene, error)
+      call check_integration(scene, error)
+      call check_rotor(scene, error)
+      call check_friction(scene, error)
+      call check_pivot(scene, error)
+      call check_output(scene, error)
+      call check_pads(scene, error)
+   end subroutine check_scene
+
+   !> Keeps the first unmet requirement.
+   subroutine require(met, message, error)
+      logical, intent(in) :: met
+      character(len=*), intent(in) :: message
+      type(error_type), allocatable, intent(inout) :: error
+      if (.not. met .and. .not. allocated(error)) call raise(error, input_error, message)
+   end subroutine require
+
+   subroutine check_film(scene, error)
+      type(scene_type), intent(in) :: scene
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: most
+      associate (f => scene%film, cells => scene%film%circumferential_cells)
+         call require(mod(cells, 2) == 0 .and. (cells == 0 .or. cells >= 8), 'film%circumferential_cells = ' &
+            & //to_text(cells)//': must be even, and 0 or at least 8', error)
+         call require(f%axial_cells /= 1, 'film%axial_cells = 1: must be 2 or more, or 0 for enough', error)
+         call require(f%solver /= 'modal' .or. f%cavitation /= 'reynolds', 'film%solver = ''modal''' &
+            & //': needs film%cavitation = ''gumbel'' or ''none''; film%solver = ''auto'' knows ''reynolds''', error)
+         ! where films rupture, `auto` keeps a block of (axial cells/2)**2 values a column and pad;
+         ! 0 stands for fewer than 100 columns
+         most = int(sqrt(most_in_blocks/(max(cells, 100)*scene%pad_count())))
+         call require(f%solver /= 'auto' .or. f%cavitation /= 'reynolds' .or. f%axial_cells <= most, &
+            & 'film%axial_cells = '//to_text(f%axial_cells)//': must be at most '//to_text(most) &
+            & //' with film%circumferential_cells = '//to_text(cells)//' and '//to_text(scene%pad_count()) &
+            & //' pads, or film%solver = ''sor''', error)
+      end associate
+   end subroutine check_film
+
+   subroutine check_bearing(scene, error)
+      type(scene_type), intent(in) :: scene
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp) :: ratio
+      associate (b => scene%bearing)
+         ratio = b%machined_clearance/b%journal_radius
+         call require(ratio >= 1e-5_wp .and. ratio <= 0.05_wp, 'bearing%machined_clearance = ' &
+            & //to_text(b%machined_clearance)//': must be 1e-5 to 0.05 of bearing%journal_radius = ' &
+            & //to_text(b%journal_radius)//' (both in m)', error)
+         call require(b%assembled_clearance <= 2*b%machined_clearance, 'bearing%assembled_clearance = ' &
+            & //to_text(b%assembled_clearance)//': must be at most twice bearing%machined_clearance = ' &
+            & //to_text(b%machined_clearance), error)
+         ratio = b%axial_length/b%journal_radius
+         call require(ratio >= 0.02_wp .and. ratio <= 50, 'bearing%axial_length = '//to_text(b%axial_length) &
+            & //': must be 0.02 to 50 times bearing%journal_radius = '//to_text(b%journal_radius) &
+            & //' (both in m)', error)
+         call require(b%cavitation_pressure <= min(b%supply_pressure, b%ambient_pressure) &
+            & .or. scene%film%cavitation == 'none', 'bearing%cavitation_pressure = ' &
+            & //to_text(b%cavitation_pressure)//': must not exceed bearing%supply_pressure = ' &
+            & //to_text(b%supply_pressure)//' and bearing%ambient_pressure = '//to_text(b%ambient_pressure), error)
+      end associate
+   end subroutine check_bearing
+
+   subroutine check_integration(scene, error)
+      type(scene_type), intent(in) :: scene
+      type(error_type), allocatable, intent(inout) :: error
+      associate (periodic => scene%integration%stop_when_periodic, o => scene%operation)
+         call require(periodic <= 0 .or. abs(o%final_speed_rpm - o%speed_rpm) <= 0, &
+            & 'integration%stop_when_periodic = '//to_text(periodic) &
+            & //': must be 0 where operation%final_speed_rpm differs from operation%speed_rpm', error)
+      end associate
+   end subroutine check_integration
+
+   subroutine check_rotor(scene, error)
+      type(scene_type), intent(in) :: scene
+      type(error_type), allocatable, intent(inout) :: error
+      associate (speed => scene%rotor%balance_speed_rpm)
+         call require(speed < 0 .or. speed >= 1, 'rotor%balance_speed_rpm = '//to_text(speed) &
+            & //': must be < 0 (the highest of the run) or >= 1', error)
+      end associate
+   end subroutine check_rotor
+
+   subroutine check_friction(scene, error)
+      type(scene_type), intent(in) :: scene
+      type(error_type), allocatable, intent(inout) :: error
+      associate (f => scene%friction)
+         call require(f%dynamic_coefficient <= f%static_coefficient, 'friction%dynamic_coefficient = ' &
+            & //to_text(f%dynamic_coefficient)//': must not exceed friction%static_coefficient = ' &
+            & //to_text(f%static_coefficient), error)
+         call require(f%model /= 'lugre' .or. f%dynamic_coefficient > 0, &
+            & 'friction%dynamic_coefficient = 0: must be > 0 for model = ''lugre''', error)
+      end associate
+   end subroutine check_friction
+
+   subroutine check_pivot(scene, error)
+      type(scene_type), intent(in) :: scene
+      type(error_type), allocatable, intent(inout) :: error
+      associate (v => scene%pivot)
+         call require(v%radius_difference <= 0.5_wp*v%socket_radius, 'pivot%radius_difference = ' &
+            & //to_text(v%radius_difference)//': must be at most half of pivot%socket_radius = ' &
+            & //to_text(v%socket_radius), error)
+         call require(v%law /= 'hertz' .or. v%radius_difference > 0, &
+            & 'pivot%radius_difference = 0: must be > 0 for law = ''hertz''', error)
+      end associate
+   end subroutine check_pivot
+
+   subroutine check_output(scene, error)
+      type(scene_type), intent(in) :: scene
+      type(error_type), allocatable, intent(inout) :: error
+      associate (output => scene%output, duration => scene%operation%duration)
+         call require(output%start_time <= duration, 'output%start_time = '//to_text(output%start_time) &
+            & //': must not exceed operation%duration = '//to_text(duration), error)
+         call require(duration*scene%highest_speed()/360/degree*output%samples_per_revolution < 1e9_wp, &
+            & 'operation%duration = '//to_text(duration) &
+            & //': more than 1e9 samples at output%samples_per_revolution = '//to_text(output%samples_per_revolution), error)
+      end associate
+   end subroutine check_output
+
+   subroutine check_pads(scene, error)
+      type(scene_type), intent(in) :: scene
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp) :: smallest
+      integer :: i
+      associate (p => scene%pads)
+         do i = 1, scene%pad_count()
+            smallest = p%mass(i)*(p%centre_tangential(i)**2 + p%centre_radial(i)**2)
+            call require(p%inertia(i) > smallest, 'pads%inertia = '//to_text(p%inertia(i)) &
+               & //': must exceed mass times the squared distance of the centre of gravity from the pivot, ' &
+               & //to_text(smallest)//' (pad '//to_text(i)//')', error)
+            call require_room(scene, i, error)
+         end do
+      end associate
+   end subroutine check_pads
+
+   !> A pad reaches from theta - theta_2 to theta + theta_1; the next one must start after that.
+   subroutine require_room(scene, i, error)
+      type(scene_type), intent(in) :: scene
+      integer, intent(in) :: i
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp) :: distance
+      integer :: j
+      associate (p => scene%pads)
+         do j = 1, scene%pad_count()
+            if (i == j) cycle
+            ! from pivot i on to pivot j, going up
+            distance = modulo(p%pivot_angle_deg(j) - p%pivot_angle_deg(i), 360.0_wp)
+            call require(distance > p%pivot_ratio(i)*p%arc_deg(i) + (1 - p%pivot_ratio(j))*p%arc_deg(j), &
+               & 'pads%pivot_angle_deg = '//to_text(p%pivot_angle_deg(i))//', ' &
+               & //to_text(p%pivot_angle_deg(j))//': pads '//to_text(i)//' and '//to_text(j) &
+               & //' overlap; the pivots must be further apart or pads%arc_deg smaller', error)
+         end do
+      end associate
+   end subroutine require_room
+end module scene_checks
