@@ -29,18 +29,18 @@ INPUT_ERROR, FILE_ERROR = 1, 3
 PLOTS = {
     "orbit": "path of the journal in its clearance circle, and enlarged (last revolution)",
     "equilibrium": "equilibrium of the journal in its clearance circle",
-    "size": "peak-to-peak of the journal: of one run, over the difference between runs, over speed",
-    "poincare": "journal and a pad once a revolution (last 50 revolutions, pad 1)",
+    "size": "peak-to-peak of the journal: of one run, over a variable that differs between runs, or speed",
+    "poincare": "journal and one pad, once per revolution (last 50 revolutions, pad 1)",
     "waveform": "journal, tilt and tilt rate over the last revolutions (5)",
-    "spectrum": "amplitudes of the journal, one-sided and full, at constant speed (those in the file)",
-    "hysteresis": "friction moment over pad tilt, a panel a pad (last revolution)",
-    "friction": "friction coefficient over sliding velocity, a panel a pad (last revolution)",
-    "sticking": "tilt rate, bold where the pivot sticks, a panel a pad (last 2 revolutions)",
+    "spectrum": "amplitudes of the journal, one-sided and full, at constant speed (from the file)",
+    "hysteresis": "friction moment over pad tilt, one panel per pad (last revolution)",
+    "friction": "friction coefficient over sliding velocity, one panel per pad (last revolution)",
+    "sticking": "tilt rate, with a bold line where the pivot sticks, one panel per pad (last 2 revolutions)",
     "runup": "journal and tilt over the whole run, with the speed",
-    "orders": "amplitude and phase of the first orders over the speed of a run-up (with --pad: its tilt too)",
-    "waterfall": "amplitudes over speed and order of a run-up (journal, or with --pad its tilt)",
-    "pressure": "film pressure over the unrolled pads at one instant (--time; else at the equilibrium)",
-    "study": "results over parameters, of a file by tiltpad-collect (--show, --over, --as, --where)",
+    "orders": "amplitude and phase of the first orders over the speed of a run-up (--pad: also of its tilt)",
+    "waterfall": "amplitudes over speed and order of a run-up (of the journal; --pad: of its tilt)",
+    "pressure": "film pressure over the unrolled pads at one instant (--time; default: at the equilibrium)",
+    "study": "results over parameters, from a file of tiltpad-collect (--show, --over, --as, --where)",
 }
 
 
@@ -194,7 +194,9 @@ def report_parser() -> Parser:
         epilog="exit status: 0 done; 1 usage; 3 a file cannot be read or written",
     )
     parser.add_argument("file", metavar="FILE", help="result file (.h5)")
-    parser.add_argument("-o", "--output", metavar="HTML", help="default: FILE's name with .html, here")
+    parser.add_argument(
+        "-o", "--output", metavar="HTML", help="default: FILE's name with .html, in this folder"
+    )
     return parser
 
 
@@ -206,7 +208,9 @@ def collect_parser() -> Parser:
         epilog="exit status: 0 done; 1 usage, or members of two studies; 3 a file cannot be read or written",
     )
     parser.add_argument("paths", nargs="+", metavar="FOLDER|FILE", help="folder of results, or result files")
-    parser.add_argument("-o", "--output", metavar="STUDY", help="default: the folder's name with .h5, here")
+    parser.add_argument(
+        "-o", "--output", metavar="STUDY", help="default: the folder's name with .h5, in this folder"
+    )
     return parser
 
 
@@ -215,7 +219,7 @@ def plot_parser() -> Parser:
     parser = Parser(
         prog="tiltpad-plot",
         usage="tiltpad-plot PLOT FILE... [options]",
-        description=f"Draws result files of tiltpad, several laid over each other.\n\nplots:\n{plots}",
+        description=f"Draws result files of tiltpad, several in one picture.\n\nplots:\n{plots}",
         epilog="exit status: 0 done; 1 usage, or no such data in the run; 3 a file cannot be read or written",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -225,12 +229,16 @@ def plot_parser() -> Parser:
         "-o",
         "--output",
         metavar="PICTURE",
-        help=".png, .pdf or .svg; default: FILE's name with -PLOT.png, here",
+        help=".png, .pdf or .svg; default: FILE's name with -PLOT.png, in this folder",
     )
-    parser.add_argument("--last", type=positive, metavar="N", help="shaft revolutions at the end of the run")
-    parser.add_argument("--pad", type=int, metavar="K", help="this pad only (1, 2, ...)")
-    parser.add_argument("--time", type=float, metavar="T", help="of the pressure: the sample next to T, s")
-    study = parser.add_argument_group("of a study")
+    parser.add_argument(
+        "--last", type=positive, metavar="N", help="shows the last N shaft revolutions of the run"
+    )
+    parser.add_argument("--pad", type=int, metavar="K", help="shows this pad only (1, 2, ...)")
+    parser.add_argument(
+        "--time", type=float, metavar="T", help="time of the pressure in s; the nearest sample is taken"
+    )
+    study = parser.add_argument_group("options of the plot study")
     study.add_argument(
         "--show", metavar="RESULT", help="result to draw (orbit_size, max_pressure, steps, ...)"
     )
@@ -241,7 +249,7 @@ def plot_parser() -> Parser:
         action="append",
         type=assignment,
         metavar="PARAMETER=VALUE",
-        help="only the members with this value; repeatable",
+        help="takes only the members with this value; may be repeated",
     )
     return parser
 

@@ -153,23 +153,24 @@ contains
    subroutine print_help()
       print '(a)', 'usage: tiltpad [options] CASE.nml', &
          & '', &
-         & 'Marches the tilting pad journal bearing of a namelist case and writes an HDF5 result file.', &
-         & 'A case with a group &sweep is many, its members; each writes a file of its own.', &
+         & 'Simulates the tilting pad journal bearing of a namelist case and writes an HDF5 result file.', &
+         & 'A case with a group &sweep describes many runs, its members; each member writes its own file.', &
          & '', &
-         & '  --output FILE           result file; default: the case''s name with .h5, in this directory', &
-         & '                          (of a sweep: the folder of the results 0001.h5, ...; the case''s name)', &
-         & '  --resume FILE           goes on with a run that was stopped or killed, from its last checkpoint;', &
-         & '                          with a CASE: starts it if FILE is not there', &
+         & '  --output FILE           names the result file; default: the case''s name with .h5, in this folder', &
+         & '                          (for a sweep: names the folder of the files 0001.h5, ...; default: the', &
+         & '                          case''s name)', &
+         & '  --resume FILE           continues a run that was stopped or killed, from its last checkpoint;', &
+         & '                          with a CASE, starts the run if FILE does not exist', &
          & '  --set group%name=value  overrides one value of the case; may be repeated', &
          & '  --check                 reads, checks and prints the resolved case; runs nothing', &
-         & '  --jobs N                members of a sweep that run at a time; default: the processors there are', &
-         & '  --member K              runs (or with --check, prints) the K-th member of a sweep alone', &
-         & '  --count                 prints how many members the case has; 1 without a group &sweep', &
-         & '  --quiet                 prints nothing but errors', &
+         & '  --jobs N                runs N members of a sweep at a time; default: one for each processor', &
+         & '  --member K              runs (with --check: prints) only member K of a sweep', &
+         & '  --count                 prints the number of members of the case; 1 without a group &sweep', &
+         & '  --quiet                 prints errors only', &
          & '  --reference             prints the input reference (Markdown)', &
-         & '  --version, --help', &
+         & '  --version, --help       prints the version, or this help', &
          & '', &
-         & 'Exit status: 0 done; 1 usage or input; 2 the numerics failed (what was computed is kept);', &
+         & 'Exit status: 0 done; 1 usage or input; 2 the numerics failed (results up to this point are kept);', &
          & '3 file or system; 4 stopped by a signal (SIGTERM, SIGUSR1, SIGINT) after a checkpoint.'
    end subroutine print_help
 end module arguments

@@ -20,7 +20,7 @@ contains
       do i = 1, size(static%tilt)
          print '(a)', '  pad '//to_text(i)//': tilt '//milli(static%tilt(i))//' mrad, penetration ' &
             & //micro(static%penetration(i))//' um, contact '//fixed_text(static%contact_force(i), 1) &
-            & //' N, minimum film '//micro(static%min_film_thickness(i))//' um, maximum pressure ' &
+            & //' N, minimum film thickness '//micro(static%min_film_thickness(i))//' um, maximum pressure ' &
             & //mega(static%max_pressure(i))//' MPa'
       end do
    end subroutine print_equilibrium
@@ -43,7 +43,7 @@ contains
          & //micro(minval(z))//' to '//micro(maxval(z))//' um'
       do i = 1, size(tilt, 1)
          print '(a)', '  pad '//to_text(i)//': tilt '//milli(minval(tilt(i, :)))//' to ' &
-            & //milli(maxval(tilt(i, :)))//' mrad, minimum film '//micro(minval(film(i, :))) &
+            & //milli(maxval(tilt(i, :)))//' mrad, minimum film thickness '//micro(minval(film(i, :))) &
             & //' um, maximum pressure ' &
             & //mega(maxval(pressure(i, :)))//' MPa, friction work ' &
             & //fixed_text(1e3_wp*loop_area(tilt(i, :), moment(i, :)), 3)//' mJ'
@@ -51,7 +51,7 @@ contains
       print '(a)', 'cost: '//number('steps')//' steps, '//number('rhs_evaluations')//' right-hand sides, ' &
          & //number('jacobian_evaluations')//' Jacobians, films '//number('film_modal')//' modal and ' &
          & //number('film_volumes')//' on finite volumes ('//number('film_passes')//' passes over their cells)'
-      print '(a)', '  wall time '//duration('wall_seconds')//' s, of it film '//duration('film_seconds') &
+      print '(a)', '  wall time '//duration('wall_seconds')//' s, of which film '//duration('film_seconds') &
          & //' s and samples '//duration('output_seconds')//' s'
    contains
       function number(name)
