@@ -35,21 +35,22 @@ contains
    subroutine visit_case(case, v)
       type(case_type), intent(inout) :: case
       class(visitor_type), intent(inout) :: v
-      call v%group('case', 'What the run is')
-      call v%word(case%title, choice('title', '', 'free text, kept in the result file'))
-      call v%word(case%task, choice('task', 'march equilibrium', 'march in time, or stop at the static equilibrium'))
+      call v%group('case', 'Title and task of the run')
+      call v%word(case%title, choice('title', '', 'free text, which the result file contains'))
+      call v%word(case%task, choice('task', 'march equilibrium', &
+         & 'march: motion over time; equilibrium: only the static equilibrium'))
    end subroutine visit_case
 
    subroutine visit_rotor(rotor, v)
       type(rotor_type), intent(inout) :: rotor
       class(visitor_type), intent(inout) :: v
-      call v%group('rotor', 'The rotor''s share on this bearing, and what loads it')
+      call v%group('rotor', 'The part of the rotor that this bearing carries, and its loads')
       call v%number(rotor%mass, field('mass', 1e-6_wp, 1e9_wp, 'kg', 'mass m_J carried by the bearing'))
       call v%number(rotor%unbalance, field('unbalance', 0.0_wp, 1e6_wp, 'kg m', 'unbalance dmE'))
       call v%number(rotor%balance_grade, field('balance_grade', -1.0_wp, 1e5_wp, 'mm/s', &
-         & 'ISO 21940-11 grade G; > 0 replaces unbalance by eq (26)'))
+         & 'ISO 21940-11 grade G; > 0: eq (26) gives the unbalance instead'))
       call v%number(rotor%balance_speed_rpm, field('balance_speed_rpm', -1.0_wp, 1e6_wp, 'rpm', &
-         & 'speed of eq (26); < 0: the highest of the run'))
+         & 'speed of eq (26); < 0: maximum speed of the run'))
       call v%number(rotor%gravity, field('gravity', 0.0_wp, 1e3_wp, 'm/s^2', 'acceleration towards -y'))
       call v%numbers(rotor%static_load, field('static_load', -1e12_wp, 1e12_wp, 'N', &
          & 'extra force on the journal along y and z'))
@@ -58,10 +59,10 @@ contains
    subroutine visit_operation(operation, v)
       type(operation_type), intent(inout) :: operation
       class(visitor_type), intent(inout) :: v
-      call v%group('operation', 'Speed and time')
+      call v%group('operation', 'Speed and duration')
       call v%number(operation%speed_rpm, field('speed_rpm', 1e-3_wp, 1e6_wp, 'rpm', 'shaft speed at the start'))
       call v%number(operation%final_speed_rpm, field('final_speed_rpm', -1.0_wp, 1e6_wp, 'rpm', &
-         & 'shaft speed at the end, linear in between; < 0: as speed_rpm'))
+         & 'shaft speed at the end; it changes linearly; < 0: the same as speed_rpm'))
       call v%number(operation%duration, field('duration', 1e-9_wp, 1e6_wp, 's', 'simulated time'))
    end subroutine visit_operation
 
@@ -69,7 +70,7 @@ contains
       type(bearing_type), intent(inout) :: bearing
       class(visitor_type), intent(inout) :: v
       call v%group('bearing', 'Geometry, oil and boundary pressures')
-      call v%number(bearing%journal_radius, field('journal_radius', 1e-4_wp, 10.0_wp, 'm', 'R_J'))
+      call v%number(bearing%journal_radius, field('journal_radius', 1e-4_wp, 10.0_wp, 'm', 'radius R_J of the journal'))
       call v%number(bearing%machined_clearance, field('machined_clearance', 1e-9_wp, 0.1_wp, 'm', &
          & 'radial clearance c_m between pad bore and journal'))
       call v%number(bearing%assembled_clearance, field('assembled_clearance', 1e-9_wp, 0.1_wp, 'm', &
@@ -87,104 +88,115 @@ contains
    subroutine visit_pads(pads, v)
       type(pads_type), intent(inout) :: pads
       class(visitor_type), intent(inout) :: v
-      call v%group('pads', 'As many pads as pivot angles; other variables: one value for all pads or one each')
+      call v%group('pads', &
+         & 'The bearing has one pad for each pivot angle; other variables take one value for all pads or one for each')
       call v%per_pad(pads%pivot_angle_deg, field('pivot_angle_deg', -360.0_wp, 360.0_wp, 'deg', &
          & 'angle theta of each pivot, from +z towards +y', fixes_pads=.true.))
       call v%per_pad(pads%arc_deg, field('arc_deg', 0.1_wp, 350.0_wp, 'deg', 'arc theta_1 + theta_2'))
       call v%per_pad(pads%pivot_ratio, field('pivot_ratio', 0.01_wp, 0.99_wp, '1', &
-         & 'theta_1 over the arc: where the pivot stands, from the leading edge'))
+         & 'position of the pivot from the leading edge, theta_1 over the arc'))
       call v%per_pad(pads%pivot_distance, field('pivot_distance', 1e-6_wp, 1.0_wp, 'm', &
-         & 'kappa, from the pad''s bore out to the pivot'))
+         & 'radial distance kappa from the pad''s bore to the pivot'))
       call v%per_pad(pads%mass, field('mass', 1e-9_wp, 1e6_wp, 'kg', 'pad mass'))
       call v%per_pad(pads%inertia, field('inertia', 1e-15_wp, 1e6_wp, 'kg m^2', 'moment of inertia about the pivot'))
       call v%per_pad(pads%centre_tangential, field('centre_tangential', -1.0_wp, 1.0_wp, 'm', &
-         & 'centre of gravity C_xi from the pivot, along the pad'))
+         & 'position C_xi of the centre of gravity from the pivot, along the pad'))
       call v%per_pad(pads%centre_radial, field('centre_radial', -1.0_wp, 1.0_wp, 'm', &
-         & 'centre of gravity C_eta from the pivot, outward'))
+         & 'position C_eta of the centre of gravity from the pivot, outward'))
       call v%word(pads%motion, choice('motion', 'tilting_radial tilting_only', &
-         & 'pads tilt and move radially on their pivots, or tilt only'))
+         & 'tilting_radial: the pads tilt and move radially on their pivots; tilting_only: they only tilt'))
    end subroutine visit_pads
 
    subroutine visit_pivot(pivot, v)
       type(pivot_type), intent(inout) :: pivot
       class(visitor_type), intent(inout) :: v
       call v%group('pivot', 'Ball-and-socket contact')
-      call v%word(pivot%law, choice('law', 'fang hertz', 'conformal contact (11)-(18), or Hertz'))
-      call v%number(pivot%socket_radius, field('socket_radius', 1e-5_wp, 10.0_wp, 'm', 'R_2'))
-      call v%number(pivot%radius_difference, field('radius_difference', 0.0_wp, 1.0_wp, 'm', 'dR = R_2 - R_1'))
-      call v%numbers(pivot%young_modulus, field('young_modulus', 1e6_wp, 1e14_wp, 'Pa', 'of ball and socket'))
-      call v%numbers(pivot%poisson_ratio, field('poisson_ratio', -0.99_wp, 0.5_wp, '1', 'of ball and socket'))
+      call v%word(pivot%law, choice('law', 'fang hertz', 'fang: conformal contact (11)-(18); hertz: law of Hertz'))
+      call v%number(pivot%socket_radius, field('socket_radius', 1e-5_wp, 10.0_wp, 'm', 'radius R_2 of the socket'))
+      call v%number(pivot%radius_difference, field('radius_difference', 0.0_wp, 1.0_wp, 'm', &
+         & 'dR = R_2 - R_1, R_1 being the radius of the ball'))
+      call v%numbers(pivot%young_modulus, field('young_modulus', 1e6_wp, 1e14_wp, 'Pa', 'values of ball and socket'))
+      call v%numbers(pivot%poisson_ratio, field('poisson_ratio', -0.99_wp, 0.5_wp, '1', 'values of ball and socket'))
       call v%number(pivot%penetration_factor, field('penetration_factor', 0.1_wp, 100.0_wp, '1', &
-         & 'factor of eq (13): 4 as printed; 2 pi meets Hertz''s approach'))
+         & 'factor of eq (13): 4 as printed; 2 pi agrees with Hertz''s law'))
    end subroutine visit_pivot
 
    subroutine visit_friction(friction, v)
       type(friction_type), intent(inout) :: friction
       class(visitor_type), intent(inout) :: v
       call v%group('friction', 'Friction in the pivots')
-      call v%word(friction%model, choice('model', 'none bengisu_akay lugre', 'none, eq (22), or eqs (23)-(25)'))
-      call v%number(friction%static_coefficient, field('static_coefficient', 1e-6_wp, 10.0_wp, '1', 'f_s'))
-      call v%number(friction%dynamic_coefficient, field('dynamic_coefficient', 0.0_wp, 10.0_wp, '1', 'f_d <= f_s'))
+      call v%word(friction%model, choice('model', 'none bengisu_akay lugre', &
+         & 'none; bengisu_akay: eq (22); lugre: eqs (23)-(25)'))
+      call v%number(friction%static_coefficient, field('static_coefficient', 1e-6_wp, 10.0_wp, '1', &
+         & 'static friction coefficient f_s'))
+      call v%number(friction%dynamic_coefficient, field('dynamic_coefficient', 0.0_wp, 10.0_wp, '1', &
+         & 'dynamic friction coefficient f_d <= f_s'))
       call v%number(friction%critical_velocity, field('critical_velocity', 1e-12_wp, 10.0_wp, 'm/s', &
-         & 'Bengisu-Akay: v_c'))
-      call v%number(friction%decay, field('decay', 0.0_wp, 1e9_wp, 's/m', 'Bengisu-Akay: chi'))
-      call v%number(friction%stribeck_velocity, field('stribeck_velocity', 1e-9_wp, 1e3_wp, 'm/s', 'LuGre: v_s'))
-      call v%number(friction%stribeck_exponent, field('stribeck_exponent', 0.1_wp, 10.0_wp, '1', 'LuGre: gamma'))
-      call v%number(friction%bristle_stiffness, field('bristle_stiffness', 1.0_wp, 1e12_wp, '1/m', 'LuGre: sigma_0'))
+         & 'Bengisu-Akay: critical velocity v_c'))
+      call v%number(friction%decay, field('decay', 0.0_wp, 1e9_wp, 's/m', &
+         & 'Bengisu-Akay: decay chi of the Stribeck curve'))
+      call v%number(friction%stribeck_velocity, field('stribeck_velocity', 1e-9_wp, 1e3_wp, 'm/s', &
+         & 'LuGre: Stribeck velocity v_s'))
+      call v%number(friction%stribeck_exponent, field('stribeck_exponent', 0.1_wp, 10.0_wp, '1', &
+         & 'LuGre: Stribeck exponent gamma'))
+      call v%number(friction%bristle_stiffness, field('bristle_stiffness', 1.0_wp, 1e12_wp, '1/m', &
+         & 'LuGre: bristle stiffness sigma_0'))
       call v%number(friction%bristle_damping, field('bristle_damping', -1.0_wp, 1e6_wp, 's/m', &
-         & 'LuGre: sigma_1; < 0: eq (28)'))
-      call v%number(friction%viscous_coefficient, field('viscous_coefficient', 0.0_wp, 1e6_wp, 's/m', 'LuGre: sigma_2'))
-      call v%number(friction%characteristic_load, field('characteristic_load', 1e-6_wp, 1e12_wp, 'N', 'N_m of eq (28)'))
+         & 'LuGre: bristle damping sigma_1; < 0: from eq (28)'))
+      call v%number(friction%viscous_coefficient, field('viscous_coefficient', 0.0_wp, 1e6_wp, 's/m', &
+         & 'LuGre: viscous coefficient sigma_2'))
+      call v%number(friction%characteristic_load, field('characteristic_load', 1e-6_wp, 1e12_wp, 'N', &
+         & 'LuGre: characteristic load N_m of eq (28)'))
    end subroutine visit_friction
 
    subroutine visit_film(film, v)
       type(film_type), intent(inout) :: film
       class(visitor_type), intent(inout) :: v
-      call v%group('film', 'How the Reynolds equation is solved')
+      call v%group('film', 'Solver of the Reynolds equation')
       call v%word(film%solver, choice('solver', 'auto modal sor', &
-         & 'axial modes, and finite volumes where a film ruptures; axial modes; over-relaxation'))
+         & 'auto: axial modes, finite volumes where a film ruptures; modal: axial modes; sor: over-relaxation'))
       call v%whole(film%circumferential_cells, field('circumferential_cells', 0.0_wp, 2000.0_wp, '1', &
-         & 'cells along the arc, even; 0: enough for axial modes, 80 where a film ruptures, 60 for sor'))
+         & 'cells along the arc, an even number; 0: as many as axial modes need, 80 where a film ruptures, 60 for sor'))
       call v%whole(film%axial_cells, field('axial_cells', 0.0_wp, 1000.0_wp, '1', &
-         & 'finite volumes: cells along half the width, 2 or more; 0: 8, 15 for sor'))
+         & 'finite volumes: cells along half the width, at least 2; 0: 8, or 15 for sor'))
       call v%whole(film%axial_modes, field('axial_modes', 0.0_wp, 200.0_wp, '1', &
-         & 'most modes across the width; those too stiff for the cells go into the closed form; 0: enough'))
+         & 'maximum number of axial modes; the closed form takes those that are too stiff for the cells; 0: automatic'))
       call v%number(film%relaxation, field('relaxation', 0.0_wp, 1.999_wp, '1', &
-         & 'sor: relaxation factor; 0: the optimum of the grid'))
+         & 'sor: relaxation factor; 0: the optimum for the grid'))
       call v%number(film%tolerance, field('tolerance', 1e-13_wp, 1e-2_wp, '1', &
-         & 'sor: residual over source; at most a tenth of relative_tolerance is taken'))
+         & 'sor: limit of residual over source; at most a tenth of relative_tolerance is used'))
       call v%whole(film%max_sweeps, field('max_sweeps', 1.0_wp, 1e8_wp, '1', &
-         & 'sor: sweeps after which a film is given up'))
+         & 'sor: maximum number of sweeps for a film; more is a failure'))
       call v%word(film%cavitation, choice('cavitation', 'reynolds gumbel none', &
-         & 'p >= p_cav in the solution, clipped after it, or not at all'))
+         & 'reynolds: p >= p_cav in the solution; gumbel: clipped after the solution; none: no rupture'))
    end subroutine visit_film
 
    subroutine visit_integration(integration, v)
       type(integration_type), intent(inout) :: integration
       class(visitor_type), intent(inout) :: v
-      call v%group('integration', 'CVODE')
+      call v%group('integration', 'Integration in time by CVODE')
       call v%number(integration%relative_tolerance, field('relative_tolerance', 1e-13_wp, 1e-2_wp, '1', &
          & 'relative tolerance of every state'))
       call v%number(integration%tolerance_scale, field('tolerance_scale', 1e-6_wp, 1e6_wp, '1', &
-         & 'absolute tolerances: relative_tolerance times this times each state''s own scale'))
-      call v%number(integration%max_step, field('max_step', 0.0_wp, 1e6_wp, 's', 'longest step; 0: no limit'))
+         & 'factor of the absolute tolerances: each is relative_tolerance times this times the scale of its state'))
+      call v%number(integration%max_step, field('max_step', 0.0_wp, 1e6_wp, 's', 'maximum step; 0: no limit'))
       call v%whole(integration%max_steps, field('max_steps', 1.0_wp, 2e9_wp, '1', &
-         & 'steps after which the march is given up'))
+         & 'maximum number of steps of the march; more is a failure'))
       call v%number(integration%stop_when_periodic, field('stop_when_periodic', 0.0_wp, 1.0_wp, '1', &
-         & '> 0: end once journal and tilts, sampled, repeat from one revolution to the next within this part of ' &
-         & //'the assembled clearance (tilts: at the pad''s length)'))
+         & '> 0: the run ends when the samples repeat from one revolution to the next within this part of the ' &
+         & //'assembled clearance (journal) and of the clearance over the pad''s length (tilts)'))
    end subroutine visit_integration
 
    subroutine visit_output(output, v)
       type(output_type), intent(inout) :: output
       class(visitor_type), intent(inout) :: v
-      call v%group('output', 'What is kept')
+      call v%group('output', 'Contents of the result file')
       call v%whole(output%samples_per_revolution, field('samples_per_revolution', 1.0_wp, 1e6_wp, '1', &
-         & 'samples in a revolution at the highest speed of the run'))
-      call v%number(output%start_time, field('start_time', 0.0_wp, 1e6_wp, 's', 'first sample'))
+         & 'samples per revolution at the maximum speed of the run'))
+      call v%number(output%start_time, field('start_time', 0.0_wp, 1e6_wp, 's', 'time of the first sample'))
       call v%whole(output%spectrum_revolutions, field('spectrum_revolutions', 1.0_wp, 1e6_wp, '1', &
-         & 'revolutions at the end that the spectra cover, as far as they were sampled'))
+         & 'number of revolutions at the end of the run that the spectra cover, as far as there are samples'))
       call v%number(output%checkpoint_seconds, field('checkpoint_seconds', 0.0_wp, 1e9_wp, 's', &
-         & 'wall time between checkpoints, from which --resume goes on; 0: only when a signal stops the run'))
+         & 'wall time between checkpoints, from which --resume continues; 0: only when a signal stops the run'))
    end subroutine visit_output
 end module scene_fields
