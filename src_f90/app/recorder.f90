@@ -34,7 +34,7 @@ contains
    !> Readies the recording of a run's march from time t, s; its file has its series.
    subroutine begin_recording(self, run, t)
       type(recorder_type), intent(out) :: self
-      type(case_run_type), intent(in), target :: run
+      type(case_run_type), intent(inout), target :: run
       real(wp), intent(in) :: t
       self%run => run
       self%progress = new_progress(t, run%scene%operation%duration, run%quiet)

@@ -1,4 +1,4 @@
-!> What a result file says of its making: program, compiler, machine, times, every stretch of running and its end.
+!> How a result file was made: program, compiler, machine, times, every stretch of running and its end.
 module provenance
    use, intrinsic :: iso_fortran_env, only: compiler_version
    use kinds, only: wp
@@ -28,7 +28,7 @@ module provenance
 
 contains
 
-   !> Of a new file.
+   !> Notes the start of a new file.
    subroutine begin(self, file)
       class(provenance_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file
@@ -39,7 +39,7 @@ contains
       call self%put_maker(file)
    end subroutine begin
 
-   !> Of a file that is gone on with, from simulated time t, s.
+   !> Notes that a file is continued from simulated time t, s.
    subroutine resume(self, file, t)
       class(provenance_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file
@@ -63,7 +63,7 @@ contains
       call file%put_flag('resumes', self%resumes)
    end subroutine put_maker
 
-   !> How far this stretch is, simulated time t, s, and how it ended: exit status (or `running`) and why.
+   !> Notes how far this stretch has come, simulated time t, s, and how it ended: exit status (or `running`) and why.
    subroutine note(self, file, t, status, reason)
       class(provenance_type), intent(in) :: self
       type(hdf5_type), intent(inout) :: file

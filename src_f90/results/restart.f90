@@ -1,4 +1,4 @@
-!> What a result file says to one who wants to go on with it.
+!> What a run reads in a result file before it continues it.
 module restart
    use text, only: to_text, on_one_line
    use errors, only: error_type, raise, add_context, system_error, numerics_error

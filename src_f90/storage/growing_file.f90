@@ -31,7 +31,7 @@ module growing_file
       procedure :: samples
       procedure :: last_samples
       procedure :: publish
-      !> Gives up what was not published, and the lock.
+      !> Deletes what was not published, and frees the lock.
       procedure :: abandon
       procedure :: path
       !> Shows other programs that this one lives, and has the system write; to be called often with a clock, s.
@@ -101,7 +101,7 @@ contains
       call self%table%last(self%file, name, n, values)
    end subroutine last_samples
 
-   !> Publishes what there is. With `continued` it goes on being written; otherwise it is closed and the lock given up.
+   !> Publishes what there is. With `continued` the writing continues; otherwise the file is closed and the lock freed.
    subroutine publish(self, continued, error)
       class(growing_file_type), intent(inout) :: self
       logical, intent(in) :: continued

@@ -54,7 +54,8 @@ module hdf5_base
 
 contains
 
-   !> Readies the library. Files do so by themselves; a process that has many children saves each of them its time.
+   !> Readies the library. Files do so by themselves; a process that does it before it starts children saves them the
+   !> time.
    subroutine start_hdf5()
       integer :: status
       ! HDF5's own locks are for readers in the middle of a write; many file systems know none

@@ -13,7 +13,7 @@ module hdf5_series
 
    !> Samples in a chunk.
    integer, parameter :: chunk_samples = 4096
-   !> More values a sample are the mark of a damaged file.
+   !> Most values a sample; only a damaged file says more.
    integer, parameter :: widest = 1000
 
    !> `width` values a sample: (axis) or, in the order of h5py, (axis, width).

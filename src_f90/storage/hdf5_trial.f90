@@ -1,5 +1,5 @@
-!> Tries whether an HDF5 file can be read at all. Over a damaged one the library may crash or run for ever; it does
-!> so in a child process.
+!> Tries in a child process whether an HDF5 file can be read at all: if it is damaged, the library may crash or run
+!> for ever.
 module hdf5_trial
    use hdf5, only: hid_t, h5gn_members_f, h5gget_obj_info_idx_f, h5g_group_f
    use kinds, only: wp
@@ -16,8 +16,8 @@ module hdf5_trial
 
 contains
 
-   !> False where reading all of the file's structure, and the end of each dataset, crashes or takes too long. What
-   !> is merely missing or wrong in it is not looked at.
+   !> False where reading all of the file's structure, and the end of each dataset, crashes or takes too long. It does
+   !> not look for what is missing or wrong in the file.
    logical function can_be_read(path)
       character(len=*), intent(in) :: path
       character(len=:), allocatable :: how

@@ -166,7 +166,7 @@ contains
       ignored = c_rmdir(path//c_null_char)
    end subroutine remove_folder
 
-   !> The process goes on twice: 0 is returned in the child, its number in the parent, and -1 where it could not be.
+   !> Starts a child that continues here as well: 0 in the child, its number in the parent, -1 if there is none.
    integer function new_process()
       new_process = int(c_fork())
    end function new_process
