@@ -13,19 +13,20 @@ NUMBER = r"-?\d+(\.\d+)?([eE][+-]?\d+)?"
 PAGE = """\
 # Stability
 
-{count} random scenes (seed {seed}) over wide ranges of every input: 1 to 24 pads, L/D 0.1 to 2, clearance
-0.4 to 4 per mille, preload -0.3 to 0.7, pivot ratios 0.3 to 0.7, load up to 5 times the paper's in any
-direction, 100 to 15000 rpm, constant, up and down, unbalance up to contact, every friction model (critical
-velocity down to 1e-8 m/s, bristles up to 1e9 1/m), motion, contact law, kind of rupture and film solver, 2 to
-30 revolutions. Sizes, masses and loads scale with the journal, so that most scenes are bearings, if not good
-ones.
+The stress test runs {count} random scenes (seed {seed}) over wide ranges of every input: 1 to 24 pads, L/D
+0.1 to 2, clearance 0.4 to 4 per mille, preload -0.3 to 0.7, pivot ratios 0.3 to 0.7, load up to 5 times the
+paper's in any direction, 100 to 15000 rpm (constant, rising and falling), unbalance up to contact, every
+friction model (critical velocity down to 1e-8 m/s, bristle stiffness up to 1e9 1/m), pad motion, contact
+law, cavitation and film solver, 2 to 30 revolutions. Sizes, masses and loads scale with the journal, so
+that most scenes are bearings, though not always good ones.
 
-A scene passes if it ends with a whole result whose numbers are finite and physically possible (contact forces
->= 0, films > 0, friction within its bound, time even), or with a refusal of one line that says why, where and
-when; what was computed up to then is kept and finite. None may hang: `integration%max_steps` bounds the work,
-and a scene that uses it up is counted on its own.
+A scene passes if it ends with a complete result whose numbers are finite and physically possible (contact
+forces >= 0, film thickness > 0, friction within its bound, equally spaced samples). It also passes if it
+ends with a refusal of one line that says why, where and when; the results up to this point are then kept
+and finite. No scene may hang: `integration%max_steps` limits the work, and the tables count a scene that
+reaches this limit separately ("step budget").
 
-**{passed} passed, {failed} failed.** Written by
+**{passed} passed, {failed} failed.** This command wrote the page:
 
     {command}
 
@@ -33,11 +34,11 @@ and a scene that uses it up is counted on its own.
 
 {outcomes}
 
-By friction and motion:
+Outcomes by friction model and pad motion:
 
 {models}
 
-By number of pads:
+Outcomes by number of pads:
 
 {counts}
 
@@ -47,37 +48,40 @@ By number of pads:
 
 ## Cost
 
-Steps of the scenes that moved (more than {moved} steps), per revolution, and the share of attempts that the
-error test or Newton's iteration turned down:
+This table shows the steps per revolution of the scenes that moved (more than {moved} steps), and the share
+of steps that the error test or Newton's iteration rejected:
 
 {cost}
 
-The dearest:
+These scenes took the most steps per revolution:
 
-{dearest}
+{most_steps}
 
 ## Error
 
-{compared} of the scenes that moved and ended well were run again over {revolutions} revolutions, with
-`relative_tolerance` (and `film%tolerance`) {finer} times smaller. The error is the largest difference of
-journal position, tilt and penetration at any instant, in units of the tolerance
+The test ran {compared} of the scenes that moved and were completed again over {revolutions} revolutions,
+with a `relative_tolerance` (and `film%tolerance`) {finer} times smaller. The error is the maximum
+difference of journal position, tilt and penetration at any instant, in units of the tolerance
 `relative_tolerance * (|state| + scale)`.
 
-What the settings promise: CVODE keeps what one step adds below sqrt(n) tolerances in each of n states, so
-N steps of a scene that does not amplify disturbances stay below **N sqrt(n)** tolerances. A scene beyond that
-is run once more, finely, with its load changed by `relative_tolerance` of itself. If that alone moves it a
-tenth as far or more, the scene is sensitive and no solver tracks it at this tolerance; otherwise it fails.
+The settings set a limit of the error: CVODE keeps the error of one step below sqrt(n) tolerances for n
+states, so after N steps the error of a scene that does not amplify disturbances stays below **N sqrt(n)**
+tolerances. If the error of a scene is above this limit, the test runs the scene once more with the small
+tolerance and a load changed by `relative_tolerance` of itself. If this alone changes the result by a tenth
+of the error or more, the scene is sensitive, and no solver can follow it at this tolerance; otherwise it
+fails.
 
 {verdicts}
 
 {errors}
 
-The friction moment is not a state: where friction is steep it jumps, and a small difference in the time of a
-jump is a large one in the moment. Worst cases against the promise:
+The friction moment is not a state. Where the friction law is steep, the moment jumps, and a small
+difference in the time of a jump is a large difference of the moment. These scenes have the largest errors
+over the limit:
 
 {worst}
 
-Every failed scene is kept as a namelist in `build/stress` (`--keep`), with what was wrong in its first lines.
+`build/stress` (`--keep`) contains a namelist of every failed scene; its first lines say what was wrong.
 """
 
 
@@ -98,7 +102,7 @@ def page(results: list[Result], seed: int) -> str:
         reasons=reasons(results),
         moved=AT_REST,
         cost=cost(results),
-        dearest=dearest(results),
+        most_steps=most_steps(results),
         compared=len(compared),
         revolutions=f"{COMPARED:g}",
         finer=f"{FINER:g}",
@@ -133,7 +137,7 @@ def outcomes(results: list[Result]) -> str:
     found = Counter(result.outcome for result in results)
     bad = Counter(result.outcome for result in results if result.faults)
     rows = [(each, found[each], bad[each]) for each in OUTCOMES if found[each]]
-    return table(("outcome", "scenes", "of them failed"), rows)
+    return table(("outcome", "scenes", "failed"), rows)
 
 
 def crossed(results: list[Result], key: Callable[[Result], str]) -> str:
@@ -160,7 +164,7 @@ def reason(message: str) -> str:
 
 
 def cost(results: list[Result]) -> str:
-    """Steps per revolution by friction model and motion: middle, nine in ten, most."""
+    """Steps per revolution by friction model and motion: median, 90 %, maximum."""
     groups: dict[str, list[tuple[float, float]]] = {}
     for result in results:
         if result.steps > AT_REST and result.revolutions > 0:
@@ -173,7 +177,7 @@ def cost(results: list[Result]) -> str:
         middle, most = np.median(rate), rate.max()
         row = name, len(rate), short(middle), short(np.quantile(rate, 0.9)), short(most)
         rows.append((*row, f"{100 * np.median(share):.0f} %"))
-    return table(("", "scenes", "median", "9 of 10 below", "most", "turned down (median)"), rows)
+    return table(("", "scenes", "median", "90 % below", "maximum", "rejected steps (median)"), rows)
 
 
 def short(number: float) -> str:
@@ -181,12 +185,12 @@ def short(number: float) -> str:
     return f"{number:.3g}"
 
 
-def dearest(results: list[Result], most: int = 8) -> str:
+def most_steps(results: list[Result], count: int = 8) -> str:
     """Scenes with the most steps per revolution."""
     moved = [result for result in results if result.revolutions > 0]
     moved.sort(key=lambda result: -result.steps / result.revolutions)
     rows = []
-    for each in moved[:most]:
+    for each in moved[:count]:
         rate = short(each.steps / each.revolutions)
         rows.append((each.number, rate, f"{each.seconds:.1f}", each.outcome, *features(each)))
     return table(("scene", "steps per revolution", "wall s", "outcome", *FEATURES), rows)
@@ -210,9 +214,9 @@ def features(result: Result) -> tuple:
 def verdicts(compared: list[Result]) -> str:
     """How the comparisons ended."""
     meaning = {
-        "kept": "within the promise",
-        "sensitive": "sensitive: beyond the promise, as is a run with a slightly different load",
-        "missed": "beyond the promise (failed)",
+        "kept": "within the limit",
+        "sensitive": "sensitive: above the limit, as is a run with a slightly different load",
+        "missed": "above the limit (failed)",
     }
     found = Counter(result.comparison.outcome for result in compared)
     return table(("", "scenes"), ((meaning.get(key, key), n) for key, n in found.most_common()))
@@ -225,17 +229,17 @@ def errors(compared: list[Result]) -> str:
         return "None compared."
     rows = []
     for name, values in (
-        ("error over promise", [each.error / each.promised for each in runs]),
-        ("error, in tolerances", [each.error for each in runs]),
-        ("error, in scales of the states (clearance)", [each.share for each in runs]),
-        ("friction moment, in its peak-to-peak", [each.moment for each in runs]),
+        ("error over limit", [each.error / each.promised for each in runs]),
+        ("error in tolerances", [each.error for each in runs]),
+        ("error in scales of the states (clearance)", [each.share for each in runs]),
+        ("friction moment in its peak-to-peak", [each.moment for each in runs]),
     ):
         rows.append((name, *(f"{q:.1e}" for q in np.quantile(values, (0.5, 0.9, 0.99, 1.0)))))
-    return table(("", "median", "9 of 10 below", "99 of 100 below", "most"), rows)
+    return table(("", "median", "90 % below", "99 % below", "maximum"), rows)
 
 
 def worst(compared: list[Result], most: int = 8) -> str:
-    """Scenes with the largest errors against the promise."""
+    """Scenes with the largest errors over the limit."""
     runs = [(each.comparison.error / each.comparison.promised, each) for each in compared
             if each.comparison.promised > 0]  # fmt: skip
     rows = []
@@ -243,5 +247,5 @@ def worst(compared: list[Result], most: int = 8) -> str:
         moved = each.comparison.sensitivity
         row = each.number, f"{part:.1e}", f"{each.comparison.share:.1e}", f"{moved:.1e}" if moved else "-"
         rows.append((*row, each.comparison.outcome, *features(each)))
-    head = ("scene", "error over promise", "in scales", "by the load, in tolerances", "verdict")
+    head = ("scene", "error over limit", "error in scales", "change by the load, tolerances", "verdict")
     return table((*head, *FEATURES), rows)
