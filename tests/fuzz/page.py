@@ -21,42 +21,45 @@ SOURCES = (
 PAGE = """\
 # Fuzzing
 
-{cases} cases and commands in {minutes:.0f} minutes (seed {seed}): **{found}**. Written by
+{cases} cases and commands in {minutes:.0f} minutes (seed {seed}): **{found}**. This command wrote the page:
 
     make fuzz MINUTES={minutes:.0f} SEED={seed}
 
-A case is drawn as a scene or made from earlier cases, read by the program's reader, and judged:
+The test draws each case as a random scene or makes it from earlier cases. The program's reader reads it,
+and the test judges the result:
 
 - **valid** scenes in any spelling (blanks, comments, commas, line ends, repeats, subscripts, exponents,
-  quotes, capitals, order, `--set`) must be accepted with the intended values to the last bit;
-- **faults** of a known kind, one in an otherwise valid case, must be refused by one line that names
-  place and culprit;
-- **changed** cases, byte by byte or spliced, those kept that reach a part or a count of the reader's
-  flow that none reached before, must be accepted or refused as a second reader does, written in Python
-  from the documentation alone.
+  quotes, capitals, order, `--set`) must be accepted with exactly the intended values;
+- **faults** of a known kind, one in each otherwise valid case, must be refused by one line that names the
+  position and the faulty text;
+- **changed** cases are earlier cases with changed bytes, or parts of several cases. The reader must accept
+  or refuse them as a second reader does, which was written in Python from the documentation alone. The test
+  keeps a case for further changes if it reaches a part of the reader that no case reached before, or
+  reaches it a new number of times.
 
-A refusal is exit status 1 and one printable line of bounded length that says where. A case that is
-accepted is printed, and what is printed must read back to itself. A sweep must have the number of
-members that the second reader counts, and these its values. No answer within {limit:g} s is a hang.
+A refusal is exit status 1 and one printable line of limited length that says where the error is. If a case
+is accepted, the program prints it, and reading this text must give the same text again. A sweep must have
+the number of members that the second reader counts, and the members must have the values that it finds. If
+there is no answer within {limit:g} s, the test counts a hang.
 
-**Commands** run the program itself: `--set` with any bytes, names of cases and results, options in any
-order and number; and, as `extremes`, short runs of scenes at the limits of what is allowed, which must
-end well or with one line, within {command:g} s. Reader and program are built with bounds checks,
-floating-point traps and the sanitizers for addresses and undefined behaviour (the runs without
-sanitizers).
+**Commands** run the program itself, with any bytes after `--set`, any names of cases and results, and
+options in any order and number. The `extremes` are short runs of scenes at the limits of the allowed
+ranges, which must be completed or end with one line within {command:g} s. Reader and program are built with
+bounds checks, floating-point traps and the sanitizers for addresses and undefined behaviour (the `extremes`
+run without sanitizers).
 
-| what | how many |
+| kind | number |
 |---|---|
 {counts}
 
-Lines of the reader that were reached:
+The cases reached these parts of the reader's lines:
 
 | file | lines | reached |
 |---|---|---|
 {coverage}
 
-{seeds} cases are kept in `tests/fuzz/seeds.jsonl`: every finding ever made, and the few that together
-reach what all of them did. `make test` reads them again and draws some new ones.
+`tests/fuzz/seeds.jsonl` keeps {seeds} cases: every finding so far, and the few cases that together reach
+all parts that any case reached. `make test` reads them again and draws some new ones.
 {findings}"""
 
 
