@@ -20,6 +20,7 @@ program test_equations_of_motion
             call jacobian_by_differences(motions(m), frictions(f), 0.0_wp)
             call jacobian_by_differences(motions(m), frictions(f), 0.003_wp)
          end if
+         if (runs('products_and_solutions')) call products_and_solutions(motions(m), frictions(f))
       end do
       if (runs('trivial_rows')) call trivial_rows(motions(m))
    end do
@@ -123,6 +124,32 @@ contains
       call expect(all_ok, 'all states are admitted, '//what)
       call expect_close(worst, 0.0_wp, 2e-6_wp, 'Jacobian by differences, '//what)
    end subroutine jacobian_by_differences
+
+   !> J v is the product with the Jacobian, and (1 - gamma J) v = b has the solution v, to rounding in the scale of each
+   !> state: with gamma of some steps' length the matrix is far from the identity.
+   subroutine products_and_solutions(motion, friction)
+      character(len=*), intent(in) :: motion, friction
+      real(wp), parameter :: t = 1.234e-2_wp, gamma = 1e-5_wp
+      type(bearing_model) :: model
+      real(wp), allocatable :: matrix(:, :), v(:), jv(:), b(:)
+      integer :: k
+      logical :: ok
+      character(len=:), allocatable :: what
+      what = trim(motion)//', '//trim(friction)
+      model = new_bearing_model(heavy_scene(motion, friction, 0.003_wp))
+      allocate (matrix(model%n, model%n), jv(model%n))
+      call model%jacobian(t, moving_state(model), matrix, ok)
+      call expect(ok, 'the state is admitted, '//what)
+      v = [(between(-1.0_wp, 1.0_wp)*model%scale(k), k=1, model%n)]
+      call model%jacobian_times(v, jv)
+      b = matmul(abs(matrix), abs(v))
+      call expect_close(maxval(abs(jv - matmul(matrix, v))/b), 0.0_wp, 1e-14_wp, 'J v, '//what)
+      b = v - gamma*jv
+      call expect(maxval(abs(b - v)/model%scale) > 0.1_wp, 'the matrix is not the identity, '//what)
+      call model%solve(gamma, b, ok)
+      call expect(ok, 'there is a solution, '//what)
+      call expect_close(maxval(abs(b - v)/model%scale), 0.0_wp, 1e-9_wp, 'of the linear system, '//what)
+   end subroutine products_and_solutions
 
    !> The scale of a state; tilt rates are stepped in the scale of the friction's decay, 1 mm/s at the ball.
    pure real(wp) function step_scale(model, column)
