@@ -32,7 +32,7 @@ def films(rows: list[Row]) -> str:
         time, share = film_time(row), f"{row.finite_volumes / row.film_evaluations:.0%}"
         times = short(row.wall_seconds), short(1e6 * time), f"{time / film_time(first):.0f}"
         lines.append((LABELS[row.scene], row.setting, *times, small(row.error), share))
-    head = "scene", "film", "wall s", "film, us a pad", "over auto", "error", "finite volumes"
+    head = "scene", "film", "wall s", "film, us per pad", "over auto", "error", "finite volumes"
     return table(head, lines) if lines else NOT_RUN
 
 
@@ -40,18 +40,24 @@ def kernels(rows: list[Row]) -> str:
     """One evaluation of a film."""
     rows = [row for row in rows if row.group != TABLE]
     forces = [row for row in rows if row.setting == "force"]
-    slopes = {(row.scene, row.group): row for row in rows if row.setting != "force"}
+    derivatives = {(row.scene, row.group): row for row in rows if row.setting != "force"}
     lines = [
         (
             row.scene,
             row.group,
             short(1e6 * row.film_seconds),
-            short(1e6 * slopes[row.scene, row.group].film_seconds),
+            short(1e6 * derivatives[row.scene, row.group].film_seconds),
             small(row.error),
         )
         for row in forces
     ]
-    head = "film, condition", "solver, cells along the arc", "force, us", "force and slopes, us", "error"
+    head = (
+        "film, cavitation",
+        "solver, cells along the arc",
+        "force, us",
+        "force and derivatives, us",
+        "error",
+    )
     return table(head, lines) if lines else NOT_RUN
 
 
@@ -64,7 +70,7 @@ def skips(rows: list[Row]) -> str:
         lines.append(
             (without.scene, short(without.wall_seconds), short(kept.wall_seconds), f"{saved:.0%}", steps)
         )
-    head = "left out", "wall s", "wall s with it", "saved", "steps, with it"
+    head = "omitted work", "wall s", "wall s with it", "saved", "steps without, with"
     return table(head, lines) if lines else NOT_RUN
 
 
@@ -75,15 +81,16 @@ def skips_words(runs: list[Row], kernels: list[Row]) -> str:
     contact = next((row for row in kernels if row.group == TABLE), None)
     if not (run and film and contact):
         return ""
-    slopes = PADS * (run.rhs - run.jacobians) * (film["with slopes"] - film["force"])
+    derivatives = PADS * (run.rhs - run.jacobians) * (film["with derivatives"] - film["force"])
     samples = round(run.rotor_seconds / SAMPLE)
     evaluated = PADS * samples * film["force"]
     return (
-        f"In {run.rotor_seconds:g} s of `{run.scene}` the slopes of the film are taken for {run.jacobians} "
-        f"Jacobians; with each of the {run.rhs} right-hand sides they would cost {short(slopes, 2)} s more. "
-        f"Its {samples} samples take the film from the ends of the steps; evaluated there it would cost "
-        f"{short(evaluated, 2)} s more (times of a whole film, below *One film*). A tilting-only scene "
-        f"tabulates no contact, which takes {short(1e3 * contact.film_seconds, 2)} ms."
+        f"In {run.rotor_seconds:g} s of `{run.scene}` the program computes the derivatives of the film for "
+        f"{run.jacobians} Jacobians; computing them with each of the {run.rhs} right-hand sides would take "
+        f"{short(derivatives, 2)} s more. Its {samples} samples use the film at the ends of the steps; evaluating "
+        f"the film at each sample would take {short(evaluated, 2)} s more (with the times of a whole film in "
+        "*One film*). A tilting-only scene needs no contact table, which takes "
+        f"{short(1e3 * contact.film_seconds, 2)} ms."
     )
 
 
@@ -102,7 +109,10 @@ def tolerances_words(rows: list[Row]) -> str:
         return ""
     longer = short(scalar.wall_seconds / scaled.wall_seconds, 2)
     larger = short(scalar.error_same_film / scaled.error_same_film, 2)
-    return f"With one scalar for all the march takes {longer} times as long, at {larger} times the error."
+    return (
+        f"With one scalar for all states the march takes {longer} times as long and has {larger} times "
+        "the error."
+    )
 
 
 def pads(rows: list[Row]) -> str:
@@ -113,7 +123,7 @@ def pads(rows: list[Row]) -> str:
         times = short(side), short(side / int(row.setting) if side else None)
         counts = row.setting, short(row.wall_seconds), row.steps, row.rhs
         lines.append((*counts, *times, f"{row.memory_mb:.0f}", row.note))
-    head = "pads", "wall s", "steps", "right-hand sides", "us a right-hand side", "us of it a pad", "MB", ""
+    head = "pads", "wall s", "steps", "right-hand sides", "us per right-hand side", "us per pad", "MB", ""
     return table(head, lines) if lines else NOT_RUN
 
 
@@ -123,7 +133,7 @@ def pads_words(rows: list[Row]) -> str:
     if len(good) < 2:
         return ""
     power = exponent([int(row.setting) for row in good], [row.march_seconds / row.rhs for row in good])
-    return f"Fitted: time grows with the number of pads to the power {power:.2f}; 1 is linear."
+    return f"By a fit, the time grows with the number of pads to the power {power:.2f}; 1 is linear."
 
 
 def peers(rows: list[Row]) -> str:
@@ -143,7 +153,7 @@ def peers(rows: list[Row]) -> str:
         errors = small(error_of(row, rows)), small(row.error_same_film)
         lines.append((name, f"{row.rotor_seconds:g} s", *times, *errors, f"{row.memory_mb:.0f}"))
     all_of_it = f"{OF} s would take"
-    head = "", "marched", "wall s", "wall s a second", all_of_it, "over tiltpad", "error", "same film", "MB"
+    head = "", "marched", "wall s", "wall s per second", all_of_it, "over tiltpad", "error", "same film", "MB"
     return table(head, lines) if lines else NOT_RUN
 
 
@@ -170,9 +180,9 @@ def peers_words(rows: list[Row]) -> str:
         return ""
     longer = short(rate(other) / rate(own), 2)
     return (
-        f"Left to difference the Jacobian itself, SciPy takes {longer} times as long again (measured over "
-        f"{other.rotor_seconds:g} s): its steps are near rounding, and what the warm-started film leaves "
-        "unsolved is as large as what they change."
+        f"If SciPy computes the Jacobian itself by differences, it takes {longer} times as long again "
+        f"(measured over {other.rotor_seconds:g} s): its differences are near rounding, and the change of the "
+        "film's pressure by them is not larger than the error of the iterative film solution."
     )
 
 
@@ -184,7 +194,7 @@ def checkpoints(rows: list[Row]) -> str:
         rate = float(row.note.split()[0]) / row.wall_seconds
         times = short(row.wall_seconds), short(row.checkpoint_seconds, 2), short(row.copy_seconds, 2)
         lines.append((row.scene, f"{rate:.1f}", *times, f"{share:.1%}", verdict(share, CHECKPOINT_SHARE)))
-    times = "wall s", "of it checkpoints s", "copying the file s"
+    times = "wall s", "checkpoints s", "copy of the file s"
     head = "scene", "MB/s written", *times, "share", f"below {CHECKPOINT_SHARE:.0%}"
     return table(head, lines) if lines else NOT_RUN
 
@@ -204,9 +214,9 @@ def study(rows: list[Row]) -> str:
         ("a member beyond its march", f"{short(beyond)} ms", f"{MEMBER_MILLISECONDS} ms",
          verdict(beyond, MEMBER_MILLISECONDS)),
         ("the march of a member", f"{short(1e3 * march)} ms", "", ""),
-        ("the same by a process of its own", f"{short(1e3 * brief)} ms", "", ""),
-        ("a second call, all complete", f"{short(again)} s", "", ""),
-        ("collected into one file", f"{short(collected)} s", f"{COLLECT_SECONDS} s",
+        ("a member in a process of its own", f"{short(1e3 * brief)} ms", "", ""),
+        ("a second call, with all members complete", f"{short(again)} s", "", ""),
+        ("collecting into one file", f"{short(collected)} s", f"{COLLECT_SECONDS} s",
          verdict(collected, COLLECT_SECONDS)),
     ]  # fmt: skip
-    return table(("what", "measured", "to reach", ""), lines)
+    return table(("quantity", "measured", "to reach", ""), lines)

@@ -28,7 +28,7 @@ program film_bench
 
    films = pad_gap_type(49.9e-3_wp, clearance, 100e-3_wp, 0.5_wp*69.3_wp*degree, 0.5_wp*69.3_wp*degree, 19e-3_wp, &
       & 0.0_wp, 0.0_wp, 0.0_wp)
-   write (output_unit, '(a)') 'film,condition,state,slopes,microseconds,error,sweeps'
+   write (output_unit, '(a)') 'film,condition,state,derivatives,microseconds,error,sweeps'
    call compare('whole', [-0.35_wp, 0.5_wp], cavitation_none, 'none')
    call compare('corner ruptured', [-0.19_wp, 0.5_wp], cavitation_reynolds, 'reynolds')
    call compare('ruptured', [-0.05_wp, 0.5_wp], cavitation_gumbel, 'gumbel')

@@ -20,16 +20,17 @@ from settings import (
 PAGE = """\
 # Benchmarks
 
-Written by `make bench` from its own runs, with every run in [benchmarks.csv](benchmarks.csv). Nothing on this
-page was typed in but the figures to reach.
+`make bench` writes this page from its own runs; [benchmarks.csv](benchmarks.csv) contains every run. Only
+the figures to reach were typed in.
 
 {machine}
 
-Wall times are those of the whole process on one core with nothing else started, result file included; of
-runs below 2 s the best of two or three. Memory is the peak of the process. The **error** of a run is the
-largest deviation of journal y, journal z, pad tilt and friction moment in the last revolution from a
-converged run of the same scene, each over that signal's peak-to-peak, or over 5 % of its natural scale
-(assembled clearance; clearance over pad radius) where it moves less. It is to stay below {allowed:g}.
+Wall times are those of the whole process, including the result file, on one core of a machine that runs
+nothing else. For runs below 2 s the page gives the minimum of two or three runs. Memory is the maximum of
+the process. The **error** of a run is the maximum deviation of journal y, journal z, pad tilt and friction
+moment in the last revolution from a converged run of the same scene. Each deviation is over the
+peak-to-peak of its signal, or over 5 % of the signal's natural scale (assembled clearance; clearance over
+pad radius) if the peak-to-peak is smaller. The error must stay below {allowed:g}.
 
 ## Figures to reach
 
@@ -39,35 +40,37 @@ converged run of the same scene, each over that signal's peak-to-peak, or over 5
 
 {fine}
 
-Without rupture only the axial modes are at work; with it, `circumferential_cells` is also the grid of the
-finite volumes, and their error is what is left.
+Without rupture the solver uses the axial modes alone. With rupture, `circumferential_cells` is also the
+grid of the finite volumes, and their error remains.
 
 ## Run time against error
 
 ![Run time against error of five scenes](images/bench_diagram.png)
 
-One point a run. Cells and modes are varied at a tolerance of {film_tolerance}, modes with {mode_cells} cells,
-the tolerance with the default film. Where a curve is level, what it varies no longer limits the error.
+Each point is a run. The numbers of cells and modes vary at a tolerance of {film_tolerance}, the number of
+modes with {mode_cells} cells, and the tolerance with the default film. Where a curve is level, the quantity
+that varies no longer limits the error.
 
 ### The references
 
-Film and tolerances are refined together, and with them the finite volumes that take over where a film
-ruptures (a row for eight columns). Each rung's deviation from the finest:
+Each step of refinement changes film and tolerances together, and with them the finite volumes that replace
+the modes where a film ruptures (one row of cells for every eight columns). The table gives the deviation of
+each step from the finest:
 
 {ladder}
 
 {ladder_words}
 
-The last revolution of the run-up is at full speed. Over its whole length, slow revolutions with more of the
-film ruptured among them, the deviations are those of the rows "whole run".
+The last revolution of the run-up is at full speed. The rows "whole run" give the deviations over its whole
+length, which includes slow revolutions with more rupture of the film.
 
-With `cavitation = 'gumbel'` what is clipped is integrated on points across the width of their own; the ladder
-does not refine these. That they suffice is seen under *Film solvers*, where over-relaxation, which has a grid
-of its own, comes to the same result as that grid is refined.
+With `cavitation = 'gumbel'` the clipped part is integrated on separate points across the width, which the
+refinement does not change. *Film solvers* shows that these points suffice: over-relaxation has its own
+grid, and converges to the same result as that grid is refined.
 
 ### Choice of the defaults
 
-All settings on all five scenes, by run time; {choice}
+The table lists all settings on all five scenes, in the order of their run time. {choice}
 
 {settings}
 
@@ -77,9 +80,9 @@ All settings on all five scenes, by run time; {choice}
 
 {cases}
 
-"Reference moves" is the deviation of the second finest run from the reference. "Ruptured" is the part of the
-film evaluations that fell to finite volumes, with the defaults and in the reference; where the first is less,
-the coarser film did not see a rupture that the finer one does. The reference has {reference}.
+"Reference change" is the deviation of the second finest run from the reference. "Finite volumes" is the
+share of the film evaluations that used finite volumes, with the defaults and in the reference; where the
+first is smaller, the coarser film missed a rupture that the finer one found. The reference has {reference}.
 
 {cases_notes}
 
@@ -87,60 +90,62 @@ the coarser film did not see a rupture that the finer one does. The reference ha
 
 ![Time of a pad's film against the error of the run](images/bench_films.png)
 
-The same short runs with the same settings but for the film; film time is that of a pad, right-hand sides and
-Jacobians together. The error is against a converged run as long.
+All runs of a scene are short and have the same settings except for the film. The film time is that of one
+pad and includes right-hand sides and Jacobians. The error is against a converged run of the same length.
 
 {films}
 
 ### One film
 
-A pad of the paper by every solver, moved along a small circle about a state as a march would move it; the
-shortest of three batches. The error is the largest of the force on the way, over the force, from a refined
-film. Slopes, the Jacobian's part, are asked for when a Jacobian is, and only then.
+Every solver evaluates a pad of the paper that moves along a small circle about a state, as in a march; the
+table gives the minimum of three batches. The error is the maximum error of the force on this path, over the
+force, against a refined film. The march requests derivatives only when it needs a Jacobian.
 
 {kernels}
 
-## What is left out
+## Omitted work
 
-What a scene does not need it does not pay for. Beside each the same run with it, as near as the input can
-say so: bristles with friction of 1e-6, the half film as twice the rows, samples as a limit of the step.
+The program omits work that a scene does not need. The table compares each run with a run that does this
+work, as nearly as the input allows: bristles with a friction coefficient of 1e-6, half the film against
+twice the rows, samples as a limit of the step.
 
 {skips}
 
 {skips_words}
 
-Left out besides, with nothing to measure it against: the pressures of a film while it is whole (its lowest is
-looked for only where it can fall), rows of Newton's matrix between pads, and samples before
-`output%start_time`.
+The program also omits work for which there is no run to compare with: the pressures of a film without
+rupture (it computes the minimum only where rupture is possible), the blocks of Newton's matrix between
+pads, and samples before `output%start_time`.
 
 ## Production
 
 ### Checkpoints
 
-Runs with a checkpoint every {checkpoint_seconds:g} s of wall time (default: 300 s), and what the program
-itself counts as the time of checkpoints. One costs a few milliseconds, the writing to the disk of what the
-system still holds back, and a copy of what was written since the last one. So the share goes with the
-megabytes a second that a run writes, and little with how often there is one: in the end all has been copied
-once. Beside it stands how long a plain copy of the whole file takes here. A run that is over before its first
-checkpoint pays nothing.
+These runs make a checkpoint every {checkpoint_seconds:g} s of wall time (default: 300 s). The table gives
+the time that the program itself counts for its checkpoints. A checkpoint costs a few milliseconds, the time
+to write data to the disk that the system still holds in memory, and a copy of the data since the last
+checkpoint. In the end the program has copied all data once, so the share depends on the megabytes per
+second that a run writes, and little on the number of checkpoints. For comparison the table gives the time
+of a plain copy of the whole file on this machine. A run that ends before its first checkpoint has no such
+cost.
 
 {checkpoints}
 
 ### Sweeps and studies
 
-{members} runs of 0.1 s without friction by one call on all cores, and their results collected into one file.
-"Beyond the march" is a member's time on its core less what 0.1 s more of a run takes: reading, contact table,
-equilibrium, the file and its spectra.
+One call runs {members} members of 0.1 s without friction on all cores, and a second one collects their
+results into one file. The time of a member "beyond its march" is its time on a core minus the time that 0.1
+s more of a run takes; it contains reading, the contact table, the equilibrium, the file and its spectra.
 
 {study}
 
 ## Scaled and scalar absolute tolerances
 
-The paper gives its integrator one absolute tolerance, {absolute:g}, for states between metres and radians a
-second. tiltpad cannot be told to: `integration%tolerance_scale` multiplies tolerances that already follow
-each state's own scale. So the two are compared in the SciPy peer below, both with a relative tolerance of
-{relative:g}, over {tolerance_span:g} s of `steady_lugre`. The error is against tiltpad with the same film,
-marched finely.
+The paper gives its integrator one absolute tolerance, {absolute:g}, for states whose units range from
+metres to radians per second. tiltpad cannot use such a tolerance: `integration%tolerance_scale` multiplies
+tolerances that already follow the scale of each state. The SciPy peer below therefore compares the two,
+with a relative tolerance of {relative:g}, over {tolerance_span:g} s of `steady_lugre`. The error is against
+tiltpad with the same film and a small tolerance.
 
 {tolerances}
 
@@ -150,9 +155,10 @@ marched finely.
 
 ![March time of a right-hand side over the number of pads](images/bench_pads.png)
 
-The same pad of 20 degrees several times around the journal, LuGre, preloaded (assembled clearance 60 um) so
-that all carry, with 50 kg of rotor a pad, `cavitation = 'none'`, 2 s. One pad alone is left out: a journal
-does not rest on a single pivot. March time is wall time without sampling, over right-hand sides.
+The bearing has several equal pads of 20 degrees around the journal, with LuGre friction, a preload
+(assembled clearance 60 um) such that all pads carry load, 50 kg of rotor per pad, and `cavitation =
+'none'`; the runs take 2 s. The table omits a single pad, because a journal cannot rest on one pivot. March
+time is wall time without sampling, divided by the number of right-hand sides.
 
 {pads}
 
@@ -160,22 +166,24 @@ does not rest on a single pivot. March time is wall time without sampling, over 
 
 ## Peers
 
-![Wall seconds a second of rotor time](images/bench_peers.png)
+![Wall seconds per second of simulated time](images/bench_peers.png)
 
-`steady_lugre` as others would march it, on this machine in the same hour, from the same equilibrium with the
-same equations ([theory.md](theory.md)); both are in `tests/bench/`:
+Other programs march `steady_lugre` on this machine in the same hour, from the same equilibrium and with the
+same equations ([theory.md](theory.md)). Both are in `tests/bench/`:
 
-- **SciPy**: `solve_ivp(method='BDF')`, right-hand side and film compiled by Numba, film by projected
-  over-relaxation on 60 x 15, warm-started, until a sweep changes no pressure by more than
-  {peer_film_tolerance:g} of the highest (solved less well, it shakes the right-hand side, and BDF takes many
-  more steps); relative tolerance {relative:g}, absolute ones scaled to the states, and a Jacobian by
-  differences over those scales.
-- **Octave**: `ode15s` with the paper's tolerances ({relative:g}, {absolute:g}), the film by a sparse direct
-  solution on the same grid.
+- **SciPy**: `solve_ivp(method='BDF')`. Numba compiles the right-hand side and the film. The film uses
+  projected over-relaxation on 60 x 15 cells, starts from the previous pressure, and stops when a sweep
+  changes no pressure by more than {peer_film_tolerance:g} of the maximum (with a larger limit the
+  right-hand side is so rough that BDF takes many more steps). The relative tolerance is {relative:g}, the
+  absolute tolerances follow the scales of the states, and the Jacobian comes from differences over these
+  scales.
+- **Octave**: `ode15s` with the paper's tolerances ({relative:g}, {absolute:g}). A sparse direct method
+  solves the film on the same grid.
 
-Both march a short span; only the march counts, neither start nor compilation. The time of 2 s is scaled from
-it. "Same film" is the deviation from tiltpad with the peers' film, marched finely: what it leaves is the
-peer's own error in time. "Error" is that from the converged run: the film's grid comes to it.
+Both march over a short time. The measured time is that of the march, without start and compilation, and the
+time for 2 s is extrapolated from it. "Same film" is the deviation from tiltpad with the peers' film and a
+small tolerance; it is the peer's own error of integration in time. "Error" is the deviation from the
+converged run, which also contains the error of the film's grid.
 
 {peers}
 

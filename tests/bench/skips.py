@@ -50,7 +50,7 @@ def kernels(runner: Runner) -> Iterator[Row]:
             runner.part,
             f"{line['state']}, {line['condition']}",
             line["film"],
-            "with slopes" if line["slopes"] == "yes" else "force",
+            "with derivatives" if line["derivatives"] == "yes" else "force",
             film_seconds=1e-6 * float(line["microseconds"]),
             film_evaluations=1,
             error=float(line["error"]),

@@ -81,7 +81,7 @@ def figures(rows: list[Row], film_rows: list[Row], kernels: list[Row]) -> str:
         lines.append((name, *wall, small(row.error), verdict(row.error, ALLOWED)))
     memory = max(row.memory_mb for row in found.values())
     lines.append(
-        ("peak memory of these", f"{MEMORY} MB", f"{memory:.0f} MB", verdict(memory, MEMORY), "", "")
+        ("maximum memory of these runs", f"{MEMORY} MB", f"{memory:.0f} MB", verdict(memory, MEMORY), "", "")
     )
     for scene in FILM_SCENES[: 2 if film_rows else 0]:
         ratio = film_ratio(film_rows, scene.name)
@@ -95,7 +95,9 @@ def figures(rows: list[Row], film_rows: list[Row], kernels: list[Row]) -> str:
         figure = f"{FILM_MICROSECONDS:g} us", f"{short(time)} us", verdict(time, FILM_MICROSECONDS)
         lines.append(("one whole film of a pad, by axial modes", *figure, small(modal.error), ""))
         reached = verdict(ratio, FILM_RATIO, least=True)
-        lines.append(("the same by sor on 60 x 15, over that", FILM_RATIO, f"{ratio:.0f}", reached, "", ""))
+        lines.append(
+            ("the same film by sor on 60 x 15, over this time", FILM_RATIO, f"{ratio:.0f}", reached, "", "")
+        )
     head = "default settings", "to reach", "measured", "", "error", f"error below {ALLOWED:g}"
     return table(head, lines)
 
@@ -142,7 +144,7 @@ def ladder_words(rows: list[Row]) -> str:
         return ", ".join(f"{small(row.error)} ({LABELS[row.scene]})" for row in last if row.group == over)
 
     return (
-        "So the references are good to about the deviation of the rung before the last, or better: "
+        "So the error of the references is about the deviation of the last step but one, or smaller: "
         f"{errors(LAST)}; over the whole run, {errors(WHOLE)}."
     )
 
@@ -162,20 +164,20 @@ def totals(rows: list[Row]) -> list[tuple[str, str, float | None, float | None, 
 
 
 def choice(rows: list[Row]) -> str:
-    """The cheapest setting below the error allowed."""
+    """The fastest setting below the error allowed."""
     lines = [line for line in totals(rows) if line[3] is not None]
     if not lines:
-        return "not run."
+        return "Not run."
     good = [line for line in lines if line[3] < ALLOWED]
     own = next(line for line in lines if line[0] == "defaults")
-    words = f"the defaults take {short(own[2])} s in sum with a worst error of {small(own[3])}"
+    words = f"The defaults take {short(own[2])} s in total and have a maximum error of {small(own[3])}"
     if not good:
         return f"{words}; no setting is below {ALLOWED:g} on all of them."
     if good[0] is own:
-        return f"{words}, and are the cheapest below {ALLOWED:g} on all of them."
+        return f"{words}; they are the fastest setting below {ALLOWED:g} on all of them."
     group, setting, time, error, _ = good[0]
-    cheapest = f"{described(group, setting)}, {short(time)} s, {small(error)}"
-    return f"{words}. The cheapest below {ALLOWED:g} on all of them: {cheapest}."
+    fastest = f"{described(group, setting)} with {short(time)} s and {small(error)}"
+    return f"{words}. The fastest setting below {ALLOWED:g} on all of them is {fastest}."
 
 
 def described(group: str, setting: str) -> str:
@@ -190,7 +192,7 @@ def settings(rows: list[Row]) -> str:
         each = (small(runs[scene.name].error) if scene.name in runs else "" for scene in MAIN)
         mark = "**" if error is not None and error < ALLOWED else ""
         lines.append((described(group, setting), short(time), f"{mark}{small(error)}{mark}", *each))
-    head = "setting", "wall s, all five", "worst error", *(scene.label for scene in MAIN)
+    head = "setting", "wall s, all five", "maximum error", *(scene.label for scene in MAIN)
     return table(head, lines) if lines else NOT_RUN
 
 
@@ -203,7 +205,7 @@ def cases(rows: list[Row]) -> str:
         cost = short(row.wall_seconds), row.steps or "", short(row.memory_mb, 2)
         errors = *signals(row), bold(row.error), small(row.reference_moved)
         lines.append((f"`{row.scene}`", *cost, *errors, both))
-    head = "scene", "wall s", "steps", "MB", *SIGNALS, "error", "reference moves", "ruptured"
+    head = "scene", "wall s", "steps", "MB", *SIGNALS, "error", "reference change", "finite volumes"
     return table(head, lines) if lines else NOT_RUN
 
 
@@ -225,4 +227,4 @@ def cases_words(rows: list[Row]) -> str:
     good = [row for row in rows if row.error is not None and row.error <= ALLOWED]
     words = f"{len(good)} of {len(rows)} scenes are below {ALLOWED:g}"
     bad = [f"`{row.scene}` ({small(row.error)})" for row in rows if row not in good]
-    return f"{words}; above it: {', '.join(bad)}." if bad else f"{words}."
+    return f"{words}; these are above it: {', '.join(bad)}." if bad else f"{words}."
