@@ -1,11 +1,12 @@
-"""Damages a result or a study and uses what comes of it, each time in a process of its own.
+"""Damages a result or a study and uses the damaged file, each time in a process of its own.
 
 usage: damage.py FILE COUNT SEED [PICTURE-EVERY]
 
 Most of the damages are flipped bits, some are blocks of zeros or of noise, and files cut short; most are in
-what describes the file, some in its samples. Everything that calculates is done each time, a picture or a
-page now and then. Prints a line for each damage that crashed, hung, left the bounds of memory, or ended
-otherwise than by success or by one line that names the file; at last how many were read, refused and faulty.
+the structure of the file, some in its samples. All calculations are done each time, a picture or a page for
+some of the damages. Prints a line for each damage that crashed, hung, needed too much memory, or ended with
+neither success nor one line that names the file. The last line counts the damages that were read, refused
+and faulty.
 """
 
 import io
@@ -29,9 +30,9 @@ mpl.use("agg")
 import tiltpad  # noqa: E402
 from tiltpad import command, diagrams, figures, summary  # noqa: E402, F401
 
-#: Share of the damages in samples; of flipped bits, of blocks (the rest are files cut short); their length.
+#: Shares of damages in samples, of flipped bits, of blocks (the rest are files cut short); length of a block.
 SAMPLES, BITS, BLOCKS, LONGEST = 0.15, 0.85, 0.1, 600
-#: Every how many damages there is a picture; seconds and bytes for one damage.
+#: Damages from one picture to the next; seconds and bytes for one damage.
 PICTURE_EVERY, SECONDS, MEMORY = 6, 60, 1 << 30
 
 
@@ -57,7 +58,7 @@ def main() -> None:
 
 
 def sample_bytes(path: Path) -> list[tuple[int, int]]:
-    """Where the file keeps its arrays: first byte and length of each piece."""
+    """The arrays in the file: first byte and length of each piece."""
     found = []
 
     def pieces(_: str, item: h5py.HLObject) -> None:
@@ -76,7 +77,7 @@ def sample_bytes(path: Path) -> list[tuple[int, int]]:
 def drawn(
     dice: random.Random, content: bytes, inside: list[tuple[int, int]]
 ) -> tuple[str, bytes | bytearray]:
-    """What is done to the file, and what comes of it."""
+    """A damage in words, and the damaged content."""
     kind, place, changed = dice.random(), drawn_place(dice, content, inside), bytearray(content)
     if kind < BITS:
         bit = dice.randrange(8)
@@ -91,7 +92,7 @@ def drawn(
 
 
 def drawn_place(dice: random.Random, content: bytes, inside: list[tuple[int, int]]) -> int:
-    """A byte of a sample, or of what is none and is not a stretch of zeros, where nothing is."""
+    """A byte of a sample, or another byte that is not in a block of zeros, which is unused."""
     if dice.random() < SAMPLES:
         start, length = dice.choice(inside)
         return start + dice.randrange(length)
@@ -104,7 +105,7 @@ def drawn_place(dice: random.Random, content: bytes, inside: list[tuple[int, int
 
 
 def in_child(work: Callable[[], tuple[str, str]]) -> tuple[str, str]:
-    """What a process of its own makes of the work: its outcome and words, or how it died."""
+    """Outcome and message of the work in a process of its own, or the signal that ended it."""
     receive, send = os.pipe()
     child = os.fork()
     if child == 0:
@@ -125,7 +126,7 @@ def in_child(work: Callable[[], tuple[str, str]]) -> tuple[str, str]:
 
 
 def use(path: Path, work: list[Callable[[Path], None]]) -> tuple[str, str]:
-    """Does the work on a file; gives the outcome and what was said."""
+    """Does the work on a file; gives the outcome and the message."""
     outcome, words = "read", ""
     for each in work:
         try:
@@ -159,7 +160,7 @@ def calculate(path: Path) -> None:
 
 
 def calculate_study(path: Path) -> None:
-    """Every array of a study and what is said of it."""
+    """Every array of a study, with its unit and meaning."""
     with tiltpad.read_study(path) as study:
         repr(study), dir(study), study.parameters, study.done
         for name in study.names():
@@ -168,14 +169,14 @@ def calculate_study(path: Path) -> None:
 
 
 def collected(path: Path) -> None:
-    """A folder whose one member is the file: a study, or nothing can be read."""
+    """The study of the file alone; it is refused if the file cannot be read."""
     tiltpad.collect(path, path.with_name("collected.h5"))
 
 
 def by_command(
     entry: Callable[[list[str]], int], *words: str, options: tuple[str, ...] = (), ending: str = ".png"
 ) -> Callable[[Path], None]:
-    """A command; what it says must be lines of its own, and its last word the reason of its status."""
+    """A command; it must print lines of its own only, and an error exactly if its status is not 0."""
 
     def run(path: Path) -> None:
         said = io.StringIO()
@@ -195,7 +196,7 @@ def by_command(
 
 
 MARCHED, STUDIED = calculate, calculate_study
-#: What is done with a result, and with a study, now and then.
+#: Work on a result, and on a study, for some of the damages.
 RUN = [
     collected,
     by_command(command.report, ending=".html"),

@@ -48,7 +48,7 @@ def study(sweep, tmp_path_factory):
 
 
 def test_a_damage_is_read_or_refused(small, study, root):
-    """Half of the damages to a result at a time, as there are two cores on the least of machines."""
+    """Half of the damages to a result at a time: a machine has two cores or more."""
     script = [sys.executable, root / "tests/post/damage.py"]
     calls = [(small, RUN // 2, 1, 25), (small, RUN - RUN // 2, 2, 25), (study, STUDY, 3, 25)]
     started = [
@@ -66,7 +66,7 @@ def test_a_damage_is_read_or_refused(small, study, root):
 
 
 def refused(capsys, name: str, arguments: list, path: Path) -> str:
-    """What a command says of a file that it must refuse, with status 3 and in one line that names it."""
+    """The message of a command that must refuse a file, with status 3 and one line that names the file."""
     status = ENTRIES[name]([*map(str, arguments)])
     said = capsys.readouterr().err
     assert status == 3, said

@@ -1,4 +1,4 @@
-"""Diagrams of studies: what is on the axes, and what is said of what cannot be drawn."""
+"""Diagrams of studies: lines and labels, and the messages about what cannot be drawn."""
 
 import h5py
 import matplotlib.pyplot as plt
@@ -238,7 +238,7 @@ def test_the_command_writes_a_picture(study, tmp_path, name):
 
 
 def test_a_study_of_which_nothing_is_left(sweep, tmp_path, capsys):
-    """All members failed: what they have is drawn, what none has is said."""
+    """All members failed: results that they have are drawn, a message names a result that none has."""
     folder = sweep(tmp_path / "a", SCENE, {"operation%speed_rpm": [4000, 5000]}, (1, 2))
     tiltpad.collect(folder, tmp_path / "a.h5")
     assert command.main(["study", str(tmp_path / "a.h5"), "-o", str(tmp_path / "a.png")]) == 1

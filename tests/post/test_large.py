@@ -1,4 +1,4 @@
-"""Large files: what is read of them, and how much at once; bytes are counted, not seconds."""
+"""Large files: how much of them is read, and how much at once, in bytes."""
 
 import h5py
 import matplotlib.pyplot as plt

@@ -227,7 +227,7 @@ def test_a_closed_film_is_an_exception(changed):
 
 
 def test_no_memory_is_lost(run):
-    """A film solver has a third of a megabyte; what is made for an instant is given back."""
+    """A film solver has a third of a megabyte; the memory of a call is released."""
 
     def resident():
         pages = int(Path("/proc/self/statm").read_text().split()[1])
@@ -242,7 +242,7 @@ def test_no_memory_is_lost(run):
 
 
 def test_without_the_compiled_part(result):
-    """All else works; what needs it says so in one line."""
+    """The rest of the package works; functions that need the library fail with one line."""
     script = f"""
 import sys
 sys.modules["tiltpad._library"] = None

@@ -1,4 +1,4 @@
-"""The picture of the film pressure: what is on the axes, and what the command draws and says."""
+"""The picture of the film pressure: its axes, and the files and messages of the command."""
 
 import matplotlib.image
 import numpy as np

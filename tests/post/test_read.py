@@ -1,4 +1,4 @@
-"""Opening a result, and what is said of one that cannot be opened."""
+"""Opening a result, and the messages about one that cannot be opened."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""tiltpad-report: what is on the page, and that a browser shows it."""
+"""tiltpad-report: the content of the page, and that a browser shows it."""
 
 import json
 import re
@@ -132,7 +132,7 @@ def test_peaks_of_a_spectrum(made):
 
 
 def shorten(file, samples=700):
-    """Makes a result one that ended after so many samples."""
+    """Makes a result one that ended after a number of samples."""
     file.attrs["complete"] = 0
     del file["spectrum"]
     for name in [name for name, each in file.items() if getattr(each, "maxshape", ())[:1] == (None,)]:

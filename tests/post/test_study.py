@@ -1,4 +1,4 @@
-"""Studies: what tiltpad-collect makes of many results, and what reads it."""
+"""Studies: writing them with tiltpad-collect, and reading them."""
 
 import os
 import re
@@ -229,7 +229,7 @@ def test_the_output(copy, tmp_path, monkeypatch, capsys):
 
 
 def test_runs_that_are_no_members(result, tmp_path):
-    """Their parameters are what differs in their inputs."""
+    """Their parameters are the variables in which their inputs differ."""
     output = tmp_path / "runs.h5"
     with warnings.catch_warnings():
         warnings.simplefilter("error")
