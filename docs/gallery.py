@@ -15,8 +15,8 @@ from tiltpad import command
 DOCS = Path(__file__).resolve().parent
 HEAD = """# Gallery
 
-Written by `make docs`: every picture by the command beneath it, from runs by the commands at the end of the
-page. All take several files, `--last N` revolutions, `--pad K`, and write PNG, PDF or SVG.
+`make docs` writes this page. The command below each picture draws it, from the runs at the end of the page.
+Most plots accept several files, `--last N` revolutions and `--pad K`; all write PNG, PDF or SVG.
 """
 LUGRE, PAPER = "input/paper/steady_lugre.nml", "input/paper"
 #: Runs: name, case and what is changed in it.
@@ -54,21 +54,21 @@ STUDIES = {
 #: Pictures: plot, runs, further options, what is seen.
 PICTURES = (
     ("orbit", "lugre bengisu frictionless", "", "friction enlarges the orbit"),
-    ("equilibrium", "lugre", "", "where the journal rests before it moves"),
+    ("equilibrium", "lugre", "", "the equilibrium at which the motion starts"),
     ("size", "grade1 grade2.5 grade6.3", "", "the orbit grows with the balance grade"),
-    ("waveform", "lugre", "--last 3", "the pads' tilt follows the journal, with pauses"),
-    ("spectrum", "lugre", "", "friction makes odd and even orders"),
-    ("poincare", "four_pads", "--pad 3", "an upper pad flutters at half the shaft's speed"),
-    ("hysteresis", "lugre bengisu", "", "the work that friction takes in a revolution"),
+    ("waveform", "lugre", "--last 3", "the tilt of the pads follows the journal, with pauses"),
+    ("spectrum", "lugre", "", "friction causes odd and even orders"),
+    ("poincare", "four_pads", "--pad 3", "an upper pad flutters at half the shaft speed"),
+    ("hysteresis", "lugre bengisu", "", "the friction work of a revolution"),
     ("friction", "lugre bengisu", "--pad 1", "a loop with LuGre, the Stribeck curve with Bengisu-Akay"),
-    ("sticking", "bengisu", "", "where the pivots stick"),
-    ("runup", "runup", "", "from 1500 to 6500 rpm"),
-    ("orders", "runup", "", "amplitude and phase over speed"),
+    ("sticking", "bengisu", "", "the time in which the pivots stick"),
+    ("runup", "runup", "", "a run-up from 1500 to 6500 rpm"),
+    ("orders", "runup", "", "amplitude and phase of the orders over speed"),
     ("waterfall", "runup", "", "all orders over speed"),
     ("pressure", "lugre", "--time 1.9", "the film of the loaded pads"),
-    ("study", "laws", "--show friction_work", "what friction takes, over the speed"),
-    ("study", "map", "", "two parameters as a map"),
-    ("study", "upper", "--show poincare_tilt --pad 3", "where an upper pad's motion bifurcates"),
+    ("study", "laws", "--show friction_work", "friction work over speed"),
+    ("study", "map", "", "a map over two parameters"),
+    ("study", "upper", "--show poincare_tilt --pad 3", "the motion of an upper pad bifurcates"),
 )
 
 

@@ -1,4 +1,4 @@
-"""Prints docs/verification.md: what the program's numbers are held against, from its own runs.
+"""Prints docs/verification.md: comparison of the program's results with references, from its own runs.
 
 usage: verify.py TILTPAD > verification.md
 """
@@ -16,23 +16,26 @@ CASES = Path(__file__).resolve().parent.parent / "input/paper"
 PAGE = """\
 # Verification
 
-Written by `make docs` from runs of the program. The tests in `tests/` hold what is said here, and more:
-analytic limits, order of convergence, derivatives against differences, energy balance, bad input.
+`make docs` writes this page from runs of the program. The tests in `tests/` check the statements of this
+page and more: analytic limits, orders of convergence, derivatives against differences, the energy balance,
+wrong input.
 
 ## Equilibrium
 
-The paper's two pads, no unbalance, no friction, against converged values of independent programs that share
-no code with this one; in brackets ROSS 3 (open-source rotordynamics, finite elements, rigid pivots). The
-references know no cavitation, so the first three rows of each block have `film%cavitation = 'none'`; the last
-has the default, which differs where the film ruptures near the trailing edge, at low speed.
+The table compares the equilibrium of the paper's two pads, without unbalance and friction, with converged
+values of independent programs that share no code with this one. The values in brackets are those of ROSS 3
+(open-source rotordynamics, finite elements, rigid pivots). The references have no cavitation, so the first
+three rows of each block have `film%cavitation = 'none'`. The last row has the default, which differs at low
+speed, where the film ruptures near the trailing edge.
 
-| pads, rpm | film | y um | reference | z um | reference | tilts mrad | reference | minimum film um | reference | deviation of y, % of c_r |
+| pads, rpm | film | y um | reference | z um | reference | tilts mrad | reference | minimum film thickness um | reference | deviation of y, % of c_r |
 |---|---|---|---|---|---|---|---|---|---|---|
 {equilibria}
 
 ## The LuGre case
 
-`input/paper/steady_lugre.nml`, 2 s at 6500 rpm, default settings; ranges over the last revolution.
+The table gives the ranges over the last revolution of `input/paper/steady_lugre.nml`, 2 s at 6500 rpm, with the
+default settings.
 
 | signal | here | reference | error, % of peak-to-peak |
 |---|---|---|---|
@@ -40,15 +43,16 @@ has the default, which differs where the film ruptures near the trailing edge, a
 
 ## Default settings against tight ones
 
-Largest deviation in the last revolution, over peak-to-peak or 5 % of the natural scale (assembled clearance;
-clearance over pad radius) where a pad hardly moves; tight: {tight}.
+The table gives the maximum deviation in the last revolution, over the peak-to-peak or, where a pad hardly
+moves, over 5 % of the natural scale (assembled clearance; clearance over pad radius). The tight settings
+are {tight}.
 
 | case | journal y | journal z | tilt | friction moment |
 |---|---|---|---|---|
 {settings}
 """  # noqa: E501
 
-# Converged equilibria: motion, rpm: y, z um, tilts mrad, minimum film um, y by ROSS um.
+# Converged equilibria: motion, rpm: y, z um, tilts mrad, minimum film thickness um, y by ROSS um.
 REFERENCES = {
     ("tilting_radial", 6500): (-55.595, 0.0266, (-0.2029, 1.0269), 41.512, None),
     ("tilting_only", 6500): (-45.561, 0.0234, (-0.0920, 0.9159), 41.514, -45.61),

@@ -87,9 +87,9 @@ def skips_words(runs: list[Row], kernels: list[Row]) -> str:
     return (
         f"In {run.rotor_seconds:g} s of `{run.scene}` the program computes the derivatives of the film for "
         f"{run.jacobians} Jacobians; computing them with each of the {run.rhs} right-hand sides would take "
-        f"{short(derivatives, 2)} s more. Its {samples} samples use the film at the ends of the steps; evaluating "
-        f"the film at each sample would take {short(evaluated, 2)} s more (with the times of a whole film in "
-        "*One film*). A tilting-only scene needs no contact table, which takes "
+        f"{short(derivatives, 2)} s more. Its {samples} samples use the film at the ends of the steps; "
+        f"evaluating the film at each sample would take {short(evaluated, 2)} s more (with the times of a "
+        "whole film in *One film*). A tilting-only scene needs no contact table, which takes "
         f"{short(1e3 * contact.film_seconds, 2)} ms."
     )
 
@@ -181,8 +181,8 @@ def peers_words(rows: list[Row]) -> str:
     longer = short(rate(other) / rate(own), 2)
     return (
         f"If SciPy computes the Jacobian itself by differences, it takes {longer} times as long again "
-        f"(measured over {other.rotor_seconds:g} s): its differences are near rounding, and the change of the "
-        "film's pressure by them is not larger than the error of the iterative film solution."
+        f"(measured over {other.rotor_seconds:g} s): its differences are near rounding, and the change of "
+        "the film's pressure by them is not larger than the error of the iterative film solution."
     )
 
 
