@@ -62,10 +62,11 @@ contains
                associate (inward => grid%beside(column)*grid%inward(row), &
                   & outward => grid%beside(column)*grid%outward(row))
                   flow = -grid%source(column)
-                  if (column > 1) flow = flow + grid%along(column - 1)*p(row, column - 1)
-                  if (column < columns) flow = flow + grid%along(column)*p(row, column + 1)
-                  if (row > 1) flow = flow + inward*p(row - 1, column)
-                  if (row < rows) flow = flow + outward*p(row + 1, column)
+                  ! nothing flows from outside; the compiler would take the index there for one that is used
+                  if (column > 1) flow = flow + grid%along(column - 1)*p(row, max(1, column - 1))
+                  if (column < columns) flow = flow + grid%along(column)*p(row, min(columns, column + 1))
+                  if (row > 1) flow = flow + inward*p(max(1, row - 1), column)
+                  if (row < rows) flow = flow + outward*p(min(rows, row + 1), column)
                   if (row == rows) flow = flow - grid%edge_source(column)
                   total = grid%along(column - 1) + grid%along(column) + inward + outward
                end associate
