@@ -11,10 +11,10 @@ from tiltpad.files import read
 
 HEAD = """# Python package
 
-Written by `make docs` from the docstrings; `help(tiltpad.orbit)` says the same.
+`make docs` writes this page from the docstrings, which `help(tiltpad.orbit)` shows, too.
 
     import tiltpad
-    run = tiltpad.read("case.h5")                 # nothing is loaded yet
+    run = tiltpad.read("case.h5")                 # opens the file, loads nothing
     run.journal_y                                 # a dataset, as an array in SI units
     y, z = tiltpad.orbit(run, last=2)             # the functions below: take a run, give arrays
     ax = tiltpad.plots.orbit(run)                 # one run on one pair of axes
@@ -25,7 +25,7 @@ Written by `make docs` from the docstrings; `help(tiltpad.orbit)` says the same.
     ax = tiltpad.diagrams.diagram(study)
 
 Names, dimensions and units of the datasets: [results.md](results.md). `(time,)`, `(pad,)`, `(time, pad)` are
-shapes of arrays; where a run does not have what is asked for, `NotInRunError` says why.
+shapes of arrays. Where a run does not have a dataset, `NotInRunError` gives the reason.
 """
 
 
