@@ -21,7 +21,7 @@ module equilibrium
       !> Journal, m; per pad tilt, rad, penetration, m (0 tilting-only), contact force, N.
       real(wp) :: journal(2) = 0
       real(wp), allocatable :: tilt(:), penetration(:), contact_force(:)
-      !> Per pad minimum film thickness, m, and highest pressure, Pa.
+      !> Per pad minimum film thickness, m, and maximum pressure, Pa.
       real(wp), allocatable :: min_film_thickness(:), max_pressure(:)
       !> Largest unbalanced force over the load.
       real(wp) :: residual = huge(1.0_wp)

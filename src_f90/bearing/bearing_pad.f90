@@ -106,7 +106,7 @@ contains
       type(pad_derivatives), intent(inout) :: answer
       real(wp) :: force(2, columns)
       integer :: k
-      force = matmul(film%slope, motion_derivatives(self%position, frame, motion, state%tilt_rate))
+      force = matmul(film%derivatives, motion_derivatives(self%position, frame, motion, state%tilt_rate))
       answer%film = force
       associate (journal => answer%journal, contact => answer%contact, moment => answer%moment, radial => answer%radial)
          radial = -force(2, :)

@@ -5,7 +5,8 @@ module components
    use scene, only: scene_type
    use pad_gap, only: pad_gap_type
    use film_solver, only: film_solver_type
-   use modal_film, only: new_modal_film, enough_cells, enough_modes
+   use modal_film, only: new_modal_film
+   use modal_pad, only: enough_cells, enough_modes
    use auto_film, only: new_auto_film
    use sor_film, only: new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
    use contact_law, only: contact_law_type, new_contact_law
@@ -27,10 +28,10 @@ contains
    subroutine make_film(scene, film)
       type(scene_type), intent(in) :: scene
       class(film_solver_type), allocatable, intent(out) :: film
-      type(pad_gap_type) :: films(scene%pad_count())
+      type(pad_gap_type) :: gaps(scene%pad_count())
       type(sor_options) :: options
       integer :: cavitation, cells, modes, volumes(2)
-      films = new_gaps(scene)
+      gaps = new_gaps(scene)
       associate (f => scene%film)
          select case (f%cavitation)
          case ('none')
@@ -40,8 +41,8 @@ contains
          case default
             cavitation = cavitation_reynolds
          end select
-         cells = merge(f%circumferential_cells, enough_cells(films), f%circumferential_cells > 0)
-         modes = merge(f%axial_modes, enough_modes(films), f%axial_modes > 0)
+         cells = merge(f%circumferential_cells, enough_cells(gaps), f%circumferential_cells > 0)
+         modes = merge(f%axial_modes, enough_modes(gaps), f%axial_modes > 0)
          volumes = merge(sor_volumes, rupture_volumes, f%solver == 'sor')
          associate (given => [f%circumferential_cells, f%axial_cells])
             volumes = merge(given, volumes, given > 0)
@@ -50,11 +51,11 @@ contains
          options = sor_options(volumes(1), volumes(2), f%relaxation, &
             & min(f%tolerance, 0.1_wp*scene%integration%relative_tolerance), f%max_sweeps, cavitation)
          if (f%solver == 'sor') then
-            film = new_sor_film(films, options)
+            film = new_sor_film(gaps, options)
          else if (cavitation == cavitation_reynolds) then
-            film = new_auto_film(films, cells, modes, volumes(1), volumes(2))
+            film = new_auto_film(gaps, cells, modes, volumes(1), volumes(2))
          else
-            film = new_modal_film(films, cells, modes, cavitation == cavitation_gumbel)
+            film = new_modal_film(gaps, cells, modes, cavitation == cavitation_gumbel)
          end if
          film%tolerance = options%tolerance
          film%max_sweeps = options%max_sweeps

@@ -16,7 +16,7 @@ module pad_bearing
    private
    public :: pad_bearing_type, pad_sample, new_pad_bearing, pad_outputs
 
-   !> Outputs of a pad: film force on the journal in its frame, N, highest pressure, Pa.
+   !> Outputs of a pad: film force on the journal in its frame, N, maximum pressure, Pa.
    integer, parameter :: pad_outputs = 3
 
    !> What is sampled of a pad beside its state.
@@ -183,7 +183,7 @@ contains
       end associate
    end function refusal
 
-   !> What a sample takes from the films, pad by pad: force and highest pressure as evaluated last, the force with what
+   !> What a sample takes from the films, pad by pad: force and maximum pressure as evaluated last, the force with what
    !> a change of the state, (column, pad), adds to first order.
    pure function output(self, change)
       class(pad_bearing_type), intent(in) :: self

@@ -2,7 +2,7 @@
 !> over-relaxation solved by elimination.
 !>
 !> Where the film ruptures the force is that of the finite volumes with rupture, plus c times (modal - finite
-!> volumes without rupture), with c = 1 up to a tension of the whole film of a tenth of its highest pressure,
+!> volumes without rupture), with c = 1 up to a tension of the whole film of a tenth of its maximum pressure,
 !> and 0 where they are the same. So at the onset the force does not jump by the difference of the two
 !> discretisations, a loaded pad keeps the modes' accuracy, and an empty pad is left to the finite volumes alone.
 module auto_film
@@ -15,13 +15,13 @@ module auto_film
    private
    public :: auto_film_type, new_auto_film
 
-   !> How far below the cavitation pressure the whole film may fall, over its highest pressure, before it
+   !> How far below the cavitation pressure the whole film may fall, over its maximum pressure, before it
    !> counts as ruptured: the force left out is of the second order in it, below the discretisation error.
    real(wp), parameter :: slight_tension = 1e-4_wp
 
-   !> Tension over the highest pressure up to which a pad is loaded: c = 1.
+   !> Tension over the maximum pressure up to which a pad is loaded: c = 1.
    real(wp), parameter :: loaded_tension = 0.1_wp
-   !> Step of the slopes of what slight rupture adds, in clearances (times the speed).
+   !> Step of the derivatives of what slight rupture adds, in clearances (times the speed).
    real(wp), parameter :: difference = 1e-6_wp
 
    type, extends(film_solver_type) :: auto_film_type
@@ -39,19 +39,19 @@ module auto_film
 
 contains
 
-   !> Both solvers for the same films: cells along the arc and modes of the one; cells along the arc and
+   !> Both solvers for the same gaps: cells along the arc and modes of the one; cells along the arc and
    !> along half the width of the other.
-   function new_auto_film(films, cells, modes, columns, rows) result(solver)
-      type(pad_gap_type), intent(in) :: films(:)
+   function new_auto_film(gaps, cells, modes, columns, rows) result(solver)
+      type(pad_gap_type), intent(in) :: gaps(:)
       integer, intent(in) :: cells, modes, columns, rows
       type(auto_film_type) :: solver
       integer :: i
-      solver%cavitation_pressure = films%cavitation_pressure
-      solver%clearance = films%machined_clearance
-      solver%modal = new_modal_film(films, cells, modes, .false.)
-      allocate (solver%direct(size(films)))
-      do i = 1, size(films)
-         solver%direct(i) = new_direct_film(films(i), columns, rows)
+      solver%cavitation_pressure = gaps%cavitation_pressure
+      solver%clearance = gaps%machined_clearance
+      solver%modal = new_modal_film(gaps, cells, modes, .false.)
+      allocate (solver%direct(size(gaps)))
+      do i = 1, size(gaps)
+         solver%direct(i) = new_direct_film(gaps(i), columns, rows)
       end do
    end function new_auto_film
 
@@ -91,7 +91,8 @@ contains
             call self%direct(i)%force_of_rupture(motion(i), speed, self%counters, force, few)
          end if
          if (few) then
-            if (want_derivatives) response(i)%slope = response(i)%slope + slopes_of_rupture(self, i, motion(i), speed, force)
+            if (want_derivatives) response(i)%derivatives = response(i)%derivatives &
+               & + derivatives_of_rupture(self, i, motion(i), speed, force)
             response(i)%force = response(i)%force + force
             response(i)%min_pressure = self%cavitation_pressure(i)
          else
@@ -101,26 +102,26 @@ contains
       end do
    end subroutine evaluate
 
-   !> Slopes of what slight rupture adds to a pad's force, by differences: it is solved exactly, and cheaper
-   !> four times than its adjoints once. Where a neighbour is not slight any more its slope is left out.
-   function slopes_of_rupture(self, i, motion, speed, force) result(slope)
+   !> Derivatives of what slight rupture adds to a pad's force, by differences: it is solved exactly, and cheaper
+   !> four times than its adjoints once. Where a neighbour is not slight any more its derivative is left out.
+   function derivatives_of_rupture(self, i, motion, speed, force) result(derivatives)
       class(auto_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed, force(2)
-      real(wp) :: slope(2, 4), step(4), shift(4), near(2)
+      real(wp) :: derivatives(2, 4), step(4), shift(4), near(2)
       integer :: k
       logical :: few
       step = difference*self%clearance(i)*[1.0_wp, 1.0_wp, max(1.0_wp, abs(speed)), max(1.0_wp, abs(speed))]
-      slope = 0
+      derivatives = 0
       do k = 1, 4
          shift = 0
          shift(k) = step(k)
          call self%direct(i)%force_of_rupture(film_motion(motion%position + shift(:2), motion%velocity + shift(3:)), &
             & speed, self%counters, near, few)
-         if (few) slope(:, k) = (near - force)/step(k)
+         if (few) derivatives(:, k) = (near - force)/step(k)
       end do
-   end function slopes_of_rupture
+   end function derivatives_of_rupture
 
    !> A pad's ruptured film by elimination, from that of the modes.
    subroutine change_of_rupture(self, i, motion, speed, want_derivatives, modal, ruptured)
@@ -138,7 +139,7 @@ contains
       if (ruptured%status /= film_ok .or. .not. c > 0) return
       call self%direct(i)%evaluate(motion, speed, .false., want_derivatives, self%counters, whole)
       ruptured%force = ruptured%force + c*(modal%force - whole%force)
-      ruptured%slope = ruptured%slope + c*(modal%slope - whole%slope)
+      ruptured%derivatives = ruptured%derivatives + c*(modal%derivatives - whole%derivatives)
       ruptured%max_pressure = ruptured%max_pressure + c*(modal%max_pressure - whole%max_pressure)
    end subroutine change_of_rupture
 

@@ -21,8 +21,8 @@ module film_solver
       !> Force on the journal in the pad frame (F_y', F_z'), N, eq (6).
       real(wp) :: force(2) = 0
       !> d force / d (position, velocity), N/m and N s/m; set on request.
-      real(wp) :: slope(2, 4) = 0
-      !> Lowest and highest pressure at the grid points, Pa; least film thickness, m.
+      real(wp) :: derivatives(2, 4) = 0
+      !> Minimum and maximum pressure at the grid points, Pa; minimum film thickness, m.
       real(wp) :: min_pressure = 0, max_pressure = 0, min_film_thickness = 0
       !> Relative residual of an iterative solution; 0 for a direct one.
       real(wp) :: residual = 0
@@ -74,7 +74,7 @@ module film_solver
          logical, intent(in) :: allowed
       end subroutine choose_rupture
 
-      !> Pressure of every pad's film, Pa, (axial place, angle, pad), at a motion each that leaves the film open,
+      !> Pressure of every pad's film, Pa, (axial position, angle, pad), at a motion each that leaves the film open,
       !> and a journal speed, rad/s.
       subroutine evaluate_field(self, motion, speed, phi, z, pressure)
          import :: film_solver_type, film_motion, wp

@@ -68,7 +68,7 @@ contains
       directions%cos_half = cos(0.5_wp*self%arc())
    end function directions
 
-   !> Least film thickness on the pad, m: inside the arc where h has a minimum there, else at an edge.
+   !> Minimum film thickness on the pad, m: inside the arc where h has a minimum there, else at an edge.
    pure function min_film_thickness(self, motion, directions) result(h)
       class(pad_gap_type), intent(in) :: self
       type(film_motion), intent(in) :: motion

@@ -271,7 +271,7 @@ contains
       call self%matrix%solve(gamma, b, ok)
    end subroutine solve
 
-   !> Of every pad film force and highest pressure as evaluated last, the force with what a correction of that
+   !> Of every pad film force and maximum pressure as evaluated last, the force with what a correction of that
    !> state adds to first order: where the pivot is without friction the tangential force is a small
    !> difference.
    pure function output(self, correction)

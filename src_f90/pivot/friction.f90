@@ -13,9 +13,9 @@ module friction
       real(wp) :: force = 0
       !> Rate of the bristle deflection, m/s.
       real(wp) :: rate = 0
-      !> Slopes of the force over velocity, deflection and normal force.
+      !> Derivatives of the force over velocity, deflection and normal force.
       real(wp) :: force_velocity = 0, force_deflection = 0, force_normal = 0
-      !> Slopes of the rate over velocity and deflection.
+      !> Derivatives of the rate over velocity and deflection.
       real(wp) :: rate_velocity = 0, rate_deflection = 0
    end type friction_response
 
@@ -95,21 +95,21 @@ contains
       class(bengisu_akay_friction), intent(in) :: self
       real(wp), intent(in) :: velocity, deflection, normal
       type(friction_response), intent(out) :: response
-      real(wp) :: v, coefficient, slope
+      real(wp) :: v, coefficient, derivative
       v = abs(velocity)
       associate (fs => self%static_coefficient, fd => self%dynamic_coefficient, vc => self%critical_velocity)
          if (v < vc) then
             coefficient = fs*(1 - (v/vc - 1)**2)
-            slope = -2*fs*(v/vc - 1)/vc
+            derivative = -2*fs*(v/vc - 1)/vc
          else
             coefficient = (fs - fd)*exp(-self%decay*(v - vc))
-            slope = -self%decay*coefficient
+            derivative = -self%decay*coefficient
             coefficient = coefficient + fd
          end if
       end associate
       if (velocity < 0) coefficient = -coefficient
       response%force = coefficient*normal
-      response%force_velocity = slope*normal
+      response%force_velocity = derivative*normal
       response%force_normal = coefficient
    end subroutine evaluate_bengisu_akay
 
@@ -117,7 +117,7 @@ contains
       class(lugre_friction), intent(in) :: self
       real(wp), intent(in) :: velocity, deflection, normal
       type(friction_response), intent(out) :: response
-      real(wp) :: ratio, drop, g, v, relaxation, g_slope, coefficient
+      real(wp) :: ratio, drop, g, v, relaxation, g_change, coefficient
       v = abs(velocity)
       ratio = v/self%stribeck_velocity
       if (self%stribeck_exponent /= 1) ratio = ratio**self%stribeck_exponent
@@ -129,8 +129,8 @@ contains
          & + self%viscous_coefficient*velocity
       response%force = coefficient*normal
       ! d relaxation / d|v| = sigma_0 (g - |v| dG/d|v|) / g**2, and |v| dG/d|v| = -gamma ratio drop
-      g_slope = -self%stribeck_exponent*ratio*drop
-      response%rate_velocity = 1 - sign(1.0_wp, velocity)*deflection*self%bristle_stiffness*(g - g_slope)/g**2
+      g_change = -self%stribeck_exponent*ratio*drop
+      response%rate_velocity = 1 - sign(1.0_wp, velocity)*deflection*self%bristle_stiffness*(g - g_change)/g**2
       response%rate_deflection = -relaxation
       response%force_velocity = (self%bristle_damping*response%rate_velocity + self%viscous_coefficient)*normal
       response%force_deflection = (self%bristle_stiffness + self%bristle_damping*response%rate_deflection)*normal

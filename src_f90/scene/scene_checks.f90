@@ -129,7 +129,8 @@ contains
             & //': must not exceed operation%duration = '//to_text(duration), error)
          call require(duration*scene%highest_speed()/360/degree*output%samples_per_revolution < 1e9_wp, &
             & 'operation%duration = '//to_text(duration) &
-            & //': more than 1e9 samples at output%samples_per_revolution = '//to_text(output%samples_per_revolution), error)
+            & //': more than 1e9 samples at output%samples_per_revolution = ' &
+            & //to_text(output%samples_per_revolution), error)
       end associate
    end subroutine check_output
 

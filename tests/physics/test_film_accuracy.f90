@@ -9,7 +9,8 @@ program test_film_accuracy
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_ok
    use pad_gap, only: pad_gap_type
-   use modal_film, only: modal_film_type, new_modal_film, enough_cells, enough_modes
+   use modal_film, only: modal_film_type, new_modal_film
+   use modal_pad, only: enough_cells, enough_modes
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)

@@ -210,8 +210,8 @@ contains
             if (.not. smooth) cycle
             compared = compared + 1
             unit = merge(clearance, clearance*speed, column <= 2)
-            error = norm2(r%slope(:, column)*unit - expected) &
-               & /max(norm2(expected), 1e-2_wp*norm2(r_whole%slope(:, column))*unit)
+            error = norm2(r%derivatives(:, column)*unit - expected) &
+               & /max(norm2(expected), 1e-2_wp*norm2(r_whole%derivatives(:, column))*unit)
             worst = max(worst, error)
             mean = mean + error
          end do
@@ -246,7 +246,7 @@ contains
          motion = opening_motion()
          r = answer(solver, motion)
          r_modes = answer(by_modes, motion)
-         if (solver%counters%volumes == 0 .or. .not. norm2(r%slope(:, 2)) > 0) cycle
+         if (solver%counters%volumes == 0 .or. .not. norm2(r%derivatives(:, 2)) > 0) cycle
          r_cells = answer(by_cells, motion)
          do column = 1, 4
             call differences(solver, motion, column, expected, smooth)
@@ -256,7 +256,7 @@ contains
             change = (share(by_modes, moved(motion, column, 1e-5_wp)) &
                & - share(by_modes, moved(motion, column, -1e-5_wp)))/2e-5_wp
             left_out = abs(change)*norm2(r_modes%force - r_cells%force)
-            deviation = norm2(r%slope(:, column)*unit - expected)
+            deviation = norm2(r%derivatives(:, column)*unit - expected)
             if (share(by_modes, motion) < 1) worst = max(worst, (deviation - 1.001_wp*left_out)/norm2(expected))
             largest = max(largest, deviation/norm2(expected))
          end do
@@ -323,9 +323,9 @@ contains
          what = ' at the onset, '//to_text(columns)//' columns, angle '//to_text(left)//', force ' &
             & //to_text(norm2(after%force))
          call expect_close(norm2(after%force - before%force), 0.0_wp, allowed(1), 'jump of the force'//what)
-         if (.not. path%flooded) call expect_close(norm2(matmul(after%slope - before%slope, direction(path, left)) &
-            & - merge(-1, 1, was)*left_out(path, merge(left, right, was), 2*columns, 2*rows)), 0.0_wp, 2*allowed(2), &
-            & 'jump of the slope'//what)
+         if (.not. path%flooded) call expect_close(norm2(matmul(after%derivatives - before%derivatives, &
+            & direction(path, left)) - merge(-1, 1, was)*left_out(path, merge(left, right, was), 2*columns, 2*rows)), 0.0_wp, &
+            & 2*allowed(2), 'jump of the slope'//what)
          was = .not. was
       end do
       call expect(switches == 2, 'one onset, one end of rupture: '//to_text(switches))
@@ -343,7 +343,7 @@ contains
       by_cells = new_direct_film(pad(path%flooded), columns, rows)
       call by_cells%evaluate(place(path, angle), speed, .true., .true., counters, ruptured)
       call by_cells%evaluate(place(path, angle), speed, .false., .true., counters, whole)
-      left_out = matmul(ruptured%slope - whole%slope, direction(path, angle))
+      left_out = matmul(ruptured%derivatives - whole%derivatives, direction(path, angle))
    end function left_out
 
    !> Largest difference of cells and modes, both without rupture, along a path: of the force, of its slope.
@@ -366,7 +366,7 @@ contains
          r_modes = answer(by_modes, place(path, angle))
          r_cells = answer(by_cells, place(path, angle))
          largest = max(largest, [norm2(r_cells%force - r_modes%force), &
-            & norm2(matmul(r_cells%slope - r_modes%slope, direction(path, angle)))])
+            & norm2(matmul(r_cells%derivatives - r_modes%derivatives, direction(path, angle)))])
       end do
    end function error_of_cells
 

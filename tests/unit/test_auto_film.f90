@@ -41,7 +41,8 @@ contains
       character(len=*), intent(in) :: what
       call expect(found%status == expected%status, 'status, '//what)
       call expect_close(norm2(found%force - expected%force), 0.0_wp, 1e-12_wp*norm2(expected%force), 'force, '//what)
-      call expect_close(norm2(found%slope - expected%slope), 0.0_wp, 1e-12_wp*norm2(expected%slope), 'slopes, '//what)
+      call expect_close(norm2(found%derivatives - expected%derivatives), 0.0_wp, 1e-12_wp*norm2(expected%derivatives), &
+         & 'slopes, '//what)
       call expect_close(found%max_pressure, expected%max_pressure, 1e-12_wp*expected%max_pressure, 'maximum, '//what)
    end subroutine expect_same
 
@@ -97,7 +98,8 @@ contains
          call auto%evaluate([back], speed, .false., moved)
          change = (change - moved(1)%force)/(2*step)
          ! the force bends where a cell begins to rupture, seldom within such a step
-         call expect_close(norm2(found(1)%slope(:, k) - change), 0.0_wp, 1e-3_wp*norm2(change), 'slope '//to_text(k))
+         call expect_close(norm2(found(1)%derivatives(:, k) - change), 0.0_wp, 1e-3_wp*norm2(change), &
+            & 'slope '//to_text(k))
       end do
    end subroutine slight
 
@@ -121,7 +123,7 @@ contains
       share = (1 + of_modes(1)%min_pressure/of_modes(1)%max_pressure)/0.9_wp
       call expect(share > 0 .and. share < 1, 'a share between: '//to_text(share))
       expected%force = expected%force + share*(of_modes(1)%force - unruptured%force)
-      expected%slope = expected%slope + share*(of_modes(1)%slope - unruptured%slope)
+      expected%derivatives = expected%derivatives + share*(of_modes(1)%derivatives - unruptured%derivatives)
       expected%max_pressure = expected%max_pressure + share*(of_modes(1)%max_pressure - unruptured%max_pressure)
       call expect_same(found(1), expected, 'between both')
    end subroutine between_both

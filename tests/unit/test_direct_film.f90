@@ -72,7 +72,7 @@ contains
                & maxval(pressures(:2)))]))
          end associate
          do k = 1, 4
-            worst_slope = max(worst_slope, deviation(r%slope(:, k), expected%slope(:, k)))
+            worst_slope = max(worst_slope, deviation(r%derivatives(:, k), expected%derivatives(:, k)))
          end do
       end do
       associate (name => to_text(columns)//' x '//to_text(rows)//merge(' ruptured', ' whole   ', ruptures))
@@ -153,11 +153,12 @@ contains
       call direct%evaluate(motion, speed, .true., .true., counters, before)
       motion%velocity = [0.0_wp, -10*clearance*speed]
       call direct%evaluate(motion, speed, .true., .true., counters, r)
-      call expect(r%status == film_ok .and. all(abs(r%force) <= 0) .and. all(abs(r%slope) <= 0), 'nothing left')
+      call expect(r%status == film_ok .and. all(abs(r%force) <= 0) .and. all(abs(r%derivatives) <= 0), 'nothing left')
       motion%velocity = 0
       call direct%evaluate(motion, speed, .true., .true., counters, r)
       call expect_close(r%force(2), before%force(2), 1e-12_wp*abs(before%force(2)), 'the film comes back')
-      call expect(all(abs(r%slope - before%slope) <= 1e-10_wp*maxval(abs(before%slope))), 'so do its slopes')
+      call expect(all(abs(r%derivatives - before%derivatives) <= 1e-10_wp*maxval(abs(before%derivatives))), &
+         & 'so do its slopes')
    end subroutine empty_film
 
    subroutine closed_film()

@@ -66,7 +66,7 @@ contains
                at(k) = answer(solver, moved, speed)
             end do
             expected = [sum(weights*at%force(1)), sum(weights*at%force(2))]
-            worst = max(worst, maxval(abs(r%slope(:, column)*scale(column) - expected))/norm2(expected))
+            worst = max(worst, maxval(abs(r%derivatives(:, column)*scale(column) - expected))/norm2(expected))
          end do
       end do
       call expect_close(worst, 0.0_wp, 1e-7_wp, 'slopes of the modes')
@@ -168,7 +168,8 @@ contains
          & 'force of raised pressures')
       call expect_close(high%max_pressure - low%max_pressure, shift, 1e-10_wp*shift, 'highest of raised pressures')
       call expect_close(high%min_pressure - low%min_pressure, shift, 1e-10_wp*shift, 'lowest of raised pressures')
-      call expect_close(norm2(high%slope - low%slope), 0.0_wp, 1e-9_wp*norm2(low%slope), 'slopes of raised pressures')
+      call expect_close(norm2(high%derivatives - low%derivatives), 0.0_wp, 1e-9_wp*norm2(low%derivatives), &
+         & 'slopes of raised pressures')
    end subroutine shifted_pressures
 
    !> Guembel's condition takes the tension away: nothing where there is none, and what a fine clipped
@@ -232,7 +233,8 @@ contains
       ! both solve the same equations; the tolerance is that of over-relaxation
       call expect_close(norm2(r(2)%force - by_cells%force), 0.0_wp, 1e-9_wp*norm2(by_cells%force), &
          & 'cells for the ruptured one')
-      call expect_close(norm2(r(2)%slope - by_cells%slope), 0.0_wp, 1e-9_wp*norm2(by_cells%slope), 'with their slopes')
+      call expect_close(norm2(r(2)%derivatives - by_cells%derivatives), 0.0_wp, 1e-9_wp*norm2(by_cells%derivatives), &
+         & 'with their slopes')
       call expect(auto%counters%volumes == 1 .and. auto%counters%modal == 1, 'each is counted')
       call expect(auto%counters%passes > 0, 'and so are the eliminations')
    end subroutine choice

@@ -95,7 +95,7 @@ contains
             compared = compared + 1
             if (.not. all(film)) ruptured = ruptured + 1
             expected = [sum(weights*at%force(1)), sum(weights*at%force(2))]
-            worst = max(worst, maxval(abs(r%slope(:, column)*scale(column) - expected))/norm2(expected))
+            worst = max(worst, maxval(abs(r%derivatives(:, column)*scale(column) - expected))/norm2(expected))
          end do
       end do
       call expect(compared >= 40, 'slopes compared, '//names(cavitation)//': '//to_text(compared))
@@ -135,7 +135,8 @@ contains
          cold = new_sor_film([paper_pad()], options(cavitation, tolerance))
          call cold%evaluate_pad(1, motion, speed, .true., from_cold)
          worst = max(worst, norm2(from_warm%force - from_cold%force)/norm2(from_cold%force))
-         worst = max(worst, norm2(from_warm%slope(:, 1:2) - from_cold%slope(:, 1:2))/norm2(from_cold%slope(:, 1:2)))
+         worst = max(worst, norm2(from_warm%derivatives(:, 1:2) - from_cold%derivatives(:, 1:2)) &
+            & /norm2(from_cold%derivatives(:, 1:2)))
          call expect(max(from_warm%residual, from_cold%residual) <= tolerance, 'residuals within the tolerance')
       end do
       call expect_close(worst, 0.0_wp, 200*tolerance, 'warm and cold starts meet, '//trim(names(cavitation)))
@@ -184,7 +185,8 @@ contains
          & 'lowest of raised pressures')
       call expect_close(raised_r%max_pressure, r%max_pressure + shift, 1e-12_wp*raised_r%max_pressure, &
          & 'highest of raised pressures')
-      call expect_close(norm2(raised_r%slope - r%slope), 0.0_wp, 1e-10_wp*norm2(r%slope), 'slopes of raised pressures')
+      call expect_close(norm2(raised_r%derivatives - r%derivatives), 0.0_wp, 1e-10_wp*norm2(r%derivatives), &
+         & 'slopes of raised pressures')
    end subroutine shifted_pressures
 
    !> A film that a fast opening ruptures everywhere has neither force nor slope, and costs no more sweeps
@@ -200,7 +202,7 @@ contains
       call solver%evaluate_pad(1, film_motion([2e-5_wp, 4e-5_wp], [0.0_wp, -0.05_wp]), speed, .true., empty)
       call expect(full%status == film_ok .and. empty%status == film_ok, 'full and empty film are fine, ' &
          & //trim(names(cavitation)))
-      call expect_close(norm2(empty%force) + norm2(empty%slope), 0.0_wp, 0.0_wp, 'an empty film is nothing, ' &
+      call expect_close(norm2(empty%force) + norm2(empty%derivatives), 0.0_wp, 0.0_wp, 'an empty film is nothing, ' &
          & //trim(names(cavitation)))
       call expect(solver%counters%passes <= 2*sweeps, 'sweeps of an empty film, '//trim(names(cavitation))//': ' &
          & //to_text(solver%counters%passes - sweeps)//' after '//to_text(sweeps))
@@ -285,7 +287,8 @@ contains
          single = new_sor_film(films(k:k), options(cavitation_reynolds, 1e-8_wp))
          call single%evaluate_pad(1, motion(k), speed, .true., alone)
          call expect_close(norm2(together(k)%force - alone%force), 0.0_wp, 0.0_wp, 'force of pad '//to_text(k))
-         call expect_close(norm2(together(k)%slope - alone%slope), 0.0_wp, 0.0_wp, 'slopes of pad '//to_text(k))
+         call expect_close(norm2(together(k)%derivatives - alone%derivatives), 0.0_wp, 0.0_wp, &
+            & 'slopes of pad '//to_text(k))
       end do
    end subroutine pads_are_apart
 end program test_sor_film

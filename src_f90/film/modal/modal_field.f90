@@ -20,30 +20,30 @@ module modal_field
 contains
 
    !> b_k cos(lambda_k Z) of mode k = 1, 2, ..., at Z over half the width.
-   elemental real(wp) function axial_profile(k, place)
+   elemental real(wp) function axial_profile(k, position)
       integer, intent(in) :: k
-      real(wp), intent(in) :: place
-      axial_profile = -4*(-1)**k/((2*k - 1)*pi)*cos((2*k - 1)*pi/2*place)
+      real(wp), intent(in) :: position
+      axial_profile = -4*(-1)**k/((2*k - 1)*pi)*cos((2*k - 1)*pi/2*position)
    end function axial_profile
 
    !> Sum of b_k cos(lambda_k Z)/Lambda_k^2 over the modes beyond the first so many, at Z over half the width.
-   elemental real(wp) function left_out(film, modes, place)
-      type(pad_gap_type), intent(in) :: film
+   elemental real(wp) function left_out(gap, modes, position)
+      type(pad_gap_type), intent(in) :: gap
       integer, intent(in) :: modes
-      real(wp), intent(in) :: place
+      real(wp), intent(in) :: position
       real(wp) :: unit
       integer :: k
-      unit = film%axial_length/(pi*film%pad_radius())
-      left_out = (film%axial_length/film%pad_radius())**2*(1 - place**2)/8
+      unit = gap%axial_length/(pi*gap%pad_radius())
+      left_out = (gap%axial_length/gap%pad_radius())**2*(1 - position**2)/8
       do k = 1, modes
-         left_out = left_out - axial_profile(k, place)/((2*k - 1)/unit)**2
+         left_out = left_out - axial_profile(k, position)/((2*k - 1)/unit)**2
       end do
    end function left_out
 
-   !> Pressure, Pa, (axial place, angle), with tension where there is any: the cubic through four nodes along
+   !> Pressure, Pa, (axial position, angle), with tension where there is any: the cubic through four nodes along
    !> the arc, the modes across.
-   pure function field_of_modes(film, motion, modes, per_g, s, q, phi, z) result(pressure)
-      type(pad_gap_type), intent(in) :: film
+   pure function field_of_modes(gap, motion, modes, per_g, s, q, phi, z) result(pressure)
+      type(pad_gap_type), intent(in) :: gap
       type(film_motion), intent(in) :: motion
       !> How many modes there are; further lanes of q idle.
       integer, intent(in) :: modes
@@ -52,18 +52,18 @@ contains
       !> Angles from the pivot, rad, and distances from the middle plane, m, within the pad.
       real(wp), intent(in) :: phi(:), z(:)
       real(wp) :: pressure(size(z), size(phi))
-      real(wp) :: place(size(z)), profile(size(z), modes), narrow(size(z)), smooth(size(z), 0:ubound(s, 1))
+      real(wp) :: position(size(z)), profile(size(z), modes), narrow(size(z)), smooth(size(z), 0:ubound(s, 1))
       real(wp) :: d, rise, g_edge, g, x
       integer :: i, j, k, lanes, n
       n = ubound(s, 1)
       lanes = size(q, 1)
-      d = film%arc()/n
-      rise = film%supply_pressure - film%ambient_pressure
+      d = gap%arc()/n
+      rise = gap%supply_pressure - gap%ambient_pressure
       g_edge = 1/per_g(n)
-      place = abs(z)/(0.5_wp*film%axial_length)
-      narrow = left_out(film, modes, place)
+      position = abs(z)/(0.5_wp*gap%axial_length)
+      narrow = left_out(gap, modes, position)
       do k = 1, modes
-         profile(:, k) = axial_profile(k, place)
+         profile(:, k) = axial_profile(k, position)
       end do
       smooth(:, 0) = 0
       do i = 1, n - 1
@@ -73,25 +73,25 @@ contains
       do i = 0, n - 1
          x = (n - i)*d
          do k = 1, modes
-            associate (decay => exp(-(2*k - 1)*pi*film%pad_radius()/film%axial_length*x), &
+            associate (decay => exp(-(2*k - 1)*pi*gap%pad_radius()/gap%axial_length*x), &
                & solved => q(mod(k - 1, lanes) + 1, i, (k - 1)/lanes + 1))
                smooth(:, i) = smooth(:, i) + profile(:, k)*per_g(i)*(solved - rise*g_edge*decay)
             end associate
          end do
       end do
       do j = 1, size(phi)
-         x = (phi(j) + film%trailing_angle)/d
+         x = (phi(j) + gap%trailing_angle)/d
          i = min(max(int(x) - 1, 0), n - 3)
-         g = film%thickness(motion, sin(phi(j)), cos(phi(j)))**1.5_wp
-         pressure(:, j) = film%ambient_pressure + matmul(smooth(:, i:i + 3), cubic_weights(x - i)) &
-            & + rise*g_edge/g*layer(place, (film%leading_angle - phi(j))*film%pad_radius()/film%axial_length)
+         g = gap%thickness(motion, sin(phi(j)), cos(phi(j)))**1.5_wp
+         pressure(:, j) = gap%ambient_pressure + matmul(smooth(:, i:i + 3), cubic_weights(x - i)) &
+            & + rise*g_edge/g*layer(position, (gap%leading_angle - phi(j))*gap%pad_radius()/gap%axial_length)
       end do
    end function field_of_modes
 
    !> W at Z over half the width and at a distance from the leading edge over the width.
-   elemental real(wp) function layer(place, distance)
-      real(wp), intent(in) :: place, distance
-      layer = 2/pi*atan2(cos(pi/2*place), sinh(min(far, pi*max(0.0_wp, distance))))
+   elemental real(wp) function layer(position, distance)
+      real(wp), intent(in) :: position, distance
+      layer = 2/pi*atan2(cos(pi/2*position), sinh(min(far, pi*max(0.0_wp, distance))))
    end function layer
 
    !> Weights of the values at 0, 1, 2, 3 in their cubic at t.

@@ -10,7 +10,7 @@ module modal_sweeps
    !> Modes solved side by side: the length of a vector register.
    integer, parameter :: lanes = 8
 
-   !> Places across the width where rupture is looked for.
+   !> Points across the width where rupture is looked for.
    integer, parameter :: looks = 4
 
 contains
@@ -21,6 +21,7 @@ contains
    !> Elimination from an edge leaves w(i) = e(i) w(next inwards) + y(i), with e = a f and
    !> f(i) = 1/(12 - a(i) (10 + e(next outwards))).
    pure subroutine solve_modes(n, d, stiffness, v, s, last, a, f, q)
+      ! long: a kernel
       integer, intent(in) :: n
       !> Step; (Lambda d)^2/12 by lane; v and s by node; q(n).
       real(wp), intent(in) :: d, stiffness(lanes), v(0:n), s(0:n), last
@@ -185,7 +186,7 @@ contains
    !> Lowest pressure above ambient where rupture is looked for. It lies where s > 0, or at an edge.
    pure real(wp) function lowest_pressure(n, blocks, s, per_g, tail, look, q)
       integer, intent(in) :: n, blocks
-      !> s and 1/g by node; the modes left out; b_k cos(lambda_k Z) by place and lane.
+      !> s and 1/g by node; the modes left out; b_k cos(lambda_k Z) by point and lane.
       real(wp), intent(in) :: s(0:n), per_g(0:n), tail(looks), look(looks, lanes, blocks), q(lanes, 0:n, blocks)
       real(wp) :: even(looks), odd(looks)
       integer :: i, b, k, l

@@ -19,7 +19,7 @@ module direct_film
    public :: direct_film_type, new_direct_film
 
    integer, parameter :: max_rounds = 100
-   !> Pressure over the highest below which a cell counts as empty: rounding must not decide.
+   !> Pressure over the maximum below which a cell counts as empty: rounding must not decide.
    real(wp), parameter :: rounding = 1e-12_wp
 
    !> One pad's film.
@@ -44,12 +44,12 @@ module direct_film
 contains
 
    !> The film of one pad on a grid of so many cells along the arc and along half the width.
-   function new_direct_film(film, columns, rows) result(self)
-      type(pad_gap_type), intent(in) :: film
+   function new_direct_film(gap, columns, rows) result(self)
+      type(pad_gap_type), intent(in) :: gap
       integer, intent(in) :: columns, rows
       type(direct_film_type) :: self
       integer :: n
-      self%grid = new_film_grid(film, columns, rows)
+      self%grid = new_film_grid(gap, columns, rows)
       self%basis = new_grid_modes(self%grid)
       n = self%basis%m
       allocate (self%film(n, columns), self%pressure(n, columns), self%adjoint(n, columns), source=0.0_wp)
@@ -70,7 +70,7 @@ contains
       integer :: m, round
       logical :: changed
       associate (grid => self%grid)
-         response%min_film_thickness = grid%film%min_film_thickness(motion, grid%directions)
+         response%min_film_thickness = grid%gap%min_film_thickness(motion, grid%directions)
          if (.not. response%min_film_thickness > 0) then
             response%status = film_closed
             return
@@ -92,13 +92,13 @@ contains
             do m = 1, 2
                call solve(self, weight(:, m), 0*weight(:, m), self%adjoint)
                call to_rows(self, self%adjoint)
-               response%slope(m, :) = grid%slopes(speed, self%pressure, self%adjoint)
+               response%derivatives(m, :) = grid%derivatives(speed, self%pressure, self%adjoint)
             end do
          end if
       end associate
    end subroutine evaluate
 
-   !> Pressure, Pa, (axial place, angle), at a motion that leaves the film open and a journal speed, rad/s, with the
+   !> Pressure, Pa, (axial position, angle), at a motion that leaves the film open and a journal speed, rad/s, with the
    !> Reynolds condition or without rupture.
    subroutine field(self, motion, speed, ruptures, phi, z, pressure)
       class(direct_film_type), intent(inout) :: self
@@ -133,7 +133,7 @@ contains
       counters%passes = counters%passes + 1
    end subroutine force_of_rupture
 
-   !> Force; lowest and highest pressure in the middle plane and at the edges.
+   !> Force; minimum and maximum pressure in the middle plane and at the edges.
    pure subroutine sum_up(self, response)
       type(direct_film_type), intent(in) :: self
       type(film_response), intent(inout) :: response
@@ -152,8 +152,8 @@ contains
          end do
          middle = middle/self%basis%root(1)
          response%force = grid%force(sums)
-         response%min_pressure = grid%film%cavitation_pressure + min(minval(middle), grid%ambient, grid%supply)
-         response%max_pressure = grid%film%cavitation_pressure + max(maxval(middle), grid%ambient, grid%supply)
+         response%min_pressure = grid%gap%cavitation_pressure + min(minval(middle), grid%ambient, grid%supply)
+         response%max_pressure = grid%gap%cavitation_pressure + max(maxval(middle), grid%ambient, grid%supply)
       end associate
    end subroutine sum_up
 

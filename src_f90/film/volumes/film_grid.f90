@@ -21,7 +21,7 @@ module film_grid
    real(wp), parameter :: grading = 0.85_wp
 
    type :: film_grid_type
-      type(pad_gap_type) :: film
+      type(pad_gap_type) :: gap
       type(pad_directions) :: directions
       integer :: columns, rows
       !> Angular and mean axial size of a cell, rad and m; heights of the rows over their mean.
@@ -36,7 +36,7 @@ module film_grid
       real(wp) :: supply, ambient
       !> Sine and cosine at the cell centres and at the cell faces (0:columns).
       real(wp), allocatable :: sin_cell(:), cos_cell(:), sin_face(:), cos_face(:)
-      !> Film thickness at the same places, m.
+      !> Film thickness at the same points, m.
       real(wp), allocatable :: h_cell(:), h_face(:)
       !> Conductances through the faces along the arc (0:columns), and between uniform rows of a column.
       real(wp), allocatable :: along(:), beside(:)
@@ -46,26 +46,26 @@ module film_grid
       procedure :: set_motion
       procedure :: force
       procedure :: weight
-      procedure :: slopes
+      procedure :: derivatives
       procedure :: pressure_at
    end type film_grid_type
 
 contains
 
    !> A grid of so many cells along the arc and along half the width.
-   pure function new_film_grid(film, columns, rows) result(grid)
-      type(pad_gap_type), intent(in) :: film
+   pure function new_film_grid(gap, columns, rows) result(grid)
+      type(pad_gap_type), intent(in) :: gap
       integer, intent(in) :: columns, rows
       type(film_grid_type) :: grid
       !> Faces between the rows over their mean height; mean of the square from the middle plane in a row.
       real(wp) :: face(0:rows), square(rows), conductance(0:rows)
       integer :: i
-      grid%film = film
-      grid%directions = film%directions()
+      grid%gap = gap
+      grid%directions = gap%directions()
       grid%columns = columns
       grid%rows = rows
-      grid%d_phi = film%arc()/columns
-      grid%d_z = film%axial_length/(2*rows)
+      grid%d_phi = gap%arc()/columns
+      grid%d_z = gap%axial_length/(2*rows)
       face = [(i*(1 + grading - grading*i/rows), i=0, rows)]
       grid%height = face(1:) - face(:rows - 1)
       square = (face(:rows - 1)**2 + face(:rows - 1)*face(1:) + face(1:)**2)/3
@@ -75,13 +75,13 @@ contains
       grid%square = square/rows**2
       grid%inward = conductance(:rows - 1)/grid%height
       grid%outward = conductance(1:)/grid%height
-      grid%supply = film%supply_pressure - film%cavitation_pressure
-      grid%ambient = film%ambient_pressure - film%cavitation_pressure
-      grid%sin_cell = [(sin((i - 0.5_wp)*grid%d_phi - film%trailing_angle), i=1, columns)]
-      grid%cos_cell = [(cos((i - 0.5_wp)*grid%d_phi - film%trailing_angle), i=1, columns)]
+      grid%supply = gap%supply_pressure - gap%cavitation_pressure
+      grid%ambient = gap%ambient_pressure - gap%cavitation_pressure
+      grid%sin_cell = [(sin((i - 0.5_wp)*grid%d_phi - gap%trailing_angle), i=1, columns)]
+      grid%cos_cell = [(cos((i - 0.5_wp)*grid%d_phi - gap%trailing_angle), i=1, columns)]
       allocate (grid%sin_face(0:columns), grid%cos_face(0:columns), grid%h_face(0:columns), grid%along(0:columns))
-      grid%sin_face(:) = [(sin(i*grid%d_phi - film%trailing_angle), i=0, columns)]
-      grid%cos_face(:) = [(cos(i*grid%d_phi - film%trailing_angle), i=0, columns)]
+      grid%sin_face(:) = [(sin(i*grid%d_phi - gap%trailing_angle), i=0, columns)]
+      grid%cos_face(:) = [(cos(i*grid%d_phi - gap%trailing_angle), i=0, columns)]
       allocate (grid%h_cell(columns), grid%beside(columns), grid%source(columns), grid%edge_source(columns))
    end function new_film_grid
 
@@ -91,13 +91,13 @@ contains
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
       associate (n => self%columns)
-         self%h_cell(:) = self%film%thickness(motion, self%sin_cell, self%cos_cell)
-         self%h_face(:) = self%film%thickness(motion, self%sin_face, self%cos_face)
+         self%h_cell(:) = self%gap%thickness(motion, self%sin_cell, self%cos_cell)
+         self%h_face(:) = self%gap%thickness(motion, self%sin_face, self%cos_face)
          self%along(:) = self%h_face**3/self%d_phi**2
          ! the boundary lies half a cell away
          self%along(0) = 2*self%along(0)
          self%along(n) = 2*self%along(n)
-         self%beside(:) = self%h_cell**3*(self%film%pad_radius()/self%d_z)**2
+         self%beside(:) = self%h_cell**3*(self%gap%pad_radius()/self%d_z)**2
          self%source(:) = wedge(self, speed)*(self%h_face(1:n) - self%h_face(0:n - 1)) &
             & - squeeze(self)*(motion%velocity(1)*self%sin_cell + motion%velocity(2)*self%cos_cell)
          self%source(1) = self%source(1) - self%along(0)*self%ambient
@@ -110,13 +110,13 @@ contains
    pure real(wp) function wedge(self, speed)
       class(film_grid_type), intent(in) :: self
       real(wp), intent(in) :: speed
-      wedge = -6*self%film%viscosity*speed*self%film%journal_radius*self%film%pad_radius()/self%d_phi
+      wedge = -6*self%gap%viscosity*speed*self%gap%journal_radius*self%gap%pad_radius()/self%d_phi
    end function wedge
 
    !> Factor of dh/dt in the right-hand side.
    pure real(wp) function squeeze(self)
       class(film_grid_type), intent(in) :: self
-      squeeze = 12*self%film%viscosity*self%film%pad_radius()**2
+      squeeze = 12*self%gap%viscosity*self%gap%pad_radius()**2
    end function squeeze
 
    !> What a row of mean height counts in the two forces, (column, force), m^2: area of two mirrored cells, in
@@ -124,7 +124,7 @@ contains
    pure function weight(self)
       class(film_grid_type), intent(in) :: self
       real(wp) :: weight(self%columns, 2)
-      associate (area => 2*self%film%pad_radius()*self%d_phi*self%d_z)
+      associate (area => 2*self%gap%pad_radius()*self%d_phi*self%d_z)
          weight(:, 1) = area*self%sin_cell
          weight(:, 2) = area*self%cos_cell
       end associate
@@ -135,26 +135,26 @@ contains
       class(film_grid_type), intent(in) :: self
       real(wp), intent(in) :: column_sums(:)
       real(wp) :: force(2)
-      associate (sums => column_sums + self%film%cavitation_pressure*self%rows)
+      associate (sums => column_sums + self%gap%cavitation_pressure*self%rows)
          force = -matmul(sums, self%weight())
       end associate
    end function force
 
-   !> Slopes of a force over position and velocity by its adjoint. With L p = -s and F = g . p, let L a = -g,
+   !> Derivatives of a force over position and velocity by its adjoint. With L p = -s and F = g . p, let L a = -g,
    !> a = 0 where the film has ruptured; then dF = a . (ds + dL p), and a . dL p is a sum over faces, with
    !> differences of a and p over each.
-   pure function slopes(self, speed, p, a)
+   pure function derivatives(self, speed, p, a)
       class(film_grid_type), intent(in) :: self
       real(wp), intent(in) :: speed
       !> Pressure and adjoint, (row, column).
       real(wp), intent(in) :: p(:, :), a(:, :)
-      real(wp) :: slopes(4)
+      real(wp) :: derivatives(4)
       real(wp), dimension(0:self%columns) :: over_face
       real(wp), dimension(self%columns) :: over_side, total
       real(wp) :: between(self%rows)
       real(wp) :: radius_over_d_z
       integer :: i
-      radius_over_d_z = self%film%pad_radius()/self%d_z
+      radius_over_d_z = self%gap%pad_radius()/self%d_z
       associate (n => self%columns, rows => self%rows, height => self%height)
          between = self%outward*height
          over_face(0) = 2*sum(height*(p(:rows, 1) - self%ambient)*a(:rows, 1))
@@ -167,21 +167,21 @@ contains
          end do
          over_face = over_face*3*self%h_face**2/self%d_phi**2
          over_side = over_side*3*(self%h_cell*radius_over_d_z)**2
-         slopes(1) = over_position(self%sin_face, self%sin_cell)
-         slopes(2) = over_position(self%cos_face, self%cos_cell)
-         slopes(3) = -squeeze(self)*dot_product(self%sin_cell, total)
-         slopes(4) = -squeeze(self)*dot_product(self%cos_cell, total)
+         derivatives(1) = over_position(self%sin_face, self%sin_cell)
+         derivatives(2) = over_position(self%cos_face, self%cos_cell)
+         derivatives(3) = -squeeze(self)*dot_product(self%sin_cell, total)
+         derivatives(4) = -squeeze(self)*dot_product(self%cos_cell, total)
       end associate
    contains
-      !> Slope over e_y' (sines) or e_z' (cosines): dh = -sin(phi) de_y' - cos(phi) de_z'.
+      !> Derivative over e_y' (sines) or e_z' (cosines): dh = -sin(phi) de_y' - cos(phi) de_z'.
       pure real(wp) function over_position(at_face, at_cell)
          real(wp), intent(in) :: at_face(0:), at_cell(:)
          over_position = -dot_product(wedge(self, speed)*(at_face(1:) - at_face(:self%columns - 1)), total) &
             & - dot_product(at_face, over_face) - dot_product(at_cell, over_side)
       end function over_position
-   end function slopes
+   end function derivatives
 
-   !> Pressure, Pa, (axial place, angle), from that of the cells: linear over phi between their centres and the
+   !> Pressure, Pa, (axial position, angle), from that of the cells: linear over phi between their centres and the
    !> edges, linear over Z^2 across the width, where a cell's mean stands at the mean of Z^2 in its row. So the
    !> parabola across a narrow pad comes out exactly.
    pure function pressure_at(self, p, floor, phi, z) result(pressure)
@@ -197,7 +197,7 @@ contains
          square = [self%square, 1.0_wp]
          do j = 1, size(phi)
             ! cell centres at 1, 2, ..., n; edges at 1/2 and n + 1/2
-            x = (phi(j) + self%film%trailing_angle)/self%d_phi + 0.5_wp
+            x = (phi(j) + self%gap%trailing_angle)/self%d_phi + 0.5_wp
             i = min(max(int(x), 0), n)
             before = self%ambient
             after = self%supply
@@ -215,14 +215,14 @@ contains
             line(:rows) = (1 - t)*before + t*after
             line(rows + 1) = self%ambient
             do k = 1, size(z)
-               associate (q => (2*z(k)/self%film%axial_length)**2)
+               associate (q => (2*z(k)/self%gap%axial_length)**2)
                   i = min(max(count(square <= q), 1), rows)
                   t = (q - square(i))/(square(i + 1) - square(i))
                   pressure(k, j) = max(floor, (1 - t)*line(i) + t*line(i + 1))
                end associate
             end do
          end do
-         pressure = pressure + self%film%cavitation_pressure
+         pressure = pressure + self%gap%cavitation_pressure
       end associate
    end function pressure_at
 end module film_grid

@@ -1,4 +1,4 @@
-!> Film by successive over-relaxation: the reference solver, and the one that knows cavitation.
+!> Film on finite volumes by successive over-relaxation: the solver that the others are checked against.
 !>
 !> Red-black sweeps over the finite volumes of film_grid, warm-started from the pad's last field.
 !>
@@ -68,8 +68,8 @@ module sor_film
 contains
 
    !> A solver for the films of a bearing's pads; their fields start at zero.
-   pure function new_sor_film(films, options) result(solver)
-      type(pad_gap_type), intent(in) :: films(:)
+   pure function new_sor_film(gaps, options) result(solver)
+      type(pad_gap_type), intent(in) :: gaps(:)
       type(sor_options), intent(in) :: options
       type(sor_film_type) :: solver
       integer :: i
@@ -77,19 +77,19 @@ contains
       solver%cavitation = options%cavitation
       solver%tolerance = options%tolerance
       solver%max_sweeps = options%max_sweeps
-      allocate (solver%pads(size(films)))
-      do i = 1, size(films)
-         call init_pad(solver%pads(i), films(i), options)
+      allocate (solver%pads(size(gaps)))
+      do i = 1, size(gaps)
+         call init_pad(solver%pads(i), gaps(i), options)
       end do
    end function new_sor_film
 
-   pure subroutine init_pad(pad, film, options)
+   pure subroutine init_pad(pad, gap, options)
       type(sor_pad), intent(out) :: pad
-      type(pad_gap_type), intent(in) :: film
+      type(pad_gap_type), intent(in) :: gap
       type(sor_options), intent(in) :: options
       integer :: nk
       associate (nx => options%circumferential_cells, nz => options%axial_cells)
-         pad%grid = new_film_grid(film, nx, nz)
+         pad%grid = new_film_grid(gap, nx, nz)
          pad%relaxation = options%relaxation
          if (.not. pad%relaxation > 0) pad%relaxation = best_relaxation(pad%grid)
          nk = vector_length*((nx/2 + vector_length - 1)/vector_length)
@@ -106,11 +106,11 @@ contains
    !> a uniform film on this grid.
    pure real(wp) function best_relaxation(grid)
       type(film_grid_type), intent(in) :: grid
-      real(wp) :: along, across, gap
+      real(wp) :: along, across, room
       along = 1/grid%d_phi**2
-      across = (grid%film%pad_radius()/grid%d_z)**2
-      gap = (along*(1 - cos(pi/grid%columns)) + across*(1 - cos(pi/(2*grid%rows))))/(along + across)
-      best_relaxation = 2/(1 + sqrt(gap*(2 - gap)))
+      across = (grid%gap%pad_radius()/grid%d_z)**2
+      room = (along*(1 - cos(pi/grid%columns)) + across*(1 - cos(pi/(2*grid%rows))))/(along + across)
+      best_relaxation = 2/(1 + sqrt(room*(2 - room)))
    end function best_relaxation
 
    pure logical function ruptures(self)
@@ -164,8 +164,8 @@ contains
       real(wp) :: floor
       logical :: ok
 
-      associate (pad => self%pads(i), film => self%pads(i)%grid%film)
-         response%min_film_thickness = film%min_film_thickness(motion, pad%grid%directions)
+      associate (pad => self%pads(i), gap => self%pads(i)%grid%gap)
+         response%min_film_thickness = gap%min_film_thickness(motion, pad%grid%directions)
          if (.not. response%min_film_thickness > 0) then
             response%status = film_closed
             return
@@ -180,10 +180,10 @@ contains
             floor = -huge(floor)
             if (self%cavitation /= cavitation_none) floor = 0
             response%force = pad%grid%force(column_sums(pad, floor))
-            response%min_pressure = film%cavitation_pressure + minval(pad%pressure, mask=pad%cells > 0)
-            response%max_pressure = film%cavitation_pressure &
+            response%min_pressure = gap%cavitation_pressure + minval(pad%pressure, mask=pad%cells > 0)
+            response%max_pressure = gap%cavitation_pressure &
                & + max(floor, maxval(pad%pressure, mask=pad%cells > 0))
-            if (want_derivatives) call add_slopes(self, pad, speed, response, ok)
+            if (want_derivatives) call add_derivatives(self, pad, speed, response, ok)
          end if
          if (.not. ok) then
             response%status = film_not_converged
@@ -241,7 +241,7 @@ contains
    end subroutine solve
 
    !> Force derivatives by adjoints, on the cells that are film.
-   subroutine add_slopes(self, pad, speed, response, ok)
+   subroutine add_derivatives(self, pad, speed, response, ok)
       class(sor_film_type), intent(inout) :: self
       type(sor_pad), intent(inout) :: pad
       real(wp), intent(in) :: speed
@@ -274,10 +274,10 @@ contains
             pad%adjoint(:, :, :, m) = pad%adjoint(:, :, :, m)*region
             call solve(self, pad, pad%source, region, -huge(residual), pad%adjoint(:, :, :, m), residual, ok)
             if (.not. ok) return
-            response%slope(m, :) = grid%slopes(speed, p, natural(pad%adjoint(1:nk, 1:nz, :, m)))
+            response%derivatives(m, :) = grid%derivatives(speed, p, natural(pad%adjoint(1:nk, 1:nz, :, m)))
          end do
       end associate
-   end subroutine add_slopes
+   end subroutine add_derivatives
 
    !> Sum over the rows of the pressure, not below the floor, times height, by column, Pa.
    pure function column_sums(pad, floor) result(sums)
@@ -301,7 +301,7 @@ contains
       associate (pad => self%pads(i))
          p = transpose(natural(pad%pressure(1:pad%grid%columns/2, 1:pad%grid%rows, :)))
          if (self%cavitation /= cavitation_none) p = max(p, 0.0_wp)
-         p = p + pad%grid%film%cavitation_pressure
+         p = p + pad%grid%gap%cavitation_pressure
       end associate
    end function pressure_field
 
