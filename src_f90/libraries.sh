@@ -72,12 +72,19 @@ link hdf5_serial_hl hdf5_hl
 link hdf5_serial_fortran hdf5_fortran
 link_if_there hdf5_serial_f90cstub hdf5_f90cstub
 link hdf5_serial hdf5
+# an HDF5 that works with MPI calls it in earnest, and its user links with MPI
+! grep -q MPI_Initialized "$file" || unused=
 if [ -n "$archives" ]; then for name in sz aec z; do link_if_there $name; done; flags="$flags -ldl -lpthread"; fi
 unused="$unused $(wanted '\(curl\|EVP\|aws\)_[A-Za-z0-9_]*\|HMAC\|SHA256')"
 all_flags="$all_flags $flags" flags=
 
 link fftw3
 if [ -n "$LAPACK" ]; then
+   for prefix in $prefixes; do
+      for libraries in "$prefix/lib" "$prefix/lib64"; do
+         [ ! -d "$libraries" ] || flags="$flags -L$libraries -Wl,-rpath,$libraries"
+      done
+   done
    flags="$flags $LAPACK"
 else
    # a distribution's is built by gfortran: for another compiler, the shared one brings gfortran's own library along
