@@ -56,7 +56,7 @@ def coarse_velocity_slides(runs: Runs) -> Verdict:
 
 @CLAIMS.add("Fig. 7", "With lower v_c sticking is more apparent")
 def fine_velocity_sticks(runs: Runs) -> Verdict:
-    """The same, the minimum ratio of one v_c to the next higher."""
+    """Minimum ratio of this time for one v_c to that for the next higher v_c."""
     return larger(growth(sticking(runs[name]) for name in VELOCITIES.values()))
 
 
@@ -74,7 +74,7 @@ def soft_bristles_slide(runs: Runs) -> Verdict:
 
 @CLAIMS.add("Fig. 8", "With higher sigma_0 the pads stick")
 def stiff_bristles_stick(runs: Runs) -> Verdict:
-    """The same, the minimum of all sigma_0 from 1e6 1/m."""
+    """Minimum of this time over all sigma_0 from 1e6 1/m."""
     return Verdict(min(sticking(runs[name]) for name in list(STIFFNESSES.values())[1:]), ">", RESTS)
 
 

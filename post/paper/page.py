@@ -15,12 +15,13 @@ PAGE = """\
 
 Š. Dyk, J. Rendl, R. Bulín, L. Smolík, *Influence of detailed ball-and-socket modelling on tilting pad
 journal bearings dynamics*, Nonlinear Dynamics (2023), CC BY 4.0. `make paper` writes this page: all its
-numbers are calculated from runs of the program, except those that are quoted from the paper. All checks:
-[checks.csv](checks.csv).
+numbers are calculated from runs of the program, except those that are quoted from the paper.
+[checks.csv](checks.csv) has all checks.
 
 {machine}
 
-**{count} claims checked: {good} hold, {bad} do not.** The reasons: *Claims that do not hold* below. {failed}
+**The page checks {count} claims: {good} hold, {bad} do not.** *Claims that do not hold* gives the reasons.
+{failed}
 
 One number decides a claim. It is taken over the last {last} revolutions, for pad 1, and from runs of 2 s at
 6500 rpm, unless the claim names others. A number counts as larger or smaller if the difference is more than
@@ -44,23 +45,23 @@ unbalance of Table 1 of the paper, 0.010 kg m.
 
 ## Friction work
 
-Friction dissipates energy of the tilting motion. Fretting is judged by its work per revolution and its mean
-power in each pivot. In the run-ups (unbalance of Table 1) they are:
+Friction dissipates energy of the tilting motion. Its work per revolution and its mean
+power in each pivot are measures of fretting. The picture shows them in the run-ups (unbalance of Table 1):
 
 ![Friction work per revolution and mean power over speed](work.png)
 
-At 6500 rpm:
+The table gives the values at 6500 rpm:
 
 {work}
 
 ## Stick map
 
-Bengisu-Akay, f_d = f_s/2, unbalance by rule (26) for each speed: the time in which pad 1 sticks, and the
-friction power of both pads. White points are runs.
+The map is for Bengisu-Akay friction with f_d = f_s/2 and the unbalance of rule (26) for each speed. It shows
+the time in which pad 1 sticks, and the friction power of both pads. White points are runs.
 
 ![Stick fraction and friction power over speed and friction coefficient](map.png)
 
-Time in which pad 1 sticks, %:
+The table gives the time in which pad 1 sticks, in %:
 
 {map}
 
@@ -92,9 +93,9 @@ speed of the machine. The unbalance of Table 1 of the paper corresponds to G {gr
 
 #: Introduction to the claims that change with the unbalance.
 RULE_WORDS = """\
-With the unbalance of rule (26) the orbits are larger (*Unbalance rule* below), the pads are driven harder,
-faster than 1e-3 m/s, so that they come to rest even with that v_c, and the journal comes nearer the upper
-pads. These verdicts change:"""
+With the unbalance of rule (26) the orbits are larger (*Unbalance rule* below) and drive the pads harder. The
+pads then move faster than 1e-3 m/s and come to rest even with this v_c, and the journal comes nearer to the
+upper pads. These verdicts change:"""
 
 
 def page(checked: Sequence[Checked], paper: Runs, studied: Runs, machine: str) -> str:
@@ -128,7 +129,11 @@ def page(checked: Sequence[Checked], paper: Runs, studied: Runs, machine: str) -
 
 def failed_words(failed: Sequence[Checked]) -> str:
     """Which claims fail."""
-    return "\n".join(["These do not:", "", *(f"- {short(each)}" for each in failed)]) if failed else ""
+    return (
+        "\n".join(["These claims do not hold:", "", *(f"- {short(each)}" for each in failed)])
+        if failed
+        else ""
+    )
 
 
 def section_text(section: Section, checked: Sequence[Checked]) -> str:

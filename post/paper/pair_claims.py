@@ -130,6 +130,6 @@ def characteristic_is_a_loop(runs: Runs) -> Verdict:
 
 @CLAIMS.add("Fig. 14", "Loops appear with the higher sigma_0, with the lower they are not significant")
 def loops_with_stiff_bristles(runs: Runs) -> Verdict:
-    """The same width, sigma_0 = 5e6 over 1e6 1/m, the minimum of all pairs."""
+    """Width of this loop, sigma_0 = 5e6 over 1e6 1/m, the minimum of all pairs."""
     both = zip(MODELS["LuGre 5e6"], MODELS["LuGre 1e6"], strict=True)
     return larger(min(loop_width(runs[a]) / loop_width(runs[b]) for a, b in both))

@@ -22,8 +22,8 @@ SECTIONS = (
         "generated in the BS coupling for various radius differences is shown in Fig. 4. [...] It is "
         "supposed that the snug fit [...] is the stiffest option.",
         ("Fig. 4",),
-        "Steel on steel, R_2 = 100 mm. The paper does not print the load of Fig. 3 and the radius "
-        "differences of Fig. 4.",
+        "Ball and socket are of steel, R_2 = 100 mm. The paper does not print the load of Fig. 3 and "
+        "the radius differences of Fig. 4.",
     ),
     Section(
         "Fig. 6: friction laws",
@@ -76,8 +76,8 @@ SECTIONS = (
         "further increase of sigma_0, the resulting pad tilting velocity curve shape is getting closer "
         "to the results obtained using the Bengisu-Akay model.",
         ("Figs. 11-13", "Figs. 11-12", "Fig. 11", "Fig. 12", "Fig. 13"),
-        "Above Bengisu-Akay, then LuGre with 1e6 1/m, then with 5e6 1/m. The paper does not print its "
-        "friction pairs; these span its range.",
+        "The pictures are for Bengisu-Akay, for LuGre with 1e6 1/m and for LuGre with 5e6 1/m. The "
+        "paper does not print its pairs of friction coefficients; the pairs here cover its range.",
     ),
     Section(
         "Fig. 14: friction characteristics",
@@ -104,7 +104,7 @@ SECTIONS = (
         "pads do not have a load-carrying function [...] and they are, under some conditions, even "
         "subjected to pad fluttering.",
         ("Sec. 3",),
-        "LuGre 0.1/0.05, cavitation 'gumbel' in both runs.",
+        "Both runs have LuGre friction 0.1/0.05 and cavitation 'gumbel'.",
     ),
     Section(
         "Fig. 15: run-up",
@@ -115,8 +115,8 @@ SECTIONS = (
         "sigma_0 = 1e6 1/m are different from the Bengisu-Akay model and higher sigma_0 at lower rotor "
         "speed.",
         ("Fig. 15",),
-        "Above the whole run (grey: the path with Bengisu-Akay friction), below it revolutions at low "
-        "and at high speed.",
+        "The upper panels show the whole run (grey: the path with Bengisu-Akay friction), the lower ones "
+        "revolutions at low and at high speed.",
     ),
 )
 

@@ -28,14 +28,14 @@ CLAIMS = Claims()
 @CLAIMS.add("Sec. 4", "At low speed, with the unbalance of that speed, the pads stay stuck")
 def stuck_at_low_speed(runs: Runs) -> Verdict:
     """Maximum part of the static friction used, both pads and models, at the lowest speed of the paper;
-    where it stays below 1 no pivot breaks away.
+    if it is below 1, no pivot breaks away.
     """
     return Verdict(max(breakaway(runs[f"{model}_slow"]) for model in ("ba", "lugre")), "<", 1 - RESOLUTION)
 
 
 @CLAIMS.add("Sec. 4", "A lower unbalance causes a stick at the nominal speed")
 def stuck_when_balanced(runs: Runs) -> Verdict:
-    """The same, at 6500 rpm with balance grade G 1."""
+    """This part of the static friction at 6500 rpm with balance grade G 1."""
     return Verdict(max(breakaway(runs[f"{model}_fine"]) for model in ("ba", "lugre")), "<", 1 - RESOLUTION)
 
 
@@ -74,13 +74,13 @@ def runups_differ_at_low_speed(runs: Runs) -> Verdict:
 
 @CLAIMS.add("Fig. 15", "A higher sigma_0 strengthens this deviation")
 def stiffness_strengthens_deviation(runs: Runs) -> Verdict:
-    """The same distance, sigma_0 = 5e6 over 1e6 1/m."""
+    """This distance, sigma_0 = 5e6 over 1e6 1/m."""
     return larger(runup_distance(runs, "LuGre 5e6", LOW_SPEED) / runup_distance(runs, "LuGre 1e6", LOW_SPEED))
 
 
 @CLAIMS.add("Fig. 15", "The journal orbits at 6500 rpm are comparable")
 def runups_agree_at_high_speed(runs: Runs) -> Verdict:
-    """The same distance in the last five revolutions, the greater of both sigma_0."""
+    """This distance in the last five revolutions, the larger of both sigma_0."""
     return Verdict(max(runup_distance(runs, model, HIGH_SPEED) for model in list(RUNUPS)[1:]), "<", AGREEMENT)
 
 
@@ -89,7 +89,7 @@ def runups_agree_at_high_speed(runs: Runs) -> Verdict:
     "At low speed the tilt velocity with sigma_0 = 1e6 differs from Bengisu-Akay and higher sigma_0",
 )
 def soft_bristles_differ_at_low_speed(runs: Runs) -> Verdict:
-    """Peak-to-peak tilt rate in five revolutions from 2000 rpm, sigma_0 = 1e6 1/m over the greater of the two
+    """Peak-to-peak tilt rate in five revolutions from 2000 rpm, sigma_0 = 1e6 1/m over the larger of the two
     others.
     """
     rates = {}
