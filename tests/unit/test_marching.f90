@@ -1,6 +1,7 @@
 !> The march on small problems with known solutions: accuracy, samples, refusals, limits.
 module march_problems
    use kinds, only: wp, i8
+   use lapack, only: dgesv
    use errors, only: error_type, raise, numerics_error, stopped
    use ode_model, only: ode_model_type
    use march_observer, only: march_observer_type
@@ -26,16 +27,6 @@ module march_problems
          real(wp), intent(in) :: y(:)
          real(wp) :: matrix(size(y), size(y))
       end function jacobian_matrix
-   end interface
-
-   interface
-      !> LAPACK: solves a x = b.
-      subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
-         import :: wp
-         integer, intent(in) :: n, nrhs, lda, ldb
-         real(wp), intent(inout) :: a(lda, *), b(ldb, *)
-         integer, intent(out) :: ipiv(*), info
-      end subroutine dgesv
    end interface
 
    !> y' = -k (y - cos t) - sin t, beside a damped oscillator of its own: y = cos t from y(0) = 1.

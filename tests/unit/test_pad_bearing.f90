@@ -1,0 +1,244 @@
+!> One pad and the bearing of many: the derivatives of the loads, which are not divided by masses, against differences
+!> of the loads; what an operating point changes; samples without the film solver.
+program test_pad_bearing
+   use kinds, only: wp
+   use text, only: to_text
+   use scene, only: scene_type
+   use kinematics, only: journal_motion, pad_state, columns, journal_columns, tilt_column, tilt_rate_column, &
+      & penetration_column, penetration_rate_column
+   use bearing_pad, only: pad_derivatives
+   use pad_bearing, only: pad_bearing_type, pad_sample, new_pad_bearing
+   use check, only: runs, expect, expect_close, between, report
+   implicit none (type, external)
+
+   real(wp), parameter :: speed = 680
+   character(len=*), parameter :: motions(2) = [character(len=14) :: 'tilting_radial', 'tilting_only']
+   character(len=*), parameter :: frictions(3) = [character(len=12) :: 'none', 'bengisu_akay', 'lugre']
+   integer :: i, k
+
+   do i = 1, size(motions)
+      do k = 1, size(frictions)
+         if (runs('derivatives')) call derivatives(motions(i), frictions(k))
+      end do
+      if (runs('mass_matrix')) call mass_matrix(motions(i))
+      if (runs('samples')) call samples(motions(i))
+   end do
+   if (runs('operating_point')) call operating_point()
+   call report()
+
+contains
+
+   !> Heavy pads off their balance on films without rupture, hence smooth, solved closely.
+   type(pad_bearing_type) function heavy_bearing(motion, friction) result(bearing)
+      character(len=*), intent(in) :: motion, friction
+      type(scene_type) :: scene
+      scene = scene_type()
+      scene%pads%motion = trim(motion)
+      scene%friction%model = trim(friction)
+      scene%rotor%gravity = 300
+      scene%pads%mass = [80.0_wp, 60.0_wp]
+      scene%pads%inertia = [0.03_wp, 0.025_wp]
+      scene%pads%centre_tangential = [3e-3_wp, -6e-3_wp]
+      scene%pads%pivot_ratio = [0.5_wp, 0.6_wp]
+      scene%film%solver = 'modal'
+      scene%film%cavitation = 'none'
+      bearing = new_pad_bearing(scene)
+   end function heavy_bearing
+
+   !> Pads that carry, tilted, in motion, sliding at some mm/s: away from the kinks of friction.
+   subroutine draw(journal, pads)
+      type(journal_motion), intent(out) :: journal
+      type(pad_state), intent(out) :: pads(2)
+      integer :: i
+      journal = journal_motion([between(-40e-6_wp, -20e-6_wp), between(-5e-6_wp, 5e-6_wp)], &
+         & [between(-5e-3_wp, 5e-3_wp), between(-5e-3_wp, 5e-3_wp)])
+      do i = 1, 2
+         pads(i) = pad_state(merge(between(-1e-4_wp, 1e-4_wp), between(6e-4_wp, 8e-4_wp), i == 1), &
+            & sign(between(0.3_wp, 0.6_wp), between(-1.0_wp, 1.0_wp)), between(4e-6_wp, 8e-6_wp), &
+            & between(-2e-3_wp, 2e-3_wp), between(-1e-7_wp, 1e-7_wp))
+      end do
+   end subroutine draw
+
+   !> Moves the column of a pad's derivatives, and of all where it is the journal's.
+   subroutine move(column, pad, step, journal, pads)
+      integer, intent(in) :: column, pad
+      real(wp), intent(in) :: step
+      type(journal_motion), intent(inout) :: journal
+      type(pad_state), intent(inout) :: pads(2)
+      select case (column)
+      case (1:2)
+         journal%position(column) = journal%position(column) + step
+      case (3:journal_columns)
+         journal%velocity(column - 2) = journal%velocity(column - 2) + step
+      case (tilt_column)
+         pads(pad)%tilt = pads(pad)%tilt + step
+      case (tilt_rate_column)
+         pads(pad)%tilt_rate = pads(pad)%tilt_rate + step
+      case (penetration_column)
+         pads(pad)%penetration = pads(pad)%penetration + step
+      case (penetration_rate_column)
+         pads(pad)%penetration_rate = pads(pad)%penetration_rate + step
+      end select
+   end subroutine move
+
+   !> Five-point differences with steps of 1e-3 of what changes the film: error 1e-12 times the fifth derivative, some
+   !> 1e3, rounding 1e-16 of loads of 1e5 N over steps of 1e-3; each row by its largest entry times its step. The pads'
+   !> own weight makes 1e-3 of the rows that it stands in, so 1e-7 shows every term.
+   subroutine derivatives(motion, friction)
+      character(len=*), intent(in) :: motion, friction
+      real(wp), parameter :: h = 1e-3_wp, offsets(4) = [-2*h, -h, h, 2*h]
+      real(wp), parameter :: weights(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/(12*h)
+      real(wp), parameter :: steps(columns) = [80e-6_wp, 80e-6_wp, 0.05_wp, 0.05_wp, 1e-3_wp, 0.2_wp, 7e-6_wp, 5e-3_wp]
+      type(pad_bearing_type) :: bearing
+      type(journal_motion) :: journal, moved_journal
+      type(pad_state) :: pads(2), moved(2)
+      type(pad_derivatives) :: taken(2)
+      real(wp) :: found(5, columns), expected(5, columns), of_moment(columns), over_deflection
+      character(len=:), allocatable :: refusal, what
+      logical :: ok, all_ok
+      integer :: pad, column, k, row
+      what = trim(motion)//', '//trim(friction)
+      bearing = heavy_bearing(motion, friction)
+      call draw(journal, pads)
+      call bearing%evaluate(journal, pads, speed, .true., refusal, all_ok)
+      taken = bearing%derivatives
+      do pad = 1, 2
+         call bearing%pads(pad)%friction_derivatives(bearing%loads(pad)%friction, taken(pad)%contact, of_moment, &
+            & over_deflection)
+         found(1:2, :) = taken(pad)%journal
+         found(3, :) = taken(pad)%moment + of_moment
+         found(4, :) = taken(pad)%radial
+         found(5, :) = taken(pad)%contact
+         expected = 0
+         do column = 1, columns
+            do k = 1, size(offsets)
+               moved_journal = journal
+               moved = pads
+               call move(column, pad, offsets(k)*steps(column), moved_journal, moved)
+               call bearing%evaluate(moved_journal, moved, speed, .false., refusal, ok)
+               all_ok = all_ok .and. ok
+               associate (loads => bearing%loads(pad))
+                  expected(:, column) = expected(:, column) + weights(k)*[loads%journal, loads%moment, loads%radial, &
+                     & loads%contact]
+               end associate
+            end do
+            found(:, column) = found(:, column)*steps(column)
+         end do
+         ! the pads of a bearing that only tilt have no penetration
+         if (motion == 'tilting_only') found(:, penetration_column:) = expected(:, penetration_column:)
+         do row = 1, size(found, 1)
+            call expect_close(maxval(abs(found(row, :) - expected(row, :))), 0.0_wp, &
+               & 1e-7_wp*maxval(abs(expected(row, :))), 'load '//to_text(row)//' of pad '//to_text(pad)//', '//what)
+         end do
+         call bearing%evaluate(journal, pads, speed, .false., refusal, ok)
+      end do
+      call expect(all_ok, 'all states are admitted, '//what)
+   end subroutine derivatives
+
+   !> Masses times their inverse.
+   subroutine mass_matrix(motion)
+      character(len=*), intent(in) :: motion
+      type(pad_bearing_type) :: bearing
+      real(wp) :: unit(2, 2), masses(2, 2)
+      integer :: i
+      bearing = heavy_bearing(motion, 'none')
+      do i = 1, 2
+         associate (pad => bearing%pads(i))
+            masses = reshape([pad%inertia, pad%mass*pad%centre_tangential, pad%mass*pad%centre_tangential, pad%mass], &
+               & [2, 2])
+            unit = matmul(pad%inverse_masses(), masses)
+         end associate
+         if (motion == 'tilting_radial') then
+            call expect_close(norm2(unit - reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])), 0.0_wp, 1e-12_wp, &
+               & 'inverse of the masses of pad '//to_text(i))
+         else
+            call expect_close(unit(1, 1), 1.0_wp, 1e-15_wp, 'inverse of the inertia of pad '//to_text(i))
+         end if
+      end do
+   end subroutine mass_matrix
+
+   !> In the state of an evaluation its outputs give its samples; pressures are those at the edges at least.
+   subroutine samples(motion)
+      character(len=*), intent(in) :: motion
+      type(pad_bearing_type) :: bearing
+      type(journal_motion) :: journal
+      type(pad_state) :: pads(2)
+      type(pad_sample) :: evaluated(2), completed(2)
+      real(wp) :: output(6), nothing(columns, 2), change(columns, 2)
+      character(len=:), allocatable :: refusal
+      logical :: ok
+      integer :: i
+      bearing = heavy_bearing(motion, 'lugre')
+      call draw(journal, pads)
+      call bearing%evaluate(journal, pads, speed, .true., refusal, ok)
+      call expect(ok, 'a state with films')
+      evaluated = bearing%sampled()
+      nothing = 0
+      output = bearing%output(nothing)
+      completed = bearing%samples(journal, pads, output)
+      do i = 1, 2
+         associate (a => completed(i), b => evaluated(i))
+            call expect_close(norm2(a%film_force - b%film_force) + abs(a%contact_force - b%contact_force), 0.0_wp, &
+               & 1e-12_wp*norm2(b%film_force), 'film and contact force of pad '//to_text(i))
+            call expect_close(a%friction_moment, b%friction_moment, 1e-12_wp*abs(b%friction_moment), 'friction moment')
+            call expect_close(a%min_film_thickness, b%min_film_thickness, 1e-18_wp, 'minimum film thickness')
+            call expect_close(a%max_pressure, b%max_pressure, 0.0_wp, 'maximum pressure')
+         end associate
+      end do
+      change = nothing
+      change(1, 2) = 1e-6_wp
+      output = bearing%output(change) - output
+      call expect_close(norm2(output([1, 2, 3, 6])), 0.0_wp, 0.0_wp, 'a change of the other pad does not count')
+      call expect_close(norm2(output(4:5) - bearing%derivatives(2)%film(:, 1)*1e-6_wp), 0.0_wp, &
+         & 1e-9_wp*norm2(output(4:5)), 'what a change adds to the force')
+      output = -1e9_wp
+      completed = bearing%samples(journal, pads, output)
+      call expect_close(maxval(abs(completed%max_pressure)), 0.0_wp, 0.0_wp, 'no pressure below that of the edges')
+   end subroutine samples
+
+   !> Friction off and films kept whole, and both back.
+   subroutine operating_point()
+      type(scene_type) :: scene
+      type(pad_bearing_type) :: bearing
+      type(journal_motion) :: journal
+      type(pad_state) :: pads(2)
+      real(wp) :: ruptured(2), whole(2)
+      character(len=:), allocatable :: refusal
+      character(len=6), parameter :: solvers(3) = [character(len=6) :: 'auto', 'sor', 'modal']
+      logical :: ok
+      integer :: k
+      do k = 1, size(solvers)
+         scene = scene_type()
+         scene%friction%model = 'bengisu_akay'
+         scene%film%solver = trim(solvers(k))
+         if (solvers(k) == 'modal') scene%film%cavitation = 'gumbel'
+         bearing = new_pad_bearing(scene)
+         call expect(.not. bearing%smooth() .and. bearing%films_rupture(), 'friction and rupture, '//solvers(k))
+         ! the wedge of the second pad opens: its film ruptures
+         journal%position = [-3e-5_wp, 0.0_wp]
+         pads = [pad_state(2e-4_wp, 0.3_wp, 5e-6_wp), pad_state(-6e-4_wp, 0.3_wp, 5e-6_wp)]
+         call bearing%evaluate(journal, pads, speed, .false., refusal, ok)
+         call expect(ok .and. abs(bearing%loads(1)%friction%force) > 0, 'friction acts, '//solvers(k))
+         ruptured = bearing%loads(2)%journal
+         bearing%rubs = .false.
+         call bearing%set_rupture(.false.)
+         call expect(bearing%smooth() .and. .not. bearing%films_rupture(), 'neither, '//solvers(k))
+         call bearing%evaluate(journal, pads, speed, .false., refusal, ok)
+         call expect_close(bearing%loads(1)%friction%force, 0.0_wp, 0.0_wp, 'no friction, '//solvers(k))
+         whole = bearing%loads(2)%journal
+         call expect(norm2(whole - ruptured) > 1e-2_wp*norm2(ruptured), &
+            & 'the whole film has another force, '//solvers(k))
+         scene%film%cavitation = 'none'
+         bearing%rubs = .true.
+         call bearing%set_rupture(.true.)
+         call bearing%evaluate(journal, pads, speed, .false., refusal, ok)
+         call expect_close(norm2(bearing%loads(2)%journal - ruptured), 0.0_wp, 1e-5_wp*norm2(ruptured), &
+            & 'and back, within the tolerance of sor, '//solvers(k))
+         bearing = new_pad_bearing(scene)
+         call expect(.not. bearing%films_rupture(), 'no rupture by the input, '//solvers(k))
+         call bearing%evaluate(journal, pads, speed, .false., refusal, ok)
+         call expect_close(norm2(bearing%loads(2)%journal - whole), 0.0_wp, 1e-5_wp*norm2(whole), &
+            & 'the whole film is that of the input without rupture, '//solvers(k))
+      end do
+   end subroutine operating_point
+end program test_pad_bearing

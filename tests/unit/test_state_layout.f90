@@ -1,0 +1,127 @@
+!> The layout of the state: its indices cover the state once, what is put in comes out, and changes of the state stand
+!> in the columns of the pads.
+program test_state_layout
+   use kinds, only: wp
+   use text, only: to_text
+   use kinematics, only: pad_state, columns, tilt_column, tilt_rate_column, penetration_column, penetration_rate_column
+   use state_layout, only: state_layout_type, new_state_layout
+   use check, only: runs, expect, expect_close, report
+   implicit none (type, external)
+
+   integer, parameter :: pads = 3
+   !> That of a rigid journal, and another.
+   integer, parameter :: rotors(*) = [4, 10]
+   logical, parameter :: choices(2) = [.false., .true.]
+   integer :: i, k, l
+
+   do i = 1, size(rotors)
+      do k = 1, size(choices)
+         do l = 1, size(choices)
+            if (runs('indices')) call indices(new_state_layout(rotors(i), pads, choices(k), choices(l)))
+            if (runs('states_of_pads')) call states_of_pads(new_state_layout(rotors(i), pads, choices(k), choices(l)))
+            if (runs('changes')) call changes(new_state_layout(rotors(i), pads, choices(k), choices(l)))
+         end do
+      end do
+   end do
+   call report()
+
+contains
+
+   pure function what(layout)
+      type(state_layout_type), intent(in) :: layout
+      character(len=:), allocatable :: what
+      what = ', rotor of '//to_text(layout%rotor)
+      if (layout%radial) what = what//', penetrations'
+      if (layout%bristles) what = what//', bristles'
+   end function what
+
+   !> Rotor, then the pads one after another: every state has one index, and every position a rate.
+   subroutine indices(layout)
+      type(state_layout_type), intent(in) :: layout
+      integer :: all_pads(pads), own, i
+      integer, allocatable :: found(:)
+      own = merge(4, 2, layout%radial) + merge(1, 0, layout%bristles)
+      call expect(layout%per_pad == own .and. layout%n == layout%rotor + pads*own, 'number of states'//what(layout))
+      all_pads = [(i, i=1, pads)]
+      call expect(all(layout%first(all_pads) == layout%rotor + 1 + own*(all_pads - 1)), 'first states'//what(layout))
+      found = [[(i, i=1, layout%rotor)], layout%tilt(all_pads), layout%tilt_rate(all_pads)]
+      if (layout%radial) found = [found, layout%penetration(all_pads), layout%penetration_rate(all_pads)]
+      if (layout%bristles) found = [found, layout%bristle(all_pads)]
+      call expect_each_once(layout, found, 'all states')
+      found = [layout%positions(), layout%rates()]
+      if (layout%bristles) found = [found, layout%bristle(all_pads)]
+      call expect_each_once(layout, found, 'positions, rates and bristles')
+      associate (positions => layout%positions(), rates => layout%rates())
+         call expect(size(positions) == size(rates), 'each position has a rate'//what(layout))
+         call expect(all(positions(:layout%rotor/2) == [(i, i=1, layout%rotor/2)]) &
+            & .and. all(rates(:layout%rotor/2) == positions(:layout%rotor/2) + layout%rotor/2), &
+            & 'displacements and then rates of the rotor'//what(layout))
+         call expect(all(rates(layout%rotor/2 + 1:) == positions(layout%rotor/2 + 1:) + 1), &
+            & 'rates of the pads stand behind what they are rates of'//what(layout))
+      end associate
+   end subroutine indices
+
+   subroutine expect_each_once(layout, found, name)
+      type(state_layout_type), intent(in) :: layout
+      integer, intent(in) :: found(:)
+      character(len=*), intent(in) :: name
+      integer :: counted(layout%n), i
+      counted = 0
+      do i = 1, size(found)
+         counted(found(i)) = counted(found(i)) + 1
+      end do
+      call expect(all(counted == 1), name//', each once'//what(layout))
+   end subroutine expect_each_once
+
+   !> What a layout has comes back, the rest as 0; other states stay as they are.
+   subroutine states_of_pads(layout)
+      type(state_layout_type), intent(in) :: layout
+      type(pad_state) :: states(pads), back(pads)
+      real(wp) :: y(layout%n)
+      integer :: i
+      states = [(pad_state(10.0_wp + i, 20.0_wp + i, 30.0_wp + i, 40.0_wp + i, 50.0_wp + i), i=1, pads)]
+      y = -1
+      call layout%put_pads(states, y)
+      call expect(all(y(:layout%rotor) < 0) .and. all(y(layout%rotor + 1:) > 0), 'pads alone are put'//what(layout))
+      back = layout%pad_states(y)
+      call expect_close(maxval(abs(back%tilt - states%tilt) + abs(back%tilt_rate - states%tilt_rate)), 0.0_wp, 0.0_wp, &
+         & 'tilts come back'//what(layout))
+      if (.not. layout%radial) then
+         states%penetration = 0
+         states%penetration_rate = 0
+      end if
+      if (.not. layout%bristles) states%deflection = 0
+      call expect_close(maxval(abs(back%penetration - states%penetration) &
+         & + abs(back%penetration_rate - states%penetration_rate) + abs(back%deflection - states%deflection)), &
+         & 0.0_wp, 0.0_wp, 'what a pad has comes back, the rest is 0'//what(layout))
+      do i = 1, pads
+         call expect_close(y(layout%tilt_rate(i)), 20.0_wp + i, 0.0_wp, 'tilt rate by its index'//what(layout))
+         if (layout%radial) call expect_close(y(layout%penetration(i)), 30.0_wp + i, 0.0_wp, &
+            & 'penetration by its index'//what(layout))
+         if (layout%bristles) call expect_close(y(layout%bristle(i)), 50.0_wp + i, 0.0_wp, &
+            & 'bristles by their index'//what(layout))
+      end do
+   end subroutine states_of_pads
+
+   !> The journal's change in every pad's first columns, its own in the others; bristles have no column.
+   subroutine changes(layout)
+      type(state_layout_type), intent(in) :: layout
+      real(wp), parameter :: journal(4) = [1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp]
+      real(wp) :: y(layout%n), change(columns, pads), expected(columns)
+      integer :: i
+      y = [(100.0_wp + i, i=1, layout%n)]
+      change = layout%over_columns(journal, y)
+      do i = 1, pads
+         expected = 0
+         expected(:4) = journal
+         expected(tilt_column) = y(layout%tilt(i))
+         expected(tilt_rate_column) = y(layout%tilt_rate(i))
+         if (layout%radial) then
+            expected(penetration_column) = y(layout%penetration(i))
+            expected(penetration_rate_column) = y(layout%penetration_rate(i))
+         end if
+         call expect_close(maxval(abs(change(:, i) - expected)), 0.0_wp, 0.0_wp, &
+            & 'columns of pad '//to_text(i)//what(layout))
+      end do
+   end subroutine changes
+end program test_state_layout
