@@ -265,7 +265,7 @@ build/wrap/library: $(B)/obj/library.o $(B)/lib/unused.o $(B)/flags $(VENV)/read
 	@$(MAKE) --no-print-directory MODE=wrap python_library FOLDER=post/tiltpad
 	@touch $@
 
-# compiles it, in MODE=wrap, for the Python of VENV into FOLDER
+# compiles it, in MODE=wrap, for the Python of VENV into FOLDER; from an archive only what it uses is linked
 f2py = $(B)/f2py/$(FOLDER)
 python_library: $(B)/obj/library.o $(B)/lib/unused.o
 	@rm -rf $(f2py) && mkdir -p $(f2py)
@@ -274,7 +274,8 @@ python_library: $(B)/obj/library.o $(B)/lib/unused.o
 	$(COMPILE) -c $(f2py)/_library-f2pywrappers2.f90 -o $(f2py)/wrappers.o; \
 	$(CC) -O2 -fPIC -w -I$$python -I$$numpy -I$$f2py -c $(f2py)/_librarymodule.c -o $(f2py)/module.o; \
 	$(CC) -O2 -fPIC -w -I$$python -I$$numpy -I$$f2py -c $$f2py/fortranobject.c -o $(f2py)/fortranobject.o; \
-	$(FC) -shared -s -Wl,--as-needed $(f2py)/*.o $(B)/obj/*.o $(B)/lib/unused.o $(LIBS) -o $(FOLDER)/_library$$suffix
+	rm -f $(B)/lib/modules.a; ar rcs $(B)/lib/modules.a $(B)/obj/*.o; \
+	$(FC) -shared -s -Wl,--as-needed $(f2py)/*.o $(B)/lib/modules.a $(B)/lib/unused.o $(LIBS) -o $(FOLDER)/_library$$suffix
 
 $(VENV)/ready: post/pyproject.toml post/setup.py post/requirements.txt | build/deps-checked
 	$(PYTHON) -m venv $(VENV)
