@@ -324,8 +324,8 @@ contains
             & //to_text(norm2(after%force))
          call expect_close(norm2(after%force - before%force), 0.0_wp, allowed(1), 'jump of the force'//what)
          if (.not. path%flooded) call expect_close(norm2(matmul(after%derivatives - before%derivatives, &
-            & direction(path, left)) - merge(-1, 1, was)*left_out(path, merge(left, right, was), 2*columns, 2*rows)), 0.0_wp, &
-            & 2*allowed(2), 'jump of the slope'//what)
+            & direction(path, left)) - merge(-1, 1, was)*left_out(path, merge(left, right, was), 2*columns, 2*rows)), &
+            & 0.0_wp, 2*allowed(2), 'jump of the slope'//what)
          was = .not. was
       end do
       call expect(switches == 2, 'one onset, one end of rupture: '//to_text(switches))

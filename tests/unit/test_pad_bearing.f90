@@ -5,7 +5,7 @@ program test_pad_bearing
    use text, only: to_text
    use scene, only: scene_type
    use kinematics, only: journal_motion, pad_state, columns, journal_columns, tilt_column, tilt_rate_column, &
-      & penetration_column, penetration_rate_column
+      & penetration_column
    use bearing_pad, only: pad_derivatives
    use pad_bearing, only: pad_bearing_type, pad_sample, new_pad_bearing
    use check, only: runs, expect, expect_close, between, report
@@ -76,7 +76,7 @@ contains
          pads(pad)%tilt_rate = pads(pad)%tilt_rate + step
       case (penetration_column)
          pads(pad)%penetration = pads(pad)%penetration + step
-      case (penetration_rate_column)
+      case default
          pads(pad)%penetration_rate = pads(pad)%penetration_rate + step
       end select
    end subroutine move
