@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from tiltpad.files import units
+from tiltpad.files import namelist, units
 
 #: Variables without influence on the results: inputs that differ in them alone count as the same.
 IGNORED = ("case%title", "output%checkpoint_seconds")
@@ -53,15 +53,15 @@ def flattened(groups: dict[str, dict[str, Any]]) -> dict[str, Any]:
     """Values by "group%name" for a reader: one speed or a range, a value that all pads share once."""
     values = by_variable(groups)
     first, last = values.pop("operation%speed_rpm"), values.pop("operation%final_speed_rpm")
-    angles = values["pads%pivot_angle_deg"]
-    told = {"speed": f"{first:g} rpm" if first == last else f"{first:g} to {last:g} rpm"}
-    told["pads"] = f"{len(angles) if isinstance(angles, tuple) else 1} pads"
+    found = {"speed": f"{first:g} rpm" if first == last else f"{first:g} to {last:g} rpm"}
+    found["pads"] = f"{namelist.count(values['pads%pivot_angle_deg'])} pads"
     for name, value in values.items():
-        told[name] = shared(value) if name.startswith("pads%") else value
-    return told
+        found[name] = shared(value) if name.startswith("pads%") else value
+    return found
 
 
 def described(name: str, value: Any) -> str:
+    """A value of a variable in words: "LuGre", "duration = 0.02 s"."""
     text, unit = units.named(name)
     if value is None:
         return f"no {text}"

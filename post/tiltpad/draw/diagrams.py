@@ -309,12 +309,12 @@ def label(study: Study, name: str) -> str:
 
 def edges(values: np.ndarray, scale: str) -> np.ndarray:
     """Borders of the cells around rising values: half way, in ratio on a logarithmic axis."""
-    places = np.log(values) if scale == "log" else values
-    if len(places) == 1:
-        found = places[0] + np.array([-0.5, 0.5])
+    x = np.log(values) if scale == "log" else values
+    if len(x) == 1:
+        found = x[0] + np.array([-0.5, 0.5])
     else:
-        middle = (places[1:] + places[:-1]) / 2
-        found = np.array([2 * places[0] - middle[0], *middle, 2 * places[-1] - middle[-1]])
+        middle = (x[1:] + x[:-1]) / 2
+        found = np.array([2 * x[0] - middle[0], *middle, 2 * x[-1] - middle[-1]])
     return np.exp(found) if scale == "log" else found
 
 
