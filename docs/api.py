@@ -11,21 +11,21 @@ from tiltpad.files import read
 
 HEAD = """# Python package
 
-`make docs` writes this page from the docstrings, which `help(tiltpad.orbit)` shows, too.
+`make docs` writes this page from the docstrings; `help(tiltpad.orbit)` prints the same text.
 
     import tiltpad
     run = tiltpad.read("case.h5")                 # opens the file, loads nothing
     run.journal_y                                 # a dataset, as an array in SI units
-    y, z = tiltpad.orbit(run, last=2)             # the functions below: take a run, give arrays
-    ax = tiltpad.plots.orbit(run)                 # one run on one pair of axes
-    fig = tiltpad.figures.orbit([run, other])     # a whole picture, as tiltpad-plot makes it
-    tiltpad.collect("folder", "study.h5")         # many runs in one file
+    y, z = tiltpad.orbit(run, last=2)             # the functions below take a run and return arrays
+    ax = tiltpad.plots.orbit(run)                 # draws one run on one pair of axes
+    fig = tiltpad.figures.orbit([run, other])     # draws the picture that tiltpad-plot makes
+    tiltpad.collect("folder", "study.h5")         # puts many runs into one file
     study = tiltpad.read_study("study.h5")
     study.speed_rpm, study.orbit_y                # arrays over its members
     ax = tiltpad.diagrams.diagram(study)
 
-Names, dimensions and units of the datasets: [results.md](results.md). `(time,)`, `(pad,)`, `(time, pad)` are
-shapes of arrays. Where a run does not have a dataset, `NotInRunError` gives the reason.
+[results.md](results.md) lists the names, dimensions and units of the datasets. `(time,)`, `(pad,)` and
+`(time, pad)` are shapes of arrays. If a run does not have a dataset, `NotInRunError` gives the reason.
 """
 
 

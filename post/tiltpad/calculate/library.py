@@ -27,7 +27,7 @@ PAPER = "&case /"
 
 
 class MissingLibraryError(ImportError):
-    """The package has no compiled part, or one that does not fit this machine or this Python."""
+    """The package has no compiled part, or its compiled part does not work on this machine or Python."""
 
 
 class LibraryError(RuntimeError):
@@ -140,7 +140,7 @@ def shares(points: int | np.ndarray, first: float, outside: str) -> np.ndarray:
 
 
 def contact(penetration: float | np.ndarray, case: Run | str = PAPER) -> Contact:
-    """Contact of a pivot at penetrations, m; zero where these are not positive."""
+    """Contact of a pivot at penetrations, m; it is zero where these are not positive."""
     return Contact(*elementwise("contact", case, penetration))
 
 
@@ -176,7 +176,7 @@ def friction_force(
 def bristle_rate(
     velocity: float | np.ndarray, deflection: float | np.ndarray, case: Run | str = PAPER
 ) -> np.ndarray:
-    """Rate of the bristle deflection, m/s, eq (24); zero where the friction has no bristles."""
+    """Rate of the bristle deflection, m/s, eq (24); zero if the friction has no bristles."""
     return elementwise("friction_force", case, velocity, deflection, 0.0)[1]
 
 

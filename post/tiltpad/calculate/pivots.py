@@ -48,7 +48,7 @@ def path_integral(x: np.ndarray, y: np.ndarray) -> float:
 
 
 def friction_work(run: Run, pad: int = 1, last: float = 1) -> float:
-    """Work that friction in the pivot of a pad dissipates in a shaft revolution, J; mean over the last ones.
+    """Mean work that friction in the pivot of a pad dissipates in each of the last revolutions, J.
 
     It is the integral of the friction moment over the tilt. At least one revolution is needed.
     """

@@ -32,7 +32,7 @@ class MemberWarning(UserWarning):
 
 
 class Collected(NamedTuple):
-    """Members of a study by how they ended, the numbers that are missing, and the file."""
+    """The numbers of members by the way they ended, the missing members, and the file of the study."""
 
     members: int
     done: int
@@ -56,7 +56,7 @@ def collect(
 
     `output` is by default the folder's name with .h5, in the working directory. A file that cannot be read
     becomes a member without values, with a MemberWarning. Raises ValueError for members of different sweeps
-    and for an output that would replace anything but a study, RunError where no file can be read.
+    and for an output that would replace anything but a study, and RunError if no file can be read.
     """
     given = [Path(each) for each in ([paths] if isinstance(paths, str | os.PathLike) else paths)]
     target = Path(output) if output is not None else default_output(given)

@@ -1,4 +1,4 @@
-"""HDF5 files of tiltpad: opening them, and one line about what is wrong with them.
+"""Opening HDF5 files of tiltpad, with a message of one line if a file is wrong.
 
 Any error of the HDF5 library over a damaged file becomes a RunError that names the file. Sizes that a file
 claims are compared with its own size before memory is allocated.
@@ -31,7 +31,7 @@ COMPRESSION = 1100
 
 
 class RunError(Exception):
-    """The file is missing, or is no result of tiltpad that can be read."""
+    """The file does not exist, or is not a readable result of tiltpad."""
 
 
 class NotInRunError(RunError, AttributeError):

@@ -1,4 +1,4 @@
-"""Result files: opening them, and the reason where one cannot be read."""
+"""Reading result files, with a reason if a file cannot be read."""
 
 import os
 import warnings
@@ -46,7 +46,7 @@ DIMENSIONS = {
 
 
 class IncompleteRunWarning(UserWarning):
-    """The run did not reach its end; the file has the samples up to there."""
+    """The run did not reach its end; the file has the samples up to the time at which it stopped."""
 
 
 def read(path: str | os.PathLike) -> "Run":
@@ -124,7 +124,7 @@ class Run(Archive):
         return values
 
     def end(self) -> str:
-        """The time at which an incomplete run ended, as the end of a sentence."""
+        """The time at which an incomplete run ended, as words for the end of a sentence."""
         if not self.samples:
             return " without samples in time"
         duration = self.input["operation"]["duration"]
