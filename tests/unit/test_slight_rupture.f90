@@ -143,9 +143,9 @@ contains
       logical :: few
       integer :: trial, inside
       inside = 0
-      do trial = 1, 150
+      do trial = 1, 300
          call film_at(film_motion(clearance*[between(-0.15_wp, 0.0_wp), between(0.2_wp, 0.6_wp)], [0.0_wp, 0.0_wp]), &
-            & between(1e3_wp, 5e4_wp), grid, basis, film)
+            & between(1e3_wp, 1e6_wp), grid, basis, film)
          p = relaxed(grid, .true.)
          if (any(p <= 0) .and. all(p(:, 1) > 0)) inside = inside + 1
          call force_of_few(grid, basis, film, force, few)

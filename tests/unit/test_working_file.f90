@@ -1,7 +1,7 @@
 !> Working files: what stands under the file's name at each moment, and beside it.
 program test_working_file
    use errors, only: error_type, system_error
-   use files, only: delete_file
+   use files, only: delete_file, link_file
    use scratch, only: scratch_path, file_there, write_bytes, bytes_of
    use working_file, only: working_file_type
    use check, only: runs, expect, expect_no_error, expect_error, report
@@ -92,12 +92,18 @@ contains
    subroutine continued()
       type(working_file_type) :: work
       type(error_type), allocatable :: error
+      character(len=:), allocatable :: other
+      logical :: linked
       call clear()
       call write_bytes(path, 'before')
       call write_bytes(path//'.part', 'left by a crash')
+      other = scratch_path('other')
+      linked = link_file(path//'.part', other)
       call claim(work)
       call work%copy_published(error)
       call expect_no_error(error, 'copied')
+      call expect(linked .and. bytes_of(other) == 'left by a crash', 'into a new file: a reader keeps the old one')
+      call delete_file(other)
       call expect_files('before', 'before', 'copied')
       call write_bytes(work%part, 'more')
       call expect_files('before', 'more', 'changed')
