@@ -1,8 +1,8 @@
 #!/bin/bash
 # One case as a job:
 #    sbatch [sbatch options] input/slurm/case.sh CASE.nml [--set group%name=value ...]
-# The result is CASE.h5 in the directory of submission. Requeued or submitted again, the job goes on from the
-# last checkpoint; where the result is complete it does nothing.
+# The result is CASE.h5 in the folder of submission. A job that is requeued or submitted again continues from the
+# last checkpoint; if the result is complete, it does nothing.
 #SBATCH --ntasks=1 --cpus-per-task=1 --mem-per-cpu=1G
 #SBATCH --time=01:00:00
 #SBATCH --signal=B:USR1@60
@@ -13,12 +13,13 @@ if [ $# -eq 0 ]; then
    exit 1
 fi
 
-# ---- the same in sweep.sh: Slurm runs a copy of a job script, so each stands alone ----
+# ---- the same in sweep.sh: Slurm runs a copy of a job script, so each script must be complete ----
 signal=
 program=
 signalled=
 
-# USR1: the time is nearly over. TERM: preemption, requeue or scancel, and Slurm knows itself what comes then.
+# Slurm sends USR1 shortly before the time limit, and TERM for preemption, requeue or scancel. After TERM Slurm itself
+# requeues the job or ends it.
 trap 'pass_on USR1' USR1
 trap 'pass_on TERM' TERM
 # shellcheck disable=SC2317 # called by the traps
@@ -28,15 +29,15 @@ pass_on() {
    [ -n "$program" ] && kill -s "$1" "$program" 2>/dev/null
 }
 
-# Runs a command and passes on the signals that come to this script; its status is the command's.
+# Runs a command and passes on the signals that come to this script; the status is that of the command.
 run() {
    "$@" &
    program=$!
-   # one that came while nothing ran
+   # a signal may have come before the program ran
    [ -n "$signal" ] && kill -s "$signal" "$program"
    wait "$program"
    status=$?
-   # a signal ends the wait, not the program
+   # a signal ends the wait, but not the program
    while [ -n "$signalled" ]; do
       signalled=
       wait "$program"
@@ -46,8 +47,8 @@ run() {
    return "$status"
 }
 
-# Ends the job. One that was stopped as its time was over goes back into the queue: a task of an array by both its
-# numbers, as the job number of one of them is the whole array's.
+# Ends the job. A job that was stopped by its time limit goes back into the queue. A task of an array needs both its
+# numbers for this, because the job number of one of the tasks is that of the whole array.
 finish() {
    task=${SLURM_ARRAY_TASK_ID:+${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID}
    [ "$1" -gt 3 ] && [ "$signal" = USR1 ] && scontrol requeue "${task:-$SLURM_JOB_ID}"

@@ -1,7 +1,7 @@
 #!/bin/bash
-# A whole study in one go: the members of a sweep as an array of jobs, and behind it their results into one file.
+# Submits a whole study: the members of a sweep as an array of jobs, and a job that collects their results in one file.
 #    input/slurm/submit.sh CASE.nml [MEMBERS_A_TASK [TASKS_AT_A_TIME [sbatch options]]]
-# By default one member a task and fifty tasks at a time. The results are CASE/0001.h5, ... and CASE.h5 here.
+# The defaults are one member per task and fifty tasks at a time. The results are CASE/0001.h5, ... and CASE.h5.
 set -eu
 
 if [ $# -eq 0 ] || [[ ! "${2:-1} ${3:-1}" =~ ^[1-9][0-9]*\ [1-9][0-9]*$ ]]; then
@@ -15,7 +15,7 @@ scripts=$(dirname "$(readlink -f "$0")")
 name=${case##*/}
 name=${name%.*}
 
-# a fault of any member shows here, and not in the log of a job; so does a case that is no sweep
+# an error in any member shows here and not in the log of a job; so does a case without a sweep
 tiltpad --check --member 1 "$case" >/dev/null
 tiltpad --check "$case" >/dev/null
 members=$(tiltpad --count "$case")

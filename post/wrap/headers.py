@@ -1,4 +1,4 @@
-"""Exit status 0 where a compiled part can be made for this Python: its headers are here, and it can make environments."""
+"""Exit status 0 if a compiled part can be built for this Python: it has headers and can make environments."""
 
 import ensurepip  # noqa: F401 - what python3-venv brings
 import sys
