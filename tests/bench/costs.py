@@ -89,7 +89,7 @@ def skips_words(runs: list[Row], kernels: list[Row]) -> str:
         f"{run.jacobians} Jacobians; computing them with each of the {run.rhs} right-hand sides would take "
         f"{short(derivatives, 2)} s more. Its {samples} samples use the film at the ends of the steps; "
         f"evaluating the film at each sample would take {short(evaluated, 2)} s more (with the times of a "
-        "whole film in *One film*). A tilting-only scene needs no contact table, which takes "
+        "film without rupture in *One film*). A tilting-only scene needs no contact table, which takes "
         f"{short(1e3 * contact.film_seconds, 2)} ms."
     )
 

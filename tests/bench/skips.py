@@ -14,19 +14,19 @@ SAMPLE = 60 / 6500 / 360
 TABLE = "table"
 #: (what is left out, scene, setting without it, setting with it)
 SKIPS = (
-    ("states: the pivot's two, in a scene that is tilting-only", "input/paper/steady_to.nml",
+    ("the pivot's two states in a tilting-only scene", "input/paper/steady_to.nml",
      (), ("pads%motion=tilting_radial",)),
-    ("states: the bristles', in a scene without friction", "input/paper/steady_tr.nml",
+    ("the bristles' states in a scene without friction", "input/paper/steady_tr.nml",
      (), ("friction%model=lugre", "friction%static_coefficient=1e-6", "friction%dynamic_coefficient=1e-6")),
     ("axial modes that the pad's shape does not need", LUGRE,
      ("film%cavitation=none",), ("film%cavitation=none", "film%axial_modes=24")),
     ("the other half of the film (over-relaxation, 0.02 s)", LUGRE,
      ("film%solver=sor", "operation%duration=0.02"),
      ("film%solver=sor", "operation%duration=0.02", "film%axial_cells=30")),
-    ("rupture where the film is whole, or in a corner only", LUGRE,
+    ("rupture where there is none, or only in a corner", LUGRE,
      ("operation%duration=0.02",), ("operation%duration=0.02", "film%solver=sor")),
-    ("steps that end at samples: CVODE interpolates", LUGRE, (), (f"integration%max_step={SAMPLE:.3g}",)),
-    ("revolutions that repeat: stop_when_periodic", LUGRE,
+    ("steps that end at samples (CVODE interpolates)", LUGRE, (), (f"integration%max_step={SAMPLE:.3g}",)),
+    ("revolutions that repeat (stop_when_periodic)", LUGRE,
      ("integration%stop_when_periodic=1e-4",), ()),
 )  # fmt: skip
 

@@ -93,7 +93,7 @@ def figures(rows: list[Row], film_rows: list[Row], kernels: list[Row]) -> str:
         modal, sor = alone[MODAL], alone[SOR]
         time, ratio = 1e6 * modal.film_seconds, sor.film_seconds / modal.film_seconds
         figure = f"{FILM_MICROSECONDS:g} us", f"{short(time)} us", verdict(time, FILM_MICROSECONDS)
-        lines.append(("one whole film of a pad, by axial modes", *figure, small(modal.error), ""))
+        lines.append(("one film of a pad without rupture, by axial modes", *figure, small(modal.error), ""))
         reached = verdict(ratio, FILM_RATIO, least=True)
         lines.append(
             ("the same film by sor on 60 x 15, over this time", FILM_RATIO, f"{ratio:.0f}", reached, "", "")
