@@ -78,7 +78,11 @@ def one_error(process, status):
 
 def series(file):
     """Names of the series over time."""
-    return [name for name, each in file.items() if isinstance(each, h5py.Dataset) and name not in ("pad", "pivot_angle")]
+    return [
+        name
+        for name, each in file.items()
+        if isinstance(each, h5py.Dataset) and name not in ("pad", "pivot_angle")
+    ]
 
 
 def lengths(file):

@@ -337,3 +337,9 @@ def test_killed_in_the_middle(program, tiltpad, case):
         assert process.poll() is None
         process.kill()
     assert (case / "case.h5").read_bytes() == earlier
+
+
+def test_the_input_reference_is_up_to_date(tiltpad, root):
+    said = tiltpad("--reference").stdout
+    head = (root / "docs/inputs_head.md").read_text()
+    assert (root / "docs/inputs.md").read_text() == head + said, "docs/inputs.md is old: call make docs"

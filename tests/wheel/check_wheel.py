@@ -16,7 +16,9 @@ def package() -> None:
     for program in Path(sys.prefix, "libexec/tiltpad").iterdir():
         needed = subprocess.run(["ldd", program], capture_output=True, text=True, check=True).stdout
         names = {line.split()[0].rpartition("/")[2].partition(".so")[0] for line in needed.splitlines()}
-        assert names <= {"linux-vdso", "libm", "libmvec", "libc", "ld-linux-x86-64", "ld-linux-aarch64"}, names
+        assert names <= {"linux-vdso", "libm", "libmvec", "libc", "ld-linux-x86-64", "ld-linux-aarch64"}, (
+            names
+        )
 
 
 def run() -> None:
