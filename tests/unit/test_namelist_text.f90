@@ -4,7 +4,7 @@ program test_namelist_text
    use errors, only: error_type, input_error
    use assignments, only: namelist_type
    use namelist_text, only: parse_namelist, parse_override
-   use check, only: runs, expect, expect_no_error, report
+   use check, only: runs, expect, expect_no_error, expect_error, report
    implicit none (type, external)
 
    character(len=*), parameter :: newline = achar(10), return = achar(13), tab = achar(9)
@@ -177,11 +177,8 @@ contains
       type(namelist_type) :: found
       type(error_type), allocatable :: error
       call parse_namelist(text, 'case.nml', found, error)
-      call expect(allocated(error), 'refused: '//text)
-      if (.not. allocated(error)) return
-      call expect(error%status == input_error, 'an error of the input')
-      call expect(index(error%message, 'case.nml') == 1, 'names the file: '//error%message)
-      call expect(index(error%message, words) > 0, 'says "'//words//'": '//error%message)
+      call expect_error(error, input_error, words, 'refused: '//text)
+      if (allocated(error)) call expect(index(error%message, 'case.nml') == 1, 'names the file: '//error%message)
    end subroutine expect_refused
 
    subroutine refused()
@@ -225,10 +222,8 @@ contains
       type(namelist_type) :: found
       type(error_type), allocatable :: error
       call parse_namelist(text, 'case.nml', found, error)
-      call expect(allocated(error), 'refused: '//text(:10)//' ...')
-      if (.not. allocated(error)) return
-      call expect(index(error%message, words) > 0, 'says "'//words//'": '//error%message)
-      call expect(len(error%message) < 300, 'in short: '//error%message)
+      call expect_error(error, input_error, words, 'refused: '//text(:10)//' ...')
+      if (allocated(error)) call expect(len(error%message) < 300, 'in short: '//error%message)
    end subroutine expect_short
 
    subroutine refused_overrides()
@@ -240,8 +235,7 @@ contains
       call parse('&a x=1/', found)
       do i = 1, size(wrong)
          call parse_override(trim(wrong(i)), found, error)
-         call expect(allocated(error), 'refused: --set '//trim(wrong(i)))
-         if (allocated(error)) call expect(index(error%message, '--set') == 1, 'names the option: '//error%message)
+         call expect_error(error, input_error, '--set ', 'refused: --set '//trim(wrong(i)))
       end do
       call parse_override('a%x='''//achar(27)//'[2J''', found, error)
       call expect(allocated(error), 'refused: a control character')

@@ -86,7 +86,7 @@ program test_scene_namelist
    use scene_namelist, only: scene_from_text, scene_from_namelist
    use namelist_writer, only: scene_text
    use scene_probes, only: collector, shaker
-   use check, only: runs, expect, expect_close, expect_no_error, report
+   use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
 
    character(len=*), parameter :: newline = achar(10)
@@ -201,8 +201,7 @@ contains
       call expect_list([s%rotor%mass], [1600.0_wp], 'the last override stands')
       call expect(s%about%title == 'a b', 'a group the file lacks')
       call override('&rotor mass = 1/', ['rotor%mass=-1'], s, error)
-      call expect(allocated(error), 'an override is checked')
-      if (allocated(error)) call expect(index(error%message, '--set') == 1, 'and named: '//error%message)
+      call expect_error(error, input_error, '--set rotor%mass = -1', 'an override is checked')
       call override('&rotor static_load(1) = 1, 2 mass = 1/', [character(len=30) :: &
          & 'rotor%static_load(2)=3', 'rotor%mass(1)=4', 'rotor%static_load(1)=5, 6'], s, error)
       call expect_no_error(error, 'an override of an element')
@@ -263,11 +262,8 @@ contains
       type(scene_type) :: scene
       type(error_type), allocatable :: error
       call scene_from_text(text, 'case.nml', scene, error)
-      call expect(allocated(error), 'refused: '//text)
-      if (.not. allocated(error)) return
-      call expect(error%status == input_error, 'an error of the input')
-      call expect(index(error%message, 'case.nml') == 1, 'names the file: '//error%message)
-      call expect(index(error%message, words) > 0, 'says "'//words//'": '//error%message)
+      call expect_error(error, input_error, words, 'refused: '//text)
+      if (allocated(error)) call expect(index(error%message, 'case.nml') == 1, 'names the file: '//error%message)
    end subroutine expect_refused
 
    subroutine refused_values()
