@@ -201,7 +201,7 @@ contains
       call expect_list([s%rotor%mass], [1600.0_wp], 'the last override stands')
       call expect(s%about%title == 'a b', 'a group the file lacks')
       call override('&rotor mass = 1/', ['rotor%mass=-1'], s, error)
-      call expect_error(error, input_error, '--set rotor%mass = -1', 'an override is checked')
+      call expect_error(error, input_error, '--set: rotor%mass = -1', 'an override is checked')
       call override('&rotor static_load(1) = 1, 2 mass = 1/', [character(len=30) :: &
          & 'rotor%static_load(2)=3', 'rotor%mass(1)=4', 'rotor%static_load(1)=5, 6'], s, error)
       call expect_no_error(error, 'an override of an element')
