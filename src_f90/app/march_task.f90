@@ -70,7 +70,7 @@ contains
          options%max_step = integration%max_step
          options%max_steps = integration%max_steps - run%earlier%count('steps')
       end associate
-      if (run%scene%friction%model == 'none') options%newton_coefficient = smooth_newton_coefficient
+      if (run%model%smooth()) options%newton_coefficient = smooth_newton_coefficient
    end function options
 
    type(sample_plan) function planned(run) result(plan)

@@ -169,6 +169,7 @@ contains
          & self%point%speed(t), want_derivatives, self%refusal, ok)
    end subroutine evaluate
 
+   !> Rates of all states at (t, y).
    subroutine rhs(self, t, y, dydt, ok)
       class(bearing_model), intent(inout) :: self
       real(wp), intent(in) :: t, y(:)
@@ -281,6 +282,7 @@ contains
       output = self%bearing%output(self%layout%over_columns(correction(:self%rotor%states), correction))
    end function output
 
+   !> Names a film that is nearly closed in the state evaluated last.
    function warning(self)
       class(bearing_model), intent(in) :: self
       character(len=:), allocatable :: warning

@@ -9,7 +9,7 @@ module state_layout
    public :: state_layout_type, new_state_layout
    public :: at_tilt, at_tilt_rate, at_penetration, at_penetration_rate
 
-   !> Places among a pad's own states; those of the motion stand in the order of the columns of its derivatives.
+   !> Order of a pad's own states; those of its motion stand in the order of the columns of its derivatives.
    integer, parameter :: at_tilt = 1, at_tilt_rate = 2, at_penetration = 3, at_penetration_rate = 4
 
    type :: state_layout_type
@@ -60,6 +60,7 @@ contains
       tilt = self%first(pad) + at_tilt - 1
    end function tilt
 
+   !> Index of a pad's tilt rate.
    elemental integer function tilt_rate(self, pad)
       class(state_layout_type), intent(in) :: self
       integer, intent(in) :: pad
@@ -73,6 +74,7 @@ contains
       penetration = self%first(pad) + at_penetration - 1
    end function penetration
 
+   !> Index of the rate of a pad's penetration; only where the pivots yield.
    elemental integer function penetration_rate(self, pad)
       class(state_layout_type), intent(in) :: self
       integer, intent(in) :: pad
