@@ -175,7 +175,7 @@ def said(holds: bool) -> str:
 def why(failed: Sequence[Checked], runs: Runs) -> str:
     """The reasons why claims fail, each once."""
     if not failed:
-        return "All of them do."
+        return "All claims hold."
     texts = []
     for name in dict.fromkeys(each.claim.name for each in failed):
         same = [each for each in failed if each.claim.name == name]

@@ -123,7 +123,7 @@ def test_a_claim_that_fails_is_on_the_page(runs):
     assert claim.statement in page.failed_words([failed])
     text = page.why([failed], runs)
     assert "0.900" in text
-    assert "f_s decides" in text
+    assert "f_s determines" in text
     assert "numerics" in page.why([judging.Checked(claim, wrong, right, right)], runs)
     assert claim.statement in page.rule_changes([failed])
 
