@@ -5,11 +5,12 @@ import os
 from figures import compared
 from films import exponent
 from peers import DIFFERENCED, OWN, SCALAR, SCALED, SCIPY, TILTPAD
-from production import CHECKPOINTS, COLLECT, LONG, SHORT, SWEEP
+from production import CHECKPOINTS, COLLECT, LONG, SHORT, START, SWEEP
 from runner import Row
 from settings import (
     CHECKPOINT_SHARE,
     COLLECT_SECONDS,
+    START_MILLISECONDS,
     MAIN,
     MEMBER_MILLISECONDS,
     MEMBERS,
@@ -209,7 +210,10 @@ def study(rows: list[Row]) -> str:
     cores = os.cpu_count()
     beyond = 1e3 * (cores * walls[SWEEP, "all"] / MEMBERS - march)
     again, collected = walls[SWEEP, "again"], walls[COLLECT, "all"]
+    started = 1e3 * walls[START, "--version"]
     lines = [
+        ("start of the program, which prints its version", f"{short(started)} ms", f"{START_MILLISECONDS} ms",
+         verdict(started, START_MILLISECONDS)),
         (f"all members, {cores} at a time", f"{short(walls[SWEEP, 'all'])} s", "", ""),
         ("a member beyond its march", f"{short(beyond)} ms", f"{MEMBER_MILLISECONDS} ms",
          verdict(beyond, MEMBER_MILLISECONDS)),

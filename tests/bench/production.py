@@ -12,9 +12,10 @@ import tiltpad
 from runner import Row, Runner
 from settings import CHECKPOINT_SCENES, CHECKPOINT_SECONDS, MEMBERS
 
-CHECKPOINTS, SWEEP, COLLECT = "checkpoints", "sweep", "collect"
-#: Short runs so often; the best counts.
+CHECKPOINTS, SWEEP, COLLECT, START = "checkpoints", "sweep", "collect", "start"
+#: Short runs so often; the best counts. Starts so often; their median counts.
 REPEATS = 3
+STARTS = 21
 #: A sweep of short frictionless runs, and one of them longer: what the march alone takes follows.
 CASE = "&operation duration={duration:g} /\n"
 SWEPT = "&sweep rotor%unbalance=1e-5:{last:g}:1e-5 /\n"
@@ -34,7 +35,18 @@ def production(runner: Runner) -> Iterator[Row]:
         row.copy_seconds = copying(path)
         path.unlink()
         yield row
+    yield Row(runner.part, "none", START, "--version", wall_seconds=start(runner))
     yield from members(runner)
+
+
+def start(runner: Runner) -> float:
+    """Seconds of the program as a process that prints its version."""
+    times = []
+    for _ in range(STARTS):
+        started = time.perf_counter()
+        subprocess.run([runner.program, "--version"], stdout=subprocess.DEVNULL, check=True)
+        times.append(time.perf_counter() - started)
+    return sorted(times)[STARTS // 2]
 
 
 def copying(path: Path) -> float:

@@ -63,6 +63,8 @@ CHECKPOINT_SCENES = (
 )  # fmt: skip
 #: Members of the sweep of short runs; milliseconds allowed beyond a member's march; seconds to collect all.
 MEMBERS, MEMBER_MILLISECONDS, COLLECT_SECONDS = 1000, 20, 10
+#: Start of the program, which does nothing else.
+START_MILLISECONDS = 20
 
 #: Some of them without rupture, where no finite volumes stand beside the axial modes.
 UNRUPTURED = tuple(
