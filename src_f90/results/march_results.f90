@@ -17,7 +17,7 @@ contains
       type(run_file_type), intent(inout) :: file
       type(model_sample), intent(in) :: sample
       type(error_type), allocatable, intent(out) :: error
-      call file%new_sample()
+      call file%table%new_sample(file%file)
       call one('time', sample%time, 's', 'time')
       call one('shaft_angle', sample%shaft_angle, 'rad', 'shaft angle')
       call one('speed', sample%speed, 'rad/s', 'shaft speed')
@@ -49,13 +49,13 @@ contains
       subroutine one(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value
-         call file%add(name, [value], '', units, long_name)
+         call file%table%add(file%file, name, [value], '', units, long_name)
       end subroutine one
 
       subroutine each(name, values, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: values(:)
-         call file%add(name, values, 'pad', units, long_name)
+         call file%table%add(file%file, name, values, 'pad', units, long_name)
       end subroutine each
    end subroutine add_sample
 

@@ -14,9 +14,9 @@ module growing_file
 
    type :: growing_file_type
       type(working_file_type), private :: working
-      !> The open file, and its series of samples.
+      !> The open file, and its series, to which samples are added.
       type(hdf5_type) :: file
-      type(sample_table_type), private :: table
+      type(sample_table_type) :: table
       !> Clock of the last beat, s.
       integer, private :: last_beat = 0
    contains
@@ -25,9 +25,6 @@ module growing_file
       procedure :: begin
       procedure :: reopen
       procedure :: begin_series
-      !> A sample: `new_sample`, and `add` for each series, always in the same order.
-      procedure :: new_sample
-      procedure :: add
       procedure :: samples
       procedure :: last_samples
       procedure :: publish
@@ -72,19 +69,6 @@ contains
       character(len=*), intent(in) :: axis
       call self%table%begin(self%file, axis)
    end subroutine begin_series
-
-   subroutine new_sample(self)
-      class(growing_file_type), intent(inout) :: self
-      call self%table%new_sample(self%file)
-   end subroutine new_sample
-
-   !> The next value of the sample: of a series over the axis, or, where `across` names another scale, over both.
-   subroutine add(self, name, values, across, units, long_name)
-      class(growing_file_type), intent(inout) :: self
-      character(len=*), intent(in) :: name, across, units, long_name
-      real(wp), intent(in) :: values(:)
-      call self%table%add(self%file, name, values, across, units, long_name)
-   end subroutine add
 
    !> Samples added, also before the run was resumed.
    integer(i8) function samples(self)

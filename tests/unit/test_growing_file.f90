@@ -54,9 +54,9 @@ contains
       integer, intent(in) :: first, last
       integer :: k
       do k = first, last
-         call file%new_sample()
-         call file%add('frequency', [real(k, wp)], '', 'Hz', 'frequency')
-         call file%add('amplitude', amplitude(k), 'pad', 'm', 'amplitude')
+         call file%table%new_sample(file%file)
+         call file%table%add(file%file, 'frequency', [real(k, wp)], '', 'Hz', 'frequency')
+         call file%table%add(file%file, 'amplitude', amplitude(k), 'pad', 'm', 'amplitude')
       end do
    end subroutine add_samples
 
