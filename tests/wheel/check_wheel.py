@@ -1,4 +1,4 @@
-"""Looks at what an installed wheel made: python check_wheel.py RESULT STUDY. The last line reads "N passed, N failed"."""
+"""Checks the results of an installed wheel: check_wheel.py RESULT STUDY. Ends with "N passed, N failed"."""
 
 import subprocess
 import sys
