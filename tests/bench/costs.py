@@ -10,11 +10,11 @@ from runner import Row
 from settings import (
     CHECKPOINT_SHARE,
     COLLECT_SECONDS,
-    START_MILLISECONDS,
     MAIN,
     MEMBER_MILLISECONDS,
     MEMBERS,
     MODAL,
+    START_MILLISECONDS,
     TOLERANCE_SPAN,
     WHOLE_FILM,
 )
