@@ -6,6 +6,7 @@ module recorder
    use march_observer, only: march_observer_type
    use integrator_counts, only: integrator_counts_type
    use loops, only: periodicity, new_periodicity
+   use equations_of_motion, only: model_sample
    use march_results, only: add_sample
    use provenance, only: running
    use stop_signals, only: stop_requested, stop_reason
@@ -21,6 +22,8 @@ module recorder
       real(wp), private :: last_checkpoint = 0
       logical, private :: checkpoint_due = .false.
       type(periodicity), private :: orbit
+      !> The last sample; its memory is used again.
+      type(model_sample), private :: taken
    contains
       procedure :: sample
       procedure :: report
@@ -69,7 +72,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: started
       started = wall_clock()
-      call add_sample(self%run%file, self%run%model%sample(t, y, output), error)
+      call self%run%model%take_sample(t, y, output, self%taken)
+      call add_sample(self%run%file, self%taken, error)
       self%run%reached = t
       associate (limit => self%run%scene%integration%stop_when_periodic)
          if (limit > 0) then

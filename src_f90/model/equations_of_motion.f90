@@ -51,7 +51,7 @@ module equations_of_motion
       procedure :: state
       procedure :: at_rest
       procedure :: positions
-      procedure :: sample
+      procedure :: take_sample
       procedure :: sampled
       procedure :: smooth
       procedure :: pressure_field
@@ -301,11 +301,11 @@ contains
       matrix = self%matrix%dense()
    end subroutine jacobian
 
-   !> What is sampled at (t, y), where these outputs are known; no film is evaluated.
-   pure function sample(self, t, y, output)
+   !> What is sampled at (t, y), where these outputs are known; no film is evaluated. The record may be used again.
+   pure subroutine take_sample(self, t, y, output, sample)
       class(bearing_model), intent(in) :: self
       real(wp), intent(in) :: t, y(:), output(:)
-      type(model_sample) :: sample
+      type(model_sample), intent(inout) :: sample
       sample%radial = self%layout%radial
       sample%bristles = self%layout%bristles
       sample%time = t
@@ -314,7 +314,7 @@ contains
       sample%journal = self%rotor%journal(y(:self%rotor%states))
       sample%states = self%layout%pad_states(y)
       sample%loads = self%bearing%samples(sample%journal, sample%states, output)
-   end function sample
+   end subroutine take_sample
 
    !> What is sampled of the pads where the model was evaluated last.
    pure function sampled(self)
