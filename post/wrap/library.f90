@@ -96,7 +96,7 @@ contains
       type(contact_point) :: points(n)
       call find_contacts(text, name, penetration, points, error)
       force = points%force
-      slope = points%slope
+      slope = points%stiffness
       radius = points%radius
       exponent = points%exponent
       peak_pressure = points%peak_pressure

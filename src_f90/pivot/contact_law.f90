@@ -11,8 +11,8 @@ module contact_law
 
    !> State of the contact at one penetration.
    type :: contact_point
-      !> Normal force, N, and its slope over the penetration, N/m.
-      real(wp) :: force = 0, slope = 0
+      !> Normal force, N, and its derivative over the penetration, N/m.
+      real(wp) :: force = 0, stiffness = 0
       !> Projected contact radius, m; exponent of the pressure distribution (11); its peak (12), Pa.
       real(wp) :: radius = 0, exponent = 0.5_wp, peak_pressure = 0
    contains
@@ -101,7 +101,7 @@ contains
       effective_radius = (self%socket_radius - self%radius_difference)*self%socket_radius &
          & /self%radius_difference
       point%force = 4/(3*pi*self%compliance)*sqrt(effective_radius*penetration)*penetration
-      point%slope = 1.5_wp*point%force/penetration
+      point%stiffness = 1.5_wp*point%force/penetration
       point%radius = sqrt(effective_radius*penetration)
       point%peak_pressure = 1.5_wp*point%force/(pi*point%radius**2)
    end function hertz_at
@@ -112,7 +112,7 @@ contains
       type(contact_point) :: point
       point = force_over_radius(self%socket_radius, self%socket_radius, self%compliance, &
          & self%penetration_factor, penetration)
-      point%slope = point%force/penetration
+      point%stiffness = point%force/penetration
    end function snug_at
 
    !> Finds the contact radius of a penetration by safeguarded Newton steps on ln(eta), which is monotone and nearly
@@ -134,7 +134,7 @@ contains
          else
             low = a
          end if
-         ! beyond the unbounded force of eq (14) the slope says nothing
+         ! beyond the unbounded force of eq (14) the derivative says nothing
          change = -huge(a)
          if (log_eta < huge(a)) change = (log(penetration) - log_eta)/(d_log_eta*a)
          call newton_step(change, low, high, a)
@@ -143,7 +143,7 @@ contains
       call radius_curve(self, a, log_eta, d_log_eta, d_log_force)
       point = force_over_radius(a, self%socket_radius, self%compliance, self%penetration_factor, &
          & penetration)
-      point%slope = point%force/penetration*d_log_force/d_log_eta
+      point%stiffness = point%force/penetration*d_log_force/d_log_eta
    end function fang_at
 
    !> Changes x > 0 by a step of ln(x), or where that leaves low to high, halves the interval.
@@ -166,7 +166,7 @@ contains
       point%force = point%peak_pressure*pi*a**2/(point%exponent + 1)
    end function force_over_radius
 
-   !> ln(eta) at contact radius a, and the slopes over a of ln(eta) and of ln(F).
+   !> ln(eta) at contact radius a, and the derivatives over a of ln(eta) and of ln(F).
    !> Beyond the radius where the force of eq (14) grows without bound, ln(eta) is huge.
    pure subroutine radius_curve(self, a, log_eta, d_log_eta, d_log_force)
       class(fang_law), intent(in) :: self
@@ -178,7 +178,7 @@ contains
       n = pressure_exponent(a/r2)
       dn = (n - 0.5_wp)*15.08_wp/r2
       ln_b = log_b(n)
-      dlog_b = dn*log_b_slope(n)
+      dlog_b = dn*log_b_derivative(n)
       g = 2/pi + (a/r2)**2
       room = 4*r1*r2*(n + 0.5_wp)*(n + 1) - fang_constant*a**3/r2
       if (room <= 0) then
@@ -209,14 +209,14 @@ contains
    end function log_b
 
    !> d ln B / dn.
-   pure function log_b_slope(n) result(slope)
+   pure function log_b_derivative(n) result(derivative)
       real(wp), intent(in) :: n
-      real(wp) :: slope
-      slope = digamma(n + 1) - digamma(n + 1.5_wp)
-   end function log_b_slope
+      real(wp) :: derivative
+      derivative = digamma(n + 1) - digamma(n + 1.5_wp)
+   end function log_b_derivative
 
-   !> Slope of ln(Gamma) over x > 0: its recurrence up to 10, there its asymptotic series to rounding (Abramowitz and
-   !> Stegun 1964, 6.3.5 and 6.3.18).
+   !> Derivative of ln(Gamma) over x > 0: its recurrence up to 10, there its asymptotic series to rounding (Abramowitz
+   !> and Stegun 1964, 6.3.5 and 6.3.18).
    pure function digamma(x)
       real(wp), intent(in) :: x
       real(wp) :: digamma, z, w
@@ -256,7 +256,7 @@ contains
          else
             low = eta
          end if
-         change = (log(force) - log(point%force))*point%force/(point%slope*eta)
+         change = (log(force) - log(point%force))*point%force/(point%stiffness*eta)
          call newton_step(change, low, high, eta)
          if (abs(change) <= small_step) exit
       end do

@@ -2,7 +2,7 @@
 !>
 !> Every octave of the penetration is cut into `2**bits` equal cells, so the leading bits of the
 !> floating-point number are the cell's index. In each cell the force is the cubic that meets the
-!> law's force and slope at both ends: force and slope are continuous. The relative error of the force is
+!> law's force and stiffness at both ends: force and stiffness are continuous. The relative error of the force is
 !> the same in all octaves, about (2**-bits)**4/384 times eta**4 F''''/F, below 1e-6 by far: 3e-8.
 module contact_table
    use kinds, only: wp, i8
@@ -20,7 +20,7 @@ module contact_table
    integer(i8), parameter :: base = int(bias + first, i8)*2_i8**bits
    integer, parameter :: n_cells = (last - first + 1)*2**bits
 
-   !> Force and slope of one pivot over the penetration.
+   !> Force and stiffness of one pivot over the penetration.
    type :: contact_table_type
       private
       !> Cubic coefficients (4) of each cell over its width.
@@ -31,7 +31,7 @@ module contact_table
       real(wp) :: low_exponent = 1
       type(contact_point) :: low_end, high_end
    contains
-      !> Force, N, and slope, N/m, at a penetration, m; both zero where it is not positive.
+      !> Force, N, and stiffness, N/m, at a penetration, m; both zero where it is not positive.
       procedure :: lookup
    end type contact_table_type
 
@@ -47,7 +47,7 @@ contains
       allocate (table%cubic(4, 0:n_cells - 1), table%start(0:n_cells - 1), table%per_width(0:n_cells - 1))
       right = law%at(cell_start(0))
       table%low_end = right
-      table%low_exponent = right%slope*cell_start(0)/right%force
+      table%low_exponent = right%stiffness*cell_start(0)/right%force
       do k = 0, n_cells - 1
          left = right
          x = cell_start(k)
@@ -55,37 +55,37 @@ contains
          right = law%at(x + width)
          table%start(k) = x
          table%per_width(k) = 1/width
-         associate (f0 => left%force, s0 => left%slope*width, f1 => right%force, s1 => right%slope*width)
+         associate (f0 => left%force, s0 => left%stiffness*width, f1 => right%force, s1 => right%stiffness*width)
             table%cubic(:, k) = [f0, s0, 3*(f1 - f0) - 2*s0 - s1, 2*(f0 - f1) + s0 + s1]
          end associate
       end do
       table%high_end = right
    end function new_contact_table
 
-   pure subroutine lookup(self, penetration, force, slope)
+   pure subroutine lookup(self, penetration, force, stiffness)
       class(contact_table_type), intent(in) :: self
       real(wp), intent(in) :: penetration
-      real(wp), intent(out) :: force, slope
+      real(wp), intent(out) :: force, stiffness
       integer(i8) :: k
       real(wp) :: t, d
       if (.not. penetration > 0) then
          force = 0
-         slope = 0
+         stiffness = 0
          return
       end if
       k = shiftr(transfer(penetration, 1_i8), shift) - base
       if (k < 0) then
          force = self%low_end%force*(penetration/cell_start(0))**self%low_exponent
-         slope = force*self%low_exponent/penetration
+         stiffness = force*self%low_exponent/penetration
       else if (k >= n_cells) then
          d = penetration - cell_start(n_cells)
-         force = self%high_end%force + self%high_end%slope*d
-         slope = self%high_end%slope
+         force = self%high_end%force + self%high_end%stiffness*d
+         stiffness = self%high_end%stiffness
       else
          associate (c => self%cubic(:, k))
             t = (penetration - self%start(k))*self%per_width(k)
             force = c(1) + t*(c(2) + t*(c(3) + t*c(4)))
-            slope = (c(2) + t*(2*c(3) + t*3*c(4)))*self%per_width(k)
+            stiffness = (c(2) + t*(2*c(3) + t*3*c(4)))*self%per_width(k)
          end associate
       end if
    end subroutine lookup

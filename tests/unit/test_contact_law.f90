@@ -66,7 +66,7 @@ contains
          ! a gamma function and some products
          call expect_close(point%force*10.0_wp**(-e), stiffness, 1e-13_wp*stiffness, 'force at dR = 0, 1e'//to_text(e))
          call expect_close(point%force*10.0_wp**(-e), 3.3767e9_wp, 0.5e5_wp, 'stiffness at dR = 0, 1e'//to_text(e))
-         call expect_close(point%slope, stiffness, 1e-13_wp*stiffness, 'slope at dR = 0, 1e'//to_text(e))
+         call expect_close(point%stiffness, stiffness, 1e-13_wp*stiffness, 'slope at dR = 0, 1e'//to_text(e))
          call expect_close(point%radius, socket, 0.0_wp, 'contact over the whole socket, 1e'//to_text(e))
       end do
    end subroutine snug_is_linear
@@ -84,7 +84,8 @@ contains
          point = law%at(eta)
          call expect_close(point%force, 4*modulus/3*sqrt(radius)*eta**1.5_wp, 1e-14_wp*point%force, &
             & 'Hertz force, 3e'//to_text(e))
-         call expect_close(point%slope, 2*modulus*sqrt(radius*eta), 1e-14_wp*point%slope, 'Hertz slope, 3e'//to_text(e))
+         call expect_close(point%stiffness, 2*modulus*sqrt(radius*eta), 1e-14_wp*point%stiffness, &
+            & 'Hertz stiffness, 3e'//to_text(e))
          call expect_close(point%radius**2, radius*eta, 1e-14_wp*radius*eta, 'Hertz radius, 3e'//to_text(e))
          call expect_close(point%peak_pressure, 2*modulus/pi*sqrt(eta/radius), 1e-14_wp*point%peak_pressure, &
             & 'Hertz pressure, 3e'//to_text(e))
@@ -154,7 +155,7 @@ contains
          point = law%at(eta)
          up = law%at(eta*(1 + h))
          down = law%at(eta*(1 - h))
-         worst = max(worst, abs((up%force - down%force)/(2*h*eta*point%slope) - 1))
+         worst = max(worst, abs((up%force - down%force)/(2*h*eta*point%stiffness) - 1))
       end do
       call expect_close(worst, 0.0_wp, 1e-8_wp, 'slope of '//name//', dR = '//to_text(difference))
    end subroutine slopes
@@ -172,7 +173,7 @@ contains
       do k = 1, 900
          point = law%at(10.0_wp**(-12 + 0.01_wp*k))
          if (point%force <= before%force) falls = falls + 1
-         if (point%slope <= before%slope) falls = falls + 1
+         if (point%stiffness <= before%stiffness) falls = falls + 1
          if (point%radius < before%radius) falls = falls + 1
          before = point
       end do

@@ -58,7 +58,7 @@ contains
          point = law%at(x)
          call table%lookup(x, force, slope)
          worst = max(worst, abs(force/point%force - 1))
-         worst_slope = max(worst_slope, abs(slope/point%slope - 1))
+         worst_slope = max(worst_slope, abs(slope/point%stiffness - 1))
       end do
       call expect(worst < 1e-6_wp, 'force of the table'//what//': '//to_text(worst))
       call expect(worst_slope < 1e-4_wp, 'slope of the table'//what//': '//to_text(worst_slope))

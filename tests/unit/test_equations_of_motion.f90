@@ -249,7 +249,7 @@ contains
       type(bearing_model) :: model
       real(wp), allocatable :: y(:), f(:)
       type(pad_sample), allocatable :: films(:)
-      real(wp) :: reaction
+      real(wp) :: reaction, a
       logical :: ok
       integer :: pad
       model = new_bearing_model(paper_scene('tilting_radial', 'lugre'))
@@ -270,7 +270,8 @@ contains
       call model%rhs(0.0_wp, y, f, ok)
       films = model%sampled()
       do pad = 1, 2
-         associate (p => model%scene%pads, a => model%bearing%pads(pad)%position%angle - y(model%layout%tilt(pad)))
+         a = model%bearing%pads(pad)%position%angle - y(model%layout%tilt(pad))
+         associate (p => model%scene%pads)
             reaction = -films(pad)%film_force(2) - p%mass(pad)*300*sin(a) &
                & + p%mass(pad)*p%centre_radial(pad)*y(model%layout%tilt_rate(pad))**2
             call expect_close(model%bearing%loads(pad)%contact, max(0.0_wp, reaction), 1e-12_wp*abs(reaction), &
