@@ -65,8 +65,8 @@ contains
       call follow_motion(static, y, found, error, give_up)
       if (.not. allocated(error) .or. .not. static%bearing%films_rupture()) return
       if (error%status == stopped) return
-      ! on the way a pad may lose its film and with it all stiffness: take the way of a film that
-      ! does not rupture, which has neither kinks nor slack
+      ! on the way a pad may lose its film and with it all stiffness; films that are kept whole lead to an equilibrium
+      ! of their own, which is the start of a second search
       static = static_model(model, .false.)
       y = best_start(static, give_up)
       call follow_motion(static, y, found, second_error, give_up)

@@ -262,7 +262,7 @@ contains
    end subroutine jacobian_times
 
    !> b := (1 - gamma J)^(-1) b, with film and contact as linearised last and friction as evaluated last: Newton's
-   !> iteration then crosses the kinks of friction, where old derivatives would lead it astray.
+   !> iteration then crosses the kinks of friction, where old derivatives would mislead it.
    subroutine solve(self, gamma, b, ok)
       class(bearing_model), intent(inout) :: self
       real(wp), intent(in) :: gamma

@@ -1,6 +1,6 @@
-!> Where the states lie, the only module that knows: first those of the rotor, displacements and then their rates;
-!> then for each pad tilt, tilt rate, (pivots that yield) penetration and its rate, (LuGre) bristle deflection. A state
-!> that a model lacks is not there.
+!> This module alone knows where the states lie. Those of the rotor come first, displacements and then their rates. Each
+!> pad follows with tilt, tilt rate, (pivots that yield) penetration and its rate, (LuGre) bristle deflection. A state
+!> that a model lacks is left out.
 module state_layout
    use kinds, only: wp
    use kinematics, only: pad_state, columns, journal_columns
