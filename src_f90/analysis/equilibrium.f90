@@ -252,8 +252,6 @@ contains
       scale = model%scale
       if (model%layout%radial) scale(model%layout%penetration([(i, i=1, model%layout%pads)])) &
          & = model%scene%bearing%assembled_clearance
-      if (.not. model%layout%radial) scale(model%layout%tilt([(i, i=2, model%layout%pads)])) &
-         & = model%scene%bearing%assembled_clearance
       clearances = scale(model%layout%positions())
    end function clearances
 
