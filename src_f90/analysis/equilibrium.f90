@@ -13,6 +13,7 @@ module equilibrium
    use kinematics, only: journal_motion, pad_frame, pad_state
    use pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model
+   use force_balance, only: forces, force_derivatives, masses
    implicit none (type, external)
    private
    public :: equilibrium_type, find_equilibrium
@@ -101,7 +102,7 @@ contains
       type(equilibrium_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      real(wp) :: f(model%n), time_step, residual, move
+      real(wp) :: time_step, residual, move
       real(wp), allocatable :: step(:)
       character(len=:), allocatable :: none_found
       logical :: ok, stuck
@@ -109,12 +110,12 @@ contains
       none_found = 'no equilibrium found at '//to_text(model%point%speed_rpm)//' rpm: '
       stuck = .false.
       time_step = 1/model%point%speed(0.0_wp)
-      call model%rhs(0.0_wp, y, f, ok)
+      call model%evaluate(0.0_wp, y, .false., ok)
       if (.not. ok) then
          call raise(error, numerics_error, none_found//model%refusal//' at the start')
          return
       end if
-      found%residual = residual_of(model, f)
+      found%residual = residual_of(model)
       do while (.not. found%residual <= residual_limit)
          if (found%iterations == max_iterations .or. stuck) then
             call raise(error, numerics_error, none_found//'after '//to_text(found%iterations) &
@@ -127,18 +128,18 @@ contains
             call raise(error, stopped, 'stopped while the equilibrium was sought')
             return
          end if
-         call find_step(model, y, f, time_step, step, move, ok)
+         call find_step(model, y, time_step, step, move, ok)
          if (.not. ok) then
             call raise(error, numerics_error, none_found//'the equations are singular, the unbalanced force is still ' &
                & //to_text(found%residual)//' of the load')
             return
          end if
-         call take_step(model, y, f, time_step, step, ok)
+         call take_step(model, y, time_step, step, ok)
          if (.not. ok) then
             call raise(error, numerics_error, none_found//model%refusal)
             return
          end if
-         residual = residual_of(model, f)
+         residual = residual_of(model)
          stuck = move < shortest_move .and. residual > 0.5_wp*found%residual
          time_step = time_step*max(0.3_wp, 1.5_wp*found%residual/max(residual, 0.15_wp*found%residual))
          found%residual = residual
@@ -146,37 +147,36 @@ contains
       call describe(model, y, found)
    end subroutine follow_motion
 
-   !> The step of the positions from y, where the rates are f, in a time step that is shortened until nothing moves
-   !> too far. `ok` is false where the equations are singular.
-   subroutine find_step(model, y, f, time_step, step, move, ok)
+   !> The step of the positions from y, in a time step that is shortened until nothing moves too far. `ok` is false
+   !> where the equations are singular.
+   subroutine find_step(model, y, time_step, step, move, ok)
       type(bearing_model), intent(inout) :: model
-      real(wp), intent(in) :: y(:), f(:)
+      real(wp), intent(in) :: y(:)
       real(wp), intent(inout) :: time_step
       real(wp), allocatable, intent(out) :: step(:)
       !> Longest move, in assembled clearances.
       real(wp), intent(out) :: move
       logical, intent(out) :: ok
-      real(wp) :: derivatives(model%n, model%n)
+      real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: stiffness, damping
       move = 0
-      call model%jacobian(0.0_wp, y, derivatives, ok)
-      associate (x => model%layout%positions(), v => model%layout%rates())
-         do while (ok)
-            call newton_step(model, derivatives(v, x), derivatives(v, v), f(v), time_step, step, ok)
-            if (.not. all(ieee_is_finite(step))) ok = .false.
-            if (.not. ok) exit
-            move = maxval(abs(step/clearances(model)))
-            if (move <= longest_move) exit
-            ! a shorter step in time, and not of its result, stays on the way of the motion
-            time_step = time_step*min(0.5_wp, longest_move/move)
-         end do
-      end associate
+      call model%evaluate(0.0_wp, y, .true., ok)
+      if (ok) call force_derivatives(model, stiffness, damping)
+      do while (ok)
+         call newton_step(model, stiffness, damping, forces(model, 0.0_wp), time_step, step, ok)
+         if (.not. all(ieee_is_finite(step))) ok = .false.
+         if (.not. ok) exit
+         move = maxval(abs(step/clearances(model)))
+         if (move <= longest_move) exit
+         ! a shorter step in time, and not of its result, stays on the way of the motion
+         time_step = time_step*min(0.5_wp, longest_move/move)
+      end do
    end subroutine find_step
 
-   !> Moves y by the step, or by a part of it that the model admits, and evaluates the rates f there. `ok` is false
+   !> Moves y by the step, or by a part of it that the model admits, and evaluates the model there. `ok` is false
    !> where it admits none.
-   subroutine take_step(model, y, f, time_step, step, ok)
+   subroutine take_step(model, y, time_step, step, ok)
       type(bearing_model), intent(inout) :: model
-      real(wp), intent(inout) :: y(:), f(:), time_step, step(:)
+      real(wp), intent(inout) :: y(:), time_step, step(:)
       logical, intent(out) :: ok
       real(wp) :: trial(model%n)
       integer, allocatable :: x(:)
@@ -184,7 +184,7 @@ contains
       do
          trial = y
          trial(x) = y(x) + step
-         call model%rhs(0.0_wp, trial, f, ok)
+         call model%evaluate(0.0_wp, trial, .false., ok)
          if (ok) exit
          step = 0.5_wp*step
          time_step = 0.5_wp*time_step
@@ -203,7 +203,7 @@ contains
    function best_start(model, give_up) result(y)
       type(bearing_model), intent(inout) :: model
       procedure(asked_to_stop), optional :: give_up
-      real(wp) :: y(model%n), trial(model%n), f(model%n), smallest
+      real(wp) :: y(model%n), trial(model%n), smallest
       integer :: i
       logical :: ok
       smallest = huge(smallest)
@@ -211,10 +211,10 @@ contains
       do i = 1, size(fractions)
          if (asked(give_up)) exit
          trial = start(model, fractions(i))
-         call model%rhs(0.0_wp, trial, f, ok)
+         call model%evaluate(0.0_wp, trial, .false., ok)
          if (.not. ok) cycle
-         if (residual_of(model, f) < smallest) then
-            smallest = residual_of(model, f)
+         if (residual_of(model) < smallest) then
+            smallest = residual_of(model)
             y = trial
          end if
       end do
@@ -255,36 +255,34 @@ contains
       clearances = scale(model%layout%positions())
    end function clearances
 
-   !> Solves (K + C / time step) step = -f.
+   !> Solves (K + C / time step) step = -f with the forces f and their derivatives, K over positions and C over rates.
    subroutine newton_step(model, stiffness, damping, f, time_step, step, ok)
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: stiffness(:, :), damping(:, :), f(:), time_step
       real(wp), allocatable, intent(out) :: step(:)
       logical, intent(out) :: ok
       real(wp) :: matrix(size(f), size(f))
-      integer :: pivots(size(f)), info, i
-      matrix = stiffness + damping/time_step
-      ! a trace of damping for pads whose film has ruptured everywhere
-      do i = 1, size(f)
-         matrix(i, i) = matrix(i, i) - 1e-3_wp*model%point%speed(0.0_wp)/time_step
-      end do
+      integer :: pivots(size(f)), info
+      ! with a trace of damping for pads whose film has ruptured everywhere
+      matrix = stiffness + (damping - 1e-3_wp*model%point%speed(0.0_wp)*masses(model))/time_step
       step = -f
       call dgesv(size(f), 1, matrix, size(f), pivots, step, size(f), info)
       ok = info == 0
    end subroutine newton_step
 
-   !> Largest unbalanced force over the load (or, without load, over the heaviest pad, or 1 N).
-   pure real(wp) function residual_of(model, f)
+   !> Largest unbalanced force in the state evaluated last over the load (or, without load, over the heaviest pad, or
+   !> 1 N).
+   pure real(wp) function residual_of(model)
       type(bearing_model), intent(in) :: model
-      real(wp), intent(in) :: f(:)
-      type(journal_motion) :: journal
-      type(pad_state) :: rates(model%layout%pads)
-      journal = model%rotor%journal(f(:model%rotor%states))
-      rates = model%layout%pad_states(f)
-      associate (pads => model%bearing%pads)
-         residual_of = max(model%rotor%mass*norm2(journal%velocity), &
-            & maxval(abs(rates%tilt_rate)*pads%inertia/pads%position%centre_distance), &
-            & maxval(abs(rates%penetration_rate)*pads%mass))
+      real(wp) :: force(2)
+      integer :: i
+      associate (pads => model%bearing%pads, loads => model%bearing%loads)
+         force = model%rotor%force(model%point, 0.0_wp)
+         do i = 1, size(loads)
+            force = force + loads(i)%journal
+         end do
+         residual_of = max(norm2(force), maxval(abs(loads%moment)/pads%position%centre_distance))
+         if (model%layout%radial) residual_of = max(residual_of, maxval(abs(loads%radial)))
          residual_of = residual_of/max(norm2(model%point%load), maxval(pads%weight), 1.0_wp)
       end associate
    end function residual_of

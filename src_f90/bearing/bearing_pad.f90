@@ -30,6 +30,7 @@ module bearing_pad
       procedure :: loads
       procedure :: derivatives
       procedure :: friction_derivatives
+      procedure :: masses
       procedure :: inverse_masses
    end type bearing_pad_type
 
@@ -143,8 +144,16 @@ contains
       over_deflection = -self%ball_radius*friction%force_deflection
    end subroutine friction_derivatives
 
-   !> Inverse of the mass matrix of eqs (3)-(4): rates of tilt rate and penetration rate per moment and force. A pad
-   !> that only tilts has no second row and column.
+   !> Mass matrix of eqs (3)-(4): moment and force per rate of tilt rate and penetration rate.
+   pure function masses(self)
+      class(bearing_pad_type), intent(in) :: self
+      real(wp) :: masses(2, 2)
+      associate (coupling => self%mass*self%centre_tangential)
+         masses = reshape([self%inertia, coupling, coupling, self%mass], [2, 2])
+      end associate
+   end function masses
+
+   !> Its inverse. A pad that only tilts has no second row and column.
    pure function inverse_masses(self) result(inverse)
       class(bearing_pad_type), intent(in) :: self
       real(wp) :: inverse(2, 2), coupling, determinant

@@ -6,11 +6,15 @@ module kinematics
    private
    public :: journal_motion, pad_state, pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global
    public :: columns, journal_columns, tilt_column, tilt_rate_column, penetration_column, penetration_rate_column
+   public :: position_columns, rate_columns
 
    !> A pad's derivatives stand in these columns: over y, z of the journal and their rates, and over its own tilt,
    !> tilt rate, penetration and penetration rate.
    integer, parameter :: columns = 8, journal_columns = 4
    integer, parameter :: tilt_column = 5, tilt_rate_column = 6, penetration_column = 7, penetration_rate_column = 8
+   !> Those of displacements, and of their rates in the same order.
+   integer, parameter :: position_columns(4) = [1, 2, tilt_column, penetration_column]
+   integer, parameter :: rate_columns(4) = [3, 4, tilt_rate_column, penetration_rate_column]
 
    !> Motion of the journal in a bearing: (y, z), m, and rates, m/s.
    type :: journal_motion

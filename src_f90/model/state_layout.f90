@@ -26,6 +26,8 @@ module state_layout
       procedure :: bristle
       procedure :: positions
       procedure :: rates
+      procedure :: n_positions
+      procedure :: first_position
       procedure :: pad_states
       procedure :: put_pads
       procedure :: over_columns
@@ -103,6 +105,19 @@ contains
       integer :: i, k
       rates = [(i, i=self%rotor/2 + 1, self%rotor), ((self%first(i) + k, k=1, self%motion - 1, 2), i=1, self%pads)]
    end function rates
+
+   !> Number of displacements of rotor and pads.
+   pure integer function n_positions(self)
+      class(state_layout_type), intent(in) :: self
+      n_positions = self%rotor/2 + self%pads*self%motion/2
+   end function n_positions
+
+   !> Which of these is a pad's tilt; its penetration is the next.
+   elemental integer function first_position(self, pad)
+      class(state_layout_type), intent(in) :: self
+      integer, intent(in) :: pad
+      first_position = self%rotor/2 + (pad - 1)*(self%motion/2) + 1
+   end function first_position
 
    !> The states of the pads; what they lack is 0.
    pure function pad_states(self, y) result(pads)

@@ -1,0 +1,90 @@
+!> The forces on journal and pads, their derivatives over positions and rates, and the masses: not divided by each
+!> other, in the order of layout%positions(). What statics and small vibrations are made of.
+module force_balance
+   use kinds, only: wp
+   use kinematics, only: columns, position_columns, rate_columns
+   use equations_of_motion, only: bearing_model
+   implicit none (type, external)
+   private
+   public :: forces, force_derivatives, masses
+
+contains
+
+   !> Forces on the journal along y and z, N, and of each pad the moment, N m, and (pivots that yield) the radial force,
+   !> N, in the state evaluated last, at time t, s.
+   pure function forces(model, t)
+      type(bearing_model), intent(in) :: model
+      real(wp), intent(in) :: t
+      real(wp) :: forces(model%layout%n_positions())
+      integer :: i, own, last
+      associate (layout => model%layout, loads => model%bearing%loads)
+         forces(:layout%rotor/2) = model%rotor%force(model%point, t)
+         do i = 1, layout%pads
+            forces(:layout%rotor/2) = forces(:layout%rotor/2) + loads(i)%journal
+            own = layout%first_position(i)
+            last = own + layout%motion/2 - 1
+            associate (of_pad => [loads(i)%moment, loads(i)%radial])
+               forces(own:last) = of_pad(:layout%motion/2)
+            end associate
+         end do
+      end associate
+   end function forces
+
+   !> Derivatives of the forces over positions and over rates, where the derivatives of the bearing were taken last,
+   !> with those of friction in the state evaluated last.
+   pure subroutine force_derivatives(model, over_positions, over_rates)
+      type(bearing_model), intent(in) :: model
+      real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
+      real(wp) :: of_pad(2, columns), friction(columns), over_deflection
+      integer :: i
+      over_positions = 0
+      over_rates = 0
+      do i = 1, model%layout%pads
+         associate (pad => model%bearing%derivatives(i))
+            call model%bearing%pads(i)%friction_derivatives(model%bearing%loads(i)%friction, pad%contact, friction, &
+               & over_deflection)
+            of_pad(1, :) = pad%moment + friction
+            of_pad(2, :) = pad%radial
+            call add(position_columns, over_positions)
+            call add(rate_columns, over_rates)
+         end associate
+      end do
+
+   contains
+
+      !> Adds the derivatives of the journal's force and of the pad's own over some of the columns.
+      pure subroutine add(of_columns, matrix)
+         integer, intent(in) :: of_columns(:)
+         real(wp), intent(inout) :: matrix(:, :)
+         integer :: own, last, rotor
+         rotor = model%layout%rotor/2
+         own = model%layout%first_position(i)
+         last = own + model%layout%motion/2 - 1
+         associate (journal => model%bearing%derivatives(i)%journal(:, of_columns), pad => of_pad(:, of_columns), &
+            & n => last - own + 1)
+            matrix(:rotor, :rotor) = matrix(:rotor, :rotor) + journal(:, :rotor)
+            matrix(:rotor, own:last) = journal(:, rotor + 1:rotor + n)
+            matrix(own:last, :rotor) = pad(:n, :rotor)
+            matrix(own:last, own:last) = pad(:n, rotor + 1:rotor + n)
+         end associate
+      end subroutine add
+   end subroutine force_derivatives
+
+   !> Masses of the positions: kg of the journal, and of each pad the matrix of eqs (3)-(4).
+   pure function masses(model)
+      type(bearing_model), intent(in) :: model
+      real(wp) :: masses(model%layout%n_positions(), model%layout%n_positions())
+      real(wp) :: of_pad(2, 2)
+      integer :: i, own, last
+      masses = 0
+      do i = 1, model%layout%rotor/2
+         masses(i, i) = model%rotor%mass
+      end do
+      do i = 1, model%layout%pads
+         own = model%layout%first_position(i)
+         last = own + model%layout%motion/2 - 1
+         of_pad = model%bearing%pads(i)%masses()
+         masses(own:last, own:last) = of_pad(:last - own + 1, :last - own + 1)
+      end do
+   end function masses
+end module force_balance
