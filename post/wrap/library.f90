@@ -10,7 +10,7 @@ module tiltpad_library
    use scene_namelist, only: scene_from_text
    use components, only: new_law, new_friction
    use kinematics, only: journal_motion, pad_state
-   use pad_bearing, only: pad_sample
+   use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
    use contact_law, only: contact_law_type, contact_point
    use friction, only: friction_law, friction_response

@@ -11,7 +11,7 @@ module equilibrium
    use lapack, only: dgesv
    use operating_point, only: operating_point_type
    use kinematics, only: journal_motion, pad_frame, pad_state
-   use pad_bearing, only: pad_sample
+   use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model
    use force_balance, only: forces, force_derivatives, masses
    implicit none (type, external)

@@ -12,7 +12,7 @@ module components
    use contact_law, only: contact_law_type, new_contact_law
    use friction, only: friction_law, no_friction, bengisu_akay_friction, lugre_friction, &
       & default_bristle_damping
-   use bearing_pad, only: bearing_pad_type
+   use tilting_pad, only: tilting_pad_type
    implicit none (type, external)
    private
    public :: make_film, new_law, new_friction, new_pads
@@ -110,7 +110,7 @@ contains
    !> The pads.
    pure function new_pads(scene) result(pads)
       type(scene_type), intent(in) :: scene
-      type(bearing_pad_type) :: pads(scene%pad_count())
+      type(tilting_pad_type) :: pads(scene%pad_count())
       integer :: i
       pads%gap = new_gaps(scene)
       do i = 1, size(pads)

@@ -5,7 +5,7 @@ module equations_of_motion
    use operating_point, only: operating_point_type
    use film_solver, only: film_counters
    use kinematics, only: journal_motion, pad_state, columns, journal_columns
-   use pad_bearing, only: pad_bearing_type, pad_sample, new_pad_bearing, pad_outputs
+   use tilting_pad_bearing, only: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
    use rigid_journal, only: rigid_journal_type
    use ode_model, only: ode_model_type
    use state_layout, only: state_layout_type, new_state_layout, at_tilt, at_tilt_rate, at_penetration, &
@@ -30,7 +30,7 @@ module equations_of_motion
       type(operating_point_type) :: point
       type(state_layout_type) :: layout
       type(rigid_journal_type) :: rotor
-      type(pad_bearing_type) :: bearing
+      type(tilting_pad_bearing_type) :: bearing
       !> Natural size of each state.
       real(wp), allocatable :: scale(:)
       !> Of each pad rates of tilt rate and penetration rate per moment and force, (2, 2, pad).
@@ -71,7 +71,7 @@ contains
       integer :: i, n
       n = scene%pad_count()
       model%scene = scene
-      model%bearing = new_pad_bearing(scene)
+      model%bearing = new_tilting_pad_bearing(scene)
       model%rotor%mass = scene%rotor%mass
       model%layout = new_state_layout(model%rotor%states, n, scene%tilting_radial(), model%bearing%friction%has_bristle)
       model%n = model%layout%n

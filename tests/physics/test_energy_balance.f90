@@ -6,7 +6,7 @@ module energy_ledger
    use ode_model, only: ode_model_type
    use march_observer, only: march_observer_type
    use kinematics, only: pad_state
-   use pad_bearing, only: pad_sample
+   use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model
    implicit none (type, external)
    private

@@ -4,7 +4,7 @@ program test_equations_of_motion
    use text, only: to_text
    use scene, only: scene_type
    use operating_point, only: operating_point_type
-   use pad_bearing, only: pad_sample
+   use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)

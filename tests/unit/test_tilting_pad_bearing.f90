@@ -1,13 +1,13 @@
 !> One pad and the bearing of many: the derivatives of the loads, which are not divided by masses, against differences
 !> of the loads; what an operating point changes; samples without the film solver.
-program test_pad_bearing
+program test_tilting_pad_bearing
    use kinds, only: wp
    use text, only: to_text
    use scene, only: scene_type
    use kinematics, only: journal_motion, pad_state, columns, journal_columns, tilt_column, tilt_rate_column, &
       & penetration_column
-   use bearing_pad, only: pad_derivatives
-   use pad_bearing, only: pad_bearing_type, pad_sample, new_pad_bearing
+   use tilting_pad, only: pad_derivatives
+   use tilting_pad_bearing, only: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -29,7 +29,7 @@ program test_pad_bearing
 contains
 
    !> Heavy pads off their balance on films without rupture, hence smooth, solved closely.
-   type(pad_bearing_type) function heavy_bearing(motion, friction) result(bearing)
+   type(tilting_pad_bearing_type) function heavy_bearing(motion, friction) result(bearing)
       character(len=*), intent(in) :: motion, friction
       type(scene_type) :: scene
       scene = scene_type()
@@ -42,7 +42,7 @@ contains
       scene%pads%pivot_ratio = [0.5_wp, 0.6_wp]
       scene%film%solver = 'modal'
       scene%film%cavitation = 'none'
-      bearing = new_pad_bearing(scene)
+      bearing = new_tilting_pad_bearing(scene)
    end function heavy_bearing
 
    !> Pads that carry, tilted, in motion, sliding at some mm/s: away from the kinks of friction.
@@ -89,7 +89,7 @@ contains
       real(wp), parameter :: h = 1e-3_wp, offsets(4) = [-2*h, -h, h, 2*h]
       real(wp), parameter :: weights(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/(12*h)
       real(wp), parameter :: steps(columns) = [80e-6_wp, 80e-6_wp, 0.05_wp, 0.05_wp, 1e-3_wp, 0.2_wp, 7e-6_wp, 5e-3_wp]
-      type(pad_bearing_type) :: bearing
+      type(tilting_pad_bearing_type) :: bearing
       type(journal_motion) :: journal, moved_journal
       type(pad_state) :: pads(2), moved(2)
       type(pad_derivatives) :: taken(2)
@@ -138,7 +138,7 @@ contains
    !> Masses times their inverse.
    subroutine mass_matrix(motion)
       character(len=*), intent(in) :: motion
-      type(pad_bearing_type) :: bearing
+      type(tilting_pad_bearing_type) :: bearing
       real(wp) :: unit(2, 2), masses(2, 2)
       integer :: i
       bearing = heavy_bearing(motion, 'none')
@@ -160,7 +160,7 @@ contains
    !> In the state of an evaluation its outputs give its samples; pressures are those at the edges at least.
    subroutine samples(motion)
       character(len=*), intent(in) :: motion
-      type(pad_bearing_type) :: bearing
+      type(tilting_pad_bearing_type) :: bearing
       type(journal_motion) :: journal
       type(pad_state) :: pads(2)
       type(pad_sample) :: evaluated(2), completed(2)
@@ -199,7 +199,7 @@ contains
    !> Friction off and films kept whole, and both back.
    subroutine operating_point()
       type(scene_type) :: scene
-      type(pad_bearing_type) :: bearing
+      type(tilting_pad_bearing_type) :: bearing
       type(journal_motion) :: journal
       type(pad_state) :: pads(2)
       real(wp) :: ruptured(2), whole(2)
@@ -212,7 +212,7 @@ contains
          scene%friction%model = 'bengisu_akay'
          scene%film%solver = trim(solvers(k))
          if (solvers(k) == 'modal') scene%film%cavitation = 'gumbel'
-         bearing = new_pad_bearing(scene)
+         bearing = new_tilting_pad_bearing(scene)
          call expect(.not. bearing%smooth() .and. bearing%films_rupture(), 'friction and rupture, '//solvers(k))
          ! the wedge of the second pad opens: its film ruptures
          journal%position = [-3e-5_wp, 0.0_wp]
@@ -234,11 +234,11 @@ contains
          call bearing%evaluate(journal, pads, speed, .false., refusal, ok)
          call expect_close(norm2(bearing%loads(2)%journal - ruptured), 0.0_wp, 1e-5_wp*norm2(ruptured), &
             & 'and back, within the tolerance of sor, '//solvers(k))
-         bearing = new_pad_bearing(scene)
+         bearing = new_tilting_pad_bearing(scene)
          call expect(.not. bearing%films_rupture(), 'no rupture by the input, '//solvers(k))
          call bearing%evaluate(journal, pads, speed, .false., refusal, ok)
          call expect_close(norm2(bearing%loads(2)%journal - whole), 0.0_wp, 1e-5_wp*norm2(whole), &
             & 'the whole film is that of the input without rupture, '//solvers(k))
       end do
    end subroutine operating_point
-end program test_pad_bearing
+end program test_tilting_pad_bearing

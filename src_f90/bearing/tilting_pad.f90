@@ -1,5 +1,5 @@
 !> One pad: loads on it and on the journal in a state, and their derivatives, which are not divided by masses.
-module bearing_pad
+module tilting_pad
    use kinds, only: wp
    use film_solver, only: film_motion, film_response
    use pad_gap, only: pad_gap_type, pad_directions
@@ -9,10 +9,10 @@ module bearing_pad
       & to_global, columns, tilt_column, tilt_rate_column, penetration_column
    implicit none (type, external)
    private
-   public :: bearing_pad_type, pad_loads, pad_derivatives
+   public :: tilting_pad_type, pad_loads, pad_derivatives
 
    !> What a pad is; SI units.
-   type :: bearing_pad_type
+   type :: tilting_pad_type
       type(pad_position) :: position
       type(pad_gap_type) :: gap
       type(pad_directions) :: directions
@@ -32,7 +32,7 @@ module bearing_pad
       procedure :: friction_derivatives
       procedure :: masses
       procedure :: inverse_masses
-   end type bearing_pad_type
+   end type tilting_pad_type
 
    !> Loads of one pad at one instant.
    type :: pad_loads
@@ -57,7 +57,7 @@ contains
 
    !> The pad's frame in a state.
    pure type(pad_frame) function frame(self, journal, state)
-      class(bearing_pad_type), intent(in) :: self
+      class(tilting_pad_type), intent(in) :: self
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: state
       frame = frame_of(self%position, journal%position, state%tilt, state%penetration)
@@ -65,7 +65,7 @@ contains
 
    !> The motion of the journal seen from the pad.
    pure type(film_motion) function motion(self, frame, journal, state)
-      class(bearing_pad_type), intent(in) :: self
+      class(tilting_pad_type), intent(in) :: self
       type(pad_frame), intent(in) :: frame
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: state
@@ -74,7 +74,7 @@ contains
 
    !> The loads in a state with a film force in the pad frame, N.
    pure subroutine loads(self, frame, state, film_force, contact, friction, answer)
-      class(bearing_pad_type), intent(in) :: self
+      class(tilting_pad_type), intent(in) :: self
       type(pad_frame), intent(in) :: frame
       type(pad_state), intent(in) :: state
       real(wp), intent(in) :: film_force(2)
@@ -98,7 +98,7 @@ contains
 
    !> The derivatives of the loads in the state in which these and the film were evaluated, film derivatives included.
    pure subroutine derivatives(self, frame, motion, state, film, loads, answer)
-      class(bearing_pad_type), intent(in) :: self
+      class(tilting_pad_type), intent(in) :: self
       type(pad_frame), intent(in) :: frame
       type(film_motion), intent(in) :: motion
       type(pad_state), intent(in) :: state
@@ -133,7 +133,7 @@ contains
 
    !> What friction adds to the derivatives of the moment: over the columns, and over the bristles' deflection.
    pure subroutine friction_derivatives(self, friction, contact, over_columns, over_deflection)
-      class(bearing_pad_type), intent(in) :: self
+      class(tilting_pad_type), intent(in) :: self
       type(friction_response), intent(in) :: friction
       !> Derivatives of the contact force.
       real(wp), intent(in) :: contact(columns)
@@ -146,7 +146,7 @@ contains
 
    !> Mass matrix of eqs (3)-(4): moment and force per rate of tilt rate and penetration rate.
    pure function masses(self)
-      class(bearing_pad_type), intent(in) :: self
+      class(tilting_pad_type), intent(in) :: self
       real(wp) :: masses(2, 2)
       associate (coupling => self%mass*self%centre_tangential)
          masses = reshape([self%inertia, coupling, coupling, self%mass], [2, 2])
@@ -155,7 +155,7 @@ contains
 
    !> Its inverse. A pad that only tilts has no second row and column.
    pure function inverse_masses(self) result(inverse)
-      class(bearing_pad_type), intent(in) :: self
+      class(tilting_pad_type), intent(in) :: self
       real(wp) :: inverse(2, 2), coupling, determinant
       inverse = 0
       if (self%radial) then
@@ -167,4 +167,4 @@ contains
          inverse(1, 1) = 1/self%inertia
       end if
    end function inverse_masses
-end module bearing_pad
+end module tilting_pad

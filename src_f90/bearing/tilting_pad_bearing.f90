@@ -1,6 +1,6 @@
 !> A bearing of tilting pads: the motion of the journal, the states of the pads and the speed go in, the loads of
 !> every pad and their derivatives come out. One evaluation of the film solver serves all pads.
-module pad_bearing
+module tilting_pad_bearing
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, i8
    use text, only: to_text
@@ -10,11 +10,11 @@ module pad_bearing
    use contact_table, only: contact_table_type, new_contact_table
    use friction, only: friction_law, no_friction
    use kinematics, only: journal_motion, pad_state, pad_frame, columns
-   use bearing_pad, only: bearing_pad_type, pad_loads, pad_derivatives
+   use tilting_pad, only: tilting_pad_type, pad_loads, pad_derivatives
    use components, only: make_film, new_law, new_friction, new_pads
    implicit none (type, external)
    private
-   public :: pad_bearing_type, pad_sample, new_pad_bearing, pad_outputs
+   public :: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
 
    !> Outputs of a pad: film force on the journal in its frame, N, maximum pressure, Pa.
    integer, parameter :: pad_outputs = 3
@@ -27,8 +27,8 @@ module pad_bearing
       real(wp) :: min_film_thickness = 0, max_pressure = 0
    end type pad_sample
 
-   type :: pad_bearing_type
-      type(bearing_pad_type), allocatable :: pads(:)
+   type :: tilting_pad_bearing_type
+      type(tilting_pad_type), allocatable :: pads(:)
       !> The loads of each pad in the state evaluated last; their derivatives where they were taken last.
       type(pad_loads), allocatable :: loads(:)
       type(pad_derivatives), allocatable :: derivatives(:)
@@ -63,7 +63,7 @@ module pad_bearing
       procedure, private :: evaluate_films
       procedure, private :: set_loads
       procedure, private :: refusal
-   end type pad_bearing_type
+   end type tilting_pad_bearing_type
 
    !> Every so many evaluations of the films one is timed.
    integer(i8), parameter :: timing_stride = 16
@@ -74,9 +74,9 @@ module pad_bearing
 contains
 
    !> The bearing of a valid scene.
-   function new_pad_bearing(scene) result(bearing)
+   function new_tilting_pad_bearing(scene) result(bearing)
       type(scene_type), intent(in) :: scene
-      type(pad_bearing_type) :: bearing
+      type(tilting_pad_bearing_type) :: bearing
       integer :: n
       n = scene%pad_count()
       bearing%pads = new_pads(scene)
@@ -87,12 +87,12 @@ contains
       if (scene%tilting_radial()) bearing%contact = new_contact_table(bearing%law)
       allocate (bearing%loads(n), bearing%derivatives(n), bearing%state(n))
       allocate (bearing%frame(n), bearing%motion(n), bearing%response(n))
-   end function new_pad_bearing
+   end function new_tilting_pad_bearing
 
    !> Sets the loads in a state, the speed in rad/s, and their derivatives where they are wanted. Refuses a state whose
    !> film is closed or did not converge, or whose pad has turned over: then `refusal` says why.
    subroutine evaluate(self, journal, pads, speed, want_derivatives, refusal, ok)
-      class(pad_bearing_type), intent(inout) :: self
+      class(tilting_pad_bearing_type), intent(inout) :: self
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: pads(:)
       real(wp), intent(in) :: speed
@@ -122,7 +122,7 @@ contains
 
    !> The films at the motions set; some evaluations are timed, for all.
    subroutine evaluate_films(self, speed, want_derivatives)
-      class(pad_bearing_type), intent(inout) :: self
+      class(tilting_pad_bearing_type), intent(inout) :: self
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       integer(i8) :: start, finish, rate
@@ -141,7 +141,7 @@ contains
 
    !> The loads of a pad with a film force in its frame, N.
    pure subroutine set_loads(self, pad, frame, state, film_force, loads)
-      class(pad_bearing_type), intent(in) :: self
+      class(tilting_pad_bearing_type), intent(in) :: self
       integer, intent(in) :: pad
       type(pad_frame), intent(in) :: frame
       type(pad_state), intent(in) :: state
@@ -156,7 +156,7 @@ contains
 
    !> True where a pad stands and its film has a force.
    pure logical function admitted(pad, state, film)
-      type(bearing_pad_type), intent(in) :: pad
+      type(tilting_pad_type), intent(in) :: pad
       type(pad_state), intent(in) :: state
       type(film_response), intent(in) :: film
       admitted = abs(state%tilt) < pad%largest_tilt .and. film%status /= film_closed &
@@ -165,7 +165,7 @@ contains
 
    !> Why the state evaluated last is refused for a pad.
    function refusal(self, pad) result(reason)
-      class(pad_bearing_type), intent(in) :: self
+      class(tilting_pad_bearing_type), intent(in) :: self
       integer, intent(in) :: pad
       character(len=:), allocatable :: reason, thickness
       associate (film => self%response(pad), tilt => self%state(pad)%tilt)
@@ -186,7 +186,7 @@ contains
    !> What a sample takes from the films, pad by pad: force and maximum pressure as evaluated last, the force with what
    !> a change of the state, (column, pad), adds to first order.
    pure function output(self, change)
-      class(pad_bearing_type), intent(in) :: self
+      class(tilting_pad_bearing_type), intent(in) :: self
       real(wp), intent(in) :: change(:, :)
       real(wp) :: output(pad_outputs*size(self%pads))
       real(wp) :: added(2)
@@ -204,7 +204,7 @@ contains
 
    !> The samples of all pads in a state whose outputs are known: without the film solver.
    pure function samples(self, journal, pads, output)
-      class(pad_bearing_type), intent(in) :: self
+      class(tilting_pad_bearing_type), intent(in) :: self
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: pads(:)
       real(wp), intent(in) :: output(:)
@@ -226,7 +226,7 @@ contains
 
    !> The samples of all pads in the state evaluated last.
    pure function sampled(self)
-      class(pad_bearing_type), intent(in) :: self
+      class(tilting_pad_bearing_type), intent(in) :: self
       type(pad_sample) :: sampled(size(self%pads))
       integer :: i
       do i = 1, size(self%pads)
@@ -240,7 +240,7 @@ contains
    !> Pressure of every film in the state evaluated last, Pa, (axial position, angle, pad), at angles from the pivot,
    !> rad, (angle, pad), and distances from the middle plane, m; speed in rad/s.
    subroutine pressure_field(self, speed, phi, z, pressure)
-      class(pad_bearing_type), intent(inout) :: self
+      class(tilting_pad_bearing_type), intent(inout) :: self
       real(wp), intent(in) :: speed, phi(:, :), z(:)
       real(wp), intent(out) :: pressure(:, :, :)
       call self%film%field(self%motion, speed, phi, z, pressure)
@@ -248,7 +248,7 @@ contains
 
    !> Names the pad whose film was nearly closed in the state evaluated last, if there is one; else empty.
    function warning(self)
-      class(pad_bearing_type), intent(in) :: self
+      class(tilting_pad_bearing_type), intent(in) :: self
       character(len=:), allocatable :: warning
       integer :: i
       warning = ''
@@ -262,20 +262,20 @@ contains
 
    !> True where no friction puts kinks into the motion.
    pure logical function smooth(self)
-      class(pad_bearing_type), intent(in) :: self
+      class(tilting_pad_bearing_type), intent(in) :: self
       smooth = .not. self%rubs .or. same_type_as(self%friction, no_rubbing)
    end function smooth
 
    !> Penetration of a pivot, m, that carries a force > 0, N.
    pure real(wp) function penetration(self, force)
-      class(pad_bearing_type), intent(in) :: self
+      class(tilting_pad_bearing_type), intent(in) :: self
       real(wp), intent(in) :: force
       penetration = self%law%penetration(force)
    end function penetration
 
    !> Contact force of a pivot, N, at a penetration, m.
    pure real(wp) function contact_force(self, penetration)
-      class(pad_bearing_type), intent(in) :: self
+      class(tilting_pad_bearing_type), intent(in) :: self
       real(wp), intent(in) :: penetration
       real(wp) :: stiffness
       call self%contact%lookup(penetration, contact_force, stiffness)
@@ -283,29 +283,29 @@ contains
 
    !> What the films have cost so far.
    pure type(film_counters) function counters(self)
-      class(pad_bearing_type), intent(in) :: self
+      class(tilting_pad_bearing_type), intent(in) :: self
       counters = self%film%counters
    end function counters
 
    !> True where the films rupture.
    pure logical function films_rupture(self)
-      class(pad_bearing_type), intent(in) :: self
+      class(tilting_pad_bearing_type), intent(in) :: self
       films_rupture = self%film%ruptures()
    end function films_rupture
 
    !> Lets the films rupture by their condition, or keeps them whole.
    subroutine set_rupture(self, allowed)
-      class(pad_bearing_type), intent(inout) :: self
+      class(tilting_pad_bearing_type), intent(inout) :: self
       logical, intent(in) :: allowed
       call self%film%set_rupture(allowed)
    end subroutine set_rupture
 
    !> Makes iterative film solutions at least so close, with as many sweeps as this at least.
    subroutine set_accuracy(self, tolerance, max_sweeps)
-      class(pad_bearing_type), intent(inout) :: self
+      class(tilting_pad_bearing_type), intent(inout) :: self
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: max_sweeps
       self%film%tolerance = min(self%film%tolerance, tolerance)
       self%film%max_sweeps = max(self%film%max_sweeps, max_sweeps)
    end subroutine set_accuracy
-end module pad_bearing
+end module tilting_pad_bearing
