@@ -21,9 +21,12 @@ MAKEFLAGS += --jobs=$(shell nproc)
 endif
 
 # ---- flags by compiler: this is the one place ---------------------------------------------------
-# standard: always. heap: for modules whose arrays are as long as a run. modules: what goes before their folder.
-# release, debug: FFLAGS, where they are not given. any: FFLAGS of a program for any processor of its kind, and alone: what
-# links the compiler's own libraries into it (both for a wheel).
+# Another compiler needs a block of its own and its name in `family`.
+#   standard         used always
+#   heap             added for modules whose arrays are as long as a run
+#   modules          stands before the folder of module files
+#   release, debug   FFLAGS, if they are not given
+#   any, alone       FFLAGS for any processor of this kind, and what links the compiler's own libraries in: for a wheel
 machine := $(shell uname -m)
 family := $(or $(findstring flang,$(notdir $(FC))),$(findstring ifx,$(notdir $(FC))),gfortran)
 
@@ -77,7 +80,7 @@ endif
 
 # ---- libraries ---------------------------------------------------------------------------------
 prefixes := $(SUNDIALS_PREFIX) $(HDF5_PREFIX) $(FFTW_PREFIX)
-# places of a prefix are looked for; Debian's are not, as they may be installed only now
+# folders of a prefix are looked for; Debian's are not, as they may be installed only now
 modules  := $(if $(SUNDIALS_PREFIX),$(wildcard $(addprefix $(SUNDIALS_PREFIX)/,include/sundials/fortran fortran include)),\
              /usr/include/sundials/fortran) \
             $(if $(HDF5_PREFIX),$(wildcard $(addprefix $(HDF5_PREFIX)/,include mod include/static)),/usr/include/hdf5/serial)
@@ -274,8 +277,8 @@ python_library: $(B)/obj/library.o $(B)/lib/unused.o
 	$(COMPILE) -c $(f2py)/_library-f2pywrappers2.f90 -o $(f2py)/wrappers.o; \
 	$(CC) -O2 -fPIC -w -I$$python -I$$numpy -I$$f2py -c $(f2py)/_librarymodule.c -o $(f2py)/module.o; \
 	$(CC) -O2 -fPIC -w -I$$python -I$$numpy -I$$f2py -c $$f2py/fortranobject.c -o $(f2py)/fortranobject.o; \
-	rm -f $(B)/lib/modules.a; ar rcs $(B)/lib/modules.a $(B)/obj/*.o; \
-	$(FC) -shared -s -Wl,--as-needed $(f2py)/*.o $(B)/lib/modules.a $(B)/lib/unused.o $(LIBS) -o $(FOLDER)/_library$$suffix
+	ar rcs $(f2py)/modules.a $(B)/obj/*.o; \
+	$(FC) -shared -s -Wl,--as-needed $(f2py)/*.o $(f2py)/modules.a $(B)/lib/unused.o $(LIBS) -o $(FOLDER)/_library$$suffix
 
 $(VENV)/ready: post/pyproject.toml post/setup.py post/requirements.txt | build/deps-checked
 	$(PYTHON) -m venv $(VENV)
@@ -332,7 +335,7 @@ $(B)/obj/%.o: %.F90 $(B)/flags | build/deps-checked
 	$(COMPILE) -c $< -o $@
 
 $(B)/obj/%.o: %.c $(B)/flags | build/deps-checked
-	$(CC) -O2 -Wall -Wextra -c $< -o $@
+	$(CC) -O2 -fPIC -Wall -Wextra -c $< -o $@
 
 $(B)/lib/flags: src_f90/libraries.sh $(B)/flags | build/deps-checked
 	@mkdir -p $(@D)
