@@ -73,7 +73,7 @@ link hdf5_serial_fortran hdf5_fortran
 link_if_there hdf5_serial_f90cstub hdf5_f90cstub
 link hdf5_serial hdf5
 # an HDF5 that works with MPI calls it in earnest, and its user links with MPI
-! grep -q MPI_Initialized "$file" || unused=
+! grep -qs MPI_Initialized "$file" || unused=
 if [ -n "$archives" ]; then for name in sz aec z; do link_if_there $name; done; flags="$flags -ldl -lpthread"; fi
 unused="$unused $(wanted '\(curl\|EVP\|aws\)_[A-Za-z0-9_]*\|HMAC\|SHA256')"
 all_flags="$all_flags $flags" flags=
