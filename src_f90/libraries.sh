@@ -1,6 +1,7 @@
 #!/bin/sh
 # Prints how to link SUNDIALS, HDF5, FFTW and LAPACK: their archives where there are any, else their shared libraries.
-# A program of archives starts in a third of the time, and needs nothing on the machine that runs it.
+# A program of archives starts sooner (docs/benchmarks.md, Production), and needs no library on the machine that runs it
+# but the C and Fortran compilers' own.
 #
 # usage: libraries.sh FOLDER [PREFIX...]     environment: FC, CC; LAPACK (flags of one's own); ARCHIVES=no (shared
 # libraries)

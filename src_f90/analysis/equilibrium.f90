@@ -167,7 +167,7 @@ contains
          if (.not. ok) exit
          move = maxval(abs(step/clearances(model)))
          if (move <= longest_move) exit
-         ! a shorter step in time, and not of its result, stays on the way of the motion
+         ! a shorter time step follows the path of the motion; a part of the step would leave it
          time_step = time_step*min(0.5_wp, longest_move/move)
       end do
    end subroutine find_step
@@ -203,7 +203,7 @@ contains
    function best_start(model, give_up) result(y)
       type(bearing_model), intent(inout) :: model
       procedure(asked_to_stop), optional :: give_up
-      real(wp) :: y(model%n), trial(model%n), smallest
+      real(wp) :: y(model%n), trial(model%n), smallest, residual
       integer :: i
       logical :: ok
       smallest = huge(smallest)
@@ -213,8 +213,9 @@ contains
          trial = start(model, fractions(i))
          call model%evaluate(0.0_wp, trial, .false., ok)
          if (.not. ok) cycle
-         if (residual_of(model) < smallest) then
-            smallest = residual_of(model)
+         residual = residual_of(model)
+         if (residual < smallest) then
+            smallest = residual
             y = trial
          end if
       end do
@@ -274,14 +275,11 @@ contains
    !> 1 N).
    pure real(wp) function residual_of(model)
       type(bearing_model), intent(in) :: model
-      real(wp) :: force(2)
-      integer :: i
+      real(wp) :: force(model%layout%n_positions())
+      force = forces(model, 0.0_wp)
       associate (pads => model%bearing%pads, loads => model%bearing%loads)
-         force = model%rotor%force(model%point, 0.0_wp)
-         do i = 1, size(loads)
-            force = force + loads(i)%journal
-         end do
-         residual_of = max(norm2(force), maxval(abs(loads%moment)/pads%position%centre_distance))
+         residual_of = max(norm2(force(:model%layout%rotor/2)), &
+            & maxval(abs(loads%moment)/pads%position%centre_distance))
          if (model%layout%radial) residual_of = max(residual_of, maxval(abs(loads%radial)))
          residual_of = residual_of/max(norm2(model%point%load), maxval(pads%weight), 1.0_wp)
       end associate
