@@ -2,7 +2,7 @@
 module paper_bearing
    use kinds, only: wp, degree
    use pad_gap, only: pad_gap_type
-   use contact_law, only: contact_law_type, new_contact_law
+   use contact_law, only: contact_law_type, make_contact_law
    implicit none (type, external)
    private
    public :: paper_pad, offset_pad, paper_law
@@ -45,6 +45,6 @@ contains
       real(wp) :: used
       used = 4
       if (present(factor)) used = factor
-      law = new_contact_law(name, 13e-3_wp, difference, [2.1e11_wp, 2.1e11_wp], [0.3_wp, 0.3_wp], used)
+      call make_contact_law(name, 13e-3_wp, difference, [2.1e11_wp, 2.1e11_wp], [0.3_wp, 0.3_wp], used, law)
    end function paper_law
 end module paper_bearing

@@ -4,6 +4,7 @@ module text
    implicit none (type, external)
    private
    public :: to_text, exact_text, fixed_text, lower_case, printable, shortened, on_one_line, is_utf8
+   public :: checksum
 
    !> A number as short text, for messages: `to_text(3)`, `to_text(0.1_wp)`.
    interface to_text
@@ -180,4 +181,19 @@ contains
          end if
       end do
    end function on_one_line
+
+   !> A number from 0 to 2**62 that tells a text from another, though not against intent: two remainders of 31 bits.
+   !> With `before`, the checksum of what comes before the text, it is that of both together.
+   pure integer(i8) function checksum(text, before)
+      character(len=*), intent(in) :: text
+      integer(i8), intent(in) :: before
+      integer(i8), parameter :: prime = 2_i8**31 - 1, factors(2) = [48271_i8, 69621_i8]
+      integer(i8) :: remainders(2)
+      integer :: i
+      remainders = [before/2_i8**31, mod(before, 2_i8**31)]
+      do i = 1, len(text)
+         remainders = mod(remainders*factors + ichar(text(i:i)) + 1, prime)
+      end do
+      checksum = remainders(1)*2_i8**31 + remainders(2)
+   end function checksum
 end module text

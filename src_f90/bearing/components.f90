@@ -6,16 +6,17 @@ module components
    use pad_gap, only: pad_gap_type
    use film_solver, only: film_solver_type
    use modal_film, only: new_modal_film
-   use modal_pad, only: enough_cells, enough_modes
-   use auto_film, only: new_auto_film
+   use film_resolution, only: enough_cells, enough_modes, usual_error
+   use auto_film, only: auto_film_type, new_auto_film
+   use table_film, only: new_table_film
    use sor_film, only: new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
-   use contact_law, only: contact_law_type, new_contact_law
+   use contact_law, only: contact_law_type, make_contact_law
    use friction, only: friction_law, no_friction, bengisu_akay_friction, lugre_friction, &
       & default_bristle_damping
    use tilting_pad, only: tilting_pad_type
    implicit none (type, external)
    private
-   public :: make_film, new_law, new_friction, new_pads
+   public :: make_film, make_law, make_friction, new_pads
 
    !> Finite volumes along the arc and along half the width where the input leaves them to the solver, by the
    !> errors in docs/benchmarks.md.
@@ -29,8 +30,10 @@ contains
       type(scene_type), intent(in) :: scene
       class(film_solver_type), allocatable, intent(out) :: film
       type(pad_gap_type) :: gaps(scene%pad_count())
+      type(auto_film_type), allocatable :: single(:)
       type(sor_options) :: options
-      integer :: cavitation, cells, modes, volumes(2)
+      integer :: cavitation, cells, modes, volumes(2), i
+      real(wp), allocatable :: error
       gaps = new_gaps(scene)
       associate (f => scene%film)
          select case (f%cavitation)
@@ -43,6 +46,8 @@ contains
          end select
          cells = merge(f%circumferential_cells, enough_cells(gaps), f%circumferential_cells > 0)
          modes = merge(f%axial_modes, enough_modes(gaps), f%axial_modes > 0)
+         ! what the input sets stays the same for every film
+         if (f%circumferential_cells == 0 .and. f%axial_modes == 0) error = usual_error
          volumes = merge(sor_volumes, rupture_volumes, f%solver == 'sor')
          associate (given => [f%circumferential_cells, f%axial_cells])
             volumes = merge(given, volumes, given > 0)
@@ -52,10 +57,24 @@ contains
             & min(f%tolerance, 0.1_wp*scene%integration%relative_tolerance), f%max_sweeps, cavitation)
          if (f%solver == 'sor') then
             film = new_sor_film(gaps, options)
-         else if (cavitation == cavitation_reynolds) then
-            film = new_auto_film(gaps, cells, modes, volumes(1), volumes(2))
+         else if (f%solver == 'modal') then
+            film = new_modal_film(gaps, cells, modes, cavitation == cavitation_gumbel, error)
          else
-            film = new_modal_film(gaps, cells, modes, cavitation == cavitation_gumbel)
+            associate (reynolds => cavitation == cavitation_reynolds, gumbel => cavitation == cavitation_gumbel)
+               if (f%solver == 'direct') then
+                  film = new_auto_film(gaps, cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
+               else
+                  ! one by one: gfortran never frees the elements of a list of them
+                  allocate (single(size(gaps)))
+                  do i = 1, size(gaps)
+                     single(i) = new_auto_film(gaps(i:i), cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
+                  end do
+                  ! ruptured films by volumes are dear, by modes they are cheap
+                  film = new_table_film(gaps, single, reynolds .or. gumbel, gumbel, &
+                     & merge(f%table_tolerance, merge(1, 4, gumbel)*scene%integration%relative_tolerance, &
+                     & f%table_tolerance > 0))
+               end if
+            end associate
          end if
          film%tolerance = options%tolerance
          film%max_sweeps = options%max_sweeps
@@ -77,19 +96,19 @@ contains
    end function new_gaps
 
    !> The contact law of the pivots.
-   function new_law(scene) result(law)
+   subroutine make_law(scene, law)
       type(scene_type), intent(in) :: scene
-      class(contact_law_type), allocatable :: law
+      class(contact_law_type), allocatable, intent(out) :: law
       associate (v => scene%pivot)
-         law = new_contact_law(v%law, v%socket_radius, v%radius_difference, v%young_modulus, &
-            & v%poisson_ratio, v%penetration_factor)
+         call make_contact_law(v%law, v%socket_radius, v%radius_difference, v%young_modulus, &
+            & v%poisson_ratio, v%penetration_factor, law)
       end associate
-   end function new_law
+   end subroutine make_law
 
    !> The friction law of the pivots.
-   function new_friction(scene) result(law)
+   subroutine make_friction(scene, law)
       type(scene_type), intent(in) :: scene
-      class(friction_law), allocatable :: law
+      class(friction_law), allocatable, intent(out) :: law
       real(wp) :: damping
       associate (f => scene%friction)
          select case (f%model)
@@ -105,7 +124,7 @@ contains
             law = no_friction()
          end select
       end associate
-   end function new_friction
+   end subroutine make_friction
 
    !> The pads.
    pure function new_pads(scene) result(pads)

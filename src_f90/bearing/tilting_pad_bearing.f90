@@ -3,6 +3,7 @@
 module tilting_pad_bearing
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, i8
+   use clock, only: wall_clock
    use text, only: to_text
    use scene, only: scene_type
    use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_closed, film_not_converged
@@ -11,7 +12,7 @@ module tilting_pad_bearing
    use friction, only: friction_law, no_friction
    use kinematics, only: journal_motion, pad_state, pad_frame, columns
    use tilting_pad, only: tilting_pad_type, pad_loads, pad_derivatives
-   use components, only: make_film, new_law, new_friction, new_pads
+   use components, only: make_film, make_law, make_friction, new_pads
    implicit none (type, external)
    private
    public :: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
@@ -32,6 +33,8 @@ module tilting_pad_bearing
       !> The loads of each pad in the state evaluated last; their derivatives where they were taken last.
       type(pad_loads), allocatable :: loads(:)
       type(pad_derivatives), allocatable :: derivatives(:)
+      !> Of each pad rates of tilt rate and penetration rate per moment and force, (2, 2, pad).
+      real(wp), allocatable :: per_mass(:, :, :)
       class(friction_law), allocatable :: friction
       !> False: the pivots slide freely, whatever the law.
       logical :: rubs = .true.
@@ -40,17 +43,18 @@ module tilting_pad_bearing
       type(contact_table_type), private :: contact
       !> Assembled clearance, m.
       real(wp), private :: clearance
-      !> The state evaluated last.
-      type(pad_state), allocatable, private :: state(:)
+      !> Of the state evaluated last.
       type(pad_frame), allocatable, private :: frame(:)
       type(film_motion), allocatable, private :: motion(:)
       type(film_response), allocatable, private :: response(:)
+      !> rad/s.
+      real(wp), private :: speed = 0
       integer(i8), private :: evaluations = 0
    contains
       procedure :: evaluate
       procedure :: output
       procedure :: sampled
-      procedure :: samples
+      procedure :: take_samples
       procedure :: pressure_field
       procedure :: warning
       procedure :: smooth
@@ -77,15 +81,19 @@ contains
    function new_tilting_pad_bearing(scene) result(bearing)
       type(scene_type), intent(in) :: scene
       type(tilting_pad_bearing_type) :: bearing
-      integer :: n
+      integer :: i, n
       n = scene%pad_count()
       bearing%pads = new_pads(scene)
+      allocate (bearing%per_mass(2, 2, n))
+      do i = 1, n
+         bearing%per_mass(:, :, i) = bearing%pads(i)%inverse_masses()
+      end do
       bearing%clearance = scene%bearing%assembled_clearance
-      bearing%friction = new_friction(scene)
+      call make_friction(scene, bearing%friction)
       call make_film(scene, bearing%film)
-      bearing%law = new_law(scene)
+      call make_law(scene, bearing%law)
       if (scene%tilting_radial()) bearing%contact = new_contact_table(bearing%law)
-      allocate (bearing%loads(n), bearing%derivatives(n), bearing%state(n))
+      allocate (bearing%loads(n), bearing%derivatives(n))
       allocate (bearing%frame(n), bearing%motion(n), bearing%response(n))
    end function new_tilting_pad_bearing
 
@@ -100,7 +108,6 @@ contains
       character(len=:), allocatable, intent(inout) :: refusal
       logical, intent(out) :: ok
       integer :: i
-      self%state = pads
       do i = 1, size(self%pads)
          self%frame(i) = self%pads(i)%frame(journal, pads(i))
          self%motion(i) = self%pads(i)%motion(self%frame(i), journal, pads(i))
@@ -109,7 +116,7 @@ contains
       do i = 1, size(self%pads)
          ok = admitted(self%pads(i), pads(i), self%response(i))
          if (.not. ok) then
-            refusal = self%refusal(i)
+            refusal = self%refusal(i, pads(i)%tilt)
             return
          end if
       end do
@@ -125,13 +132,14 @@ contains
       class(tilting_pad_bearing_type), intent(inout) :: self
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
-      integer(i8) :: start, finish, rate
+      real(wp) :: started
+      self%speed = speed
       if (mod(self%evaluations, timing_stride) == 0) then
-         call system_clock(start, rate)
+         ! tables are built now and then: their time must not count for evaluations without
+         started = wall_clock() - self%film%counters%building
          call self%film%evaluate(self%motion, speed, want_derivatives, self%response)
-         call system_clock(finish)
-         associate (seconds => self%film%counters%seconds)
-            seconds = seconds + real(timing_stride*(finish - start), wp)/real(rate, wp)
+         associate (counters => self%film%counters)
+            counters%seconds = counters%seconds + timing_stride*(wall_clock() - counters%building - started)
          end associate
       else
          call self%film%evaluate(self%motion, speed, want_derivatives, self%response)
@@ -164,11 +172,13 @@ contains
    end function admitted
 
    !> Why the state evaluated last is refused for a pad.
-   function refusal(self, pad) result(reason)
+   function refusal(self, pad, tilt) result(reason)
       class(tilting_pad_bearing_type), intent(in) :: self
       integer, intent(in) :: pad
+      !> Its tilt, rad.
+      real(wp), intent(in) :: tilt
       character(len=:), allocatable :: reason, thickness
-      associate (film => self%response(pad), tilt => self%state(pad)%tilt)
+      associate (film => self%response(pad))
          thickness = ': thickness '//to_text(film%min_film_thickness)//' m'
          if (.not. abs(tilt) < self%pads(pad)%largest_tilt) then
             reason = 'pad '//to_text(pad)//' turned over: tilt '//to_text(tilt)//' rad'
@@ -185,12 +195,13 @@ contains
 
    !> What a sample takes from the films, pad by pad: force and maximum pressure as evaluated last, the force with what
    !> a change of the state, (column, pad), adds to first order.
-   pure function output(self, change)
-      class(tilting_pad_bearing_type), intent(in) :: self
+   function output(self, change)
+      class(tilting_pad_bearing_type), intent(inout) :: self
       real(wp), intent(in) :: change(:, :)
       real(wp) :: output(pad_outputs*size(self%pads))
       real(wp) :: added(2)
       integer :: i, k
+      call self%film%take_pressures(self%motion, self%speed, self%response)
       do i = 1, size(self%pads)
          associate (film => self%response(i), derivatives => self%derivatives(i)%film)
             added = 0
@@ -203,12 +214,12 @@ contains
    end function output
 
    !> The samples of all pads in a state whose outputs are known: without the film solver.
-   pure function samples(self, journal, pads, output)
+   pure subroutine take_samples(self, journal, pads, output, samples)
       class(tilting_pad_bearing_type), intent(in) :: self
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: pads(:)
       real(wp), intent(in) :: output(:)
-      type(pad_sample) :: samples(size(pads))
+      type(pad_sample), intent(inout) :: samples(:)
       type(pad_frame) :: frame
       type(pad_loads) :: loads
       integer :: i
@@ -222,13 +233,14 @@ contains
                & max(film(3), gap%supply_pressure, gap%ambient_pressure))
          end associate
       end do
-   end function samples
+   end subroutine take_samples
 
    !> The samples of all pads in the state evaluated last.
-   pure function sampled(self)
-      class(tilting_pad_bearing_type), intent(in) :: self
+   function sampled(self)
+      class(tilting_pad_bearing_type), intent(inout) :: self
       type(pad_sample) :: sampled(size(self%pads))
       integer :: i
+      call self%film%take_pressures(self%motion, self%speed, self%response)
       do i = 1, size(self%pads)
          associate (film => self%response(i), loads => self%loads(i))
             sampled(i) = pad_sample(loads%contact, self%pads(i)%ball_radius*loads%friction%force, film%force, &
@@ -305,7 +317,6 @@ contains
       class(tilting_pad_bearing_type), intent(inout) :: self
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: max_sweeps
-      self%film%tolerance = min(self%film%tolerance, tolerance)
-      self%film%max_sweeps = max(self%film%max_sweeps, max_sweeps)
+      call self%film%set_accuracy(tolerance, max_sweeps)
    end subroutine set_accuracy
 end module tilting_pad_bearing

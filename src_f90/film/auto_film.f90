@@ -29,7 +29,8 @@ module auto_film
       real(wp), allocatable :: cavitation_pressure(:), clearance(:)
       type(modal_film_type) :: modal
       type(direct_film_type), allocatable :: direct(:)
-      logical :: may_rupture = .true.
+      !> Whether the elimination looks for rupture: as the solver was made; in force.
+      logical :: made_to_project = .true., projects = .true.
    contains
       procedure :: ruptures
       procedure :: set_rupture
@@ -40,15 +41,21 @@ module auto_film
 contains
 
    !> Both solvers for the same gaps: cells along the arc and modes of the one; cells along the arc and
-   !> along half the width of the other.
-   function new_auto_film(gaps, cells, modes, columns, rows) result(solver)
+   !> along half the width of the other. With the condition of Reynolds or Guembel, or none; only the first needs
+   !> the other solver. The tolerance is that of the modes (new_modal_film).
+   function new_auto_film(gaps, cells, modes, columns, rows, reynolds, gumbel, tolerance) result(solver)
       type(pad_gap_type), intent(in) :: gaps(:)
       integer, intent(in) :: cells, modes, columns, rows
+      logical, intent(in) :: reynolds, gumbel
+      real(wp), intent(in), optional :: tolerance
       type(auto_film_type) :: solver
       integer :: i
+      solver%made_to_project = reynolds
+      solver%projects = reynolds
       solver%cavitation_pressure = gaps%cavitation_pressure
       solver%clearance = gaps%machined_clearance
-      solver%modal = new_modal_film(gaps, cells, modes, .false.)
+      solver%modal = new_modal_film(gaps, cells, modes, gumbel, tolerance)
+      if (.not. reynolds) return
       allocate (solver%direct(size(gaps)))
       do i = 1, size(gaps)
          solver%direct(i) = new_direct_film(gaps(i), columns, rows)
@@ -57,13 +64,14 @@ contains
 
    pure logical function ruptures(self)
       class(auto_film_type), intent(in) :: self
-      ruptures = self%may_rupture
+      ruptures = self%projects .or. self%modal%ruptures()
    end function ruptures
 
    pure subroutine set_rupture(self, allowed)
       class(auto_film_type), intent(inout) :: self
       logical, intent(in) :: allowed
-      self%may_rupture = allowed
+      self%projects = self%made_to_project .and. allowed
+      call self%modal%set_rupture(allowed)
    end subroutine set_rupture
 
    subroutine evaluate(self, motion, speed, want_derivatives, response)
@@ -81,7 +89,7 @@ contains
          if (response(i)%status /= film_ok) cycle
          tension = self%cavitation_pressure(i) - response(i)%min_pressure
          height = response(i)%max_pressure - self%cavitation_pressure(i)
-         if (tension <= slight_tension*height .or. .not. self%may_rupture) then
+         if (tension <= slight_tension*height .or. .not. self%projects) then
             self%counters%modal = self%counters%modal + 1
             cycle
          end if
@@ -168,7 +176,7 @@ contains
       integer :: i
       call self%modal%evaluate(motion, speed, .false., response)
       call self%modal%field(motion, speed, phi, z, pressure)
-      if (.not. self%may_rupture) return
+      if (.not. self%projects) return
       do i = 1, size(motion)
          associate (lowest => self%cavitation_pressure(i))
             if (lowest - response(i)%min_pressure <= slight_tension*(response(i)%max_pressure - lowest)) then

@@ -22,7 +22,7 @@ module film_solver
       real(wp) :: force(2) = 0
       !> d force / d (position, velocity), N/m and N s/m; set on request.
       real(wp) :: derivatives(2, 4) = 0
-      !> Minimum and maximum pressure at the grid points, Pa; minimum film thickness, m.
+      !> Minimum and maximum pressure, Pa (a solver may leave them to `take_pressures`); minimum film thickness, m.
       real(wp) :: min_pressure = 0, max_pressure = 0, min_film_thickness = 0
       !> Relative residual of an iterative solution; 0 for a direct one.
       real(wp) :: residual = 0
@@ -33,7 +33,10 @@ module film_solver
       !> Pads evaluated by axial modes and on finite volumes; passes over these volumes: sweeps of over-relaxation,
       !> or eliminations.
       integer(i8) :: modal = 0, volumes = 0, passes = 0
-      !> Wall time, s, where the solver's user takes it.
+      !> Pads looked up in tables; cells and nodes of ruptured films that were built for them, and the wall time, s.
+      integer(i8) :: looked_up = 0, cells = 0, nodes = 0
+      real(wp) :: building = 0
+      !> Wall time, s, where the solver's user takes it; without that of building tables.
       real(wp) :: seconds = 0
    end type film_counters
 
@@ -48,6 +51,8 @@ module film_solver
       procedure(evaluate_field), deferred :: field
       procedure(can_rupture), deferred :: ruptures
       procedure(choose_rupture), deferred :: set_rupture
+      procedure :: set_accuracy
+      procedure :: take_pressures
    end type film_solver_type
 
    abstract interface
@@ -85,4 +90,24 @@ module film_solver
          real(wp), intent(out) :: pressure(:, :, :)
       end subroutine evaluate_field
    end interface
+
+contains
+
+   !> Makes solutions at least so close: an iterative one ends at this residual, after as many sweeps as this at least.
+   subroutine set_accuracy(self, tolerance, max_sweeps)
+      class(film_solver_type), intent(inout) :: self
+      real(wp), intent(in) :: tolerance
+      integer, intent(in) :: max_sweeps
+      self%tolerance = min(self%tolerance, tolerance)
+      self%max_sweeps = max(self%max_sweeps, max_sweeps)
+   end subroutine set_accuracy
+
+   !> Sets minimum and maximum pressure in the answers of the last evaluation, at the same motions and speed, where
+   !> `evaluate` has left them out.
+   subroutine take_pressures(self, motion, speed, response)
+      class(film_solver_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion(:)
+      real(wp), intent(in) :: speed
+      type(film_response), intent(inout) :: response(:)
+   end subroutine take_pressures
 end module film_solver

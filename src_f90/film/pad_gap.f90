@@ -27,9 +27,9 @@ module pad_gap
       procedure :: min_film_thickness
    end type pad_gap_type
 
-   !> (sin phi, cos phi) at the edges and the middle of the arc; cosine of half the arc.
+   !> (sin phi, cos phi) at the edges and the middle of the arc, and of half the arc.
    type :: pad_directions
-      real(wp) :: leading(2), trailing(2), middle(2), cos_half
+      real(wp) :: leading(2), trailing(2), middle(2), half(2)
    end type pad_directions
 
 contains
@@ -65,7 +65,9 @@ contains
       associate (phi => 0.5_wp*(self%leading_angle - self%trailing_angle))
          directions%middle = [sin(phi), cos(phi)]
       end associate
-      directions%cos_half = cos(0.5_wp*self%arc())
+      associate (half => 0.5_wp*self%arc())
+         directions%half = [sin(half), cos(half)]
+      end associate
    end function directions
 
    !> Minimum film thickness on the pad, m: inside the arc where h has a minimum there, else at an edge.
@@ -76,7 +78,7 @@ contains
       type(pad_directions), intent(in) :: directions
       real(wp) :: h, e
       e = sqrt(dot_product(motion%position, motion%position))
-      if (dot_product(motion%position, directions%middle) > e*directions%cos_half) then
+      if (dot_product(motion%position, directions%middle) > e*directions%half(2)) then
          h = self%machined_clearance - e
       else
          h = self%machined_clearance - max(dot_product(motion%position, directions%leading), &

@@ -153,20 +153,26 @@ contains
       type(film_type), intent(inout) :: film
       class(visitor_type), intent(inout) :: v
       call v%group('film', 'Solver of the Reynolds equation')
-      call v%word(film%solver, choice('solver', 'auto modal sor', &
-         & 'auto: axial modes, finite volumes where a film ruptures; modal: axial modes; sor: over-relaxation'))
+      call v%word(film%solver, choice('solver', 'auto direct modal sor', &
+         & 'auto: tables of converged films, direct where there is none; direct: axial modes, finite volumes where ' &
+         & //'a film ruptures; modal: axial modes; sor: over-relaxation'))
       call v%whole(film%circumferential_cells, field('circumferential_cells', 0.0_wp, 2000.0_wp, '1', &
-         & 'cells along the arc, an even number; 0: as many as axial modes need, 80 where a film ruptures, 60 for sor'))
+         & 'direct, modal, sor: cells along the arc, an even number; 0: as many as axial modes need, 80 where a film ' &
+         & //'ruptures, 60 for sor'))
       call v%whole(film%axial_cells, field('axial_cells', 0.0_wp, 1000.0_wp, '1', &
-         & 'finite volumes: cells along half the width, at least 2; 0: 8, or 15 for sor'))
+         & 'direct, sor: cells along half the width, at least 2; 0: 8, or 15 for sor'))
       call v%whole(film%axial_modes, field('axial_modes', 0.0_wp, 200.0_wp, '1', &
-         & 'maximum number of axial modes; the closed form takes those that are too stiff for the cells; 0: automatic'))
+         & 'direct, modal: maximum number of axial modes; the closed form takes those that are too stiff for the ' &
+         & //'cells; 0: automatic'))
       call v%number(film%relaxation, field('relaxation', 0.0_wp, 1.999_wp, '1', &
          & 'sor: relaxation factor; 0: the optimum for the grid'))
       call v%number(film%tolerance, field('tolerance', 1e-13_wp, 1e-2_wp, '1', &
          & 'sor: limit of residual over source; at most a tenth of relative_tolerance is used'))
       call v%whole(film%max_sweeps, field('max_sweeps', 1.0_wp, 1e8_wp, '1', &
          & 'sor: maximum number of sweeps for a film; more is a failure'))
+      call v%number(film%table_tolerance, field('table_tolerance', 0.0_wp, 1e-2_wp, '1', &
+         & 'auto: error of forces from tables over that of the film at the onset of rupture; ' &
+         & //'0: relative_tolerance, with reynolds 4 times as much; ruptured films keep to 2.5e-6 at best'))
       call v%word(film%cavitation, choice('cavitation', 'reynolds gumbel none', &
          & 'reynolds: p >= p_cav in the solution; gumbel: clipped after the solution; none: no rupture'))
    end subroutine visit_film

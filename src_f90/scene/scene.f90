@@ -68,13 +68,15 @@ module scene
    end type friction_type
 
    type :: film_type
-      !> 'auto', 'modal' or 'sor'.
+      !> 'auto', 'direct', 'modal' or 'sor'.
       character(len=:), allocatable :: solver
       !> Cells along the arc and, on finite volumes, along half the width; modes. 0: the solver's own number.
       integer :: circumferential_cells = 0, axial_cells = 0, axial_modes = 0
       !> Of an iterative solution: relaxation factor, 0: the grid's optimum; residual at which it ends; most sweeps.
       real(wp) :: relaxation = 0, tolerance = 1e-6_wp
       integer :: max_sweeps = 5000
+      !> Of forces from tables over that of a film that is just whole; 0: by the march's tolerance.
+      real(wp) :: table_tolerance = 0
       !> 'reynolds', 'gumbel' or 'none'.
       character(len=:), allocatable :: cavitation
    end type film_type

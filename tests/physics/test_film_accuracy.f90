@@ -10,7 +10,7 @@ program test_film_accuracy
    use film_solver, only: film_motion, film_response, film_ok
    use pad_gap, only: pad_gap_type
    use modal_film, only: modal_film_type, new_modal_film
-   use modal_pad, only: enough_cells, enough_modes
+   use film_resolution, only: enough_cells, enough_modes
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
@@ -115,13 +115,14 @@ contains
       asked_for = minval(h) > 0.999_wp*least_film .and. maxval(h) < 1.001_wp*most_uneven*minval(h)
    end function asked_for
 
-   type(film_response) function answer(film, at, columns, most_modes)
+   type(film_response) function answer(film, at, columns, most_modes, wanted)
       type(pad_gap_type), intent(in) :: film
       type(film_motion), intent(in) :: at
       integer, intent(in) :: columns, most_modes
+      real(wp), intent(in), optional :: wanted
       type(modal_film_type) :: solver
       type(film_response) :: r(1)
-      solver = new_modal_film([film], columns, most_modes, gumbel=.false.)
+      solver = new_modal_film([film], columns, most_modes, .false., wanted)
       call solver%evaluate([at], speed, .false., r)
       call expect(r(1)%status == film_ok, 'the film is open')
       answer = r(1)
@@ -204,7 +205,7 @@ contains
       cells = enough_cells([film])
       modes = enough_modes([film])
       at = motion(state)
-      r = answer(film, at, cells, modes)
+      r = answer(film, at, cells, modes, tolerance)
       reference = answer(film, at, fine_cells, fine_modes)
       scale = 0.1_wp*max(reference%max_pressure, -reference%min_pressure)*film%arc()*film%pad_radius() &
          & *film%axial_length

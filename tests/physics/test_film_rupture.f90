@@ -239,7 +239,7 @@ contains
       largest = 0
       compared = 0
       do trial = 1, 30
-         solver = new_auto_film([pad(mod(trial, 2) == 0)], cells, modes, columns, rows)
+         solver = new_auto_film([pad(mod(trial, 2) == 0)], cells, modes, columns, rows, .true., .false.)
          by_modes = new_modal_film([pad(mod(trial, 2) == 0)], cells, modes, gumbel=.false.)
          by_cells = new_sor_film([pad(mod(trial, 2) == 0)], sor_options(columns, rows, tolerance=1e-8_wp, &
             & cavitation=cavitation_none))
@@ -303,7 +303,7 @@ contains
       integer :: i, k, switches
       logical :: was, is
       allowed = error_of_cells(path, columns, rows)
-      solver = new_auto_film([pad(path%flooded)], cells, modes, columns, rows)
+      solver = new_auto_film([pad(path%flooded)], cells, modes, columns, rows, .true., .false.)
       switches = 0
       call look(solver, path, 0.0_wp, before, was)
       do i = 1, n
@@ -400,7 +400,7 @@ contains
       integer, parameter :: few = 100, many = 1000
       type(auto_film_type) :: solver
       real(wp) :: coarse(2, 0:few), fine(2, 0:many), back(2, 0:few), rough_coarse, rough_fine, largest
-      solver = new_auto_film([pad(path%flooded)], cells, modes, 60, 15)
+      solver = new_auto_film([pad(path%flooded)], cells, modes, 60, 15, .true., .false.)
       call walk(solver, path, 2*pi/few, coarse, rough_coarse)
       call walk(solver, path, -2*pi/few, back, rough_coarse)
       call walk(solver, path, 2*pi/many, fine, rough_fine)

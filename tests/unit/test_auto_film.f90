@@ -31,7 +31,7 @@ contains
       type(auto_film_type), intent(out) :: auto
       type(modal_film_type), intent(out) :: by_modes
       type(direct_film_type), intent(out) :: by_cells
-      auto = new_auto_film([paper_pad()], cells, modes, columns, rows)
+      auto = new_auto_film([paper_pad()], cells, modes, columns, rows, .true., .false.)
       by_modes = new_modal_film([paper_pad()], cells, modes, .false.)
       by_cells = new_direct_film(paper_pad(), columns, rows)
    end subroutine solvers
@@ -150,7 +150,7 @@ contains
    subroutine closed()
       type(auto_film_type) :: auto
       type(film_response) :: found(1)
-      auto = new_auto_film([paper_pad()], cells, modes, columns, rows)
+      auto = new_auto_film([paper_pad()], cells, modes, columns, rows, .true., .false.)
       call auto%evaluate([film_motion([0.0_wp, 1.1_wp*clearance], [0.0_wp, 0.0_wp])], speed, .true., found)
       call expect(found(1)%status == film_closed, 'a closed film')
       call expect_close(found(1)%min_film_thickness, -0.1_wp*clearance, 1e-18_wp, 'and by how much')
@@ -165,13 +165,14 @@ contains
       type(film_response) :: found(3), expected(1)
       integer :: k
       together = new_auto_film([paper_pad(), offset_pad(), paper_pad([2e5_wp, 1e5_wp, 0.0_wp])], cells, modes, &
-         & columns, rows)
+         & columns, rows, .true., .false.)
       call together%evaluate(motions, speed, .true., found)
       call expect(all(found%status == film_ok), 'three pads')
       do k = 1, 3
-         if (k == 1) alone = new_auto_film([paper_pad()], cells, modes, columns, rows)
-         if (k == 2) alone = new_auto_film([offset_pad()], cells, modes, columns, rows)
-         if (k == 3) alone = new_auto_film([paper_pad([2e5_wp, 1e5_wp, 0.0_wp])], cells, modes, columns, rows)
+         if (k == 1) alone = new_auto_film([paper_pad()], cells, modes, columns, rows, .true., .false.)
+         if (k == 2) alone = new_auto_film([offset_pad()], cells, modes, columns, rows, .true., .false.)
+         if (k == 3) alone = new_auto_film([paper_pad([2e5_wp, 1e5_wp, 0.0_wp])], cells, modes, columns, rows, &
+            & .true., .false.)
          call alone%evaluate(motions(k:k), speed, .true., expected)
          call expect_same(found(k), expected(1), 'pad '//to_text(k))
       end do

@@ -89,8 +89,8 @@ contains
       call expect(any(field_of(solver, torn) <= 0), 'and some at it')
    end subroutine force_of_modes
 
-   !> The lines between cells and edges leave out what the pressure rises above them: second order, so that a
-   !> quarter is left with twice the volumes. Of the little force of the torn pad it is more than of the other.
+   !> The field keeps the mean of every cell; what is left is sine and cosine, which are not even over a cell. It falls
+   !> with the volumes until that of the points of this test is left.
    subroutine force_of_volumes()
       type(sor_film_type) :: solver
       character(len=8), parameter :: names(0:2) = [character(len=8) :: 'none', 'gumbel', 'reynolds']
@@ -106,9 +106,9 @@ contains
                   & cavitation=kinds(k)))
                error(level) = missing(solver, motions(i))
             end do
-            call expect_close(error(2), 0.0_wp, merge(2e-3_wp, 1e-2_wp, i == 1), 'integral of volumes, ' &
+            call expect_close(error(2), 0.0_wp, 1e-4_wp, 'integral of volumes, ' &
                & //trim(names(k)))
-            call expect(error(2) < 0.3_wp*error(1), 'integral of twice the volumes, '//trim(names(k)))
+            call expect(error(2) < 0.6_wp*error(1), 'integral of twice the volumes, '//trim(names(k)))
          end do
       end do
    end subroutine force_of_volumes
@@ -121,7 +121,7 @@ contains
       real(wp), allocatable :: p(:, :)
       integer :: i
       motions = [whole, slight, torn, unloaded]
-      solver = new_auto_film([offset_pad()], 24, 8, 80, 8)
+      solver = new_auto_film([offset_pad()], 24, 8, 80, 8, .true., .false.)
       do i = 1, size(motions)
          p = field_of(solver, motions(i))
          call expect_close(missing(solver, motions(i)), 0.0_wp, tolerances(i), 'integral of auto, motion '//to_text(i))
@@ -145,13 +145,13 @@ contains
       p = field_of(modes, whole)
       q = field_of(volumes, whole)
       call expect_close(maxval(abs(p - q)), 0.0_wp, 1e-3_wp*maxval(q), 'modes against over-relaxation')
-      modes = new_modal_film([offset_pad([4e6_wp, 1e6_wp, 0.0_wp])], 24, 16, gumbel=.false.)
+      modes = new_modal_film([offset_pad([4e6_wp, 1e6_wp, 0.0_wp])], 36, 16, .false.)
       volumes = new_sor_film([offset_pad([4e6_wp, 1e6_wp, 0.0_wp])], fine(cavitation_none))
       p = field_of(modes, whole)
       q = field_of(volumes, whole)
       p(175:, 392:) = q(175:, 392:)
       call expect_close(maxval(abs(p - q)), 0.0_wp, 3e-3_wp*maxval(q), 'modes against over-relaxation, flooded')
-      auto = new_auto_film([offset_pad()], 24, 8, 80, 8)
+      auto = new_auto_film([offset_pad()], 24, 8, 80, 8, .true., .false.)
       volumes = new_sor_film([offset_pad()], fine(cavitation_reynolds))
       motions = [slight, torn, unloaded]
       do i = 1, size(motions)
@@ -174,7 +174,7 @@ contains
       type(auto_film_type) :: auto
       modes = new_modal_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
       volumes = new_sor_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], sor_options(24, 8, tolerance=1e-13_wp))
-      auto = new_auto_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], 24, 8, 24, 8)
+      auto = new_auto_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], 24, 8, 24, 8, .true., .false.)
       call expect_close(unevenness(modes), 0.0_wp, 1e-9_wp, 'uniform pressure, modes')
       call expect_close(unevenness(volumes), 0.0_wp, 1e-9_wp, 'uniform pressure, volumes')
       call expect_close(unevenness(auto), 0.0_wp, 1e-9_wp, 'uniform pressure, auto')
@@ -227,10 +227,10 @@ contains
       films(2)%trailing_angle = theta_1
       phi(:, 1) = reshape(angles(), [along])
       phi(:, 2) = -phi(along:1:-1, 1)
-      solver = new_auto_film(films, 24, 8, 80, 8)
+      solver = new_auto_film(films, 24, 8, 80, 8, .true., .false.)
       call solver%field([whole, whole], speed, phi, places(), p)
       call expect(maxval(abs(p(:, :, 1) - p(:, :, 2))) > 0.01_wp*maxval(p), 'two pads, two fields')
-      alone = new_auto_film(films(:1), 24, 8, 80, 8)
+      alone = new_auto_film(films(:1), 24, 8, 80, 8, .true., .false.)
       call expect_close(maxval(abs(p(:, :, 1) - field_of(alone, whole))), 0.0_wp, 0.0_wp, 'the first pad''s own')
    end subroutine pads_apart
 end program test_film_field

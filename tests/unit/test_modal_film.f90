@@ -221,7 +221,7 @@ contains
       type(film_motion) :: motion(2)
       films = offset_pad()
       options = sor_options(24, 6, tolerance=1e-12_wp, cavitation=cavitation_reynolds)
-      auto = new_auto_film(films, 24, 8, options%circumferential_cells, options%axial_cells)
+      auto = new_auto_film(films, 24, 8, options%circumferential_cells, options%axial_cells, .true., .false.)
       modal = new_modal_film(films, 24, 8, gumbel=.false.)
       sor = new_sor_film(films, options)
       motion = [film_motion([-3e-5_wp, 5e-5_wp], [0.0_wp, 2e-3_wp]), film_motion([5e-6_wp, 5e-5_wp])]

@@ -8,85 +8,76 @@
 !> the rest is smooth, and put back at the point.
 module modal_field
    use kinds, only: wp, pi
-   use film_solver, only: film_motion
    use pad_gap, only: pad_gap_type
+   use modal_pad, only: modal_pad_type
+   use modal_sweeps, only: lanes
+   use sommerfeld_nodes, only: span
    implicit none (type, external)
    private
-   public :: axial_profile, left_out, field_of_modes
+   public :: field_of_modes
 
    !> pi R x/L beyond which nothing is left of W: exp(-50) = 2e-22.
    real(wp), parameter :: far = 50
 
 contains
 
-   !> b_k cos(lambda_k Z) of mode k = 1, 2, ..., at Z over half the width.
-   elemental real(wp) function axial_profile(k, position)
-      integer, intent(in) :: k
-      real(wp), intent(in) :: position
-      axial_profile = -4*(-1)**k/((2*k - 1)*pi)*cos((2*k - 1)*pi/2*position)
-   end function axial_profile
-
-   !> Sum of b_k cos(lambda_k Z)/Lambda_k^2 over the modes beyond the first so many, at Z over half the width.
-   elemental real(wp) function left_out(gap, modes, position)
-      type(pad_gap_type), intent(in) :: gap
-      integer, intent(in) :: modes
-      real(wp), intent(in) :: position
-      real(wp) :: unit
-      integer :: k
-      unit = gap%axial_length/(pi*gap%pad_radius())
-      left_out = (gap%axial_length/gap%pad_radius())**2*(1 - position**2)/8
-      do k = 1, modes
-         left_out = left_out - axial_profile(k, position)/((2*k - 1)/unit)**2
-      end do
-   end function left_out
-
-   !> Pressure, Pa, (axial position, angle), with tension where there is any: the cubic through four nodes along
-   !> the arc, the modes across.
-   pure function field_of_modes(gap, motion, modes, per_g, s, q, phi, z) result(pressure)
-      type(pad_gap_type), intent(in) :: gap
-      type(film_motion), intent(in) :: motion
-      !> How many modes there are; further lanes of q idle.
-      integer, intent(in) :: modes
-      !> 1/g and s by node, q by lane, node and block (modal_film); nodes from the trailing to the leading edge.
-      real(wp), intent(in) :: per_g(0:), s(0:), q(:, 0:, :)
+   !> Pressure, Pa, (axial position, angle), of the pad's last solution, with tension where there is any: the cubic
+   !> through four nodes along the arc, the modes across.
+   pure function field_of_modes(pad, phi, z) result(pressure)
+      type(modal_pad_type), intent(in) :: pad
       !> Angles from the pivot, rad, and distances from the middle plane, m, within the pad.
       real(wp), intent(in) :: phi(:), z(:)
       real(wp) :: pressure(size(z), size(phi))
-      real(wp) :: position(size(z)), profile(size(z), modes), narrow(size(z)), smooth(size(z), 0:ubound(s, 1))
-      real(wp) :: d, rise, g_edge, g, x
-      integer :: i, j, k, lanes, n
-      n = ubound(s, 1)
-      lanes = size(q, 1)
-      d = gap%arc()/n
-      rise = gap%supply_pressure - gap%ambient_pressure
-      g_edge = 1/per_g(n)
-      position = abs(z)/(0.5_wp*gap%axial_length)
-      narrow = left_out(gap, modes, position)
-      do k = 1, modes
-         profile(:, k) = axial_profile(k, position)
-      end do
-      smooth(:, 0) = 0
-      do i = 1, n - 1
-         smooth(:, i) = -narrow*s(i)*per_g(i)
-      end do
-      smooth(:, n) = 0
-      do i = 0, n - 1
-         x = (n - i)*d
-         do k = 1, modes
-            associate (decay => exp(-(2*k - 1)*pi*gap%pad_radius()/gap%axial_length*x), &
-               & solved => q(mod(k - 1, lanes) + 1, i, (k - 1)/lanes + 1))
-               smooth(:, i) = smooth(:, i) + profile(:, k)*per_g(i)*(solved - rise*g_edge*decay)
-            end associate
+      real(wp) :: position(size(z)), narrow(size(z)), smooth(size(z), 0:pad%n)
+      real(wp) :: profile(lanes*pad%axial%blocks, size(z)), rise, h, angle
+      integer :: i, j, b
+      associate (gap => pad%gap, n => pad%n)
+         rise = gap%supply_pressure - gap%ambient_pressure
+         position = abs(z)/(0.5_wp*gap%axial_length)
+         do j = 1, size(z)
+            profile(:, j) = pad%axial%profile(position(j))
+            narrow(j) = pad%axial%left_out(position(j))
          end do
-      end do
-      do j = 1, size(phi)
-         x = (phi(j) + gap%trailing_angle)/d
-         i = min(max(int(x) - 1, 0), n - 3)
-         g = gap%thickness(motion, sin(phi(j)), cos(phi(j)))**1.5_wp
-         pressure(:, j) = gap%ambient_pressure + matmul(smooth(:, i:i + 3), cubic_weights(x - i)) &
-            & + rise*g_edge/g*layer(position, (gap%leading_angle - phi(j))*gap%pad_radius()/gap%axial_length)
-      end do
+         smooth = 0
+         do i = 0, n - 1
+            angle = gap%leading_angle - atan2(pad%sine(i), pad%cosine(i))
+            if (i > 0) smooth(:, i) = -narrow*pad%narrow(i)/pad%h(i)
+            do b = 1, pad%axial%blocks
+               associate (first => lanes*b - lanes + 1, last => lanes*b)
+                  smooth(:, i) = smooth(:, i) + matmul(pad%q(:, i, b)/pad%h(i) - rise*even_layer(pad, i) &
+                     & *exp(-sqrt(pad%axial%square(first:last))*angle), profile(first:last, :))
+               end associate
+            end do
+         end do
+         do j = 1, size(phi)
+            h = 1 - pad%e(1)*sin(phi(j)) - pad%e(2)*cos(phi(j))
+            angle = node_position(pad, phi(j))
+            i = min(max(int(angle) - 1, 0), n - 3)
+            pressure(:, j) = gap%ambient_pressure + matmul(smooth(:, i:i + 3), cubic_weights(angle - i)) &
+               & + rise*(pad%h(n)/h)**1.5_wp &
+               & *layer(position, (gap%leading_angle - phi(j))*gap%pad_radius()/gap%axial_length)
+         end do
+      end associate
    end function field_of_modes
+
+   !> What of the layer's amplitude is left at a node: it falls as h^(-3/2).
+   pure real(wp) function even_layer(pad, i)
+      type(modal_pad_type), intent(in) :: pad
+      integer, intent(in) :: i
+      even_layer = (pad%h(pad%n)/pad%h(i))**1.5_wp
+   end function even_layer
+
+   !> Where an angle lies between the nodes, in steps from the trailing edge.
+   pure real(wp) function node_position(pad, phi)
+      type(modal_pad_type), intent(in) :: pad
+      real(wp), intent(in) :: phi
+      real(wp) :: from_edge, middle
+      from_edge = phi + pad%gap%trailing_angle
+      middle = 0.5_wp*(phi - pad%gap%trailing_angle)
+      node_position = 0
+      if (from_edge > 0) node_position = span(pad%e, [sin(middle), cos(middle)], &
+         & [sin(0.5_wp*from_edge), cos(0.5_wp*from_edge)])/pad%d
+   end function node_position
 
    !> W at Z over half the width and at a distance from the leading edge over the width.
    elemental real(wp) function layer(position, distance)

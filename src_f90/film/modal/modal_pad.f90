@@ -1,19 +1,17 @@
-!> One pad of the axial modes: its grid along the arc, its modes and what they leave out, and the fields of the last
-!> solution (modal_film).
+!> One pad of the axial modes at one resolution: its nodes, its modes, and the fields of the last solution (modal_film).
 module modal_pad
-   use kinds, only: wp, pi
+   use kinds, only: wp
+   use film_solver, only: film_motion
    use pad_gap, only: pad_gap_type, pad_directions
+   use axial_modes, only: axial_modes_type, new_axial_modes
    use clipped_quadrature, only: gregory_weights, clipped_weights
-   use modal_field, only: axial_profile, left_out
+   use sommerfeld_nodes, only: place_nodes
    use modal_sweeps, only: lanes, looks
    implicit none (type, external)
    private
-   public :: modal_pad_type, init_pad, set_weights, enough_cells, enough_modes
+   public :: modal_pad_type, init_pad, set_weights, set_motion
    public :: gauss, middle, point_weights
 
-   !> Largest (Lambda d)^2/12 of a mode on a grid of step d: beyond, its edge layer is thinner than a cell,
-   !> and the closed form is better than the grid.
-   real(wp), parameter :: stiffest_mode = 0.5_wp
    !> Gauss-Legendre points and weights across the half width, over it. Behind them those where rupture is
    !> looked for, without weight: the middle, and towards the side, where a film that diverges at its trailing
    !> edge first falls below the pressure of its edges.
@@ -25,92 +23,63 @@ module modal_pad
    real(wp), parameter :: points(all_points) = [0.5_wp*(1 + [-half_points, half_points]), &
       & 0.0_wp, 0.75_wp, 0.9_wp, 0.95_wp]
    real(wp), parameter :: point_weights(gauss) = 0.5_wp*[half_weights, half_weights]
-   !> Sums over the odd numbers m of 1/m^3, 1/m^4, 1/m^5: 7/8 zeta(3), pi^4/96, 31/32 zeta(5).
-   real(wp), parameter :: odd_sums(3) = [7*1.2020569031595943_wp/8, pi**4/96, 31*1.0369277551433699_wp/32]
 
-   !> One pad: grid, modes, and the last solution. Nodes 0:n run from the trailing to the leading edge;
-   !> `d` is their distance, rad. Modes fill up blocks of `lanes`; idle lanes have c = 0.
+   !> One pad. Nodes 0:n run from the trailing to the leading edge at equal steps d of Sommerfeld's variable; film
+   !> thickness H, and position e are over the clearance. Modes fill up blocks of `lanes`;
+   !> idle lanes have c = 0.
    type :: modal_pad_type
       type(pad_gap_type) :: gap
       type(pad_directions) :: directions
-      integer :: n, modes, blocks
+      type(axial_modes_type) :: axial
+      integer :: n = 0
       real(wp) :: d, radius
-      !> Sine, cosine and weight of the quadrature at the nodes; the weight times either.
-      real(wp), allocatable :: sine(:), cosine(:), weight(:), along(:), outward(:)
-      !> By lane: c_k = (L/2) b_k^2; (Lambda_k d)^2/12; b_k; and b_k cos(lambda_k Z) at (point, lane), at
-      !> Gauss's points and where rupture is looked for.
-      real(wp), allocatable :: c(:), stiffness(:), at_middle(:), across(:, :), look(:, :)
-      !> Sums over the modes left out of c_k/Lambda_k^j, j = 1, 2, 3, and of b_k cos(lambda_k Z)/Lambda_k^2.
-      real(wp) :: tail(3), point_tail(all_points)
-      !> At the nodes: film thickness, its derivative over phi, 1/g, v, r, s.
-      real(wp), allocatable :: h(:), h_slope(:), per_g(:), v(:), r(:), s(:)
+      !> Weights of the quadrature, in steps.
+      real(wp), allocatable :: weight(:)
+      !> b_k cos(lambda_k Z) at (point, lane), at Gauss's points and where rupture is looked for, and in the middle;
+      !> sums over the modes left out of b_k cos(lambda_k Z)/Lambda_k^2.
+      real(wp), allocatable :: across(:, :), look(:, :), at_middle(:)
+      real(wp) :: point_tail(all_points)
+      !> Factors of dH/dphi and of w_1 sin(phi) + w_2 cos(phi) in s; e; velocity w, m/s.
+      real(wp) :: wedge, squeeze, e(2), w(2)
+      !> At the nodes: H, sine and cosine of phi, s and s/H^2; 1 - d^2 v/12, d^2 H^2/12 and the scheme's load.
+      real(wp), allocatable, dimension(:) :: h, sine, cosine, s, narrow, base, rate, load
       !> By lane, node and block: a = 1 - d^2 V/12, factors f of the elimination, q.
       real(wp), allocatable :: a(:, :, :), f(:, :, :), q(:, :, :)
-      !> What q/g by (lane, node, block) and -r/h^3 by node count along the width: c and tail(2), less the
-      !> part of the width where the film has ruptured, if it has.
-      real(wp), allocatable :: share(:, :, :), narrow_share(:)
+      !> What q by (lane, node, block) and -s/H^2 by node count along the width: c and tail(2), less the part of the
+      !> width where the film has ruptured, if it has; and what the cavitation pressure counts there.
+      real(wp), allocatable :: share(:, :, :), narrow_share(:), floor_share(:)
       logical :: shares_are_stale = .true.
    end type modal_pad_type
 
 contains
 
-   !> Cells along the arc, even, and modes with which the error of the force is 1e-4 or less, over pads of 20 to
-   !> 120 degrees with lengths of 0.25 to 2 diameters (tests/physics/test_film_accuracy.f90). The measure is a
-   !> pad's length over its arc: a narrow film has thin layers along its edges, a wide one takes more modes,
-   !> most of all where the supply pressure bends the profile at the leading edge.
-   pure integer function enough_cells(gaps)
-      type(pad_gap_type), intent(in) :: gaps(:)
-      enough_cells = max(24, 2*ceiling(8/minval(aspect(gaps))))
-   end function enough_cells
-
-   pure integer function enough_modes(gaps)
-      type(pad_gap_type), intent(in) :: gaps(:)
-      enough_modes = lanes*maxval(ceiling(aspect(gaps) &
-         & /merge(1.2_wp, 2.5_wp, gaps%supply_pressure > gaps%ambient_pressure)))
-   end function enough_modes
-
-   !> Axial length over the length of the arc.
-   elemental real(wp) function aspect(gap)
-      type(pad_gap_type), intent(in) :: gap
-      aspect = gap%axial_length/(gap%pad_radius()*gap%arc())
-   end function aspect
-
-   pure subroutine init_pad(pad, gap, n, most)
+   !> A pad with n cells, n even, and so many modes: all of them solved, or as many as suffice.
+   pure subroutine init_pad(pad, gap, n, modes, all_solved)
       type(modal_pad_type), intent(out) :: pad
       type(pad_gap_type), intent(in) :: gap
-      integer, intent(in) :: n, most
-      real(wp) :: phi(0:n), lambda(most), unit, profile(all_points)
-      integer :: i, k
+      integer, intent(in) :: n, modes
+      logical, intent(in) :: all_solved
+      real(wp), allocatable :: profile(:)
+      integer :: i
       pad%gap = gap
       pad%directions = gap%directions()
+      pad%axial = new_axial_modes(gap, modes, all_solved)
       pad%n = n
       pad%radius = gap%pad_radius()
-      pad%d = gap%arc()/n
-      unit = gap%axial_length/(pi*pad%radius)
-      lambda = [((2*k - 1)/unit, k=1, most)]
-      pad%modes = count((lambda*pad%d)**2/12 <= stiffest_mode)
-      pad%blocks = (pad%modes + lanes - 1)/lanes
-      allocate (pad%c(lanes*pad%blocks), pad%stiffness(lanes*pad%blocks), source=0.0_wp)
-      allocate (pad%across(gauss, lanes*pad%blocks), source=0.0_wp)
-      allocate (pad%at_middle(lanes*pad%blocks), pad%look(looks, lanes*pad%blocks), source=0.0_wp)
-      pad%tail = 8*gap%axial_length/pi**2*odd_sums*[unit, unit**2, unit**3]
-      pad%point_tail = left_out(gap, pad%modes, points)
-      do k = 1, pad%modes
-         pad%c(k) = 8*gap%axial_length/((2*k - 1)*pi)**2
-         pad%stiffness(k) = (lambda(k)*pad%d)**2/12
-         profile = axial_profile(k, points)
-         pad%across(:, k) = profile(:gauss)
-         pad%at_middle(k) = profile(middle)
-         pad%look(:, k) = profile(gauss + 1:)
-         pad%tail = pad%tail - pad%c(k)/[lambda(k), lambda(k)**2, lambda(k)**3]
-      end do
-      phi = [(i*pad%d - gap%trailing_angle, i=0, n)]
-      allocate (pad%sine(0:n), pad%cosine(0:n), pad%weight(0:n), pad%along(0:n), pad%outward(0:n))
-      pad%sine(:) = sin(phi)
-      pad%cosine(:) = cos(phi)
-      allocate (pad%h(0:n), pad%h_slope(0:n), pad%per_g(0:n), pad%v(0:n), pad%r(0:n), pad%s(0:n))
-      allocate (pad%a(lanes, 0:n, pad%blocks), pad%f(lanes, 0:n, pad%blocks), pad%q(lanes, 0:n, pad%blocks))
-      allocate (pad%share(lanes, 0:n, pad%blocks), pad%narrow_share(0:n))
+      associate (blocks => pad%axial%blocks)
+         allocate (pad%across(gauss, lanes*blocks), pad%look(looks, lanes*blocks))
+         do i = 1, all_points
+            profile = pad%axial%profile(points(i))
+            if (i <= gauss) pad%across(i, :) = profile
+            if (i > gauss) pad%look(i - gauss, :) = profile
+            if (i == middle) pad%at_middle = profile
+            pad%point_tail(i) = pad%axial%left_out(points(i))
+         end do
+         allocate (pad%weight(0:n), pad%h(0:n), pad%sine(0:n), pad%cosine(0:n), pad%s(0:n), pad%narrow(0:n), &
+            & pad%base(0:n), pad%rate(0:n), pad%load(0:n))
+         allocate (pad%a(lanes, 0:n, blocks), pad%f(lanes, 0:n, blocks), pad%q(lanes, 0:n, blocks))
+         allocate (pad%share(lanes, 0:n, blocks), pad%narrow_share(0:n), pad%floor_share(0:n))
+      end associate
    end subroutine init_pad
 
    !> The quadrature's weights at the nodes, for a film that is clipped or not.
@@ -124,8 +93,49 @@ contains
          ! the layers at the edges are thin: the order of the ends decides
          pad%weight(:) = gregory_weights(pad%n)
       end if
-      pad%weight = pad%d*pad%weight
-      pad%along(:) = pad%weight*pad%sine
-      pad%outward(:) = pad%weight*pad%cosine
    end subroutine set_weights
+
+   !> Nodes and source at a motion that leaves the film open, and a journal speed, rad/s.
+   pure subroutine set_motion(pad, motion, speed, along)
+      type(modal_pad_type), intent(inout) :: pad
+      type(film_motion), intent(in) :: motion
+      !> The arc's span (sommerfeld_nodes).
+      real(wp), intent(in) :: speed, along
+      associate (gap => pad%gap)
+         pad%e = motion%position/gap%machined_clearance
+         pad%w = motion%velocity
+         pad%d = along/pad%n
+         pad%wedge = -6*gap%viscosity*pad%radius*speed*gap%journal_radius/gap%machined_clearance**2
+         pad%squeeze = -12*gap%viscosity*pad%radius**2/gap%machined_clearance**3
+      end associate
+      call place_nodes(pad%n, pad%d, pad%e, pad%directions, pad%h, pad%sine, pad%cosine)
+      call set_nodes(pad%n, pad%d, pad%e, [pad%wedge*pad%e(2) + pad%squeeze*pad%w(1), &
+         & -pad%wedge*pad%e(1) + pad%squeeze*pad%w(2)], pad%h, pad%sine, pad%cosine, pad%s, pad%narrow, pad%base, &
+         & pad%rate, pad%load)
+   end subroutine set_motion
+
+   !> What the scheme takes from the film at the nodes.
+   pure subroutine set_nodes(n, d, e, source, h, sine, cosine, s, narrow, base, rate, load)
+      integer, intent(in) :: n
+      !> Step; position; factors of sine and cosine in s; H, sine and cosine.
+      real(wp), intent(in) :: d, e(2), source(2), h(0:n), sine(0:n), cosine(0:n)
+      real(wp), dimension(0:n), intent(out) :: s, narrow, base, rate, load
+      real(wp) :: k, unit
+      integer :: i
+      k = dot_product(e, e) - 1
+      unit = d**2/12
+      !$omp simd
+      do i = 0, n
+         s(i) = source(1)*sine(i) + source(2)*cosine(i)
+         rate(i) = unit*h(i)**2
+         base(i) = 1 - unit*(k + h(i)*(3 - 2*h(i)))
+         narrow(i) = s(i)/h(i)**2
+      end do
+      load(0) = 0
+      load(n) = 0
+      !$omp simd
+      do i = 1, n - 1
+         load(i) = unit*(s(i - 1) + 10*s(i) + s(i + 1))
+      end do
+   end subroutine set_nodes
 end module modal_pad

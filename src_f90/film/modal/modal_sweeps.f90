@@ -15,55 +15,50 @@ module modal_sweeps
 
 contains
 
-   !> Numerov's scheme for q'' = V q + s, q(0) = 0, q(n) given, n even, V = Lambda^2 + v. With
+   !> Numerov's scheme for q'' = V q + s, q(0) = 0, q(n) given, n even, V = Lambda^2 H^2 + v. With
    !> a = 1 - d^2 V/12 and w = a q it reads
-   !>    (12 - 10 a(i)) q(i) = w(i-1) + w(i+1) - d^2/12 (s(i-1) + 10 s(i) + s(i+1)).
+   !>    (12 - 10 a(i)) q(i) = w(i-1) + w(i+1) - load(i),   load(i) = d^2/12 (s(i-1) + 10 s(i) + s(i+1)).
    !> Elimination from an edge leaves w(i) = e(i) w(next inwards) + y(i), with e = a f and
    !> f(i) = 1/(12 - a(i) (10 + e(next outwards))).
-   pure subroutine solve_modes(n, d, stiffness, v, s, last, a, f, q)
+   pure subroutine solve_modes(n, square, base, rate, load, last, a, f, q)
       ! long: a kernel
       integer, intent(in) :: n
-      !> Step; (Lambda d)^2/12 by lane; v and s by node; q(n).
-      real(wp), intent(in) :: d, stiffness(lanes), v(0:n), s(0:n), last
+      !> Lambda^2 by lane; by node 1 - d^2 v/12, d^2 H^2/12 and the load; q(n).
+      real(wp), intent(in) :: square(lanes), base(0:n), rate(0:n), load(0:n), last
       !> a, and the factors of the elimination, for the adjoint; the solution.
       real(wp), intent(out) :: a(lanes, 0:n), f(lanes, 0:n), q(lanes, 0:n)
       real(wp), dimension(lanes) :: e, e2, y, y2, w, w2
-      real(wp) :: unit, load, load2
       integer :: i, j, k
-      unit = d**2/12
       e = 0
       e2 = 0
       y = 0
-      a(:, n) = 1 - unit*v(n) - stiffness
+      a(:, n) = base(n) - square*rate(n)
       y2 = a(:, n)*last
       do i = 1, n/2 - 1
          j = n - i
-         load = unit*(s(i - 1) + 10*s(i) + s(i + 1))
-         load2 = unit*(s(j - 1) + 10*s(j) + s(j + 1))
          !$omp simd
          do k = 1, lanes
-            a(k, i) = 1 - unit*v(i) - stiffness(k)
+            a(k, i) = base(i) - square(k)*rate(i)
             f(k, i) = 1/(12 - a(k, i)*(10 + e(k)))
-            q(k, i) = y(k) - load
+            q(k, i) = y(k) - load(i)
             e(k) = a(k, i)*f(k, i)
             y(k) = e(k)*q(k, i)
          end do
          !$omp simd
          do k = 1, lanes
-            a(k, j) = 1 - unit*v(j) - stiffness(k)
+            a(k, j) = base(j) - square(k)*rate(j)
             f(k, j) = 1/(12 - a(k, j)*(10 + e2(k)))
-            q(k, j) = y2(k) - load2
+            q(k, j) = y2(k) - load(j)
             e2(k) = a(k, j)*f(k, j)
             y2(k) = e2(k)*q(k, j)
          end do
       end do
       i = n/2
-      load = unit*(s(i - 1) + 10*s(i) + s(i + 1))
       !$omp simd
       do k = 1, lanes
-         a(k, i) = 1 - unit*v(i) - stiffness(k)
+         a(k, i) = base(i) - square(k)*rate(i)
          f(k, i) = 1/(12 - a(k, i)*(10 + e(k) + e2(k)))
-         q(k, i) = f(k, i)*(y(k) + y2(k) - load)
+         q(k, i) = f(k, i)*(y(k) + y2(k) - load(i))
          w(k) = a(k, i)*q(k, i)
          w2(k) = w(k)
       end do
@@ -133,13 +128,12 @@ contains
       end do
    end subroutine solve_adjoints
 
-   !> Quadrature weights of q, and the narrow-pad part (the modes left out) of the sums and of the pressure in the
-   !> middle.
-   pure subroutine weigh_nodes(n, w_sine, w_cosine, per_g, s, tail, tail_middle, along, outward, sums, &
-      & p_middle)
+   !> Weights of q in the sums over the nodes, and the narrow-pad part (the modes left out) of these sums and of
+   !> the pressure in the middle (times H).
+   pure subroutine weigh_nodes(n, weight, sine, cosine, narrow, tail, tail_middle, along, outward, sums, p_middle)
       integer, intent(in) :: n
-      !> Quadrature weight times sine and cosine, 1/g and s by node; sums over the modes left out.
-      real(wp), intent(in) :: w_sine(0:n), w_cosine(0:n), per_g(0:n), s(0:n), tail, tail_middle
+      !> Of the quadrature; sine, cosine and s/H^2 by node; sums over the modes left out.
+      real(wp), intent(in) :: weight(0:n), sine(0:n), cosine(0:n), narrow(0:n), tail, tail_middle
       real(wp), intent(out) :: along(0:n), outward(0:n), sums(2), p_middle(0:n)
       real(wp) :: sum_along, sum_outward
       integer :: i
@@ -147,17 +141,17 @@ contains
       sum_outward = 0
       !$omp simd reduction(+:sum_along, sum_outward)
       do i = 0, n
-         along(i) = w_sine(i)*per_g(i)
-         outward(i) = w_cosine(i)*per_g(i)
-         sum_along = sum_along - tail*along(i)*s(i)
-         sum_outward = sum_outward - tail*outward(i)*s(i)
-         p_middle(i) = -tail_middle*s(i)
+         along(i) = weight(i)*sine(i)
+         outward(i) = weight(i)*cosine(i)
+         sum_along = sum_along - tail*along(i)*narrow(i)
+         sum_outward = sum_outward - tail*outward(i)*narrow(i)
+         p_middle(i) = -tail_middle*narrow(i)
       end do
       sums = [sum_along, sum_outward]
    end subroutine weigh_nodes
 
    !> Adds a block's sums over nodes and lanes of c q (along, outward), and its part of the pressure in
-   !> the middle (times g).
+   !> the middle (times H).
    pure subroutine sum_modes(n, along, outward, c, middle, q, sums, p_middle)
       integer, intent(in) :: n
       !> By node; by lane: c, and b_k.
@@ -184,17 +178,17 @@ contains
    end subroutine sum_modes
 
    !> Lowest pressure above ambient where rupture is looked for. It lies where s > 0, or at an edge.
-   pure real(wp) function lowest_pressure(n, blocks, s, per_g, tail, look, q)
+   pure real(wp) function lowest_pressure(n, blocks, narrow, h, tail, look, q)
       integer, intent(in) :: n, blocks
-      !> s and 1/g by node; the modes left out; b_k cos(lambda_k Z) by point and lane.
-      real(wp), intent(in) :: s(0:n), per_g(0:n), tail(looks), look(looks, lanes, blocks), q(lanes, 0:n, blocks)
+      !> s/H^2 and H by node; the modes left out; b_k cos(lambda_k Z) by point and lane.
+      real(wp), intent(in) :: narrow(0:n), h(0:n), tail(looks), look(looks, lanes, blocks), q(lanes, 0:n, blocks)
       real(wp) :: even(looks), odd(looks)
       integer :: i, b, k, l
       lowest_pressure = 0
       do i = 1, n - 1
-         if (.not. s(i) > 0) cycle
+         if (.not. narrow(i) > 0) cycle
          even = 0
-         odd = -tail*s(i)
+         odd = -tail*narrow(i)
          do b = 1, blocks
             do k = 1, lanes, 2
                !$omp simd
@@ -204,28 +198,32 @@ contains
                end do
             end do
          end do
-         lowest_pressure = min(lowest_pressure, per_g(i)*minval(odd + even))
+         lowest_pressure = min(lowest_pressure, minval(odd + even)/h(i))
       end do
    end function lowest_pressure
 
-   !> Adds a block's sums over its lanes of m(i-1) + 10 m(i) + m(i+1), alone and times q, and of share q.
-   pure subroutine sum_adjoint(n, adjoint, q, over_s, over_v)
+   !> Adds a block's sums over its lanes of m(i-1) + 10 m(i) + m(i+1), alone, times q and times Lambda^2 q.
+   pure subroutine sum_adjoint(n, adjoint, q, square, over_s, over_v, over_h2)
       integer, intent(in) :: n
-      real(wp), intent(in) :: adjoint(lanes, 0:n), q(lanes, 0:n)
-      real(wp), intent(inout) :: over_s(0:n), over_v(0:n)
-      real(wp) :: stencil, alone, times_q
+      !> Lambda^2 by lane.
+      real(wp), intent(in) :: adjoint(lanes, 0:n), q(lanes, 0:n), square(lanes)
+      real(wp), intent(inout) :: over_s(0:n), over_v(0:n), over_h2(0:n)
+      real(wp) :: stencil, alone, times_q, times_square
       integer :: i, k
       do i = 0, n
          alone = 0
          times_q = 0
-         !$omp simd reduction(+:alone, times_q)
+         times_square = 0
+         !$omp simd reduction(+:alone, times_q, times_square)
          do k = 1, lanes
             stencil = adjoint(k, max(i - 1, 0)) + 10*adjoint(k, i) + adjoint(k, min(i + 1, n))
             alone = alone + stencil
             times_q = times_q + stencil*q(k, i)
+            times_square = times_square + stencil*q(k, i)*square(k)
          end do
          over_s(i) = over_s(i) + alone
          over_v(i) = over_v(i) + times_q
+         over_h2(i) = over_h2(i) + times_square
       end do
    end subroutine sum_adjoint
 end module modal_sweeps

@@ -39,17 +39,20 @@ module direct_film
       procedure :: evaluate
       procedure :: force_of_rupture
       procedure :: field
+      procedure :: start_from
    end type direct_film_type
 
 contains
 
-   !> The film of one pad on a grid of so many cells along the arc and along half the width.
-   function new_direct_film(gap, columns, rows) result(self)
+   !> The film of one pad on a grid of so many cells along the arc and along half the width, the columns equal or
+   !> between these angles (film_grid).
+   function new_direct_film(gap, columns, rows, angles) result(self)
       type(pad_gap_type), intent(in) :: gap
       integer, intent(in) :: columns, rows
+      real(wp), intent(in), optional :: angles(0:)
       type(direct_film_type) :: self
       integer :: n
-      self%grid = new_film_grid(gap, columns, rows)
+      self%grid = new_film_grid(gap, columns, rows, angles)
       self%basis = new_grid_modes(self%grid)
       n = self%basis%m
       allocate (self%film(n, columns), self%pressure(n, columns), self%adjoint(n, columns), source=0.0_wp)
@@ -98,6 +101,18 @@ contains
       end associate
    end subroutine evaluate
 
+   !> Lets the next film start from the cells in which that on a grid of half as many columns and rows has ruptured.
+   pure subroutine start_from(self, coarse)
+      class(direct_film_type), intent(inout) :: self
+      type(direct_film_type), intent(in) :: coarse
+      integer :: i, k
+      do i = 1, self%grid%columns
+         do k = 1, self%grid%rows
+            self%film(k, i) = coarse%film((k + 1)/2, (i + 1)/2)
+         end do
+      end do
+   end subroutine start_from
+
    !> Pressure, Pa, (axial position, angle), at a motion that leaves the film open and a journal speed, rad/s, with the
    !> Reynolds condition or without rupture.
    subroutine field(self, motion, speed, ruptures, phi, z, pressure)
@@ -111,12 +126,10 @@ contains
       type(film_counters) :: counters
       type(film_response) :: response
       real(wp), allocatable :: p(:, :)
-      real(wp) :: floor
       call self%evaluate(motion, speed, ruptures, .false., counters, response)
       p = self%pressure
       call to_rows(self, p)
-      floor = merge(0.0_wp, -huge(floor), ruptures)
-      pressure = self%grid%pressure_at(p, floor, phi, z)
+      pressure = self%grid%pressure_at(p, ruptures, phi, z)
    end subroutine field
 
    !> Force with the Reynolds condition less force without rupture, N, where only a few cells rupture; else

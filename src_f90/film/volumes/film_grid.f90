@@ -24,14 +24,16 @@ module film_grid
       type(pad_gap_type) :: gap
       type(pad_directions) :: directions
       integer :: columns, rows
-      !> Angular and mean axial size of a cell, rad and m; heights of the rows over their mean.
+      !> Mean angular and axial size of a cell, rad and m; widths of the columns and heights of the rows over these.
       real(wp) :: d_phi, d_z
-      real(wp), allocatable :: height(:)
+      real(wp), allocatable :: width(:), height(:)
+      !> Angles from the pivot of the trailing edge, the middles of the columns and the leading edge (0:columns + 1).
+      real(wp), allocatable :: middle(:)
+      !> Distances between these over the mean size of a cell, by face (0:columns).
+      real(wp), allocatable :: between(:)
       !> Conductances of a row towards the middle plane and towards the side, over those of uniform rows and its
       !> height: so chosen that the parabola of a narrow pad comes out exactly.
       real(wp), allocatable :: inward(:), outward(:)
-      !> Mean in a row of the squared distance from the middle plane over half the width.
-      real(wp), allocatable :: square(:)
       !> Pressure at the leading edge and at the other edges, Pa.
       real(wp) :: supply, ambient
       !> Sine and cosine at the cell centres and at the cell faces (0:columns).
@@ -52,13 +54,15 @@ module film_grid
 
 contains
 
-   !> A grid of so many cells along the arc and along half the width.
-   pure function new_film_grid(gap, columns, rows) result(grid)
+   !> A grid of so many cells along the arc and along half the width; of equal columns, or with these angles from the
+   !> pivot, rad, (0:columns), from the trailing to the leading edge, between them.
+   pure function new_film_grid(gap, columns, rows, angles) result(grid)
       type(pad_gap_type), intent(in) :: gap
       integer, intent(in) :: columns, rows
+      real(wp), intent(in), optional :: angles(0:)
       type(film_grid_type) :: grid
       !> Faces between the rows over their mean height; mean of the square from the middle plane in a row.
-      real(wp) :: face(0:rows), square(rows), conductance(0:rows)
+      real(wp) :: face(0:rows), square(rows), conductance(0:rows), line(0:columns)
       integer :: i
       grid%gap = gap
       grid%directions = gap%directions()
@@ -72,16 +76,30 @@ contains
       conductance(0) = 0
       conductance(1:rows - 1) = 2*face(1:rows - 1)/(square(2:) - square(:rows - 1))
       conductance(rows) = 2*face(rows)/(face(rows)**2 - square(rows))
-      grid%square = square/rows**2
       grid%inward = conductance(:rows - 1)/grid%height
       grid%outward = conductance(1:)/grid%height
       grid%supply = gap%supply_pressure - gap%cavitation_pressure
       grid%ambient = gap%ambient_pressure - gap%cavitation_pressure
-      grid%sin_cell = [(sin((i - 0.5_wp)*grid%d_phi - gap%trailing_angle), i=1, columns)]
-      grid%cos_cell = [(cos((i - 0.5_wp)*grid%d_phi - gap%trailing_angle), i=1, columns)]
-      allocate (grid%sin_face(0:columns), grid%cos_face(0:columns), grid%h_face(0:columns), grid%along(0:columns))
-      grid%sin_face(:) = [(sin(i*grid%d_phi - gap%trailing_angle), i=0, columns)]
-      grid%cos_face(:) = [(cos(i*grid%d_phi - gap%trailing_angle), i=0, columns)]
+      allocate (grid%along(0:columns), grid%between(0:columns), grid%h_face(0:columns))
+      allocate (grid%middle(0:columns + 1), grid%sin_face(0:columns), grid%cos_face(0:columns))
+      allocate (grid%width(columns), source=1.0_wp)
+      grid%between(:) = 1
+      line = [(i*grid%d_phi - gap%trailing_angle, i=0, columns)]
+      grid%middle(:) = [-gap%trailing_angle, [((i - 0.5_wp)*grid%d_phi - gap%trailing_angle, i=1, columns)], &
+         & gap%leading_angle]
+      if (present(angles)) then
+         line = angles
+         grid%middle(1:columns) = 0.5_wp*(angles(:columns - 1) + angles(1:))
+         grid%width(:) = (angles(1:) - angles(:columns - 1))/grid%d_phi
+         grid%between(1:columns - 1) = (grid%middle(2:columns) - grid%middle(1:columns - 1))/grid%d_phi
+      end if
+      ! the boundary lies half a cell away
+      grid%between(0) = 0.5_wp*grid%width(1)
+      grid%between(columns) = 0.5_wp*grid%width(columns)
+      grid%sin_cell = sin(grid%middle(1:columns))
+      grid%cos_cell = cos(grid%middle(1:columns))
+      grid%sin_face(:) = sin(line)
+      grid%cos_face(:) = cos(line)
       allocate (grid%h_cell(columns), grid%beside(columns), grid%source(columns), grid%edge_source(columns))
    end function new_film_grid
 
@@ -93,13 +111,10 @@ contains
       associate (n => self%columns)
          self%h_cell(:) = self%gap%thickness(motion, self%sin_cell, self%cos_cell)
          self%h_face(:) = self%gap%thickness(motion, self%sin_face, self%cos_face)
-         self%along(:) = self%h_face**3/self%d_phi**2
-         ! the boundary lies half a cell away
-         self%along(0) = 2*self%along(0)
-         self%along(n) = 2*self%along(n)
-         self%beside(:) = self%h_cell**3*(self%gap%pad_radius()/self%d_z)**2
+         self%along(:) = self%h_face**3/(self%d_phi**2*self%between)
+         self%beside(:) = self%width*self%h_cell**3*(self%gap%pad_radius()/self%d_z)**2
          self%source(:) = wedge(self, speed)*(self%h_face(1:n) - self%h_face(0:n - 1)) &
-            & - squeeze(self)*(motion%velocity(1)*self%sin_cell + motion%velocity(2)*self%cos_cell)
+            & - squeeze(self)*self%width*(motion%velocity(1)*self%sin_cell + motion%velocity(2)*self%cos_cell)
          self%source(1) = self%source(1) - self%along(0)*self%ambient
          self%source(n) = self%source(n) - self%along(n)*self%supply
          self%edge_source(:) = -self%outward(self%rows)*self%beside*self%ambient
@@ -125,8 +140,8 @@ contains
       class(film_grid_type), intent(in) :: self
       real(wp) :: weight(self%columns, 2)
       associate (area => 2*self%gap%pad_radius()*self%d_phi*self%d_z)
-         weight(:, 1) = area*self%sin_cell
-         weight(:, 2) = area*self%cos_cell
+         weight(:, 1) = area*self%width*self%sin_cell
+         weight(:, 2) = area*self%width*self%cos_cell
       end associate
    end function weight
 
@@ -157,20 +172,20 @@ contains
       radius_over_d_z = self%gap%pad_radius()/self%d_z
       associate (n => self%columns, rows => self%rows, height => self%height)
          between = self%outward*height
-         over_face(0) = 2*sum(height*(p(:rows, 1) - self%ambient)*a(:rows, 1))
-         over_face(n) = 2*sum(height*(p(:rows, n) - self%supply)*a(:rows, n))
+         over_face(0) = sum(height*(p(:rows, 1) - self%ambient)*a(:rows, 1))
+         over_face(n) = sum(height*(p(:rows, n) - self%supply)*a(:rows, n))
          do i = 1, n
             if (i < n) over_face(i) = sum(height*(p(:rows, i + 1) - p(:rows, i))*(a(:rows, i + 1) - a(:rows, i)))
             over_side(i) = sum(between(:rows - 1)*(p(2:rows, i) - p(:rows - 1, i))*(a(2:rows, i) - a(:rows - 1, i))) &
                & + between(rows)*(p(rows, i) - self%ambient)*a(rows, i)
             total(i) = sum(height*a(:rows, i))
          end do
-         over_face = over_face*3*self%h_face**2/self%d_phi**2
-         over_side = over_side*3*(self%h_cell*radius_over_d_z)**2
+         over_face = over_face*3*self%h_face**2/(self%d_phi**2*self%between)
+         over_side = over_side*3*self%width*(self%h_cell*radius_over_d_z)**2
          derivatives(1) = over_position(self%sin_face, self%sin_cell)
          derivatives(2) = over_position(self%cos_face, self%cos_cell)
-         derivatives(3) = -squeeze(self)*dot_product(self%sin_cell, total)
-         derivatives(4) = -squeeze(self)*dot_product(self%cos_cell, total)
+         derivatives(3) = -squeeze(self)*dot_product(self%width*self%sin_cell, total)
+         derivatives(4) = -squeeze(self)*dot_product(self%width*self%cos_cell, total)
       end associate
    contains
       !> Derivative over e_y' (sines) or e_z' (cosines): dh = -sin(phi) de_y' - cos(phi) de_z'.
@@ -181,48 +196,90 @@ contains
       end function over_position
    end function derivatives
 
-   !> Pressure, Pa, (axial position, angle), from that of the cells: linear over phi between their centres and the
-   !> edges, linear over Z^2 across the width, where a cell's mean stands at the mean of Z^2 in its row. So the
-   !> parabola across a narrow pad comes out exactly.
-   pure function pressure_at(self, p, floor, phi, z) result(pressure)
+   !> Pressure, Pa, (axial position, angle), from that of the cells: along the arc and across the width parabolas that
+   !> meet smoothly, one for each cell, whose mean is the cell's pressure. So the integral of the field is the force,
+   !> and the parabola across a narrow pad comes out exactly.
+   pure function pressure_at(self, p, ruptures, phi, z) result(pressure)
       class(film_grid_type), intent(in) :: self
-      !> Mean pressures, (row, column), and the pressure below which none falls, above the cavitation pressure, Pa.
-      real(wp), intent(in) :: p(:, :), floor
+      !> Mean pressures above the cavitation pressure, (row, column), Pa.
+      real(wp), intent(in) :: p(:, :)
+      !> Whether none falls below the cavitation pressure.
+      logical, intent(in) :: ruptures
       !> Angles from the pivot, rad, and distances from the middle plane, m, within the pad.
       real(wp), intent(in) :: phi(:), z(:)
       real(wp) :: pressure(size(z), size(phi))
-      real(wp) :: line(self%rows + 1), square(self%rows + 1), before(self%rows), after(self%rows), x, t
+      real(wp) :: mean(self%rows, self%columns), at_face(0:self%columns, self%rows)
+      real(wp) :: line(self%rows), ends(0:self%rows), t
       integer :: i, j, k
-      associate (n => self%columns, rows => self%rows)
-         square = [self%square, 1.0_wp]
+      associate (rows => self%rows)
+         mean = p(:rows, :self%columns)
+         if (ruptures) mean = max(mean, 0.0_wp)
+         do k = 1, rows
+            at_face(:, k) = between_means(self%width, mean(k, :), ruptures, self%supply, self%ambient)
+         end do
          do j = 1, size(phi)
-            ! cell centres at 1, 2, ..., n; edges at 1/2 and n + 1/2
-            x = (phi(j) + self%gap%trailing_angle)/self%d_phi + 0.5_wp
-            i = min(max(int(x), 0), n)
-            before = self%ambient
-            after = self%supply
-            t = x - i
-            if (i > 0) then
-               before = p(:rows, i)
-            else
-               t = 2*t - 1
-            end if
-            if (i < n) then
-               after = p(:rows, i + 1)
-            else
-               t = 2*t
-            end if
-            line(:rows) = (1 - t)*before + t*after
-            line(rows + 1) = self%ambient
+            call find(self%width, (phi(j) + self%gap%trailing_angle)/self%d_phi, i, t)
+            line = parabola(at_face(i - 1, :), mean(:, i), at_face(i, :), t)
+            ends = between_means(self%height, line, ruptures, self%ambient)
             do k = 1, size(z)
-               associate (q => (2*z(k)/self%gap%axial_length)**2)
-                  i = min(max(count(square <= q), 1), rows)
-                  t = (q - square(i))/(square(i + 1) - square(i))
-                  pressure(k, j) = max(floor, (1 - t)*line(i) + t*line(i + 1))
-               end associate
+               call find(self%height, abs(z(k))/self%d_z, i, t)
+               pressure(k, j) = parabola(ends(i - 1), line(i), ends(i), t)
             end do
          end do
+         if (ruptures) pressure = max(pressure, 0.0_wp)
          pressure = pressure + self%gap%cavitation_pressure
       end associate
    end function pressure_at
+
+   !> The interval, of these widths, in which a place lies, and where in it, from 0 to 1.
+   pure subroutine find(width, place, i, t)
+      real(wp), intent(in) :: width(:), place
+      integer, intent(out) :: i
+      real(wp), intent(out) :: t
+      real(wp) :: rest
+      rest = place
+      do i = 1, size(width) - 1
+         if (rest < width(i)) exit
+         rest = rest - width(i)
+      end do
+      t = min(max(rest/width(i), 0.0_wp), 1.0_wp)
+   end subroutine find
+
+   !> The parabola with these values at both ends, 0 and 1, and this mean.
+   elemental real(wp) function parabola(first, mean, last, t)
+      real(wp), intent(in) :: first, mean, last, t
+      parabola = (1 - t)*(1 - 3*t)*first + 6*t*(1 - t)*mean + t*(3*t - 2)*last
+   end function parabola
+
+   !> Values at the ends (0:n) of intervals of these widths, so that the parabolas with these means meet smoothly: the
+   !> slopes of the cubic spline through the integral. The last one is given; without `first` the first parabola is
+   !> level there. In a film that ruptures they are so limited that no parabola falls below 0.
+   pure function between_means(width, mean, ruptures, last, first) result(values)
+      real(wp), intent(in) :: width(:), mean(:)
+      logical, intent(in) :: ruptures
+      real(wp), intent(in) :: last
+      real(wp), intent(in), optional :: first
+      real(wp) :: values(0:size(mean)), following(0:size(mean)), pivot
+      integer :: i
+      associate (n => size(mean))
+         values(0) = 1.5_wp*mean(1)
+         following(0) = 0.5_wp
+         if (present(first)) then
+            values(0) = first
+            following(0) = 0
+         end if
+         do i = 1, n - 1
+            pivot = (2 - following(i - 1))/width(i) + 2/width(i + 1)
+            following(i) = 1/(width(i + 1)*pivot)
+            values(i) = (3*(mean(i)/width(i) + mean(i + 1)/width(i + 1)) - values(i - 1)/width(i))/pivot
+         end do
+         values(n) = last
+         do i = n - 1, 0, -1
+            values(i) = values(i) - following(i)*values(i + 1)
+         end do
+         if (.not. ruptures) return
+         values(1:n - 1) = max(0.0_wp, min(values(1:n - 1), 3*mean(:n - 1), 3*mean(2:)))
+         if (.not. present(first)) values(0) = max(0.0_wp, min(values(0), 3*mean(1)))
+      end associate
+   end function between_means
 end module film_grid

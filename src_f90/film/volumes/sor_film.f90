@@ -142,14 +142,12 @@ contains
       real(wp), intent(in) :: speed, phi(:, :), z(:)
       real(wp), intent(out) :: pressure(:, :, :)
       type(film_response) :: response(size(motion))
-      real(wp) :: floor
       integer :: i
-      floor = merge(-huge(floor), 0.0_wp, self%cavitation == cavitation_none)
       call self%evaluate(motion, speed, .false., response)
       do i = 1, size(motion)
          associate (pad => self%pads(i), grid => self%pads(i)%grid)
-            pressure(:, :, i) = grid%pressure_at(natural(pad%pressure(1:grid%columns/2, 1:grid%rows, :)), floor, &
-               & phi(:, i), z)
+            pressure(:, :, i) = grid%pressure_at(natural(pad%pressure(1:grid%columns/2, 1:grid%rows, :)), &
+               & self%ruptures(), phi(:, i), z)
          end associate
       end do
    end subroutine field_all

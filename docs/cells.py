@@ -1,0 +1,90 @@
+"""Draws the films of a run over the cells of the film table that they visit (docs/theory.md, *The table*).
+
+usage: cells.py RESULT.h5 PICTURE.png
+"""
+
+import sys
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import numpy as np
+import tiltpad
+from matplotlib.axes import Axes
+from matplotlib.patches import Rectangle
+from tiltpad.draw.layout import PAGE
+from tiltpad.draw.plots import STYLE
+
+#: Size of an uncut cell: octaves of film thickness are cut into so many parts, and T from 0 to 1.
+OCTAVE_PARTS, T_PARTS = 2, 8
+
+
+def films(run: tiltpad.Run) -> tuple[np.ndarray, np.ndarray]:
+    """Film thicknesses at the leading and trailing edge over the clearance, (time, pad, edge), and T, (time,
+    pad), in the last revolution; by docs/theory.md, *Frames*, *Film* and *The table*. T is over 1 or below 0
+    where a film has gone or is whole.
+    """
+    bearing, pads = run.input["bearing"], run.input["pads"]
+    part = tiltpad.last_revolutions(run)
+    time, speed = run.values("time", part), run.values("speed", part)
+    journal_radius, clearance = bearing["journal_radius"], bearing["machined_clearance"]
+    pad_radius = journal_radius + clearance
+    angle, distance = (np.array(pads[name]) for name in ("pivot_angle_deg", "pivot_distance"))
+    angle, half_arc = np.radians(angle), 0.5 * np.radians(pads["arc_deg"])
+    tilt = run.values("pad_tilt", part)
+    out = journal_radius + run.clearance + distance + run.values("pad_penetration", part)
+    y = run.values("journal_y", part)[:, None] - out * np.sin(angle)
+    z = run.values("journal_z", part)[:, None] - out * np.cos(angle)
+    frame = angle - tilt
+    first = y * np.cos(frame) - z * np.sin(frame)
+    second = y * np.sin(frame) + z * np.cos(frame) + pad_radius + distance
+    # to the middle
+    lean = half_arc * (2 * np.array(pads["pivot_ratio"]) - 1)
+    first, second = (
+        first * np.cos(lean) - second * np.sin(lean),
+        first * np.sin(lean) + second * np.cos(lean),
+    )
+    rate = journal_radius / (2 * pad_radius) * speed[:, None]
+    along = np.gradient(first, time, axis=0) + rate * second
+    outward = np.gradient(second, time, axis=0) - rate * first
+    edges = [1 - (second * np.cos(half_arc) + s * first * np.sin(half_arc)) / clearance for s in (1, -1)]
+    return np.stack(edges, -1), 0.5 * (1 - outward / (np.abs(along) * np.tan(half_arc)))
+
+
+def cell(thickness: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Lower and upper end of the cells in which thicknesses lie."""
+    octave = 2.0 ** np.floor(np.log2(thickness))
+    lower = octave * (1 + np.floor(OCTAVE_PARTS * (thickness / octave - 1)) / OCTAVE_PARTS)
+    return lower, lower + octave / OCTAVE_PARTS
+
+
+def boxes(ax: Axes, x: tuple[np.ndarray, np.ndarray], y: tuple[np.ndarray, np.ndarray], **look) -> None:
+    """Rectangles from lower and upper ends, each once."""
+    for left, right, low, high in {*zip(*map(np.ravel, (*x, *y)), strict=True)}:
+        ax.add_patch(Rectangle((left, low), right - left, high - low, edgecolor="0.6", **look))
+
+
+def draw(run: tiltpad.Run) -> None:
+    """Both thicknesses on the left; on the right the trailing one and T, of films that rupture."""
+    edges, share = films(run)
+    lower, upper = cell(edges)
+    _, (left, right) = plt.subplots(1, 2, figsize=(PAGE, 3.2))
+    ruptured = (share > 0) & (share < 1)
+    boxes(left, (lower[..., 0], upper[..., 0]), (lower[..., 1], upper[..., 1]), facecolor="0.93")
+    below = np.floor(share * T_PARTS) / T_PARTS
+    ends = below[ruptured], below[ruptured] + 1 / T_PARTS
+    boxes(right, (lower[ruptured, 1], upper[ruptured, 1]), ends, facecolor="0.93")
+    for i in range(share.shape[1]):
+        left.plot(*edges[:, i].T, color=f"C{i}", label=f"pad {i + 1}")
+        right.plot(edges[:, i, 1], share[:, i], color=f"C{i}")
+    right.axhline(0, color="black", linewidth=0.8)
+    trailing = "film thickness at the trailing edge / $c_m$"
+    left.set(xlabel="film thickness at the leading edge / $c_m$", ylabel=trailing, title="whole film")
+    right.set(xlabel=trailing, ylabel="T, part of the film that diverges", title="ruptured film, T > 0")
+    left.legend(loc="upper left", frameon=True)
+
+
+if __name__ == "__main__":
+    mpl.use("agg")
+    with tiltpad.read(sys.argv[1]) as found, plt.style.context(STYLE):
+        draw(found)
+        plt.savefig(sys.argv[2], dpi=200)

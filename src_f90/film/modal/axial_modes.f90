@@ -1,0 +1,121 @@
+!> Axial modes of a pad, b_k cos(lambda_k Z), lambda_k = (2k-1) pi/L, b_k = -4 (-1)^k/((2k-1) pi), k = 1, 2, ..., and
+!> what the sums over those beyond the first `modes` are.
+!>
+!> Of many modes only some are solved, the `lanes`: the solution is a smooth function of lambda, so that the first few
+!> and Chebyshev's points of log(lambda) beyond give the others by interpolation.
+module axial_modes
+   use kinds, only: wp, pi
+   use pad_gap, only: pad_gap_type
+   use modal_sweeps, only: lanes
+   implicit none (type, external)
+   private
+   public :: axial_modes_type, new_axial_modes
+
+   !> Up to so many modes every one is solved; of more, the first so many.
+   integer, parameter :: most_solved = 16, first_solved = 8
+   !> Sums over the odd numbers m of 1/m^3, 1/m^4, 1/m^5: 7/8 zeta(3), pi^4/96, 31/32 zeta(5).
+   real(wp), parameter :: odd_sums(3) = [7*1.2020569031595943_wp/8, pi**4/96, 31*1.0369277551433699_wp/32]
+
+   type :: axial_modes_type
+      !> Lambda_1 = R lambda_1, and L/R.
+      real(wp) :: first, width
+      integer :: modes, blocks
+      !> (R lambda)^2 of the lanes, idle ones 0.
+      real(wp), allocatable :: square(:)
+      !> How much of each mode's solution is that of a lane, (lane, mode).
+      real(wp), allocatable :: of_lane(:, :)
+      !> By lane c_k = (L/2) b_k^2, m; sums over the modes left out of c_k/Lambda_k^j, j = 1, 2, 3, m.
+      real(wp), allocatable :: c(:)
+      real(wp) :: tail(3)
+   contains
+      procedure :: profile
+      procedure :: left_out
+   end type axial_modes_type
+
+contains
+
+   !> So many modes of a pad; all of them solved, or as many as the solution's smoothness asks for.
+   pure function new_axial_modes(gap, modes, all_solved) result(self)
+      type(pad_gap_type), intent(in) :: gap
+      integer, intent(in) :: modes
+      logical, intent(in) :: all_solved
+      type(axial_modes_type) :: self
+      real(wp) :: order(modes), c(modes), x(modes)
+      integer :: solved, j, k
+      order = [(2*k - 1, k=1, modes)]
+      self%modes = modes
+      self%width = gap%axial_length/gap%pad_radius()
+      self%first = pi/self%width
+      solved = modes
+      if (.not. all_solved .and. modes > most_solved) then
+         ! eight points for every factor of four between the wave numbers
+         solved = first_solved + 8*ceiling(log(order(modes)/(2*first_solved + 1))/log(4.0_wp))
+         solved = min(solved, modes)
+      end if
+      self%blocks = (solved + lanes - 1)/lanes
+      allocate (self%square(lanes*self%blocks), self%c(lanes*self%blocks), source=0.0_wp)
+      allocate (self%of_lane(lanes*self%blocks, modes), source=0.0_wp)
+      x = order
+      if (solved < modes) x(first_solved + 1:solved) = chebyshev(solved - first_solved, order(first_solved + 1), &
+         & order(modes))
+      self%square(:solved) = (x(:solved)*self%first)**2
+      do k = 1, modes
+         if (k <= first_solved .or. solved == modes) then
+            self%of_lane(k, k) = 1
+         else
+            do j = first_solved + 1, solved
+               self%of_lane(j, k) = lagrange(log(x(first_solved + 1:solved)), j - first_solved, log(order(k)))
+            end do
+         end if
+      end do
+      c = 8*gap%axial_length/(order*pi)**2
+      self%c = matmul(self%of_lane, c)
+      do j = 1, 3
+         self%tail(j) = (8*gap%axial_length/pi**2*odd_sums(j) - sum(c/order**j))/self%first**j
+      end do
+   end function new_axial_modes
+
+   !> Chebyshev's points between a and b, evenly in the logarithm.
+   pure function chebyshev(n, a, b) result(points)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: a, b
+      real(wp) :: points(n)
+      integer :: i
+      points = [(sqrt(a*b)*(a/b)**(0.5_wp*cos((i - 0.5_wp)*pi/n)), i=1, n)]
+   end function chebyshev
+
+   !> The polynomial that is 1 at x(j) and 0 at the other x, at a place.
+   pure real(wp) function lagrange(x, j, place)
+      real(wp), intent(in) :: x(:), place
+      integer, intent(in) :: j
+      integer :: i
+      lagrange = 1
+      do i = 1, size(x)
+         if (i /= j) lagrange = lagrange*(place - x(i))/(x(j) - x(i))
+      end do
+   end function lagrange
+
+   !> b_k cos(lambda_k Z) by lane, at Z over half the width.
+   pure function profile(self, position)
+      class(axial_modes_type), intent(in) :: self
+      real(wp), intent(in) :: position
+      real(wp) :: profile(size(self%square))
+      integer :: k
+      profile = matmul(self%of_lane, [(of_mode(k, position), k=1, self%modes)])
+   end function profile
+
+   elemental real(wp) function of_mode(k, position)
+      integer, intent(in) :: k
+      real(wp), intent(in) :: position
+      of_mode = -4*(-1)**k/((2*k - 1)*pi)*cos((2*k - 1)*pi/2*position)
+   end function of_mode
+
+   !> Sum of b_k cos(lambda_k Z)/Lambda_k^2 over the modes left out, at Z over half the width.
+   pure real(wp) function left_out(self, position)
+      class(axial_modes_type), intent(in) :: self
+      real(wp), intent(in) :: position
+      integer :: k
+      left_out = self%width**2*(1 - position**2)/8 &
+         & - sum([(of_mode(k, position)/((2*k - 1)*self%first)**2, k=1, self%modes)])
+   end function left_out
+end module axial_modes

@@ -1,0 +1,261 @@
+!> The ruptured film of a pad as a table: force = S M v, as if the film were whole and driven by v = w + |w_1| d, with d
+!> a function of the film thicknesses at both edges and of T, the part of the arc where the film diverges
+!> (docs/theory.md, *The table*).
+!>
+!> Cells are boxes with a node at every corner, which neighbours share. A cell is cut in eight where the film at its
+!> middle differs too much from what its corners say. The film of a node is solved on its own; so a cell is the same,
+!> whatever came before.
+module rupture_table
+   use kinds, only: wp, i8
+   use clock, only: wall_clock
+   use unit_pad, only: unit_pad_type, thickness_scale
+   use ruptured_drive, only: ruptured_drive_type, drive_type, new_ruptured_drive, least_tolerance
+   use octaves, only: interval, lower_end
+   use cell_index, only: cell_index_type, cell_key
+   use cubic_patch, only: lanes, terms, corner_data, corners, cubic_transform, evaluate_cubic
+   implicit none (type, external)
+   private
+   public :: rupture_table_type, new_rupture_table
+
+   !> Cells that are not cut are half an octave long in the thicknesses, and 1/8 in T; they may be cut so often.
+   integer, parameter :: octave_level = 1, parts = 8, deepest = 3
+   !> Film thickness over the clearance above which forces matter less, and are no longer measured by themselves.
+   real(wp), parameter :: thick_film = 1.0_wp
+   !> What a cell that is not cut any more may err by: as much as the solver that would stand in for it.
+   real(wp), parameter :: error_of_solver = 1e-3_wp
+   !> Most cells, and most nodes, unless told otherwise.
+   integer, parameter :: usual_most = 20000
+   !> How much an error of the slopes at a cell's middle, times its size, counts.
+   real(wp), parameter :: share_of_slopes = 0.15_wp
+
+   !> Functions: the two components of d, the highest pressure over that of the whole film driven by v, and 0. Their
+   !> values, and derivatives over both thicknesses and T, (function, value or derivative).
+   type :: node_type
+      real(wp) :: data(lanes, corner_data) = 0
+      !> Error of the force over that of the film that is just whole, per error of d.
+      real(wp) :: weight(2, 2) = 0
+      !> Whether the film is open and was solved.
+      logical :: ok = .false.
+   end type node_type
+
+   type :: cell_type
+      real(wp) :: lower(3), upper(3), per_size(3)
+      !> Whether d is as close as it should be; whether the cell is cut in eight.
+      logical :: good, cut
+      real(wp) :: coefficients(lanes, terms)
+   end type cell_type
+
+   type :: rupture_table_type
+      private
+      type(unit_pad_type) :: pad
+      type(ruptured_drive_type) :: drive
+      !> Error of the force over that of the film that is just whole, T = 0.
+      real(wp) :: tolerance
+      !> Terms of a cubic from the data at its corners, once it is needed.
+      real(wp), allocatable :: transform(:, :)
+      type(cell_index_type) :: cell_index, node_index
+      type(cell_type), allocatable :: cells(:)
+      type(node_type), allocatable :: nodes(:)
+      !> Most cells, and most nodes: when either are used up all are forgotten. Cells and nodes in use.
+      integer :: most = usual_most
+      integer :: used_cells = 0, used_nodes = 0
+      !> Cells and nodes built ever, and the time it took, s.
+      integer(i8), public :: built_cells = 0, built_nodes = 0
+      real(wp), public :: seconds = 0
+   contains
+      procedure :: look_up
+      procedure, private :: find_cell
+      procedure, private :: build
+      procedure, private :: find_node
+      procedure, private :: solved_node
+   end type rupture_table_type
+
+contains
+
+   !> An empty table for a pad, with the condition of Reynolds or Guembel: forces to a tolerance, over that at T = 0.
+   !> At least the corners and the middle of a cell must find room in it.
+   function new_rupture_table(pad, gumbel, tolerance, most) result(table)
+      type(unit_pad_type), intent(in) :: pad
+      logical, intent(in) :: gumbel
+      real(wp), intent(in) :: tolerance
+      integer, intent(in), optional :: most
+      type(rupture_table_type) :: table
+      table%pad = pad
+      ! beyond what the nodes keep to, cells would be cut for nothing
+      table%tolerance = max(tolerance, least_tolerance)
+      table%drive = new_ruptured_drive(pad, gumbel, table%tolerance)
+      if (present(most)) table%most = max(most, corners + 1)
+   end function new_rupture_table
+
+   !> The functions and, if they are wanted, their derivatives over both thicknesses and T, (function, axis), for an
+   !> open film with these thicknesses at its edges and 0 < T < 1. `last` is the caller's memory of the cell, 0 at
+   !> first. `good` is false where d is not as close as it should be: next to a film that closes.
+   subroutine look_up(self, edges, t, want_slopes, last, value, slope, good)
+      class(rupture_table_type), intent(inout) :: self
+      real(wp), intent(in) :: edges(2), t
+      logical, intent(in) :: want_slopes
+      integer, intent(inout) :: last
+      real(wp), intent(out) :: value(lanes), slope(lanes, 3)
+      logical, intent(out) :: good
+      real(wp) :: place(3)
+      integer :: axis
+      place = [edges, t]
+      if (.not. holds(self, last, place)) call self%find_cell(place, last)
+      associate (cell => self%cells(last))
+         good = cell%good
+         call evaluate_cubic(cell%coefficients, (place - cell%lower)*cell%per_size, want_slopes, value, slope)
+         do axis = 1, 3
+            slope(:, axis) = slope(:, axis)*cell%per_size(axis)
+         end do
+      end associate
+   end subroutine look_up
+
+   !> True where a cell of this number holds this place and is not cut.
+   pure logical function holds(self, number, place)
+      class(rupture_table_type), intent(in) :: self
+      integer, intent(in) :: number
+      real(wp), intent(in) :: place(3)
+      holds = .false.
+      if (number == 0 .or. number > self%used_cells) return
+      associate (cell => self%cells(number))
+         holds = .not. cell%cut .and. place(1) >= cell%lower(1) .and. place(1) < cell%upper(1) &
+            & .and. place(2) >= cell%lower(2) .and. place(2) < cell%upper(2) &
+            & .and. place(3) >= cell%lower(3) .and. place(3) < cell%upper(3)
+      end associate
+   end function holds
+
+   !> The cell that holds this place and is not cut; what is missing on the way to it is built.
+   subroutine find_cell(self, place, number)
+      class(rupture_table_type), intent(inout) :: self
+      real(wp), intent(in) :: place(3)
+      integer, intent(out) :: number
+      type(cell_type), allocatable :: more(:)
+      real(wp) :: started
+      integer :: level, at(3)
+      do level = 0, deepest
+         at = [interval(place(:2), octave_level + level), int(place(3)*parts*2**level)]
+         number = self%cell_index%find(cell_key(level, at(1), at(2), at(3)))
+         if (number == 0) then
+            started = wall_clock()
+            if (.not. allocated(self%cells)) then
+               allocate (self%cells(32), self%nodes(128))
+               self%transform = cubic_transform()
+            end if
+            if (self%used_cells == self%most .or. self%used_nodes > self%most - corners - 1) then
+               call self%cell_index%clear()
+               call self%node_index%clear()
+               self%used_cells = 0
+               self%used_nodes = 0
+            end if
+            if (self%used_cells == size(self%cells)) then
+               allocate (more(2*self%used_cells))
+               more(:self%used_cells) = self%cells
+               call move_alloc(more, self%cells)
+            end if
+            self%used_cells = self%used_cells + 1
+            self%built_cells = self%built_cells + 1
+            number = self%used_cells
+            call self%build(level, at, self%cells(number))
+            call self%cell_index%add(cell_key(level, at(1), at(2), at(3)), number)
+            self%seconds = self%seconds + wall_clock() - started
+         end if
+         if (.not. self%cells(number)%cut) exit
+      end do
+   end subroutine find_cell
+
+   !> The cell at a place of a level, checked.
+   subroutine build(self, level, at, cell)
+      class(rupture_table_type), intent(inout) :: self
+      integer, intent(in) :: level, at(3)
+      type(cell_type), intent(inout) :: cell
+      type(node_type) :: node
+      real(wp) :: data(lanes, corner_data, 0:corners - 1), value(lanes), slope(lanes, 3), size_of(3), error
+      integer :: corner, i, finer
+      cell%lower = [lower_end(at(:2), octave_level + level), at(3)/real(parts*2**level, wp)]
+      cell%upper = [lower_end(at(:2) + 1, octave_level + level), (at(3) + 1)/real(parts*2**level, wp)]
+      size_of = cell%upper - cell%lower
+      cell%per_size = 1/size_of
+      cell%good = .false.
+      cell%cut = level < deepest
+      cell%coefficients = 0
+      ! nodes have their places among the corners of cells one level below the smallest: there the middles lie, too
+      finer = 2**(deepest + 1 - level)
+      do corner = 0, corners - 1
+         call self%find_node(finer*(at + ibits(corner, [0, 1, 2], 1)), node)
+         if (.not. node%ok) return
+         data(:, :, corner) = node%data*spread([1.0_wp, size_of], 1, lanes)
+      end do
+      ! the ratio of pressures is linear between corners
+      do corner = 0, corners - 1
+         do i = 1, 3
+            associate (other => ieor(corner, 2**(i - 1)))
+               data(3, 1 + i, corner) = (data(3, 1, other) - data(3, 1, corner))*sign(1, other - corner)
+            end associate
+         end do
+      end do
+      cell%coefficients = matmul(reshape(data, [lanes, terms]), transpose(self%transform))
+      call self%find_node(finer*at + finer/2, node)
+      if (.not. node%ok) return
+      call evaluate_cubic(cell%coefficients, [0.5_wp, 0.5_wp, 0.5_wp], .true., value, slope)
+      error = norm2(matmul(node%weight, value(:2) - node%data(:2, 1)))
+      do i = 1, 3
+         error = max(error, share_of_slopes*size_of(i)*norm2(matmul(node%weight, &
+            & slope(:2, i)/size_of(i) - node%data(:2, 1 + i))))
+      end do
+      cell%cut = cell%cut .and. error > self%tolerance
+      cell%good = error <= max(self%tolerance, error_of_solver)
+   end subroutine build
+
+   !> The node at a corner `at`, counted in cells one level below the smallest.
+   subroutine find_node(self, at, node)
+      class(rupture_table_type), intent(inout) :: self
+      integer, intent(in) :: at(3)
+      type(node_type), intent(out) :: node
+      type(node_type), allocatable :: more(:)
+      integer :: number
+      associate (key => cell_key(0, at(1), at(2), at(3)))
+         number = self%node_index%find(key)
+         if (number > 0) then
+            node = self%nodes(number)
+            return
+         end if
+         if (self%used_nodes == size(self%nodes)) then
+            allocate (more(2*self%used_nodes))
+            more(:self%used_nodes) = self%nodes
+            call move_alloc(more, self%nodes)
+         end if
+         self%used_nodes = self%used_nodes + 1
+         node = self%solved_node(lower_end(at(:2), octave_level + deepest + 1), &
+            & at(3)/real(parts*2**(deepest + 1), wp))
+         self%nodes(self%used_nodes) = node
+         call self%node_index%add(key, self%used_nodes)
+      end associate
+   end subroutine find_node
+
+   !> The functions at a node.
+   type(node_type) function solved_node(self, edges, t) result(node)
+      class(rupture_table_type), intent(inout) :: self
+      real(wp), intent(in) :: edges(2), t
+      type(drive_type) :: drive
+      real(wp) :: w(2)
+      node%data(3, 1) = 1
+      node%ok = .true.
+      ! whole
+      if (.not. t > 0) return
+      associate (tangent => self%pad%tangent)
+         w = [1.0_wp, tangent*(1 - 2*t)]
+         ! at T = 1 nothing is left of the film; as it goes to nothing smoothly, only w changes
+         if (t < 1) then
+            self%built_nodes = self%built_nodes + 1
+            drive = self%drive%at(edges, w(2))
+            node%ok = drive%ok
+            node%data(3, 1) = drive%peak
+            node%weight = drive%weight*min(1.0_wp, thickness_scale(edges(1), edges(2)) &
+               & /thickness_scale(thick_film, thick_film))
+         end if
+         node%data(:2, 1) = drive%value - w
+         node%data(:2, 2:3) = drive%slopes(:, :2)
+         node%data(:2, 4) = -2*tangent*(drive%slopes(:, 3) - [0.0_wp, 1.0_wp])
+      end associate
+   end function solved_node
+end module rupture_table

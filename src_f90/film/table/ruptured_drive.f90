@@ -1,0 +1,175 @@
+!> What a ruptured film is worth: the velocity v that would drive the same film, if it were whole, to the same force.
+!> For w = (1, w_2), with F the force of the ruptured film and M w that of the whole one, v = M^(-1) F.
+!>
+!> Both forces come from the same discretisation, so that most of its error is not in v. With the condition of Reynolds
+!> these are finite volumes: half of their columns lie where the film diverges, all of them are narrow where it is thin,
+!> and two grids are extrapolated by Richardson's rule. With Guembel's condition they are axial modes. Every film is
+!> solved from the same start: the answer does not depend on what came before.
+module ruptured_drive
+   use kinds, only: wp
+   use film_solver, only: film_motion, film_response, film_counters, film_ok
+   use unit_pad, only: unit_pad_type, thickness_scale
+   use direct_film, only: direct_film_type, new_direct_film
+   use modal_film, only: modal_film_type, converged_film
+   implicit none (type, external)
+   private
+   public :: ruptured_drive_type, drive_type, new_ruptured_drive, least_tolerance
+
+   !> Columns and rows of the finer grid for a tolerance of 4e-5, and of any; the error falls with their squares.
+   integer, parameter :: base_columns = 64, base_rows = 8, most_rows = 32
+   real(wp), parameter :: base_tolerance = 4e-5_wp
+   !> What the finest grid keeps to.
+   real(wp), parameter :: least_tolerance = base_tolerance*(real(base_rows, wp)/most_rows)**2
+   !> Share of the columns where the film diverges, at least.
+   real(wp), parameter :: diverging_share = 0.5_wp
+
+   !> A solver for one pad.
+   type :: ruptured_drive_type
+      private
+      type(unit_pad_type) :: pad
+      logical :: gumbel
+      integer :: columns, rows
+      !> Guembel's: clipped and whole.
+      type(modal_film_type) :: clipped, whole
+   contains
+      procedure :: at
+   end type ruptured_drive_type
+
+   !> The answer for one film.
+   type :: drive_type
+      !> v, and its derivatives over the thicknesses at both edges and w_2, (component, variable).
+      real(wp) :: value(2) = 0, slopes(2, 3) = 0
+      !> M over the force of the film that is just whole, w_2 = tan(half the arc).
+      real(wp) :: weight(2, 2) = 0
+      !> Highest pressure of the ruptured film over that of the whole one that is driven by v.
+      real(wp) :: peak = 1
+      logical :: ok = .false.
+   end type drive_type
+
+contains
+
+   !> For films of a pad, to a tolerance over the force of the film that is just whole.
+   function new_ruptured_drive(pad, gumbel, tolerance) result(solver)
+      type(unit_pad_type), intent(in) :: pad
+      logical, intent(in) :: gumbel
+      real(wp), intent(in) :: tolerance
+      type(ruptured_drive_type) :: solver
+      real(wp) :: refinement
+      solver%pad = pad
+      solver%gumbel = gumbel
+      refinement = sqrt(max(1.0_wp, base_tolerance/tolerance))
+      solver%rows = min(most_rows, 2*nint(0.5_wp*base_rows*refinement))
+      solver%columns = solver%rows*(base_columns/base_rows)
+      if (gumbel) then
+         solver%clipped = converged_film(pad%gap(0.0_wp), .true., tolerance)
+         solver%whole = converged_film(pad%gap(0.0_wp), .false., tolerance)
+      end if
+   end function new_ruptured_drive
+
+   !> The drive of a film with these thicknesses at its edges and w = (1, w_2); not ok where it is closed.
+   type(drive_type) function at(self, edges, w_2) result(drive)
+      class(ruptured_drive_type), intent(inout) :: self
+      real(wp), intent(in) :: edges(2), w_2
+      type(film_motion) :: motion
+      motion = film_motion(self%pad%position(edges), [1.0_wp, w_2])
+      associate (gap => self%pad%gap(0.0_wp))
+         if (.not. gap%min_film_thickness(motion, gap%directions()) > 0) return
+      end associate
+      if (self%gumbel) then
+         drive = by_modes(self, motion)
+      else
+         drive = by_volumes(self, motion)
+      end if
+      drive%slopes(1, :2) = self%pad%over_edges(drive%slopes(1, :2))
+      drive%slopes(2, :2) = self%pad%over_edges(drive%slopes(2, :2))
+   end function at
+
+   !> The drive by finite volumes on two grids; slopes over the position. The slopes of the finer grid are better than
+   !> extrapolated ones: cells that rupture, one after the other, make them rough.
+   function by_volumes(self, motion) result(drive)
+      class(ruptured_drive_type), intent(in) :: self
+      type(film_motion), intent(in) :: motion
+      type(drive_type) :: drive, coarse_drive
+      type(direct_film_type) :: coarse, fine
+      type(film_response) :: ruptured, whole
+      type(film_counters) :: unused
+      coarse = new_direct_film(self%pad%gap(0.0_wp), self%columns/2, self%rows/2, &
+         & angles(self%pad, motion, self%columns/2))
+      call coarse%evaluate(motion, 0.0_wp, .true., .false., unused, ruptured)
+      call coarse%evaluate(motion, 0.0_wp, .false., .true., unused, whole)
+      call set_drive(self%pad, ruptured, whole, coarse_drive)
+      fine = new_direct_film(self%pad%gap(0.0_wp), self%columns, self%rows, angles(self%pad, motion, self%columns))
+      call fine%start_from(coarse)
+      call fine%evaluate(motion, 0.0_wp, .true., .true., unused, ruptured)
+      call fine%evaluate(motion, 0.0_wp, .false., .true., unused, whole)
+      call set_drive(self%pad, ruptured, whole, drive)
+      drive%ok = drive%ok .and. coarse_drive%ok
+      if (.not. drive%ok) return
+      call fine%evaluate(film_motion(motion%position, drive%value), 0.0_wp, .false., .true., unused, whole)
+      call set_slopes(ruptured, whole, drive)
+      drive%value = drive%value + (drive%value - coarse_drive%value)/3
+   end function by_volumes
+
+   !> The drive by axial modes, with Guembel's condition; slopes over the position.
+   function by_modes(self, motion) result(drive)
+      class(ruptured_drive_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion
+      type(drive_type) :: drive
+      type(film_response), dimension(1) :: ruptured, whole
+      call self%whole%evaluate([motion], 0.0_wp, .true., whole)
+      call self%clipped%evaluate([motion], 0.0_wp, .true., ruptured)
+      call set_drive(self%pad, ruptured(1), whole(1), drive)
+      if (.not. drive%ok) return
+      call self%whole%evaluate([film_motion(motion%position, drive%value)], 0.0_wp, .true., whole)
+      call set_slopes(ruptured(1), whole(1), drive)
+   end function by_modes
+
+   !> v and the weight. The derivatives of the whole film's force over the velocity are M.
+   pure subroutine set_drive(pad, ruptured, whole, drive)
+      type(unit_pad_type), intent(in) :: pad
+      type(film_response), intent(in) :: ruptured, whole
+      type(drive_type), intent(inout) :: drive
+      drive%ok = ruptured%status == film_ok .and. whole%status == film_ok
+      if (.not. drive%ok) return
+      associate (m => whole%derivatives(:, 3:4))
+         drive%value = solved(m, ruptured%force)
+         drive%weight = m/norm2(m(:, 1) + pad%tangent*m(:, 2))
+      end associate
+   end subroutine set_drive
+
+   !> Derivatives of v = M^(-1) F: M^(-1) (dF - dM v); `whole` is the film driven by v.
+   pure subroutine set_slopes(ruptured, whole, drive)
+      type(film_response), intent(in) :: ruptured, whole
+      type(drive_type), intent(inout) :: drive
+      integer :: i
+      associate (m => whole%derivatives(:, 3:4))
+         do i = 1, 2
+            drive%slopes(:, i) = solved(m, ruptured%derivatives(:, i) - whole%derivatives(:, i))
+         end do
+         drive%slopes(:, 3) = solved(m, ruptured%derivatives(:, 4))
+      end associate
+      if (whole%max_pressure > 0) drive%peak = ruptured%max_pressure/whole%max_pressure
+   end subroutine set_slopes
+
+   !> x of m x = b.
+   pure function solved(m, b) result(x)
+      real(wp), intent(in) :: m(2, 2), b(2)
+      real(wp) :: x(2)
+      x = [b(1)*m(2, 2) - b(2)*m(1, 2), b(2)*m(1, 1) - b(1)*m(2, 1)]/(m(1, 1)*m(2, 2) - m(1, 2)*m(2, 1))
+   end function solved
+
+   !> Angles between the columns, rad, from the trailing to the leading edge.
+   pure function angles(pad, motion, columns)
+      type(unit_pad_type), intent(in) :: pad
+      type(film_motion), intent(in) :: motion
+      integer, intent(in) :: columns
+      real(wp) :: angles(0:columns), zero
+      integer :: diverging
+      ! where the source of pressure changes its sign
+      zero = -atan2(motion%velocity(2), motion%velocity(1))
+      diverging = nint(columns*max(diverging_share, 0.5_wp*(zero/pad%half_arc + 1)))
+      diverging = min(diverging, columns - 2)
+      angles(:diverging) = pad%spread_angles(motion%position, -pad%half_arc, zero, diverging)
+      angles(diverging:) = pad%spread_angles(motion%position, zero, pad%half_arc, columns - diverging)
+   end function angles
+end module ruptured_drive

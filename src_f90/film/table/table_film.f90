@@ -1,0 +1,186 @@
+!> Films as tables, built where the motion goes (docs/theory.md, *The table*).
+!>
+!> The whole film comes from one table; where it ruptures, another adds what rupture changes. Pads of the same shape
+!> share their tables. What no table has, films that nearly close and those that may rupture with different pressures
+!> around them, is left to the solver whose films are tabulated.
+module table_film
+   use kinds, only: wp
+   use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_closed
+   use pad_gap, only: pad_gap_type
+   use auto_film, only: auto_film_type
+   use unit_pad, only: unit_pad_type, new_unit_pad
+   use whole_table, only: new_whole_table
+   use rupture_table, only: new_rupture_table
+   use table_pad, only: table_pad_type, shape_tables, new_table_pad
+   implicit none (type, external)
+   private
+   public :: table_film_type, new_table_film
+
+   !> Pads with half arcs above this, rad, have no table: their film is not told by its thickness at the edges.
+   real(wp), parameter :: largest_half_arc = 1.3_wp
+   !> Error of the whole film over that of what rupture changes.
+   real(wp), parameter :: share_of_whole = 0.1_wp
+
+   !> Most cells of whole films, and most cells and most nodes of ruptured ones, over all shapes: 0.3 GB.
+   integer, parameter :: most_whole = 16000, most_ruptured = 100000
+
+   type, extends(film_solver_type) :: table_film_type
+      private
+      type(table_pad_type), allocatable :: pads(:)
+      type(shape_tables), allocatable :: shapes(:)
+      !> Of every pad the solver for what is in no table.
+      type(auto_film_type), allocatable :: single(:)
+      !> Whether the solver was made for films that rupture, and whether they may.
+      logical :: made_to_rupture, may_rupture
+      !> False: every film is solved.
+      logical :: tabulates = .true.
+   contains
+      procedure :: ruptures
+      procedure :: set_rupture
+      procedure :: set_accuracy
+      procedure :: evaluate
+      procedure :: take_pressures
+      procedure :: field
+      procedure, private :: count_work
+   end type table_film_type
+
+contains
+
+   !> Tables for the films in these gaps, that rupture by Guembel's condition, by that of Reynolds or not at all, with
+   !> errors of this tolerance over the force.
+   function new_table_film(gaps, single, ruptures, gumbel, tolerance) result(solver)
+      type(pad_gap_type), intent(in) :: gaps(:)
+      !> Of every pad the solver for what is in no table.
+      type(auto_film_type), intent(in) :: single(:)
+      logical, intent(in) :: ruptures, gumbel
+      real(wp), intent(in) :: tolerance
+      type(table_film_type) :: solver
+      logical :: supplied
+      integer :: i, k, n
+      solver%single = single
+      solver%made_to_rupture = ruptures
+      solver%may_rupture = ruptures
+      allocate (solver%pads(size(gaps)), solver%shapes(size(gaps)))
+      n = 0
+      do i = 1, size(gaps)
+         associate (gap => gaps(i), shapes => solver%shapes, unit => new_unit_pad(gaps(i)))
+            solver%pads(i) = new_table_pad(gap, unit)
+            if (unit%half_arc > largest_half_arc) cycle
+            supplied = abs(gap%supply_pressure - gap%ambient_pressure) > 0
+            do k = 1, n
+               if (same(shapes(k)%pad, unit) .and. (shapes(k)%supplied .eqv. supplied)) exit
+            end do
+            if (k > n) then
+               n = k
+               shapes(k)%pad = unit
+               shapes(k)%supplied = supplied
+               shapes(k)%whole = new_whole_table(unit, supplied, share_of_whole*tolerance, most_whole/size(gaps))
+               shapes(k)%rupture = new_rupture_table(unit, gumbel, tolerance, most_ruptured/size(gaps))
+            end if
+            solver%pads(i)%shape = k
+         end associate
+      end do
+   end function new_table_film
+
+   !> True where two pads have the same shape.
+   pure logical function same(a, b)
+      type(unit_pad_type), intent(in) :: a, b
+      same = .not. (abs(a%half_arc - b%half_arc) > 0 .or. abs(a%length - b%length) > 0)
+   end function same
+
+   pure logical function ruptures(self)
+      class(table_film_type), intent(in) :: self
+      ruptures = self%may_rupture
+   end function ruptures
+
+   pure subroutine set_rupture(self, allowed)
+      class(table_film_type), intent(inout) :: self
+      logical, intent(in) :: allowed
+      integer :: i
+      self%may_rupture = allowed .and. self%made_to_rupture
+      do i = 1, size(self%single)
+         call self%single(i)%set_rupture(allowed)
+      end do
+   end subroutine set_rupture
+
+   !> From here on every film is solved: who asks for more accuracy, as the search for rest, goes far and stays nowhere.
+   subroutine set_accuracy(self, tolerance, max_sweeps)
+      class(table_film_type), intent(inout) :: self
+      real(wp), intent(in) :: tolerance
+      integer, intent(in) :: max_sweeps
+      self%tabulates = .false.
+   end subroutine set_accuracy
+
+   subroutine evaluate(self, motion, speed, want_derivatives, response)
+      class(table_film_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion(:)
+      real(wp), intent(in) :: speed
+      logical, intent(in) :: want_derivatives
+      type(film_response), intent(out) :: response(:)
+      integer :: i
+      do i = 1, size(motion)
+         associate (pad => self%pads(i))
+            response(i)%min_film_thickness = pad%gap%min_film_thickness(motion(i), pad%directions)
+            pad%found = .false.
+            if (.not. response(i)%min_film_thickness > 0) then
+               response(i)%status = film_closed
+               cycle
+            end if
+            if (pad%shape > 0 .and. self%tabulates) call pad%look_up(self%shapes(pad%shape), motion(i), speed, &
+               & self%may_rupture, want_derivatives, response(i))
+            if (pad%found) then
+               self%counters%looked_up = self%counters%looked_up + 1
+            else
+               call self%single(i)%evaluate(motion(i:i), speed, want_derivatives, response(i:i))
+            end if
+         end associate
+      end do
+      call self%count_work()
+   end subroutine evaluate
+
+   !> What solvers and tables have done.
+   subroutine count_work(self)
+      class(table_film_type), intent(inout) :: self
+      integer :: i
+      associate (counters => self%counters, shapes => self%shapes)
+         if (any(.not. self%pads%found)) then
+            do i = 1, size(self%pads)
+               associate (more => self%single(i)%counters)
+                  counters%modal = counters%modal + more%modal
+                  counters%volumes = counters%volumes + more%volumes
+                  counters%passes = counters%passes + more%passes
+                  more = film_counters()
+               end associate
+            end do
+         end if
+         counters%cells = sum(shapes%whole%built + shapes%rupture%built_cells)
+         counters%nodes = sum(shapes%rupture%built_nodes)
+         counters%building = sum(shapes%whole%seconds + shapes%rupture%seconds)
+      end associate
+   end subroutine count_work
+
+   !> The pressures of films from the tables.
+   subroutine take_pressures(self, motion, speed, response)
+      class(table_film_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion(:)
+      real(wp), intent(in) :: speed
+      type(film_response), intent(inout) :: response(:)
+      integer :: i
+      do i = 1, size(motion)
+         if (self%pads(i)%found) call self%pads(i)%look_up_pressures(self%shapes(self%pads(i)%shape), motion(i), &
+            & speed, self%may_rupture, response(i))
+      end do
+   end subroutine take_pressures
+
+   !> Fields are solved.
+   subroutine field(self, motion, speed, phi, z, pressure)
+      class(table_film_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion(:)
+      real(wp), intent(in) :: speed, phi(:, :), z(:)
+      real(wp), intent(out) :: pressure(:, :, :)
+      integer :: i
+      do i = 1, size(motion)
+         call self%single(i)%field(motion(i:i), speed, phi(:, i:i), z, pressure(:, :, i:i))
+      end do
+   end subroutine field
+end module table_film

@@ -1,0 +1,209 @@
+!> One pad's film from the tables of its shape: the force with its derivatives, and the highest pressure.
+module table_pad
+   use kinds, only: wp
+   use film_solver, only: film_motion, film_response
+   use pad_gap, only: pad_gap_type, pad_directions
+   use unit_pad, only: unit_pad_type
+   use middle_frame, only: middle_frame_type, middle_motion, middle_force, new_middle_frame
+   use square_patch, only: lanes
+   use whole_table, only: whole_table_type
+   use rupture_table, only: rupture_table_type
+   implicit none (type, external)
+   private
+   public :: table_pad_type, shape_tables, new_table_pad
+
+   !> The tables of pads of one shape.
+   type :: shape_tables
+      type(unit_pad_type) :: pad
+      !> Whether they have a pressure of their own at the leading edge.
+      logical :: supplied = .false.
+      type(whole_table_type) :: whole
+      type(rupture_table_type) :: rupture
+   end type shape_tables
+
+   !> A pad: its gap, how it differs from its shape, and the cells it was in last.
+   type :: table_pad_type
+      type(pad_gap_type) :: gap
+      type(pad_directions) :: directions
+      type(middle_frame_type), private :: frame
+      !> Which tables are the pad's; 0: none.
+      integer :: shape = 0
+      !> Whether the last film came from the tables.
+      logical :: found = .false.
+      !> Whether all pressures around the pad are equal: then the tables know ruptured films, too.
+      logical, private :: even_pressure
+      !> Pressure at the leading edge above the ambient pressure, Pa; R^2, m^2.
+      real(wp), private :: rise, square
+      !> Force of the ambient pressure, N, in the pad frame.
+      real(wp), private :: ambient_force(2)
+      !> Pressure over that of the unit pad, Pa s/m.
+      real(wp), private :: unit_pressure
+      integer, private :: whole_cell = 0, rupture_cell = 0
+   contains
+      procedure :: look_up
+      procedure :: look_up_pressures
+      procedure, private :: set_drive
+      procedure, private :: set_force
+      procedure, private :: add_supply
+   end type table_pad_type
+
+   !> The velocity that drives a film as if it were whole, m/s, and its derivatives over the edges' thicknesses,
+   !> (component, edge), and over w, (component, component of w).
+   type :: pad_drive
+      real(wp) :: value(2), over_edges(2, 2), over_w(2, 2)
+      !> Highest pressure over that of the whole film.
+      real(wp) :: peak = 1
+   end type pad_drive
+
+   real(wp), parameter :: identity(2, 2) = reshape([1, 0, 0, 1], [2, 2])
+
+contains
+
+   !> A pad with this gap and this shape.
+   pure type(table_pad_type) function new_table_pad(gap, shape) result(pad)
+      type(pad_gap_type), intent(in) :: gap
+      type(unit_pad_type), intent(in) :: shape
+      pad%gap = gap
+      pad%directions = gap%directions()
+      pad%frame = new_middle_frame(gap, shape)
+      pad%rise = gap%supply_pressure - gap%ambient_pressure
+      pad%even_pressure = .not. (abs(pad%rise) > 0 .or. abs(gap%ambient_pressure - gap%cavitation_pressure) > 0)
+      pad%square = gap%pad_radius()**2
+      pad%ambient_force = -gap%pad_radius()*gap%ambient_pressure*gap%axial_length &
+         & *[pad%directions%trailing(2) - pad%directions%leading(2), &
+         & pad%directions%leading(1) - pad%directions%trailing(1)]
+      pad%unit_pressure = gap%viscosity*gap%pad_radius()**2/gap%machined_clearance**3
+   end function new_table_pad
+
+   !> Force and its derivatives of an open film; `found` is false where the tables do not have it.
+   subroutine look_up(self, tables, motion, speed, may_rupture, want_derivatives, response)
+      class(table_pad_type), intent(inout) :: self
+      type(shape_tables), intent(inout) :: tables
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      logical, intent(in) :: may_rupture, want_derivatives
+      type(film_response), intent(inout) :: response
+      type(middle_motion) :: seen
+      type(middle_force) :: force
+      real(wp) :: room
+      logical :: diverges
+      type(pad_drive) :: drive
+      seen = self%frame%motion(motion, speed)
+      room = abs(seen%w(1))*tables%pad%tangent
+      ! T > 0
+      diverges = may_rupture .and. seen%w(2) < room
+      ! with different pressures around a film that may rupture, all of it is solved: the force must not jump between
+      ! two solvers where the film begins to diverge
+      self%found = all(seen%edges > 0) .and. (self%even_pressure .or. .not. may_rupture)
+      if (.not. self%found) return
+      if (diverges .and. seen%w(2) <= -room) then
+         ! T >= 1: nothing of the film is left
+         response%force = self%ambient_force
+         return
+      end if
+      drive = pad_drive(seen%w, 0, identity)
+      if (diverges) call self%set_drive(tables, seen, room, want_derivatives, drive)
+      if (self%found) call self%set_force(tables, seen, drive, want_derivatives, force)
+      if (.not. self%found) return
+      if (abs(self%rise) > 0) call self%add_supply(tables, seen, want_derivatives, force)
+      response%force = self%ambient_force + self%frame%force(force)
+      if (want_derivatives) response%derivatives = self%frame%derivatives(seen, force)
+   end subroutine look_up
+
+   !> The drive of a ruptured film, 0 < T < 1, unless `found` becomes false.
+   subroutine set_drive(self, tables, seen, room, want_derivatives, drive)
+      class(table_pad_type), intent(inout) :: self
+      type(shape_tables), intent(inout) :: tables
+      type(middle_motion), intent(in) :: seen
+      !> |w_1| tan(half the arc).
+      real(wp), intent(in) :: room
+      logical, intent(in) :: want_derivatives
+      type(pad_drive), intent(out) :: drive
+      real(wp) :: d(lanes), slope(lanes, 3), side(2), along
+      integer :: leading, trailing
+      associate (w => seen%w)
+         ! where w_1 < 0 the film diverges at the leading edge: seen in a mirror, at the trailing one
+         leading = merge(1, 2, w(1) > 0)
+         trailing = 3 - leading
+         along = abs(w(1))
+         side = [sign(1.0_wp, w(1)), 1.0_wp]
+         call tables%rupture%look_up(seen%edges([leading, trailing]), 0.5_wp*(1 - w(2)/room), want_derivatives, &
+            & self%rupture_cell, d, slope, self%found)
+         drive%value = w + (along*side)*d(1:2)
+         drive%peak = d(3)
+         if (.not. want_derivatives) return
+         drive%over_edges(:, leading) = (along*side)*slope(1:2, 1)
+         drive%over_edges(:, trailing) = (along*side)*slope(1:2, 2)
+         drive%over_w(:, 1) = identity(:, 1) + (side(1)*side)*(d(1:2) + (w(2)/(2*room))*slope(1:2, 3))
+         drive%over_w(:, 2) = identity(:, 2) - (side/(2*tables%pad%tangent))*slope(1:2, 3)
+      end associate
+   end subroutine set_drive
+
+   !> Force of a film with this drive, and its derivatives, unless `found` becomes false.
+   subroutine set_force(self, tables, seen, drive, want_derivatives, force)
+      class(table_pad_type), intent(inout) :: self
+      type(shape_tables), intent(inout) :: tables
+      type(middle_motion), intent(in) :: seen
+      type(pad_drive), intent(in) :: drive
+      logical, intent(in) :: want_derivatives
+      type(middle_force), intent(out) :: force
+      real(wp) :: m(lanes), slope(lanes, 2)
+      integer :: i
+      call tables%whole%look_up(seen%edges, want_derivatives, self%whole_cell, m, slope, self%found)
+      if (.not. self%found) return
+      m = seen%scale*m
+      associate (v => drive%value)
+         force%value = m(1:2)*v(1) + m(2:3)*v(2)
+         if (.not. want_derivatives) return
+         do i = 1, 2
+            force%over_w(:, i) = m(1:2)*drive%over_w(1, i) + m(2:3)*drive%over_w(2, i)
+            ! S falls as the thickness to the power of -3/2
+            force%over_edges(:, i) = seen%scale*(slope(1:2, i)*v(1) + slope(2:3, i)*v(2)) &
+               & + m(1:2)*drive%over_edges(1, i) + m(2:3)*drive%over_edges(2, i) - (1.5_wp/seen%edges(i))*force%value
+         end do
+      end associate
+   end subroutine set_force
+
+   !> Adds the force of the pressure at the leading edge, and its derivatives.
+   subroutine add_supply(self, tables, seen, want_derivatives, force)
+      class(table_pad_type), intent(inout) :: self
+      type(shape_tables), intent(inout) :: tables
+      type(middle_motion), intent(in) :: seen
+      logical, intent(in) :: want_derivatives
+      type(middle_force), intent(inout) :: force
+      real(wp) :: supply(lanes), slope(lanes, 2)
+      call tables%whole%look_up_supply(seen%edges, want_derivatives, self%whole_cell, supply, slope)
+      force%value = force%value + (self%rise*self%square)*supply(1:2)
+      if (want_derivatives) force%over_edges = force%over_edges + (self%rise*self%square)*slope(1:2, :)
+   end subroutine add_supply
+
+   !> Minimum and maximum pressure of a film that was found, in the middle plane.
+   subroutine look_up_pressures(self, tables, motion, speed, may_rupture, response)
+      class(table_pad_type), intent(inout) :: self
+      type(shape_tables), intent(inout) :: tables
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      logical, intent(in) :: may_rupture
+      type(film_response), intent(inout) :: response
+      type(middle_motion) :: seen
+      type(pad_drive) :: drive
+      real(wp) :: room, rise, highest, lowest
+      logical :: good
+      seen = self%frame%motion(motion, speed)
+      room = abs(seen%w(1))*tables%pad%tangent
+      rise = self%rise/self%unit_pressure
+      highest = 0
+      lowest = 0
+      drive = pad_drive(seen%w, 0, identity)
+      if (.not. may_rupture .or. seen%w(2) > -room) then
+         if (may_rupture .and. seen%w(2) < room) call self%set_drive(tables, seen, room, .false., drive)
+         call tables%whole%highest_pressure(seen%edges, drive%value, rise, self%whole_cell, highest, good)
+      end if
+      if (.not. may_rupture) call tables%whole%highest_pressure(seen%edges, -seen%w, -rise, self%whole_cell, &
+         & lowest, good)
+      highest = highest*drive%peak
+      response%max_pressure = self%gap%ambient_pressure + self%unit_pressure*highest
+      response%min_pressure = min(self%gap%ambient_pressure, self%gap%supply_pressure, &
+         & self%gap%ambient_pressure - self%unit_pressure*lowest)
+   end subroutine look_up_pressures
+end module table_pad

@@ -1,0 +1,215 @@
+!> The table of ruptured films: against the drive itself, slopes, jumps between cells, both ends of T, closing films,
+!> and that neither the order of visits nor a table that was full changes a bit.
+program test_rupture_table
+   use kinds, only: wp, degree
+   use text, only: to_text
+   use pad_gap, only: pad_gap_type
+   use unit_pad, only: unit_pad_type, new_unit_pad
+   use ruptured_drive, only: ruptured_drive_type, drive_type, new_ruptured_drive
+   use cubic_patch, only: lanes
+   use octaves, only: interval, lower_end
+   use rupture_table, only: rupture_table_type, new_rupture_table
+   use check, only: runs, expect, expect_close, between, report
+   implicit none (type, external)
+
+   real(wp), parameter :: half_arc = 35*degree, tolerance = 1e-4_wp
+   type(unit_pad_type) :: pad
+
+   associate (gap => pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp))
+      pad = new_unit_pad(gap)
+   end associate
+   if (runs('against_drive')) call against_drive(.false.)
+   if (runs('against_drive')) call against_drive(.true.)
+   if (runs('slopes')) call slopes()
+   if (runs('between_cells')) call between_cells()
+   if (runs('both_ends')) call both_ends()
+   if (runs('closing_films')) call closing_films()
+   if (runs('order_of_visits')) call same_bits(.false.)
+   if (runs('full_table')) call same_bits(.true.)
+   call report()
+
+contains
+
+   !> Thicknesses and T of an orbit's size: few cells.
+   function random_place() result(place)
+      real(wp) :: place(3)
+      place = [between(0.3_wp, 0.9_wp), between(0.2_wp, 0.9_wp), between(0.0_wp, 1.0_wp)]
+   end function random_place
+
+   !> The tolerance is held at the middle of a cell, for the slopes, too; elsewhere twice that is asked for.
+   subroutine against_drive(gumbel)
+      logical, intent(in) :: gumbel
+      type(rupture_table_type) :: table
+      type(ruptured_drive_type) :: solver
+      type(drive_type) :: drive
+      real(wp) :: place(3), value(lanes), slope(lanes, 3), w(2), worst
+      integer :: trial, last
+      logical :: good
+      table = new_rupture_table(pad, gumbel, tolerance)
+      solver = new_ruptured_drive(pad, gumbel, 0.1_wp*tolerance)
+      last = 0
+      worst = 0
+      do trial = 1, 30
+         place = random_place()
+         w = [1.0_wp, pad%tangent*(1 - 2*place(3))]
+         drive = solver%at(place(:2), w(2))
+         call table%look_up(place(:2), place(3), .true., last, value, slope, good)
+         call expect(good, 'a film that is open')
+         worst = max(worst, norm2(matmul(drive%weight, w + value(:2) - drive%value)))
+      end do
+      call expect(worst < 2*tolerance, merge('gumbel  ', 'reynolds', gumbel)//', error '//to_text(worst))
+   end subroutine against_drive
+
+   !> Slopes are those of the cubics: against differences over 1e-5.
+   subroutine slopes()
+      type(rupture_table_type) :: table
+      real(wp) :: place(3), shift(3), error
+      real(wp), dimension(lanes) :: value, ahead, back
+      real(wp), dimension(lanes, 3) :: slope, unused
+      integer :: trial, last, axis
+      logical :: good
+      table = new_rupture_table(pad, .true., tolerance)
+      last = 0
+      error = 0
+      do trial = 1, 10
+         place = random_place()
+         ! not at an end of a cell
+         place = [lower_end(interval(place(:2), 6), 6), (int(64*place(3)))/64.0_wp] + 1e-3_wp
+         call table%look_up(place(:2), place(3), .true., last, value, slope, good)
+         do axis = 1, 3
+            shift = 0
+            shift(axis) = 1e-5_wp
+            call table%look_up(place(:2) + shift(:2), place(3) + shift(3), .true., last, ahead, unused, good)
+            call table%look_up(place(:2) - shift(:2), place(3) - shift(3), .true., last, back, unused, good)
+            error = max(error, norm2((ahead - back)/2e-5_wp - slope(:, axis))/norm2(slope))
+         end do
+      end do
+      call expect_close(error, 0.0_wp, 1e-6_wp, 'slopes')
+   end subroutine slopes
+
+   !> Cells of the same level meet to rounding; where one of them is cut they differ by the error of either.
+   subroutine between_cells()
+      type(rupture_table_type) :: table
+      type(ruptured_drive_type) :: solver
+      type(drive_type) :: drive
+      real(wp) :: place(3), below(3), jump, worst
+      real(wp), dimension(lanes) :: value, value_below
+      real(wp) :: slope(lanes, 3)
+      integer :: trial, last, axis, meet
+      logical :: good
+      table = new_rupture_table(pad, .true., tolerance)
+      solver = new_ruptured_drive(pad, .true., tolerance)
+      last = 0
+      meet = 0
+      worst = 0
+      do trial = 1, 30
+         place = random_place()
+         axis = 1 + mod(trial, 3)
+         if (axis < 3) place(axis) = lower_end(interval(place(axis), 1) + 1, 1)
+         if (axis == 3) place(axis) = ceiling(8*place(3))/8.0_wp - 0.125_wp
+         if (.not. place(3) > 0) cycle
+         below = place
+         below(axis) = nearest(place(axis), -1.0_wp)
+         call table%look_up(place(:2), place(3), .true., last, value, slope, good)
+         call table%look_up(below(:2), below(3), .true., last, value_below, slope, good)
+         drive = solver%at(place(:2), pad%tangent*(1 - 2*place(3)))
+         jump = norm2(matmul(drive%weight, value(:2) - value_below(:2)))
+         if (jump < 1e-12_wp) meet = meet + 1
+         worst = max(worst, jump)
+      end do
+      call expect(meet > 10, to_text(meet)//' cells meet')
+      call expect(worst < 2*tolerance, 'the others differ by '//to_text(worst))
+   end subroutine between_cells
+
+   !> At T next to 0 the drive is w, next to 1 and at 1 it is nothing.
+   subroutine both_ends()
+      type(rupture_table_type) :: table
+      real(wp) :: value(lanes), slope(lanes, 3), t
+      integer :: last, k, pass
+      logical :: good, gumbel
+      gumbel = .false.
+      do pass = 1, 2
+         table = new_rupture_table(pad, gumbel, tolerance)
+         last = 0
+         t = epsilon(t)
+         do k = 1, 2
+            call table%look_up([0.8_wp, 0.4_wp], t, .true., last, value, slope, good)
+            call expect(good, 'there is a cell')
+            call expect_close(norm2(value(:2)), 0.0_wp, 1e-12_wp, 'w at T = 0')
+            call expect_close(norm2(slope(:2, :)), 0.0_wp, tolerance, 'and its slopes, to an error''s')
+            t = tiny(t)
+         end do
+         t = nearest(1.0_wp, -1.0_wp)
+         do k = 1, 2
+            call table%look_up([0.8_wp, 0.4_wp], t, .true., last, value, slope, good)
+            call expect(good, 'there is a cell')
+            call expect_close(norm2([1.0_wp, -pad%tangent] + value(:2)), 0.0_wp, 1e-12_wp, 'nothing at T = 1')
+            t = 1
+         end do
+         gumbel = .true.
+      end do
+   end subroutine both_ends
+
+   !> Where the film is closed at a corner of the smallest cell nothing is good; what is good is close.
+   subroutine closing_films()
+      type(rupture_table_type) :: table
+      type(ruptured_drive_type) :: solver
+      type(drive_type) :: drive
+      real(wp) :: edges(2), value(lanes), slope(lanes, 3), w(2), worst, h
+      integer :: k, last, found, missing
+      logical :: good
+      real(wp), parameter :: t = 0.3_wp
+      table = new_rupture_table(pad, .true., tolerance)
+      solver = new_ruptured_drive(pad, .true., 0.1_wp*tolerance)
+      w = [1.0_wp, pad%tangent*(1 - 2*t)]
+      last = 0
+      worst = 0
+      found = 0
+      missing = 0
+      do k = 1, 10
+         h = 0.1_wp**(0.5_wp*k)
+         edges = 1 - (1 - h)*pad%cosine
+         if (mod(k, 2) == 0) edges = [1.0_wp, h]
+         call table%look_up(edges, t, .true., last, value, slope, good)
+         if (.not. good) missing = missing + 1
+         if (.not. good) cycle
+         found = found + 1
+         drive = solver%at(edges, w(2))
+         worst = max(worst, norm2(matmul(drive%weight, w + value(:2) - drive%value)))
+      end do
+      call expect(found >= 2 .and. missing >= 2, to_text(found)//' films are in the table, '//to_text(missing)//' not')
+      call expect(worst < 1e-3_wp, 'error '//to_text(worst))
+   end subroutine closing_films
+
+   !> Values and slopes of a table that is visited in another order, or that has room for 20 nodes alone.
+   subroutine same_bits(full)
+      logical, intent(in) :: full
+      integer, parameter :: n = 12
+      type(rupture_table_type) :: table, other
+      real(wp) :: places(3, n), value(lanes, n), slope(lanes, 3, n), value_there(lanes), slope_there(lanes, 3)
+      integer :: k, last, different, pass
+      logical :: good, gumbel
+      gumbel = .false.
+      do pass = 1, 2
+         places = reshape([(random_place(), k=1, n)], [3, n])
+         table = new_rupture_table(pad, gumbel, tolerance)
+         last = 0
+         do k = 1, n
+            call table%look_up(places(:2, k), places(3, k), .true., last, value(:, k), slope(:, :, k), good)
+         end do
+         other = new_rupture_table(pad, gumbel, tolerance)
+         if (full) other = new_rupture_table(pad, gumbel, tolerance, 20)
+         last = 0
+         different = 0
+         do k = n, 1, -1
+            call other%look_up(places(:2, k), places(3, k), .true., last, value_there, slope_there, good)
+            if (any(abs(value_there - value(:, k)) > 0)) different = different + 1
+            if (any(abs(slope_there - slope(:, :, k)) > 0)) different = different + 1
+         end do
+         call expect(different == 0, to_text(different)//' of '//to_text(n)//' are others')
+         if (full) call expect(other%built_nodes > table%built_nodes, 'nodes are built again')
+         if (.not. full) call expect(other%built_nodes == table%built_nodes, 'the same nodes are built')
+         gumbel = .true.
+      end do
+   end subroutine same_bits
+end program test_rupture_table

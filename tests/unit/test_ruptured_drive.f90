@@ -1,0 +1,200 @@
+!> The drive of a ruptured film: against finite volumes on finer even grids, its limits, slopes, and no memory.
+program test_ruptured_drive
+   use kinds, only: wp, degree
+   use text, only: to_text
+   use film_solver, only: film_motion, film_response, film_counters
+   use pad_gap, only: pad_gap_type
+   use unit_pad, only: unit_pad_type, new_unit_pad
+   use direct_film, only: direct_film_type, new_direct_film
+   use modal_film, only: modal_film_type, new_modal_film
+   use ruptured_drive, only: ruptured_drive_type, drive_type, new_ruptured_drive
+   use check, only: runs, expect, expect_close, report
+   implicit none (type, external)
+
+   real(wp), parameter :: half_arc = 35*degree
+   real(wp), parameter :: tolerance = 1e-4_wp
+   !> Thicknesses at the edges, and T.
+   real(wp), parameter :: films(3, 4) = reshape([0.8_wp, 0.4_wp, 0.15_wp, 0.5_wp, 0.9_wp, 0.4_wp, &
+      & 0.3_wp, 0.3_wp, 0.7_wp, 1.5_wp, 0.2_wp, 0.3_wp], [3, 4])
+   type(unit_pad_type) :: pad
+   type(pad_gap_type) :: gap
+   integer :: i
+
+   gap = pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+   pad = new_unit_pad(gap)
+   do i = 1, size(films, 2)
+      if (runs('against_even_grids')) call against_even_grids(films(:2, i), films(3, i))
+      if (runs('against_clipped_modes')) call against_clipped_modes(films(:2, i), films(3, i))
+      if (runs('slopes')) call slopes(.false., films(:2, i), films(3, i))
+      if (runs('slopes')) call slopes(.true., films(:2, i), films(3, i))
+      if (runs('onset')) call onset(films(:2, i))
+      if (runs('end')) call end_of_film(films(:2, i))
+   end do
+   if (runs('no_memory')) call no_memory()
+   if (runs('closed')) call closed()
+   call report()
+
+contains
+
+   !> w of a film with this T.
+   pure function w_of(t) result(w)
+      real(wp), intent(in) :: t
+      real(wp) :: w(2)
+      w = [1.0_wp, pad%tangent*(1 - 2*t)]
+   end function w_of
+
+   !> Force of the whole film with a drive.
+   function whole_force(edges, drive) result(force)
+      real(wp), intent(in) :: edges(2), drive(2)
+      real(wp) :: force(2)
+      type(modal_film_type) :: film
+      type(film_response) :: r(1)
+      film = new_modal_film([gap], 96, 32, .false., 1e-7_wp)
+      call film%evaluate([film_motion(pad%position(edges), drive)], 0.0_wp, .false., r)
+      force = r(1)%force
+   end function whole_force
+
+   !> Of three even grids, each finer by the root of 2, the errors fall to a half: the last two, extrapolated, err by no
+   !> more than they differ from the first two.
+   subroutine against_even_grids(edges, t)
+      real(wp), intent(in) :: edges(2), t
+      type(ruptured_drive_type) :: solver
+      type(drive_type) :: drive
+      type(direct_film_type) :: grid
+      type(film_counters) :: unused
+      type(film_response) :: r
+      real(wp) :: forces(2, 3), best(2), before(2), scale, doubt
+      integer, parameter :: columns(3) = [120, 170, 240], rows(3) = [12, 17, 24]
+      integer :: k
+      solver = new_ruptured_drive(pad, .false., tolerance)
+      drive = solver%at(edges, pad%tangent*(1 - 2*t))
+      do k = 1, 3
+         grid = new_direct_film(gap, columns(k), rows(k))
+         call grid%evaluate(film_motion(pad%position(edges), w_of(t)), 0.0_wp, .true., .false., unused, r)
+         forces(:, k) = r%force
+      end do
+      best = 2*forces(:, 3) - forces(:, 2)
+      before = 2*forces(:, 2) - forces(:, 1)
+      scale = norm2(whole_force(edges, w_of(0.0_wp)))
+      doubt = norm2(best - before)/scale
+      call expect(drive%ok, 'solved')
+      call expect(doubt < 0.3_wp*tolerance, 'the reference has converged: '//to_text(doubt))
+      call expect_close(norm2(whole_force(edges, drive%value) - best)/scale, 0.0_wp, tolerance + doubt, &
+         & 'force, T = '//to_text(t))
+   end subroutine against_even_grids
+
+   !> Guembel's condition, with as many modes.
+   subroutine against_clipped_modes(edges, t)
+      real(wp), intent(in) :: edges(2), t
+      type(ruptured_drive_type) :: solver
+      type(drive_type) :: drive
+      type(modal_film_type) :: film
+      type(film_response) :: r(1)
+      solver = new_ruptured_drive(pad, .true., tolerance)
+      drive = solver%at(edges, pad%tangent*(1 - 2*t))
+      film = new_modal_film([gap], 192, 64, .true., 1e-7_wp)
+      call film%evaluate([film_motion(pad%position(edges), w_of(t))], 0.0_wp, .false., r)
+      call expect_close(norm2(whole_force(edges, drive%value) - r(1)%force)/norm2(whole_force(edges, w_of(0.0_wp))), &
+         & 0.0_wp, tolerance, 'force, T = '//to_text(t))
+   end subroutine against_clipped_modes
+
+   !> Slopes against central differences over 0.02: of cells that rupture one by one the differences keep the noise,
+   !> some of the tolerance over the step; measured over the force at onset, as in the table.
+   subroutine slopes(gumbel, edges, t)
+      logical, intent(in) :: gumbel
+      real(wp), intent(in) :: edges(2), t
+      real(wp), parameter :: step = 0.02_wp
+      type(ruptured_drive_type) :: solver
+      type(drive_type) :: drive, ahead, back, shorter_ahead, shorter_back
+      real(wp) :: shift(3), difference(2), shorter(2)
+      integer :: k
+      solver = new_ruptured_drive(pad, gumbel, 0.1_wp*tolerance)
+      associate (w_2 => pad%tangent*(1 - 2*t))
+         drive = solver%at(edges, w_2)
+         do k = 1, 3
+            shift = 0
+            shift(k) = step*merge(minval(edges), pad%tangent, k < 3)
+            ahead = solver%at(edges + shift(:2), w_2 + shift(3))
+            back = solver%at(edges - shift(:2), w_2 - shift(3))
+            difference = (ahead%value - back%value)/(2*shift(k))
+            shorter_ahead = solver%at(edges + 0.5_wp*shift(:2), w_2 + 0.5_wp*shift(3))
+            shorter_back = solver%at(edges - 0.5_wp*shift(:2), w_2 - 0.5_wp*shift(3))
+            shorter = (shorter_ahead%value - shorter_back%value)/shift(k)
+            ! the error of the longer difference is 4/3 of how far the two are apart, and the noise comes to it
+            call expect_close(norm2(matmul(drive%weight, drive%slopes(:, k) - (4*shorter - difference)/3))*shift(k), &
+               & 0.0_wp, 0.5_wp*tolerance, 'slope '//to_text(k)//merge(' gumbel  ', ' reynolds', gumbel)//' T = ' &
+               & //to_text(t))
+         end do
+      end associate
+   end subroutine slopes
+
+   !> As T goes to 0 the drive goes to w, and faster than T: rupture begins where the pressure is low.
+   subroutine onset(edges)
+      real(wp), intent(in) :: edges(2)
+      type(ruptured_drive_type) :: solver
+      type(drive_type) :: drive
+      real(wp) :: change(2)
+      integer :: k
+      logical :: gumbel
+      gumbel = .false.
+      do k = 1, 2
+         solver = new_ruptured_drive(pad, gumbel, tolerance)
+         drive = solver%at(edges, pad%tangent*(1 - 2*0.02_wp))
+         change = drive%value - w_of(0.02_wp)
+         call expect(norm2(matmul(drive%weight, change)) < 0.02_wp**2, 'little changes at onset')
+         gumbel = .true.
+      end do
+   end subroutine onset
+
+   !> As T goes to 1 nothing is left of the force.
+   subroutine end_of_film(edges)
+      real(wp), intent(in) :: edges(2)
+      type(ruptured_drive_type) :: solver
+      type(drive_type) :: drive
+      integer :: k
+      logical :: gumbel
+      gumbel = .false.
+      do k = 1, 2
+         solver = new_ruptured_drive(pad, gumbel, tolerance)
+         drive = solver%at(edges, pad%tangent*(1 - 2*0.98_wp))
+         call expect(norm2(matmul(drive%weight, drive%value)) < 0.02_wp**2, 'little is left at the end')
+         gumbel = .true.
+      end do
+   end subroutine end_of_film
+
+   !> Whatever was solved before, and in which order, no bit changes.
+   subroutine no_memory()
+      type(ruptured_drive_type) :: solver
+      type(drive_type) :: forth(size(films, 2)), back
+      logical :: gumbel
+      integer :: k, pass
+      gumbel = .false.
+      do pass = 1, 2
+         solver = new_ruptured_drive(pad, gumbel, tolerance)
+         do k = 1, size(films, 2)
+            forth(k) = solver%at(films(:2, k), pad%tangent*(1 - 2*films(3, k)))
+         end do
+         do k = size(films, 2), 1, -1
+            back = solver%at(films(:2, k), pad%tangent*(1 - 2*films(3, k)))
+            call expect(.not. any(abs(back%value - forth(k)%value) > 0) .and. .not. any(abs(back%slopes &
+               & - forth(k)%slopes) > 0) .and. .not. abs(back%peak - forth(k)%peak) > 0, 'film '//to_text(k))
+         end do
+         gumbel = .true.
+      end do
+   end subroutine no_memory
+
+   !> A film that closes between its edges has none.
+   subroutine closed()
+      type(ruptured_drive_type) :: solver
+      type(drive_type) :: drive
+      logical :: gumbel
+      integer :: pass
+      gumbel = .false.
+      do pass = 1, 2
+         solver = new_ruptured_drive(pad, gumbel, tolerance)
+         drive = solver%at([0.1_wp, 0.1_wp], 0.0_wp)
+         call expect(.not. drive%ok, 'a closed film')
+         gumbel = .true.
+      end do
+   end subroutine closed
+end program test_ruptured_drive
