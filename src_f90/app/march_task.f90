@@ -16,9 +16,11 @@ module march_task
    private
    public :: run_march
 
-   !> Without friction the motion is smooth and the steps are long; the error of Newton's iteration then shows
-   !> in the orbit at CVODE's 0.1 (measured, docs/benchmarks.md).
-   real(wp), parameter :: smooth_newton_coefficient = 0.02_wp
+   !> Steps after which the derivatives are taken anew without friction: the motion is smooth, the steps are long.
+   integer, parameter :: smooth_derivatives_age = 2
+   !> Absolute tolerances of rigid pivots over those of pivots that yield: without their damping the errors of the steps
+   !> live longer.
+   real(wp), parameter :: rigid_tolerance = 0.3_wp
 
 contains
 
@@ -70,7 +72,8 @@ contains
          options%max_step = integration%max_step
          options%max_steps = integration%max_steps - run%earlier%count('steps')
       end associate
-      if (run%model%smooth()) options%newton_coefficient = smooth_newton_coefficient
+      if (run%model%smooth()) options%derivatives_age = smooth_derivatives_age
+      if (.not. run%model%layout%radial) options%absolute_tolerance = rigid_tolerance*options%absolute_tolerance
    end function options
 
    type(sample_plan) function planned(run) result(plan)

@@ -3,11 +3,12 @@
 module progress
    use, intrinsic :: iso_fortran_env, only: output_unit
    use kinds, only: wp, i8
+   use clock, only: wall_clock
    use text, only: to_text
    use standard_output, only: is_terminal
    implicit none (type, external)
    private
-   public :: progress_type, new_progress, wall_clock
+   public :: progress_type, new_progress
 
    !> Seconds between two lines on a terminal and in a log.
    real(wp), parameter :: terminal_pause = 0.2_wp, log_pause = 10
@@ -101,11 +102,4 @@ contains
       class(progress_type), intent(in) :: self
       if (self%shown .and. self%terminal) write (output_unit, '(a)', advance='no') achar(13)//achar(27)//'[K'
    end subroutine clear
-
-   !> Wall clock, s.
-   real(wp) function wall_clock()
-      integer(i8) :: count, rate
-      call system_clock(count, rate)
-      wall_clock = real(count, wp)/real(rate, wp)
-   end function wall_clock
 end module progress

@@ -1,20 +1,21 @@
-!> Integrates an ode_model step by step with CVODE (BDF, Newton). With sundials_context the only file that knows
-!> SUNDIALS.
+!> Integrates an ode_model step by step with CVODE (BDF, Newton). It, sundials_context and vector_operations alone
+!> know SUNDIALS.
 module cvode_integrator
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
-   use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodereinit, fcvodesvtolerances, fcvodesetuserdata, &
+   use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodereinit, fcvodewftolerances, fcvodesetuserdata, &
       & fcvodesetlinearsolver, fcvodesetlinsysfn, fcvodesetlinearsolutionscaling, &
       & fcvodesetjacevalfrequency, fcvodesetlsetupfrequency, fcvodegetcurrentgamma, &
       & fcvodesetnonlinconvcoef, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, &
-      & fcvode, fcvodegetdky, fcvodefree, fcvodegetnumrhsevals, &
-      & fcvodegetnumjacevals, fcvodegetnumerrtestfails, fcvodegetnumnonlinsolvconvfails, &
+      & fcvode, fcvodefree, fcvodegetnumrhsevals, fcvodegetnumjacevals, fcvodegetnumerrtestfails, &
+      & fcvodegetnumnonlinsolvconvfails, &
       & fcvodegetcurrentstep, fcvodegetlastorder, cv_bdf, cv_one_step, cv_err_failure, cv_conv_failure, &
       & cv_too_much_acc, cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, &
       & cv_unrec_rhsfunc_err, cv_lsetup_fail
-   use sundials_context, only: index_kind, new_context, free_context, silence, n_vector, fn_vgetarraypointer, &
-      & fn_vdestroy, sunmatrix, fsunmatdestroy, sunlinearsolver, sunlinearsolver_ops, sunlinearsolver_direct, &
-      & fsunlinsolnewempty, fsunlinsolfreeempty
+   use sundials_context, only: index_kind, new_context, free_context, silence, n_vector, fn_vdestroy, sunmatrix, &
+      & fsunmatdestroy, sunlinearsolver, sunlinearsolver_ops, sunlinearsolver_direct, fsunlinsolnewempty, &
+      & fsunlinsolfreeempty
    use fnvector_serial_mod, only: fn_vmake_serial
+   use vector_operations, only: use_own_operations, numbers
    use fsunmatrix_dense_mod, only: fsundensematrix
    use kinds, only: wp
    use text, only: to_text
@@ -32,24 +33,25 @@ module cvode_integrator
       real(wp), allocatable :: absolute_tolerance(:)
       !> Longest step, s; 0: no limit.
       real(wp) :: max_step = 0
-      !> Tolerance of Newton's iteration over that of the error test.
-      real(wp) :: newton_coefficient = 0.1_wp
+      !> Steps after which the derivatives are taken anew (CVODE: 51): they are cheap, and fresh they save steps.
+      integer :: derivatives_age = 5
    end type integrator_options
 
    !> What CVODE holds pointers to, and hands back to the callbacks.
    type :: core_type
       class(ode_model_type), pointer :: model => null()
       type(c_ptr) :: context = c_null_ptr, memory = c_null_ptr
-      type(n_vector), pointer :: y_vector => null(), between_vector => null()
+      type(n_vector), pointer :: y_vector => null()
       type(sunmatrix), pointer :: matrix => null()
       type(sunlinearsolver), pointer :: linear_solver => null()
-      integer(index_kind) :: n = 0
-      !> Time reached and last time, s; the state at the time reached, and one between the ends of the last step.
+      !> Time reached and last time, s; the state at the time reached.
       real(c_double) :: t(1) = 0, t_end = 0
-      real(wp), allocatable :: y(:), between(:)
+      real(wp), allocatable :: y(:)
+      real(wp) :: relative_tolerance = 0
+      real(wp), allocatable :: absolute_tolerance(:)
       !> Newton's last correction of the state.
       real(wp), allocatable :: correction(:)
-      type(step_history_type) :: outputs
+      type(step_history_type) :: history
       !> Order of the last step.
       integer(c_int) :: order(1) = 0
       type(integrator_counts_type) :: counts
@@ -71,8 +73,9 @@ module cvode_integrator
       final :: finish_last
    end type integrator_type
 
-   !> Steps after which the derivatives are taken anew (CVODE: 51): they are cheap, and fresh they save steps.
-   integer(c_long), parameter :: derivatives_age = 5
+   !> Newton's iteration ends where its correction passes the error test (CVODE: 0.1 of it). With derivatives as fresh
+   !> as here what it leaves is far below (measured, docs/theory.md).
+   real(c_double), parameter :: newton_coefficient = 1
 
 contains
 
@@ -84,28 +87,24 @@ contains
       class(integrator_options), intent(in) :: options
       real(wp), intent(in) :: t, y(:), t_end
       type(error_type), allocatable, intent(out) :: error
-      type(n_vector), pointer :: tolerance_vector
       type(sunlinearsolver_ops), pointer :: operations
-      real(wp), target :: tolerance(size(y))
       integer(c_int) :: flag
 
       call self%finish()
       allocate (self%core)
       associate (core => self%core)
          core%model => model
-         core%n = size(y, kind=index_kind)
-         allocate (core%y, core%between, source=y)
+         allocate (core%y, source=y)
          core%context = new_context()
          core%memory = fcvodecreate(cv_bdf, core%context)
-         core%y_vector => fn_vmake_serial(core%n, core%y, core%context)
-         core%between_vector => fn_vmake_serial(core%n, core%between, core%context)
+         core%y_vector => fn_vmake_serial(size(y, kind=index_kind), core%y, core%context)
+         call use_own_operations(core%y_vector)
          flag = fcvodeinit(core%memory, c_funloc(rhs_callback), t, core%y_vector)
          call silence(core%context, core%memory)
          flag = fcvodesetuserdata(core%memory, c_loc(core))
-         tolerance = options%absolute_tolerance
-         tolerance_vector => fn_vmake_serial(core%n, tolerance, core%context)
-         flag = fcvodesvtolerances(core%memory, options%relative_tolerance, tolerance_vector)
-         call fn_vdestroy(tolerance_vector)
+         core%relative_tolerance = options%relative_tolerance
+         core%absolute_tolerance = options%absolute_tolerance
+         flag = fcvodewftolerances(core%memory, c_funloc(weights_callback))
          ! the model keeps its matrix and solves; CVODE wants to see one all the same
          core%matrix => fsundensematrix(1_index_kind, 1_index_kind, core%context)
          core%linear_solver => fsunlinsolnewempty(core%context)
@@ -117,9 +116,9 @@ contains
          flag = fcvodesetlinsysfn(core%memory, c_funloc(linear_system_callback))
          ! the model solves with the gamma of the step
          flag = fcvodesetlinearsolutionscaling(core%memory, 0_c_int)
-         flag = fcvodesetjacevalfrequency(core%memory, derivatives_age)
-         flag = fcvodesetlsetupfrequency(core%memory, derivatives_age)
-         flag = fcvodesetnonlinconvcoef(core%memory, options%newton_coefficient)
+         flag = fcvodesetjacevalfrequency(core%memory, int(options%derivatives_age, c_long))
+         flag = fcvodesetlsetupfrequency(core%memory, int(options%derivatives_age, c_long))
+         flag = fcvodesetnonlinconvcoef(core%memory, newton_coefficient)
          flag = fcvodesetmaxstep(core%memory, options%max_step)
       end associate
       call begin(self%core, t, t_end, error)
@@ -154,8 +153,8 @@ contains
       core%correction = spread(0.0_wp, 1, size(core%y))
       call core%model%rhs(t, core%y, dydt, ok)
       if (.not. ok) call raise(error, numerics_error, failure(core, cv_first_rhsfunc_err))
-      core%outputs = new_step_history(core%model%outputs)
-      call core%outputs%add(t, core%model%output(core%correction))
+      core%history = new_step_history(size(core%y) + core%model%outputs)
+      call core%history%add(t, core%y, core%model%output(core%correction))
    end subroutine begin
 
    !> Does one step, which ends at t_end at the latest. A numerics error says why there is none.
@@ -172,7 +171,7 @@ contains
          end if
          core%counts%steps = core%counts%steps + 1
          flag = fcvodegetlastorder(core%memory, core%order)
-         call core%outputs%add(core%t(1), core%model%output(core%correction))
+         call core%history%add(core%t(1), core%y, core%model%output(core%correction))
       end associate
    end subroutine step
 
@@ -189,22 +188,13 @@ contains
       state = self%core%y
    end function state
 
-   !> State and outputs of the model at a time t, s, in the last step; before the first step, at the start. Nothing is
-   !> evaluated for them.
-   subroutine interpolate(self, t, y, output)
+   !> States and outputs of the model, one after the other, at a time t, s, in the last step; before the first step, at
+   !> the start. Nothing is evaluated for them.
+   subroutine interpolate(self, t, values)
       class(integrator_type), intent(in) :: self
       real(wp), intent(in) :: t
-      real(wp), intent(out) :: y(:), output(:)
-      integer(c_int) :: flag
-      associate (core => self%core)
-         if (core%counts%steps == 0) then
-            y = core%y
-         else
-            flag = fcvodegetdky(core%memory, t, 0_c_int, core%between_vector)
-            y = core%between
-         end if
-         output = core%outputs%at(t, core%order(1))
-      end associate
+      real(wp), intent(out), contiguous :: values(:)
+      call self%core%history%at(t, self%core%order(1), values)
    end subroutine interpolate
 
    !> What the integration cost since its start or restart.
@@ -233,7 +223,6 @@ contains
          call fcvodefree(core%memory)
          call fsunlinsolfreeempty(core%linear_solver)
          call fsunmatdestroy(core%matrix)
-         call fn_vdestroy(core%between_vector)
          call fn_vdestroy(core%y_vector)
          call free_context(core%context)
       end associate
@@ -281,14 +270,33 @@ contains
       type(n_vector) :: y_vector, dydt_vector
       type(c_ptr), value :: user_pointer
       type(core_type), pointer :: core
-      real(c_double), pointer :: y(:), dydt(:)
+      real(c_double), pointer, contiguous :: y(:), dydt(:)
       logical :: ok
       call c_f_pointer(user_pointer, core)
-      y(1:core%n) => fn_vgetarraypointer(y_vector)
-      dydt(1:core%n) => fn_vgetarraypointer(dydt_vector)
+      y => numbers(y_vector)
+      dydt => numbers(dydt_vector)
       call core%model%rhs(t, y, dydt, ok)
       rhs_callback = merge(0_c_int, 1_c_int, ok)
    end function rhs_callback
+
+   !> CVODE's error weights: what an error of each state is multiplied with, for the norm.
+   integer(c_int) function weights_callback(y_vector, weights_vector, user_pointer) bind(c)
+      type(n_vector) :: y_vector, weights_vector
+      type(c_ptr), value :: user_pointer
+      type(core_type), pointer :: core
+      real(c_double), pointer, contiguous :: y(:), weights(:)
+      integer :: i
+      call c_f_pointer(user_pointer, core)
+      y => numbers(y_vector)
+      weights => numbers(weights_vector)
+      associate (relative => core%relative_tolerance, absolute => core%absolute_tolerance)
+         !$omp simd
+         do i = 1, size(y)
+            weights(i) = 1/(relative*abs(y(i)) + absolute(i))
+         end do
+      end associate
+      weights_callback = 0
+   end function weights_callback
 
    !> CVODE's set-up of the linear systems: new derivatives, unless the last are still good.
    integer(c_int) function linear_system_callback(t, y_vector, f_vector, matrix, still_good, are_new, gamma, &
@@ -300,14 +308,12 @@ contains
       integer(c_int) :: are_new
       type(c_ptr), value :: user_pointer
       type(core_type), pointer :: core
-      real(c_double), pointer :: y(:)
       logical :: ok
       ok = .true.
       are_new = merge(0_c_int, 1_c_int, still_good /= 0)
       if (still_good == 0) then
          call c_f_pointer(user_pointer, core)
-         y(1:core%n) => fn_vgetarraypointer(y_vector)
-         call core%model%linearize(t, y, ok)
+         call core%model%linearize(t, numbers(y_vector), ok)
       end if
       linear_system_callback = merge(0_c_int, 1_c_int, ok)
    end function linear_system_callback
@@ -324,17 +330,21 @@ contains
       type(n_vector) :: x_vector, b_vector
       real(c_double), value :: tolerance
       type(core_type), pointer :: core
-      real(c_double), pointer :: x(:), b(:)
+      real(c_double), pointer, contiguous :: x(:), b(:)
       real(c_double) :: gamma(1)
       integer(c_int) :: flag
+      integer :: i
       logical :: ok
       call c_f_pointer(linear_solver%content, core)
-      x(1:core%n) => fn_vgetarraypointer(x_vector)
-      b(1:core%n) => fn_vgetarraypointer(b_vector)
+      x => numbers(x_vector)
+      b => numbers(b_vector)
       flag = fcvodegetcurrentgamma(core%memory, gamma)
-      x = b
+      !$omp simd
+      do i = 1, size(x)
+         x(i) = b(i)
+      end do
       call core%model%solve(gamma(1), x, ok)
-      core%correction = x
+      core%correction(:) = x
       solve_callback = merge(0_c_int, 1_c_int, ok)
    end function solve_callback
 end module cvode_integrator

@@ -90,14 +90,14 @@ contains
       integer(i8), intent(inout) :: next
       class(march_observer_type), intent(inout) :: observer
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: y(model%n), output(model%outputs), reached, t
+      real(wp) :: values(model%n + model%outputs), reached, t
       reached = integrator%time()
       do while (next < plan%count)
          if (plan%time(next) > reached .and. reached < t_end) return
          ! the last sample may lie a rounding error past the end
          t = min(plan%time(next), reached)
-         call integrator%interpolate(t, y, output)
-         call observer%sample(t, y, output, error)
+         call integrator%interpolate(t, values)
+         call observer%sample(t, values(:model%n), values(model%n + 1:), error)
          if (allocated(error) .or. observer%satisfied) return
          next = next + 1
       end do

@@ -64,8 +64,8 @@ contains
 
    !> From the last evaluation, and to first order at the state that `correction` leads to from the state of that
    !> evaluation; 0: in that state itself.
-   pure function output(self, correction)
-      class(ode_model_type), intent(in) :: self
+   function output(self, correction)
+      class(ode_model_type), intent(inout) :: self
       real(wp), intent(in) :: correction(:)
       real(wp) :: output(self%outputs)
       output = 0

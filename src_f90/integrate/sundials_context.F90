@@ -4,11 +4,11 @@ module sundials_context
    use, intrinsic :: iso_c_binding, only: c_int, c_int32_t, c_int64_t, c_null_ptr, c_ptr
 #if SUNDIALS_VERSION_MAJOR >= 7
    use fsundials_core_mod, only: fsuncontext_create, fsuncontext_free, fsuncontext_clearerrhandlers, &
-      & sun_comm_null, n_vector, fn_vgetarraypointer, fn_vdestroy, sunmatrix, fsunmatdestroy, sunlinearsolver, &
+      & sun_comm_null, n_vector, n_vector_ops, fn_vdestroy, sunmatrix, fsunmatdestroy, sunlinearsolver, &
       & sunlinearsolver_ops, sunlinearsolver_direct, fsunlinsolnewempty, fsunlinsolfreeempty
 #else
    use fsundials_context_mod, only: fsuncontext_create, fsuncontext_free
-   use fsundials_nvector_mod, only: n_vector, fn_vgetarraypointer, fn_vdestroy
+   use fsundials_nvector_mod, only: n_vector, n_vector_ops, fn_vdestroy
    use fsundials_matrix_mod, only: sunmatrix, fsunmatdestroy
    use fsundials_linearsolver_mod, only: sunlinearsolver, sunlinearsolver_ops, sunlinearsolver_direct, &
       & fsunlinsolnewempty, fsunlinsolfreeempty
@@ -17,8 +17,8 @@ module sundials_context
    implicit none (type, external)
    private
    public :: index_kind, new_context, free_context, silence
-   public :: n_vector, fn_vgetarraypointer, fn_vdestroy, sunmatrix, fsunmatdestroy, sunlinearsolver, &
-      & sunlinearsolver_ops, sunlinearsolver_direct, fsunlinsolnewempty, fsunlinsolfreeempty
+   public :: n_vector, n_vector_ops, fn_vdestroy, sunmatrix, fsunmatdestroy, sunlinearsolver, sunlinearsolver_ops, &
+      & sunlinearsolver_direct, fsunlinsolnewempty, fsunlinsolfreeempty
 
 #ifdef SUNDIALS_INT32_T
    integer, parameter :: index_kind = c_int32_t

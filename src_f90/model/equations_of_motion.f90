@@ -4,13 +4,13 @@ module equations_of_motion
    use scene, only: scene_type
    use operating_point, only: operating_point_type
    use film_solver, only: film_counters
-   use kinematics, only: journal_motion, pad_state, columns, journal_columns
+   use kinematics, only: journal_motion, pad_state
    use tilting_pad_bearing, only: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
    use rigid_journal, only: rigid_journal_type
    use ode_model, only: ode_model_type
    use state_layout, only: state_layout_type, new_state_layout, at_tilt, at_tilt_rate, at_penetration, &
       & at_penetration_rate
-   use bordered_system, only: bordered_matrix, new_bordered_matrix
+   use newton_system, only: newton_system_type, new_newton_system
    implicit none (type, external)
    private
    public :: bearing_model, model_sample, new_bearing_model
@@ -33,11 +33,7 @@ module equations_of_motion
       type(tilting_pad_bearing_type) :: bearing
       !> Natural size of each state.
       real(wp), allocatable :: scale(:)
-      !> Of each pad rates of tilt rate and penetration rate per moment and force, (2, 2, pad).
-      real(wp), allocatable, private :: per_mass(:, :, :)
-      !> From the last linearisation, without friction: derivatives of these rates, (2, column, pad), and the Jacobian.
-      real(wp), allocatable, private :: rate_derivatives(:, :, :)
-      type(bordered_matrix), private :: matrix
+      type(newton_system_type), private :: newton
    contains
       procedure :: rhs
       procedure :: linearize
@@ -56,7 +52,6 @@ module equations_of_motion
       procedure :: smooth
       procedure :: pressure_field
       procedure :: film_counters => counters_of_films
-      procedure, private :: add_friction
    end type bearing_model
 
    !> Scale of the tilt rate over that at which Bengisu-Akay friction changes its direction.
@@ -68,7 +63,7 @@ contains
    function new_bearing_model(scene) result(model)
       type(scene_type), intent(in) :: scene
       type(bearing_model) :: model
-      integer :: i, n
+      integer :: n
       n = scene%pad_count()
       model%scene = scene
       model%bearing = new_tilting_pad_bearing(scene)
@@ -78,12 +73,7 @@ contains
       model%outputs = pad_outputs*n
       call model%set_point(operating_point_type(scene))
       model%scale = state_scales(model)
-      model%matrix = new_bordered_matrix(model%rotor%states, model%layout%per_pad, n)
-      allocate (model%per_mass(2, 2, n))
-      do i = 1, n
-         model%per_mass(:, :, i) = model%bearing%pads(i)%inverse_masses()
-      end do
-      allocate (model%rate_derivatives(2, columns, n), source=0.0_wp)
+      model%newton = new_newton_system(model%layout)
    end function new_bearing_model
 
    !> Another operating point; tables and films stay.
@@ -175,7 +165,7 @@ contains
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:)
       logical, intent(out) :: ok
-      real(wp) :: force(2)
+      real(wp) :: force(2), rates(2)
       integer :: i, o
       call self%evaluate(t, y, .false., ok)
       if (.not. ok) return
@@ -185,13 +175,12 @@ contains
             force = force + loads%journal
             o = layout%first(i) - 1
             dydt(o + at_tilt) = y(o + at_tilt_rate)
-            associate (rates => matmul(self%per_mass(:, :, i), [loads%moment, loads%radial]))
-               dydt(o + at_tilt_rate) = rates(1)
-               if (layout%radial) then
-                  dydt(o + at_penetration) = y(o + at_penetration_rate)
-                  dydt(o + at_penetration_rate) = rates(2)
-               end if
-            end associate
+            rates = self%bearing%per_mass(:, 1, i)*loads%moment + self%bearing%per_mass(:, 2, i)*loads%radial
+            dydt(o + at_tilt_rate) = rates(1)
+            if (layout%radial) then
+               dydt(o + at_penetration) = y(o + at_penetration_rate)
+               dydt(o + at_penetration_rate) = rates(2)
+            end if
             if (layout%bristles) dydt(o + layout%per_pad) = loads%friction%rate
          end associate
       end do
@@ -203,62 +192,16 @@ contains
       class(bearing_model), intent(inout) :: self
       real(wp), intent(in) :: t, y(:)
       logical, intent(out) :: ok
-      real(wp) :: journal(self%rotor%states, columns)
-      integer :: i, k
       call self%evaluate(t, y, .true., ok)
-      if (.not. ok) return
-      associate (matrix => self%matrix, own => journal_columns + 1, last => journal_columns + self%layout%motion)
-         matrix%corner = self%rotor%own_derivatives()
-         do i = 1, self%layout%pads
-            associate (pad => self%bearing%derivatives(i))
-               do k = 1, columns
-                  self%rate_derivatives(:, k, i) = matmul(self%per_mass(:, :, i), [pad%moment(k), pad%radial(k)])
-               end do
-               journal = self%rotor%rate_derivatives(pad%journal)
-               matrix%corner = matrix%corner + journal(:, :journal_columns)
-               matrix%across(:, :self%layout%motion, i) = journal(:, own:last)
-               matrix%block(at_tilt, at_tilt_rate, i) = 1
-               if (self%layout%radial) matrix%block(at_penetration, at_penetration_rate, i) = 1
-            end associate
-         end do
-      end associate
+      if (ok) call self%newton%linearize(self%rotor, self%bearing)
    end subroutine linearize
-
-   !> Puts the derivatives of the rates, with those of friction in the state evaluated last, into the Jacobian.
-   subroutine add_friction(self)
-      class(bearing_model), intent(inout) :: self
-      real(wp) :: moment(columns), deflection, rates(2, columns)
-      integer :: i
-      associate (matrix => self%matrix, m => self%layout%motion, bristle => self%layout%per_pad)
-         do i = 1, self%layout%pads
-            associate (pad => self%bearing%pads(i), friction => self%bearing%loads(i)%friction, &
-               & per_moment => self%per_mass(:, 1, i))
-               call pad%friction_derivatives(friction, self%bearing%derivatives(i)%contact, moment, deflection)
-               rates(1, :) = self%rate_derivatives(1, :, i) + per_moment(1)*moment
-               rates(2, :) = self%rate_derivatives(2, :, i) + per_moment(2)*moment
-               matrix%down(at_tilt_rate, :, i) = rates(1, :journal_columns)
-               matrix%block(at_tilt_rate, :m, i) = rates(1, journal_columns + 1:journal_columns + m)
-               if (self%layout%radial) then
-                  matrix%down(at_penetration_rate, :, i) = rates(2, :journal_columns)
-                  matrix%block(at_penetration_rate, :m, i) = rates(2, journal_columns + 1:journal_columns + m)
-               end if
-               if (self%layout%bristles) then
-                  matrix%block(at_tilt_rate:m:2, bristle, i) = deflection*per_moment(:m/2)
-                  matrix%block(bristle, at_tilt_rate, i) = friction%rate_velocity*pad%ball_radius
-                  matrix%block(bristle, bristle, i) = friction%rate_deflection
-               end if
-            end associate
-         end do
-      end associate
-   end subroutine add_friction
 
    !> J v, with film and contact as linearised last and friction as evaluated last.
    subroutine jacobian_times(self, v, jv)
       class(bearing_model), intent(inout) :: self
       real(wp), intent(in) :: v(:)
       real(wp), intent(out) :: jv(:)
-      call self%add_friction()
-      jv = matmul(self%matrix%dense(), v)
+      jv = matmul(self%newton%jacobian(self%rotor, self%bearing), v)
    end subroutine jacobian_times
 
    !> b := (1 - gamma J)^(-1) b, with film and contact as linearised last and friction as evaluated last: Newton's
@@ -268,15 +211,14 @@ contains
       real(wp), intent(in) :: gamma
       real(wp), intent(inout) :: b(:)
       logical, intent(out) :: ok
-      call self%add_friction()
-      call self%matrix%solve(gamma, b, ok)
+      call self%newton%solve(self%bearing, gamma, b, ok)
    end subroutine solve
 
    !> Of every pad film force and maximum pressure as evaluated last, the force with what a correction of that
    !> state adds to first order: where the pivot is without friction the tangential force is a small
    !> difference.
-   pure function output(self, correction)
-      class(bearing_model), intent(in) :: self
+   function output(self, correction)
+      class(bearing_model), intent(inout) :: self
       real(wp), intent(in) :: correction(:)
       real(wp) :: output(self%outputs)
       output = self%bearing%output(self%layout%over_columns(correction(:self%rotor%states), correction))
@@ -297,8 +239,7 @@ contains
       logical, intent(out) :: ok
       call self%linearize(t, y, ok)
       if (.not. ok) return
-      call self%add_friction()
-      matrix = self%matrix%dense()
+      matrix = self%newton%jacobian(self%rotor, self%bearing)
    end subroutine jacobian
 
    !> What is sampled at (t, y), where these outputs are known; no film is evaluated. The record may be used again.
@@ -312,13 +253,14 @@ contains
       sample%shaft_angle = self%point%shaft_angle(t)
       sample%speed = self%point%speed(t)
       sample%journal = self%rotor%journal(y(:self%rotor%states))
-      sample%states = self%layout%pad_states(y)
-      sample%loads = self%bearing%samples(sample%journal, sample%states, output)
+      if (.not. allocated(sample%states)) allocate (sample%states(self%layout%pads), sample%loads(self%layout%pads))
+      sample%states(:) = self%layout%pad_states(y)
+      call self%bearing%take_samples(sample%journal, sample%states, output, sample%loads)
    end subroutine take_sample
 
    !> What is sampled of the pads where the model was evaluated last.
-   pure function sampled(self)
-      class(bearing_model), intent(in) :: self
+   function sampled(self)
+      class(bearing_model), intent(inout) :: self
       type(pad_sample) :: sampled(self%layout%pads)
       sampled = self%bearing%sampled()
    end function sampled

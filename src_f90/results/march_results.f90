@@ -10,6 +10,9 @@ module march_results
    private
    public :: add_sample, put_spectrum
 
+   !> Values of a sample: of the journal, and of a pad at most.
+   integer, parameter :: of_journal = 7, of_pad = 11
+
 contains
 
    !> Adds a sample.
@@ -17,47 +20,83 @@ contains
       type(run_file_type), intent(inout) :: file
       type(model_sample), intent(in) :: sample
       type(error_type), allocatable, intent(out) :: error
-      call file%table%new_sample(file%file)
-      call one('time', sample%time, 's', 'time')
-      call one('shaft_angle', sample%shaft_angle, 'rad', 'shaft angle')
-      call one('speed', sample%speed, 'rad/s', 'shaft speed')
+      real(wp) :: values(of_journal + of_pad*size(sample%states))
+      integer :: n
+      if (.not. file%table%is_declared()) call declare_series(file, sample)
       associate (journal => sample%journal)
-         call one('journal_y', journal%position(1), 'm', 'journal displacement, vertical')
-         call one('journal_z', journal%position(2), 'm', 'journal displacement, horizontal')
-         call one('journal_vy', journal%velocity(1), 'm/s', 'journal velocity, vertical')
-         call one('journal_vz', journal%velocity(2), 'm/s', 'journal velocity, horizontal')
+         values(:of_journal) = [sample%time, sample%shaft_angle, sample%speed, journal%position, journal%velocity]
       end associate
-      associate (pads => sample%states)
-         call each('pad_tilt', pads%tilt, 'rad', 'pad tilt')
-         call each('pad_tilt_rate', pads%tilt_rate, 'rad/s', 'pad tilt rate')
-         if (sample%radial) then
-            call each('pad_penetration', pads%penetration, 'm', 'pivot penetration')
-            call each('pad_penetration_rate', pads%penetration_rate, 'm/s', 'pivot penetration rate')
-         end if
-         if (sample%bristles) call each('bristle_deflection', pads%deflection, 'm', 'bristle deflection')
-      end associate
-      associate (pads => sample%loads)
-         call each('contact_force', pads%contact_force, 'N', 'pivot contact force')
-         call each('friction_moment', pads%friction_moment, 'N m', 'pivot friction moment')
-         call each('film_force_tangential', pads%film_force(1), 'N', 'film force on the journal along the pad (y'')')
-         call each('film_force_radial', pads%film_force(2), 'N', 'film force on the journal outward (z'')')
-         call each('min_film_thickness', pads%min_film_thickness, 'm', 'minimum film thickness')
-         call each('max_pressure', pads%max_pressure, 'Pa', 'maximum film pressure')
-      end associate
+      call put_pads(sample, size(sample%states), values(of_journal + 1:), n)
+      call file%table%add(file%file, values(:of_journal + n))
       call file%error_of(error)
+   end subroutine add_sample
+
+   !> Puts the series of the pads one after the other, n values in all.
+   pure subroutine put_pads(sample, pads, values, n)
+      type(model_sample), intent(in) :: sample
+      integer, intent(in) :: pads
+      real(wp), intent(inout) :: values(pads, of_pad)
+      integer, intent(out) :: n
+      integer :: i, k
+      do i = 1, pads
+         associate (state => sample%states(i), loads => sample%loads(i))
+            values(i, 1) = loads%contact_force
+            values(i, 2) = loads%friction_moment
+            values(i, 3:4) = loads%film_force
+            values(i, 5) = loads%min_film_thickness
+            values(i, 6) = loads%max_pressure
+            values(i, 7) = state%tilt
+            values(i, 8) = state%tilt_rate
+            k = 8
+            if (sample%radial) then
+               values(i, k + 1) = state%penetration
+               values(i, k + 2) = state%penetration_rate
+               k = k + 2
+            end if
+            if (sample%bristles) then
+               values(i, k + 1) = state%deflection
+               k = k + 1
+            end if
+         end associate
+      end do
+      n = k*pads
+   end subroutine put_pads
+
+   !> Declares the series that `add_sample` fills, in the same order.
+   subroutine declare_series(file, sample)
+      type(run_file_type), intent(inout) :: file
+      type(model_sample), intent(in) :: sample
+      call one('time', 's', 'time')
+      call one('shaft_angle', 'rad', 'shaft angle')
+      call one('speed', 'rad/s', 'shaft speed')
+      call one('journal_y', 'm', 'journal displacement, vertical')
+      call one('journal_z', 'm', 'journal displacement, horizontal')
+      call one('journal_vy', 'm/s', 'journal velocity, vertical')
+      call one('journal_vz', 'm/s', 'journal velocity, horizontal')
+      call each('contact_force', 'N', 'pivot contact force')
+      call each('friction_moment', 'N m', 'pivot friction moment')
+      call each('film_force_tangential', 'N', 'film force on the journal along the pad (y'')')
+      call each('film_force_radial', 'N', 'film force on the journal outward (z'')')
+      call each('min_film_thickness', 'm', 'minimum film thickness')
+      call each('max_pressure', 'Pa', 'maximum film pressure')
+      call each('pad_tilt', 'rad', 'pad tilt')
+      call each('pad_tilt_rate', 'rad/s', 'pad tilt rate')
+      if (sample%radial) then
+         call each('pad_penetration', 'm', 'pivot penetration')
+         call each('pad_penetration_rate', 'm/s', 'pivot penetration rate')
+      end if
+      if (sample%bristles) call each('bristle_deflection', 'm', 'bristle deflection')
    contains
-      subroutine one(name, value, units, long_name)
+      subroutine one(name, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
-         real(wp), intent(in) :: value
-         call file%table%add(file%file, name, [value], '', units, long_name)
+         call file%table%declare(file%file, name, 1, '', units, long_name)
       end subroutine one
 
-      subroutine each(name, values, units, long_name)
+      subroutine each(name, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
-         real(wp), intent(in) :: values(:)
-         call file%table%add(file%file, name, values, 'pad', units, long_name)
+         call file%table%declare(file%file, name, size(sample%states), 'pad', units, long_name)
       end subroutine each
-   end subroutine add_sample
+   end subroutine declare_series
 
    !> Amplitude spectra over the last revolutions of a run at constant speed, rad/s.
    subroutine put_spectrum(file, interval, revolutions, speed, journal_y, journal_z, journal_full, tilt)

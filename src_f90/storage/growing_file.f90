@@ -50,9 +50,11 @@ contains
    end subroutine claim
 
    !> Starts a new file under the name claimed.
-   subroutine begin(self)
+   subroutine begin(self, error)
       class(growing_file_type), intent(inout) :: self
-      call self%file%create(self%working%part)
+      type(error_type), allocatable, intent(out) :: error
+      call self%working%make_part(error)
+      if (.not. allocated(error)) call self%file%create(self%working%part)
    end subroutine begin
 
    !> Opens a copy of the file of the name claimed, to continue it.

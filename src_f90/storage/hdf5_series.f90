@@ -2,7 +2,7 @@
 module hdf5_series
    use, intrinsic :: iso_c_binding, only: c_loc, c_ptr
    use hdf5, only: hid_t, hsize_t, size_t, h5s_unlimited_f, h5s_select_set_f, h5screate_simple_f, h5sclose_f, &
-      & h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5sselect_hyperslab_f, h5dcreate_f, h5dopen_f, &
+      & h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5sselect_hyperslab_f, h5dcreate_f, &
       & h5dwrite_f, h5dread_f, h5dclose_f, h5dset_extent_f, h5dget_space_f, h5pcreate_f, h5pclose_f, h5pset_chunk_f, &
       & h5pset_chunk_cache_f, h5p_dataset_create_f, h5p_dataset_access_f, h5t_native_double
    use kinds, only: wp, i8
@@ -77,8 +77,8 @@ contains
       integer :: status
       if (allocated(file%failure)) return
       access = without_cache()
-      call h5dopen_f(file%id, path, self%id, status, access)
-      call file%check_read(status, 'open '//path)
+      call file%open_dataset(path, self%id, status, access)
+      if (status < 0) self%id = -1
       if (status >= 0) then
          call h5dget_space_f(self%id, space, status)
          call file%expect_type(self%id, h5t_native_double, path)

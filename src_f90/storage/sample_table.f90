@@ -2,6 +2,7 @@
 !> chunk at a time.
 module sample_table
    use kinds, only: wp, i8
+   use clock, only: wall_clock
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: hdf5_series_type, chunk_samples
    implicit none (type, external)
@@ -11,30 +12,36 @@ module sample_table
    type :: series_type
       character(len=:), allocatable :: name
       type(hdf5_series_type) :: data
-      real(wp), allocatable :: buffer(:, :)
+      !> Values of a sample before its own; its own.
+      integer :: before = 0, width = 0
    end type series_type
 
    type :: sample_table_type
       private
-      !> Name of the series that is the scale of all; the first of a sample.
+      !> Name of the series that is the scale of all; it is declared first.
       character(len=:), allocatable :: axis
       type(series_type), allocatable :: series(:)
-      !> Samples held back; the series whose value comes next.
-      integer :: held = 0, next = 1
+      !> Samples held back, series after series with room for a chunk each, and how many there are.
+      real(wp), allocatable :: buffer(:)
+      integer :: held = 0
+      !> Of each value of a sample: its place in the buffer for the first sample, and from there to the next.
+      integer, allocatable :: place(:), stride(:)
       !> Samples added, held or in the file.
       integer(i8), public :: samples = 0
+      !> Wall time of writing, s.
+      real(wp), public :: seconds = 0
    contains
       !> Starts from the samples that are in the file, if any.
       procedure :: begin
-      !> A sample: `new_sample`, and `add` for each series, always in the same order.
-      procedure :: new_sample
+      !> Names a series; all before the first sample.
+      procedure :: declare
+      procedure :: is_declared
       procedure :: add
       procedure :: write => write_held
       procedure :: last
       procedure :: copy_missing
       procedure :: open => open_all
       procedure :: close => close_all
-      procedure, private :: open_series
    end type sample_table_type
 
 contains
@@ -45,8 +52,10 @@ contains
       character(len=*), intent(in) :: axis
       type(hdf5_series_type) :: scale
       self%axis = axis
-      if (allocated(self%series)) deallocate (self%series)
-      allocate (self%series(0))
+      if (allocated(self%buffer)) deallocate (self%buffer)
+      self%series = [series_type ::]
+      self%place = [integer ::]
+      self%stride = [integer ::]
       self%held = 0
       self%samples = 0
       if (.not. file%has(axis)) return
@@ -55,79 +64,69 @@ contains
       call scale%close(file)
    end subroutine begin
 
-   subroutine new_sample(self, file)
-      class(sample_table_type), intent(inout) :: self
-      type(hdf5_type), intent(inout) :: file
-      ! chunks of the file are filled up, also after a checkpoint in the middle of one
-      if (self%held > 0 .and. mod(self%samples, int(chunk_samples, i8)) == 0) call self%write(file)
-      self%held = self%held + 1
-      self%samples = self%samples + 1
-      self%next = 1
-   end subroutine new_sample
-
-   !> The next value of the sample: of a series over the axis, or, where `across` names another scale, over both.
-   subroutine add(self, file, name, values, across, units, long_name)
+   !> A series of so many values over the axis, or, where `across` names another scale, over both. One that is in the
+   !> file must have this width and be as long as all others.
+   subroutine declare(self, file, name, width, across, units, long_name)
       class(sample_table_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: name, across, units, long_name
-      real(wp), intent(in) :: values(:)
-      integer :: k
-      k = self%next
-      self%next = k + 1
-      if (k > size(self%series)) then
-         if (self%samples > 1) then
-            call self%open_series(file, name, size(values))
-         else
-            call new_series(self, name)
-            call self%series(k)%data%create(file, name, merge(size(values), 0, across /= ''), units, long_name, &
-               & trim(self%axis//' '//across))
-         end if
-         if (size(self%series) < k) return
-         allocate (self%series(k)%buffer(size(values), chunk_samples))
+      integer, intent(in) :: width
+      type(series_type) :: new
+      integer :: i
+      new%name = name
+      new%width = width
+      new%before = size(self%place)
+      if (self%samples == 0) then
+         call new%data%create(file, name, merge(width, 0, across /= ''), units, long_name, trim(self%axis//' '//across))
+      else
+         call new%data%open(file, name)
+         if (new%data%length /= self%samples .or. new%data%width /= width) call file%check_read(-1, &
+            & 'find all samples of '//name)
       end if
-      self%series(k)%buffer(:, self%held) = values
+      self%series = [self%series, new]
+      self%place = [self%place, (chunk_samples*new%before + i, i=1, width)]
+      self%stride = [self%stride, (width, i=1, width)]
+   end subroutine declare
+
+   !> Whether the series have names.
+   pure logical function is_declared(self)
+      class(sample_table_type), intent(in) :: self
+      is_declared = size(self%series) > 0
+   end function is_declared
+
+   !> A sample: the values of all series, in the order in which they were declared.
+   subroutine add(self, file, values)
+      class(sample_table_type), intent(inout) :: self
+      type(hdf5_type), intent(inout) :: file
+      real(wp), intent(in), contiguous :: values(:)
+      integer :: i
+      if (.not. allocated(self%buffer)) allocate (self%buffer(chunk_samples*size(values)))
+      ! chunks of the file are filled up, also after a checkpoint in the middle of one
+      if (self%held > 0 .and. mod(self%samples, int(chunk_samples, i8)) == 0) call self%write(file)
+      do i = 1, size(values)
+         self%buffer(self%place(i) + self%stride(i)*self%held) = values(i)
+      end do
+      self%held = self%held + 1
+      self%samples = self%samples + 1
    end subroutine add
 
-   subroutine new_series(self, name)
-      class(sample_table_type), intent(inout) :: self
-      character(len=*), intent(in) :: name
-      type(series_type), allocatable :: longer(:)
-      integer :: k
-      ! the buffers are moved; assigning the array would copy them all
-      allocate (longer(size(self%series) + 1))
-      do k = 1, size(self%series)
-         longer(k)%data = self%series(k)%data
-         call move_alloc(self%series(k)%name, longer(k)%name)
-         call move_alloc(self%series(k)%buffer, longer(k)%buffer)
-      end do
-      longer(size(longer))%name = name
-      call move_alloc(longer, self%series)
-   end subroutine new_series
-
-   !> A series that is in the file; it must have this width and be as long as all others.
-   subroutine open_series(self, file, name, width)
-      class(sample_table_type), intent(inout) :: self
-      type(hdf5_type), intent(inout) :: file
-      character(len=*), intent(in) :: name
-      integer, intent(in) :: width
-      integer(i8) :: expected
-      call new_series(self, name)
-      expected = self%samples - self%held
-      associate (data => self%series(size(self%series))%data)
-         call data%open(file, name)
-         if (data%length /= expected .or. data%width /= width) call file%check_read(-1, 'find all samples of '//name)
-      end associate
-   end subroutine open_series
-
    subroutine write_held(self, file)
-      class(sample_table_type), intent(inout) :: self
+      class(sample_table_type), intent(inout), target :: self
       type(hdf5_type), intent(inout) :: file
-      integer :: k
+      real(wp), pointer, contiguous :: values(:, :)
+      real(wp) :: started
+      integer :: k, o
       if (self%held == 0) return
+      started = wall_clock()
       do k = 1, size(self%series)
-         call self%series(k)%data%append(file, self%series(k)%buffer(:, :self%held))
+         associate (width => self%series(k)%width)
+            o = chunk_samples*self%series(k)%before
+            values(1:width, 1:self%held) => self%buffer(o + 1:o + width*self%held)
+            call self%series(k)%data%append(file, values)
+         end associate
       end do
       self%held = 0
+      self%seconds = self%seconds + wall_clock() - started
    end subroutine write_held
 
    !> The last n samples of a series, (width, n); n at most the samples there are.

@@ -27,7 +27,6 @@ contains
    !> Nothing is left beside the file.
    subroutine expect_alone()
       call expect(.not. file_there(path//'.part'), 'no part is left')
-      call expect(.not. file_there(path//'.old'), 'no older file is left')
       call expect(.not. file_there(path//'.lock'), 'no lock is left')
    end subroutine expect_alone
 
@@ -43,7 +42,8 @@ contains
       type(error_type), allocatable :: error
       call file%claim(path, error)
       call expect_no_error(error, 'claimed')
-      call file%begin()
+      call file%begin(error)
+      call expect_no_error(error, 'begun')
       call file%file%put_list('pad', [1.0_wp, 2.0_wp], '1', 'pad number', 'pad')
       call file%begin_series('frequency')
    end subroutine begin_new
@@ -53,10 +53,12 @@ contains
       type(growing_file_type), intent(inout) :: file
       integer, intent(in) :: first, last
       integer :: k
+      if (.not. file%table%is_declared()) then
+         call file%table%declare(file%file, 'frequency', 1, '', 'Hz', 'frequency')
+         call file%table%declare(file%file, 'amplitude', 2, 'pad', 'm', 'amplitude')
+      end if
       do k = first, last
-         call file%table%new_sample(file%file)
-         call file%table%add(file%file, 'frequency', [real(k, wp)], '', 'Hz', 'frequency')
-         call file%table%add(file%file, 'amplitude', amplitude(k), 'pad', 'm', 'amplitude')
+         call file%table%add(file%file, [real(k, wp), amplitude(k)])
       end do
    end subroutine add_samples
 
@@ -168,7 +170,8 @@ contains
       type(error_type), allocatable :: error
       type(hdf5_type) :: found
       call file%claim(path, error)
-      call file%begin()
+      call file%begin(error)
+      call expect_no_error(error, 'begun')
       call file%file%put_real('value', 1.5_wp, '1', 'a value')
       call file%publish(continued=.true., error=error)
       call expect_no_error(error, 'published without series')
