@@ -25,7 +25,7 @@ from peers import peers
 from production import production
 from runner import Row, Runner
 from settings import ROOT
-from skips import kernels, skips
+from skips import kernels, skips, visits
 
 PARTS = {
     "ladder": ladder,
@@ -33,6 +33,7 @@ PARTS = {
     "cases": cases,
     "kernels": kernels,
     "films": films,
+    "visits": visits,
     "skips": skips,
     "pads": pads,
     "production": production,

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from runner import Row, Runner, deviations
+from errors import deviations
+from runner import Row, Runner
 from settings import REFINED, ROOT, Scene
 
 
@@ -31,10 +32,9 @@ def judge(runner: Runner, scene: Scene, row: Row, path: Path, core: int) -> None
     runs = [runner.run(scene, "", *each, timed=False, core=core) for each in REFINED]
     failed = [f"{each.setting}: {each.note}" for each, _ in runs if each.note]
     if not (row.note or failed):
-        (_, coarse), (fine, reference) = runs
+        (_, coarse), (_, reference) = runs
         row.compare(deviations(path, reference))
-        row.reference_moved = max(deviations(coarse, reference).values())
-        row.reference_finite_volumes = fine.finite_volumes / max(1, fine.film_evaluations)
+        row.reference_moved = deviations(coarse, reference).largest
     row.note = "; ".join(filter(None, (row.note, *failed)))
     for each in (path, *(path for _, path in runs)):
         each.unlink(missing_ok=True)

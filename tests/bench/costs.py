@@ -3,7 +3,7 @@
 import os
 
 from figures import compared
-from films import exponent
+from films import CHECK, exponent
 from peers import DIFFERENCED, OWN, SCALAR, SCALED, SCIPY, TILTPAD
 from production import CHECKPOINTS, COLLECT, LONG, SHORT, START, SWEEP
 from runner import Row
@@ -13,13 +13,13 @@ from settings import (
     MAIN,
     MEMBER_MILLISECONDS,
     MEMBERS,
-    MODAL,
+    ONE_FILMS,
+    ONE_SOLVER,
     START_MILLISECONDS,
     TOLERANCE_SPAN,
-    WHOLE_FILM,
 )
 from skips import SAMPLE, TABLE
-from tables import LABELS, NOT_RUN, film_time, short, small, table, verdict
+from tables import LABELS, NOT_RUN, SIGNALS, film_time, short, signals, small, table, verdict
 
 #: Seconds of the scene's whole march, and its pads.
 OF, PADS = 2, 2
@@ -28,12 +28,40 @@ OF, PADS = 2, 2
 def films(rows: list[Row]) -> str:
     """Film solvers."""
     lines = []
-    for row in rows:
+    for row in (row for row in rows if row.group != CHECK):
         first = next(other for other in rows if other.scene == row.scene)
-        time, share = film_time(row), f"{row.finite_volumes / row.film_evaluations:.0%}"
-        times = short(row.wall_seconds), short(1e6 * time), f"{time / film_time(first):.0f}"
-        lines.append((LABELS[row.scene], row.setting, *times, small(row.error), share))
-    head = "scene", "film", "wall s", "film, us per pad", "over auto", "error", "finite volumes"
+        over = f"{film_time(row) / film_time(first):.0f}"
+        build = f"{row.film_nodes}", short(1e3 * row.building_seconds) if row.building_seconds else ""
+        times = short(row.wall_seconds), short(1e6 * film_time(row)), over, *build
+        lines.append((LABELS[row.scene], row.setting, *times, small(row.error)))
+    head = "scene", "film", "wall s", "film, us per pad", "over table", "nodes", "building ms", "error"
+    return table(head, lines) if lines else NOT_RUN
+
+
+def film_checks(rows: list[Row]) -> str:
+    """Errors of films alone."""
+    lines = [(LABELS[row.scene], row.setting, *signals(row)) for row in rows if row.group == CHECK]
+    return table(("scene", "film", *SIGNALS), lines) if lines else NOT_RUN
+
+
+def visits(rows: list[Row]) -> str:
+    """Cells and nodes that runs built, and what that took of them."""
+    lines = []
+    for row in rows:
+        counts = f"{row.rotor_seconds:g}", row.film_evaluations, row.film_cells, row.film_nodes
+        share = f"{row.building_seconds / row.wall_seconds:.0%}"
+        solved = f"{row.film_solved / row.film_evaluations:.1%}"
+        lines.append((LABELS[row.scene], *counts, short(1e3 * row.building_seconds), share, solved))
+    head = (
+        "scene",
+        "rotor s",
+        "films",
+        "cells",
+        "nodes",
+        "building ms",
+        "of the run",
+        "films left to `direct`",
+    )
     return table(head, lines) if lines else NOT_RUN
 
 
@@ -78,7 +106,11 @@ def skips(rows: list[Row]) -> str:
 def skips_words(runs: list[Row], kernels: list[Row]) -> str:
     """What is left out of a right-hand side and of a sample, from the times of one film."""
     run = next((row for row in runs if row.group == "defaults" and row.scene == MAIN[1].name), None)
-    film = {row.setting: row.film_seconds for row in kernels if (row.scene, row.group) == (WHOLE_FILM, MODAL)}
+    film = {
+        row.setting: row.film_seconds
+        for row in kernels
+        if (row.scene, row.group) == (ONE_FILMS[1], ONE_SOLVER)
+    }
     contact = next((row for row in kernels if row.group == TABLE), None)
     if not (run and film and contact):
         return ""
@@ -90,7 +122,7 @@ def skips_words(runs: list[Row], kernels: list[Row]) -> str:
         f"{run.jacobians} Jacobians; computing them with each of the {run.rhs} right-hand sides would take "
         f"{short(derivatives, 2)} s more. Its {samples} samples use the film at the ends of the steps; "
         f"evaluating the film at each sample would take {short(evaluated, 2)} s more (with the times of a "
-        "film without rupture in *One film*). A tilting-only scene needs no contact table, which takes "
+        "film from the table in *One film*). A tilting-only scene needs no contact table, which takes "
         f"{short(1e3 * contact.film_seconds, 2)} ms."
     )
 

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 
-from runner import Row, Runner, deviations
+from errors import deviations
+from runner import Row, Runner
 from settings import DIAGRAM, FINE, LADDERS, MAIN, UNRUPTURED, Scene
 
 #: Groups of the ladder's rows: what the deviations are taken over.
@@ -12,7 +13,7 @@ LAST, WHOLE = "last revolution", "whole run"
 def ladder(runner: Runner) -> Iterator[Row]:
     """Every refinement against the finest, which stays as the reference; the finest, slowest, start first."""
     runs = [(scene, LAST, *rung) for scene, rungs in LADDERS.items() for rung in rungs]
-    runs.sort(key=cells, reverse=True)
+    runs.sort(key=march_tolerance)
     found = {(row.scene, row.setting): (row, path) for row, path in runner.many(runs)}
     for scene, rungs in LADDERS.items():
         rows = [found[scene.name, label] for label, _ in rungs]
@@ -32,9 +33,9 @@ def ladder(runner: Runner) -> Iterator[Row]:
         yield finest
 
 
-def cells(run: tuple) -> int:
-    """Cells of a run of the ladder."""
-    return int(run[2].split()[0])
+def march_tolerance(run: tuple) -> float:
+    """Tolerance of the march of a run of the ladder."""
+    return float(run[2].split()[1].rstrip(","))
 
 
 def varies(scene: Scene) -> bool:

@@ -5,20 +5,21 @@ from pathlib import Path
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
+from films import CHECK
 from matplotlib.axes import Axes
 from peers import OCTAVE, OWN, SCALED, SCIPY, SHORT, TILTPAD
 from runner import Row
-from settings import ALLOWED, DIAGRAM, FIGURES, FILM_SCENES, MAIN, MODE_CELLS
+from settings import ALLOWED, DIAGRAM, FIGURES, FILM_SCENES, FILM_TOLERANCE, MAIN
 from tables import film_time
 from tiltpad.draw.layout import COLUMN, PAGE
 from tiltpad.draw.plots import STYLE
 
 #: Colour, mark and words of the diagram's groups.
 LOOKS = {
-    "cells": ("C0", "o", "cells along the arc"),
-    "modes": ("C1", "s", f"axial modes, {MODE_CELLS} cells"),
-    "tolerance": ("C2", "^", "relative tolerance"),
-    "together": ("C3", "D", "all together"),
+    "tolerance": ("C2", "^", "relative tolerance, table with it"),
+    "table": ("C0", "o", f"tolerance of the table, march {FILM_TOLERANCE}"),
+    "together": ("C3", "D", "both"),
+    "direct": ("C1", "s", "direct instead of the table"),
     "defaults": ("black", "*", "default settings"),
 }
 TARGET = {"color": "0.4", "linestyle": "--", "linewidth": 0.8}
@@ -39,7 +40,7 @@ def draw(rows: dict[str, list[Row]], folder: Path) -> None:
 
 def diagram(rows: list[Row]) -> None:
     """Run time against error, a panel a scene."""
-    fig, axes = plt.subplots(3, 2, figsize=(PAGE, 8.4))
+    fig, axes = plt.subplots(4, 2, figsize=(PAGE, 11.2))
     for scene, ax in zip(MAIN, axes.flat, strict=False):
         mine = [row for row in rows if row.scene == scene.name and row.error]
         front(mine, ax)
@@ -47,7 +48,7 @@ def diagram(rows: list[Row]) -> None:
             colour, mark, _ = LOOKS[group]
             points = [row for row in mine if row.group == group]
             size = 11 if group == "defaults" else 4
-            line = "none" if group in ("defaults", "together") else "-"
+            line = "none" if group in ("defaults", "together", "direct") else "-"
             ax.plot(*xy(points), mark, color=colour, markersize=size, linestyle=line, linewidth=0.6)
             for row in points:
                 label(ax, row)
@@ -84,8 +85,8 @@ def xy(rows: list[Row]) -> tuple[list[float], list[float]]:
 
 def label(ax: Axes, row: Row) -> None:
     """The number that a group varies, beside its point."""
-    if row.group in ("cells", "modes", "tolerance"):
-        side = {"cells": (-4, -7), "modes": (4, 3), "tolerance": (-3, 4)}[row.group]
+    if row.group in ("table", "tolerance"):
+        side = {"table": (-4, -7), "tolerance": (-3, 4)}[row.group]
         place = {"textcoords": "offset points", "xytext": side, "fontsize": 5, "color": LOOKS[row.group][0]}
         ax.annotate(row.setting.split()[0], (row.wall_seconds, row.error), **place)
 
@@ -94,18 +95,22 @@ def films(rows: list[Row]) -> None:
     """Time of a film against error, a colour a scene."""
     _, ax = plt.subplots(figsize=(PAGE, 2.8))
     for i, scene in enumerate(FILM_SCENES):
-        points = [(1e6 * film_time(row), row) for row in rows if row.scene == scene.name and row.error]
+        mine = [row for row in rows if row.scene == scene.name and row.error and row.group != CHECK]
+        points = [(1e6 * film_time(row), row) for row in mine]
         sor = [(time, row.error) for time, row in points if row.setting.startswith("sor")]
-        auto = [(time, row.error) for time, row in points if row.setting.startswith("auto")]
+        direct = [(time, row.error) for time, row in points if row.setting.startswith("direct")]
+        tables = [(time, row.error) for time, row in points if row.setting.startswith("table")]
         ax.plot(*zip(*sor, strict=True), "o-", markersize=4, color=f"C{i}", label=scene.label)
-        ax.plot(*zip(*auto, strict=True), "*", markersize=10, color=f"C{i}")
+        ax.plot(*zip(*direct, strict=True), "s", markersize=5, color=f"C{i}")
+        ax.plot(*zip(*tables, strict=True), "*", markersize=9, color=f"C{i}")
     # the lines lie close: the grids once, at the lowest
     for time, row in points:
         if row.setting.startswith("sor"):
             place = {"textcoords": "offset points", "xytext": (-4, -9), "ha": "right", "fontsize": 7}
             ax.annotate(row.setting.removeprefix("sor "), (time, row.error), **place)
     ax.plot([], [], "o-", markersize=4, color="0.3", label="sor, three grids")
-    ax.plot([], [], "*", markersize=10, color="0.3", label="auto, default settings")
+    ax.plot([], [], "*", markersize=9, color="0.3", label="table, default and 4e-6")
+    ax.plot([], [], "s", markersize=5, color="0.3", label="direct, default")
     ax.axhline(ALLOWED, **TARGET)
     ax.margins(0.08)
     ax.set(xscale="log", yscale="log", xlabel="time of a pad's film, µs", ylabel="error of the run")

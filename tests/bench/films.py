@@ -4,17 +4,22 @@ from collections.abc import Iterator
 
 import numpy as np
 from runner import Row, Runner
-from settings import FILM_REFERENCE, FILM_SCENES, FILM_SOLVERS, MAIN, PAD_COUNTS, Scene
+from settings import FILM_CHECKS, FILM_REFERENCE, FILM_SCENES, FILM_SOLVERS, MAIN, PAD_COUNTS, Scene
+
+#: Group of the runs that check films alone.
+CHECK = "check"
 
 
 def films(runner: Runner) -> Iterator[Row]:
-    """`sor` on three grids against `auto`, in the same settings."""
+    """The table, `direct` and `sor` in the same settings; fine grids of `direct` check the reference."""
     references = runner.many([(scene, "", *FILM_REFERENCE) for scene in FILM_SCENES])
     for scene, (fine, reference) in zip(FILM_SCENES, references, strict=True):
         if fine.note:
             raise RuntimeError(f"no reference for {scene.label}: {fine.note}")
         for setting in FILM_SOLVERS:
             yield runner.judged(reference, scene, "film solver", *setting)
+        for setting in FILM_CHECKS:
+            yield runner.judged(reference, scene, CHECK, *setting, timed=False)
         reference.unlink()
 
 

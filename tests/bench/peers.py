@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import tiltpad
+from errors import Deviation
 from peer_model import COLUMNS, ROWS, STATES, Bearing, compliance
 from runner import Launched, Row, Runner, launch
 from settings import (
@@ -84,7 +85,7 @@ def compare(row: Row, found: dict[str, np.ndarray], files: tuple[Path, Path]) ->
                 for name, values in found.items()
             }
         if path == files[0]:
-            row.compare(errors)
+            row.compare(Deviation(errors))
         else:
             row.error_same_film = max(errors.values())
 

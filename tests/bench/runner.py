@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import tiltpad
+from errors import Deviation, deviations
 from settings import ROOT, Scene
-from tiltpad.calculate.deviations import RESTING, natural_scale
 
 #: Seconds after which a run is killed.
 LIMIT = 600
@@ -37,27 +37,30 @@ class Row:
     jacobians: int = 0
     film_evaluations: int = 0
     film_seconds: float = 0.0
-    finite_volumes: int = 0
+    film_solved: int = 0
+    film_cells: int = 0
+    film_nodes: int = 0
+    building_seconds: float = 0.0
     memory_mb: float | None = None
     error_journal_y: float | None = None
     error_journal_z: float | None = None
     error_pad_tilt: float | None = None
     error_friction_moment: float | None = None
     error: float | None = None
+    jump_degrees: float = 0.0
     reference_moved: float | None = None
     error_same_film: float | None = None
-    reference_finite_volumes: float | None = None
     rotor_seconds: float = 0.0
     march_seconds: float = 0.0
     checkpoint_seconds: float = 0.0
     copy_seconds: float = 0.0
     note: str = ""
 
-    def compare(self, found: dict[str, float]) -> None:
+    def compare(self, found: Deviation) -> None:
         """Enters the deviations from the reference."""
-        for name, value in found.items():
+        for name, value in found.signals.items():
             setattr(self, f"error_{name}", value)
-        self.error = max(found.values())
+        self.error, self.jump_degrees = found.largest, found.jump_degrees
 
 
 @dataclass
@@ -100,7 +103,7 @@ class Runner:
         path = self.folder / f"{self.number()}.h5"
         overrides = (*scene.overrides, *overrides)
         options = [word for each in overrides for word in ("--set", each)]
-        command = [self.program, ROOT / scene.case, "--quiet", "--output", path, *options]
+        command = [self.program, ROOT / scene.case, "--quiet", "--overwrite", "--output", path, *options]
         row = Row(self.part, scene.name, group, setting, " ".join(overrides))
         done, spent, left = launch(command, core), 0.0, REPEATS - 1 if timed and repeat else 0
         while left and done.status == 0 and spent + done.seconds < SHORT:
@@ -141,23 +144,9 @@ def count(row: Row, path: Path) -> None:
             counts = run.statistics
             row.steps, row.rhs = int(counts["steps"]), int(counts["rhs_evaluations"])
             row.jacobians = int(counts["jacobian_evaluations"])
-            row.finite_volumes = int(counts["film_volumes"])
-            row.film_evaluations = int(counts["film_modal"]) + row.finite_volumes
+            row.film_solved = int(counts["film_modal"] + counts["film_volumes"])
+            row.film_evaluations = int(counts["film_table"]) + row.film_solved
+            row.film_cells, row.film_nodes = int(counts["film_cells"]), int(counts["film_nodes"])
             row.film_seconds = float(counts["film_seconds"])
+            row.building_seconds = float(counts["film_building_seconds"])
             row.march_seconds = float(counts["wall_seconds"] - counts["output_seconds"])
-
-
-def deviations(path: Path, reference: Path, whole: bool = False) -> dict[str, float]:
-    """Deviations of one result file from another over the last revolution, or over the whole run."""
-    with tiltpad.read(path) as run, tiltpad.read(reference) as true:
-        if "time" in true:
-            return tiltpad.deviations(run, true, slice(0, None) if whole else None)
-        return resting(run.equilibrium, true)
-
-
-def resting(found: dict, true: tiltpad.Run) -> dict[str, float]:
-    """Deviations of an equilibrium, over 5 % of the natural scales."""
-    return {
-        name: float(abs(found[name] - true.equilibrium[name]).max()) / (RESTING * natural_scale(true, name))
-        for name in ("journal_y", "journal_z", "pad_tilt")
-    }

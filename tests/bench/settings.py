@@ -16,21 +16,36 @@ class Scene:
     overrides: tuple[str, ...] = ()
 
 
-def film(cells: int, modes: int | None = None, rows: int | None = None) -> tuple[str, ...]:
-    """Cells along the arc, axial modes, and rows of the finite volumes across half the width."""
-    words = [f"film%circumferential_cells={cells}"]
-    words += [f"film%axial_modes={modes}"] if modes else []
-    return (*words, *([f"film%axial_cells={rows}"] if rows else []))
+def direct(columns: int, rows: int) -> tuple[str, ...]:
+    """The solver `direct`: cells along the arc and across half the width."""
+    return ("film%solver=direct", f"film%circumferential_cells={columns}", f"film%axial_cells={rows}")
+
+
+def sor(columns: int, rows: int) -> tuple[str, ...]:
+    """Over-relaxation: cells along the arc and across half the width."""
+    return ("film%solver=sor", f"film%circumferential_cells={columns}", f"film%axial_cells={rows}")
 
 
 def tolerance(value: str) -> tuple[str, ...]:
+    """Relative tolerance of the march, which that of the table follows."""
     return (f"integration%relative_tolerance={value}",)
 
 
-def together(cells: int, modes: int, value: str) -> tuple[str, tuple[str, ...]]:
-    """Label and overrides: film and tolerance refined together, a row of finite volumes for eight columns."""
-    return f"{cells} cells, {modes} modes, {value}", film(cells, modes, cells // 8) + tolerance(value)
+def table(value: str) -> tuple[str, ...]:
+    """Tolerance of the film table."""
+    return (f"film%table_tolerance={value}",)
 
+
+def together(march: str, film: str) -> tuple[str, tuple[str, ...]]:
+    """Label and overrides: tolerances of the march and of the table. Films that a fine table leaves to
+    `direct` get more cells, too.
+    """
+    finer = ("film%axial_cells=16", "film%circumferential_cells=160") if float(film) < FALLBACK else ()
+    return f"march {march}, table {film}", tolerance(march) + table(film) + finer
+
+
+#: Below this tolerance some cells of the table stay too coarse, and `direct` takes over.
+FALLBACK = 1e-5
 
 #: The scenes of the diagram, and the wall seconds that each is to stay below with the defaults.
 MAIN = (
@@ -39,15 +54,27 @@ MAIN = (
     Scene("steady_tr_ba", "Bengisu-Akay", "input/paper/steady_tr_ba.nml"),
     Scene("runup_lugre", "run-up, LuGre", "input/paper/runup_lugre.nml"),
     Scene("four_pads", "four pads, LuGre, gumbel", "input/examples/four_pads.nml"),
-)
-FIGURES = {"steady_tr": 0.16, "steady_lugre": 0.35, "steady_tr_ba": 0.6, "runup_lugre": 1.5, "four_pads": 1.0}
-#: Peak memory of every run of MAIN, MB; film time of `sor` on 60 x 15 over that of `auto`; one film, us.
-MEMORY, FILM_RATIO, FILM_MICROSECONDS = 100, 300, 0.25
-#: That one film among those timed by themselves: its state, and the solvers with their cells.
-WHOLE_FILM, MODAL, SOR = "whole, none", "modal 24", "sor 60"
+    Scene("steady_ba_20_10", "Bengisu-Akay 0.2/0.1", "input/paper/steady_ba_20_10.nml"),
+    Scene("four_pads_reynolds", "four pads, LuGre, reynolds", "input/examples/four_pads.nml",
+          ("film%cavitation=reynolds",)),
+)  # fmt: skip
+FIGURES = {
+    "steady_tr": 0.10,
+    "steady_lugre": 0.17,
+    "steady_tr_ba": 0.33,
+    "runup_lugre": 0.33,
+    "four_pads": 0.40,
+    "steady_ba_20_10": 0.45,
+    "four_pads_reynolds": 0.45,
+}
+#: Peak memory of every run of MAIN, MB; film time of `sor` on 60 x 15 over that of the table; one film with
+#: its derivatives, us.
+MEMORY, FILM_RATIO, FILM_MICROSECONDS = 100, 1000, 0.15
+#: That one film among those timed by themselves: its states and the solver.
+ONE_FILMS, ONE_SOLVER = ("whole, none", "corner ruptured, reynolds"), "table, same cell"
 #: The error that every scene is to stay below, and the setting that is to reach a hundredth of it.
 ALLOWED = 1e-3
-FINE = ("64 cells, 12 modes, 1e-8", film(64, 12) + tolerance("1e-8"))
+FINE = together("1e-8", "2e-6")
 FINE_ALLOWED = 1e-5
 
 #: What checkpoints cost: wall time between them (default: 300 s) and the share allowed; scenes of some 20 s.
@@ -62,11 +89,11 @@ CHECKPOINT_SCENES = (
           ("operation%duration=2.5", "film%solver=sor")),
 )  # fmt: skip
 #: Members of the sweep of short runs; milliseconds allowed beyond a member's march; seconds to collect all.
-MEMBERS, MEMBER_MILLISECONDS, COLLECT_SECONDS = 1000, 20, 10
+MEMBERS, MEMBER_MILLISECONDS, COLLECT_SECONDS = 1000, 6, 10
 #: Start of the program, which does nothing else.
 START_MILLISECONDS = 20
 
-#: Some of them without rupture, where no finite volumes stand beside the axial modes.
+#: Some of them without rupture: whole films alone.
 UNRUPTURED = tuple(
     Scene(f"{scene.name}_none", f"{scene.label}, cavitation 'none'", scene.case, ("film%cavitation=none",))
     for scene in MAIN[:3]
@@ -74,38 +101,30 @@ UNRUPTURED = tuple(
 
 #: Refinements of the scenes of MAIN and of UNRUPTURED up to their references, the last.
 LADDER = (
-    together(48, 12, "1e-7"),
-    together(80, 16, "1e-8"),
-    together(112, 24, "1e-8"),
-    together(160, 24, "1e-8"),
+    together("1e-6", "1e-5"),
+    together("1e-7", "4e-6"),
+    together("1e-8", "2e-6"),
+    together("1e-9", "1e-6"),
 )
-UNRUPTURED_LADDER = (
-    together(48, 12, "1e-8"),
-    together(64, 16, "1e-9"),
-    together(96, 24, "1e-10"),
-)
+UNRUPTURED_LADDER = (together("1e-7", "1e-5"), together("1e-8", "1e-6"), together("1e-9", "1e-7"))
 LADDERS = dict.fromkeys(MAIN, LADDER) | dict.fromkeys(UNRUPTURED, UNRUPTURED_LADDER)
 #: Refinements of every scene of input/: the last is the reference, the other shows how far it still moves.
-REFINED = (together(72, 16, "1e-7"), together(112, 16, "1e-7"))
+REFINED = (together("1e-7", "1e-5"), together("1e-8", "2e-6"))
 
-#: Tolerance of the runs whose film is varied, and the cells of those whose modes are.
-FILM_TOLERANCE, MODE_CELLS = "1e-6", 48
-CELLS = tuple((f"{n} cells", film(n) + tolerance(FILM_TOLERANCE)) for n in (12, 16, 24, 32, 48))
-MODES = tuple((f"{n} modes", film(MODE_CELLS, n) + tolerance(FILM_TOLERANCE)) for n in (2, 4, 8))
-TOLERANCES = tuple((v, tolerance(v)) for v in ("1e-3", "1e-4", "3e-5", "1e-6", "1e-7", "1e-9"))
-TOGETHER = (
-    together(16, 4, "3e-5"),
-    together(32, 8, "1e-6"),
-    together(48, 12, "1e-7"),
-    FINE,
-)
+#: Tolerance of the march where that of the table varies.
+FILM_TOLERANCE = "1e-6"
+TABLES = tuple((v, tolerance(FILM_TOLERANCE) + table(v)) for v in ("1e-3", "3e-4", "1e-4", "3e-5", "1e-5"))
+TOLERANCES = tuple((v, tolerance(v)) for v in ("1e-3", "1e-4", "3e-5", "3e-6", "1e-6"))
+TOGETHER = (LADDER[1], FINE)
+#: The default settings but for the film.
+DIRECT = (("direct", ("film%solver=direct",)),)
 #: Groups of the diagram.
 DIAGRAM = {
     "defaults": (("defaults", ()),),
-    "cells": CELLS,
-    "modes": MODES,
     "tolerance": TOLERANCES,
+    "table": TABLES,
     "together": TOGETHER,
+    "direct": DIRECT,
 }
 
 #: Scenes for the film solvers, short because over-relaxation is slow, otherwise with the defaults.
@@ -118,12 +137,32 @@ FILM_SCENES = (
     Scene("four_pads_short", "four pads, gumbel, 0.05 s", MAIN[4].case, ("operation%duration=0.05",)),
 )  # fmt: skip
 FILM_SOLVERS = (
-    ("auto (default)", ()),
-    ("sor 30 x 8", ("film%solver=sor", *film(30, rows=8))),
-    ("sor 60 x 15", ("film%solver=sor", *film(60, rows=15))),
-    ("sor 120 x 30", ("film%solver=sor", *film(120, rows=30))),
+    ("table (default)", ()),
+    ("table 4e-6", table("4e-6")),
+    ("direct (default)", ("film%solver=direct",)),
+    ("sor 30 x 8", sor(30, 8)),
+    ("sor 60 x 15", sor(60, 15)),
+    ("sor 120 x 30", sor(120, 30)),
 )
-FILM_REFERENCE = together(160, 24, "1e-8")
+FILM_REFERENCE = LADDER[-1]
+#: Films of runs with a march so fine that their errors are those of the film.
+CHECK_TOLERANCE, MODES = "1e-8", ("film%axial_modes=60",)
+FILM_CHECKS = tuple(
+    (label, tolerance(CHECK_TOLERANCE) + overrides)
+    for label, overrides in (
+        ("table 4e-5", table("4e-5")),
+        ("table 4e-6", table("4e-6")),
+        ("direct 80 x 8", (*direct(80, 8), *MODES)),
+        ("direct 160 x 16", (*direct(160, 16), *MODES)),
+        ("direct 320 x 32", (*direct(320, 32), *MODES)),
+    )
+)
+
+#: What a scene visits of its table: it grows with the motion, not with the run.
+VISITS = tuple(
+    Scene(f"{MAIN[1].name}_{v}", f"LuGre, {v} s", MAIN[1].case, (f"operation%duration={v}",))
+    for v in ("0.02", "0.2", "2", "20")
+) + (UNRUPTURED[1], *MAIN[2:])
 
 #: The same pad so many times: pads of 20 degrees all around, preloaded so that each carries, 50 kg a pad.
 PAD_COUNTS = (2, 4, 8, 16)
@@ -134,9 +173,9 @@ PEER_RELATIVE, PEER_ABSOLUTE = 1e-6, 1e-8
 #: Seconds that they march: SciPy for speed, for its tolerances, with a Jacobian of its own; Octave.
 LONG_SPAN, TOLERANCE_SPAN, JACOBIAN_SPAN, OCTAVE_SPAN = 0.1, 0.02, 5e-5, 0.012
 #: The film of the peers within tiltpad, marched so finely that only the peers' own errors are left.
-PEER_FILM = ("film%solver=sor", *film(60, rows=15))
+PEER_FILM = sor(60, 15)
 PEER_TIGHT = (*PEER_FILM, *tolerance("1e-8"), "film%tolerance=1e-10", "film%max_sweeps=100000")
-PEER_REFERENCE = together(64, 16, "1e-9")
+PEER_REFERENCE = LADDER[-1]
 #: Largest change of an over-relaxation sweep over the highest pressure at which the peer's film counts as
 #: solved. A film solved less well shakes the right-hand side, and BDF takes many more steps.
 PEER_FILM_TOLERANCE = 1e-9
