@@ -14,7 +14,7 @@ MEMBERS, FAILING = range(1, 7), 3
 SHORT = "operation%duration=1"
 
 
-def one(duration: float = 12) -> str:
+def one(duration: float = 40) -> str:
     """A case of some seconds, with a checkpoint soon."""
     return f"""\
 &operation duration={duration} /
@@ -23,7 +23,7 @@ def one(duration: float = 12) -> str:
 """
 
 
-def sweep(duration: float = 12, speeds: str = "5000:7500:500") -> str:
+def sweep(duration: float = 40, speeds: str = "5000:7500:500") -> str:
     """A sweep over six speeds, of which the third fails."""
     steps = ", ".join("10" if k == FAILING else "1000000" for k in MEMBERS)
     return f"""{one(duration)}
@@ -181,7 +181,7 @@ def test_task_requeues_itself_alone_when_its_time_is_over(cluster, scripts, fold
 
 
 def test_sweep_in_one_job_goes_on(cluster, scripts, folder):
-    write(folder, "speeds.nml", sweep(duration=8))
+    write(folder, "speeds.nml", sweep(duration=25))
     job = cluster.submit("--cpus-per-task=2", scripts / "sweep.sh", "speeds.nml", cwd=folder)
     begun(cluster, folder / "speeds/0002.h5")
     cluster.ask("scancel", "--batch", "--signal=USR1", job)
@@ -204,7 +204,7 @@ def test_several_members_a_task(cluster, scripts, folder):
 def test_study(cluster, scripts, folder):
     at_a_time = 2
     assert at_a_time < cluster.processors
-    write(folder, "speeds.nml", sweep(duration=2))
+    write(folder, "speeds.nml", sweep(duration=6))
     said = cluster.ask(scripts / "submit.sh", "speeds.nml", "1", str(at_a_time), cwd=folder)
     array, collection = re.findall(r"job ([0-9]+)", said)
     seen = []
