@@ -173,7 +173,7 @@ help:
 # ---- the two commands --------------------------------------------------------------------------
 run: build python
 	@mkdir -p build/run
-	$(B)/bin/tiltpad input/paper/steady_lugre.nml --output build/run/steady_lugre.h5
+	$(B)/bin/tiltpad input/paper/steady_lugre.nml --overwrite --output build/run/steady_lugre.h5
 	@for plot in orbit spectrum hysteresis; do \
 	   $(VENV)/bin/tiltpad-plot $$plot build/run/steady_lugre.h5 -o build/run/$$plot.png || exit 1; done
 
@@ -392,12 +392,13 @@ docs: run
 	$(venv_python) docs/gallery.py $(B)/bin/tiltpad build/gallery
 	@mkdir -p docs/images
 	cp build/run/*.png docs/images/
+	$(venv_python) docs/cells.py build/run/steady_lugre.h5 docs/images/cells.png
 	$(venv_python) docs/verify.py $(B)/bin/tiltpad > build/verification.md && mv build/verification.md docs/
 
 # on a cluster only the program: it needs no Python
 install: build
-	install -d $(DESTDIR)$(PREFIX)/bin
-	install -m 755 $(B)/bin/tiltpad $(DESTDIR)$(PREFIX)/bin/tiltpad
+	install -d '$(DESTDIR)$(PREFIX)/bin'
+	install -m 755 $(B)/bin/tiltpad '$(DESTDIR)$(PREFIX)/bin/tiltpad'
 
 clean:
 	rm -rf build post/tiltpad/_library.*

@@ -53,7 +53,7 @@ def run(program: Path, scene: Scene, folder: Path) -> Path:
     """One run; its result file."""
     path = folder / f"{scene.name}.h5"
     options = [word for each in scene.overrides for word in ("--set", each)]
-    command = [program, ROOT / scene.case, "--quiet", "--output", path, *options]
+    command = [program, ROOT / scene.case, "--quiet", "--overwrite", "--output", path, *options]
     done = subprocess.run(command, text=True, capture_output=True, timeout=LIMIT)
     if done.returncode:
         raise RuntimeError(f"{scene.name}: {done.stderr.strip()}")

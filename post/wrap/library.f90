@@ -8,7 +8,7 @@ module tiltpad_library
    use text, only: to_text
    use scene, only: scene_type
    use scene_namelist, only: scene_from_text
-   use components, only: new_law, new_friction
+   use components, only: make_law, make_friction
    use kinematics, only: journal_motion, pad_state
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
@@ -60,6 +60,8 @@ contains
             & //' pads, but states of '//to_text(int(pads)))
       end if
       if (.not. allocated(error)) then
+         ! one state is not worth a table
+         if (scene%film%solver == 'auto') scene%film%solver = 'direct'
          model = new_bearing_model(scene)
          y = model%state(journal_motion(journal(:2), journal(3:4)), &
             & [(pad_state(tilt(1, i), tilt(2, i), penetration(1, i), penetration(2, i)), i=1, pads)])
@@ -139,7 +141,7 @@ contains
       rate = 0
       call read_case(text, name, scene, error)
       if (.not. allocated(error)) then
-         law = new_friction(scene)
+         call make_friction(scene, law)
          do i = 1, n
             call law%evaluate(velocity(i), deflection(i), normal(i), response)
             force(i) = response%force
@@ -184,7 +186,7 @@ contains
       integer :: i
       call read_case(text, name, scene, error)
       if (allocated(error)) return
-      law = new_law(scene)
+      call make_law(scene, law)
       do i = 1, size(points)
          if (penetration(i) > 0) points(i) = law%at(penetration(i))
       end do

@@ -286,8 +286,8 @@ contains
    end function residual_of
 
    !> Fills the record from the last evaluation, which was at y.
-   pure subroutine describe(model, y, found)
-      type(bearing_model), intent(in) :: model
+   subroutine describe(model, y, found)
+      type(bearing_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)
       type(equilibrium_type), intent(inout) :: found
       type(journal_motion) :: journal

@@ -18,7 +18,7 @@ module arguments
       character(len=longest), allocatable :: overrides(:)
       !> Member of a sweep, and how many at a time; 0 where not given.
       integer :: member = 0, jobs = 0
-      logical :: quiet = .false.
+      logical :: quiet = .false., overwrite = .false.
    end type arguments_type
 
 contains
@@ -51,6 +51,8 @@ contains
             given%task = word(3:)
          case ('--quiet', '-q')
             given%quiet = .true.
+         case ('--overwrite')
+            given%overwrite = .true.
          case ('--output', '-o', '--resume', '--set', '--member', '--jobs')
             if (i == command_argument_count()) then
                call raise(error, input_error, word//': a value must follow; see tiltpad --help')
@@ -114,6 +116,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       if (given%resumed /= '' .and. given%output /= '') then
          call raise(error, input_error, '--resume goes on with its file; --output cannot name another')
+      else if (given%overwrite .and. (given%resumed /= '' .or. given%task /= 'run')) then
+         call raise(error, input_error, '--overwrite: is for runs; not with --resume, --check or --count')
       else if (given%jobs > 0 .and. (given%member > 0 .or. given%task /= 'run')) then
          call raise(error, input_error, '--jobs: is for running all members; not with --member, --check or --count')
       else if (given%task == 'count' .and. given%member > 0) then
@@ -159,6 +163,7 @@ contains
          & '  --output FILE           names the result file; default: the case''s name with .h5, in this folder', &
          & '                          (for a sweep: names the folder of the files 0001.h5, ...; default: the', &
          & '                          case''s name)', &
+         & '  --overwrite             replaces the result of another case, which is refused without it', &
          & '  --resume FILE           continues a run that was stopped or killed, from its last checkpoint;', &
          & '                          with a CASE, starts the run if FILE does not exist', &
          & '  --set group%name=value  overrides one value of the case; may be repeated', &

@@ -7,7 +7,7 @@ module case_run
    use equations_of_motion, only: bearing_model
    use run_file, only: run_file_type
    use run_statistics, only: run_statistics_type
-   use progress, only: wall_clock
+   use clock, only: wall_clock
    implicit none (type, external)
    private
    public :: case_run_type, begin_run
@@ -27,7 +27,7 @@ module case_run
       type(bearing_model) :: model
       !> Simulated time reached, s.
       real(wp) :: reached = 0
-      !> What the integration cost; wall time of sampling and of the checkpoints, s.
+      !> What the integration cost; wall time of sampling without its writing, and of the checkpoints, s.
       type(integrator_counts_type) :: counts
       real(wp) :: sampling = 0, checkpoints = 0
       !> Clock at the start, s, and what the run cost before it was resumed.
@@ -68,9 +68,13 @@ contains
          call statistics%put('film_volumes', films%volumes, 'pads solved on finite volumes in the march')
          call statistics%put('film_passes', films%passes, &
             & 'passes over the cells of these, sweeps of over-relaxation or eliminations, in the march')
-         call statistics%put('film_seconds', films%seconds, 'wall time of the film in the march')
+         call statistics%put('film_table', films%looked_up, 'pads looked up in tables in the march')
+         call statistics%put('film_cells', films%cells, 'cells of these tables that were built')
+         call statistics%put('film_nodes', films%nodes, 'ruptured films that were solved for them')
+         call statistics%put('film_building_seconds', films%building, 'wall time of building these tables')
+         call statistics%put('film_seconds', films%seconds + films%building, 'wall time of the film in the march')
       end associate
-      call statistics%put('output_seconds', self%sampling, 'wall time of sampling')
+      call statistics%put('output_seconds', self%sampling + self%file%table%seconds, 'wall time of sampling')
       call statistics%put('checkpoint_seconds', self%checkpoints, 'wall time of the checkpoints before the last')
       call statistics%put('wall_seconds', wall_clock() - self%started, 'wall time of the run')
       call statistics%add(self%earlier)

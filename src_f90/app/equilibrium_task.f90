@@ -29,7 +29,7 @@ contains
       type(equilibrium_type) :: static
       call run%file%create(run%scene, scene_text(run%scene), error)
       if (allocated(error)) return
-      if (run%tag%number > 0) call run%file%put_member(run%tag%number, run%tag%members, run%tag%sweep)
+      if (run%tag%number > 0) call run%file%put_member(run%tag)
       call find_equilibrium(run%model, static, error, stop_requested)
       if (allocated(error)) then
          if (error%status == stopped) error%message = stop_reason()//' before the march; nothing was computed yet'

@@ -4,31 +4,36 @@ module run_case
    use scene, only: scene_type
    use sweep, only: member_tag
    use equations_of_motion, only: new_bearing_model
-   use restart, only: restart_type, read_restart, refuse_other_scene
+   use restart, only: restart_type, read_result, refuse_other_scene
+   use files, only: is_regular
    use case_run, only: case_run_type, begin_run
    use equilibrium_task, only: run_equilibrium
    use march_task, only: run_march
    use run_summary, only: print_march
    implicit none (type, external)
    private
-   public :: run_scene
+   public :: run_scene, way_out
+
+   !> What can be done where the result of another case is in the way.
+   character(len=*), parameter :: way_out = '; --overwrite replaces it, and --output names another place'
 
 contains
 
    !> Runs a valid scene and writes its result file. On a numerics error the file holds what was computed and is
    !> marked incomplete. With `go_on` a result of the same scene that is there already is completed, from its
-   !> checkpoint. `tag` says which member of a sweep it is, if any.
-   subroutine run_scene(scene, path, tag, go_on, quiet, error)
+   !> checkpoint; else it is replaced. The result of another scene is replaced only with `overwrite`, and what is no
+   !> result never. `tag` says which member of a sweep it is, if any.
+   subroutine run_scene(scene, path, tag, go_on, overwrite, quiet, error)
       type(scene_type), intent(in) :: scene
       character(len=*), intent(in) :: path
       type(member_tag), intent(in) :: tag
-      logical, intent(in) :: go_on, quiet
+      logical, intent(in) :: go_on, overwrite, quiet
       type(error_type), allocatable, intent(out) :: error
       type(case_run_type), target :: run
       logical :: complete
 
       call begin_run(run, scene, path, tag, quiet)
-      call open_file(run, go_on, complete, error)
+      call open_file(run, go_on, overwrite, complete, error)
       if (complete .or. allocated(error)) return
       run%model = new_bearing_model(scene)
       ! every task has a module of its own, and a line here
@@ -44,26 +49,54 @@ contains
    end subroutine run_scene
 
    !> Claims the name of the file, and looks whether there is one to continue, or a complete one.
-   subroutine open_file(run, go_on, complete, error)
+   subroutine open_file(run, go_on, overwrite, complete, error)
       type(case_run_type), intent(inout) :: run
-      logical, intent(in) :: go_on
+      logical, intent(in) :: go_on, overwrite
       logical, intent(out) :: complete
       type(error_type), allocatable, intent(out) :: error
-      type(restart_type) :: found
-      complete = .false.
+      ! before the lock, as a complete file may be in a place that cannot be written
+      call look_at_file(run, go_on, overwrite, complete, error)
+      if (complete .or. allocated(error)) return
       call run%file%claim(run%path, error)
       if (allocated(error)) return
       if (.not. run%quiet .and. run%file%taken_from() /= '') print '(a)', run%path//': ' &
          & //run%file%taken_from()//', which wrote it, has ended'
-      if (go_on) inquire (file=run%path, exist=run%resumed)
-      if (.not. run%resumed) return
-      call read_restart(run%path, found, error)
-      if (.not. allocated(error)) call refuse_other_scene(run%path, run%scene, run%tag, found, error)
-      complete = found%complete
+      ! and behind it, as another run may have written meanwhile
+      call look_at_file(run, go_on, overwrite, complete, error)
       if (allocated(error) .or. complete) call run%file%abandon()
-      if (complete .and. .not. allocated(error) .and. .not. run%quiet) print '(a)', run%path &
-         & //': complete already, nothing to do'
    end subroutine open_file
+
+   !> What is there under the name of the file: a result to continue, `run%resumed`, a complete one, one to replace, or
+   !> an error: something that must stay.
+   subroutine look_at_file(run, go_on, overwrite, complete, error)
+      type(case_run_type), intent(inout) :: run
+      logical, intent(in) :: go_on, overwrite
+      logical, intent(out) :: complete
+      type(error_type), allocatable, intent(out) :: error
+      type(restart_type) :: found
+      complete = .false.
+      run%resumed = .false.
+      if (.not. is_regular(run%path)) return
+      call read_result(run%path, found, error)
+      if (allocated(error)) then
+         if (.not. go_on) error%message = error%message//'; it is not replaced'
+         return
+      end if
+      call refuse_other_scene(run%path, run%scene, run%tag, go_on, found, error)
+      if (allocated(error)) then
+         if (overwrite) then
+            deallocate (error)
+         else if (.not. go_on .or. run%tag%number > 0) then
+            error%message = error%message//way_out
+         end if
+         return
+      end if
+      if (.not. go_on) return
+      call found%refuse_end(run%path, error)
+      complete = found%complete
+      run%resumed = .not. complete
+      if (complete .and. .not. run%quiet) print '(a)', run%path//': complete already, nothing to do'
+   end subroutine look_at_file
 
    !> Closes the file of a run that is done, or that failed with this error.
    subroutine close_file(run, error)

@@ -49,8 +49,10 @@ contains
             & //fixed_text(1e3_wp*loop_area(tilt(i, :), moment(i, :)), 3)//' mJ'
       end do
       print '(a)', 'cost: '//number('steps')//' steps, '//number('rhs_evaluations')//' right-hand sides, ' &
-         & //number('jacobian_evaluations')//' Jacobians, films '//number('film_modal')//' modal and ' &
-         & //number('film_volumes')//' on finite volumes ('//number('film_passes')//' passes over their cells)'
+         & //number('jacobian_evaluations')//' Jacobians, films '//number('film_table')//' from tables (' &
+         & //number('film_cells')//' cells, '//number('film_nodes')//' ruptured nodes), '//number('film_modal') &
+         & //' modal and '//number('film_volumes')//' on finite volumes ('//number('film_passes') &
+         & //' passes over their cells)'
       print '(a)', '  wall time '//duration('wall_seconds')//' s, of which film '//duration('film_seconds') &
          & //' s and samples '//duration('output_seconds')//' s'
    contains

@@ -5,14 +5,15 @@ module run_sweep
    use errors, only: error_type, raise, system_error, stopped
    use scene, only: scene_type
    use sweep, only: sweep_type, member_tag
-   use processes, only: process_id, open_pipe, wait_for_record, ended, stop_process, make_folder, remove_folder
+   use processes, only: open_pipe, wait_for_record, ended, stop_process
    use sweep_child, only: child_type, report_type, read_report, member_runner, pause
    use hdf5_base, only: start_hdf5
    use stop_signals, only: stop_requested, stop_reason
-   use progress, only: progress_type, new_progress, wall_clock
+   use clock, only: wall_clock
+   use progress, only: progress_type, new_progress
    implicit none (type, external)
    private
-   public :: run_members, check_members, prepare_folder
+   public :: run_members, check_members
 
    !> What became of the members so far.
    type :: tally_type
@@ -36,20 +37,6 @@ contains
          if (allocated(error)) return
       end do
    end subroutine check_members
-
-   !> Makes the folder of the members if it is not there, and tries to write into it.
-   subroutine prepare_folder(folder, error)
-      character(len=*), intent(in) :: folder
-      type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: refusal, trial
-      trial = folder//'/.part'//to_text(int(process_id()))
-      call make_folder(folder, refusal)
-      if (refusal == '') then
-         call make_folder(trial, refusal)
-         call remove_folder(trial)
-      end if
-      if (refusal /= '') call raise(error, system_error, 'cannot write into the folder '//folder//': '//refusal)
-   end subroutine prepare_folder
 
    !> Runs all members of a checked sweep into a prepared folder, `jobs` at a time. A failed member stops no other;
    !> a noted signal does: then those that run are sent it, and waited for. `failures` has one error a failed member;

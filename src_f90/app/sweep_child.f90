@@ -2,16 +2,16 @@
 !> cost as much as a short run.
 module sweep_child
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
-   use text, only: to_text
    use errors, only: error_type
    use scene, only: scene_type
    use sweep, only: sweep_type, member_tag
    use processes, only: process_id, record_length, new_process, end_child, end_with_parent, open_pipe, close_pipe, &
       & send_record, receive_record, wait_for_record, ended
+   use sweep_folder, only: member_file
    use stop_signals, only: stop_requested
    implicit none (type, external)
    private
-   public :: child_type, report_type, read_report, member_file, member_runner, pause
+   public :: child_type, report_type, read_report, member_runner, pause
 
    abstract interface
       !> Runs one member to its result file, and prints nothing.
@@ -55,15 +55,6 @@ module sweep_child
    end type child_type
 
 contains
-
-   !> Result file of a member: FOLDER/0001.h5, with as many digits as the last one needs.
-   function member_file(folder, k, members) result(path)
-      character(len=*), intent(in) :: folder
-      integer, intent(in) :: k, members
-      character(len=:), allocatable :: path, digits
-      digits = to_text(k)
-      path = folder//'/'//repeat('0', max(4, len(to_text(members))) - len(digits))//digits//'.h5'
-   end function member_file
 
    !> Orders a child that waits to run the k-th member.
    subroutine order(child, k)

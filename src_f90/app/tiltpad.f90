@@ -16,8 +16,8 @@ program tiltpad
    use stop_signals, only: catch_signals, ignore_file_limit
    use arguments, only: arguments_type, read_arguments, print_help
    use run_case, only: run_scene
-   use sweep_child, only: member_file
-   use run_sweep, only: run_members, check_members, prepare_folder
+   use sweep_folder, only: member_file, prepare_folder, check_folder, check_neighbours
+   use run_sweep, only: run_members, check_members
    implicit none (type, external)
 
    interface
@@ -67,7 +67,7 @@ contains
       if (given%task == 'check') then
          call put(scene_text(found%scene), error)
       else
-         call run_scene(found%scene, given%resumed, none, .true., given%quiet, error)
+         call run_scene(found%scene, given%resumed, none, .true., .false., given%quiet, error)
       end if
    end subroutine resume_run
 
@@ -108,18 +108,40 @@ contains
          call choose_output(given, sweep%given, output, error)
       end select
       if (allocated(error)) return
+      if (sweep%given) then
+         call mark_sweep(sweep)
+         call prepare_folder(output, error)
+         if (allocated(error)) return
+      end if
       if (all_members) then
-         call run_sweep_members(sweep, output, given%jobs, given%quiet, error)
+         call check_folder(sweep, output, given%overwrite, error)
+         if (.not. allocated(error)) call run_sweep_members(sweep, output, given%jobs, given%quiet, error)
          return
       end if
       if (sweep%given) then
          call sweep%tag(given%member, tag)
-         call prepare_folder(output, error)
+         if (.not. given%overwrite) call check_neighbours(sweep, output, given%member, error)
          output = member_file(output, given%member, sweep%members)
       end if
       if (.not. allocated(error)) call run_scene(scene, output, tag, sweep%given .or. given%resumed /= '', &
-         & given%quiet, error)
+         & given%overwrite, given%quiet, error)
    end subroutine treat_case
+
+   !> The checksums of a sweep are those of its first member's case and of the members' values.
+   subroutine mark_sweep(sweep)
+      type(sweep_type), intent(inout) :: sweep
+      type(scene_type) :: first
+      type(error_type), allocatable :: error
+      call sweep%scene(1, first, error)
+      ! only the time between checkpoints may differ
+      first%output%checkpoint_seconds = 0
+      if (allocated(error)) then
+         ! others may be good, and run by --member
+         call sweep%mark('')
+      else
+         call sweep%mark(scene_text(first))
+      end if
+   end subroutine mark_sweep
 
    !> Refuses options that the case is not for.
    subroutine check_use(given, sweep, error)
@@ -166,8 +188,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: failures(:)
       integer :: i
-      call prepare_folder(folder, error)
-      if (allocated(error)) return
       call run_members(sweep, folder, merge(jobs, processors(), jobs > 0), quiet, run_member, failures, error)
       do i = 1, size(failures)
          call complain(failures(i))
@@ -180,7 +200,7 @@ contains
       character(len=*), intent(in) :: path
       type(member_tag), intent(in) :: tag
       type(error_type), allocatable, intent(out) :: error
-      call run_scene(scene, path, tag, .true., .true., error)
+      call run_scene(scene, path, tag, .true., given%overwrite, .true., error)
    end subroutine run_member
 
    !> An error's line.

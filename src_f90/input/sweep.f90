@@ -1,7 +1,7 @@
 !> Sweeps: in a case with the group &sweep variables have several values; the case means many scenes, its members.
 module sweep
    use kinds, only: i8
-   use text, only: to_text, lower_case
+   use text, only: to_text, lower_case, checksum
    use errors, only: error_type, raise, input_error
    use scene, only: scene_type
    use assignments, only: namelist_type, assignment_type, put_assignment, undoes, assignment_text, target_text, &
@@ -31,6 +31,11 @@ module sweep
       integer :: number = 0, members = 0
       !> A line for each swept variable: "operation%speed_rpm = 1500".
       character(len=:), allocatable :: sweep
+      !> Checksums of the sweep: of its members before this one, up to this one, and of all, separated by blanks. A
+      !> sweep that has grown keeps those of its former members. Empty where they are not known.
+      character(len=:), allocatable :: marks
+   contains
+      procedure :: same_up_to
    end type member_tag
 
    type :: sweep_type
@@ -40,7 +45,10 @@ module sweep
       type(namelist_type), private :: base
       logical, private :: zip = .false.
       type(variable_type), allocatable, private :: variables(:)
+      !> Checksums of the base and of the members up to the k-th, k = 0, ..., members.
+      integer(i8), allocatable, private :: marks(:)
    contains
+      procedure :: mark
       procedure :: scene => member_scene
       procedure :: tag
       procedure :: resolved
@@ -187,6 +195,35 @@ contains
       call scene_from_namelist(parsed, scene, error)
    end subroutine member_scene
 
+   !> Calculates the checksums that tags then have. `base` is a text of what all members have in common.
+   subroutine mark(self, base)
+      class(sweep_type), intent(inout) :: self
+      character(len=*), intent(in) :: base
+      integer(i8) :: marks(0:self%members)
+      type(member_tag) :: found
+      integer :: k
+      marks(0) = checksum(base, 0_i8)
+      do k = 1, self%members
+         call self%tag(k, found)
+         marks(k) = checksum(found%sweep//newline, marks(k - 1))
+      end do
+      allocate (self%marks(0:self%members), source=marks)
+   end subroutine mark
+
+   !> True where two tags of one number are of sweeps that have the same members up to it, or where that is not known.
+   pure logical function same_up_to(self, other)
+      class(member_tag), intent(in) :: self, other
+      same_up_to = self%marks == '' .or. other%marks == ''
+      if (.not. same_up_to) same_up_to = up_to(self%marks) == up_to(other%marks)
+   contains
+      !> All but the last checksum.
+      pure function up_to(marks)
+         character(len=*), intent(in) :: marks
+         character(len=:), allocatable :: up_to
+         up_to = marks(:index(marks, ' ', back=.true.))
+      end function up_to
+   end function same_up_to
+
    !> Number and values of the k-th member.
    subroutine tag(self, k, found)
       class(sweep_type), intent(in) :: self
@@ -202,6 +239,9 @@ contains
          call self%member_value(i, k, a)
          found%sweep = found%sweep//target_text(a)//' = '//value_text(a%values(1))
       end do
+      found%marks = ''
+      if (allocated(self%marks)) found%marks = to_text(self%marks(k - 1))//' '//to_text(self%marks(k))//' ' &
+         & //to_text(self%marks(self%members))
    end subroutine tag
 
    !> The case with every default, followed by the sweep, as namelist text. A swept variable has the first member's

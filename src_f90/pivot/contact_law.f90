@@ -7,7 +7,7 @@ module contact_law
    use kinds, only: wp, pi
    implicit none (type, external)
    private
-   public :: contact_law_type, contact_point, new_contact_law
+   public :: contact_law_type, contact_point, make_contact_law
 
    !> State of the contact at one penetration.
    type :: contact_point
@@ -71,9 +71,10 @@ module contact_law
 
 contains
 
-   !> The law called `name` ('fang' or 'hertz'; hertz needs dR > 0).
-   function new_contact_law(name, socket_radius, radius_difference, young_modulus, &
-      & poisson_ratio, penetration_factor) result(law)
+   !> The law called `name` ('fang' or 'hertz'; hertz needs dR > 0). No function: gfortran never frees the result of one
+   !> whose type is chosen within.
+   subroutine make_contact_law(name, socket_radius, radius_difference, young_modulus, &
+      & poisson_ratio, penetration_factor, law)
       character(len=*), intent(in) :: name
       !> R2 and dR, m.
       real(wp), intent(in) :: socket_radius, radius_difference
@@ -81,7 +82,7 @@ contains
       real(wp), intent(in) :: young_modulus(2), poisson_ratio(2)
       !> Factor of eq (13).
       real(wp), intent(in) :: penetration_factor
-      class(contact_law_type), allocatable :: law
+      class(contact_law_type), allocatable, intent(out) :: law
       real(wp) :: compliance
       compliance = sum((1 - poisson_ratio**2)/(pi*young_modulus))
       if (name == 'hertz') then
@@ -91,7 +92,7 @@ contains
       else
          law = snug_law(socket_radius, radius_difference, compliance, penetration_factor)
       end if
-   end function new_contact_law
+   end subroutine make_contact_law
 
    pure function hertz_at(self, penetration) result(point)
       class(hertz_law), intent(in) :: self

@@ -1,4 +1,4 @@
-!> What a run reads in a result file before it continues it.
+!> What a run reads in a result file before it continues or replaces it.
 module restart
    use text, only: to_text, on_one_line
    use errors, only: error_type, raise, add_context, system_error, numerics_error
@@ -13,7 +13,7 @@ module restart
    use files, only: is_regular
    implicit none (type, external)
    private
-   public :: restart_type, read_restart, refuse_other_scene
+   public :: restart_type, read_restart, read_result, refuse_other_scene
 
    type :: restart_type
       !> Resolved namelist of the run.
@@ -22,33 +22,49 @@ module restart
       type(member_tag) :: tag
       !> True where nothing is left to do.
       logical :: complete = .false.
+      !> How the run ended, and whether there is a checkpoint.
+      integer, private :: status = 0
+      character(len=:), allocatable, private :: reason
+      logical, private :: checkpoint = .false.
+   contains
+      procedure :: refuse_end
    end type restart_type
 
    character(len=*), parameter :: newline = achar(10)
 
 contains
 
-   !> Reads a result file. It is refused with one line if it is no result, damaged, of a later format, without a
-   !> checkpoint, or (a numerics error) if the numerics of its run failed: they would fail again.
+   !> Reads a result file that is to be continued. It is refused with one line if it is no result, damaged, of another
+   !> format, without a checkpoint, or (a numerics error) if the numerics of its run failed: they would fail again.
    subroutine read_restart(path, found, error)
       character(len=*), intent(in) :: path
       type(restart_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
+      call read_result(path, found, error)
+      if (.not. allocated(error)) call found%refuse_end(path, error)
+   end subroutine read_restart
+
+   !> Reads a result file, however its run ended.
+   subroutine read_result(path, found, error)
+      character(len=*), intent(in) :: path
+      type(restart_type), intent(out) :: found
+      type(error_type), allocatable, intent(out) :: error
       type(hdf5_type) :: file
-      character(len=:), allocatable :: input, reason
-      integer :: complete, status
-      logical :: checkpoint
+      character(len=:), allocatable :: input
+      integer :: complete
       call open_result(path, file, error)
       if (allocated(error)) return
       call file%get_flag('complete', complete)
       call file%get_text('input', input)
-      checkpoint = file%has('checkpoint/state')
-      status = 0
-      if (file%has_attribute('exit_status')) call file%get_flag('exit_status', status)
-      if (status /= 0) call file%get_text('reason', reason)
+      found%checkpoint = file%has('checkpoint/state')
+      found%reason = ''
+      if (file%has_attribute('exit_status')) call file%get_flag('exit_status', found%status)
+      if (found%status /= 0) call file%get_text('reason', found%reason)
       if (file%has_attribute('member')) then
          call file%get_flag('member', found%tag%number)
          call file%get_text('sweep', found%tag%sweep)
+         found%tag%marks = ''
+         if (file%has_attribute('sweep_marks')) call file%get_text('sweep_marks', found%tag%marks)
       end if
       if (allocated(file%failure)) call raise(error, system_error, path//': damaged: '//file%failure)
       call file%close()
@@ -57,16 +73,22 @@ contains
       if (allocated(error)) then
          error%status = system_error
          call add_context(error, path//': its input cannot be read')
-         return
       end if
       found%complete = complete == 1
-      if (found%complete) return
-      if (status == numerics_error) then
-         call raise(error, numerics_error, path//': there is nothing to go on with; '//reason)
-      else if (.not. checkpoint) then
+   end subroutine read_result
+
+   !> Refuses to continue a run that cannot be continued.
+   subroutine refuse_end(self, path, error)
+      class(restart_type), intent(in) :: self
+      character(len=*), intent(in) :: path
+      type(error_type), allocatable, intent(out) :: error
+      if (self%complete) return
+      if (self%status == numerics_error) then
+         call raise(error, numerics_error, path//': there is nothing to go on with; '//self%reason)
+      else if (.not. self%checkpoint) then
          call raise(error, system_error, path//': holds no checkpoint to go on from')
       end if
-   end subroutine read_restart
+   end subroutine refuse_end
 
    !> Opens the file for reading if it is a result that this program knows.
    subroutine open_result(path, file, error)
@@ -96,8 +118,13 @@ contains
          call raise(error, system_error, path//': not a result of tiltpad')
       else
          call file%get_flag('format_version', version)
-         if (version > format_version) call raise(error, system_error, path &
-            & //': written by a later version of tiltpad; update the program')
+         if (version > format_version) then
+            call raise(error, system_error, path//': format_version '//to_text(version) &
+               & //', written by a later version of tiltpad; update the program')
+         else if (version < 1 .and. .not. allocated(file%failure)) then
+            call raise(error, system_error, path//': format_version '//to_text(version) &
+               & //' is unknown; versions 1 to '//to_text(format_version)//' can be read')
+         end if
       end if
       if (.not. allocated(error) .and. allocated(file%failure)) call raise(error, system_error, path//': damaged: ' &
          & //file%failure)
@@ -105,11 +132,13 @@ contains
    end subroutine open_result
 
    !> Refuses a scene that is not that of the file, and names the variable. Only the time between checkpoints may
-   !> differ. A member of a sweep must have been this one also; the sweep may have grown.
-   subroutine refuse_other_scene(path, ours, tag, found, error)
+   !> differ. A member of a sweep must have been this one also; the sweep may have grown. What is no member may be
+   !> the same run continued, `go_on`, but replaces no member.
+   subroutine refuse_other_scene(path, ours, tag, go_on, found, error)
       character(len=*), intent(in) :: path
       type(scene_type), intent(in) :: ours
       type(member_tag), intent(in) :: tag
+      logical, intent(in) :: go_on
       type(restart_type), intent(in) :: found
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: left, right, left_line, right_line, group
@@ -126,8 +155,10 @@ contains
             & //trim(adjustl(right_line))//' there, '//value_of(left_line)//' here')
          return
       end do
-      if (tag%number == 0) return
-      if (found%tag%number == 0) then
+      if (tag%number == 0) then
+         if (found%tag%number > 0 .and. .not. go_on) call raise(error, system_error, path//': is member ' &
+            & //to_text(found%tag%number)//' of a sweep')
+      else if (found%tag%number == 0) then
          call raise(error, system_error, path//': is the result of the same case, but no member of a sweep')
       else if (found%tag%number /= tag%number .or. found%tag%sweep /= tag%sweep) then
          call raise(error, system_error, path//': is member '//to_text(found%tag%number)//' of another sweep; ' &

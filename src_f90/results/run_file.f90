@@ -4,6 +4,7 @@ module run_file
    use kinds, only: wp, degree
    use errors, only: error_type, raise, system_error
    use scene, only: scene_type
+   use sweep, only: member_tag
    use growing_file, only: growing_file_type
    use file_format, only: format_version, upgrade
    use provenance, only: provenance_type, running
@@ -31,7 +32,11 @@ contains
       type(scene_type), intent(in) :: scene
       type(error_type), allocatable, intent(out) :: error
       integer :: i
-      call self%begin()
+      call self%begin(error)
+      if (allocated(error)) then
+         call self%abandon()
+         return
+      end if
       call self%provenance%begin(self%file)
       associate (file => self%file)
          call file%put_flag('complete', 0)
@@ -71,14 +76,14 @@ contains
       if (allocated(error)) call self%abandon()
    end subroutine resume
 
-   !> The run is a member of a sweep: its number, how many there are, and what is its own, a line each.
-   subroutine put_member(self, number, members, sweep)
+   !> Notes which member of a sweep the run is.
+   subroutine put_member(self, tag)
       class(run_file_type), intent(inout) :: self
-      integer, intent(in) :: number, members
-      character(len=*), intent(in) :: sweep
-      call self%file%put_flag('member', number)
-      call self%file%put_flag('members', members)
-      call self%file%put_text('sweep', sweep)
+      type(member_tag), intent(in) :: tag
+      call self%file%put_flag('member', tag%number)
+      call self%file%put_flag('members', tag%members)
+      call self%file%put_text('sweep', tag%sweep)
+      call self%file%put_text('sweep_marks', tag%marks)
    end subroutine put_member
 
    !> Publishes what there is, with the state y at time t, s, from which the run can continue. With an exit status

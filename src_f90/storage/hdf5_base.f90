@@ -1,18 +1,24 @@
 !> An HDF5 file: opening, groups, root attributes. After a failure every routine does nothing; `failure` says what
-!> failed first.
+!> failed first. No other file is opened on behalf of one: links out of it are not followed, and datasets whose values
+!> lie elsewhere are refused.
 module hdf5_base
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_loc, c_null_char, c_null_ptr, c_ptr
-   use hdf5, only: hid_t, h5open_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fopen_f, h5fclose_f, &
-      & h5f_acc_trunc_f, h5f_acc_rdonly_f, h5f_acc_rdwr_f, h5gcreate_f, h5gclose_f, h5screate_f, h5sclose_f, &
-      & h5s_scalar_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, h5tis_variable_str_f, h5t_string, h5t_cset_utf8_f, &
-      & h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, h5aget_type_f, h5adelete_f, h5aexists_f, &
-      & h5lexists_f, h5ldelete_f, h5lmove_f, h5t_native_integer
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_loc, c_null_char, c_null_ptr, c_ptr
+   use hdf5, only: hid_t, hsize_t, size_t, h5open_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fopen_f, &
+      & h5fclose_f, h5f_acc_trunc_f, h5f_acc_rdonly_f, h5f_acc_rdwr_f, h5gcreate_f, h5gclose_f, h5screate_f, &
+      & h5sclose_f, h5s_scalar_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, h5tis_variable_str_f, h5tget_super_f, &
+      & h5tget_size_f, h5t_string, h5t_cset_utf8_f, h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, &
+      & h5aget_type_f, h5adelete_f, h5aexists_f, h5aget_space_f, h5sget_simple_extent_npoints_f, h5lexists_f, &
+      & h5ldelete_f, h5lmove_f, h5t_native_integer, h5dopen_f, h5dclose_f, h5dget_create_plist_f, h5pget_layout_f, &
+      & h5pget_external_count_f, h5pclose_f, h5d_virtual_f, h5p_default_f
    use c_strings, only: fortran_text
    use processes, only: set_environment
    use system_errors, only: write_refusal
    implicit none (type, external)
    private
    public :: hdf5_base_type, start_hdf5
+
+   !> HDF5's number of the class of links to other files.
+   integer(c_int), parameter :: external_links = 64
 
    type :: hdf5_base_type
       !> HDF5's number of the open file; negative where none is open.
@@ -42,10 +48,17 @@ module hdf5_base
       procedure :: check
       procedure :: check_read
       procedure :: write_attribute
+      procedure :: open_dataset
+      procedure, private :: open_attribute
       procedure, private :: begin
    end type hdf5_base_type
 
    interface
+      integer(c_int) function c_unregister_links(class) bind(c, name='H5Lunregister')
+         import :: c_int
+         integer(c_int), value :: class
+      end function c_unregister_links
+
       subroutine c_free(memory) bind(c, name='free')
          import :: c_ptr
          type(c_ptr), value :: memory
@@ -58,6 +71,7 @@ contains
    !> time.
    subroutine start_hdf5()
       integer :: status
+      integer(c_int) :: ignored
       ! HDF5's own locks are for readers in the middle of a write; many file systems know none
       call set_environment('HDF5_USE_FILE_LOCKING', 'BEST_EFFORT')
       ! what is open is closed here; at exit HDF5 would crash over a file it could not write
@@ -65,6 +79,8 @@ contains
       call h5open_f(status)
       ! HDF5 would print its own stack of errors
       call h5eset_auto_f(0, status)
+      ! a link to another file is an error from now on; the second time there is no such class any more
+      ignored = c_unregister_links(external_links)
    end subroutine start_hdf5
 
    subroutine begin(self)
@@ -110,8 +126,10 @@ contains
       slash = index(path, '/')
       has = .not. allocated(self%failure)
       ! HDF5 wants to be asked for the group first
+      status = 0
       if (has .and. slash > 0) call h5lexists_f(self%id, path(:slash - 1), has, status)
-      if (has) call h5lexists_f(self%id, path, has, status)
+      if (has .and. status >= 0) call h5lexists_f(self%id, path, has, status)
+      has = has .and. status >= 0
    end function has
 
    logical function has_attribute(self, name) result(has)
@@ -167,17 +185,22 @@ contains
       character(len=:), allocatable, intent(out) :: text
       type(c_ptr), target :: pointer(1)
       type(c_ptr) :: buffer
-      integer(hid_t) :: attribute, kind
+      integer(hid_t) :: attribute, kind, letter
+      integer(size_t) :: bytes
       integer :: status
       logical :: variable
       text = ''
       if (allocated(self%failure)) return
-      call h5aopen_f(self%id, name, attribute, status)
-      call self%check_read(status, 'find attribute '//name)
+      call self%open_attribute(name, attribute, status)
       if (status < 0) return
       call h5aget_type_f(attribute, kind, status)
       call h5tis_variable_str_f(kind, variable, status)
-      if (status >= 0 .and. .not. variable) status = -1
+      ! a damaged type may claim letters of any size, and HDF5 would take memory for them
+      bytes = 0
+      if (status >= 0 .and. variable) call h5tget_super_f(kind, letter, status)
+      if (status >= 0 .and. variable) call h5tget_size_f(letter, bytes, status)
+      if (status >= 0 .and. variable) call h5tclose_f(letter, status)
+      if (bytes /= 1) status = -1
       pointer(1) = c_null_ptr
       buffer = c_loc(pointer)
       if (status >= 0) call h5aread_f(attribute, kind, buffer, status)
@@ -223,16 +246,61 @@ contains
       if (allocated(self%failure)) return
       buffer = 0
       pointer = c_loc(buffer)
-      call h5aopen_f(self%id, name, attribute, status)
-      if (status >= 0) then
-         call h5aread_f(attribute, h5t_native_integer, pointer, status)
-         call self%check_read(status, 'read attribute '//name)
-         call h5aclose_f(attribute, status)
-      else
-         call self%check_read(status, 'find attribute '//name)
-      end if
+      call self%open_attribute(name, attribute, status)
+      if (status < 0) return
+      call h5aread_f(attribute, h5t_native_integer, pointer, status)
+      call self%check_read(status, 'read attribute '//name)
+      call h5aclose_f(attribute, status)
       value = buffer
    end subroutine get_flag
+
+   !> Opens a root attribute of one value; a failure, and a negative status, where there is none.
+   subroutine open_attribute(self, name, attribute, status)
+      class(hdf5_base_type), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      integer(hid_t), intent(out) :: attribute
+      integer, intent(out) :: status
+      integer(hid_t) :: space
+      integer(hsize_t) :: values
+      integer :: ignored
+      call h5aopen_f(self%id, name, attribute, status)
+      call self%check_read(status, 'find attribute '//name)
+      if (status < 0) return
+      call h5aget_space_f(attribute, space, status)
+      call h5sget_simple_extent_npoints_f(space, values, status)
+      call h5sclose_f(space, ignored)
+      if (status >= 0 .and. values == 1) return
+      status = -1
+      call self%check_read(status, 'find one value in attribute '//name)
+      call h5aclose_f(attribute, ignored)
+   end subroutine open_attribute
+
+   !> Opens a dataset whose values are in this file; a failure, and a negative status, where there is none.
+   subroutine open_dataset(self, path, dataset, status, access)
+      class(hdf5_base_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      integer(hid_t), intent(out) :: dataset
+      integer, intent(out) :: status
+      !> How it is accessed, HDF5's list of properties.
+      integer(hid_t), intent(in), optional :: access
+      integer(hid_t) :: creation, chosen
+      integer :: layout, files, ignored
+      chosen = h5p_default_f
+      if (present(access)) chosen = access
+      call h5dopen_f(self%id, path, dataset, status, chosen)
+      call self%check_read(status, 'open '//path)
+      if (status < 0) return
+      call h5dget_create_plist_f(dataset, creation, status)
+      call h5pget_layout_f(creation, layout, status)
+      if (status >= 0) call h5pget_external_count_f(creation, files, status)
+      call h5pclose_f(creation, ignored)
+      if (status >= 0) then
+         if (layout /= h5d_virtual_f .and. files == 0) return
+         status = -1
+      end if
+      call self%check_read(status, 'take the values of '//path//', which are in other files')
+      call h5dclose_f(dataset, ignored)
+   end subroutine open_dataset
 
    subroutine write_attribute(self, object, name, text)
       class(hdf5_base_type), intent(inout) :: self

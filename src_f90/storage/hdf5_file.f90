@@ -92,8 +92,7 @@ contains
       integer(hid_t) :: space
       integer :: status
       if (self%has(path)) then
-         call h5dopen_f(self%id, path, dataset, status)
-         call self%check_read(status, 'open '//path)
+         call self%open_dataset(path, dataset, status)
          return
       end if
       if (size(dims) == 0) then
@@ -157,9 +156,9 @@ contains
       integer(hsize_t) :: points
       integer :: status
       if (allocated(self%failure)) return
-      status = -1
-      if (self%has(path)) call h5dopen_f(self%id, path, dataset, status)
-      call self%check_read(status, 'open '//path)
+      if (.not. self%has(path)) call self%check_read(-1, 'find '//path)
+      if (allocated(self%failure)) return
+      call self%open_dataset(path, dataset, status)
       if (status < 0) return
       call self%expect_type(dataset, kind, path)
       call h5dget_space_f(dataset, space, status)

@@ -10,14 +10,14 @@ module hdf5_trial
    private
    public :: can_be_read
 
-   !> Seconds after which the reading is given up.
-   integer, parameter :: patience = 60
+   !> Seconds of time, and of the processor's time, after which the reading is given up, and megabytes that it may take.
+   integer, parameter :: patience = 60, work = 3, room = 300
    integer, parameter :: longest_name = 200
 
 contains
 
-   !> False where reading all of the file's structure, and the end of each dataset, crashes or takes too long. It does
-   !> not look for what is missing or wrong in the file.
+   !> False where reading all of the file's structure, its texts, and the end of each dataset fails, crashes or takes
+   !> too long. What is missing, or refused before it is read, will be told when it is needed.
    logical function can_be_read(path)
       character(len=*), intent(in) :: path
       character(len=:), allocatable :: how
@@ -27,7 +27,7 @@ contains
       if (child < 0) return
       if (child == 0) then
          ! the library and the runtime would report the crash
-         call limit_child(patience)
+         call limit_child(patience, work, room)
          call read_all(path)
          call end_child(0)
       end if
@@ -37,14 +37,19 @@ contains
    subroutine read_all(path)
       character(len=*), intent(in) :: path
       type(hdf5_type) :: file
-      character(len=*), parameter :: texts(*) = [character(len=7) :: 'program', 'input', 'reason', 'history']
+      character(len=*), parameter :: texts(*) = [character(len=11) :: 'program', 'input', 'reason', 'history', &
+         & 'sweep', 'sweep_marks']
       character(len=:), allocatable :: text
       integer :: i
       call file%open(path, writing=.false.)
       if (file%id < 0) return
+      text = ''
       do i = 1, size(texts)
          if (file%has_attribute(trim(texts(i)))) call file%get_text(trim(texts(i)), text)
+         ! the texts of others, who will be told, are not read
+         if (i == 1 .and. text /= 'tiltpad') exit
       end do
+      if (allocated(file%failure)) call end_child(1)
       call read_group(file, '/')
       call file%close()
    end subroutine read_all
@@ -67,10 +72,13 @@ contains
             if (group == '/') call read_group(file, path//'/')
          else
             call data%open(file, path)
-            if (data%length > 0) call data%read(file, data%length - 1, 1, values)
+            if (allocated(file%failure)) then
+               deallocate (file%failure)
+            else
+               if (data%length > 0) call data%read(file, data%length - 1, 1, values)
+               if (allocated(file%failure)) call end_child(1)
+            end if
             call data%close(file)
-            ! what is wrong will be told when it is needed
-            if (allocated(file%failure)) deallocate (file%failure)
          end if
       end do
    end subroutine read_group

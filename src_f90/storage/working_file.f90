@@ -4,24 +4,39 @@
 !> A growing file is published again and again without copying all of it each time: there are two of them, and while
 !> one bears the name, the other, NAME.part, is written. Publishing exchanges their names; the part then lacks only the
 !> last stretch.
+!>
+!> Only files that this program has made are written, renamed or deleted. The lock file keeps their identities, so that
+!> the next run recognises the part of a run that was killed. If NAME.part is something else, it is left alone, and the
+!> part is NAME.part2, and so on.
 module working_file
+   use text, only: to_text
    use errors, only: error_type, raise, system_error
-   use files, only: rename_file, link_file, delete_file, copy_file, sync_file, begin_sync, real_path, is_regular
+   use files, only: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync, &
+      & real_path, is_regular, file_identity
    use system_errors, only: system_reason
    use file_lock, only: file_lock_type
    implicit none (type, external)
    private
    public :: working_file_type
 
+   !> Names tried for the part.
+   integer, parameter :: most_parts = 99
+   !> Stands in the lock for the identity of a part that is about to be made.
+   character(len=*), parameter :: about_to_be = '0'
+
    type :: working_file_type
       !> Name of the file, links followed, and the name under which it is written.
       character(len=:), allocatable :: path, part
+      !> Identities of the two; empty where there is none.
+      character(len=:), allocatable, private :: there, made
       !> True once this run has published; true where the part could not be renamed and is kept.
       logical :: published = .false., stranded = .false.
       type(file_lock_type) :: lock
    contains
       !> Locks the name; no other run writes under it until `release`.
       procedure :: claim
+      !> Makes the part, an empty file of this run's.
+      procedure :: make_part
       !> Makes the part a copy of the published file.
       procedure :: copy_published
       procedure :: publish
@@ -29,6 +44,8 @@ module working_file
       procedure :: begin_sync => begin_part
       !> Deletes the part; frees the lock.
       procedure :: release
+      procedure, private :: choose_part
+      procedure, private :: delete_part
    end type working_file_type
 
 contains
@@ -40,7 +57,6 @@ contains
       logical :: exists
       ! a link is followed, so that its target is replaced and not the link
       self%path = real_path(path)
-      self%part = self%path//'.part'
       inquire (file=self%path//'/.', exist=exists)
       if (.not. exists) inquire (file=self%path, exist=exists)
       if (exists) exists = .not. is_regular(self%path)
@@ -49,13 +65,61 @@ contains
          return
       end if
       call self%lock%acquire(self%path, error)
+      if (allocated(error)) return
+      call self%choose_part()
+      self%there = file_identity(self%path)
    end subroutine claim
 
+   !> The first name of a part that is free, once the parts of a dead run are deleted.
+   subroutine choose_part(self)
+      class(working_file_type), intent(inout) :: self
+      character(len=:), allocatable :: found
+      logical :: left
+      integer :: k, length
+      self%made = ''
+      do k = 1, most_parts
+         self%part = self%path//'.part'
+         if (k > 1) self%part = self%part//to_text(k)
+         found = file_identity(self%part)
+         if (found == '') return
+         left = among(found, self%lock%files_left)
+         inquire (file=self%part, size=length)
+         if (length == 0 .and. found /= '-') left = left .or. among(about_to_be, self%lock%files_left)
+         if (.not. left) cycle
+         call delete_file(self%part)
+         return
+      end do
+   end subroutine choose_part
+
+   !> True where a list, separated by blanks, has this word.
+   pure logical function among(word, list)
+      character(len=*), intent(in) :: word, list
+      among = index(' '//list//' ', ' '//word//' ') > 0
+   end function among
+
+   subroutine make_part(self, error)
+      class(working_file_type), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: published
+      ! what this run has published becomes the part when the names are exchanged
+      published = ''
+      if (self%published) published = ' '//self%there
+      call self%lock%note_files(about_to_be//published)
+      if (create_file(self%part)) then
+         self%made = file_identity(self%part)
+         call self%lock%note_files(self%made//published)
+      else
+         call raise(error, system_error, 'cannot write '//self%part//': '//system_reason())
+      end if
+   end subroutine make_part
+
    subroutine copy_published(self, error)
-      class(working_file_type), intent(in) :: self
+      class(working_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
       ! a new file under the name: a reader may still have the old one open
-      call delete_file(self%part)
+      call self%delete_part()
+      call self%make_part(error)
+      if (allocated(error)) return
       if (.not. copy_file(self%path, self%part)) call raise(error, system_error, &
          & 'cannot write '//self%part//': '//system_reason())
    end subroutine copy_published
@@ -66,31 +130,39 @@ contains
       class(working_file_type), intent(inout) :: self
       logical, intent(out) :: exchanged
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: spare
+      character(len=:), allocatable :: found, made
       logical :: ok
       exchanged = .false.
       if (.not. self%lock%is_ours()) then
          call raise(error, system_error, 'cannot write '//self%path &
             & //': its lock is gone, to another run or with its folder')
-         return
-      end if
-      spare = self%path//'.old'
-      ok = sync_file(self%part)
-      if (ok .and. self%published) then
-         call delete_file(spare)
-         exchanged = link_file(self%path, spare)
-      end if
-      if (.not. ok) then
+      else if (file_identity(self%part) /= self%made) then
+         call raise(error, system_error, 'cannot write '//self%path//': '//self%part &
+            & //' was removed or replaced by something else')
+      else if (.not. sync_file(self%part)) then
          call raise(error, system_error, 'cannot write '//self%path//': '//system_reason())
+      end if
+      if (allocated(error)) return
+      found = file_identity(self%path)
+      if (found /= '' .and. found /= self%there) then
+         self%stranded = .true.
+         call raise(error, system_error, 'cannot rename '//self%part//', which is whole, to '//self%path &
+            & //': something else has been put there')
          return
       end if
-      if (.not. rename_file(self%part, self%path)) then
+      made = self%made
+      if (self%published) exchanged = exchange_files(self%part, self%path)
+      if (exchanged) then
+         self%made = self%there
+      else if (rename_file(self%part, self%path)) then
+         self%made = ''
+      else
          self%stranded = .true.
          call raise(error, system_error, 'cannot rename '//self%part//', which is whole, to '//self%path//': ' &
             & //system_reason())
          return
       end if
-      if (exchanged) exchanged = rename_file(spare, self%part)
+      self%there = made
       self%published = .true.
       ! the renaming itself; where a file system cannot, nothing is lost that could be kept
       ok = sync_file(self%path(:index(self%path, '/', back=.true.))//'.')
@@ -101,15 +173,20 @@ contains
       call begin_sync(self%part)
    end subroutine begin_part
 
+   !> Deletes the part if it is the one that this run has made.
+   subroutine delete_part(self)
+      class(working_file_type), intent(inout) :: self
+      if (self%made == '') return
+      if (file_identity(self%part) == self%made) call delete_file(self%part)
+      self%made = ''
+   end subroutine delete_part
+
    subroutine release(self)
       class(working_file_type), intent(inout) :: self
-      ! without the lock they may be another's
-      if (.not. self%lock%is_ours()) then
-         call self%lock%release()
-         return
+      ! without the lock it may be another's
+      if (.not. self%stranded) then
+         if (self%lock%is_ours()) call self%delete_part()
       end if
-      if (.not. self%stranded) call delete_file(self%part)
-      call delete_file(self%path//'.old')
       call self%lock%release()
    end subroutine release
 end module working_file

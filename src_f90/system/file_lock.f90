@@ -1,9 +1,12 @@
 !> A lock that keeps a second writer off a file: a file NAME.lock beside it that is locked (fcntl) and says who
-!> holds it: "host process beats".
+!> holds it: "host process beats", and the identities of the files that the holder has made beside it.
 !>
 !> The system frees the lock of a process that ended, however it ended. Whether locks reach across machines depends
 !> on the file system (NFS 4: yes; Lustre, BeeGFS: as mounted; some: not at all). A holder therefore counts beats in
 !> the file while it runs; if the beats of one on another machine stand still, it is taken for dead.
+!>
+!> Only a lock file is opened for writing or deleted: an ordinary file with one name that says the above, or nothing,
+!> as the fall of a machine can leave it.
 module file_lock
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
    use text, only: to_text
@@ -20,8 +23,8 @@ module file_lock
    integer, parameter :: beat_seconds = 10
    !> Characters of a lock file.
    integer, parameter :: longest = 300
-   !> What an attempt found.
-   integer, parameter :: free = 0, held = 1, unknown = 2, failed = 3
+   !> What an attempt found; `foreign`: something else has the name of the lock file.
+   integer, parameter :: free = 0, held = 1, unknown = 2, failed = 3, foreign = 4
 
    type :: file_lock_type
       private
@@ -34,8 +37,13 @@ module file_lock
       integer, public :: watch_free = 3*beat_seconds, watch_held = 120
       !> The dead process whose lock was taken, "process 12 on node1"; empty where there was none.
       character(len=:), allocatable, public :: taken_from
+      !> Identities of the files that the dead process had made and not deleted, separated by blanks.
+      character(len=:), allocatable, public :: files_left
+      character(len=:), allocatable :: files
    contains
       procedure :: acquire
+      !> Notes the identities of the files that the holder has made, separated by blanks.
+      procedure :: note_files
       !> Shows that the holder lives; to be called often.
       procedure :: beat
       procedure :: release
@@ -58,15 +66,16 @@ module file_lock
          integer(c_int), value :: descriptor
       end function c_try_lock
 
-      integer(c_int) function c_has_name(descriptor) bind(c, name='tiltpad_has_name')
-         import :: c_int
+      integer(c_int) function c_has_name(descriptor, path) bind(c, name='tiltpad_has_name')
+         import :: c_char, c_int
          integer(c_int), value :: descriptor
+         character(kind=c_char), intent(in) :: path(*)
       end function c_has_name
 
       integer(c_int) function c_read_start(descriptor, buffer, length) bind(c, name='tiltpad_read_start')
-         import :: c_char, c_int, longest
+         import :: c_char, c_int
          integer(c_int), value :: descriptor, length
-         character(kind=c_char), intent(inout) :: buffer(longest)
+         character(kind=c_char), intent(inout) :: buffer(length)
       end function c_read_start
 
       integer(c_int) function c_write_start(descriptor, bytes, length) bind(c, name='tiltpad_write_start')
@@ -93,13 +102,18 @@ contains
       integer :: found, waited, patience
       self%path = path//'.lock'
       self%taken_from = ''
+      self%files_left = ''
+      self%files = ''
       waited = 0
       do
          call self%attempt(found, holder)
          if (found == failed) then
             call raise(error, system_error, 'cannot write '//path//': no lock file beside it: '//system_reason())
-            return
+         else if (found == foreign) then
+            call raise(error, system_error, 'cannot write '//path//': '//self%path &
+               & //' is no lock file of tiltpad; remove or rename it')
          end if
+         if (allocated(error)) return
          if (waited == 0) first = holder
          patience = self%patience_with(found, holder)
          if (found /= held .and. waited >= patience) exit
@@ -116,7 +130,12 @@ contains
          end if
          waited = waited + 1
       end do
-      if (holder /= '') self%taken_from = described(holder)
+      if (holder /= '') then
+         self%taken_from = described(holder)
+         self%files_left = from_word(holder, 4)
+         ! the lock says so until there are files of ours
+         self%files = self%files_left
+      end if
       self%beats = 0
       if (.not. self%write_beat()) then
          call delete_file(self%path)
@@ -146,46 +165,80 @@ contains
       integer, intent(out) :: found
       !> What the file says.
       character(len=:), allocatable, intent(out) :: holder
+      logical :: is_lock
       holder = ''
       do
          self%descriptor = c_open_lock(self%path//c_null_char)
-         found = failed
+         found = merge(failed, foreign, self%descriptor == -1)
          if (self%descriptor < 0) return
          found = int(c_try_lock(self%descriptor))
          ! its holder may have deleted it after we opened it
          if (is_there(self)) exit
          call close_lock(self)
       end do
-      holder = content(self)
+      call read_content(self, holder, is_lock)
+      if (is_lock) return
+      call close_lock(self)
+      found = foreign
    end subroutine attempt
 
-   !> False where the open lock file has been deleted.
+   !> False where the open lock file has been deleted, renamed or replaced.
    logical function is_there(self)
       class(file_lock_type), intent(in) :: self
-      is_there = c_has_name(self%descriptor) == 1
+      is_there = c_has_name(self%descriptor, self%path//c_null_char) == 1
    end function is_there
 
-   !> The first line of the open lock file.
-   function content(self)
+   !> The line in the open lock file, and whether it is what a lock file says: one line or nothing.
+   subroutine read_content(self, line, is_lock)
       class(file_lock_type), intent(in) :: self
-      character(len=:), allocatable :: content
-      character(kind=c_char) :: buffer(longest)
-      integer :: i
-      content = ''
-      do i = 1, int(c_read_start(self%descriptor, buffer, int(longest, c_int)))
-         if (buffer(i) == achar(10)) exit
-         content = content//buffer(i)
-      end do
-      content = trim(content)
-   end function content
+      character(len=:), allocatable, intent(out) :: line
+      logical, intent(out) :: is_lock
+      character(kind=c_char) :: buffer(longest + 1)
+      character(len=longest + 1) :: content
+      integer :: length
+      length = max(0, int(c_read_start(self%descriptor, buffer, size(buffer, kind=c_int))))
+      content = transfer(buffer, content)
+      line = ''
+      ! nothing, or zeros in its place
+      is_lock = length <= longest .and. verify(content(:length), achar(0)//achar(10)) == 0
+      if (is_lock .or. length > longest .or. index(content(:length), achar(10)) /= length) return
+      line = trim(content(:length - 1))
+      is_lock = is_whole(word(line, 2)) .and. is_whole(word(line, 3)) &
+         & .and. verify(from_word(line, 4), '0123456789:. ') == 0
+   end subroutine read_content
+
+   pure logical function is_whole(text)
+      character(len=*), intent(in) :: text
+      is_whole = text /= '' .and. verify(text, '0123456789') == 0
+   end function is_whole
+
+   !> The rest of a line from its k-th word on; words are separated by single blanks.
+   pure recursive function from_word(line, k) result(rest)
+      character(len=*), intent(in) :: line
+      integer, intent(in) :: k
+      character(len=:), allocatable :: rest
+      rest = line
+      if (k > 1) rest = from_word(line(index(line//' ', ' ') + 1:), k - 1)
+   end function from_word
+
+   pure function word(line, k)
+      character(len=*), intent(in) :: line
+      integer, intent(in) :: k
+      character(len=:), allocatable :: word
+      word = from_word(line, k)
+      word = word(:index(word//' ', ' ') - 1)
+   end function word
 
    !> False once another process took this one for dead and took the lock, or deleted it: then this one must not write
    !> any more.
    logical function is_ours(self)
       class(file_lock_type), intent(in) :: self
+      character(len=:), allocatable :: line
       is_ours = .false.
       if (self%descriptor < 0) return
-      if (is_there(self)) is_ours = index(content(self), self%identity()) == 1
+      if (.not. is_there(self)) return
+      call read_content(self, line, is_ours)
+      if (is_ours) is_ours = index(line, self%identity()) == 1
    end function is_ours
 
    !> "host process ".
@@ -206,12 +259,21 @@ contains
       ignored = self%write_beat()
    end subroutine beat
 
+   subroutine note_files(self, identities)
+      class(file_lock_type), intent(inout) :: self
+      character(len=*), intent(in) :: identities
+      logical :: ignored
+      if (.not. self%is_ours()) return
+      self%files = trim(adjustl(identities))
+      ignored = self%write_beat()
+   end subroutine note_files
+
    !> True if it could be written.
    logical function write_beat(self) result(ok)
       class(file_lock_type), intent(in) :: self
       character(kind=c_char, len=longest) :: line
       ! of one length, so that it replaces what is there and needs no room on the disk
-      line = self%identity()//to_text(self%beats)
+      line = trim(self%identity()//to_text(self%beats)//' '//self%files)
       line(longest:) = achar(10)
       ok = c_write_start(self%descriptor, line, len(line, c_int)) == 1
    end function write_beat
@@ -236,16 +298,16 @@ contains
       character(len=*), intent(in) :: holder
       character(len=:), allocatable :: described
       described = 'another process'
-      if (index(holder, ' ') > 1) described = 'process '//to_text(process_of(holder))//' on ' &
-         & //holder(:index(holder, ' ') - 1)
+      if (holder /= '') described = 'process '//word(holder, 2)//' on '//word(holder, 1)
    end function described
 
    !> Its process number; 0 where it says none.
    pure integer function process_of(holder)
       character(len=*), intent(in) :: holder
+      character(len=:), allocatable :: number
       integer :: status
-      process_of = 0
-      read (holder(index(holder, ' ') + 1:), *, iostat=status) process_of
+      number = word(holder, 2)
+      read (number, *, iostat=status) process_of
       if (status /= 0) process_of = 0
    end function process_of
 end module file_lock

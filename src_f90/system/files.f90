@@ -4,12 +4,16 @@ module files
    use c_strings, only: fortran_text
    implicit none (type, external)
    private
-   public :: rename_file, delete_file, link_file, copy_file, sync_file, begin_sync, real_path, is_regular
+   public :: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync, &
+      & real_path, is_regular
+   public :: file_identity, identity_length
 
    !> Room for a path.
    integer, parameter :: path_length = 4096
    !> Links that may follow one another.
    integer, parameter :: most_links = 40
+   !> Most characters of an identity.
+   integer, parameter :: identity_length = 60
 
    interface
       integer(c_int) function c_rename(old, new) bind(c, name='rename')
@@ -22,10 +26,17 @@ module files
          character(kind=c_char), intent(in) :: path(*)
       end function c_unlink
 
-      integer(c_int) function c_link(old, new) bind(c, name='link')
+      integer(c_int) function c_exchange(one, other) bind(c, name='tiltpad_exchange')
          import :: c_int, c_char
-         character(kind=c_char), intent(in) :: old(*), new(*)
-      end function c_link
+         character(kind=c_char), intent(in) :: one(*), other(*)
+      end function c_exchange
+
+      subroutine c_identity(path, identity, length) bind(c, name='tiltpad_identity')
+         import :: c_char, c_size_t, identity_length
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(inout) :: identity(identity_length + 1)
+         integer(c_size_t), value :: length
+      end subroutine c_identity
 
       integer(c_size_t) function c_readlink(path, target, length) bind(c, name='readlink')
          import :: c_char, c_size_t, path_length
@@ -45,6 +56,11 @@ module files
          import :: c_int, c_char
          character(kind=c_char), intent(in) :: path(*)
       end function c_is_regular
+
+      integer(c_int) function c_create(path) bind(c, name='tiltpad_create')
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_create
 
       integer(c_int) function c_copy(old, new) bind(c, name='tiltpad_copy')
          import :: c_int, c_char
@@ -77,13 +93,30 @@ contains
       ignored = c_unlink(path//c_null_char)
    end subroutine delete_file
 
-   !> Gives a file a second name; ok is false where that is not possible.
-   logical function link_file(old, new) result(ok)
-      character(len=*), intent(in) :: old, new
-      ok = c_link(old//c_null_char, new//c_null_char) == 0
-   end function link_file
+   !> Exchanges the names of two files at once; ok is false where the file system cannot.
+   logical function exchange_files(one, other) result(ok)
+      character(len=*), intent(in) :: one, other
+      ok = c_exchange(one//c_null_char, other//c_null_char) == 1
+   end function exchange_files
 
-   !> Copies a file, replacing one of the new name; ok is false if not all of it could be copied.
+   !> Tells the file of this name from every other of its folder, later ones too: "inode:birth", with birth 0 where the
+   !> file system does not know it. Empty where there is nothing, "-" for what is no ordinary file; links are not
+   !> followed.
+   function file_identity(path) result(identity)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: identity
+      character(kind=c_char), target :: buffer(identity_length + 1)
+      call c_identity(path//c_null_char, buffer, size(buffer, kind=c_size_t))
+      identity = fortran_text(c_loc(buffer))
+   end function file_identity
+
+   !> Makes an empty file; ok is false if something has its name, or it cannot be made.
+   logical function create_file(path) result(ok)
+      character(len=*), intent(in) :: path
+      ok = c_create(path//c_null_char) == 1
+   end function create_file
+
+   !> Copies a file into another that is there; ok is false if it is not, or not all could be copied.
    logical function copy_file(old, new) result(ok)
       character(len=*), intent(in) :: old, new
       ok = c_copy(old//c_null_char, new//c_null_char) == 1

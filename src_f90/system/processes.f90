@@ -1,18 +1,19 @@
 !> This process and its children: what the runner of many members asks of the system.
 module processes
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_loc, c_null_char, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_loc, c_long, c_null_char, c_size_t
    use text, only: to_text
    use c_strings, only: fortran_text
    use system_errors, only: system_reason
    implicit none (type, external)
    private
    public :: process_id, process_alive, host_name, pause_seconds, set_environment, processors
-   public :: make_folder, remove_folder, new_process, end_child, limit_child, end_with_parent, ended, stop_process
+   public :: make_folder, remove_folder, other_number
+   public :: new_process, end_child, limit_child, end_with_parent, ended, stop_process
    public :: record_length, open_pipe, close_pipe, send_record, receive_record, wait_for_record
 
    !> Bytes of a record; a pipe keeps up to 4096 together.
    integer, parameter :: record_length = 4000
-   !> Room for the name of a machine.
+   !> Room for the name of a machine, or of a file.
    integer, parameter :: name_length = 256
 
    interface
@@ -51,6 +52,15 @@ module processes
          character(kind=c_char), intent(in) :: path(*)
       end function c_make_folder
 
+      subroutine c_other_number(folder, digits, last, name, length) bind(c, name='tiltpad_other_number')
+         import :: c_char, c_int, c_long, c_size_t, name_length
+         character(kind=c_char), intent(in) :: folder(*)
+         integer(c_int), value :: digits
+         integer(c_long), value :: last
+         character(kind=c_char), intent(inout) :: name(name_length)
+         integer(c_size_t), value :: length
+      end subroutine c_other_number
+
       integer(c_int) function c_rmdir(path) bind(c, name='rmdir')
          import :: c_int, c_char
          character(kind=c_char), intent(in) :: path(*)
@@ -65,9 +75,9 @@ module processes
          integer(c_int), value :: status
       end subroutine c_leave
 
-      subroutine c_limit_child(seconds) bind(c, name='tiltpad_limit_child')
+      subroutine c_limit_child(seconds, work, room) bind(c, name='tiltpad_limit_child')
          import :: c_int
-         integer(c_int), value :: seconds
+         integer(c_int), value :: seconds, work, room
       end subroutine c_limit_child
 
       integer(c_int) function c_end_with_parent(parent) bind(c, name='tiltpad_end_with_parent')
@@ -152,12 +162,29 @@ contains
    end function processors
 
    !> Makes a folder unless something of its name is there; `refusal` is the system's reason, empty if all is well.
-   subroutine make_folder(path, refusal)
+   !> `made` is true if it was not there.
+   subroutine make_folder(path, refusal, made)
       character(len=*), intent(in) :: path
       character(len=:), allocatable, intent(out) :: refusal
+      logical, intent(out), optional :: made
+      integer(c_int) :: found
+      found = c_make_folder(path//c_null_char)
       refusal = ''
-      if (c_make_folder(path//c_null_char) == 0) refusal = system_reason()
+      if (found == 0) refusal = system_reason()
+      if (present(made)) made = found == 1
    end subroutine make_folder
+
+   !> A name in a folder that is a number with '.h5', but not one from 1 to `last` with so many digits; empty where
+   !> there is none.
+   function other_number(folder, digits, last) result(name)
+      character(len=*), intent(in) :: folder
+      integer, intent(in) :: digits, last
+      character(len=:), allocatable :: name
+      character(kind=c_char), target :: buffer(name_length)
+      call c_other_number(folder//c_null_char, int(digits, c_int), int(last, c_long), buffer, &
+         & size(buffer, kind=c_size_t))
+      name = fortran_text(c_loc(buffer))
+   end function other_number
 
    !> Removes an empty folder, if it is there.
    subroutine remove_folder(path)
@@ -177,10 +204,11 @@ contains
       call c_leave(int(status, c_int))
    end subroutine end_child
 
-   !> Called in a child: it prints nothing from now on, and ends after so many seconds.
-   subroutine limit_child(seconds)
-      integer, intent(in) :: seconds
-      call c_limit_child(int(seconds, c_int))
+   !> Called in a child: it prints nothing from now on, and ends after so many seconds, of time or of the processor's
+   !> time; it gets so many megabytes of memory more than it has.
+   subroutine limit_child(seconds, work, room)
+      integer, intent(in) :: seconds, work, room
+      call c_limit_child(int(seconds, c_int), int(work, c_int), int(room, c_int))
    end subroutine limit_child
 
    !> Called in a child: SIGTERM will come when the parent ends, or ends the child now if it has.

@@ -372,8 +372,8 @@ def test_disk_full(tiltpad, case, duration):
         resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
 
     message = refused(
-        tiltpad, case, "case.nml", "--quiet", "--set", f"operation%duration={duration}",
-        names=["case.h5"], status=3, preexec_fn=limit,
+        tiltpad, case, "case.nml", "--quiet", "-o", "full.h5", "--set", f"operation%duration={duration}",
+        names=["full.h5"], status=3, preexec_fn=limit,
     )  # fmt: skip
     assert "full" in message or "too large" in message.lower()
 

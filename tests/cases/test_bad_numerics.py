@@ -10,11 +10,11 @@ NUMBER = r"-?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?"
 SAMPLED = ("journal_y", "journal_z", "pad_tilt", "contact_force", "min_film_thickness", "max_pressure")
 
 
-def fails(tiltpad, folder, *values):
+def fails(tiltpad, folder, *values, options=()):
     """Runs a case with some values and checks that it fails as a run of numbers fails; gives the message."""
     (folder / "case.nml").write_text("&operation duration=0.05 / &output samples_per_revolution=60 /\n")
     overrides = [word for value in values for word in ("--set", value)]
-    run = tiltpad("case.nml", "--quiet", *overrides, cwd=folder, timeout=30)
+    run = tiltpad("case.nml", "--quiet", *options, *overrides, cwd=folder, timeout=30)
     assert run.returncode == 2, run.stderr
     assert run.stdout == ""
     assert run.stderr.startswith("tiltpad: error: ")
@@ -124,9 +124,11 @@ def test_no_equilibrium(tiltpad, tmp_path, key):
 
 
 def test_no_equilibrium_keeps_the_earlier_result(tiltpad, tmp_path):
-    (tmp_path / "case.h5").write_bytes(b"earlier")
-    fails(tiltpad, tmp_path, "rotor%static_load=1e6,0")
-    assert (tmp_path / "case.h5").read_bytes() == b"earlier"
+    (tmp_path / "case.nml").write_text("&case task='equilibrium' /\n")
+    assert tiltpad("case.nml", cwd=tmp_path).returncode == 0
+    earlier = (tmp_path / "case.h5").read_bytes()
+    fails(tiltpad, tmp_path, "rotor%static_load=1e6,0", options=["--overwrite"])
+    assert (tmp_path / "case.h5").read_bytes() == earlier
     assert sorted(path.name for path in tmp_path.iterdir()) == ["case.h5", "case.nml"]
 
 
@@ -169,5 +171,5 @@ def test_ordinary_bearings_have_an_equilibrium(tiltpad, tmp_path, pads):
             f"&case task='equilibrium' / &rotor mass={mass} /\n"
             f"&pads pivot_angle_deg={angles}, arc_deg={arc} /\n"
         )
-        run = tiltpad("case.nml", "--quiet", cwd=tmp_path, timeout=30)
+        run = tiltpad("case.nml", "--quiet", "--overwrite", cwd=tmp_path, timeout=30)
         assert run.returncode == 0, run.stderr

@@ -150,6 +150,26 @@ def test_a_signal_while_the_equilibrium_is_sought(program, case):
     assert [path.name for path in case.iterdir()] == ["case.nml"]
 
 
+def test_a_ruptured_film_is_resumed_to_the_bit(program, tiltpad, case):
+    """From a checkpoint where a film is ruptured: the same bits, twice."""
+    arguments = ["case.nml", "-q", "--set", "rotor%unbalance=0.03", "--set", "operation%duration=1"]
+    process = start(program, case, *arguments)
+    wait_for(case / "case.h5", process)
+    process.send_signal(signal.SIGTERM)
+    one_error(process, 4)
+    shutil.copy(case / "case.h5", case / "again.h5")
+    with h5py.File(case / "case.h5") as file:
+        before = len(file["time"])
+        assert file["statistics/film_nodes"][()] > 0
+    for name in ("case.h5", "again.h5"):
+        done = tiltpad("--resume", name, "-q", cwd=case)
+        assert done.returncode == 0, done.stderr
+    with h5py.File(case / "case.h5") as one, h5py.File(case / "again.h5") as other:
+        assert len(one["time"]) > before
+        for name in series(one):
+            assert (one[name][:] == other[name][:]).all(), name
+
+
 @pytest.mark.parametrize("scene", SCENES)
 def test_every_scene_can_be_resumed(program, tiltpad, case, whole, scene):
     """Stopped a few times, the last time by kill -9."""
@@ -333,21 +353,21 @@ def test_the_file_tells_its_making(program, tiltpad, stopped):
 def test_the_second_writer_is_refused(program, tiltpad, case):
     long = start(program, case, "case.nml", "-q", "--set", "operation%duration=1000")
     wait_for(case / "case.h5", long)
-    for arguments in (["case.nml"], ["--resume", "case.h5"]):
+    for arguments in (["case.nml", "--overwrite"], ["--resume", "case.h5"]):
         done = tiltpad(*arguments, cwd=case)
         assert done.returncode == 3
         assert f"process {long.pid} on {os.uname().nodename} is writing it" in done.stderr
         assert done.stderr.count("\n") == 1
     # through a link it is the same file
     (case / "link.h5").symlink_to("case.h5")
-    assert tiltpad("case.nml", "-o", "link.h5", cwd=case).returncode == 3
+    assert tiltpad("case.nml", "--overwrite", "-o", "link.h5", cwd=case).returncode == 3
     # killed, it holds nothing
     long.kill()
     long.wait()
     assert (case / "case.h5.lock").exists()
     done = tiltpad("--resume", "case.h5", "--check", cwd=case)
     assert done.returncode == 0
-    done = tiltpad("case.nml", cwd=case)
+    done = tiltpad("case.nml", "--overwrite", cwd=case)
     assert done.returncode == 0
     assert f"process {long.pid} on {os.uname().nodename}, which wrote it, has ended" in done.stdout
     assert not list(case.glob("*.lock"))
@@ -454,6 +474,22 @@ def test_a_read_only_disk(program, stopped):
     assert done.stdout == "case.h5\n"
 
 
+def test_a_complete_run_on_a_read_only_disk(program, tiltpad, case):
+    """There is nothing to do, and so nothing to write."""
+    assert tiltpad("case.nml", "-q", "--set", "operation%duration=0.01", cwd=case).returncode == 0
+    done = in_a_mount_namespace(
+        """
+        mkdir $FOLDER/disk; mount -t tmpfs tmpfs $FOLDER/disk; cd $FOLDER/disk
+        cp ../case.h5 .; mount -o remount,ro $FOLDER/disk
+        $PROGRAM --resume case.h5; ls
+        """,
+        FOLDER=case,
+        PROGRAM=program,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == "case.h5: complete already, nothing to do\ncase.h5\n"
+
+
 def test_a_deleted_folder(program, case):
     (case / "run").mkdir()
     process = start(program, case, "case.nml", "-q", "-o", "run/case.h5", "--set", "operation%duration=100")
@@ -510,6 +546,7 @@ def test_what_cannot_be_resumed(tiltpad, stopped):
         refused(tiltpad, stopped, names)
 
     edited(lambda file: file.attrs.__setitem__("format_version", 99), "later version")
+    edited(lambda file: file.attrs.__setitem__("format_version", 0), "format_version 0 is unknown")
     edited(lambda file: file.attrs.__setitem__("program", "another"), "not a result of tiltpad")
     edited(lambda file: file.attrs.__delitem__("program"), "not a result of tiltpad")
     edited(lambda file: file.attrs.__delitem__("input"), "input")

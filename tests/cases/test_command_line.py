@@ -210,7 +210,7 @@ def test_output_replaces_what_a_link_leads_to(tiltpad, case):
     """A link, to a larger disk say, stays a link."""
     (case / "store").mkdir()
     (case / "case.h5").symlink_to("store/case.h5")
-    (case / "store" / "case.h5").write_bytes(b"earlier")
+    assert tiltpad("case.nml", "-o", "store/case.h5", cwd=case).returncode == 0
     assert tiltpad("case.nml", cwd=case).returncode == 0
     assert (case / "case.h5").is_symlink()
     with h5py.File(case / "store" / "case.h5") as file:
@@ -331,12 +331,25 @@ def test_killed_in_the_middle(program, tiltpad, case):
     assert tiltpad("case.nml", "--quiet", cwd=case).returncode == 0
     earlier = (case / "case.h5").read_bytes()
     with subprocess.Popen(
-        [program, "case.nml", "--quiet", "--set", "operation%duration=1000"], cwd=case
+        [program, "case.nml", "--quiet", "--overwrite", "--set", "operation%duration=1000"], cwd=case
     ) as process:
         time.sleep(0.5)
         assert process.poll() is None
         process.kill()
     assert (case / "case.h5").read_bytes() == earlier
+
+
+def test_install_into_folders_with_blanks(root, program, tmp_path):
+    """What is installed is the program of the default build; nothing is built if that is not up to date."""
+    names = [f"DESTDIR={tmp_path}/a b", "PREFIX=/c d"]
+    commands = subprocess.run(
+        ["make", "-n", "-o", "build", "install", *names], cwd=root, capture_output=True, text=True, check=True
+    ).stdout
+    lines = [line for line in commands.splitlines() if line.startswith("install ")]
+    for line in lines:
+        subprocess.run(line.replace("build/bin/tiltpad", program, 1), cwd=root, shell=True, check=True)
+    assert (tmp_path / "a b/c d/bin/tiltpad").is_file()
+    assert [path.name for path in tmp_path.iterdir()] == ["a b"]
 
 
 def test_the_input_reference_is_up_to_date(tiltpad, root):

@@ -196,16 +196,49 @@ def test_a_second_call_runs_what_is_missing(tiltpad, case):
     assert files(folder / "case") == ["0001.h5", "0002.h5", "0003.h5", "notes.txt"]
 
 
-def test_a_member_of_another_sweep_is_not_replaced(tiltpad, case):
-    folder = case(sweep("operation%speed_rpm=3000,4000"))
+WAY_OUT = "; --overwrite replaces it, and --output names another place"
+
+
+def test_two_sweeps_are_not_mixed(tiltpad, case):
+    """One line before anything runs; with --overwrite the results are replaced."""
+    folder = case(sweep("operation%speed_rpm=3000,4000,5000"))
     result(tiltpad("case.nml", cwd=folder))
-    changed = ("--set", "sweep%operation%speed_rpm=5000,4000")
-    _, errors = result(tiltpad("case.nml", *changed, cwd=folder), status=3)
-    assert errors[0].startswith(
-        "member 1 (operation%speed_rpm = 5000): case/0001.h5: is the result of another"
-    )
-    assert errors[1:] == ["1 of 2 members failed"]
-    assert [speed(folder / f"case/000{k}.h5") for k in (1, 2)] == [3000, 4000]
+    other = "is the result of another case"
+    for change, line in (
+        (
+            "sweep%operation%speed_rpm=3000:5000:500",
+            f"0002.h5: {other}; operation%speed_rpm = 4000 there, 3500 here{WAY_OUT}",
+        ),
+        ("rotor%mass=1900", f"0001.h5: {other}; rotor%mass = 2000 there, 1900 here{WAY_OUT}"),
+        (
+            "sweep%operation%speed_rpm=3000,4000",
+            "0003.h5: is no member of this sweep, which has 2; remove it, or name another folder with "
+            "--output",
+        ),
+    ):
+        before = {path: path.read_bytes() for path in (folder / "case").iterdir()}
+        stdout, errors = result(tiltpad("case.nml", "--set", change, cwd=folder), status=3)
+        assert (stdout, errors) == ("", [f"case/{line}"])
+        assert {path: path.read_bytes() for path in (folder / "case").iterdir()} == before
+    faster = ("--set", "sweep%operation%speed_rpm=4000,5000,6000,7000")
+    result(tiltpad("case.nml", *faster, "--overwrite", cwd=folder))
+    assert [speed(folder / f"case/000{k}.h5") for k in (1, 2, 3, 4)] == [4000, 5000, 6000, 7000]
+
+
+def test_a_single_member_looks_at_its_neighbours(tiltpad, case):
+    folder = case(sweep("operation%speed_rpm=3000,4000,5000"))
+    result(tiltpad("case.nml", cwd=folder))
+    other = ("--set", "sweep%operation%speed_rpm=3000:7000:500")
+    _, errors = result(tiltpad("case.nml", "--member", 4, *other, cwd=folder), status=3)
+    assert errors == ["case/0003.h5: is of another sweep than member 4" + WAY_OUT]
+    assert len(files(folder / "case")) == 3
+    grown = ("--set", "sweep%operation%speed_rpm=3000:7000:1000")
+    result(tiltpad("case.nml", "--member", 4, *grown, cwd=folder))
+    # nor is it a run of its own
+    (folder / "one.nml").write_text(QUICK)
+    options = ("--set", "operation%speed_rpm=3000", "--output", "case/0001.h5")
+    _, errors = result(tiltpad("one.nml", *options, cwd=folder), status=3)
+    assert errors == ["case/0001.h5: is member 1 of a sweep" + WAY_OUT]
 
 
 def test_a_sweep_may_grow(tiltpad, case):
@@ -225,12 +258,12 @@ def test_the_same_scene_in_another_place_is_refused(tiltpad, case):
     _, errors = result(tiltpad("case.nml", "--set", "sweep%rotor%gravity=9.81", cwd=folder), status=3)
     assert errors[0].endswith(
         "case/0001.h5: is member 1 of another sweep; operation%speed_rpm = 6500 there, "
-        "operation%speed_rpm = 6500, rotor%gravity = 9.81 here"
+        "operation%speed_rpm = 6500, rotor%gravity = 9.81 here" + WAY_OUT
     )
     (folder / "one.nml").write_text(QUICK)
-    result(tiltpad("one.nml", "--output", "case/0001.h5", cwd=folder))
+    result(tiltpad("one.nml", "--output", "case/0001.h5", "--overwrite", cwd=folder))
     _, errors = result(tiltpad("case.nml", cwd=folder), status=3)
-    assert errors[0].endswith("case/0001.h5: is the result of the same case, but no member of a sweep")
+    assert errors == ["case/0001.h5: is the result of the same case, but no member of a sweep" + WAY_OUT]
 
 
 def test_file_names_have_the_digits_of_the_last_member(tiltpad, case):

@@ -33,7 +33,7 @@ from tiltpad import command, diagrams, figures, summary  # noqa: E402, F401
 #: Shares of damages in samples, of flipped bits, of blocks (the rest are files cut short); length of a block.
 SAMPLES, BITS, BLOCKS, LONGEST = 0.15, 0.85, 0.1, 600
 #: Damages from one picture to the next; seconds and bytes for one damage.
-PICTURE_EVERY, SECONDS, MEMORY = 6, 60, 1 << 30
+PICTURE_EVERY, SECONDS, MEMORY = 6, 60, 500 << 20
 
 
 def main() -> None:

@@ -23,11 +23,11 @@ def rewritten(file: h5py.File, version: int, group: str = "statistics/") -> None
 
 @pytest.fixture
 def versions(result, tmp_path):
-    """The same result, of which 'auto' solves some pads on finite volumes, in both versions."""
+    """The same result, whose pads are solved on finite volumes, in both versions."""
     (tmp_path / "runs").mkdir()
     paths = {version: tmp_path / f"runs/version{version}.h5" for version in (1, 2)}
     for version, path in paths.items():
-        shutil.copy(result("four"), path)
+        shutil.copy(result("sor"), path)
         with h5py.File(path, "r+") as file:
             rewritten(file, version)
             assert ("statistics/film_sor" in file) == (version == 1)

@@ -1,9 +1,9 @@
 """The compiled part: pressure fields of archived instants, contact, friction and spectra by the library."""
 
-import resource
+import ctypes
+import gc
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -39,9 +39,10 @@ def test_rebuilt_forces_are_those_archived(run, scene):
     """A sample is the polynomial of the step through the values at its ends (docs/theory.md), not a film
     solved there, and the states for the rebuilt film are CVODE's interpolation. Both are as accurate as the
     march, 1e-5 of the scales of the states at the default tolerance; squeeze makes it several times that of
-    the range of the force. The maximum pressure is that at the points of the solver. It has kinks where it
-    passes from one point to the next, of 1e-3 of the range, which no polynomial follows. The minimum film
-    thickness in the file is calculated from the states.
+    the range of the force. The samples come from tables of converged films, the rebuilt ones from `direct`,
+    whose finite volumes err by 2e-4 of it where the film ruptures. The maximum pressure is that at the
+    points of the solver. It has kinks where it passes from one point to the next, of 1e-3 of the range,
+    which no polynomial follows. The minimum film thickness in the file is calculated from the states.
     """
     case = run(scene)
     force = np.stack([case.film_force_tangential, case.film_force_radial], axis=2)
@@ -49,7 +50,7 @@ def test_rebuilt_forces_are_those_archived(run, scene):
     films = [tiltpad.pressure(case, case.time[k], 3, 3) for k in samples]
     assert [film.time for film in films] == list(case.time[samples])
     for name, archived, tolerance in (
-        ("force", force, 1e-4),
+        ("force", force, 3e-4),
         ("max_pressure", case.max_pressure, 3e-3),
         ("min_film_thickness", case.min_film_thickness, 1e-9),
     ):
@@ -226,19 +227,49 @@ def test_a_closed_film_is_an_exception(changed):
         assert caught.value.status == 2
 
 
-def test_no_memory_is_lost(run):
-    """A film solver has a third of a megabyte; the memory of a call is released."""
+class Heap(ctypes.Structure):
+    """What glibc tells of the memory that it gave, struct mallinfo2."""
 
-    def resident():
-        pages = int(Path("/proc/self/statm").read_text().split()[1])
-        return pages * resource.getpagesize()
+    _fields_ = tuple(
+        (name, ctypes.c_size_t)
+        for name in (
+            *("arena", "ordblks", "smblks", "hblks", "hblkhd"),
+            *("usmblks", "fsmblks", "uordblks", "fordblks", "keepcost"),
+        )
+    )
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda run: tiltpad.pressure(run, None, 3, 3),
+        lambda run: tiltpad.contact_force(1e-6, run),
+        lambda run: tiltpad.contact_pressure(1e-6, 0, run),
+        lambda run: tiltpad.friction_force(1e-3, 1e4, 0, run),
+        lambda _: library.one_sided_amplitude(np.ones(100)),
+        lambda _: pytest.raises(tiltpad.LibraryError, tiltpad.contact, 1e-6, "&pivot law='x' /"),
+    ],
+    ids=["pressure", "contact_force", "contact_pressure", "friction_force", "one_sided", "refused"],
+)
+def test_no_memory_is_lost(run, call):
+    """Not 20 bytes a call, counted by the library that gives the memory; the first calls may fill caches."""
+    system = ctypes.CDLL(None)
+    if not hasattr(system, "mallinfo2"):
+        pytest.skip("the system does not count its memory")
+    system.mallinfo2.restype = Heap
+
+    def growth(calls):
+        gc.collect()
+        before = system.mallinfo2()
+        for _ in range(calls):
+            call(case)
+        gc.collect()
+        after = system.mallinfo2()
+        return after.uordblks + after.hblkhd - before.uordblks - before.hblkhd
 
     case = run("four")
-    for calls in (20, 200):
-        before = resident()
-        for _ in range(calls):
-            tiltpad.pressure(case, 0.01, 3, 3)
-    assert resident() - before < 10e6
+    growth(20)
+    assert min(growth(50) for _ in range(3)) < 20 * 50
 
 
 def test_without_the_compiled_part(result):

@@ -181,6 +181,35 @@ def test_a_sweep_that_grew_is_one_study(copy, tmp_path):
         assert (study.members, study.missing) == (6, "6")
 
 
+def test_a_folder_of_two_sweeps(tiltpad, tmp_path, monkeypatch, capsys):
+    """Files of another sweep over the same variable are seen, of any size; a sweep that grew is one."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "case.nml").write_text("&case task='equilibrium' /\n&sweep operation%speed_rpm=1:2:1 /\n")
+
+    def ran(name, values, folder=None):
+        swept = ["--set", f"sweep%operation%speed_rpm={values}"]
+        done = tiltpad("--quiet", "case.nml", *swept, "--output", folder or name)
+        assert done.returncode == 0, done.stderr
+        return tmp_path / name
+
+    three, other, two = ran("three", "3e3:5e3:1e3"), ran("other", "3e3:6e3:15e2"), ran("two", "25e2,26e2")
+    for source, numbers in ((other, (2,)), (other, (1,)), (two, (1, 2)), (two, (1,)), (two, (2,))):
+        mixed = tmp_path / "mixed"
+        shutil.copytree(three, mixed)
+        for number in numbers:
+            shutil.copy(source / f"000{number}.h5", mixed)
+        assert command.collect(["mixed"]) == 1
+        said = capsys.readouterr().err
+        assert "members of two sweeps; run one of them into another folder, or with --overwrite" in said
+        assert not (tmp_path / "mixed.h5").exists()
+        shutil.rmtree(mixed)
+    ran("three", "3e3:7e3:1e3")
+    assert command.collect(["three"]) == 0
+    (three / "0002.h5").unlink()
+    (three / "0004.h5").unlink()
+    assert command.collect(["three"]) == 0
+
+
 def test_a_file_named_twice_is_one_member(copy, tmp_path, monkeypatch, result):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "link.h5").symlink_to(copy / "0002.h5")

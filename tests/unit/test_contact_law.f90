@@ -2,7 +2,7 @@
 program test_contact_law
    use kinds, only: wp, pi
    use text, only: to_text
-   use contact_law, only: contact_law_type, contact_point, new_contact_law
+   use contact_law, only: contact_law_type, contact_point, make_contact_law
    use paper_bearing, only: paper_law
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
@@ -96,12 +96,12 @@ contains
    subroutine unequal_materials()
       class(contact_law_type), allocatable :: law, soft
       type(contact_point) :: point, soft_point
-      law = new_contact_law('fang', socket, 0.0_wp, [2.1e11_wp, 2.1e30_wp], poisson, 4.0_wp)
+      call make_contact_law('fang', socket, 0.0_wp, [2.1e11_wp, 2.1e30_wp], poisson, 4.0_wp, law)
       soft = paper_law('fang', 0.0_wp)
       point = law%at(1e-6_wp)
       soft_point = soft%at(1e-6_wp)
       call expect_close(point%force, 2*soft_point%force, 1e-13_wp*point%force, 'a rigid ball')
-      law = new_contact_law('fang', socket, 0.0_wp, young, [0.3_wp, 0.0_wp], 4.0_wp)
+      call make_contact_law('fang', socket, 0.0_wp, young, [0.3_wp, 0.0_wp], 4.0_wp, law)
       point = law%at(1e-6_wp)
       call expect_close(point%force, soft_point%force*2*0.91_wp/1.91_wp, 1e-13_wp*point%force, 'two Poisson ratios')
    end subroutine unequal_materials

@@ -15,6 +15,8 @@ program test_file_lock
    if (runs('holder_elsewhere')) call holder_elsewhere()
    if (runs('living_holder_elsewhere')) call living_holder_elsewhere()
    if (runs('lost_lock')) call lost_lock()
+   if (runs('other_files')) call other_files()
+   if (runs('files_left')) call files_left()
    if (runs('no_place')) call no_place()
    call delete_file(path//'.lock')
    call report()
@@ -71,7 +73,7 @@ contains
       call expect_no_error(error, 'the place of a dead process is taken')
       call expect(lock%taken_from == 'process 999999 on '//host_name(), 'and it is told whose')
       call lock%release()
-      ! garbage, and nothing at all
+      ! as the fall of a machine may leave it
       call leave_lock('')
       call lock%acquire(path, error)
       call expect_no_error(error, 'an empty lock file is nobody''s')
@@ -134,6 +136,61 @@ contains
       call expect(.not. lock%is_ours(), 'a deleted lock is nobody''s')
       call lock%release()
    end subroutine lost_lock
+
+   !> What has the name of the lock file and is none is refused, and stays as it is.
+   subroutine other_files()
+      call expect_refused("printf 'notes\n' > $LOCK", "test ""$(cat $LOCK)"" = notes", 'a text')
+      call expect_refused("printf 'node1 12 x\n' > $LOCK", "test -f $LOCK", 'no count of beats')
+      call expect_refused("printf 'node1 12 7 and more\n' > $LOCK", "test -f $LOCK", 'more than a lock says')
+      call expect_refused("printf 'node1 12 7\nmore\n' > $LOCK", "test -f $LOCK", 'a second line')
+      call expect_refused("printf 'node1 12 7' > $LOCK", "test -f $LOCK", 'a line without its end')
+      call expect_refused("printf '%400d 7 7\n' 1 > $LOCK", "test -f $LOCK", 'a long line')
+      call expect_refused("echo kept > $LOCK.1; ln -s $LOCK.1 $LOCK", "test ""$(cat $LOCK.1)"" = kept; rm $LOCK.1", &
+         & 'a symbolic link')
+      call expect_refused("ln -s $LOCK.none $LOCK", "test ! -e $LOCK.none", 'a link to nothing')
+      call expect_refused("echo node1 12 7 > $LOCK.1; ln $LOCK.1 $LOCK", &
+         & "test ""$(cat $LOCK.1)"" = 'node1 12 7'; rm $LOCK.1", 'a second name of a file')
+      call expect_refused("mkfifo $LOCK", "test -p $LOCK", 'a pipe')
+      call expect_refused("mkdir $LOCK", "rmdir $LOCK", 'a folder')
+   end subroutine other_files
+
+   subroutine expect_refused(make, check, what)
+      !> Shell commands, in which $LOCK is the lock file; `check` succeeds where it is as it was.
+      character(len=*), intent(in) :: make, check, what
+      type(file_lock_type) :: lock
+      type(error_type), allocatable :: error
+      integer :: status
+      call delete_file(path//'.lock')
+      call execute_command_line('LOCK='//path//'.lock; '//make, exitstat=status)
+      call lock%acquire(path, error)
+      call expect(allocated(error), what//' is refused')
+      if (allocated(error)) call expect(error%status == system_error &
+         & .and. index(error%message, path//'.lock is no lock file of tiltpad') > 0, what//': '//error%message)
+      call execute_command_line('LOCK='//path//'.lock; '//check, exitstat=status)
+      call expect(status == 0, what//' stays as it was')
+      call delete_file(path//'.lock')
+   end subroutine expect_refused
+
+   !> The files that a holder noted are told to the next one, if it died.
+   subroutine files_left()
+      type(file_lock_type) :: lock
+      type(error_type), allocatable :: error
+      character(len=100) :: line
+      integer :: unit
+      call leave_lock(host_name()//' 999999 7 12:34.5 6:7.8')
+      call lock%acquire(path, error)
+      call expect_no_error(error, 'a dead holder with files')
+      call expect(lock%files_left == '12:34.5 6:7.8', 'its files: '//lock%files_left)
+      call lock%note_files('1:2.3')
+      open (newunit=unit, file=path//'.lock', status='old', action='read')
+      read (unit, '(a)') line
+      close (unit)
+      call expect(trim(line) == host_name()//' '//to_text(int(process_id()))//' 0 1:2.3', 'ours: '//trim(line))
+      call lock%release()
+      call lock%acquire(path, error)
+      call expect(lock%files_left == '' .and. lock%taken_from == '', 'none where it ended well')
+      call lock%release()
+   end subroutine files_left
 
    subroutine no_place()
       type(file_lock_type) :: lock

@@ -1,6 +1,7 @@
 !> What the system does with files: names, copies, links, kinds.
 program test_files
-   use files, only: rename_file, delete_file, link_file, copy_file, sync_file, begin_sync, real_path, is_regular
+   use files, only: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync, &
+      & real_path, is_regular, file_identity
    use processes, only: make_folder, remove_folder
    use system_errors, only: system_reason
    use scratch, only: scratch_path, file_there, write_bytes, bytes_of
@@ -11,6 +12,7 @@ program test_files
    path = scratch_path('a')
    other = scratch_path('b')
    if (runs('names')) call names()
+   if (runs('identities')) call identities()
    if (runs('copies')) call copies()
    if (runs('kinds')) call kinds_of_files()
    if (runs('links')) call links()
@@ -32,17 +34,49 @@ contains
       ok = rename_file(path, other)
       call expect(.not. ok, 'what is not there cannot be renamed')
       call expect(system_reason() == 'no such file or directory', 'and the system says why: '//system_reason())
-      ok = link_file(other, path)
-      call expect(ok, 'a second name')
+      call write_bytes(path, 'second')
+      ok = exchange_files(path, other)
+      call expect(ok, 'two names exchanged')
+      call expect(bytes_of(path) == 'first', 'the first has the other''s content')
+      call expect(bytes_of(other) == 'second', 'the other has the first''s')
       call delete_file(other)
       call delete_file(other)
-      call expect(bytes_of(path) == 'first', 'which stays without the first')
+      ok = exchange_files(path, other)
+      call expect(.not. ok, 'there is nothing to exchange with')
+      call expect(bytes_of(path) == 'first', 'and nothing changes')
    end subroutine names
+
+   !> A file keeps its identity under another name; another file under its name, also a copy, has another.
+   subroutine identities()
+      character(len=:), allocatable :: first
+      logical :: ok
+      call delete_file(other)
+      call write_bytes(path, 'x')
+      first = file_identity(path)
+      call expect(len(first) > 1, 'an identity: '//first)
+      call expect(file_identity(other) == '', 'none where there is nothing')
+      call expect(file_identity(path(:index(path, '/', back=.true.))) == '-', 'nor of a folder')
+      ok = rename_file(path, other)
+      call expect(file_identity(other) == first, 'a new name')
+      ok = create_file(path)
+      call expect(ok, 'another file')
+      ok = copy_file(other, path)
+      call expect(file_identity(path) /= first, 'a copy')
+      call delete_file(other)
+      call delete_file(path)
+      call write_bytes(path, 'x')
+      call expect(file_identity(path) /= first, 'a later file, though it may have the same inode')
+      call execute_command_line('ln -s '//path//' '//other)
+      call expect(file_identity(other) == '-', 'a link is not followed')
+      call delete_file(other)
+   end subroutine identities
 
    subroutine copies()
       logical :: ok
       call write_bytes(path, repeat('0123456789', 100000))
       call write_bytes(other, repeat('x', 2000000))
+      ok = create_file(other)
+      call expect(.not. ok, 'what is there is not made')
       ok = copy_file(path, other)
       call expect(ok, 'a copy over a longer file')
       call expect(bytes_of(other) == repeat('0123456789', 100000), 'has all bytes and no others')
@@ -52,8 +86,13 @@ contains
       call expect(bytes_of(other) == '', 'is nothing')
       ok = copy_file(scratch_path('none'), other)
       call expect(.not. ok, 'what is not there cannot be copied')
-      ok = copy_file(path, scratch_path('none')//'/b')
-      call expect(.not. ok, 'nor to where there is no folder')
+      call delete_file(other)
+      ok = copy_file(path, other)
+      call expect(.not. ok, 'nor into one that is not there')
+      call execute_command_line('ln -s '//scratch_path('none')//' '//other)
+      ok = create_file(other)
+      call expect(.not. ok, 'a link to nothing is not followed')
+      call expect(.not. file_there(scratch_path('none')), 'and nothing is made')
    end subroutine copies
 
    subroutine kinds_of_files()

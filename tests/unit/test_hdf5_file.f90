@@ -163,15 +163,15 @@ contains
       real(wp) :: list(2)
       call file%create(path)
       call expect_close(file%get_real('real'), 0.0_wp, 0.0_wp, 'a missing number')
-      call expect_damaged(file, 'open real')
+      call expect_damaged(file, 'find real')
       call file%open(path, writing=.false.)
       call expect(file%get_count('inner/count') == 0, 'a missing count')
-      call expect_damaged(file, 'open inner/count')
+      call expect_damaged(file, 'find inner/count')
       call file%open(path, writing=.false.)
       list = 7
       call file%get_list('list', list)
       call expect_close(maxval(abs(list)), 0.0_wp, 0.0_wp, 'a missing list')
-      call expect_damaged(file, 'open list')
+      call expect_damaged(file, 'find list')
    end subroutine missing
 
    subroutine wrong_size()
@@ -211,7 +211,7 @@ contains
       call file%put_table('behind', reshape([1.0_wp], [1, 1]), 'm', 'a table', '')
       call file%get_list('before', list)
       call expect_close(list(1), 0.0_wp, 0.0_wp, 'nothing is read')
-      call expect_damaged(file, 'open missing')
+      call expect_damaged(file, 'find missing')
       call file%open(path, writing=.false.)
       call expect(file%has('before'), 'nothing is written')
       call expect(.not. file%has('behind'), 'nothing is written')

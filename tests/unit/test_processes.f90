@@ -92,7 +92,7 @@ contains
       integer :: child
       child = new_process()
       if (child == 0) then
-         call limit_child(1)
+         call limit_child(1, 60, 1000)
          print '(a)', '1 passed, 1000 failed'
          call wait_for_ever()
       end if

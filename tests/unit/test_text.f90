@@ -1,7 +1,7 @@
 !> Numbers as text: short text to six digits, exact text to the last bit.
 program test_text
    use kinds, only: wp, i8
-   use text, only: to_text, exact_text, lower_case, printable, shortened, is_utf8
+   use text, only: checksum, to_text, exact_text, lower_case, printable, shortened, is_utf8
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
@@ -12,6 +12,7 @@ program test_text
    if (runs('exact_special_values')) call exact_special_values()
    if (runs('words')) call words()
    if (runs('characters')) call characters()
+   if (runs('checksums')) call checksums()
    call report()
 
 contains
@@ -148,4 +149,15 @@ contains
       real(wp), intent(in) :: a, b
       same_bits = transfer(a, 1_i8) == transfer(b, 1_i8)
    end function same_bits
+
+   !> One of parts is that of the whole, as a sweep that grows needs it; order, blanks and zeros count.
+   subroutine checksums()
+      integer(i8) :: whole
+      whole = checksum('ab', 0_i8)
+      call expect(whole == checksum('b', checksum('a', 0_i8)), 'of parts')
+      call expect(whole /= checksum('ba', 0_i8), 'the order')
+      call expect(whole /= checksum('ab ', 0_i8), 'a blank')
+      call expect(checksum(achar(0), 0_i8) /= checksum('', 0_i8), 'a zero')
+      call expect(checksum(repeat('~', 10000), 0_i8) > 0, 'a long text')
+   end subroutine checksums
 end program test_text

@@ -1,7 +1,8 @@
 !> Working files: what stands under the file's name at each moment, and beside it.
 program test_working_file
    use errors, only: error_type, system_error
-   use files, only: delete_file, link_file
+   use files, only: delete_file, file_identity
+   use processes, only: host_name
    use scratch, only: scratch_path, file_there, write_bytes, bytes_of
    use working_file, only: working_file_type
    use check, only: runs, expect, expect_no_error, expect_error, report
@@ -12,6 +13,8 @@ program test_working_file
    if (runs('first_time')) call first_time()
    if (runs('again')) call again()
    if (runs('continued')) call continued()
+   if (runs('parts_of_before')) call parts_of_before()
+   if (runs('replaced_meanwhile')) call replaced_meanwhile()
    if (runs('given_up')) call given_up()
    if (runs('lock_gone')) call lock_gone()
    if (runs('cannot_be_renamed')) call cannot_be_renamed()
@@ -26,7 +29,7 @@ contains
    subroutine clear()
       call delete_file(path)
       call delete_file(path//'.part')
-      call delete_file(path//'.old')
+      call delete_file(path//'.part2')
       call delete_file(path//'.lock')
    end subroutine clear
 
@@ -35,7 +38,7 @@ contains
       character(len=*), intent(in) :: whole, part, what
       call expect(bytes_of(path) == whole, what//': the file is '//bytes_of(path))
       call expect(bytes_of(path//'.part') == part, what//': its part is '//bytes_of(path//'.part'))
-      call expect(.not. file_there(path//'.old'), what//': nothing else')
+      call expect(.not. file_there(path//'.part2'), what//': nothing else')
    end subroutine expect_files
 
    subroutine claim(work)
@@ -45,6 +48,19 @@ contains
       call expect_no_error(error, 'the name is claimed')
       call expect(file_there(path//'.lock'), 'and locked')
    end subroutine claim
+
+   !> Writes the part, which is made if it is not there.
+   subroutine write_part(work, bytes)
+      type(working_file_type), intent(inout) :: work
+      character(len=*), intent(in) :: bytes
+      type(error_type), allocatable :: error
+      integer :: unit
+      if (.not. file_there(work%part)) call work%make_part(error)
+      call expect_no_error(error, 'a part')
+      open (newunit=unit, file=work%part, access='stream', form='unformatted', status='old', action='write')
+      write (unit) bytes
+      close (unit)
+   end subroutine write_part
 
    subroutine publish(work, expected)
       type(working_file_type), intent(inout) :: work
@@ -62,7 +78,7 @@ contains
       call clear()
       call write_bytes(path, 'before')
       call claim(work)
-      call write_bytes(work%part, 'new')
+      call write_part(work, 'new')
       call expect_files('before', 'new', 'while it is written')
       call publish(work, .false.)
       call expect_files('new', '(none)', 'published')
@@ -76,12 +92,12 @@ contains
       type(working_file_type) :: work
       call clear()
       call claim(work)
-      call write_bytes(work%part, '1')
+      call write_part(work, '1')
       call publish(work, .false.)
-      call write_bytes(work%part, '12')
+      call write_part(work, '12')
       call publish(work, .true.)
       call expect_files('12', '1', 'the second time')
-      call write_bytes(work%part, '123')
+      call write_part(work, '123')
       call publish(work, .true.)
       call expect_files('123', '12', 'the third time')
       call work%release()
@@ -92,24 +108,16 @@ contains
    subroutine continued()
       type(working_file_type) :: work
       type(error_type), allocatable :: error
-      character(len=:), allocatable :: other
-      logical :: linked
       call clear()
       call write_bytes(path, 'before')
-      call write_bytes(path//'.part', 'left by a crash')
-      other = scratch_path('other')
-      linked = link_file(path//'.part', other)
       call claim(work)
       call work%copy_published(error)
       call expect_no_error(error, 'copied')
-      call expect(linked, 'a second name for the part of before')
-      call expect(bytes_of(other) == 'left by a crash', 'copied into a new file: a reader keeps the old one')
-      call delete_file(other)
       call expect_files('before', 'before', 'copied')
-      call write_bytes(work%part, 'more')
-      call expect_files('before', 'more', 'changed')
+      call write_part(work, 'more..')
+      call expect_files('before', 'more..', 'changed')
       call publish(work, .false.)
-      call expect_files('more', '(none)', 'published')
+      call expect_files('more..', '(none)', 'published')
       call work%release()
       call clear()
       call claim(work)
@@ -118,12 +126,85 @@ contains
       call work%release()
    end subroutine continued
 
+   !> The parts of a run that was killed are deleted, by their identity; what else has the name stays, and another name
+   !> is taken.
+   subroutine parts_of_before()
+      type(working_file_type) :: work
+      integer :: unit
+      call clear()
+      call write_bytes(path//'.part', 'of the dead run')
+      call leave_lock(file_identity(path//'.part'))
+      call claim(work)
+      call expect_files('(none)', '(none)', 'its part is gone')
+      call expect(work%part == path//'.part', 'and its name is used again')
+      call work%release()
+
+      call write_bytes(path//'.part', 'precious')
+      call leave_lock('1:2.3')
+      call claim(work)
+      call expect(work%part == path//'.part2', 'another name: '//work%part)
+      call write_part(work, 'new')
+      call publish(work, .false.)
+      call work%release()
+      call expect_files('new', 'precious', 'what was there stays')
+
+      ! killed while it made the part
+      call write_bytes(path//'.part', '')
+      call leave_lock('0')
+      call claim(work)
+      call expect_files('new', '(none)', 'an empty part is deleted')
+      call work%release()
+      call write_bytes(path//'.part', 'precious')
+      call leave_lock('0')
+      call claim(work)
+      call expect_files('new', 'precious', 'another file is not')
+
+      ! a file that takes the place of the part meanwhile
+      call write_part(work, 'newer')
+      call delete_file(work%part)
+      open (newunit=unit, file=work%part, status='new', action='write')
+      close (unit)
+      call work%release()
+      call expect(file_there(work%part), 'is not deleted')
+   end subroutine parts_of_before
+
+   !> The lock file of a run that was killed, with the files that it had made.
+   subroutine leave_lock(files)
+      character(len=*), intent(in) :: files
+      call write_bytes(path//'.lock', host_name()//' 999999 7 '//files//achar(10))
+   end subroutine leave_lock
+
+   !> A file that somebody puts in the place of the result while the run writes is not replaced.
+   subroutine replaced_meanwhile()
+      type(working_file_type) :: work
+      type(error_type), allocatable :: error
+      logical :: exchanged
+      call clear()
+      call write_bytes(path, 'before')
+      call claim(work)
+      call write_part(work, 'new')
+      call delete_file(path)
+      call write_bytes(path, 'precious')
+      call work%publish(exchanged, error)
+      call expect_error(error, system_error, 'something else has been put there', 'a file put there meanwhile')
+      call work%release()
+      call expect_files('precious', 'new', 'both stay')
+      call clear()
+      call claim(work)
+      call write_part(work, 'new')
+      call publish(work, .false.)
+      call delete_file(path)
+      call work%copy_published(error)
+      call expect_error(error, system_error, 'cannot write', 'a result that was removed cannot be copied')
+      call work%release()
+   end subroutine replaced_meanwhile
+
    subroutine given_up()
       type(working_file_type) :: work
       call clear()
       call write_bytes(path, 'before')
       call claim(work)
-      call write_bytes(work%part, 'half')
+      call write_part(work, 'half')
       call work%release()
       call expect_files('before', '(none)', 'given up')
       call expect(.not. file_there(path//'.lock'), 'the lock is gone')
@@ -137,7 +218,7 @@ contains
       call clear()
       call write_bytes(path, 'before')
       call claim(work)
-      call write_bytes(work%part, 'new')
+      call write_part(work, 'new')
       call delete_file(path//'.lock')
       call work%publish(exchanged, error)
       call expect_error(error, system_error, 'its lock is gone', 'publishing without the lock')
@@ -153,7 +234,7 @@ contains
       integer :: status
       call clear()
       call claim(work)
-      call write_bytes(work%part, 'new')
+      call write_part(work, 'new')
       call execute_command_line('mkdir '//path//' && touch '//path//'/file', exitstat=status)
       call work%publish(exchanged, error)
       call expect_error(error, system_error, 'cannot rename '//path//'.part, which is whole', 'a folder in the way')
@@ -176,7 +257,7 @@ contains
       call work%claim(link, error)
       call expect_no_error(error, 'a link is claimed')
       call expect(work%path == path .and. work%part == path//'.part', 'for the file that it leads to: '//work%path)
-      call write_bytes(work%part, 'new')
+      call write_part(work, 'new')
       call publish(work, .false.)
       call work%release()
       call expect_files('new', '(none)', 'behind the link')

@@ -17,7 +17,7 @@ import numpy as np
 
 from tiltpad.collect.members import DONE, UNENDED, Member, member, planned
 from tiltpad.collect.study_file import ranges, write
-from tiltpad.files.archive import RunError, opened
+from tiltpad.files.archive import RunError, opened, plain
 from tiltpad.files.read import IncompleteRunWarning
 
 PathLike = str | os.PathLike
@@ -46,7 +46,7 @@ class Collected(NamedTuple):
         parts = [f"{self.done} done, {self.failed} failed, {self.incomplete} incomplete"]
         parts += [f"{self.unreadable} unreadable"] if self.unreadable else []
         parts += [f"{len(self.missing)} missing"] if self.missing else []
-        return f"{self.members} members: {', '.join(parts)}; written: {self.output}"
+        return f"{self.members} members: {', '.join(parts)}; written: {plain(f'{self.output}')}"
 
 
 def collect(
@@ -144,10 +144,36 @@ def check_one_study(members: Sequence[Member]) -> None:
             raise ValueError(
                 f"{first.path} and {each.path}: not of one study: {kind(first)}, and {kind(each)}"
             )
+    check_marks(readable)
     seen: dict[int, Path] = {}
     for each in readable:
         if each.number is not None and seen.setdefault(each.number, each.path) != each.path:
             raise ValueError(f"{seen[each.number]} and {each.path}: both are member {each.number}")
+
+
+def check_marks(readable: Sequence[Member]) -> None:
+    """Raises ValueError where the checksums of the members show that they are of two sweeps.
+
+    Members of sweeps of one size have the checksum of all members in common. A sweep that has grown has the
+    checksum of the smaller one at its last member.
+    """
+    marked = [each for each in readable if each.marks]
+    by_number = {each.number: each for each in marked}
+    whole: dict[int, Member] = {}
+    for each in marked:
+        before, _, of_all = each.marks
+        first = whole.setdefault(each.members, each)
+        earlier, last = by_number.get(each.number - 1), by_number.get(each.members)
+        for other, fits in (
+            (first, first.marks[2] == of_all),
+            (earlier, not earlier or earlier.marks[1] == before),
+            (last, not last or last.marks[1] == of_all),
+        ):
+            if not fits:
+                raise ValueError(
+                    f"{other.path} and {each.path}: members of two sweeps; run one of them into another "
+                    "folder, or with --overwrite"
+                )
 
 
 def kind(one: Member) -> str:

@@ -1,5 +1,6 @@
 """Members of a study: how a run ended, results of its last revolution, Poincare points, cost."""
 
+import re
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -9,12 +10,17 @@ import numpy as np
 
 from tiltpad.calculate import pivots, signals
 from tiltpad.collect.parameters import swept
-from tiltpad.files.archive import NotInRunError, RunError, reading
+from tiltpad.files.archive import NotInRunError, RunError, damaged, reading
 from tiltpad.files.read import Run, read
-from tiltpad.files.study import POINTS, REVOLUTIONS
+from tiltpad.files.study import POINTS, QUANTITIES, REVOLUTIONS
 
 #: Exit status of a member that was done, and those of one that did not end: running or killed, stopped.
 DONE, UNENDED = 0, (-1, 4)
+#: Most members of a sweep.
+MOST = 100_000
+#: Names as the program writes them: of a swept variable, and of a number of the cost.
+VARIABLE = re.compile(r"[a-z]\w*%[a-z]\w*(\(\d+\))?", re.ASCII)
+COST = re.compile(r"[a-z]\w*", re.ASCII)
 #: A whole revolution, less a rounding error.
 WHOLE = 1 - 1e-9
 
@@ -27,6 +33,8 @@ class Member(NamedTuple):
         path, number      its file; its number in the sweep, None of a run that is no member
         status, reason    exit status (nan: the file cannot be read), and the reason where it failed
         members, sweep    members of the whole sweep, and its own swept values by variable
+        marks             checksums of the sweep: up to the member before, up to this one, of all; None where
+                          they are not known
         input             resolved namelist, None where the file cannot be read
         origin            version, title and input text
         values            results by names of tiltpad.files.study: a number, (pad,), (revolution,),
@@ -40,6 +48,7 @@ class Member(NamedTuple):
     reason: str
     members: int | None = None
     sweep: dict[str, Any] | None = None
+    marks: tuple[str, str, str] | None = None
     input: dict[str, dict[str, Any]] | None = None
     origin: dict[str, str] | None = None
     values: dict[str, Any] | None = None
@@ -52,16 +61,25 @@ def member(path: Path) -> Member:
         with read(path) as run:
             return measured(path, run)
     except RunError as error:
-        stem = path.stem
-        return Member(path, int(stem) if stem.isdecimal() else None, np.nan, f"{error}")
+        return unreadable(path, f"{error}")
+    except Exception as error:
+        # whatever a damaged file brings about, the other members are to be collected
+        return unreadable(path, f"{damaged(f'{path}', 'it', error)}")
+
+
+def unreadable(path: Path, reason: str) -> Member:
+    """The member of a file that cannot be read; its number is that in its name, if any."""
+    stem = path.stem
+    number = int(stem) if stem.isascii() and stem.isdecimal() and len(stem) <= len(f"{MOST}") else 0
+    return Member(path, number if 1 <= number <= MOST else None, np.nan, reason)
 
 
 def measured(path: Path, run: Run) -> Member:
     """The member of a run that can be read."""
     attributes = run.attributes
     complete = bool(run.complete)
-    with reading(run.path, "attribute 'sweep'"):
-        sweep = swept(attributes.get("sweep", ""))
+    with reading(run.path, "its place in a sweep"):
+        number, members, sweep, marks = place(attributes)
     status = int(attributes.get("exit_status", DONE if complete else 2))
     if not complete and status == DONE:
         status = UNENDED[0]
@@ -84,16 +102,34 @@ def measured(path: Path, run: Run) -> Member:
             values |= {name: points[state] for name, state in POINTS.items()}
     return Member(
         path,
-        int(attributes["member"]) if "member" in attributes else None,
+        number,
         status,
         reason,
-        int(attributes["members"]) if "members" in attributes else None,
+        members,
         sweep,
+        marks,
         run.input,
         {name: attributes[name] for name in ("version", "title", "input")},
         values,
         cost(run),
     )
+
+
+def place(attributes: dict[str, Any]) -> tuple[int | None, int | None, dict[str, Any], Any]:
+    """Number, members, values and marks of a member of a sweep; None, None, {} and None of another run.
+
+    Raises ValueError where they are not those of a sweep that the program makes.
+    """
+    if "member" not in attributes:
+        return None, None, {}, None
+    number, members = (int(attributes.get(name, 0)) for name in ("member", "members"))
+    if not 1 <= number <= members <= MOST:
+        raise ValueError(f"member {number} of {members}")
+    sweep = swept(attributes.get("sweep", ""))
+    if strange := [name for name in sweep if not VARIABLE.fullmatch(name)]:
+        raise ValueError(f"{strange[0]!r} is no variable")
+    marks = tuple(f"{attributes.get('sweep_marks', '')}".split())
+    return number, members, sweep, marks if len(marks) == len(("before", "own", "all")) else None
 
 
 def at_rest(run: Run) -> dict[str, float]:
@@ -146,7 +182,13 @@ def friction(run: Run, part: slice) -> dict[str, Any]:
 
 def cost(run: Run) -> dict[str, float]:
     """The numbers of the group statistics; none where the run has no such group."""
-    return {name: float(value) for name, value in run["statistics"].items()} if "statistics" in run else {}
+    if "statistics" not in run:
+        return {}
+    return {
+        name: float(value)
+        for name, value in run["statistics"].items()
+        if COST.fullmatch(name) and name not in QUANTITIES
+    }
 
 
 def planned(members: Sequence[Member]) -> int:

@@ -1,16 +1,13 @@
 """Parameters of a study: the swept variables, or those in which the inputs differ."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from tiltpad.calculate.differences import by_variable, shared
 from tiltpad.files import namelist, units
-
-#: Names of results, which parameters get with their group.
-TAKEN = ("checkpoint_seconds",)
 
 
 class Parameter(NamedTuple):
@@ -71,8 +68,11 @@ def elements(name: str, values: Sequence[Any]) -> list[dict[str, Any]]:
     return [{f"{name}({k + 1})": each[k] for k in differ if k < len(each)} for each in lists]
 
 
-def parameters(members: Sequence[dict[str, Any] | None]) -> list[Parameter]:
-    """The parameters of members from their values by variable; None for a member that is not known."""
+def parameters(members: Sequence[dict[str, Any] | None], taken: Collection[str] = ()) -> list[Parameter]:
+    """The parameters of members from their values by variable; None for a member that is not known.
+
+    A name that another group has too, or that is `taken`, gets its group.
+    """
     variables = list(dict.fromkeys(variable for each in members for variable in each or {}))
     short = Counter(short_name(variable) for variable in variables)
     found = []
@@ -80,7 +80,7 @@ def parameters(members: Sequence[dict[str, Any] | None]) -> list[Parameter]:
         values = [None if each is None else each.get(variable) for each in members]
         name, (words, unit) = short_name(variable), units.named(variable.partition("(")[0])
         group, _, rest = variable.rpartition("%")
-        if short[name] > 1 or name in TAKEN:
+        if short[name] > 1 or name in taken:
             name, words = f"{group}_{name}", f"{words} ({group})"
         if "(" in rest:
             words += f", {rest.partition('(')[2].rstrip(')')}"

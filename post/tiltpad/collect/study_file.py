@@ -12,16 +12,24 @@ import numpy as np
 
 from tiltpad.collect.members import Member, planned
 from tiltpad.collect.parameters import differing, parameters
-from tiltpad.files.archive import FORMAT_VERSION, RunError
+from tiltpad.files.archive import FORMAT_VERSION, RunError, plain
 from tiltpad.files.read import read
 from tiltpad.files.study import MEMBER, QUANTITIES, Quantity
 
+#: Names of the dimensions, and the texts of a member with their meaning.
+DIMENSIONS = ("member", "pad", "revolution")
+TEXTS = {"reason": "reason of the failure", "file": "result file, relative to the folder of this file"}
+
 
 def write(target: Path, members: Sequence[Member], missing: Sequence[int]) -> None:
-    """Writes the file under a temporary name, and renames it when it is whole."""
+    """Writes the file under a temporary name, which nothing had before, and renames it when it is whole."""
     if not target.parent.is_dir():
         raise RunError(f"{target.parent}: no such folder")
     temporary = target.with_name(f"{target.name}.part{os.getpid()}")
+    try:
+        temporary.open("xb").close()
+    except FileExistsError:
+        raise RunError(f"{temporary}: is in the way; remove or rename it") from None
     try:
         with h5py.File(temporary, "w") as file:
             fill(file, members, missing, target.resolve().parent)
@@ -39,7 +47,8 @@ def fill(file: h5py.File, members: Sequence[Member], missing: Sequence[int], fol
     else:
         own = differing([each.input for each in readable])
         known = {each.path: values for each, values in zip(readable, own, strict=True)}
-    found = parameters([known.get(each.path) for each in members])
+    taken = {*DIMENSIONS, *TEXTS, "members", *QUANTITIES}.union(*(each.cost or {} for each in members))
+    found = parameters([known.get(each.path) for each in members], taken)
     titles = {each.origin["title"] for each in readable}
     file.attrs.update(
         {
@@ -61,10 +70,8 @@ def fill(file: h5py.File, members: Sequence[Member], missing: Sequence[int], fol
     for each in found:
         put(file, each.name, each.values, MEMBER, each.units, each.long_name)
     paths = [os.path.relpath(each.path.resolve(), folder) for each in members]
-    texts = {"reason": ("reason of the failure", [each.reason for each in members])}
-    texts["file"] = ("result file, relative to the folder of this file", paths)
-    for name, (long_name, values) in texts.items():
-        put(file, name, values, MEMBER, "", long_name, coordinates)
+    for name, values in (("reason", [each.reason for each in members]), ("file", paths)):
+        put(file, name, values, MEMBER, "", TEXTS[name], coordinates)
     for name, quantity, values in tables(members):
         put(file, name, values, quantity.dimensions, quantity.units, quantity.long_name, coordinates)
     links = file.create_group("members")
@@ -145,7 +152,7 @@ def put(
 ) -> None:
     """A dataset along its dimension scales, with the attributes of the CF conventions."""
     if isinstance(values[0], str):
-        values = np.array(values, dtype=h5py.string_dtype())
+        values = np.array([plain(each) for each in values], dtype=h5py.string_dtype())
     dataset = file.create_dataset(name, data=values)
     for axis, dimension in enumerate(dimensions):
         dataset.dims[axis].attach_scale(file[dimension])

@@ -1,7 +1,8 @@
 """Opening HDF5 files of tiltpad, with a message of one line if a file is wrong.
 
 Any error of the HDF5 library over a damaged file becomes a RunError that names the file. Sizes that a file
-claims are compared with its own size before memory is allocated.
+claims are compared with its own size before memory is allocated. Nothing outside the file is read on its
+behalf: links, external storage, virtual datasets and filters of others are refused.
 """
 
 import math
@@ -13,7 +14,7 @@ from typing import Any, Self
 
 import h5py
 import numpy as np
-from h5py import h5t
+from h5py import h5d, h5l, h5t, h5z
 
 from tiltpad.files import heaps
 
@@ -26,8 +27,13 @@ REQUIRED = ("version", "created", "title", "task", "input")
 NUMBERS = ("format_version", "complete", "exit_status", "resumes", "member", "members")
 #: Characters that no page and no picture can show: control characters, halves of characters.
 UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f\ud800-\udfff]")
-#: The highest ratio that the filters of HDF5 (deflate) reach.
-COMPRESSION = 1100
+#: The library's own filters; it would look for others on the machine.
+FILTERS = (h5z.FILTER_DEFLATE, h5z.FILTER_SHUFFLE, h5z.FILTER_FLETCHER32, h5z.FILTER_LZF)
+#: A compressed array may be so many times as large as the whole file, or have so many bytes. Deflated zeros
+#: reach a ratio of 1000, results hardly 2.
+COMPRESSION, SMALL = 20, 1 << 24
+#: Longest attribute in the list of attributes itself, bytes; texts of variable length stand elsewhere.
+LONGEST = 1 << 16
 
 
 class RunError(Exception):
@@ -41,6 +47,8 @@ class NotInRunError(RunError, AttributeError):
 class Archive:
     """An HDF5 file of tiltpad, open for reading; a dataset is loaded when it is used."""
 
+    #: Names that are groups.
+    GROUPS = ("equilibrium", "spectrum", "statistics", "checkpoint", "members")
     #: Kinds of numpy's types that its datasets may have.
     KINDS = "fiu"
     #: Its own attributes: where one is not set yet, no dataset of that name is looked for.
@@ -56,7 +64,7 @@ class Archive:
             with reading(self.path, "attributes"):
                 attrs = self.file.attrs
                 self.attributes: dict[str, Any] = {
-                    name: plain(attrs[name]) for name in attrs if simple(attrs, name)
+                    plain(name): plain(attrs[name]) for name in attrs if simple(attrs, name)
                 }
             check_origin(self.path, self.attributes)
             self.former = NAMES_OF_1 if self.attributes["format_version"] == 1 else {}
@@ -113,6 +121,8 @@ class Archive:
         """A dataset as an array, or the samples `part` of it; a group as a dictionary of arrays."""
         found = self.item(name)
         if isinstance(found, h5py.Group):
+            if "/" in name:
+                raise damaged(self.path, name, "a group in a group")
             return {each: self.values(f"{name}/{each}") for each in self.names(name)}
         with reading(self.path, name):
             return self.sound(name, found[part if found.shape else ()])
@@ -126,11 +136,20 @@ class Archive:
                 raise NotInRunError(self.without(missing))
             with reading(self.path, name):
                 group, slash, own = name.rpartition("/")
-                found = self.file[group + slash + self.former.get(own, own)]
+                found = self.own(group + slash + self.former.get(own, own))
                 if not isinstance(found, h5py.Group):
                     self.check_dataset(name, found)
             self.found[name] = found
         return self.found[name]
+
+    def own(self, path: str) -> h5py.Dataset | h5py.Group:
+        """The object of this path; ValueError for links, which may lead out of the file."""
+        found = self.file
+        for part in path.split("/"):
+            if found.id.links.get_info(part.encode()).type != h5l.TYPE_HARD:
+                raise ValueError(f"{part} is a link and not in this file")
+            found = found[part]
+        return found
 
     def length(self, name: str) -> int:
         """Number of values along a dimension, by the name of its scale."""
@@ -145,7 +164,7 @@ class Archive:
 
     def without(self, name: str) -> str:
         """The message for a dataset that is missing."""
-        return f"{self.path}: no {name} in this file: there are {', '.join(self.names())}"
+        return f"{self.path}: no {shown(name)} in this file: there are {', '.join(self.names())}"
 
     def check_whole(self) -> None:
         """Refuses a file whose parts do not fit together; each kind of file has its own checks."""
@@ -154,15 +173,20 @@ class Archive:
         """Raises ValueError for anything but an array of numbers, for an array larger than the file can hold,
         and for a shape that does not fit the other datasets.
         """
-        if not isinstance(found, h5py.Dataset) or (kind := found.dtype).kind not in self.KINDS:
+        if not isinstance(found, h5py.Dataset):
+            raise ValueError("not an array of numbers")
+        if name in self.GROUPS:
+            raise ValueError("not a group")
+        # first, as even the shape of a virtual dataset may be looked for in other files
+        check_storage(found.id.get_create_plist())
+        if (kind := found.dtype).kind not in self.KINDS:
             raise ValueError("not an array of numbers")
         if kind.kind == "O" and h5py.check_string_dtype(kind) is None:
             raise ValueError("neither numbers nor texts")
         # HDF5 allocates whole chunks; deflated data may be larger than the file
         claimed = kind.itemsize * max(math.prod(found.shape), math.prod(found.chunks or (0,)))
-        if claimed > self.size and (
-            claimed > COMPRESSION * self.size or not found.id.get_create_plist().get_nfilters()
-        ):
+        compressed = found.id.get_create_plist().get_nfilters() > 0
+        if claimed > (max(COMPRESSION * self.size, SMALL) if compressed else self.size):
             raise ValueError(f"it claims {claimed} bytes, more than the file holds")
         scales = self.scales(name)
         if scales == (name,):
@@ -177,6 +201,14 @@ class Archive:
     def sound(self, name: str, values: Any) -> Any:
         """The values that were read; ValueError where they are impossible."""
         return values
+
+
+def check_storage(creation: h5py.h5p.PropDCID) -> None:
+    """Raises ValueError for values that are not in the file, or that need the filter of another library."""
+    if creation.get_layout() == h5d.VIRTUAL or creation.get_external_count():
+        raise ValueError("its values are in other files")
+    if any(creation.get_filter(k)[0] not in FILTERS for k in range(creation.get_nfilters())):
+        raise ValueError("compressed by an unknown filter")
 
 
 @contextmanager
@@ -194,13 +226,15 @@ def damaged(path: str, what: str, why: object) -> RunError:
     """The error of a damaged file, in one line."""
     reason = why.args[0] if isinstance(why, KeyError) and why.args else why
     return RunError(
-        f"{path}: {what} cannot be read, the file is damaged ({' '.join(plain(f'{reason}').split())})"
+        f"{path}: {shown(what)} cannot be read, the file is damaged ({' '.join(plain(f'{reason}').split())})"
     )
 
 
 def simple(attrs: h5py.AttributeManager, name: str) -> bool:
-    """True where an attribute is a text or a number; the library can crash over other, damaged types."""
-    return attrs.get_id(name).get_type().get_class() in (h5t.STRING, h5t.INTEGER, h5t.FLOAT)
+    """True where an attribute is one text or number; the library can crash over other, damaged types."""
+    found = attrs.get_id(name)
+    known = found.get_type().get_class() in (h5t.STRING, h5t.INTEGER, h5t.FLOAT)
+    return known and found.shape == () and found.get_storage_size() <= LONGEST
 
 
 def plain(value: Any) -> Any:
@@ -211,6 +245,11 @@ def plain(value: Any) -> Any:
         return value
     # h5py gives bytes that are not UTF-8 as surrogates
     return UNPRINTABLE.sub("\ufffd", value)
+
+
+def shown(name: str) -> str:
+    """A name as messages show it: on one line, and not too long."""
+    return " ".join(plain(name).split())[:80]
 
 
 def opened(path: str) -> h5py.File:
@@ -253,6 +292,10 @@ def check_origin(path: str, attributes: dict[str, Any]) -> None:
         raise RunError(
             f"{path}: format_version {version} is newer than {FORMAT_VERSION}, the newest this reader knows; "
             "update the Python package tiltpad"
+        )
+    if version < 1:
+        raise RunError(
+            f"{path}: format_version {version} is unknown; versions 1 to {FORMAT_VERSION} can be read"
         )
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from tiltpad.files import namelist
-from tiltpad.files.archive import Archive, RunError, damaged, reading
+from tiltpad.files.archive import Archive, RunError, damaged, reading, shown
 
 #: Datasets over which the others are drawn and integrated; they must be finite.
 AXES = ("time", "shaft_angle", "speed", "pivot_angle")
@@ -42,7 +42,10 @@ DIMENSIONS = {
     ),
     "spectrum/pad_tilt": ("pad", "spectrum/frequency"),
     **dict.fromkeys(("spectrum/full_frequency", "spectrum/journal_full"), ("spectrum/full_frequency",)),
+    **dict.fromkeys(("spectrum/revolutions", "checkpoint/time"), ()),
 }
+#: A group of single numbers.
+NUMBERS = "statistics"
 
 
 class IncompleteRunWarning(UserWarning):
@@ -114,7 +117,7 @@ class Run(Archive):
             raise damaged(self.path, "pad", f"{there} pads, and {self.pads} in the input")
 
     def scales(self, name: str) -> Sequence[str] | None:
-        return DIMENSIONS.get(name)
+        return () if name.startswith(f"{NUMBERS}/") else DIMENSIONS.get(name)
 
     def sound(self, name: str, values: Any) -> Any:
         if name in AXES and not np.isfinite(values).all():
@@ -132,7 +135,7 @@ class Run(Archive):
 
     def without(self, name: str) -> str:
         """The message for a dataset that is missing."""
-        return f"{self.path}: no {name} in this run: {self.why_not(name)}"
+        return f"{self.path}: no {shown(name)} in this run: {self.why_not(name)}"
 
     def why_not(self, name: str) -> str:
         """The reason why the run has no such dataset."""

@@ -1,0 +1,110 @@
+!> The folder of a sweep: the names of its files, and that they are of one sweep.
+module sweep_folder
+   use text, only: to_text
+   use errors, only: error_type, raise, system_error, stopped
+   use scene, only: scene_type
+   use sweep, only: sweep_type, member_tag
+   use files, only: is_regular
+   use processes, only: process_id, make_folder, remove_folder, other_number
+   use restart, only: restart_type, read_result, refuse_other_scene
+   use run_case, only: way_out
+   use stop_signals, only: stop_requested, stop_reason
+   implicit none (type, external)
+   private
+   public :: member_file, prepare_folder, check_folder, check_neighbours
+
+contains
+
+   !> Result file of a member: FOLDER/0001.h5, with as many digits as the last one needs.
+   function member_file(folder, k, members) result(path)
+      character(len=*), intent(in) :: folder
+      integer, intent(in) :: k, members
+      character(len=:), allocatable :: path, number
+      number = to_text(k)
+      path = folder//'/'//repeat('0', name_width(members) - len(number))//number//'.h5'
+   end function member_file
+
+   !> Digits in the names of the files.
+   integer function name_width(members)
+      integer, intent(in) :: members
+      name_width = max(4, len(to_text(members)))
+   end function name_width
+
+   !> Makes the folder of the members if it is not there, and tries to write into it.
+   subroutine prepare_folder(folder, error)
+      character(len=*), intent(in) :: folder
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: refusal, trial
+      logical :: made
+      trial = folder//'/.part'//to_text(int(process_id()))
+      call make_folder(folder, refusal)
+      if (refusal == '') then
+         call make_folder(trial, refusal, made)
+         if (made) call remove_folder(trial)
+      end if
+      if (refusal /= '') call raise(error, system_error, 'cannot write into the folder '//folder//': '//refusal)
+   end subroutine prepare_folder
+
+   !> Refuses a folder with results of another sweep: results that are not those of this sweep's members, unless they
+   !> may be overwritten, and numbers that this sweep does not have. The sweep may have grown. What cannot be read is
+   !> left to the run of its member.
+   subroutine check_folder(sweep, folder, overwrite, error)
+      type(sweep_type), intent(in) :: sweep
+      character(len=*), intent(in) :: folder
+      logical, intent(in) :: overwrite
+      type(error_type), allocatable, intent(out) :: error
+      type(restart_type) :: found
+      type(scene_type) :: scene
+      type(member_tag) :: tag
+      character(len=:), allocatable :: path, other
+      integer :: k
+      other = other_number(folder, name_width(sweep%members), sweep%members)
+      if (other /= '') call raise(error, system_error, folder//'/'//other//': is no member of this sweep, which has ' &
+         & //to_text(sweep%members)//'; remove it, or name another folder with --output')
+      if (overwrite) return
+      do k = 1, sweep%members
+         if (stop_requested()) call raise(error, stopped, stop_reason()//'; no member was started')
+         if (allocated(error)) return
+         path = member_file(folder, k, sweep%members)
+         if (.not. is_readable(path, found)) cycle
+         call sweep%scene(k, scene, error)
+         if (allocated(error)) return
+         call sweep%tag(k, tag)
+         call refuse_other_scene(path, scene, tag, .true., found, error)
+         if (allocated(error)) error%message = error%message//way_out
+      end do
+   end subroutine check_folder
+
+   !> The same for a run of the k-th member alone, which looks at the results of its neighbours only, as a study may
+   !> have very many.
+   subroutine check_neighbours(sweep, folder, k, error)
+      type(sweep_type), intent(in) :: sweep
+      character(len=*), intent(in) :: folder
+      integer, intent(in) :: k
+      type(error_type), allocatable, intent(out) :: error
+      type(restart_type) :: found
+      type(member_tag) :: tag
+      character(len=:), allocatable :: path
+      integer :: i
+      do i = max(1, k - 1), min(sweep%members, k + 1)
+         path = member_file(folder, i, sweep%members)
+         if (i == k) cycle
+         if (.not. is_readable(path, found)) cycle
+         call sweep%tag(i, tag)
+         if (found%tag%number == i .and. found%tag%same_up_to(tag)) cycle
+         call raise(error, system_error, path//': is of another sweep than member '//to_text(k)//way_out)
+         return
+      end do
+   end subroutine check_neighbours
+
+   !> True where there is a result of this name that can be read.
+   logical function is_readable(path, found)
+      character(len=*), intent(in) :: path
+      type(restart_type), intent(out) :: found
+      type(error_type), allocatable :: error
+      is_readable = is_regular(path)
+      if (.not. is_readable) return
+      call read_result(path, found, error)
+      is_readable = .not. allocated(error)
+   end function is_readable
+end module sweep_folder

@@ -1,0 +1,204 @@
+"""Files that are not the program's: beside a result, under its name, behind links. They stay as they are."""
+
+import os
+import shutil
+import signal
+import subprocess
+import time
+
+import h5py
+import pytest
+
+CASE = "&operation duration=0.02 / &output checkpoint_seconds=0.005 /\n"
+
+
+@pytest.fixture
+def case(tmp_path):
+    (tmp_path / "case.nml").write_text(CASE)
+    return tmp_path
+
+
+def contents(folder):
+    """What every file, link and pipe of a folder is and contains."""
+    found = {}
+    for path in sorted(folder.iterdir()):
+        if path.is_symlink():
+            found[path.name] = "to " + os.readlink(path)
+        elif path.is_file():
+            found[path.name] = path.read_bytes()
+        else:
+            found[path.name] = "no file"
+    return found
+
+
+def refused(run, *words):
+    assert run.returncode == 3, run.stderr
+    assert run.stdout == ""
+    assert run.stderr.startswith("tiltpad: error: ")
+    assert run.stderr.count("\n") == 1
+    for word in words:
+        assert word in run.stderr
+
+
+def running(program, case, *names):
+    """A run that does not end by itself, and has made these files."""
+    process = subprocess.Popen(
+        [program, "case.nml", "-q", "--set", "operation%duration=100"],
+        cwd=case, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    end = time.monotonic() + 30
+    while not all((case / name).exists() for name in names):
+        assert time.monotonic() < end
+        time.sleep(0.001)
+    return process
+
+
+@pytest.mark.parametrize(
+    "arguments", [["case.nml"], ["--resume", "case.h5"], ["--resume", "case.h5", "case.nml"]]
+)
+def test_copies_beside_a_result(tiltpad, case, arguments):
+    """Of the names that the program uses and has used."""
+    assert tiltpad("case.nml", "-q", cwd=case).returncode == 0
+    for name in ("case.h5.old", "case.h5.part", "case.h5.part2"):
+        shutil.copy(case / "case.h5", case / name)
+    before = contents(case)
+    done = tiltpad(*arguments, cwd=case)
+    assert done.returncode == 0, done.stderr
+    after = contents(case)
+    assert after.keys() == before.keys()
+    assert all(after[name] == before[name] for name in before if name != "case.h5")
+
+
+def test_copies_beside_a_result_when_the_run_fails(tiltpad, case):
+    for name in ("case.h5.old", "case.h5.part"):
+        (case / name).write_bytes(b"precious")
+    before = contents(case)
+    assert tiltpad("case.nml", "-q", "--set", "rotor%static_load=1e7,0", cwd=case).returncode == 2
+    assert contents(case) == before
+
+
+@pytest.mark.parametrize(
+    ("name", "output", "status"), [("c.h5.lock", "c.h5", 3), ("c.old", "c", 0), ("c.h5.part", "c.h5", 0)]
+)
+def test_a_case_with_the_name_of_a_side_file(tiltpad, case, name, output, status):
+    (case / name).write_text(CASE)
+    done = tiltpad(name, "-q", "--output", output, cwd=case)
+    assert done.returncode == status
+    if status:
+        refused(done, "c.h5.lock is no lock file of tiltpad; remove or rename it")
+    assert (case / name).read_text() == CASE
+
+
+@pytest.mark.parametrize("suffix", ["lock", "part"])
+@pytest.mark.parametrize("kind", ["symbolic", "hard", "dangling", "pipe", "folder"])
+def test_links_with_the_name_of_a_side_file(tiltpad, case, suffix, kind):
+    """Their targets keep every byte, and nothing waits for a pipe."""
+    (case / "target").write_bytes(b"precious" * 100)
+    place = case / f"case.h5.{suffix}"
+    if kind == "symbolic":
+        place.symlink_to("target")
+    elif kind == "hard":
+        place.hardlink_to(case / "target")
+    elif kind == "dangling":
+        place.symlink_to("nothing")
+    elif kind == "pipe":
+        os.mkfifo(place)
+    else:
+        place.mkdir()
+    before = contents(case)
+    done = tiltpad("case.nml", "-q", cwd=case, timeout=30)
+    if suffix == "lock":
+        refused(done, "case.h5.lock is no lock file of tiltpad")
+    else:
+        assert done.returncode == 0, done.stderr
+        with h5py.File(case / "case.h5") as file:
+            assert file.attrs["complete"] == 1
+    after = contents(case)
+    after.pop("case.h5", None)
+    assert after == before
+
+
+def test_what_is_no_result_is_not_replaced(tiltpad, case):
+    """Whatever it is, and also with --overwrite."""
+    (case / "other.nml").write_text("&case title='precious' /\n")
+    (case / "empty").touch()
+    with h5py.File(case / "other.h5", "w") as file:
+        file["x"] = 1
+    with h5py.File(case / "study.h5", "w") as file:
+        file.attrs.update({"program": "tiltpad", "format_version": 2, "task": "study", "input": "&case /"})
+    before = contents(case)
+    for name in ("other.nml", "empty", "other.h5", "study.h5"):
+        for options in ([], ["--overwrite"]):
+            done = tiltpad("case.nml", "-q", *options, "--output", name, cwd=case)
+            refused(done, name, "; it is not replaced")
+    assert contents(case) == before
+
+
+def test_the_result_of_another_case_is_replaced_only_if_asked(tiltpad, case):
+    assert tiltpad("case.nml", "-q", cwd=case).returncode == 0
+    before = contents(case)
+    heavier = ["case.nml", "-q", "--set", "rotor%mass=2100"]
+    done = tiltpad(*heavier, cwd=case)
+    refused(done, "case.h5: is the result of another case; rotor%mass = 2000 there, 2100 here; --overwrite")
+    assert contents(case) == before
+    # the same case is run again
+    assert tiltpad("case.nml", "-q", cwd=case).returncode == 0
+    assert tiltpad(*heavier, "--overwrite", cwd=case).returncode == 0
+    with h5py.File(case / "case.h5") as file:
+        assert "mass = 2100" in file.attrs["input"]
+    assert sorted(contents(case)) == ["case.h5", "case.nml"]
+
+
+def test_a_killed_run_leaves_its_part_and_others_theirs(program, tiltpad, case):
+    """The next run deletes the part that the lock names, and no copy of it, though it has the part's name."""
+    for replaced in (False, True):
+        process = running(program, case, "case.h5", "case.h5.part")
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        part = case / "case.h5.part"
+        if replaced:
+            content = part.read_bytes()
+            part.unlink(missing_ok=True)
+            part.write_bytes(content)
+        assert tiltpad("case.nml", "-q", "--overwrite", cwd=case).returncode == 0
+        assert part.exists() == replaced
+        (case / "case.h5").unlink()
+    assert sorted(contents(case)) == ["case.h5.part", "case.nml"]
+
+
+def test_a_file_put_under_the_name_while_the_run_writes(program, case):
+    """It stays; where the run has a whole part, that stays too."""
+    process = running(program, case, "case.h5")
+    (case / "precious").write_bytes(b"precious")
+    (case / "precious").rename(case / "case.h5")
+    said = process.communicate(timeout=30)[1]
+    assert process.returncode == 3
+    assert said.count("\n") == 1
+    assert (case / "case.h5").read_bytes() == b"precious"
+    if "something else has been put there" in said:
+        with h5py.File(case / "case.h5.part") as file:
+            assert len(file["time"]) > 0
+
+
+def test_a_lock_that_is_moved_away(program, tiltpad, case):
+    """Two writers never take each other's place: the first notices that its lock is gone."""
+    process = running(program, case, "case.h5")
+    (case / "case.h5.lock").rename(case / "moved")
+    assert "its lock is gone" in process.communicate(timeout=30)[1]
+    assert process.returncode == 3
+    (case / "moved").unlink()
+    assert tiltpad("case.nml", "-q", "--overwrite", cwd=case).returncode == 0
+
+
+def test_a_folder_that_looks_like_the_trial_of_a_sweep(program, case):
+    """Also with the number of the process, which a shell knows."""
+    (case / "sweep.nml").write_text("&case task='equilibrium' /\n&sweep rotor%mass=1000,2000 /\n")
+    (case / "sweep").mkdir()
+    done = subprocess.run(
+        ["sh", "-c", f"mkdir sweep/.part$$; exec {program} -q sweep.nml"],
+        cwd=case,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    assert [path.is_dir() for path in (case / "sweep").iterdir() if path.name.startswith(".part")] == [True]

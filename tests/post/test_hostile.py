@@ -1,0 +1,268 @@
+"""Result files made to do harm: they lead out of the file, claim sizes, go in circles, bear false names.
+
+Each is read by every reader, in a process with 500 MB more than it has and five seconds of the processor's
+time: it is read, or refused in one line with the right status.
+"""
+
+import os
+import resource
+import subprocess
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+import tiltpad
+from tiltpad import command
+
+MEMORY, SECONDS = 500 << 20, 5
+
+
+def replaced(name, **options):
+    """Another dataset, of the same shape, in place of one of the file."""
+
+    def edit(file):
+        shape = file[name].shape
+        given = {key: value(shape) if callable(value) else value for key, value in options.items()}
+        del file[name]
+        file.create_dataset(name, **{"shape": shape, "dtype": "f8"} | given)
+
+    return edit
+
+
+def linked(name, other):
+    """Another thing in place of one of the file."""
+
+    def edit(file):
+        del file[name]
+        file[name] = other
+
+    return edit
+
+
+def virtual(name, growing):
+    """A dataset that is put together from another file's."""
+
+    def edit(file):
+        shape = file[name].shape
+        most = (None,) if growing else shape
+        del file[name]
+        layout = h5py.VirtualLayout(shape, "f8", maxshape=most)
+        part = slice(0, h5py.h5s.UNLIMITED if growing else shape[0])
+        layout[part] = h5py.VirtualSource("pipe", "x", shape, maxshape=most)[part]
+        file.create_virtual_dataset(name, layout)
+
+    return edit
+
+
+def attribute(**values):
+    return lambda file: file.attrs.update(values)
+
+
+def member(variable):
+    return attribute(member=np.int32(1), members=np.int32(2), sweep=f"{variable} = 3")
+
+
+def through_a_link(file):
+    del file["journal_y"]
+    file["outside"] = h5py.ExternalLink("pipe", "/x")
+    file["journal_y"] = h5py.SoftLink("/outside/y")
+
+
+def zeros(name):
+    """Very many zeros, which take no room in the file."""
+
+    def edit(file):
+        if name in file:
+            del file[name]
+        file.create_dataset(name, (400_000_000,), "f8", compression="gzip", chunks=(1_000_000,))[:1] = 1
+
+    return edit
+
+
+def root_in(name):
+    def edit(file):
+        file[name] = file["/"]
+
+    return edit
+
+
+#: Edits of a good file by the name of the attack.
+OUTSIDE = {
+    "external link": linked("journal_y", h5py.ExternalLink("pipe", "/x")),
+    "external group": linked("equilibrium", h5py.ExternalLink("pipe", "/x")),
+    "external link behind a soft one": through_a_link,
+    "external storage": replaced("journal_y", external=lambda shape: [("pipe", 0, 8 * shape[0])]),
+    "external storage of the axis": replaced("time", external=lambda shape: [("pipe", 0, 8 * shape[0])]),
+    "foreign bytes": replaced("journal_y", external=lambda shape: [("secret", 0, 8 * shape[0])]),
+    "virtual": virtual("journal_y", False),
+    "virtual and growing": virtual("journal_y", True),
+}
+FALSE = {
+    "zeros for a count": zeros("statistics/steps"),
+    "unknown zeros": zeros("zeros"),
+    "a thousand million members": attribute(member=1, members=10**9, sweep="operation%speed_rpm = 3000"),
+    "a list of flags": attribute(complete=np.zeros(3000, np.int32)),
+    "a list of texts": attribute(input=np.array(["&case /"] * 100, h5py.string_dtype())),
+    "a group in itself": root_in("equilibrium/self"),
+    "itself in a group": root_in("statistics/self"),
+    "a group for a count": linked("statistics/steps", h5py.SoftLink("/equilibrium")),
+    "a list for a count": linked("statistics/steps", np.arange(5)),
+    "a number for a group": linked("statistics", 1.0),
+    "names with blanks": lambda file: file.__setitem__("statistics/a b\nc", 1.0),
+    "format_version 0": attribute(format_version=np.int32(0)),
+    "format_version -3": attribute(format_version=np.int32(-3)),
+    "format_version 99": attribute(format_version=np.int32(99)),
+    "format_version as text": attribute(format_version="2"),
+    **{
+        f"without {name}": lambda file, name=name: file.attrs.__delitem__(name)
+        for name in ("complete", "task", "input")
+    },
+    "sweep over member": member("operation%member"),
+    "sweep over status": member("rotor%status"),
+    "sweep out of its group": member("operation%../../status"),
+    "sweep over a blank": member("operation%a b"),
+    "sweep over nothing": attribute(member=np.int32(1), members=np.int32(2), sweep="operation%speed_rpm"),
+    "member without members": attribute(member=np.int32(1)),
+    "texts for numbers": replaced("journal_y", dtype="S3"),
+}
+#: They are refused by whoever uses what they touch; the others may be read, as far as that is possible.
+ATTACKS = OUTSIDE | FALSE
+
+
+@pytest.fixture
+def hostile(result, tmp_path):
+    """hostile("virtual"): the file of that attack, beside a pipe that nobody writes into and a secret."""
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "secret").write_bytes(b"SECRET01" * 10_000)
+
+    def make(attack):
+        path = tmp_path / "hostile.h5"
+        path.write_bytes(result("lugre").read_bytes())
+        with h5py.File(path, "r+") as file:
+            ATTACKS[attack](file)
+        return path
+
+    return make
+
+
+def limited(command_line, folder):
+    """Runs a command with limits; it ends with a right status and, where it fails, one line."""
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+
+    done = subprocess.run(
+        command_line,
+        cwd=folder,
+        preexec_fn=limit,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        errors="replace",
+    )
+    assert done.returncode in (0, 1, 2, 3), done
+    lines = [line for line in done.stderr.splitlines() if ": warning: " not in line]
+    assert len(lines) == (done.returncode != 0), done.stderr
+    assert "please report" not in done.stderr
+    return done
+
+
+def within_limits(work):
+    """Status of the work in a child that has little memory and time."""
+    child = os.fork()
+    if child == 0:
+        used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+        resource.setrlimit(resource.RLIMIT_AS, (used + MEMORY, used + MEMORY))
+        spent = sum(os.times()[:2])
+        resource.setrlimit(resource.RLIMIT_CPU, (int(spent) + SECONDS + 1,) * 2)
+        status = 99
+        try:
+            status = work()
+        finally:
+            os._exit(status)
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+
+
+@pytest.mark.parametrize("attack", ATTACKS)
+def test_readers_in_python(hostile, attack, tmp_path, monkeypatch):
+    """A plot, and the page of a run: status 0, 1 or 3, and nothing of another file on the page."""
+    path = hostile(attack)
+    monkeypatch.chdir(tmp_path)
+
+    def work():
+        # what a crash or a false number would be seen by
+        statuses = [command.main(["orbit", str(path)])]
+        if attack in OUTSIDE:
+            statuses.append(command.report([str(path), "-o", "page.html"]))
+        return 0 if set(statuses) <= {0, 1, 3} else 50
+
+    assert within_limits(work) == 0
+    if attack in OUTSIDE:
+        damaged = pytest.raises(tiltpad.RunError, match="cannot be read, the file is damaged")
+        with tiltpad.read(path) as run, damaged:
+            run.journal_y, run.time, run["equilibrium/journal_y"]
+    page = tmp_path / "page.html"
+    assert not page.exists() or "SECRET" not in page.read_text()
+
+
+@pytest.mark.parametrize("attack", ATTACKS)
+def test_one_bad_member_stops_no_study(hostile, result, attack, tmp_path, monkeypatch):
+    single = result("none")
+    bad = hostile(attack)
+    monkeypatch.chdir(tmp_path)
+    if attack.startswith(("sweep", "member", "a thousand")):
+        # as a member of a sweep it is refused beside a single run, or unreadable
+        assert within_limits(lambda: command.collect([str(bad), str(single), "-o", "study.h5"])) in (0, 1)
+    else:
+        assert within_limits(lambda: command.collect([str(bad), str(single), "-o", "study.h5"])) == 0
+        with tiltpad.read_study("study.h5") as study:
+            assert len(study.status) == 2
+            assert study.status[1] == 0
+            assert set(study.file) - set(study.names()) == set()
+
+
+@pytest.mark.parametrize("attack", ATTACKS)
+def test_the_program(hostile, program, attack, tmp_path):
+    """It looks at the file, or would replace it; a pipe is never waited for."""
+    path = hostile(attack)
+    (tmp_path / "case.nml").write_text("&case title='another' /\n")
+    for arguments in (["--resume", path, "--check"], ["--resume", path], ["case.nml", "--output", path]):
+        limited([program, "--quiet", *arguments], tmp_path)
+
+
+def test_letters_of_two_gigabytes(result, program, tmp_path):
+    """The type of a text claims letters of that size; HDF5 would take memory for each of them."""
+    content = bytearray(result("lugre").read_bytes())
+    letter = bytes.fromhex("10000000 01000000 00000800")
+    place = content.index(letter, content.index(b"program\0")) + 4
+    content[place : place + 4] = (2**31 - 1).to_bytes(4, "little")
+    path = tmp_path / "hostile.h5"
+    path.write_bytes(content)
+    assert limited([program, "--quiet", "--resume", path, "--check"], tmp_path).returncode == 3
+
+
+@pytest.mark.parametrize("name", ["20000000000000000000.h5", "b\udcff.h5", "\u0663.h5"])
+def test_names_of_members(result, name, tmp_path):
+    """A number of twenty digits, bytes that are no text, digits of another script."""
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    (folder / "good.h5").write_bytes(result("lugre").read_bytes())
+    with open(os.fsencode(folder / name), "wb") as file:
+        file.write(b"no result")
+    study = tmp_path / "study.h5"
+    assert within_limits(lambda: command.collect([str(folder), "-o", str(study)])) == 0
+    with tiltpad.read_study(study) as found:
+        assert sorted(np.isnan(found.status)) == [False, True]
+
+
+def test_what_is_in_the_way_of_a_study(result, tmp_path, monkeypatch, capsys):
+    """The temporary file of a collect is made anew; a link of its name leads nowhere."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "target").write_bytes(b"precious")
+    link = tmp_path / f"study.h5.part{os.getpid()}"
+    link.symlink_to("target")
+    assert command.collect([str(result("lugre")), "-o", "study.h5"]) == 3
+    assert "is in the way" in capsys.readouterr().err
+    assert (tmp_path / "target").read_bytes() == b"precious"
+    assert link.is_symlink()
