@@ -79,7 +79,7 @@ def case(name: str) -> list[str]:
 
 
 def march(program: str, name: str, output: Path) -> None:
-    words = [program, *case(name), "--quiet", "--output", output]
+    words = [program, *case(name), "--quiet", "--overwrite", "--output", output]
     subprocess.run(words, check=True, cwd=DOCS.parent)
 
 

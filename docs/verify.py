@@ -74,11 +74,7 @@ LUGRE = {
 }
 SCENES = ("steady_tr", "steady_to", "steady_to_ba", "steady_ba_10_05", "steady_lugre", "steady_lugre5")
 TIGHT = (
-    "film%circumferential_cells=120",
-    "film%axial_modes=24",
-    "film%axial_cells=15",
-    "film%tolerance=1e-8",
-    "film%max_sweeps=100000",
+    "film%table_tolerance=2e-6",
     "integration%relative_tolerance=1e-8",
 )
 
@@ -87,7 +83,9 @@ def run(program, case, folder, *overrides):
     """Runs a case and returns the open result."""
     output = Path(folder) / f"{case}-{abs(hash(overrides))}.h5"
     options = [word for override in overrides for word in ("--set", override)]
-    subprocess.run([program, CASES / f"{case}.nml", "--quiet", "--output", output, *options], check=True)
+    subprocess.run(
+        [program, CASES / f"{case}.nml", "--quiet", "--overwrite", "--output", output, *options], check=True
+    )
     return tiltpad.read(output)
 
 
