@@ -172,7 +172,7 @@ contains
          & 'sor: maximum number of sweeps for a film; more is a failure'))
       call v%number(film%table_tolerance, field('table_tolerance', 0.0_wp, 1e-2_wp, '1', &
          & 'auto: error of forces from tables over that of the film at the onset of rupture; ' &
-         & //'0: relative_tolerance, with reynolds 4 times as much; ruptured films keep to 2.5e-6 at best'))
+         & //'0: relative_tolerance, with reynolds 4 times as much; ruptured films keep to 1.2e-6 at best'))
       call v%word(film%cavitation, choice('cavitation', 'reynolds gumbel none', &
          & 'reynolds: p >= p_cav in the solution; gumbel: clipped after the solution; none: no rupture'))
    end subroutine visit_film

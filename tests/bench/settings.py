@@ -37,15 +37,9 @@ def table(value: str) -> tuple[str, ...]:
 
 
 def together(march: str, film: str) -> tuple[str, tuple[str, ...]]:
-    """Label and overrides: tolerances of the march and of the table. Films that a fine table leaves to
-    `direct` get more cells, too.
-    """
-    finer = ("film%axial_cells=16", "film%circumferential_cells=160") if float(film) < FALLBACK else ()
-    return f"march {march}, table {film}", tolerance(march) + table(film) + finer
+    """Label and overrides: tolerances of the march and of the table."""
+    return f"march {march}, table {film}", tolerance(march) + table(film)
 
-
-#: Below this tolerance some cells of the table stay too coarse, and `direct` takes over.
-FALLBACK = 1e-5
 
 #: The scenes of the diagram, and the wall seconds that each is to stay below with the defaults.
 MAIN = (
@@ -74,7 +68,7 @@ MEMORY, FILM_RATIO, FILM_MICROSECONDS = 100, 1000, 0.15
 ONE_FILMS, ONE_SOLVER = ("whole, none", "corner ruptured, reynolds"), "table, same cell"
 #: The error that every scene is to stay below, and the setting that is to reach a hundredth of it.
 ALLOWED = 1e-3
-FINE = together("1e-8", "2e-6")
+FINE = together("1e-8", "1.6e-6")
 FINE_ALLOWED = 1e-5
 
 #: What checkpoints cost: wall time between them (default: 300 s) and the share allowed; scenes of some 20 s.
@@ -103,8 +97,8 @@ UNRUPTURED = tuple(
 LADDER = (
     together("1e-6", "1e-5"),
     together("1e-7", "4e-6"),
-    together("1e-8", "2e-6"),
-    together("1e-9", "1e-6"),
+    FINE,
+    together("1e-9", "1.2e-6"),
 )
 UNRUPTURED_LADDER = (together("1e-7", "1e-5"), together("1e-8", "1e-6"), together("1e-9", "1e-7"))
 LADDERS = dict.fromkeys(MAIN, LADDER) | dict.fromkeys(UNRUPTURED, UNRUPTURED_LADDER)

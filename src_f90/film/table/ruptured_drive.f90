@@ -16,7 +16,7 @@ module ruptured_drive
    public :: ruptured_drive_type, drive_type, new_ruptured_drive, least_tolerance
 
    !> Columns and rows of the finer grid for a tolerance of 4e-5, and of any; the error falls with their squares.
-   integer, parameter :: base_columns = 64, base_rows = 8, most_rows = 32
+   integer, parameter :: base_columns = 64, base_rows = 8, most_rows = 48
    real(wp), parameter :: base_tolerance = 4e-5_wp
    !> What the finest grid keeps to.
    real(wp), parameter :: least_tolerance = base_tolerance*(real(base_rows, wp)/most_rows)**2
