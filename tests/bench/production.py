@@ -80,7 +80,8 @@ def members(runner: Runner) -> Iterator[Row]:
 
 
 def timed(runner: Runner, folder: Path, text: str) -> float:
-    """Wall seconds of a case, on all cores."""
+    """Wall seconds of a case, on all cores; a sweep goes on from what it has, a run starts anew."""
+    (folder / "case.h5").unlink(missing_ok=True)
     (folder / "case.nml").write_text(text)
     os.sync()
     started = time.perf_counter()

@@ -75,12 +75,12 @@ FINE_ALLOWED = 1e-5
 CHECKPOINT_SECONDS, CHECKPOINT_SHARE = 8.0, 0.02
 CHECKPOINT_SCENES = (
     Scene("steady_tr", "frictionless", MAIN[0].case, ("operation%duration=200",)),
-    Scene("steady_lugre", "LuGre", MAIN[1].case, ("operation%duration=80",)),
+    Scene("steady_lugre", "LuGre", MAIN[1].case, ("operation%duration=200",)),
     Scene("steady_lugre", "LuGre, 36 samples a revolution", MAIN[1].case,
-          ("operation%duration=100", "output%samples_per_revolution=36")),
-    Scene("steady_tr_ba", "Bengisu-Akay", MAIN[2].case, ("operation%duration=32",)),
+          ("operation%duration=250", "output%samples_per_revolution=36")),
+    Scene("steady_tr_ba", "Bengisu-Akay", MAIN[2].case, ("operation%duration=80",)),
     Scene("steady_lugre", "LuGre, over-relaxation", MAIN[1].case,
-          ("operation%duration=2.5", "film%solver=sor")),
+          ("operation%duration=1", "film%solver=sor")),
 )  # fmt: skip
 #: Members of the sweep of short runs; milliseconds allowed beyond a member's march; seconds to collect all.
 MEMBERS, MEMBER_MILLISECONDS, COLLECT_SECONDS = 1000, 6, 10
