@@ -21,6 +21,8 @@ module march_task
    !> Absolute tolerances of rigid pivots over those of pivots that yield: without their damping the errors of the steps
    !> live longer.
    real(wp), parameter :: rigid_tolerance = 0.3_wp
+   !> And with friction over those without: what its moment errs by is above what the states do.
+   real(wp), parameter :: friction_tolerance = 0.5_wp
 
 contains
 
@@ -72,8 +74,14 @@ contains
          options%max_step = integration%max_step
          options%max_steps = integration%max_steps - run%earlier%count('steps')
       end associate
-      if (run%model%smooth()) options%derivatives_age = smooth_derivatives_age
-      if (.not. run%model%layout%radial) options%absolute_tolerance = rigid_tolerance*options%absolute_tolerance
+      associate (model => run%model, tolerance => options%absolute_tolerance)
+         if (model%smooth()) options%derivatives_age = smooth_derivatives_age
+         if (.not. model%layout%radial) then
+            tolerance = rigid_tolerance*tolerance
+         else if (.not. model%smooth()) then
+            tolerance = friction_tolerance*tolerance
+         end if
+      end associate
    end function options
 
    type(sample_plan) function planned(run) result(plan)
