@@ -9,7 +9,7 @@ module run_case
    use case_run, only: case_run_type, begin_run
    use equilibrium_task, only: run_equilibrium
    use march_task, only: run_march
-   use run_summary, only: print_march
+   use run_summary, only: print_notes, print_march
    implicit none (type, external)
    private
    public :: run_scene, way_out
@@ -35,6 +35,7 @@ contains
       call begin_run(run, scene, path, tag, quiet)
       call open_file(run, go_on, overwrite, complete, error)
       if (complete .or. allocated(error)) return
+      if (.not. quiet) call print_notes(scene)
       run%model = new_bearing_model(scene)
       ! every task has a module of its own, and a line here
       select case (scene%about%task)

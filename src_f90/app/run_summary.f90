@@ -4,14 +4,21 @@ module run_summary
    use text, only: to_text, fixed_text
    use loops, only: loop_area
    use scene, only: scene_type
+   use checked_case, only: preload_note
    use equilibrium, only: equilibrium_type
    use run_file, only: run_file_type
    use run_statistics, only: run_statistics_type
    implicit none (type, external)
    private
-   public :: print_equilibrium, print_march
+   public :: print_notes, print_equilibrium, print_march
 
 contains
+
+   !> What is unusual about a scene.
+   subroutine print_notes(scene)
+      type(scene_type), intent(in) :: scene
+      if (preload_note(scene) /= '') print '(a)', preload_note(scene)
+   end subroutine print_notes
 
    subroutine print_equilibrium(static)
       type(equilibrium_type), intent(in) :: static

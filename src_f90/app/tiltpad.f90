@@ -100,7 +100,7 @@ contains
          if (all_members) then
             call sweep%resolved(text, error)
          else
-            text = scene_text(scene)
+            call sweep%checked(max(1, given%member), text, error)
          end if
          if (.not. allocated(error)) call put(text, error)
          return

@@ -2,7 +2,7 @@
 module input_reference
    use kinds, only: wp
    use text, only: to_text
-   use scene, only: scene_type, max_pads
+   use scene, only: scene_type, max_pads, is_set
    use field_visitor, only: visitor_type, field_type
    use scene_fields, only: visit_scene
    implicit none (type, external)
@@ -76,7 +76,8 @@ contains
       type(field_type), intent(in) :: field
       character(len=:), allocatable :: list
       integer :: i
-      list = to_text(values(1))
+      list = '-'
+      if (is_set(values(1))) list = to_text(values(1))
       do i = 2, size(values)
          list = list//', '//to_text(values(i))
       end do

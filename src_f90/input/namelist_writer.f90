@@ -2,7 +2,7 @@
 module namelist_writer
    use kinds, only: wp
    use text, only: to_text, exact_text
-   use scene, only: scene_type
+   use scene, only: scene_type, is_set
    use assignments, only: token_type, value_text
    use field_visitor, only: visitor_type, field_type
    use scene_fields, only: visit_scene
@@ -26,7 +26,7 @@ module namelist_writer
 
 contains
 
-   !> The whole scene as namelist text, every number to the last bit.
+   !> The whole scene as namelist text, every number to the last bit; what is unset is left out.
    function scene_text(scene) result(text)
       type(scene_type), intent(in) :: scene
       character(len=:), allocatable :: text
@@ -74,11 +74,17 @@ contains
       type(field_type), intent(in) :: field
       character(len=:), allocatable :: list
       integer :: i
-      list = exact_text(values(1))
-      do i = 2, size(values)
-         list = list//', '//exact_text(values(i))
-      end do
-      call self%line(field%name, list)
+      if (all(is_set(values))) then
+         list = exact_text(values(1))
+         do i = 2, size(values)
+            list = list//', '//exact_text(values(i))
+         end do
+         call self%line(field%name, list)
+      else
+         do i = 1, size(values)
+            if (is_set(values(i))) call self%line(field%name//'('//to_text(i)//')', exact_text(values(i)))
+         end do
+      end if
    end subroutine write_numbers
 
    subroutine write_per_pad(self, values, field)

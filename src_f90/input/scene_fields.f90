@@ -4,15 +4,17 @@ module scene_fields
    use kinds, only: wp
    use field_visitor, only: visitor_type, field, choice
    use scene, only: scene_type, case_type, rotor_type, operation_type, bearing_type, pads_type, pivot_type, &
-      & friction_type, film_type, integration_type, output_type
+      & friction_type, film_type, integration_type, output_type, mass_range, inertia_range, centre_range
    implicit none (type, external)
    private
-   public :: visit_scene, title_variable, checkpoint_variable
+   public :: visit_scene, title_variable, checkpoint_variable, pads_variable
 
    !> Variables without effect on what is calculated: a sweep cannot vary the title, and a resumed run may have
    !> another time between checkpoints.
    character(len=*), parameter :: title_variable = 'case%title'
    character(len=*), parameter :: checkpoint_variable = 'output%checkpoint_seconds'
+   !> The variable whose length is the number of pads.
+   character(len=*), parameter :: pads_variable = 'pads%pivot_angle_deg'
 
 contains
 
@@ -75,6 +77,8 @@ contains
          & 'radial clearance c_m between pad bore and journal'))
       call v%number(bearing%assembled_clearance, field('assembled_clearance', 1e-9_wp, 0.1_wp, 'm', &
          & 'radial clearance c_r at the pivots'))
+      call v%number(bearing%preload, field('preload', -1.0_wp, 0.999_wp, '1', &
+         & 'instead of machined_clearance: preload m of the pads, c_m = c_r/(1 - m)'))
       call v%number(bearing%axial_length, field('axial_length', 1e-5_wp, 100.0_wp, 'm', 'pad length L along the shaft'))
       call v%number(bearing%viscosity, field('viscosity', 1e-6_wp, 10.0_wp, 'Pa s', 'dynamic viscosity of the oil'))
       call v%number(bearing%supply_pressure, field('supply_pressure', -1e9_wp, 1e9_wp, 'Pa', &
@@ -97,12 +101,19 @@ contains
          & 'position of the pivot from the leading edge, theta_1 over the arc'))
       call v%per_pad(pads%pivot_distance, field('pivot_distance', 1e-6_wp, 1.0_wp, 'm', &
          & 'radial distance kappa from the pad''s bore to the pivot'))
-      call v%per_pad(pads%mass, field('mass', 1e-9_wp, 1e6_wp, 'kg', 'pad mass'))
-      call v%per_pad(pads%inertia, field('inertia', 1e-15_wp, 1e6_wp, 'kg m^2', 'moment of inertia about the pivot'))
-      call v%per_pad(pads%centre_tangential, field('centre_tangential', -1.0_wp, 1.0_wp, 'm', &
-         & 'position C_xi of the centre of gravity from the pivot, along the pad'))
-      call v%per_pad(pads%centre_radial, field('centre_radial', -1.0_wp, 1.0_wp, 'm', &
-         & 'position C_eta of the centre of gravity from the pivot, outward'))
+      call v%per_pad(pads%mass, field('mass', mass_range(1), mass_range(2), 'kg', 'pad mass; *Pads* above says what ' &
+         & //'it is if it is not given'))
+      call v%per_pad(pads%inertia, field('inertia', inertia_range(1), inertia_range(2), 'kg m^2', &
+         & 'moment of inertia about the pivot; likewise'))
+      call v%per_pad(pads%centre_tangential, field('centre_tangential', centre_range(1), centre_range(2), 'm', &
+         & 'position C_xi of the centre of gravity from the pivot, along the pad; likewise'))
+      call v%per_pad(pads%centre_radial, field('centre_radial', centre_range(1), centre_range(2), 'm', &
+         & 'position C_eta of the centre of gravity from the pivot, outward; likewise'))
+      call v%per_pad(pads%density, field('density', 1.0_wp, 1e5_wp, 'kg/m^3', &
+         & 'instead of mass: density of the pad; steel, 7850, where it is needed and not given'))
+      call v%per_pad(pads%thickness, field('thickness', 1e-6_wp, 1.0_wp, 'm', &
+         & 'radial thickness of the pad, for mass, inertia and centre of gravity; pivot_distance where it is needed ' &
+         & //'and not given'))
       call v%word(pads%motion, choice('motion', 'tilting_radial tilting_only', &
          & 'tilting_radial: the pads tilt and move radially on their pivots; tilting_only: they only tilt'))
    end subroutine visit_pads

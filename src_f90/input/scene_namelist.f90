@@ -5,6 +5,7 @@ module scene_namelist
    use errors, only: error_type, raise, add_context, input_error
    use scene, only: scene_type, max_pads
    use scene_checks, only: check_scene
+   use scene_completion, only: leave_out, complete_scene
    use field_visitor, only: visitor_type, field_type
    use scene_fields, only: visit_scene
    use assignments, only: namelist_type, assignment_type, sweep_group
@@ -59,12 +60,12 @@ contains
       type(error_type), allocatable, intent(out) :: error
       call fill_scene(parsed, scene, error)
       if (allocated(error)) return
-      call scene%set_final_speed()
-      call check_scene(scene, error)
+      call complete_scene(scene, error)
+      if (.not. allocated(error)) call check_scene(scene, error)
       call add_context(error, parsed%file)
    end subroutine scene_from_namelist
 
-   !> The scene before `settle`: each value is checked by itself; a value that means another variable's is not replaced.
+   !> The scene before `complete_scene`: each value is checked by itself; what follows from other variables is left out.
    subroutine fill_scene(parsed, scene, error)
       type(namelist_type), intent(in) :: parsed
       type(scene_type), intent(out) :: scene
@@ -77,7 +78,7 @@ contains
       reader%this_group = ''
       reader%groups = ''
       scene = scene_type()
-      scene%operation%final_speed_rpm = -1
+      call leave_out(scene)
       call visit_scene(scene, reader)
       call reader%group('', '')
       do i = 1, size(parsed%groups)

@@ -11,6 +11,7 @@ module sweep
    use scene_fields, only: title_variable
    use scene_namelist, only: scene_from_namelist, fill_scene
    use namelist_writer, only: scene_text
+   use checked_case, only: marked_text, derived_text
    implicit none (type, external)
    private
    public :: sweep_type, member_tag, read_sweep, sweep_from_text
@@ -52,6 +53,7 @@ module sweep
       procedure :: scene => member_scene
       procedure :: tag
       procedure :: resolved
+      procedure :: checked
       procedure, private :: member_value
       procedure, private :: member_namelist
    end type sweep_type
@@ -244,8 +246,22 @@ contains
          & //to_text(self%marks(self%members))
    end subroutine tag
 
+   !> The k-th member's case with every default, marked, and what follows from it.
+   subroutine checked(self, k, text, error)
+      class(sweep_type), intent(in) :: self
+      integer, intent(in) :: k
+      character(len=:), allocatable, intent(out) :: text
+      type(error_type), allocatable, intent(out) :: error
+      type(namelist_type) :: parsed
+      type(scene_type) :: scene
+      call self%scene(k, scene, error)
+      if (allocated(error)) return
+      call self%member_namelist(k, parsed)
+      text = marked_text(scene, parsed)//derived_text(scene)
+   end subroutine checked
+
    !> The case with every default, followed by the sweep, as namelist text. A swept variable has the first member's
-   !> value; a value that means another variable's is not replaced.
+   !> value; what follows from other variables is left out.
    subroutine resolved(self, text, error)
       class(sweep_type), intent(in) :: self
       character(len=:), allocatable, intent(out) :: text

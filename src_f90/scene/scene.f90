@@ -4,12 +4,17 @@ module scene
    use kinds, only: wp, rpm
    implicit none (type, external)
    private
-   public :: scene_type, max_pads
+   public :: scene_type, max_pads, unset, is_set, mass_range, inertia_range, centre_range
    public :: case_type, rotor_type, operation_type, bearing_type, pads_type, pivot_type, friction_type
    public :: film_type, integration_type, output_type
 
    !> Most pads of a bearing.
    integer, parameter :: max_pads = 24
+   !> A number that a case leaves out and that follows from others.
+   real(wp), parameter :: unset = -huge(1.0_wp)
+   !> What the input allows of the pads, kg, kg m^2 and m: their masses may follow from other variables.
+   real(wp), parameter :: mass_range(2) = [1e-9_wp, 1e9_wp], inertia_range(2) = [1e-15_wp, 1e12_wp]
+   real(wp), parameter :: centre_range(2) = [-100.0_wp, 100.0_wp]
 
    type :: case_type
       character(len=:), allocatable :: title
@@ -35,6 +40,8 @@ module scene
    type :: bearing_type
       real(wp) :: journal_radius = 49.9e-3_wp, machined_clearance = 100e-6_wp
       real(wp) :: assembled_clearance = 80e-6_wp, axial_length = 100e-3_wp
+      !> 1 - assembled over machined clearance where it is given instead of the latter; unset in a complete scene.
+      real(wp) :: preload = unset
       real(wp) :: viscosity = 19e-3_wp
       real(wp) :: supply_pressure = 0, ambient_pressure = 0, cavitation_pressure = 0
    end type bearing_type
@@ -43,6 +50,8 @@ module scene
    type :: pads_type
       real(wp), allocatable :: pivot_angle_deg(:), arc_deg(:), pivot_ratio(:), pivot_distance(:)
       real(wp), allocatable :: mass(:), inertia(:), centre_tangential(:), centre_radial(:)
+      !> What the four above follow from where they are left out; unset in a complete scene.
+      real(wp), allocatable :: density(:), thickness(:)
       !> 'tilting_radial' or 'tilting_only'.
       character(len=:), allocatable :: motion
    end type pads_type
@@ -138,6 +147,8 @@ contains
       scene%pads%inertia = [4.055e-4_wp, 4.055e-4_wp]
       scene%pads%centre_tangential = [0.0_wp, 0.0_wp]
       scene%pads%centre_radial = [-10.1e-3_wp, -10.1e-3_wp]
+      scene%pads%density = [unset, unset]
+      scene%pads%thickness = [unset, unset]
       scene%pads%motion = 'tilting_radial'
       scene%pivot%law = 'fang'
       scene%friction%model = 'none'
@@ -145,6 +156,12 @@ contains
       scene%film%cavitation = 'reynolds'
       call scene%set_final_speed()
    end function new_scene
+
+   !> False for a number that is left out.
+   elemental logical function is_set(x)
+      real(wp), intent(in) :: x
+      is_set = x > unset
+   end function is_set
 
    !> The final speed where the input leaves it out: the speed at the start.
    pure subroutine set_final_speed(self)

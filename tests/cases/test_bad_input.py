@@ -83,6 +83,7 @@ VALUES = [
     ("bearing", "journal_radius=49.9", "to 10"),
     ("bearing", "machined_clearance=0", "1e-9 to"),
     ("bearing", "assembled_clearance=-80e-6", "1e-9 to"),
+    ("bearing", "preload=1", "-1 to 0.999"),
     ("bearing", "axial_length=0", "1e-5 to"),
     ("bearing", "viscosity=0", "to 10"),
     ("bearing", "viscosity=19", "to 10"),
@@ -92,6 +93,8 @@ VALUES = [
     ("pads", "pivot_ratio=1", "to 0.99"),
     ("pads", "pivot_angle_deg=25*0", "24"),
     ("pads", "mass=-0.8", "1e-9 to"),
+    ("pads", "density=0", "1 to"),
+    ("pads", "thickness=1.5", "to 1"),
     ("pads", "inertia=0", "1e-15 to"),
     ("pads", "motion='tilting'", "tilting_radial"),
     ("pivot", "young_modulus=210,210", " to "),
@@ -167,6 +170,22 @@ TOGETHER = {
     "too many cells for elimination": (
         "&film circumferential_cells=2000, axial_cells=1000 /",
         ["film%axial_cells = 1000", "at most 223", "film%circumferential_cells = 2000", "'sor'"],
+    ),
+    "preload and clearance": (
+        "&bearing preload=0.3, machined_clearance=1e-4 /",
+        ["bearing%preload = 0.3", "bearing%machined_clearance = 1e-4", "give one of them"],
+    ),
+    "mass and density": (
+        "&pads mass=1, density=7850 /",
+        ["pads%density = 7850", "pads%mass = 1", "give one of them"],
+    ),
+    "thickness of no use": (
+        "&pads mass=1, inertia=1, centre_tangential=0, centre_radial=0, thickness=0.1 /",
+        ["pads%thickness = 0.1", "no effect"],
+    ),
+    "mass of a grain": (
+        "&bearing journal_radius=1e-3, axial_length=1e-3 / &pads density=1, thickness=1e-5 /",
+        ["pads%mass", "from the size of the pad", "1e-9 to 1e9"],
     ),
     "inertia below mass": ("&pads mass=8.108 /", ["pads%inertia", "pad 1"]),
     "values for more pads": ("&pads pivot_angle_deg=0,120,240, mass=1,2 /", ["pads%mass", "1, 2", "3"]),

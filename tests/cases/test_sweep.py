@@ -49,7 +49,12 @@ def files(folder):
 
 def scene_value(text, group, name):
     block = re.search(rf"^&{group}\n(.*?)^/$", text, re.M | re.S)[1]
-    return re.search(rf"^ *{name} = (.*)$", block, re.M)[1]
+    return plain(re.search(rf"^ *{name} = (.*)$", block, re.M)[1])
+
+
+def plain(text):
+    """A resolved case without the marks of --check."""
+    return re.sub(r" +! (default|derived)$", "", text, flags=re.M)
 
 
 def speed(path):
@@ -90,8 +95,11 @@ def test_check_prints_a_case_that_resolves_to_itself(tiltpad, case):
     (folder / "again.nml").write_text(text)
     assert result(tiltpad("--check", "again.nml", cwd=folder)) == (text, [])
     for k in range(1, 13):
-        first, _ = result(tiltpad("--check", "--member", k, "case.nml", cwd=folder))
-        assert result(tiltpad("--check", "--member", k, "again.nml", cwd=folder)) == (first, [])
+        first, second = (
+            plain(result(tiltpad("--check", "--member", k, name, cwd=folder))[0])
+            for name in ("case.nml", "again.nml")
+        )
+        assert first == second
         assert "&sweep" not in first
     assert files(folder) == ["again.nml", "case.nml"]
 

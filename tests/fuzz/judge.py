@@ -60,9 +60,9 @@ def line(reply: Reply) -> list[str]:
 
 
 def differences(expected: dict[str, tuple], resolved: dict[str, tuple]) -> list[str]:
-    """Variables whose values are not the expected ones to the last bit."""
+    """Variables whose values are not the expected ones to the last bit, where one is expected."""
     return [
         f"{key} is {resolved.get(key)}, not {value}"
         for key, value in expected.items()
-        if list(map(repr, value)) != list(map(repr, resolved.get(key, ())))
+        if value is not None and list(map(repr, value)) != list(map(repr, resolved.get(key, ())))
     ]

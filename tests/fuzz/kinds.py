@@ -53,7 +53,8 @@ class Spot:
 
 
 def default(variable: Variable, value) -> bytes:
-    """A default as text."""
+    """A default as text; of a variable that is left out, its highest value."""
+    value = variable.high if value is None else value
     if variable.is_text:
         return b"'" + value + b"'"
     return str(int(value)).encode() if variable.whole else repr(value).encode()

@@ -170,8 +170,8 @@ def read_values(scan: Scanner) -> list[tuple[bytes, bool]]:
     return values
 
 
-def resolve(assignments: list[Assignment], variables: dict[str, Variable]) -> dict[str, tuple]:
-    """Values of all variables, defaults included."""
+def resolve(assignments: list[Assignment], variables: dict[str, Variable]) -> dict[str, tuple | None]:
+    """Values of all variables, defaults included; None where this reader does not judge them."""
     given: dict[str, list[Assignment]] = {}
     for each in assignments:
         key = f"{each.group}%{each.name}"
@@ -186,7 +186,37 @@ def resolve(assignments: list[Assignment], variables: dict[str, Variable]) -> di
             pads = len(found[key])
     if found["operation%final_speed_rpm"][0] < 0:
         found["operation%final_speed_rpm"] = found["operation%speed_rpm"]
+    complete(found, given, variables)
     return found
+
+
+#: What decides whether pads are those of the paper, and what is then theirs.
+SIZE = (
+    *("bearing%journal_radius", "bearing%axial_length"),
+    *("pads%arc_deg", "pads%pivot_ratio", "pads%pivot_distance", "pads%density", "pads%thickness"),
+)
+BODY = ("pads%mass", "pads%inertia", "pads%centre_tangential", "pads%centre_radial")
+
+
+def complete(found: dict[str, tuple | None], given: dict[str, list], variables: dict[str, Variable]) -> None:
+    """What follows from other variables."""
+    (preload,) = found["bearing%preload"]
+    if preload is not None and "bearing%machined_clearance" in given:
+        raise Refused("preload and machined clearance")
+    if preload is not None:
+        found["bearing%machined_clearance"] = (found["bearing%assembled_clearance"][0] / (1 - preload),)
+    bodies = [each for key in (*BODY, "pads%density", "pads%thickness") for each in given.get(key, ())]
+    if any(value != variables[key].default[0] for key in SIZE for value in found[key]):
+        # no closed forms here; pads may also have values given in part
+        found.update({key: None for key in BODY if key not in given or any(map(subscript, given[key]))})
+    surplus = {"pads%density", "pads%mass"}, {"pads%thickness", *BODY}
+    if any(keys <= given.keys() for keys in surplus) and not any(map(subscript, bodies)):
+        raise Refused("density or thickness without use")
+    found.update(dict.fromkeys(("bearing%preload", "pads%density", "pads%thickness"), ()))
+
+
+def subscript(assignment: Assignment) -> int:
+    return assignment.subscript
 
 
 def words(variable: Variable, assignments: list[Assignment]) -> tuple[bytes]:
@@ -260,11 +290,11 @@ def number_list(variable: Variable, assignment: Assignment, most: int):
         yield from [float(int(value)) if variable.whole else value] * int(repeat or 1)
 
 
-LINE = re.compile(rb"^(?:&(\w+)|  (\w+) = (.*)|/)$", re.M)
+LINE = re.compile(rb"^(?:&(\w+)|  (\w+) = (.*?)(?: +! (?:default|derived))?|/)$", re.M)
 
 
 def resolved(text: bytes) -> dict[str, tuple]:
-    """Values of a resolved case, as the program writes it: one variable a line."""
+    """Values of a resolved case, as the program writes it: one variable a line, which --check marks."""
     found, group = {}, ""
     for line in LINE.finditer(text):
         if line[1]:

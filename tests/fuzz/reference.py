@@ -10,7 +10,7 @@ MOST_PADS = 24
 
 @dataclass(frozen=True)
 class Variable:
-    """One input variable: what it takes, and its default."""
+    """One input variable: what it takes, and its default; None: a number that is left out."""
 
     group: str
     name: str
@@ -46,7 +46,7 @@ def _variable(group: str, name: str, default: str, allowed: str, meaning: str) -
     if default.startswith("'"):
         choices = () if allowed == "any text" else tuple(allowed.split())
         return Variable(group, name, (default[1:-1].encode(),), choices)
-    numbers = tuple(float(word) for word in default.split(","))
+    numbers = tuple(None if word == "-" else float(word) for word in default.split(","))
     low, _, high = allowed.removeprefix("whole, ").partition(" to ")
     return Variable(
         group,

@@ -31,8 +31,10 @@ TOGETHER = (
     ("pivot%law", "pivot%socket_radius", "pivot%radius_difference"),
     ("friction%model", "friction%static_coefficient", "friction%dynamic_coefficient"),
 )
+#: What others follow from; drawn where these are not given.
+INSTEAD = ("bearing%preload", "pads%density", "pads%thickness")
 ALONE = ("rotor%balance_speed_rpm", "film%circumferential_cells", "film%axial_cells")
-SPECIAL = {key for group in (*TOGETHER, ALONE) for key in group}
+SPECIAL = {key for group in (*TOGETHER, ALONE, INSTEAD) for key in group}
 #: Circumferential times squared axial cells of all pads.
 MOST_IN_BLOCKS = 2e8
 TITLE = "abc ABC 0123  ''\"\"/!&=,*()%;:\t\\#$\u00e4\u20ac\U0001d70b"
@@ -57,7 +59,18 @@ def draw(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
     if dice.random() < few:
         found.update(pads(dice, variables))
     fit_memory(found)
+    if dice.random() < few:
+        follow(dice, found)
     return found
+
+
+def follow(dice: Random, found: dict[str, tuple]) -> None:
+    """Variables from which others follow, in the place of these."""
+    if "bearing%machined_clearance" not in found and "bearing%assembled_clearance" not in found:
+        found["bearing%preload"] = (dice.uniform(-1, 0.9),)
+    if "pads%mass" not in found and "bearing%journal_radius" not in found:
+        found["pads%density"] = tuple(dice.uniform(1000, 10000) for _ in range(2))
+        found["pads%thickness"] = tuple(log_between(dice, 1e-3, 0.1) for _ in range(2))
 
 
 def fit_memory(found: dict[str, tuple]) -> None:
@@ -177,5 +190,5 @@ def pads(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
     distance = each(lambda: number(dice, variables["pads%pivot_distance"]))
     motion = dice.choice(variables["pads%motion"].choices).encode()
     values = (tuple(angles), arc, ratio, distance, mass, inertia, tangential, radial, (motion,))
-    keys = (key for key, variable in variables.items() if variable.group == "pads")
+    keys = (key for key, variable in variables.items() if variable.group == "pads" and key not in INSTEAD)
     return dict(zip(keys, values, strict=True))

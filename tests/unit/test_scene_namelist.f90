@@ -1,6 +1,7 @@
 !> Scenes from text and back: defaults, one value for all pads, ranges, round trip to the last bit.
 module scene_probes
    use kinds, only: wp
+   use scene, only: is_set
    use field_visitor, only: visitor_type, field_type
    implicit none (type, external)
    private
@@ -70,7 +71,7 @@ contains
       type(field_type), intent(in) :: field
       real(wp) :: share(size(values))
       call random_number(share)
-      values = values*(1 - 1e-3_wp*share)
+      where (is_set(values)) values = values*(1 - 1e-3_wp*share)
    end subroutine shake_numbers
 end module scene_probes
 
@@ -161,16 +162,17 @@ contains
       call expect_list(s%pads%mass, spread(0.9_wp, 1, 4), 'one value for all pads')
       call expect_list(s%pads%arc_deg, spread(60.0_wp, 1, 4), 'a repeat for all pads')
       call expect_list(s%pads%pivot_ratio, spread(0.6_wp, 1, 4), 'a repeat of one')
-      call expect_list(s%pads%inertia, spread(4.055e-4_wp, 1, 4), 'defaults for all pads')
+      call expect_list(s%pads%pivot_distance, spread(14e-3_wp, 1, 4), 'defaults for all pads')
       s = scene_of('&pads pivot_angle_deg = -90 /')
       call expect(s%pad_count() == 1 .and. size(s%pads%centre_radial) == 1, 'a single pad')
    end subroutine one_value_for_all_pads
 
    subroutine each_pad_its_own()
       type(scene_type) :: s
-      s = scene_of('&pads mass(2) = 0.7, arc_deg(1) = 50, 55, pivot_ratio = 0.5, 0.6, centre_tangential = 1e-3 ' &
-         & //'centre_tangential(2) = -1e-3 /')
-      call expect_list(s%pads%mass, [0.8108_wp, 0.7_wp], 'one pad by its subscript')
+      s = scene_of('&pads mass(2) = 0.7, pivot_distance(2) = 15e-3 arc_deg(1) = 50, 55, pivot_ratio = 0.5, 0.6, ' &
+         & //'centre_tangential = 1e-3 centre_tangential(2) = -1e-3 /')
+      call expect_list(s%pads%pivot_distance, [14e-3_wp, 15e-3_wp], 'one pad by its subscript')
+      call expect_list(s%pads%mass(2:), [0.7_wp], 'one that is given only there')
       call expect_list(s%pads%arc_deg, [50.0_wp, 55.0_wp], 'values from a subscript on')
       call expect_list(s%pads%pivot_ratio, [0.5_wp, 0.6_wp], 'one value a pad')
       call expect_list(s%pads%centre_tangential, [1e-3_wp, -1e-3_wp], 'all pads, then one of them')

@@ -1,0 +1,121 @@
+!> What --check prints: the resolved case, where each value comes from, and what follows from the values.
+module checked_case
+   use kinds, only: wp
+   use text, only: to_text
+   use errors, only: error_type
+   use scene, only: scene_type
+   use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
+   use scene_completion, only: complete_scene
+   use scene_fields, only: pads_variable
+   use assignments, only: namelist_type
+   use scene_namelist, only: fill_scene
+   use namelist_writer, only: scene_text
+   implicit none (type, external)
+   private
+   public :: marked_text, derived_text, preload_note
+
+   character(len=*), parameter :: newline = achar(10)
+   !> Column of the marks.
+   integer, parameter :: column = 46
+
+contains
+
+   !> The text of a scene with a mark behind each value that its assignments do not give: a default, or derived from
+   !> others.
+   function marked_text(scene, parsed) result(text)
+      type(scene_type), intent(in) :: scene
+      type(namelist_type), intent(in) :: parsed
+      character(len=:), allocatable :: text, left, line, defaults, group
+      integer :: length
+      left = scene_text(scene)
+      defaults = default_text(parsed)
+      text = ''
+      group = ''
+      do while (left /= '')
+         length = index(left, newline)
+         line = left(:length - 1)
+         left = left(length + 1:)
+         if (line(1:1) == '&') group = line(2:)
+         if (line(1:1) == ' ' .and. .not. is_given(parsed, group, line)) then
+            line = line//repeat(' ', max(2, column - len(line)))
+            if (same_in(defaults, group, trim(line))) then
+               line = line//'! default'
+            else
+               line = line//'! derived'
+            end if
+         end if
+         text = text//line//newline
+      end do
+   end function marked_text
+
+   !> The text of the paper's bearing with the pivots of the case.
+   function default_text(parsed) result(text)
+      type(namelist_type), intent(in) :: parsed
+      character(len=:), allocatable :: text
+      type(namelist_type) :: pivots
+      type(scene_type) :: scene
+      type(error_type), allocatable :: error
+      integer :: i
+      pivots%file = parsed%file
+      allocate (pivots%groups(0))
+      pivots%assignments = pack(parsed%assignments, [(parsed%assignments(i)%group//'%'//parsed%assignments(i)%name &
+         & == pads_variable, i=1, size(parsed%assignments))])
+      call fill_scene(pivots, scene, error)
+      if (.not. allocated(error)) call complete_scene(scene, error)
+      text = scene_text(scene)
+   end function default_text
+
+   !> True where the variable of a line, "  name = value" or "  name(2) = value", is assigned.
+   pure logical function is_given(parsed, group, line)
+      type(namelist_type), intent(in) :: parsed
+      character(len=*), intent(in) :: group, line
+      integer :: i
+      is_given = .false.
+      do i = 1, size(parsed%assignments)
+         associate (a => parsed%assignments(i))
+            if (a%group == group .and. a%name == line(3:scan(line, '(=') - 1)) is_given = .true.
+         end associate
+      end do
+   end function is_given
+
+   !> True where the group has the same line in another text.
+   pure logical function same_in(text, group, line)
+      character(len=*), intent(in) :: text, group, line
+      integer :: start
+      start = index(text, '&'//group//newline)
+      same_in = index(text(start:start + index(text(start:), newline//'/'//newline)), newline//line//newline) > 0
+   end function same_in
+
+   !> What follows from a complete scene, as comments.
+   function derived_text(scene) result(text)
+      type(scene_type), intent(in) :: scene
+      character(len=:), allocatable :: text
+      text = '! derived values'//newline
+      call say('preload', preload(scene), '1 - c_r/c_m')
+      call say('clearance ratio', clearance_ratio(scene), 'c_r/R_J')
+      call say('length ratio', length_over_diameter(scene), 'L/D')
+      if (scene%rotor%balance_grade > 0) call say('unbalance', scene%unbalance(), 'kg m, by rotor%balance_grade')
+      call say('load', load(scene), 'N, weight and static load')
+      call say('specific load', specific_load(scene), 'Pa, W/(L D)')
+      if (load(scene) > 0) call say('Sommerfeld number', sommerfeld_number(scene), &
+         & 'mu N L D/W (R_J/c_r)^2, N in 1/s at the start')
+      if (preload_note(scene) /= '') text = text//'! '//preload_note(scene)//newline
+   contains
+      subroutine say(name, value, meaning)
+         character(len=*), intent(in) :: name, meaning
+         real(wp), intent(in) :: value
+         character(len=18) :: padded
+         padded = name
+         text = text//'!   '//padded//' '//to_text(value)//'  '//meaning//newline
+      end subroutine say
+   end function derived_text
+
+   !> A word on a negative preload; else empty.
+   function preload_note(scene) result(note)
+      type(scene_type), intent(in) :: scene
+      character(len=:), allocatable :: note
+      note = ''
+      if (preload(scene) < 0) note = 'note: negative preload '//to_text(preload(scene))//': the bore of the pads is ' &
+         & //'tighter than the clearance at the pivots; such a pad touches the journal at its edges first'
+   end function preload_note
+end module checked_case

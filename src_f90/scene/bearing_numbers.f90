@@ -1,0 +1,49 @@
+!> What a bearing engineer calculates from a scene before any run.
+module bearing_numbers
+   use kinds, only: wp
+   use scene, only: scene_type
+   implicit none (type, external)
+   private
+   public :: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
+
+contains
+
+   !> Preload of the pads, 1 - c_r/c_m.
+   pure real(wp) function preload(scene)
+      type(scene_type), intent(in) :: scene
+      preload = 1 - scene%bearing%assembled_clearance/scene%bearing%machined_clearance
+   end function preload
+
+   !> c_r over R_J.
+   pure real(wp) function clearance_ratio(scene)
+      type(scene_type), intent(in) :: scene
+      clearance_ratio = scene%bearing%assembled_clearance/scene%bearing%journal_radius
+   end function clearance_ratio
+
+   !> L over D.
+   pure real(wp) function length_over_diameter(scene)
+      type(scene_type), intent(in) :: scene
+      length_over_diameter = scene%bearing%axial_length/(2*scene%bearing%journal_radius)
+   end function length_over_diameter
+
+   !> Steady force W on the journal, weight and static load, N.
+   pure real(wp) function load(scene)
+      type(scene_type), intent(in) :: scene
+      load = norm2(scene%rotor%static_load - [scene%rotor%mass*scene%rotor%gravity, 0.0_wp])
+   end function load
+
+   !> W/(L D), Pa.
+   pure real(wp) function specific_load(scene)
+      type(scene_type), intent(in) :: scene
+      associate (b => scene%bearing)
+         specific_load = load(scene)/(2*b%journal_radius*b%axial_length)
+      end associate
+   end function specific_load
+
+   !> S = mu N L D/W (R_J/c_r)^2 with the speed N at the start in revolutions a second; there must be a load.
+   pure real(wp) function sommerfeld_number(scene)
+      type(scene_type), intent(in) :: scene
+      sommerfeld_number = scene%bearing%viscosity*scene%operation%speed_rpm/60/specific_load(scene) &
+         & /clearance_ratio(scene)**2
+   end function sommerfeld_number
+end module bearing_numbers

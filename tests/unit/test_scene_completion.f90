@@ -1,0 +1,200 @@
+!> What a case leaves out: machined clearance by preload, the pads' bodies by density and thickness.
+program test_scene_completion
+   use kinds, only: wp, degree
+   use errors, only: error_type, input_error
+   use scene, only: scene_type, is_set
+   use scene_namelist, only: scene_from_text
+   use annular_sector, only: annular_sector_type, new_annular_sector
+   use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
+   use checked_case, only: derived_text, preload_note
+   use check, only: runs, expect, expect_close, expect_no_error, expect_error, between, report
+   implicit none (type, external)
+
+   integer :: i
+
+   do i = 1, 5
+      if (runs('quadrature')) call quadrature()
+   end do
+   if (runs('ring')) call ring()
+   if (runs('paper_pads')) call paper_pads()
+   if (runs('other_pads')) call other_pads()
+   if (runs('given_in_part')) call given_in_part()
+   if (runs('each_pad')) call each_pad()
+   if (runs('preloads')) call preloads()
+   if (runs('refused')) call refused()
+   if (runs('numbers')) call numbers()
+   call report()
+
+contains
+
+   type(scene_type) function scene_of(text) result(scene)
+      character(len=*), intent(in) :: text
+      type(error_type), allocatable :: error
+      call scene_from_text(text, 'case.nml', scene, error)
+      call expect_no_error(error, 'accepted: '//text)
+   end function scene_of
+
+   subroutine expect_refused(text, words)
+      character(len=*), intent(in) :: text, words
+      type(scene_type) :: scene
+      type(error_type), allocatable :: error
+      call scene_from_text(text, 'case.nml', scene, error)
+      call expect_error(error, input_error, words, 'refused: '//text)
+   end subroutine expect_refused
+
+   !> The sums over the points in the middle of n x n parts of the sector, whose error falls as 1/n^2: that of two such
+   !> sums, extrapolated.
+   subroutine quadrature()
+      type(annular_sector_type) :: sector
+      real(wp) :: bore, thickness, leading, trailing, length, distance, sums(4)
+      bore = between(0.02_wp, 0.5_wp)
+      thickness = bore*between(0.05_wp, 1.0_wp)
+      leading = between(0.01_wp, 2.8_wp)
+      trailing = between(0.01_wp, 2.8_wp)
+      length = between(0.01_wp, 0.5_wp)
+      distance = thickness*between(0.1_wp, 2.0_wp)
+      sector = new_annular_sector(bore, thickness, leading, trailing, length, distance)
+      sums = (4*sums_of(400, bore, thickness, leading, trailing, length, distance) &
+         & - sums_of(200, bore, thickness, leading, trailing, length, distance))/3
+      call expect_close(sector%volume/sums(1), 1.0_wp, 1e-8_wp, 'volume')
+      call expect_close(sector%centre_tangential, sums(2)/sums(1), 1e-8_wp*bore, 'centre along the pad')
+      call expect_close(sector%centre_radial, sums(3)/sums(1), 1e-8_wp*bore, 'centre outward')
+      call expect_close(sector%squared_radius, sums(4)/sums(1), 1e-8_wp*bore**2, 'inertia')
+   end subroutine quadrature
+
+   !> Volume, first moments and second moment about the pivot, from n x n parts.
+   pure function sums_of(n, bore, thickness, leading, trailing, length, distance)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: bore, thickness, leading, trailing, length, distance
+      real(wp) :: sums_of(4), radius, angle, x, y, share
+      integer :: j, k
+      sums_of = 0
+      do j = 1, n
+         radius = bore + (j - 0.5_wp)/n*thickness
+         do k = 1, n
+            angle = -trailing + (k - 0.5_wp)/n*(leading + trailing)
+            x = radius*sin(angle)
+            y = radius*cos(angle) - (bore + distance)
+            share = radius*thickness/n*(leading + trailing)/n*length
+            sums_of = sums_of + share*[1.0_wp, x, y, x**2 + y**2]
+         end do
+      end do
+   end function sums_of
+
+   !> A whole ring has its centre of gravity in its middle.
+   subroutine ring()
+      type(annular_sector_type) :: sector
+      real(wp), parameter :: half = 180*degree
+      sector = new_annular_sector(0.1_wp, 0.02_wp, half, half, 0.05_wp, 0.03_wp)
+      call expect_close(sector%volume, half*(0.12_wp**2 - 0.1_wp**2)*0.05_wp, 1e-17_wp, 'volume')
+      call expect_close(sector%centre_tangential, 0.0_wp, 1e-16_wp, 'centre along the pad')
+      call expect_close(sector%centre_radial, -0.13_wp, 1e-16_wp, 'centre outward')
+      call expect_close(sector%squared_radius, 0.5_wp*(0.1_wp**2 + 0.12_wp**2) + 0.13_wp**2, 1e-16_wp, 'inertia')
+   end subroutine ring
+
+   !> Clearances, supply and number of pads leave the paper's pads.
+   subroutine paper_pads()
+      type(scene_type) :: s
+      s = scene_of('&pads pivot_angle_deg = -90, 0, 90, motion = ''tilting_only'' /' &
+         & //' &bearing assembled_clearance = 70e-6, machined_clearance = 90e-6, supply_pressure = 1e5 /')
+      call expect_close(maxval(abs(s%pads%mass - 0.8108_wp)), 0.0_wp, 0.0_wp, 'mass')
+      call expect_close(maxval(abs(s%pads%inertia - 4.055e-4_wp)), 0.0_wp, 0.0_wp, 'inertia')
+      call expect_close(maxval(abs(s%pads%centre_tangential)), 0.0_wp, 0.0_wp, 'C_xi')
+      call expect_close(maxval(abs(s%pads%centre_radial + 10.1e-3_wp)), 0.0_wp, 0.0_wp, 'C_eta')
+      s = scene_of('&pads mass = 0.9 /')
+      call expect_close(s%pads%mass(2), 0.9_wp, 0.0_wp, 'a mass that is given')
+      call expect_close(s%pads%inertia(2), 4.055e-4_wp, 0.0_wp, 'the paper''s inertia beside it')
+   end subroutine paper_pads
+
+   !> Pads of another size, and those whose density or thickness is given, are annular sectors.
+   subroutine other_pads()
+      type(scene_type) :: s
+      type(annular_sector_type) :: sector
+      real(wp), parameter :: half = 34.65_wp*degree
+      s = scene_of('&bearing axial_length = 0.2 /')
+      sector = new_annular_sector(0.05_wp, 14e-3_wp, half, half, 0.2_wp, 14e-3_wp)
+      call expect_close(s%pads%mass(1), 7850*sector%volume, 1e-12_wp, 'steel, as thick as the pivot is away')
+      call expect_close(s%pads%inertia(1), 7850*sector%volume*sector%squared_radius, 1e-14_wp, 'its inertia')
+      call expect_close(s%pads%centre_radial(1), sector%centre_radial, 1e-15_wp, 'its centre')
+      call expect_close(s%pads%centre_tangential(1), 0.0_wp, 1e-17_wp, 'symmetric')
+      s = scene_of('&pads density = 8800, thickness = 0.02 /')
+      sector = new_annular_sector(0.05_wp, 0.02_wp, half, half, 0.1_wp, 14e-3_wp)
+      call expect_close(s%pads%mass(2), 8800*sector%volume, 1e-12_wp, 'bronze, thicker')
+      call expect(.not. any(is_set(s%pads%density)) .and. .not. any(is_set(s%pads%thickness)), 'no more to find')
+      s = scene_of('&pads pivot_ratio = 0.6 /')
+      call expect(s%pads%centre_tangential(1) > 0, 'behind the middle: the centre lies towards the leading edge')
+      ! steel of the paper's size lies close to the paper's pads
+      s = scene_of('&pads density = 7850 /')
+      call expect_close(s%pads%mass(1)/0.8108_wp, 1.0_wp, 0.08_wp, 'mass near the paper''s')
+      call expect_close(s%pads%centre_radial(1)/(-10.1e-3_wp), 1.0_wp, 0.08_wp, 'centre near the paper''s')
+   end subroutine other_pads
+
+   !> A mass that is given replaces the density.
+   subroutine given_in_part()
+      type(scene_type) :: s, whole
+      whole = scene_of('&bearing axial_length = 0.2 / &pads density = 7850 /')
+      s = scene_of('&bearing axial_length = 0.2 / &pads mass = 3 /')
+      call expect_close(s%pads%inertia(1)/s%pads%mass(1), whole%pads%inertia(1)/whole%pads%mass(1), 1e-15_wp, &
+         & 'inertia over mass is that of the size')
+      s = scene_of('&bearing axial_length = 0.2 / &pads inertia = 1e-2 /')
+      call expect_close(s%pads%mass(1), whole%pads%mass(1), 0.0_wp, 'an inertia leaves the mass')
+      call expect_close(s%pads%inertia(1), 1e-2_wp, 0.0_wp, 'and stands')
+   end subroutine given_in_part
+
+   !> Each pad by itself.
+   subroutine each_pad()
+      type(scene_type) :: s
+      s = scene_of('&pads arc_deg = 60, 69.3 /')
+      call expect_close(s%pads%mass(2), 0.8108_wp, 0.0_wp, 'the second is the paper''s')
+      call expect(s%pads%mass(1) < 0.7_wp, 'the first is not')
+      s = scene_of('&pads arc_deg = 60, mass(2) = 0.7, thickness(1) = 0.01 /')
+      call expect_close(s%pads%mass(2), 0.7_wp, 0.0_wp, 'one mass is given')
+      call expect(s%pads%mass(1) < 0.5_wp, 'one is thinner')
+   end subroutine each_pad
+
+   subroutine preloads()
+      type(scene_type) :: s
+      s = scene_of('&bearing preload = 0.3 /')
+      call expect_close(s%bearing%machined_clearance, 80e-6_wp/0.7_wp, 0.0_wp, 'c_m from preload')
+      call expect(.not. is_set(s%bearing%preload), 'it is used up')
+      call expect_close(preload(s), 0.3_wp, 1e-15_wp, 'and comes back')
+      s = scene_of('&bearing preload = 0 /')
+      call expect_close(s%bearing%machined_clearance, 80e-6_wp, 0.0_wp, 'none')
+      call expect(preload_note(s) == '', 'without a note')
+      s = scene_of('&bearing preload = -1 /')
+      call expect_close(s%bearing%machined_clearance, 40e-6_wp, 0.0_wp, 'the most negative')
+      call expect(index(preload_note(s), 'negative preload -1') > 0, 'has a note')
+      call expect(index(derived_text(s), 'note: negative preload') > 0, 'that --check shows')
+      s = scene_of('&case /')
+      call expect_close(preload(s), 0.2_wp, 1e-15_wp, 'the paper''s')
+   end subroutine preloads
+
+   subroutine refused()
+      call expect_refused('&bearing preload = 0.3, machined_clearance = 1e-4 /', &
+         & 'bearing%preload = 0.3: bearing%machined_clearance = 1e-4 is given too; give one of them')
+      call expect_refused('&bearing preload = 1 /', 'bearing%preload = 1: must be -1 to 0.999')
+      call expect_refused('&pads mass = 1, density = 7850 /', 'pads%density = 7850: pads%mass = 1 is given too')
+      call expect_refused('&pads mass(2) = 1, density = 7850 /', '(pad 2)')
+      call expect_refused('&pads mass = 1, inertia = 1, centre_tangential = 0, centre_radial = 0, thickness = 0.1 /', &
+         & 'pads%thickness = 0.1: has no effect')
+      call expect_refused('&bearing journal_radius = 1e-3, axial_length = 1e-3 /' &
+         & //' &pads thickness = 1e-5, density = 1 /', 'from the size of the pad: must be 1e-9 to 1e9')
+   end subroutine refused
+
+   !> The numbers of the five-pad bearing, by hand.
+   subroutine numbers()
+      type(scene_type) :: s
+      s = scene_of('&bearing journal_radius = 63.5e-3, axial_length = 63.5e-3, preload = 0.3, viscosity = 0.022,' &
+         & //' assembled_clearance = 0.2e-3 / &rotor mass = 1500, balance_grade = 2.5 / &operation speed_rpm = 3000 /')
+      call expect_close(clearance_ratio(s), 0.2_wp/63.5_wp, 1e-17_wp, 'c_r/R_J')
+      call expect_close(length_over_diameter(s), 0.5_wp, 0.0_wp, 'L/D')
+      call expect_close(load(s), 14715.0_wp, 1e-9_wp, 'load')
+      call expect_close(specific_load(s), 14715/(0.127_wp*0.0635_wp), 1e-6_wp, 'specific load')
+      call expect_close(sommerfeld_number(s), 0.022_wp*50*0.127_wp*0.0635_wp/14715*(63.5_wp/0.2_wp)**2, 1e-14_wp, &
+         & 'Sommerfeld number')
+      call expect(index(derived_text(s), '0.0119362  kg m, by rotor%balance_grade') > 0, 'unbalance by grade')
+      s = scene_of('&rotor gravity = 0 /')
+      call expect(index(derived_text(s), 'Sommerfeld') == 0, 'no Sommerfeld number without load')
+      call expect(index(derived_text(s), 'kg m') == 0, 'no unbalance without grade')
+   end subroutine numbers
+end program test_scene_completion
