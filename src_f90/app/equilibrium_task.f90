@@ -10,7 +10,7 @@ module equilibrium_task
    use run_summary, only: print_equilibrium
    implicit none (type, external)
    private
-   public :: run_equilibrium, start_at_equilibrium
+   public :: run_equilibrium, create_file, start_at_equilibrium
 
 contains
 
@@ -21,15 +21,22 @@ contains
       call start_at_equilibrium(run, y, error)
    end subroutine run_equilibrium
 
+   !> Creates the file of a run.
+   subroutine create_file(run, error)
+      type(case_run_type), intent(inout) :: run
+      type(error_type), allocatable, intent(out) :: error
+      call run%file%create(run%scene, scene_text(run%scene), error)
+      if (.not. allocated(error) .and. run%tag%number > 0) call run%file%put_member(run%tag)
+   end subroutine create_file
+
    !> Creates the file, finds the equilibrium and writes it; y is its state.
    subroutine start_at_equilibrium(run, y, error)
       type(case_run_type), intent(inout) :: run
       real(wp), allocatable, intent(out) :: y(:)
       type(error_type), allocatable, intent(out) :: error
       type(equilibrium_type) :: static
-      call run%file%create(run%scene, scene_text(run%scene), error)
+      call create_file(run, error)
       if (allocated(error)) return
-      if (run%tag%number > 0) call run%file%put_member(run%tag)
       call find_equilibrium(run%model, static, error, stop_requested)
       if (allocated(error)) then
          if (error%status == stopped) error%message = stop_reason()//' before the march; nothing was computed yet'

@@ -1,4 +1,4 @@
-!> The task 'march': from the equilibrium, or from a checkpoint, over the duration; samples and their spectra.
+!> The task 'march': from its start, or from a checkpoint, over the duration; samples and their spectra.
 module march_task
    use kinds, only: wp, i8, pi
    use text, only: to_text
@@ -10,7 +10,7 @@ module march_task
    use run_file, only: run_file_type
    use march_results, only: put_spectrum
    use case_run, only: case_run_type
-   use equilibrium_task, only: start_at_equilibrium
+   use march_start, only: make_start
    use recorder, only: recorder_type, begin_recording
    implicit none (type, external)
    private
@@ -38,7 +38,7 @@ contains
          call continue_from_checkpoint(run, t, y, error)
       else
          t = 0
-         call start_at_equilibrium(run, y, error)
+         call make_start(run, y, error)
       end if
       if (allocated(error)) return
       call run%file%begin_series('time')

@@ -10,7 +10,7 @@ module run_summary
    use run_statistics, only: run_statistics_type
    implicit none (type, external)
    private
-   public :: print_notes, print_equilibrium, print_march
+   public :: print_notes, print_start, print_equilibrium, print_march
 
 contains
 
@@ -19,6 +19,20 @@ contains
       type(scene_type), intent(in) :: scene
       if (preload_note(scene) /= '') print '(a)', preload_note(scene)
    end subroutine print_notes
+
+   !> Where a march starts that does not start at the equilibrium itself; journal, m, tilts, rad.
+   subroutine print_start(from, journal, tilt)
+      character(len=*), intent(in) :: from
+      real(wp), intent(in) :: journal(2), tilt(:)
+      character(len=:), allocatable :: tilts
+      integer :: i
+      tilts = milli(tilt(1))
+      do i = 2, size(tilt)
+         tilts = tilts//', '//milli(tilt(i))
+      end do
+      print '(a)', 'start from '''//from//''': journal y '//micro(journal(1))//', z '//micro(journal(2)) &
+         & //' um, tilts '//tilts//' mrad'
+   end subroutine print_start
 
    subroutine print_equilibrium(static)
       type(equilibrium_type), intent(in) :: static

@@ -4,7 +4,7 @@ module scene_fields
    use kinds, only: wp
    use field_visitor, only: visitor_type, field, choice
    use scene, only: scene_type, case_type, rotor_type, operation_type, bearing_type, pads_type, pivot_type, &
-      & friction_type, film_type, integration_type, output_type, mass_range, inertia_range, centre_range
+      & friction_type, start_type, film_type, integration_type, output_type, mass_range, inertia_range, centre_range
    implicit none (type, external)
    private
    public :: visit_scene, title_variable, checkpoint_variable, pads_variable
@@ -29,6 +29,7 @@ contains
       call visit_pads(scene%pads, v)
       call visit_pivot(scene%pivot, v)
       call visit_friction(scene%friction, v)
+      call visit_start(scene%start, v)
       call visit_film(scene%film, v)
       call visit_integration(scene%integration, v)
       call visit_output(scene%output, v)
@@ -159,6 +160,27 @@ contains
       call v%number(friction%characteristic_load, field('characteristic_load', 1e-6_wp, 1e12_wp, 'N', &
          & 'LuGre: characteristic load N_m of eq (28)'))
    end subroutine visit_friction
+
+   subroutine visit_start(start, v)
+      type(start_type), intent(inout) :: start
+      class(visitor_type), intent(inout) :: v
+      call v%group('start', 'Where a march starts; the values of journal and pads are added, as a disturbance; a resumed ' &
+         & //'run does not start again')
+      call v%word(start%from, choice('from', 'equilibrium centred given file', &
+         & 'equilibrium: of the initial speed, at rest; centred: journal in the middle, pads at rest on their pivots ' &
+         & //'without tilt; given: only the values of journal and pads below; file: the end of another result'))
+      call v%word(start%file, choice('file', '', 'file: the result file, with the same pads; its last whole turn of the ' &
+         & //'shaft is taken'))
+      call v%numbers(start%journal, field('journal', -0.1_wp, 0.1_wp, 'm', 'displacement of the journal along y and z'))
+      call v%numbers(start%journal_velocity, field('journal_velocity', -1e3_wp, 1e3_wp, 'm/s', &
+         & 'velocity of the journal along y and z'))
+      call v%per_pad(start%pad_tilt, field('pad_tilt', -3.0_wp, 3.0_wp, 'rad', 'tilts of the pads'))
+      call v%per_pad(start%pad_tilt_rate, field('pad_tilt_rate', -1e5_wp, 1e5_wp, 'rad/s', 'their rates'))
+      call v%per_pad(start%pad_penetration, field('pad_penetration', -0.1_wp, 0.1_wp, 'm', &
+         & 'tilting_radial: penetrations of the pivots'))
+      call v%per_pad(start%pad_penetration_rate, field('pad_penetration_rate', -1e3_wp, 1e3_wp, 'm/s', &
+         & 'tilting_radial: their rates'))
+   end subroutine visit_start
 
    subroutine visit_film(film, v)
       type(film_type), intent(inout) :: film

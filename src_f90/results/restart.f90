@@ -13,7 +13,7 @@ module restart
    use files, only: is_regular
    implicit none (type, external)
    private
-   public :: restart_type, read_restart, read_result, refuse_other_scene
+   public :: restart_type, read_restart, read_result, open_result, refuse_other_scene
 
    type :: restart_type
       !> Resolved namelist of the run.

@@ -6,7 +6,7 @@ module scene
    private
    public :: scene_type, max_pads, unset, is_set, mass_range, inertia_range, centre_range
    public :: case_type, rotor_type, operation_type, bearing_type, pads_type, pivot_type, friction_type
-   public :: film_type, integration_type, output_type
+   public :: start_type, film_type, integration_type, output_type
 
    !> Most pads of a bearing.
    integer, parameter :: max_pads = 24
@@ -76,6 +76,16 @@ module scene
       real(wp) :: characteristic_load = 1e4_wp
    end type friction_type
 
+   type :: start_type
+      !> 'equilibrium', 'centred', 'given' or 'file'.
+      character(len=:), allocatable :: from
+      !> The result that a start from a file continues.
+      character(len=:), allocatable :: file
+      !> What is added: journal, m, m/s; per pad tilt, rad, penetration, m, and their rates.
+      real(wp) :: journal(2) = 0, journal_velocity(2) = 0
+      real(wp), allocatable :: pad_tilt(:), pad_tilt_rate(:), pad_penetration(:), pad_penetration_rate(:)
+   end type start_type
+
    type :: film_type
       !> 'auto', 'direct', 'modal' or 'sor'.
       character(len=:), allocatable :: solver
@@ -117,6 +127,7 @@ module scene
       type(pads_type) :: pads
       type(pivot_type) :: pivot
       type(friction_type) :: friction
+      type(start_type) :: start
       type(film_type) :: film
       type(integration_type) :: integration
       type(output_type) :: output
@@ -152,6 +163,12 @@ contains
       scene%pads%motion = 'tilting_radial'
       scene%pivot%law = 'fang'
       scene%friction%model = 'none'
+      scene%start%from = 'equilibrium'
+      scene%start%file = ''
+      scene%start%pad_tilt = [0.0_wp, 0.0_wp]
+      scene%start%pad_tilt_rate = [0.0_wp, 0.0_wp]
+      scene%start%pad_penetration = [0.0_wp, 0.0_wp]
+      scene%start%pad_penetration_rate = [0.0_wp, 0.0_wp]
       scene%film%solver = 'auto'
       scene%film%cavitation = 'reynolds'
       call scene%set_final_speed()

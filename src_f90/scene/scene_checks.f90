@@ -23,6 +23,7 @@ contains
       call check_rotor(scene, error)
       call check_friction(scene, error)
       call check_pivot(scene, error)
+      call check_start(scene, error)
       call check_output(scene, error)
       call check_pads(scene, error)
    end subroutine check_scene
@@ -120,6 +121,20 @@ contains
             & 'pivot%radius_difference = 0: must be > 0 for law = ''hertz''', error)
       end associate
    end subroutine check_pivot
+
+   subroutine check_start(scene, error)
+      type(scene_type), intent(in) :: scene
+      type(error_type), allocatable, intent(inout) :: error
+      associate (s => scene%start)
+         call require(s%from /= 'file' .or. s%file /= '', 'start%file = '''': must name a result for start%from = ' &
+            & //'''file''', error)
+         call require(s%from == 'file' .or. s%file == '', 'start%file = '''//s%file//''': needs start%from = ' &
+            & //'''file'', not '''//s%from//'''', error)
+         call require(scene%tilting_radial() .or. all(abs([s%pad_penetration, s%pad_penetration_rate]) <= 0), &
+            & 'start%pad_penetration = '//to_text(s%pad_penetration(1))//', pad_penetration_rate = ' &
+            & //to_text(s%pad_penetration_rate(1))//': must be 0 for pads%motion = ''tilting_only''', error)
+      end associate
+   end subroutine check_start
 
    subroutine check_output(scene, error)
       type(scene_type), intent(in) :: scene

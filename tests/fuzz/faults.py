@@ -32,6 +32,11 @@ TOGETHER = (
     ({"output%start_time": "2.1"}, "output%start_time"),
     ({"operation%duration": "1e6"}, "operation%duration"),
     ({"pads%inertia": "8e-5"}, "pads%inertia"),
+    ({"pads%mass": "1", "pads%density": "7850"}, "pads%density"),
+    ({"bearing%preload": "0.3", "bearing%machined_clearance": "1e-4"}, "bearing%preload"),
+    ({"start%file": "'x.h5'"}, "start%file"),
+    ({"start%from": "file"}, "start%file"),
+    ({"start%pad_penetration": "1e-6", "pads%motion": "tilting_only"}, "start%pad_penetration"),
     ({"pads%pivot_angle_deg": "0, 60"}, "pads%pivot_angle_deg"),
 )
 

@@ -55,6 +55,6 @@ def _variable(group: str, name: str, default: str, allowed: str, meaning: str) -
         low=float(low),
         high=float(high),
         whole=allowed.startswith("whole"),
-        per_pad=group == "pads",
+        per_pad=group == "pads" or name.startswith("pad_"),
         fixes_pads="of them" in meaning,
     )

@@ -34,7 +34,12 @@ TOGETHER = (
 #: What others follow from; drawn where these are not given.
 INSTEAD = ("bearing%preload", "pads%density", "pads%thickness")
 ALONE = ("rotor%balance_speed_rpm", "film%circumferential_cells", "film%axial_cells")
-SPECIAL = {key for group in (*TOGETHER, ALONE, INSTEAD) for key in group}
+#: Where a march starts; the values of the pads are not drawn.
+START = (
+    *("start%from", "start%file", "start%journal", "start%journal_velocity", "start%pad_tilt"),
+    *("start%pad_tilt_rate", "start%pad_penetration", "start%pad_penetration_rate"),
+)
+SPECIAL = {key for group in (*TOGETHER, ALONE, INSTEAD, START) for key in group}
 #: Circumferential times squared axial cells of all pads.
 MOST_IN_BLOCKS = 2e8
 TITLE = "abc ABC 0123  ''\"\"/!&=,*()%;:\t\\#$\u00e4\u20ac\U0001d70b"
@@ -60,8 +65,17 @@ def draw(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
         found.update(pads(dice, variables))
     fit_memory(found)
     if dice.random() < few:
+        found.update(start(dice, variables))
+    if dice.random() < few:
         follow(dice, found)
     return found
+
+
+def start(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
+    """Where a march starts, and a disturbance of the journal."""
+    origin = dice.choice(variables["start%from"].choices).encode()
+    moved = {key: anything(dice, variables[key]) for key in ("start%journal", "start%journal_velocity")}
+    return moved | {"start%from": (origin,), "start%file": (b"other.h5" if origin == b"file" else b"",)}
 
 
 def follow(dice: Random, found: dict[str, tuple]) -> None:

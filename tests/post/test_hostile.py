@@ -227,7 +227,8 @@ def test_the_program(hostile, program, attack, tmp_path):
     """It looks at the file, or would replace it; a pipe is never waited for."""
     path = hostile(attack)
     (tmp_path / "case.nml").write_text("&case title='another' /\n")
-    for arguments in (["--resume", path, "--check"], ["--resume", path], ["case.nml", "--output", path]):
+    start = ["case.nml", "--set", "start%from=file", "--set", f"start%file='{path}'"]
+    for arguments in (["--resume", path, "--check"], ["--resume", path], ["case.nml", "--output", path], start):
         limited([program, "--quiet", *arguments], tmp_path)
 
 

@@ -16,6 +16,7 @@ program test_scene_checks
    if (runs('friction')) call friction()
    if (runs('pivots')) call pivots()
    if (runs('samples')) call samples()
+   if (runs('starts')) call starts()
    if (runs('centre_of_gravity')) call centre_of_gravity()
    if (runs('room_for_pads')) call room_for_pads()
    if (runs('first_of_several')) call first_of_several()
@@ -176,6 +177,25 @@ contains
       s%pivot%law = 'hertz'
       call expect_refused(s, 'pivot%radius_difference', 'must be > 0 for law = ''hertz''')
    end subroutine pivots
+
+   subroutine starts()
+      type(scene_type) :: s
+      s = scene_type()
+      s%start%from = 'file'
+      call expect_refused(s, 'start%file', 'must name a result')
+      s%start%file = 'other.h5'
+      call expect_allowed(s, 'a start from a file')
+      s%start%from = 'centred'
+      call expect_refused(s, 'start%file', 'needs start%from = ''file'', not ''centred''')
+      s = scene_type()
+      s%start%pad_penetration = [0.0_wp, 1e-6_wp]
+      call expect_allowed(s, 'a penetration')
+      s%pads%motion = 'tilting_only'
+      call expect_refused(s, 'start%pad_penetration', 'must be 0 for pads%motion = ''tilting_only''')
+      s%start%pad_penetration = 0
+      s%start%pad_tilt = 1e-3_wp
+      call expect_allowed(s, 'a tilt of pads that only tilt')
+   end subroutine starts
 
    subroutine samples()
       type(scene_type) :: s

@@ -52,7 +52,7 @@ def orbit(runs: Sequence[Run], last: float | None = None, pad: int | None = None
     enlarged.margins(0.1)
     color = {"color": "0.3" if len(runs) > 1 else "C0"}
     marks = [("orbit", color), ("equilibrium", color | {"linestyle": "", "marker": "+"})]
-    legend(fig, runs, marks if any(signals.steady(run) for run in runs) else [])
+    legend(fig, runs, marks if any(map(plots.marks_equilibrium, runs)) else [])
     mark_enlarged(whole, enlarged)
     return fig
 

@@ -52,17 +52,22 @@ def on_axes(draw: Callable[..., Axes]) -> Callable[..., Axes]:
 def orbit(run: Run, ax: Axes, last: float = 1, direction: bool = True, **line: Any) -> Axes:
     """Path of the journal centre, z to the right and y up, with its direction.
 
-    A cross marks the equilibrium if the speed is constant.
+    A cross marks the equilibrium if the speed is constant and the run started there.
     """
     shown = SHOWN["journal_y"]
     y, z = (shown.factor * each for each in signals.orbit(run, last))
     (path,) = ax.plot(z, y, **line)
-    if signals.steady(run):
+    if marks_equilibrium(run):
         equilibrium(run, ax, color=path.get_color())
     if direction:
         direction_arrow(ax, z, y, path.get_color())
     ax.set(xlabel=SHOWN["journal_z"].label, ylabel=shown.label, aspect="equal")
     return ax
+
+
+def marks_equilibrium(run: Run) -> bool:
+    """True where the equilibrium is part of the picture of an orbit."""
+    return signals.steady(run) and "equilibrium" in run
 
 
 @on_axes

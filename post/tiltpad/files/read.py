@@ -144,6 +144,8 @@ class Run(Archive):
             return f"friction model is '{friction}'"
         if "pad_penetration" in name and motion != "tilting_radial":
             return f"pad motion is '{motion}'"
+        if name.startswith("equilibrium") and (start := self.input.get("start", {}).get("from")):
+            return f"it did not start at one (start%from = '{start}')"
         if self.task == "equilibrium":
             return "its task is 'equilibrium', nothing was marched in time"
         if not self.samples:

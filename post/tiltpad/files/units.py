@@ -71,7 +71,9 @@ UNITS = {
     **dict.fromkeys(("supply_pressure", "ambient_pressure", "cavitation_pressure", "young_modulus"), "Pa"),
     **dict.fromkeys(("radius_difference", "socket_radius", "journal_radius", "axial_length"), "m"),
     **dict.fromkeys(("machined_clearance", "assembled_clearance", "pivot_distance"), "m"),
-    **dict.fromkeys(("centre_tangential", "centre_radial"), "m"),
+    **{"centre_tangential": "m", "centre_radial": "m", "density": "kg/m³", "thickness": "m"},
+    **{"journal": "m", "journal_velocity": "m/s", "pad_tilt": "rad", "pad_tilt_rate": "rad/s"},
+    **{"pad_penetration": "m", "pad_penetration_rate": "m/s"},
     **dict.fromkeys(("critical_velocity", "stribeck_velocity"), "m/s"),
     **{"decay": "s/m", "bristle_stiffness": "1/m", "bristle_damping": "s/m", "viscous_coefficient": "s/m"},
 }

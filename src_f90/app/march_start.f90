@@ -1,0 +1,93 @@
+!> Where a march starts: the state that the group &start describes.
+module march_start
+   use kinds, only: wp
+   use errors, only: error_type, raise, add_context, input_error, numerics_error
+   use files, only: real_path
+   use kinematics, only: journal_motion, pad_state
+   use last_state, only: read_last_state
+   use case_run, only: case_run_type
+   use equilibrium_task, only: create_file, start_at_equilibrium
+   use run_summary, only: print_start
+   implicit none (type, external)
+   private
+   public :: make_start
+
+contains
+
+   !> Creates the file and finds the state y to start from.
+   subroutine make_start(run, y, error)
+      type(case_run_type), intent(inout) :: run
+      real(wp), allocatable, intent(out) :: y(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(journal_motion) :: journal
+      type(pad_state), allocatable :: pads(:)
+      logical :: ok
+      associate (model => run%model, from => run%scene%start%from)
+         if (from == 'equilibrium') then
+            call start_at_equilibrium(run, y, error)
+            if (allocated(error) .or. .not. is_disturbed(run)) return
+            journal = model%rotor%journal(y(:model%rotor%states))
+            pads = model%layout%pad_states(y)
+         else
+            if (from == 'file') then
+               call start_from_file(run, journal, pads, error)
+            else
+               allocate (pads(model%layout%pads))
+            end if
+            if (.not. allocated(error)) call create_file(run, error)
+            if (allocated(error)) return
+         end if
+         call disturb(run, journal, pads)
+         y = model%state(journal, pads)
+         call model%evaluate(0.0_wp, y, .false., ok)
+         if (.not. ok) then
+            call raise(error, numerics_error, model%refusal)
+            call add_context(error, 'no march can start from '''//from//''' with the values of the group start')
+            return
+         end if
+      end associate
+      run%computed = .true.
+      if (.not. run%quiet) call print_start(run%scene%start%from, journal%position, pads%tilt)
+   end subroutine make_start
+
+   !> The last state of another result.
+   subroutine start_from_file(run, journal, pads, error)
+      type(case_run_type), intent(in) :: run
+      type(journal_motion), intent(out) :: journal
+      type(pad_state), allocatable, intent(out) :: pads(:)
+      type(error_type), allocatable, intent(out) :: error
+      associate (file => run%scene%start%file)
+         if (real_path(file) == real_path(run%path)) then
+            call raise(error, input_error, 'start%file = '''//file//''': is the result of this run itself; name ' &
+               & //'another with --output')
+         else
+            call read_last_state(file, run%model%layout, journal, pads, error)
+            call add_context(error, 'start%file')
+         end if
+      end associate
+   end subroutine start_from_file
+
+   !> True where the group has values to add.
+   pure logical function is_disturbed(run)
+      type(case_run_type), intent(in) :: run
+      associate (s => run%scene%start)
+         is_disturbed = any(abs([s%journal, s%journal_velocity, s%pad_tilt, s%pad_tilt_rate, s%pad_penetration, &
+            & s%pad_penetration_rate]) > 0)
+      end associate
+   end function is_disturbed
+
+   !> Adds the values of the group.
+   pure subroutine disturb(run, journal, pads)
+      type(case_run_type), intent(in) :: run
+      type(journal_motion), intent(inout) :: journal
+      type(pad_state), intent(inout) :: pads(:)
+      associate (s => run%scene%start)
+         journal%position = journal%position + s%journal
+         journal%velocity = journal%velocity + s%journal_velocity
+         pads%tilt = pads%tilt + s%pad_tilt
+         pads%tilt_rate = pads%tilt_rate + s%pad_tilt_rate
+         pads%penetration = pads%penetration + s%pad_penetration
+         pads%penetration_rate = pads%penetration_rate + s%pad_penetration_rate
+      end associate
+   end subroutine disturb
+end module march_start

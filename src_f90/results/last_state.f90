@@ -1,0 +1,141 @@
+!> The last state of another result, from which a march may start.
+module last_state
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp, i8, pi
+   use text, only: to_text
+   use errors, only: error_type, raise, system_error
+   use hdf5_file, only: hdf5_type
+   use hdf5_series, only: hdf5_series_type
+   use kinematics, only: journal_motion, pad_state
+   use state_layout, only: state_layout_type
+   use restart, only: restart_type, read_result, open_result
+   implicit none (type, external)
+   private
+   public :: read_last_state
+
+   !> Part of a turn within which samples count as equally close to a whole one.
+   real(wp), parameter :: same_angle = 1e-6_wp
+
+contains
+
+   !> The motion of the journal and the states of the pads in the last sample of a result at which the shaft had turned
+   !> whole revolutions, as closely as samples are: so the unbalance goes on from where it was. The result must have
+   !> the states of this layout.
+   subroutine read_last_state(path, layout, journal, pads, error)
+      character(len=*), intent(in) :: path
+      type(state_layout_type), intent(in) :: layout
+      type(journal_motion), intent(out) :: journal
+      type(pad_state), allocatable, intent(out) :: pads(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(restart_type) :: found
+      type(hdf5_type) :: file
+      integer(i8) :: at
+      call read_result(path, found, error)
+      if (.not. allocated(error)) call open_result(path, file, error)
+      if (allocated(error)) return
+      call refuse_other_states(path, file, found, layout, error)
+      if (.not. allocated(error)) then
+         at = last_whole_turn(file, found%scene%output%samples_per_revolution)
+         call read_states(file, layout, at, journal, pads)
+         if (allocated(file%failure)) call raise(error, system_error, path//': damaged: '//file%failure)
+      end if
+      call file%close()
+      if (.not. allocated(error) .and. .not. all_finite(journal, pads)) call raise(error, system_error, path &
+         & //': damaged: its last state is not a number')
+   end subroutine read_last_state
+
+   !> Refuses a result without samples, or whose pads have other states.
+   subroutine refuse_other_states(path, file, found, layout, error)
+      character(len=*), intent(in) :: path
+      type(hdf5_type), intent(inout) :: file
+      type(restart_type), intent(in) :: found
+      type(state_layout_type), intent(in) :: layout
+      type(error_type), allocatable, intent(out) :: error
+      type(hdf5_series_type) :: time
+      logical :: bristles
+      bristles = found%scene%friction%model == 'lugre'
+      if (found%scene%pad_count() /= layout%pads) then
+         call raise(error, system_error, path//': has '//to_text(found%scene%pad_count())//' pads, and this case ' &
+            & //to_text(layout%pads)//'; no start for it')
+      else if (found%scene%tilting_radial() .neqv. layout%radial) then
+         call raise(error, system_error, path//': has pads%motion = '''//found%scene%pads%motion &
+            & //''', and this case another; no start for it')
+      else if (bristles .neqv. layout%bristles) then
+         call raise(error, system_error, path//': has friction%model = '''//found%scene%friction%model//''', which ' &
+            & //trim(merge('has   ', 'has no', bristles))//' bristle deflections; no start for this case')
+      else
+         if (file%has('time')) then
+            call time%open(file, 'time')
+            call time%close(file)
+         end if
+         if (time%length == 0) call raise(error, system_error, path//': has no samples of a motion to start from')
+      end if
+   end subroutine refuse_other_states
+
+   !> Number of the sample, from 0, in which the shaft has turned whole revolutions, of the last revolution.
+   integer(i8) function last_whole_turn(file, samples_per_revolution) result(at)
+      type(hdf5_type), intent(inout) :: file
+      integer, intent(in) :: samples_per_revolution
+      type(hdf5_series_type) :: series
+      real(wp), allocatable :: angle(:, :), turns(:), beside(:)
+      integer :: n
+      at = 0
+      call series%open(file, 'shaft_angle')
+      n = int(min(int(samples_per_revolution, i8), series%length))
+      call series%read(file, series%length - n, n, angle)
+      call series%close(file)
+      if (allocated(file%failure)) return
+      if (n == 0 .or. .not. all(ieee_is_finite(angle))) then
+         call file%check_read(-1, 'read shaft_angle')
+         return
+      end if
+      turns = angle(1, :)/(2*pi)
+      beside = abs(turns - anint(turns))
+      at = series%length - n + findloc(beside <= minval(beside) + same_angle, .true., dim=1, back=.true.) - 1
+   end function last_whole_turn
+
+   !> The states in a sample; the file keeps a failure where one is not there.
+   subroutine read_states(file, layout, at, journal, pads)
+      type(hdf5_type), intent(inout) :: file
+      type(state_layout_type), intent(in) :: layout
+      integer(i8), intent(in) :: at
+      type(journal_motion), intent(out) :: journal
+      type(pad_state), allocatable, intent(out) :: pads(:)
+      real(wp) :: one(1)
+      allocate (pads(layout%pads))
+      call read_one('journal_y', one)
+      journal%position(1) = one(1)
+      call read_one('journal_z', one)
+      journal%position(2) = one(1)
+      call read_one('journal_vy', one)
+      journal%velocity(1) = one(1)
+      call read_one('journal_vz', one)
+      journal%velocity(2) = one(1)
+      call read_one('pad_tilt', pads%tilt)
+      call read_one('pad_tilt_rate', pads%tilt_rate)
+      if (layout%radial) call read_one('pad_penetration', pads%penetration)
+      if (layout%radial) call read_one('pad_penetration_rate', pads%penetration_rate)
+      if (layout%bristles) call read_one('bristle_deflection', pads%deflection)
+   contains
+      !> The values of a series in the sample.
+      subroutine read_one(name, values)
+         character(len=*), intent(in) :: name
+         real(wp), intent(inout) :: values(:)
+         type(hdf5_series_type) :: series
+         real(wp), allocatable :: found(:, :)
+         call series%open(file, name)
+         if (.not. allocated(file%failure) .and. (series%width /= size(values) .or. series%length <= at)) &
+            & call file%check_read(-1, 'find a sample in '//name)
+         call series%read(file, at, 1, found)
+         call series%close(file)
+         if (.not. allocated(file%failure)) values = found(:, 1)
+      end subroutine read_one
+   end subroutine read_states
+
+   pure logical function all_finite(journal, pads)
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(in) :: pads(:)
+      all_finite = all(ieee_is_finite([journal%position, journal%velocity, pads%tilt, pads%tilt_rate, &
+         & pads%penetration, pads%penetration_rate, pads%deflection]))
+   end function all_finite
+end module last_state

@@ -1,0 +1,207 @@
+"""Where a march starts: each start leads to the same orbit, begins where it says, and is refused with one line."""
+
+import signal
+import subprocess
+import time
+
+import h5py
+import numpy as np
+import pytest
+
+CASE = "&operation duration=0.1 / &friction model='lugre' /\n"
+#: Sizes of journal and tilt: their orbits'.
+SIZES = {"journal_y": 2e-5, "journal_z": 2e-5, "pad_tilt": 1e-4, "bristle_deflection": 1e-7}
+
+
+@pytest.fixture(scope="module")
+def run(tiltpad, tmp_path_factory):
+    """run(name, overrides): the open result of the case with these overrides, made once; the folder of all."""
+    folder = tmp_path_factory.mktemp("starts")
+    (folder / "case.nml").write_text(CASE)
+    files = {}
+
+    def make(name, *overrides):
+        if name not in files:
+            options = [word for each in overrides for word in ("--set", each)]
+            done = tiltpad("case.nml", "-q", "-o", f"{name}.h5", *options, cwd=folder)
+            assert (done.returncode, done.stderr) == (0, "")
+            files[name] = h5py.File(folder / f"{name}.h5")
+        return files[name]
+
+    make.folder = folder
+    yield make
+    for file in files.values():
+        file.close()
+
+
+def begins(file, name):
+    return file[name][0]
+
+
+STARTS = {
+    "centred": ("start%from='centred'",),
+    "given": ("start%from='given'", "start%journal=-20e-6,20e-6", "start%pad_tilt=1e-4,2e-4"),
+    "disturbed": ("start%journal=5e-6,-2e-6", "start%journal_velocity=1e-2,0", "start%pad_tilt_rate(2)=0.1"),
+    "from_file": ("start%from='file'", "start%file='whole.h5'"),
+}
+
+
+@pytest.mark.parametrize("start", STARTS)
+def test_each_start_leads_to_the_orbit(run, start):
+    """After ten revolutions nothing is left of the start, within the errors of the march."""
+    whole, other = run("whole"), run(start, *STARTS[start])
+    for name, size in SIZES.items():
+        one, two = (np.sort(file[name][-360:], axis=0) for file in (whole, other))
+        assert np.abs(one - two).max() < 2e-3 * size, name
+
+
+def test_equilibrium_is_the_default(run):
+    whole, same = run("whole"), run("same", "start%from='equilibrium'")
+    assert whole.attrs["input"] == same.attrs["input"]
+    for name in SIZES:
+        assert np.array_equal(whole[name], same[name])
+    assert begins(whole, "journal_y") == whole["equilibrium/journal_y"][()]
+
+
+def test_it_begins_where_it_says(run):
+    centred, given = run("centred", *STARTS["centred"]), run("given", *STARTS["given"])
+    for name in ("journal_y", "journal_z", "journal_vy", "pad_tilt", "pad_penetration", "bristle_deflection"):
+        assert np.all(begins(centred, name) == 0), name
+    assert (begins(given, "journal_y"), begins(given, "journal_z")) == (-20e-6, 20e-6)
+    assert list(begins(given, "pad_tilt")) == [1e-4, 2e-4]
+    assert "equilibrium" not in given
+    assert "equilibrium" not in centred
+
+
+def test_a_disturbance_is_added(run):
+    file = run("disturbed", *STARTS["disturbed"])
+    rest = file["equilibrium"]
+    assert begins(file, "journal_y") == rest["journal_y"][()] + 5e-6
+    assert begins(file, "journal_z") == rest["journal_z"][()] - 2e-6
+    assert begins(file, "journal_vy") == 1e-2
+    assert list(begins(file, "pad_tilt")) == list(rest["pad_tilt"])
+    assert list(begins(file, "pad_tilt_rate")) == [0, 0.1]
+
+
+def test_a_file_goes_on(run):
+    """From the sample at the last whole turn, and then as the other went on."""
+    whole, other = run("whole"), run("from_file", *STARTS["from_file"])
+    turns = whole["shaft_angle"][:] / (2 * np.pi)
+    at = np.flatnonzero(np.abs(turns - np.round(turns)) < 1e-6)[-1]
+    assert at > whole["time"].size - 361
+    for name in (*SIZES, "journal_vy", "journal_vz", "pad_tilt_rate", "pad_penetration_rate"):
+        assert np.array_equal(begins(other, name), whole[name][at]), name
+    for name, size in SIZES.items():
+        rest = whole[name][at:]
+        # a march that starts anew has short steps of low order first
+        assert np.abs(other[name][: len(rest)] - rest).max() < 2e-3 * size, name
+
+
+def test_a_file_with_a_disturbance_and_another_speed(run):
+    whole = run("whole")
+    other = run("moved", *STARTS["from_file"], "start%journal=1e-6,0", "operation%speed_rpm=6000")
+    here = run("from_file", *STARTS["from_file"])
+    assert begins(other, "journal_y") == begins(here, "journal_y") + 1e-6
+    assert other["speed"][0] != whole["speed"][0]
+
+
+REFUSED = {
+    "no file": (("start%from='file'", "start%file='none.h5'"), 3, "start%file: none.h5: no such file"),
+    "no name": (("start%from='file'",), 1, "start%file = '': must name a result"),
+    "not from it": (("start%file='whole.h5'",), 1, "needs start%from = 'file', not 'equilibrium'"),
+    "text": (("start%from='file'", "start%file='case.nml'"), 3, "no HDF5 file, or damaged"),
+    "pads": ((*STARTS["from_file"], "pads%pivot_angle_deg=-90"), 3, "has 2 pads, and this case 1"),
+    "motion": ((*STARTS["from_file"], "pads%motion='tilting_only'"), 3, "pads%motion = 'tilting_radial'"),
+    "bristles": ((*STARTS["from_file"], "friction%model='none'"), 3, "friction%model = 'lugre'"),
+    "no motion": (("start%from='file'", "start%file='rest.h5'"), 3, "no samples of a motion"),
+    "turned over": (("start%from='given'", "start%pad_tilt(2)=1.2"), 2, "pad 2 turned over"),
+    "closed": (("start%from='centred'", "start%journal=-90e-6,0"), 2, "the film of pad 1 closed"),
+    "rigid": (
+        ("start%pad_penetration=1e-6", "pads%motion='tilting_only'"),
+        1,
+        "must be 0 for pads%motion = 'tilting_only'",
+    ),
+    "unknown": (("start%from='rest'",), 1, "must be one of 'equilibrium'"),
+}
+
+
+@pytest.mark.parametrize("why", REFUSED)
+def test_refused(tiltpad, run, why):
+    overrides, status, words = REFUSED[why]
+    run("whole")
+    run("rest", "case%task='equilibrium'")
+    options = [word for each in overrides for word in ("--set", each)]
+    done = tiltpad("case.nml", "-q", "-o", "out.h5", *options, cwd=run.folder)
+    assert (done.returncode, done.stdout) == (status, "")
+    assert done.stderr.count("\n") == 1
+    assert words in done.stderr
+    assert not list(run.folder.glob("out.h5*"))
+
+
+def test_its_own_result_is_no_start(tiltpad, run):
+    run("whole")
+    before = (run.folder / "whole.h5").read_bytes()
+    own = ("--set", "start%from='file'", "--set", f"start%file='../{run.folder.name}/whole.h5'")
+    done = tiltpad("case.nml", "-q", "--overwrite", "-o", "whole.h5", *own, cwd=run.folder)
+    assert (done.returncode, done.stderr.count("\n")) == (1, 1)
+    assert "is the result of this run itself" in done.stderr
+    assert (run.folder / "whole.h5").read_bytes() == before
+
+
+def test_a_damaged_file_is_no_start(tiltpad, run):
+    """Bytes in the middle that are wrong, and samples that are no numbers."""
+    content = bytearray((run.folder / "whole.h5").read_bytes() if run("whole") else b"")
+    (run.folder / "half.h5").write_bytes(content[: len(content) // 2])
+    with h5py.File(run.folder / "nan.h5", "w") as file:
+        whole = run("whole")
+        file.attrs.update(whole.attrs)
+        for name in whole:
+            whole.copy(name, file)
+        file["pad_tilt"][-400:] = np.nan
+    for name, words in (("half.h5", "no HDF5 file, or damaged"), ("nan.h5", "its last state is not a number")):
+        done = tiltpad(
+            *("case.nml", "-q", "-o", "out.h5", "--set", "start%from='file'", "--set", f"start%file='{name}'"),
+            cwd=run.folder,
+        )
+        assert (done.returncode, done.stderr.count("\n")) == (3, 1)
+        assert words in done.stderr
+
+
+def test_a_sweep_over_starts(tiltpad, tmp_path):
+    (tmp_path / "case.nml").write_text(
+        "&operation duration=0.01 / &start from='centred' / &sweep start%journal(1)=0:2e-5:1e-5 /\n"
+    )
+    assert tiltpad("case.nml", "-q", cwd=tmp_path).returncode == 0
+    first = []
+    for path in sorted((tmp_path / "case").glob("*.h5")):
+        with h5py.File(path) as file:
+            first.append(file["journal_y"][0])
+    assert first == [0, 1e-5, 2e-5]
+
+
+def test_a_resumed_run_does_not_start_again(program, tiltpad, tmp_path):
+    """It goes on from its checkpoint, even where the file that it started from is gone."""
+    text = "&operation duration=2 / &friction model='lugre' /\n"
+    (tmp_path / "first.nml").write_text(text.replace("duration=2", "duration=0.01"))
+    (tmp_path / "case.nml").write_text(text + "&start from='file', file='first.h5' /\n")
+    assert tiltpad("first.nml", "-q", cwd=tmp_path).returncode == 0
+    assert tiltpad("case.nml", "-q", "-o", "whole.h5", cwd=tmp_path).returncode == 0
+    slow = ("case.nml", "-q", "-o", "stopped.h5", "--set", "film%solver='sor'")
+    with subprocess.Popen([program, *slow], cwd=tmp_path, stderr=subprocess.PIPE, text=True) as process:
+        time.sleep(1)
+        process.send_signal(signal.SIGTERM)
+        assert "tiltpad --resume stopped.h5 goes on" in process.communicate()[1]
+    (tmp_path / "first.h5").unlink()
+    with h5py.File(tmp_path / "stopped.h5") as file:
+        reached = file["time"].size
+        first = file["journal_y"][0]
+    with subprocess.Popen(
+        [program, "-q", "--resume", "stopped.h5"], cwd=tmp_path, stderr=subprocess.PIPE, text=True
+    ) as process:
+        time.sleep(1)
+        process.send_signal(signal.SIGTERM)
+        process.communicate()
+    assert process.returncode == 4
+    with h5py.File(tmp_path / "stopped.h5") as file, h5py.File(tmp_path / "whole.h5") as whole:
+        assert file["time"].size > reached
+        assert file["journal_y"][0] == first == whole["journal_y"][0]
