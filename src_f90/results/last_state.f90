@@ -124,8 +124,9 @@ contains
          type(hdf5_series_type) :: series
          real(wp), allocatable :: found(:, :)
          call series%open(file, name)
-         if (.not. allocated(file%failure) .and. (series%width /= size(values) .or. series%length <= at)) &
-            & call file%check_read(-1, 'find a sample in '//name)
+         if (.not. allocated(file%failure)) then
+            if (series%width /= size(values) .or. series%length <= at) call file%check_read(-1, 'find '//name)
+         end if
          call series%read(file, at, 1, found)
          call series%close(file)
          if (.not. allocated(file%failure)) values = found(:, 1)

@@ -1,4 +1,4 @@
-"""Where a march starts: each start leads to the same orbit, begins where it says, and is refused with one line."""
+"""Where a march starts: each start leads to the same orbit, and begins where it says, or is refused."""
 
 import signal
 import subprocess
@@ -15,7 +15,7 @@ SIZES = {"journal_y": 2e-5, "journal_z": 2e-5, "pad_tilt": 1e-4, "bristle_deflec
 
 @pytest.fixture(scope="module")
 def run(tiltpad, tmp_path_factory):
-    """run(name, overrides): the open result of the case with these overrides, made once; the folder of all."""
+    """run(name, overrides): the open result of the case with these overrides, made once."""
     folder = tmp_path_factory.mktemp("starts")
     (folder / "case.nml").write_text(CASE)
     files = {}
@@ -158,9 +158,21 @@ def test_a_damaged_file_is_no_start(tiltpad, run):
         for name in whole:
             whole.copy(name, file)
         file["pad_tilt"][-400:] = np.nan
-    for name, words in (("half.h5", "no HDF5 file, or damaged"), ("nan.h5", "its last state is not a number")):
+    for name, words in (
+        ("half.h5", "no HDF5 file, or damaged"),
+        ("nan.h5", "its last state is not a number"),
+    ):
         done = tiltpad(
-            *("case.nml", "-q", "-o", "out.h5", "--set", "start%from='file'", "--set", f"start%file='{name}'"),
+            *(
+                "case.nml",
+                "-q",
+                "-o",
+                "out.h5",
+                "--set",
+                "start%from='file'",
+                "--set",
+                f"start%file='{name}'",
+            ),
             cwd=run.folder,
         )
         assert (done.returncode, done.stderr.count("\n")) == (3, 1)

@@ -228,7 +228,12 @@ def test_the_program(hostile, program, attack, tmp_path):
     path = hostile(attack)
     (tmp_path / "case.nml").write_text("&case title='another' /\n")
     start = ["case.nml", "--set", "start%from=file", "--set", f"start%file='{path}'"]
-    for arguments in (["--resume", path, "--check"], ["--resume", path], ["case.nml", "--output", path], start):
+    for arguments in (
+        ["--resume", path, "--check"],
+        ["--resume", path],
+        ["case.nml", "--output", path],
+        start,
+    ):
         limited([program, "--quiet", *arguments], tmp_path)
 
 
