@@ -114,6 +114,7 @@ test_programs := $(patsubst %.f90,$(B)/tests/%,$(notdir $(tests)))
 test_modules := $(wildcard tests/*.f90)
 film_bench := tests/bench/film_bench.f90
 fuzz_input := tests/fuzz/fuzz_input.f90
+global_search := tests/stress/global_search.f90
 wrapper := post/wrap/library.f90
 # what the program says of itself; rewritten only when it changes
 commit := $(shell git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)
@@ -141,7 +142,7 @@ $(shell for f in $(B)/obj/build_info.f90:$(B)/obj/build_info.new $(B)/flags:$(B)
 
 vpath %.F90 $(sort $(dir $(sources)))
 vpath %.c $(sort $(dir $(c_sources)))
-vpath %.f90 $(sort $(dir $(sources) $(tests) $(film_bench) $(fuzz_input) $(wrapper))) tests $(B)/obj
+vpath %.f90 $(sort $(dir $(sources) $(tests) $(film_bench) $(fuzz_input) $(global_search) $(wrapper))) tests $(B)/obj
 
 VENV := build/venv
 venv_python := $(VENV)/bin/python
@@ -363,13 +364,17 @@ $(B)/bench/film_bench: $(B)/obj/film_bench.o $(library)
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
 
+$(B)/stress/global_search: $(B)/obj/global_search.o $(library)
+	@mkdir -p $(@D)
+	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
+
 # module order: an object depends on the objects of the modules it uses (file = module)
 $(shell awk -v b=$(B)/obj 'FNR == 1 { n = split(FILENAME, part, "/"); sub(/\.[fF]90$$/, "", part[n]); \
    own[part[n]] = 1; this = part[n] } \
    tolower($$1) == "use" { used = tolower($$2); sub(/,.*/, "", used); uses[this] = uses[this] " " used } \
    END { own["build_info"] = 1; for (f in uses) { split(uses[f], m, " "); line = ""; \
    for (i in m) if (m[i] in own) line = line " " b "/" m[i] ".o"; if (line != "") print b "/" f ".o:" line } }' \
-   $(sources) $(tests) $(film_bench) $(fuzz_input) $(wrapper) $(test_modules) > $(B)/depend.mk)
+   $(sources) $(tests) $(film_bench) $(fuzz_input) $(global_search) $(wrapper) $(test_modules) > $(B)/depend.mk)
 include $(B)/depend.mk
 
 fortran_style := --line-length 120 --ignore S241,C002,C061,C071

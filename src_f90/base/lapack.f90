@@ -3,7 +3,7 @@ module lapack
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgesv
+   public :: dgesv, dgeev
 
    interface
       !> Solves a x = b by elimination with row exchanges; `info` /= 0: a is singular.
@@ -13,5 +13,16 @@ module lapack
          real(wp), intent(inout) :: a(lda, *), b(ldb, *)
          integer, intent(out) :: ipiv(*), info
       end subroutine dgesv
+
+      !> Eigenvalues wr + i wi of a, and (jobvl, jobvr 'V'; else 'N') left and right eigenvectors; `info` /= 0: it does
+      !> not converge.
+      subroutine dgeev(jobvl, jobvr, n, a, lda, wr, wi, vl, ldvl, vr, ldvr, work, lwork, info)
+         import :: wp
+         character(len=1), intent(in) :: jobvl, jobvr
+         integer, intent(in) :: n, lda, ldvl, ldvr, lwork
+         real(wp), intent(inout) :: a(lda, *)
+         real(wp), intent(out) :: wr(*), wi(*), vl(ldvl, *), vr(ldvr, *), work(*)
+         integer, intent(out) :: info
+      end subroutine dgeev
    end interface
 end module lapack

@@ -115,11 +115,15 @@ ASTRAY = {
 }
 
 
+# what stands where nothing carries the load, and what may help
+CAUSE = r"where no pad is|past the only pad|one pad: |push the journal away|no rest position|leaves every rest|did not end"
+
+
 @pytest.mark.parametrize("key", ASTRAY)
 def test_no_equilibrium(tiltpad, tmp_path, key):
     message = fails(tiltpad, tmp_path, *ASTRAY[key])
     assert "no equilibrium found" in message
-    assert re.search(rf"still {NUMBER} of the load|pad [0-9]+ .*{NUMBER}", message), message
+    assert re.search(CAUSE, message), message
     no_file_left(tmp_path)
 
 

@@ -1,0 +1,217 @@
+!> Brings a model to rest by Newton's method, damped by the film's own squeeze damping: each iteration is one linearly
+!> implicit Euler step of the motion without inertia, f(x, dx/dt) = 0, with a time step that grows as the residual
+!> falls, so that it starts as a stable motion and ends as Newton's method.
+module damped_newton
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp
+   use text, only: to_text
+   use errors, only: error_type, raise, numerics_error, stopped
+   use lapack, only: dgesv
+   use equations_of_motion, only: bearing_model
+   use force_balance, only: forces, force_derivatives, masses
+   implicit none (type, external)
+   private
+   public :: follow_motion, imbalance, reference_force, clearances, asked_to_stop, asked, residual_limit, &
+      & newtons
+
+   !> Unbalanced force over the load at rest.
+   real(wp), parameter :: residual_limit = 1e-8_wp
+   !> First time step, in radians of the shaft, that makes this Newton's own method.
+   real(wp), parameter :: newtons = 1e6_wp
+   integer, parameter :: max_iterations = 400
+   !> Longest move of journal or pad edge in one iteration, in assembled clearances.
+   real(wp), parameter :: longest_move = 0.2_wp
+   !> Move below which an iteration without progress is the last.
+   real(wp), parameter :: shortest_move = 1e-12_wp
+
+   abstract interface
+      !> True once the search is to be given up.
+      logical function asked_to_stop()
+      end function asked_to_stop
+   end interface
+
+contains
+
+   !> Follows the motion without inertia from y to rest, where y is then. An error says why it did not come to rest, or,
+   !> of status `stopped`, that `give_up`, asked between evaluations of the films, said so.
+   subroutine follow_motion(model, y, residual, error, give_up, held, first_step)
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(inout) :: y(:)
+      !> Largest unbalanced force over the load.
+      real(wp), intent(out) :: residual
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      !> Pads that are held where they are.
+      logical, intent(in), optional :: held(:)
+      !> Time step to begin with, in radians of the shaft; 1 if it is left out.
+      real(wp), intent(in), optional :: first_step
+      real(wp) :: time_step, next, move
+      real(wp), allocatable :: step(:)
+      logical :: ok, stuck, free(model%layout%n_positions())
+      integer :: iterations
+
+      free = free_positions(model, held)
+      stuck = .false.
+      time_step = 1/model%point%speed(0.0_wp)
+      if (present(first_step)) time_step = first_step*time_step
+      residual = huge(residual)
+      call model%evaluate(0.0_wp, y, .false., ok)
+      if (.not. ok) then
+         call raise(error, numerics_error, model%refusal//' at the start')
+         return
+      end if
+      residual = imbalance(model, free)
+      iterations = 0
+      do while (.not. residual <= residual_limit)
+         if (iterations == max_iterations .or. stuck) then
+            call raise(error, numerics_error, 'after '//to_text(iterations) &
+               & //' iterations the unbalanced force is still '//to_text(residual)//' of the load')
+            if (model%warning() /= '') error%message = error%message//'; '//model%warning()
+            return
+         end if
+         iterations = iterations + 1
+         if (asked(give_up)) then
+            call raise(error, stopped, 'stopped while the equilibrium was sought')
+            return
+         end if
+         call find_step(model, y, free, time_step, step, move, ok)
+         if (.not. ok) then
+            call raise(error, numerics_error, 'the equations are singular, the unbalanced force is still ' &
+               & //to_text(residual)//' of the load')
+            return
+         end if
+         call take_step(model, y, time_step, step, ok)
+         if (.not. ok) then
+            call raise(error, numerics_error, model%refusal)
+            return
+         end if
+         next = imbalance(model, free)
+         stuck = move < shortest_move .and. next > 0.5_wp*residual
+         time_step = time_step*max(0.3_wp, 1.5_wp*residual/max(next, 0.15_wp*residual))
+         residual = next
+      end do
+   end subroutine follow_motion
+
+   !> The positions that move: all but those of pads that are held.
+   pure function free_positions(model, held) result(free)
+      type(bearing_model), intent(in) :: model
+      logical, intent(in), optional :: held(:)
+      logical :: free(model%layout%n_positions())
+      integer :: i, own
+      free = .true.
+      if (.not. present(held)) return
+      do i = 1, size(held)
+         own = model%layout%first_position(i)
+         free(own:own + model%layout%motion/2 - 1) = .not. held(i)
+      end do
+   end function free_positions
+
+   !> The step of the positions from y, in a time step that is shortened until nothing moves too far. `ok` is false
+   !> where the equations are singular.
+   subroutine find_step(model, y, free, time_step, step, move, ok)
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
+      logical, intent(in) :: free(:)
+      real(wp), intent(inout) :: time_step
+      real(wp), allocatable, intent(out) :: step(:)
+      !> Longest move, in assembled clearances.
+      real(wp), intent(out) :: move
+      logical, intent(out) :: ok
+      real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: stiffness, damping
+      move = 0
+      call model%evaluate(0.0_wp, y, .true., ok)
+      if (ok) call force_derivatives(model, stiffness, damping)
+      do while (ok)
+         call newton_step(model, stiffness, damping, forces(model, 0.0_wp), free, time_step, step, ok)
+         if (.not. all(ieee_is_finite(step))) ok = .false.
+         if (.not. ok) exit
+         move = maxval(abs(step/clearances(model)))
+         if (move <= longest_move) exit
+         ! a shorter time step follows the path of the motion; a part of the step would leave it
+         time_step = time_step*min(0.5_wp, longest_move/move)
+      end do
+   end subroutine find_step
+
+   !> Moves y by the step, or by a part of it that the model admits, and evaluates the model there. `ok` is false
+   !> where it admits none.
+   subroutine take_step(model, y, time_step, step, ok)
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(inout) :: y(:), time_step, step(:)
+      logical, intent(out) :: ok
+      real(wp) :: trial(model%n)
+      integer, allocatable :: x(:)
+      x = model%layout%positions()
+      do
+         trial = y
+         trial(x) = y(x) + step
+         call model%evaluate(0.0_wp, trial, .false., ok)
+         if (ok) exit
+         step = 0.5_wp*step
+         time_step = 0.5_wp*time_step
+         if (maxval(abs(step/clearances(model))) < epsilon(step)) return
+      end do
+      y = trial
+   end subroutine take_step
+
+   logical function asked(give_up)
+      procedure(asked_to_stop), optional :: give_up
+      asked = .false.
+      if (present(give_up)) asked = give_up()
+   end function asked
+
+   !> Assembled clearance in the unit of each position (tilt: at the pad's edge).
+   pure function clearances(model)
+      type(bearing_model), intent(in) :: model
+      real(wp), allocatable :: clearances(:)
+      real(wp) :: scale(model%n)
+      integer :: i
+      scale = model%scale
+      if (model%layout%radial) scale(model%layout%penetration([(i, i=1, model%layout%pads)])) &
+         & = model%scene%bearing%assembled_clearance
+      clearances = scale(model%layout%positions())
+   end function clearances
+
+   !> Solves (K + C / time step) step = -f with the forces f and their derivatives, K over positions and C over rates.
+   subroutine newton_step(model, stiffness, damping, f, free, time_step, step, ok)
+      type(bearing_model), intent(in) :: model
+      real(wp), intent(in) :: stiffness(:, :), damping(:, :), f(:), time_step
+      logical, intent(in) :: free(:)
+      real(wp), allocatable, intent(out) :: step(:)
+      logical, intent(out) :: ok
+      real(wp) :: matrix(size(f), size(f))
+      integer :: pivots(size(f)), info, i
+      ! with a trace of damping for pads whose film has ruptured everywhere
+      matrix = stiffness + (damping - 1e-3_wp*model%point%speed(0.0_wp)*masses(model))/time_step
+      step = -f
+      do i = 1, size(f)
+         if (free(i)) cycle
+         matrix(i, :) = 0
+         matrix(i, i) = 1
+         step(i) = 0
+      end do
+      call dgesv(size(f), 1, matrix, size(f), pivots, step, size(f), info)
+      ok = info == 0
+   end subroutine newton_step
+
+   !> Largest unbalanced force in the state evaluated last over the reference force, at positions that are free.
+   pure real(wp) function imbalance(model, free)
+      type(bearing_model), intent(in) :: model
+      logical, intent(in), optional :: free(:)
+      real(wp) :: force(model%layout%n_positions())
+      integer :: i
+      force = forces(model, 0.0_wp)
+      associate (own => [(model%layout%first_position(i), i=1, model%layout%pads)])
+         force(own) = force(own)/model%bearing%pads%position%centre_distance
+      end associate
+      if (present(free)) force = merge(force, 0.0_wp, free)
+      associate (rotor => model%layout%rotor/2)
+         imbalance = max(norm2(force(:rotor)), maxval(abs(force(rotor + 1:))))/reference_force(model)
+      end associate
+   end function imbalance
+
+   !> The load, or, without load, the heaviest pad, or 1 N.
+   pure real(wp) function reference_force(model)
+      type(bearing_model), intent(in) :: model
+      reference_force = max(norm2(model%point%load), maxval(model%bearing%pads%weight), 1.0_wp)
+   end function reference_force
+end module damped_newton

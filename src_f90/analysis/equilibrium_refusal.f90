@@ -1,0 +1,129 @@
+!> Why a bearing has no equilibrium to start from, and what may help: in one line.
+module equilibrium_refusal
+   use kinds, only: wp, degree
+   use text, only: to_text
+   use equations_of_motion, only: bearing_model
+   implicit none (type, external)
+   private
+   public :: search_traces, refusal
+
+   !> What the searches left behind.
+   type :: search_traces
+      !> What the first search said at its end.
+      character(len=:), allocatable :: last_words
+      !> Pads that found no rest where the journal and the others did.
+      logical, allocatable :: restless(:)
+      !> Growth, 1/s, of the last divergent equilibrium; 0: none was found.
+      real(wp) :: divergence = 0
+   contains
+      procedure :: films_fail
+   end type search_traces
+
+   !> Cosine of the angle between load and pivot below which one pad carries a load that points past it.
+   real(wp), parameter :: through_pivot = 0.999_wp
+
+contains
+
+   !> True where a film that is solved by iteration did not converge: no other search would help.
+   pure logical function films_fail(self)
+      class(search_traces), intent(in) :: self
+      films_fail = .false.
+      if (allocated(self%last_words)) films_fail = index(self%last_words, 'did not converge') > 0
+   end function films_fail
+
+   !> The message of a refusal: the cause, what the searches found, and what may help.
+   function refusal(model, traces) result(message)
+      type(bearing_model), intent(in) :: model
+      type(search_traces), intent(in) :: traces
+      character(len=:), allocatable :: message
+      message = 'no equilibrium found at '//to_text(model%point%speed_rpm)//' rpm: '
+      if (traces%films_fail()) then
+         message = message//traces%last_words
+         return
+      end if
+      message = message//cause(model, traces)
+      if (traces%divergence > 0) then
+         message = message//' (an equilibrium that was found is divergent: a small motion grows by ' &
+            & //to_text(traces%divergence)//' 1/s)'
+      else if (allocated(traces%last_words)) then
+         message = message//' ('//traces%last_words//')'
+      end if
+   end function refusal
+
+   !> The most likely cause with what helps.
+   function cause(model, traces)
+      type(bearing_model), intent(in) :: model
+      type(search_traces), intent(in) :: traces
+      character(len=:), allocatable :: cause
+      integer :: count
+      count = model%layout%pads
+      if (.not. norm2(model%point%load) > 0 .and. count <= 2) then
+         cause = 'without load '//to_text(count)//merge(' pad pushes', ' pads push ', count == 1) &
+            & //' the journal away; give it a load or pads on all sides'
+      else if (count == 1 .and. .not. load_on_pads(model)) then
+         cause = 'the load points past the only pad; turn the load (rotor%static_load) or the pad ' &
+            & //'(pads%pivot_angle_deg)'
+      else if (count == 1) then
+         cause = 'one pad: the journal rolls off it; add a second pad (pads%pivot_angle_deg)'
+      else if (.not. load_on_pads(model)) then
+         cause = 'the load points to '//to_text(load_angle(model))//' deg, where no pad is; turn the load ' &
+            & //'(rotor%static_load) or add a pad there (pads%pivot_angle_deg)'
+      else if (allocated(traces%restless)) then
+         cause = listed(traces%restless)//' no rest position (unloaded); try start%from = ''partial'''
+      else if (count == 2) then
+         cause = 'two pads that push the journal away; try another angle between them (pads%pivot_angle_deg) ' &
+            & //'or another pads%pivot_ratio'
+      else if (traces%divergence > 0) then
+         cause = 'the journal leaves every rest that was found; try more preload or another load'
+      else
+         cause = 'the search did not end; try another load or clearance'
+      end if
+   end function cause
+
+   !> The angle to which the load points, deg, counted as that of a pivot.
+   real(wp) function load_angle(model)
+      type(bearing_model), intent(in) :: model
+      load_angle = anint(10*atan2(model%point%load(1), model%point%load(2))/degree)/10
+   end function load_angle
+
+   !> True where pads can carry the load: a pad carries through its pivot, so that the load must lie between pivots less
+   !> than half a turn apart (or, of one pad, point through it).
+   pure logical function load_on_pads(model)
+      type(bearing_model), intent(in) :: model
+      real(wp) :: load(2), first(2), second(2), turn, part(2)
+      integer :: i, k
+      load_on_pads = .true.
+      if (.not. norm2(model%point%load) > 0) return
+      load = model%point%load/norm2(model%point%load)
+      associate (pivots => model%bearing%pads%position)
+         do i = 1, size(pivots)
+            first = [pivots(i)%sin_angle, pivots(i)%cos_angle]
+            if (dot_product(first, load) >= through_pivot) return
+            do k = i + 1, size(pivots)
+               second = [pivots(k)%sin_angle, pivots(k)%cos_angle]
+               turn = first(1)*second(2) - first(2)*second(1)
+               if (.not. abs(turn) > 0) cycle
+               part = [load(1)*second(2) - load(2)*second(1), first(1)*load(2) - first(2)*load(1)]/turn
+               if (all(part >= 0)) return
+            end do
+         end do
+      end associate
+      load_on_pads = .false.
+   end function load_on_pads
+
+   !> "pad 4 has" or "pads 4, 5 have".
+   function listed(chosen)
+      logical, intent(in) :: chosen(:)
+      character(len=:), allocatable :: listed
+      integer :: i
+      listed = ''
+      do i = 1, size(chosen)
+         if (chosen(i)) listed = listed//', '//to_text(i)
+      end do
+      if (count(chosen) == 1) then
+         listed = 'pad '//listed(3:)//' has'
+      else
+         listed = 'pads '//listed(3:)//' have'
+      end if
+   end function listed
+end module equilibrium_refusal

@@ -1,0 +1,260 @@
+!> Brings a model to rest by small problems: for a position of the journal every pad finds its own rest, alone and with
+!> a time step of its own; then the journal moves under what the pads answer. A light pad that hunts holds up no other.
+module pad_elimination
+   use kinds, only: wp
+   use kinematics, only: journal_motion, pad_state, tilt_column, tilt_rate_column, penetration_column, &
+      & penetration_rate_column
+   use equations_of_motion, only: bearing_model
+   use force_balance, only: forces
+   use damped_newton, only: asked_to_stop, asked, reference_force
+   implicit none (type, external)
+   private
+   public :: eliminate_pads
+
+   !> Unbalanced forces over the load at which a pad and the journal rest: near enough for Newton's method on the whole.
+   real(wp), parameter :: pad_limit = 1e-9_wp, journal_limit = 1e-6_wp
+   integer, parameter :: pad_iterations = 40, journal_iterations = 60
+   !> Longest move in an iteration, in assembled clearances; least part of a film that one leaves.
+   real(wp), parameter :: longest_move = 0.2_wp, least_film = 0.3_wp
+   !> Trace of damping for films that have ruptured everywhere, over mass and speed.
+   real(wp), parameter :: trace = 1e-3_wp
+   integer, parameter :: own(2) = [tilt_column, penetration_column]
+   integer, parameter :: rates(2) = [tilt_rate_column, penetration_rate_column]
+
+contains
+
+   !> Moves journal and pads from y to rest, nearly. Pads that find no rest stand at zero tilt on their pivots.
+   subroutine eliminate_pads(model, y, at_rest, ok, give_up)
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(inout) :: y(:)
+      !> Which pads rest; whether the journal does.
+      logical, intent(out) :: at_rest(:), ok
+      procedure(asked_to_stop), optional :: give_up
+      type(journal_motion) :: journal
+      type(pad_state) :: pads(model%layout%pads)
+      real(wp) :: force(2), stiffness(2, 2), damping(2, 2), step(2), time_step, residual, last, follow(2, 2, size(pads))
+      integer :: iteration
+      journal = model%rotor%journal(y(:model%rotor%states))
+      pads = model%layout%pad_states(y)
+      time_step = 1/model%point%speed(0.0_wp)
+      last = 0
+      do iteration = 1, journal_iterations
+         ok = .not. asked(give_up)
+         if (ok) call settle_pads(model, journal, pads, at_rest, ok)
+         if (ok .and. .not. all(at_rest)) call put_down(model, journal, pads, at_rest, ok)
+         if (.not. ok) exit
+         force = resultant(model)
+         residual = norm2(force)/reference_force(model)
+         if (residual <= journal_limit) exit
+         if (iteration > 1) time_step = time_step*max(0.3_wp, 1.5_wp*last/max(residual, 0.15_wp*last))
+         last = residual
+         call reduce(model, at_rest, stiffness, damping, follow)
+         call find_step(stiffness, damping, force, model%rotor%mass*model%point%speed(0.0_wp), &
+            & model%scene%bearing%assembled_clearance, time_step, step)
+         call move_journal(model, follow, journal, pads, time_step, step)
+      end do
+      ok = ok .and. iteration <= journal_iterations
+      y = model%state(journal, pads)
+   end subroutine eliminate_pads
+
+   !> Every pad to its own rest with the journal where it is; which of them found it.
+   subroutine settle_pads(model, journal, pads, at_rest, ok)
+      type(bearing_model), intent(inout) :: model
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(inout) :: pads(:)
+      logical, intent(out) :: at_rest(:), ok
+      real(wp), dimension(size(pads)) :: time_step, residual, last
+      integer :: iteration, i
+      time_step = 1/model%point%speed(0.0_wp)
+      do iteration = 0, pad_iterations
+         call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok)
+         if (.not. ok) return
+         residual = imbalances(model)
+         at_rest = residual <= pad_limit
+         if (all(at_rest) .or. iteration == pad_iterations) exit
+         if (iteration > 0) time_step = time_step*max(0.3_wp, 1.5_wp*last/max(residual, 0.15_wp*last))
+         last = residual
+         do i = 1, size(pads)
+            if (.not. at_rest(i)) call move_pad(model, i, journal, pads(i), time_step(i))
+         end do
+      end do
+   end subroutine settle_pads
+
+   !> Unbalanced force of every pad over the load.
+   pure function imbalances(model)
+      type(bearing_model), intent(in) :: model
+      real(wp) :: imbalances(model%layout%pads)
+      associate (loads => model%bearing%loads, pads => model%bearing%pads)
+         imbalances = abs(loads%moment)/pads%position%centre_distance
+         if (model%layout%radial) imbalances = max(imbalances, abs(loads%radial))
+         imbalances = imbalances/reference_force(model)
+      end associate
+   end function imbalances
+
+   !> One step of a pad alone, shortened until nothing moves too far and its film stays open.
+   subroutine move_pad(model, i, journal, pad, time_step)
+      type(bearing_model), intent(in) :: model
+      integer, intent(in) :: i
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(inout) :: pad
+      real(wp), intent(inout) :: time_step
+      type(pad_state) :: trial
+      real(wp) :: stiffness(2, 2), damping(2, 2), force(2), step(2), clearance, film
+      clearance = model%scene%bearing%assembled_clearance
+      call pad_balance(model, i, force, stiffness, damping)
+      damping = damping - trace*model%point%speed(0.0_wp)*model%bearing%pads(i)%masses()
+      if (.not. model%layout%radial) call hold_second(force, stiffness, damping)
+      film = thickness(model, i, journal, pad)
+      do
+         step = solved(stiffness + damping/time_step, -force)
+         trial = pad_state(tilt=pad%tilt + step(1), penetration=pad%penetration + step(2))
+         if (max(abs(step(1)*model%bearing%pads(i)%gap%arc()*model%bearing%pads(i)%gap%pad_radius()), abs(step(2))) &
+            & <= longest_move*clearance .and. thickness(model, i, journal, trial) >= least_film*film &
+            & .and. abs(trial%tilt) < model%bearing%pads(i)%largest_tilt) exit
+         time_step = 0.5_wp*time_step
+         if (time_step*model%point%speed(0.0_wp) < 1e-12_wp) return
+      end do
+      pad = trial
+   end subroutine move_pad
+
+   !> A pad's own forces and their derivatives over its positions and rates, in the state evaluated last.
+   pure subroutine pad_balance(model, i, force, stiffness, damping)
+      type(bearing_model), intent(in) :: model
+      integer, intent(in) :: i
+      real(wp), intent(out) :: force(2), stiffness(2, 2), damping(2, 2)
+      associate (loads => model%bearing%loads(i), derivatives => model%bearing%derivatives(i))
+         force = [loads%moment, loads%radial]
+         stiffness(1, :) = derivatives%moment(own)
+         stiffness(2, :) = derivatives%radial(own)
+         damping(1, :) = derivatives%moment(rates)
+         damping(2, :) = derivatives%radial(rates)
+      end associate
+   end subroutine pad_balance
+
+   !> Makes the second position one that does not move.
+   pure subroutine hold_second(force, stiffness, damping)
+      real(wp), intent(inout) :: force(2), stiffness(2, 2), damping(2, 2)
+      force(2) = 0
+      stiffness(1, 2) = 0
+      stiffness(2, :) = [0, 1]
+      damping(1, 2) = 0
+      damping(2, :) = 0
+   end subroutine hold_second
+
+   !> Puts the pads that do not rest at zero tilt on their pivots, where their films are open there, and evaluates.
+   subroutine put_down(model, journal, pads, at_rest, ok)
+      type(bearing_model), intent(inout) :: model
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(inout) :: pads(:)
+      logical, intent(in) :: at_rest(:)
+      logical, intent(out) :: ok
+      integer :: i
+      do i = 1, size(pads)
+         if (at_rest(i)) cycle
+         if (thickness(model, i, journal, pad_state()) > 0) pads(i) = pad_state()
+      end do
+      call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok)
+   end subroutine put_down
+
+   !> Force on the journal, N.
+   pure function resultant(model) result(force)
+      type(bearing_model), intent(in) :: model
+      real(wp) :: force(2), all_forces(model%layout%n_positions())
+      all_forces = forces(model, 0.0_wp)
+      force = all_forces(:2)
+   end function resultant
+
+   !> Derivatives of the force on the journal over its position, with pads that follow to their own rest, and over its
+   !> velocity; and the moves of each pad over those of the journal.
+   pure subroutine reduce(model, at_rest, stiffness, damping, follow)
+      type(bearing_model), intent(in) :: model
+      logical, intent(in) :: at_rest(:)
+      real(wp), intent(out) :: stiffness(2, 2), damping(2, 2), follow(:, :, :)
+      real(wp) :: force(2), of_pad(2, 2), ignored(2, 2), over_journal(2, 2)
+      integer :: i, k
+      stiffness = 0
+      damping = 0
+      follow = 0
+      do i = 1, size(at_rest)
+         associate (derivatives => model%bearing%derivatives(i))
+            stiffness = stiffness + derivatives%journal(:, 1:2)
+            damping = damping + derivatives%journal(:, 3:4)
+            if (.not. at_rest(i)) cycle
+            call pad_balance(model, i, force, of_pad, ignored)
+            if (.not. model%layout%radial) call hold_second(force, of_pad, ignored)
+            over_journal(1, :) = derivatives%moment(1:2)
+            over_journal(2, :) = merge(derivatives%radial(1:2), 0.0_wp, model%layout%radial)
+            do k = 1, 2
+               follow(:, k, i) = solved(of_pad, -over_journal(:, k))
+            end do
+            stiffness = stiffness + matmul(derivatives%journal(:, own), follow(:, :, i))
+         end associate
+      end do
+   end subroutine reduce
+
+   !> The step of the journal in a time step that is shortened until it does not move too far.
+   pure subroutine find_step(stiffness, damping, force, mass_rate, clearance, time_step, step)
+      real(wp), intent(in) :: stiffness(2, 2), damping(2, 2), force(2), mass_rate, clearance
+      real(wp), intent(inout) :: time_step
+      real(wp), intent(out) :: step(2)
+      real(wp) :: matrix(2, 2)
+      integer :: k
+      do
+         matrix = stiffness + damping/time_step
+         do k = 1, 2
+            matrix(k, k) = matrix(k, k) - trace*mass_rate/time_step
+         end do
+         step = solved(matrix, -force)
+         if (norm2(step) <= longest_move*clearance) exit
+         time_step = time_step*min(0.5_wp, longest_move*clearance/norm2(step))
+      end do
+   end subroutine find_step
+
+   !> Moves the journal by the step, or by a part that leaves the films open, and the pads after it.
+   subroutine move_journal(model, follow, journal, pads, time_step, step)
+      type(bearing_model), intent(in) :: model
+      real(wp), intent(in) :: follow(:, :, :)
+      type(journal_motion), intent(inout) :: journal
+      type(pad_state), intent(inout) :: pads(:)
+      real(wp), intent(inout) :: time_step, step(2)
+      type(journal_motion) :: moved
+      type(pad_state) :: trial(size(pads))
+      real(wp) :: change(2)
+      integer :: i
+      logical :: open
+      do
+         moved%position = journal%position + step
+         open = .true.
+         do i = 1, size(pads)
+            change = matmul(follow(:, :, i), step)
+            trial(i) = pad_state(tilt=pads(i)%tilt + change(1), penetration=pads(i)%penetration + change(2))
+            if (thickness(model, i, moved, trial(i)) < least_film*thickness(model, i, journal, pads(i))) open = .false.
+         end do
+         if (open) exit
+         step = 0.5_wp*step
+         time_step = 0.5_wp*time_step
+      end do
+      journal = moved
+      pads = trial
+   end subroutine move_journal
+
+   !> Least thickness of a pad's film, m.
+   pure real(wp) function thickness(model, i, journal, pad)
+      type(bearing_model), intent(in) :: model
+      integer, intent(in) :: i
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(in) :: pad
+      associate (of => model%bearing%pads(i))
+         thickness = of%gap%min_film_thickness(of%motion(of%frame(journal, pad), journal, pad), of%directions)
+      end associate
+   end function thickness
+
+   !> x of the equations A x = b; 0 where they are singular.
+   pure function solved(a, b) result(x)
+      real(wp), intent(in) :: a(2, 2), b(2)
+      real(wp) :: x(2), determinant
+      x = 0
+      determinant = a(1, 1)*a(2, 2) - a(1, 2)*a(2, 1)
+      if (abs(determinant) > 0) x = [a(2, 2)*b(1) - a(1, 2)*b(2), a(1, 1)*b(2) - a(2, 1)*b(1)]/determinant
+   end function solved
+end module pad_elimination

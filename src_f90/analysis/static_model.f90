@@ -1,0 +1,101 @@
+!> What is common to searches of an equilibrium: the record of one, the model without unbalance and friction, and where
+!> the searches start.
+module static_model
+   use kinds, only: wp
+   use scene, only: scene_type
+   use operating_point, only: operating_point_type
+   use kinematics, only: journal_motion, pad_frame, pad_state
+   use tilting_pad_bearing, only: pad_sample
+   use equations_of_motion, only: bearing_model, new_bearing_model
+   use damped_newton, only: residual_limit
+   use small_vibrations, only: stability_type
+   implicit none (type, external)
+   private
+   public :: equilibrium_type, describe, make_static, make_quick, start, starts
+
+   type :: equilibrium_type
+      !> Journal, m; per pad tilt, rad, penetration, m (0 tilting-only), contact force, N.
+      real(wp) :: journal(2) = 0
+      real(wp), allocatable :: tilt(:), penetration(:), contact_force(:)
+      !> Per pad minimum film thickness, m, and maximum pressure, Pa.
+      real(wp), allocatable :: min_film_thickness(:), max_pressure(:)
+      !> Largest unbalanced force over the load.
+      real(wp) :: residual = huge(1.0_wp)
+      type(stability_type) :: stability
+   end type equilibrium_type
+
+   !> Accuracy of films that are solved by iteration: below the residual limit.
+   real(wp), parameter :: film_tolerance = 0.1_wp*residual_limit
+   integer, parameter :: film_sweeps = 100000
+
+   !> Positions of the journal to start from, in assembled clearances down the load.
+   real(wp), parameter :: fractions(*) = [-0.6_wp, -0.3_wp, 0.0_wp, 0.3_wp, 0.6_wp, 0.9_wp]
+   integer, parameter :: starts = size(fractions)
+
+contains
+
+   !> A copy of the model at the static operating point, its films solved closely.
+   subroutine make_static(model, rupture, static)
+      type(bearing_model), intent(in) :: model
+      logical, intent(in) :: rupture
+      type(bearing_model), intent(out) :: static
+      type(operating_point_type) :: point
+      point = model%point%static()
+      point%rupture = rupture
+      static = model
+      call static%set_point(point)
+      call static%bearing%set_accuracy(film_tolerance, film_sweeps)
+   end subroutine make_static
+
+   !> The same with films that need no iteration: quick, and nearly those of the model.
+   subroutine make_quick(model, quick)
+      type(bearing_model), intent(in) :: model
+      type(bearing_model), intent(out) :: quick
+      type(scene_type) :: scene
+      scene = model%scene
+      if (scene%film%solver == 'sor') scene%film%solver = 'direct'
+      call make_static(new_bearing_model(scene), model%point%rupture, quick)
+   end subroutine make_quick
+
+   !> Start k: the journal at its fraction of the clearance down the load, pivots carrying a share of it, and the pads
+   !> tilted so that every film converges.
+   function start(model, k) result(y)
+      type(bearing_model), intent(in) :: model
+      integer, intent(in) :: k
+      real(wp) :: y(model%n)
+      type(journal_motion) :: journal
+      type(pad_state) :: pads(model%layout%pads)
+      type(pad_frame) :: frame
+      integer :: i
+      associate (load => model%point%load, bearing => model%scene%bearing)
+         if (norm2(load) > 0) then
+            journal%position = fractions(k)*bearing%assembled_clearance*load/norm2(load)
+            if (model%layout%radial) pads%penetration = model%bearing%penetration(norm2(load)/size(pads))
+         end if
+         do i = 1, size(pads)
+            frame = model%bearing%pads(i)%frame(journal, pads(i))
+            pads(i)%tilt = (frame%along + bearing%machined_clearance/3)/model%bearing%pads(i)%position%centre_distance
+         end do
+      end associate
+      y = model%state(journal, pads)
+   end function start
+
+   !> The record of the equilibrium y, where the model was evaluated last.
+   subroutine describe(model, y, found)
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
+      type(equilibrium_type), intent(inout) :: found
+      type(journal_motion) :: journal
+      type(pad_state) :: pads(model%layout%pads)
+      type(pad_sample) :: samples(model%layout%pads)
+      journal = model%rotor%journal(y(:model%rotor%states))
+      pads = model%layout%pad_states(y)
+      samples = model%sampled()
+      found%journal = journal%position
+      found%tilt = pads%tilt
+      found%penetration = pads%penetration
+      found%contact_force = samples%contact_force
+      found%min_film_thickness = samples%min_film_thickness
+      found%max_pressure = samples%max_pressure
+   end subroutine describe
+end module static_model

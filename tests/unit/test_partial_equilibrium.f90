@@ -1,0 +1,89 @@
+!> Partial equilibria: pads without rest are held at zero tilt on their pivots, the rest is in balance; where every pad
+!> has a rest, it is the equilibrium.
+program test_partial_equilibrium
+   use kinds, only: wp
+   use errors, only: error_type, numerics_error
+   use scene, only: scene_type
+   use equations_of_motion, only: bearing_model, new_bearing_model
+   use force_balance, only: forces
+   use equilibrium, only: equilibrium_type, find_equilibrium
+   use partial_equilibrium, only: find_partial_equilibrium
+   use check, only: runs, expect, expect_close, expect_no_error, report
+   implicit none (type, external)
+
+   if (runs('nothing_held')) call nothing_held()
+   if (runs('pad_held')) call pad_held()
+   if (runs('no_partial')) call no_partial()
+   call report()
+
+contains
+
+   !> The paper's bearing: both pads are loaded. Both searches end at 1e-8 of the load, 1e-7 of the clearance or less.
+   subroutine nothing_held()
+      type(equilibrium_type) :: part, whole
+      logical, allocatable :: held(:)
+      type(error_type), allocatable :: error
+      call find_partial_equilibrium(new_bearing_model(scene_type()), part, held, error)
+      call expect_no_error(error, 'the paper''s bearing')
+      if (.not. allocated(held)) return
+      call expect(.not. any(held), 'no pad is held')
+      call find_equilibrium(new_bearing_model(scene_type()), whole, error)
+      call expect_close(norm2(part%journal - whole%journal), 0.0_wp, 1e-11_wp, 'the same place')
+      call expect_close(maxval(abs(part%tilt - whole%tilt)), 0.0_wp, 1e-9_wp, 'the same tilts')
+   end subroutine nothing_held
+
+   !> A third pad on top, so far from the journal that its film does not carry its weight, and heavy on one side: it
+   !> would turn over. Journal and lower pads are in balance, to 1e-8 of 2e4 N, with it at zero tilt.
+   subroutine pad_held()
+      type(scene_type) :: scene
+      type(bearing_model) :: model
+      type(equilibrium_type) :: found
+      logical, allocatable :: held(:)
+      type(error_type), allocatable :: error
+      real(wp), allocatable :: force(:)
+      logical :: ok
+      scene = scene_with_top_pad()
+      ! its films are those of the search
+      scene%film%solver = 'direct'
+      model = new_bearing_model(scene)
+      call find_partial_equilibrium(model, found, held, error)
+      call expect_no_error(error, 'with a pad on top')
+      if (.not. allocated(held)) return
+      call expect(all(held .eqv. [.false., .false., .true.]), 'the top pad is held')
+      call expect_close(found%tilt(3), 0.0_wp, 0.0_wp, 'at zero tilt')
+      call expect_close(found%penetration(3), 0.0_wp, 0.0_wp, 'on its pivot')
+      call model%set_point(model%point%static())
+      call model%evaluate(0.0_wp, model%at_rest(found%journal, found%tilt, found%penetration), .false., ok)
+      force = forces(model, 0.0_wp)
+      call expect_close(maxval(abs(force(:2))), 0.0_wp, 1e-3_wp, 'the journal is in balance')
+      call expect_close(maxval(abs(force([4, 6]))), 0.0_wp, 1e-3_wp, 'so are the loaded pads along their radius')
+      call expect(abs(force(7)) > 1e-3_wp, 'and the held pad is not')
+   end subroutine pad_held
+
+   type(scene_type) function scene_with_top_pad() result(scene)
+      scene = scene_type()
+      scene%pads%pivot_angle_deg = [-45.0_wp, 225.0_wp, 90.0_wp]
+      scene%pads%arc_deg = spread(69.3_wp, 1, 3)
+      scene%pads%pivot_ratio = spread(0.5_wp, 1, 3)
+      scene%pads%pivot_distance = spread(14e-3_wp, 1, 3)
+      scene%pads%mass = spread(0.8108_wp, 1, 3)
+      scene%pads%inertia = spread(4.055e-4_wp, 1, 3)
+      scene%pads%centre_tangential = [0.0_wp, 0.0_wp, 60e-3_wp]
+      scene%pads%centre_radial = spread(-10.1e-3_wp, 1, 3)
+   end function scene_with_top_pad
+
+   !> A load that points away from both pads.
+   subroutine no_partial()
+      type(scene_type) :: scene
+      type(equilibrium_type) :: found
+      logical, allocatable :: held(:)
+      type(error_type), allocatable :: error
+      scene = scene_type()
+      scene%rotor%static_load = [3*2000*9.81_wp, 0.0_wp]
+      call find_partial_equilibrium(new_bearing_model(scene), found, held, error)
+      call expect(allocated(error), 'nothing carries the load')
+      if (.not. allocated(error)) return
+      call expect(error%status == numerics_error, 'an error of the numerics')
+      call expect(index(error%message, 'no partial equilibrium found') > 0, 'which says so: '//error%message)
+   end subroutine no_partial
+end program test_partial_equilibrium
