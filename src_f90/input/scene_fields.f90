@@ -200,7 +200,7 @@ contains
       call v%number(film%relaxation, field('relaxation', 0.0_wp, 1.999_wp, '1', &
          & 'sor: relaxation factor; 0: the optimum for the grid'))
       call v%number(film%tolerance, field('tolerance', 1e-13_wp, 1e-2_wp, '1', &
-         & 'sor: limit of residual over source; at most a tenth of relative_tolerance is used'))
+         & 'sor: limit of residual over source; at most a thousandth of relative_tolerance is used'))
       call v%whole(film%max_sweeps, field('max_sweeps', 1.0_wp, 1e8_wp, '1', &
          & 'sor: maximum number of sweeps for a film; more is a failure'))
       call v%number(film%table_tolerance, field('table_tolerance', 0.0_wp, 1e-2_wp, '1', &

@@ -3,14 +3,12 @@
 module cvode_integrator
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
    use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodereinit, fcvodewftolerances, fcvodesetuserdata, &
-      & fcvodesetlinearsolver, fcvodesetlinsysfn, fcvodesetlinearsolutionscaling, &
-      & fcvodesetjacevalfrequency, fcvodesetlsetupfrequency, fcvodegetcurrentgamma, &
-      & fcvodesetnonlinconvcoef, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, &
-      & fcvode, fcvodefree, fcvodegetnumrhsevals, fcvodegetnumjacevals, fcvodegetnumerrtestfails, &
-      & fcvodegetnumnonlinsolvconvfails, &
-      & fcvodegetcurrentstep, fcvodegetlastorder, cv_bdf, cv_one_step, cv_err_failure, cv_conv_failure, &
-      & cv_too_much_acc, cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, &
-      & cv_unrec_rhsfunc_err, cv_lsetup_fail
+      & fcvodesetlinearsolver, fcvodesetlinsysfn, fcvodesetlinearsolutionscaling, fcvodesetjacevalfrequency, &
+      & fcvodesetlsetupfrequency, fcvodegetcurrentgamma, fcvodesetnonlinconvcoef, fcvodesetstablimdet, &
+      & fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, fcvode, fcvodefree, fcvodegetnumrhsevals, &
+      & fcvodegetnumjacevals, fcvodegetnumerrtestfails, fcvodegetnumnonlinsolvconvfails, fcvodegetcurrentstep, &
+      & fcvodegetlastorder, cv_bdf, cv_one_step, cv_err_failure, cv_conv_failure, cv_too_much_acc, cv_rhsfunc_fail, &
+      & cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, cv_unrec_rhsfunc_err, cv_lsetup_fail
    use sundials_context, only: index_kind, new_context, free_context, silence, n_vector, fn_vdestroy, sunmatrix, &
       & fsunmatdestroy, sunlinearsolver, sunlinearsolver_ops, sunlinearsolver_direct, fsunlinsolnewempty, &
       & fsunlinsolfreeempty
@@ -105,7 +103,7 @@ contains
          core%relative_tolerance = options%relative_tolerance
          core%absolute_tolerance = options%absolute_tolerance
          flag = fcvodewftolerances(core%memory, c_funloc(weights_callback))
-         ! the model keeps its matrix and solves; CVODE wants to see one all the same
+         ! the model keeps its matrix and solves; CVODE wants to see one
          core%matrix => fsundensematrix(1_index_kind, 1_index_kind, core%context)
          core%linear_solver => fsunlinsolnewempty(core%context)
          core%linear_solver%content = c_loc(core)
@@ -119,6 +117,8 @@ contains
          flag = fcvodesetjacevalfrequency(core%memory, int(options%derivatives_age, c_long))
          flag = fcvodesetlsetupfrequency(core%memory, int(options%derivatives_age, c_long))
          flag = fcvodesetnonlinconvcoef(core%memory, newton_coefficient)
+         ! lightly damped modes of pads on stiff pivots lie where BDF of orders 3 to 5 is unstable (docs/theory.md)
+         flag = fcvodesetstablimdet(core%memory, 1_c_int)
          flag = fcvodesetmaxstep(core%memory, options%max_step)
       end associate
       call begin(self%core, t, t_end, error)
