@@ -65,8 +65,8 @@ contains
       part = self%gap(0.0_wp)
       part%leading_angle = to
       part%trailing_angle = -from
-      associate (directions => part%directions())
-         call place_nodes(n, span(position, directions%middle, directions%half)/n, position, directions, h, sine, cosine)
+      associate (d => part%directions())
+         call place_nodes(n, span(position, d%middle, d%half)/n, position, d, h, sine, cosine)
       end associate
       angles = atan2(sine, cosine)
       angles(0) = from
