@@ -6,7 +6,7 @@ import sys
 import types
 
 import tiltpad
-from tiltpad import diagrams, figures, plots, report, summary
+from tiltpad import behaviour, diagrams, figures, plots, report, summary
 from tiltpad.files import read
 
 HEAD = """# Python package
@@ -29,6 +29,10 @@ HEAD = """# Python package
 """
 
 
+#: Functions of the plots that are no plots.
+HELPERS = "on_axes", "draw_amplitude", "direction_arrow", "polar", "marks_equilibrium", "pad_marks"
+
+
 def main() -> None:
     public = [getattr(tiltpad, name) for name in tiltpad.__all__]
     # reading first, then in the order of the alphabet, whatever the floor
@@ -39,15 +43,18 @@ def main() -> None:
     print(HEAD)
     for name in modules:
         section("tiltpad", sys.modules[name], [each for each in public if each.__module__ == name])
-    section(
-        "tiltpad.plots", plots, own_functions(plots, "on_axes", "draw_amplitude", "direction_arrow", "polar")
-    )
+    section("tiltpad.plots", plots, own_functions(plots, *HELPERS))
     section("tiltpad.figures", figures, [])
     for name, each in figures.FIGURES.items():
         print(f"- `tiltpad.figures.{name}(runs, last=None, pad=None)`: {inspect.getdoc(each)}")
     print()
     entry("tiltpad.figures", figures.study)
     section("tiltpad.diagrams", diagrams, [diagrams.diagram])
+    section(
+        "tiltpad.behaviour",
+        behaviour,
+        [behaviour.of_pads, behaviour.remarks, behaviour.dominant, behaviour.Behaviour],
+    )
     section(
         "tiltpad.summary",
         summary,

@@ -103,7 +103,7 @@ __all__ = [
 #: Modules with a name of their own here, and the floors that they are on.
 MODULES = {
     **dict.fromkeys(("diagrams", "figures", "plots", "report"), "draw"),
-    "summary": "calculate",
+    **dict.fromkeys(("behaviour", "summary"), "calculate"),
     "units": "files",
 }
 

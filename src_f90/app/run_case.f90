@@ -9,7 +9,8 @@ module run_case
    use case_run, only: case_run_type, begin_run
    use equilibrium_task, only: run_equilibrium
    use march_task, only: run_march
-   use run_summary, only: print_notes, print_march
+   use run_summary, only: print_notes, print_march, print_cost
+   use pad_remarks, only: print_pad_remarks
    implicit none (type, external)
    private
    public :: run_scene, way_out
@@ -105,7 +106,11 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       type(error_type), allocatable :: file_error
       if (.not. allocated(error)) then
-         if (.not. run%quiet .and. run%file%samples() > 0) call print_march(run%file, run%scene, run%statistics())
+         if (.not. run%quiet .and. run%file%samples() > 0) then
+            call print_march(run%file, run%scene)
+            call print_pad_remarks(run%file, run%scene)
+            call print_cost(run%statistics())
+         end if
          call run%file%finish(run%reached, run%statistics(), 0, '', file_error)
          if (.not. allocated(file_error) .and. .not. run%quiet) print '(a)', 'written: '//run%path
       else if (error%status == numerics_error .and. (run%computed .or. run%tag%number > 0)) then

@@ -10,7 +10,7 @@ module run_summary
    use run_statistics, only: run_statistics_type
    implicit none (type, external)
    private
-   public :: print_notes, print_start, print_equilibrium, print_march
+   public :: print_notes, print_start, print_equilibrium, print_march, print_cost
 
 contains
 
@@ -46,18 +46,18 @@ contains
       end do
    end subroutine print_equilibrium
 
-   !> Key figures of the last revolution (or of what there is) and what they cost.
-   subroutine print_march(file, scene, statistics)
+   !> Key figures of the last revolution (or of what there is).
+   subroutine print_march(file, scene)
       type(run_file_type), intent(inout) :: file
       type(scene_type), intent(in) :: scene
-      type(run_statistics_type), intent(in) :: statistics
-      real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), moment(:, :), film(:, :), pressure(:, :)
+      real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), moment(:, :), film(:, :), pressure(:, :), contact(:, :)
       integer :: n, i
       n = int(min(int(scene%output%samples_per_revolution, i8), file%samples()))
       call file%last_samples('journal_y', n, y)
       call file%last_samples('journal_z', n, z)
       call file%last_samples('pad_tilt', n, tilt)
       call file%last_samples('friction_moment', n, moment)
+      call file%last_samples('contact_force', n, contact)
       call file%last_samples('min_film_thickness', n, film)
       call file%last_samples('max_pressure', n, pressure)
       print '(a)', 'last revolution: journal y '//micro(minval(y))//' to '//micro(maxval(y))//', z ' &
@@ -66,9 +66,14 @@ contains
          print '(a)', '  pad '//to_text(i)//': tilt '//milli(minval(tilt(i, :)))//' to ' &
             & //milli(maxval(tilt(i, :)))//' mrad, minimum film thickness '//micro(minval(film(i, :))) &
             & //' um, maximum pressure ' &
-            & //mega(maxval(pressure(i, :)))//' MPa, friction work ' &
-            & //fixed_text(1e3_wp*loop_area(tilt(i, :), moment(i, :)), 3)//' mJ'
+            & //mega(maxval(pressure(i, :)))//' MPa, mean contact '//fixed_text(sum(contact(i, :))/n, 1) &
+            & //' N, friction work '//fixed_text(1e3_wp*loop_area(tilt(i, :), moment(i, :)), 3)//' mJ'
       end do
+   end subroutine print_march
+
+   !> What a run cost.
+   subroutine print_cost(statistics)
+      type(run_statistics_type), intent(in) :: statistics
       print '(a)', 'cost: '//number('steps')//' steps, '//number('rhs_evaluations')//' right-hand sides, ' &
          & //number('jacobian_evaluations')//' Jacobians, films '//number('film_table')//' from tables (' &
          & //number('film_cells')//' cells, '//number('film_nodes')//' ruptured nodes), '//number('film_modal') &
@@ -88,7 +93,7 @@ contains
          character(len=:), allocatable :: duration
          duration = fixed_text(statistics%seconds(name), 2)
       end function duration
-   end subroutine print_march
+   end subroutine print_cost
 
    !> Metres as micrometres, radians as milliradians, pascals as megapascals.
    function micro(x)

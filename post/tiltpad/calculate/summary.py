@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tiltpad.calculate import pivots, signals, spectra
+from tiltpad.calculate import behaviour, pivots, signals, spectra
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 
@@ -91,6 +91,14 @@ def last_one(run: Run, name: str) -> np.ndarray:
     return run.values(name, signals.last_revolutions(run))
 
 
+def behaves(run: Run, name: str) -> np.ndarray:
+    """A number of what each pad does in the last revolutions, (pad,)."""
+    values = np.array([getattr(each, name) for each in behaviour.of_pads(run)])
+    if np.isnan(values).all() or (name == "rubbing" and "asperity_force" not in run):
+        raise NotInRunError(f"{run.path}: no {name} in this run")
+    return values
+
+
 JOURNAL = [
     ("speed at the end", "speed", lambda run: signals.ends(run, "speed")[1]),
     ("time sampled", "time", lambda run: np.ptp(signals.ends(run, "time"))),
@@ -118,6 +126,10 @@ PADS = [
     ("minimum film thickness", "size", lambda run: min_film(run).min(axis=0)),
     ("maximum pressure", "max_pressure", lambda run: last_one(run, "max_pressure").max(axis=0)),
     ("mean contact force", "contact_force", lambda run: last_one(run, "contact_force").mean(axis=0)),
+    ("share of the time lifted off its pivot", "share", lambda run: behaves(run, "lifted")),
+    ("share of the time rubbing", "share", lambda run: behaves(run, "rubbing")),
+    ("dominant order of the tilt", "number", lambda run: behaves(run, "order")),
+    ("amplitude at this order", "pad_tilt", lambda run: behaves(run, "amplitude")),
     ("maximum friction moment", "friction_moment", lambda run: max_moment(run)),
     ("friction work per revolution", "work", each_pad(pivots.friction_work)),
     ("mean friction power", "power", each_pad(pivots.friction_power)),

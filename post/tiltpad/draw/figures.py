@@ -40,7 +40,7 @@ def orbit(runs: Sequence[Run], last: float | None = None, pad: int | None = None
     """Orbits in the clearance circle and enlarged, with the equilibrium."""
     fig = plt.figure(figsize=(PAGE, 3.6))
     whole, enlarged = fig.subplots(1, 2)
-    plots.clearance(max(runs, key=lambda run: run.clearance), whole)
+    plots.clearance(max(runs, key=lambda run: run.clearance), whole, marks=len(runs) == 1)
     for i, run in enumerate(runs):
         plots.orbit(run, whole, last or 1, direction=False, **look(i, 0, runs))
         plots.orbit(run, enlarged, last or 1, **look(i, 0, runs))
@@ -60,7 +60,7 @@ def orbit(runs: Sequence[Run], last: float | None = None, pad: int | None = None
 def equilibrium(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Equilibria of the journal in the clearance circle."""
     fig = plt.figure(figsize=(COLUMN, 3.4))
-    ax = plots.clearance(max(runs, key=lambda run: run.clearance), fig.subplots())
+    ax = plots.clearance(max(runs, key=lambda run: run.clearance), fig.subplots(), marks=len(runs) == 1)
     for i, run in enumerate(runs):
         plots.equilibrium(run, ax, color=f"C{i}")
     legend(fig, runs, [])

@@ -16,7 +16,8 @@ from matplotlib.colors import LogNorm
 from matplotlib.patches import Arc, Circle, FancyArrowPatch
 from matplotlib.ticker import MaxNLocator
 
-from tiltpad.calculate import library, pivots, signals, spectra
+from tiltpad.calculate import behaviour, library, pivots, signals, spectra
+from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.units import SHOWN
 
@@ -80,16 +81,25 @@ def equilibrium(run: Run, ax: Axes, **line: Any) -> Axes:
 
 
 @on_axes
-def clearance(run: Run, ax: Axes) -> Axes:
-    """Clearance circle of radius c_r, pads around it (outlines only, not to scale), sense of rotation."""
+def clearance(run: Run, ax: Axes, marks: bool = True) -> Axes:
+    """Clearance circle of radius c_r, pads around it (outlines only, not to scale), sense of rotation.
+
+    With `marks`, pads that carry no load are pale, and words say so, or that they flutter or rub.
+    """
     radius = SHOWN["journal_y"].factor * run.clearance
     ax.add_patch(Circle((0, 0), radius, fill=False, linewidth=0.8, color="0.3"))
     note = {"ha": "center", "fontsize": "small", "color": "0.3"}
     arc, ratio = (np.atleast_1d(run.input["pads"][name]) for name in ("arc_deg", "pivot_ratio"))
+    found = pad_marks(run) if marks else {}
     for pad, angle in enumerate(np.degrees(run.pivot_angle)):
+        mark = found.get(pad + 1, "")
         ends = {"theta1": angle - (1 - ratio[pad]) * arc[pad], "theta2": angle + ratio[pad] * arc[pad]}
-        ax.add_patch(Arc((0, 0), 2.3 * radius, 2.3 * radius, **ends, linewidth=8, color="0.85"))
+        color = "0.93" if "no load" in mark else "0.85"
+        ax.add_patch(Arc((0, 0), 2.3 * radius, 2.3 * radius, **ends, linewidth=8, color=color))
         ax.text(*polar(1.15 * radius, angle), str(pad + 1), **note, va="center_baseline")
+        if mark:
+            small = note | {"fontsize": "x-small", "color": "C3" if "rubs" in mark else "0.3"}
+            ax.text(*polar(0.86 * radius, angle), mark, **small, va="center")
     turn = {"connectionstyle": "arc3,rad=-0.32", "arrowstyle": "-|>", "mutation_scale": 9, "color": "0.3"}
     ax.add_patch(FancyArrowPatch(polar(0.72 * radius, 125), polar(0.72 * radius, 55), **turn))
     ax.text(0, 0.5 * radius, "rotation", **note, va="center")
@@ -98,6 +108,14 @@ def clearance(run: Run, ax: Axes) -> Axes:
     ax.set(xlim=(-1.3 * radius, 1.3 * radius), ylim=(-1.3 * radius, 1.3 * radius))
     ax.set(xlabel=SHOWN["journal_z"].label, ylabel=SHOWN["journal_y"].label, aspect="equal")
     return ax
+
+
+def pad_marks(run: Run) -> dict[int, str]:
+    """Words on pads that are unloaded, flutter or rub; none where the run was not sampled."""
+    try:
+        return {each.pad: each.mark for each in behaviour.of_pads(run) if each.mark}
+    except NotInRunError:
+        return {}
 
 
 @on_axes

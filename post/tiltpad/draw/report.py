@@ -13,7 +13,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from tiltpad.calculate import signals, summary
+from tiltpad.calculate import behaviour, signals, summary
 from tiltpad.calculate.library import MissingLibraryError
 from tiltpad.draw import figures, plots
 from tiltpad.files.archive import NotInRunError
@@ -45,6 +45,7 @@ def report(run: Run) -> str:
         f"<h1>{escape(title)}</h1>",
         f"<p class=origin>{escape(origin(run))}</p>",
         incomplete(run),
+        pad_remarks(run),
         section("Key figures", key_figures(run)),
         section("Pads", pad_figures(run)),
         section("Spectrum", spectrum_peaks(run)),
@@ -67,6 +68,18 @@ def origin(run: Run) -> str:
 
 def incomplete(run: Run) -> str:
     return "" if run.complete else f"<p class=warning>Incomplete run{escape(run.end())}.</p>"
+
+
+def pad_remarks(run: Run) -> str:
+    """What the pads do that loaded ones do not; a warning where one rubs."""
+    try:
+        found = behaviour.of_pads(run)
+    except NotInRunError:
+        return ""
+    classes = {True: " class=warning", False: ""}
+    return "".join(
+        f"<p{classes[each.rubbing > 0]}>{escape(each.words())}</p>" for each in found if each.words()
+    )
 
 
 def section(title: str, content: str) -> str:
@@ -99,7 +112,10 @@ def pad_figures(run: Run) -> str:
     rows = [
         (text, *(number(each, q) for each in values), SHOWN[q].unit) for text, q, values in summary.pads(run)
     ]
-    note = f"Last revolution; friction and sticking over the last {summary.LAST}, or all if there are fewer."
+    note = (
+        f"Last revolution; friction and sticking over the last {summary.LAST}; lifting, rubbing and dominant "
+        f"order over the last {behaviour.LAST}; or over all if there are fewer."
+    )
     return table(head, [angles, *rows]) + (f"<p>{note}</p>" if run.samples else "")
 
 

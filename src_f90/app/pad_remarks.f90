@@ -1,0 +1,66 @@
+!> What a run prints of pads that carry no load, lift off their pivots, flutter or rub.
+module pad_remarks
+   use kinds, only: wp, i8, degree
+   use text, only: to_text, fixed_text
+   use scene, only: scene_type
+   use pad_behaviour, only: pad_behaviour_type, behaviour_of
+   use run_file, only: run_file_type
+   implicit none (type, external)
+   private
+   public :: print_pad_remarks, pad_words
+
+contains
+
+   !> A line for each pad that does what a loaded pad does not, by the last revolutions in the file.
+   subroutine print_pad_remarks(file, scene)
+      type(run_file_type), intent(inout) :: file
+      type(scene_type), intent(in) :: scene
+      type(pad_behaviour_type) :: found(scene%pad_count())
+      real(wp), allocatable :: contact(:, :), tilt(:, :), asperity(:, :)
+      integer :: revolutions, i, n
+      associate (samples => scene%output%samples_per_revolution, b => scene%bearing)
+         revolutions = int(min(int(scene%output%spectrum_revolutions, i8), file%samples()/samples))
+         n = revolutions*samples
+         if (n < 2 .or. abs(scene%operation%final_speed_rpm - scene%operation%speed_rpm) > 0) then
+            revolutions = 0
+            n = int(min(int(samples, i8), file%samples()))
+         end if
+         call file%last_samples('contact_force', n, contact)
+         call file%last_samples('pad_tilt', n, tilt)
+         if (file%file%has('asperity_force')) then
+            call file%last_samples('asperity_force', n, asperity)
+         else
+            allocate (asperity(size(tilt, 1), n), source=0.0_wp)
+         end if
+         found = behaviour_of(contact, tilt, asperity, revolutions, &
+            & b%assembled_clearance/(0.5_wp*scene%pads%arc_deg*degree*b%journal_radius))
+      end associate
+      do i = 1, size(found)
+         if (pad_words(found(i)) /= '') print '(a)', '  pad '//to_text(i)//' '//pad_words(found(i))
+      end do
+   end subroutine print_pad_remarks
+
+   !> "carries no load (mean 12 N); it flutters at 0.48 of the shaft speed, ..."; empty for a pad like others.
+   function pad_words(pad) result(words)
+      type(pad_behaviour_type), intent(in) :: pad
+      character(len=:), allocatable :: words
+      words = ''
+      if (pad%unloaded) call say('carries no load (mean '//fixed_text(pad%load, 1)//' N)')
+      if (pad%lifted > 0) call say('is lifted off its pivot '//percent(pad%lifted))
+      if (pad%flutters) call say('flutters at '//fixed_text(pad%order, 3)//' of the shaft speed, amplitude of the ' &
+         & //'tilt '//fixed_text(1e3_wp*pad%amplitude, 4)//' mrad')
+      if (pad%rubbing > 0) call say('rubs on the journal '//percent(pad%rubbing))
+   contains
+      subroutine say(what)
+         character(len=*), intent(in) :: what
+         if (words /= '') words = words//'; it '
+         words = words//what
+      end subroutine say
+
+      function percent(share)
+         real(wp), intent(in) :: share
+         character(len=:), allocatable :: percent
+         percent = fixed_text(100*share, 1)//' % of the time'
+      end function percent
+   end function pad_words
+end module pad_remarks
