@@ -20,6 +20,15 @@ ifeq ($(MAKELEVEL)$(filter -j% --jobs%,$(MAKEFLAGS)),0)
 MAKEFLAGS += --jobs=$(shell nproc)
 endif
 
+# two in one tree would write the same files: the second waits until the first has ended
+ifneq ($(filter-out help,$(MAKECMDGOALS)),)
+ifeq ($(MAKELEVEL),0)
+$(shell mkdir -p build; if command -v flock >/dev/null; then exec 9>>build/lock; \
+   flock -w 1 9 || { echo 'make: another make works in this folder; waiting' >&2; flock 9; }; \
+   tail -f -s 0.1 --pid=$$PPID /dev/null >/dev/null 2>&1 & fi)
+endif
+endif
+
 # ---- flags by compiler: this is the one place ---------------------------------------------------
 # Another compiler needs a block of its own and its name in `family`.
 #   standard         used always
