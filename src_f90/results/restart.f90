@@ -7,7 +7,7 @@ module restart
    use scene_namelist, only: scene_from_text
    use namelist_writer, only: scene_text
    use hdf5_file, only: hdf5_type
-   use hdf5_trial, only: can_be_read
+   use hdf5_trial, only: try_reading
    use file_format, only: format_version
    use sweep, only: member_tag
    use files, only: is_regular
@@ -95,7 +95,7 @@ contains
       character(len=*), intent(in) :: path
       type(hdf5_type), intent(inout) :: file
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: program
+      character(len=:), allocatable :: program, refusal
       integer :: version
       logical :: exists
       inquire (file=path, exist=exists)
@@ -107,9 +107,13 @@ contains
          call raise(error, system_error, path//': a directory, device or pipe, not a result file')
          return
       end if
-      if (can_be_read(path)) call file%open(path, writing=.false.)
-      if (file%id < 0) then
-         call raise(error, system_error, path//': no HDF5 file, or damaged')
+      call try_reading(path, refusal)
+      if (refusal == '') then
+         call file%open(path, writing=.false.)
+         if (file%id < 0) refusal = 'cannot be opened'
+      end if
+      if (refusal /= '') then
+         call raise(error, system_error, path//': '//refusal)
          return
       end if
       program = ''

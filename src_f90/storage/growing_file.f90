@@ -37,6 +37,7 @@ module growing_file
       procedure :: taken_from
       !> What has gone wrong with the file so far.
       procedure :: error_of
+      procedure, private :: open_part
       procedure, private :: catch_up
    end type growing_file_type
 
@@ -62,8 +63,16 @@ contains
       class(growing_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
       call self%working%copy_published(error)
-      if (.not. allocated(error)) call self%file%open(self%working%part, writing=.true.)
+      if (.not. allocated(error)) call self%open_part(error)
    end subroutine reopen
+
+   !> Opens the part, unless another run has taken the place of this one, whose part then has the name.
+   subroutine open_part(self, error)
+      class(growing_file_type), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+      call self%working%check_part(error)
+      if (.not. allocated(error)) call self%file%open(self%working%part, writing=.true.)
+   end subroutine open_part
 
    !> Series over an axis, 'time' or another, follow; they start from the samples that are in the file, if any.
    subroutine begin_series(self, axis)
@@ -110,7 +119,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(hdf5_type) :: published
       if (exchanged) then
-         call self%file%open(self%working%part, writing=.true.)
+         call self%open_part(error)
+         if (allocated(error)) return
          call published%open(self%working%path, writing=.false.)
          call self%table%open(self%file)
          call self%table%copy_missing(self%file, published)
@@ -120,8 +130,8 @@ contains
          call self%file%close()
       end if
       call self%working%copy_published(error)
+      if (.not. allocated(error)) call self%open_part(error)
       if (allocated(error)) return
-      call self%file%open(self%working%part, writing=.true.)
       call self%table%open(self%file)
       call self%error_of(error)
    end subroutine catch_up

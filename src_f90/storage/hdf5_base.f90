@@ -1,6 +1,5 @@
 !> An HDF5 file: opening, groups, root attributes. After a failure every routine does nothing; `failure` says what
-!> failed first. No other file is opened on behalf of one: links out of it are not followed, and datasets whose values
-!> lie elsewhere are refused.
+!> failed first. No other file is opened on behalf of one: links out of it are not followed, and HDF5 loads no library.
 module hdf5_base
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_loc, c_null_char, c_null_ptr, c_ptr
    use hdf5, only: hid_t, hsize_t, size_t, h5open_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fopen_f, &
@@ -8,8 +7,7 @@ module hdf5_base
       & h5sclose_f, h5s_scalar_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, h5tis_variable_str_f, h5tget_super_f, &
       & h5tget_size_f, h5t_string, h5t_cset_utf8_f, h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, &
       & h5aget_type_f, h5adelete_f, h5aexists_f, h5aget_space_f, h5sget_simple_extent_npoints_f, h5lexists_f, &
-      & h5ldelete_f, h5lmove_f, h5t_native_integer, h5dopen_f, h5dclose_f, h5dget_create_plist_f, h5pget_layout_f, &
-      & h5pget_external_count_f, h5pclose_f, h5d_virtual_f, h5p_default_f
+      & h5ldelete_f, h5lmove_f, h5t_native_integer
    use c_strings, only: fortran_text
    use processes, only: set_environment
    use system_errors, only: write_refusal
@@ -48,7 +46,6 @@ module hdf5_base
       procedure :: check
       procedure :: check_read
       procedure :: write_attribute
-      procedure :: open_dataset
       procedure, private :: open_attribute
       procedure, private :: begin
    end type hdf5_base_type
@@ -58,6 +55,11 @@ module hdf5_base
          import :: c_int
          integer(c_int), value :: class
       end function c_unregister_links
+
+      integer(c_int) function c_allow_libraries(mask) bind(c, name='H5PLset_loading_state')
+         import :: c_int
+         integer(c_int), value :: mask
+      end function c_allow_libraries
 
       subroutine c_free(memory) bind(c, name='free')
          import :: c_ptr
@@ -81,6 +83,8 @@ contains
       call h5eset_auto_f(0, status)
       ! a link to another file is an error from now on; the second time there is no such class any more
       ignored = c_unregister_links(external_links)
+      ! it would look for libraries with filters that a file names
+      ignored = c_allow_libraries(0_c_int)
    end subroutine start_hdf5
 
    subroutine begin(self)
@@ -274,33 +278,6 @@ contains
       call self%check_read(status, 'find one value in attribute '//name)
       call h5aclose_f(attribute, ignored)
    end subroutine open_attribute
-
-   !> Opens a dataset whose values are in this file; a failure, and a negative status, where there is none.
-   subroutine open_dataset(self, path, dataset, status, access)
-      class(hdf5_base_type), intent(inout) :: self
-      character(len=*), intent(in) :: path
-      integer(hid_t), intent(out) :: dataset
-      integer, intent(out) :: status
-      !> How it is accessed, HDF5's list of properties.
-      integer(hid_t), intent(in), optional :: access
-      integer(hid_t) :: creation, chosen
-      integer :: layout, files, ignored
-      chosen = h5p_default_f
-      if (present(access)) chosen = access
-      call h5dopen_f(self%id, path, dataset, status, chosen)
-      call self%check_read(status, 'open '//path)
-      if (status < 0) return
-      call h5dget_create_plist_f(dataset, creation, status)
-      call h5pget_layout_f(creation, layout, status)
-      if (status >= 0) call h5pget_external_count_f(creation, files, status)
-      call h5pclose_f(creation, ignored)
-      if (status >= 0) then
-         if (layout /= h5d_virtual_f .and. files == 0) return
-         status = -1
-      end if
-      call self%check_read(status, 'take the values of '//path//', which are in other files')
-      call h5dclose_f(dataset, ignored)
-   end subroutine open_dataset
 
    subroutine write_attribute(self, object, name, text)
       class(hdf5_base_type), intent(inout) :: self

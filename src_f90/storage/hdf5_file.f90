@@ -1,16 +1,22 @@
 !> An HDF5 file with datasets and dimension scales. After a failure every routine does nothing; `failure` says what
-!> failed first.
+!> failed first. Datasets whose values lie in other files are refused, and those whose chunks claim too much memory.
 module hdf5_file
    use, intrinsic :: iso_c_binding, only: c_loc, c_ptr
-   use hdf5, only: hid_t, hsize_t, h5screate_f, h5screate_simple_f, h5sclose_f, h5s_scalar_f, &
-      & h5sget_simple_extent_npoints_f, h5tclose_f, h5tequal_f, h5dcreate_f, h5dopen_f, h5dwrite_f, h5dread_f, &
-      & h5dclose_f, h5dget_space_f, h5dget_type_f, h5t_native_double, h5kind_to_type, h5_integer_kind
+   use hdf5, only: hid_t, hsize_t, size_t, h5screate_f, h5screate_simple_f, h5sclose_f, h5s_scalar_f, &
+      & h5sget_simple_extent_npoints_f, h5sget_simple_extent_ndims_f, h5tclose_f, h5tequal_f, h5tget_size_f, &
+      & h5dcreate_f, h5dopen_f, h5dwrite_f, h5dread_f, h5dclose_f, h5dget_space_f, h5dget_type_f, &
+      & h5dget_create_plist_f, h5pget_layout_f, h5pget_chunk_f, h5pget_external_count_f, h5pclose_f, h5d_virtual_f, &
+      & h5d_chunked_f, h5p_default_f, h5t_native_double, h5kind_to_type, h5_integer_kind
    use h5ds, only: h5dsset_scale_f, h5dsattach_scale_f
    use kinds, only: wp, i8
    use hdf5_base, only: hdf5_base_type
    implicit none (type, external)
    private
    public :: hdf5_type
+
+   !> Most bytes of a chunk (ours have 32 kB a value of a sample), and most dimensions of a dataset.
+   real(wp), parameter :: largest_chunk = 2.0_wp**26
+   integer, parameter :: most_dimensions = 32
 
    type, extends(hdf5_base_type) :: hdf5_type
    contains
@@ -24,7 +30,8 @@ module hdf5_file
       procedure :: get_count
       procedure :: get_real
       procedure :: get_list
-      !> For hdf5_series: refuses numbers of another kind; describes a dataset.
+      !> For hdf5_series: opens a dataset; refuses numbers of another kind; describes a dataset.
+      procedure :: open_dataset
       procedure :: expect_type
       procedure :: describe
       procedure, private :: open_or_create
@@ -81,6 +88,55 @@ contains
       call self%open_or_create(path, h5t_native_double, dims, units, long_name, scales, dataset)
       call self%write_all(dataset, h5t_native_double, c_loc(buffer), path)
    end subroutine write_reals
+
+   !> Opens a dataset whose values are in this file, in chunks of a size that HDF5 may take memory for; a failure, and
+   !> a negative status, where there is none.
+   subroutine open_dataset(self, path, dataset, status, access)
+      class(hdf5_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      integer(hid_t), intent(out) :: dataset
+      integer, intent(out) :: status
+      !> How it is accessed, HDF5's list of properties.
+      integer(hid_t), intent(in), optional :: access
+      integer(hid_t) :: creation, chosen
+      integer :: layout, files, ignored
+      chosen = h5p_default_f
+      if (present(access)) chosen = access
+      call h5dopen_f(self%id, path, dataset, status, chosen)
+      call self%check_read(status, 'open '//path)
+      if (status < 0) return
+      call h5dget_create_plist_f(dataset, creation, status)
+      call h5pget_layout_f(creation, layout, status)
+      if (status >= 0) call h5pget_external_count_f(creation, files, status)
+      if (status >= 0 .and. (layout == h5d_virtual_f .or. files > 0)) status = -1
+      call self%check_read(status, 'take the values of '//path//', which are in other files')
+      if (status >= 0 .and. layout == h5d_chunked_f) then
+         if (chunk_bytes(dataset, creation) > largest_chunk) status = -1
+         call self%check_read(status, 'take memory for the chunks of '//path)
+      end if
+      call h5pclose_f(creation, ignored)
+      if (status < 0) call h5dclose_f(dataset, ignored)
+   end subroutine open_dataset
+
+   !> Bytes of a chunk of a dataset, by its properties; very many where it does not say.
+   real(wp) function chunk_bytes(dataset, creation) result(bytes)
+      integer(hid_t), intent(in) :: dataset, creation
+      integer(hsize_t) :: chunk(most_dimensions)
+      integer(size_t) :: letter
+      integer(hid_t) :: kind, space
+      integer :: dimensions, status, ignored
+      bytes = huge(bytes)
+      call h5dget_type_f(dataset, kind, status)
+      if (status < 0) return
+      call h5tget_size_f(kind, letter, status)
+      call h5tclose_f(kind, ignored)
+      call h5dget_space_f(dataset, space, ignored)
+      call h5sget_simple_extent_ndims_f(space, dimensions, ignored)
+      call h5sclose_f(space, ignored)
+      if (status < 0 .or. dimensions < 1 .or. dimensions > most_dimensions) return
+      call h5pget_chunk_f(creation, dimensions, chunk, status)
+      if (status == dimensions) bytes = product(real(chunk(:dimensions), wp))*letter
+   end function chunk_bytes
 
    !> Opens a dataset, or creates it.
    subroutine open_or_create(self, path, kind, dims, units, long_name, scales, dataset)

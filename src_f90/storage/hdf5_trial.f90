@@ -6,9 +6,10 @@ module hdf5_trial
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: hdf5_series_type
    use processes, only: new_process, end_child, limit_child, ended
+   use system_errors, only: system_reason
    implicit none (type, external)
    private
-   public :: can_be_read
+   public :: try_reading
 
    !> Seconds of time, and of the processor's time, after which the reading is given up, and megabytes that it may take.
    integer, parameter :: patience = 60, work = 3, room = 300
@@ -16,23 +17,28 @@ module hdf5_trial
 
 contains
 
-   !> False where reading all of the file's structure, its texts, and the end of each dataset fails, crashes or takes
-   !> too long. What is missing, or refused before it is read, will be told when it is needed.
-   logical function can_be_read(path)
+   !> Why the file cannot be read; empty where reading all of its structure, its texts, and the end of each dataset
+   !> does not fail, crash or take too long. What is missing, or refused before it is read, will be told when it is
+   !> needed.
+   subroutine try_reading(path, refusal)
       character(len=*), intent(in) :: path
+      character(len=:), allocatable, intent(out) :: refusal
       character(len=:), allocatable :: how
       integer :: child
-      can_be_read = .true.
       child = new_process()
-      if (child < 0) return
-      if (child == 0) then
+      if (child < 0) then
+         refusal = 'not looked at, as no process could be started for it: '//system_reason()
+         return
+      else if (child == 0) then
          ! the library and the runtime would report the crash
          call limit_child(patience, work, room)
          call read_all(path)
          call end_child(0)
       end if
-      can_be_read = ended(child, .true., how) .and. index(how, 'status 0 ') > 0
-   end function can_be_read
+      refusal = 'no HDF5 file, or damaged'
+      if (.not. ended(child, .true., how)) return
+      if (index(how, 'status 0 ') > 0) refusal = ''
+   end subroutine try_reading
 
    subroutine read_all(path)
       character(len=*), intent(in) :: path

@@ -45,6 +45,9 @@ module working_file
       !> Deletes the part; frees the lock.
       procedure :: release
       procedure, private :: choose_part
+      !> An error where the part must not be written any more; to be asked before it is opened.
+      procedure :: check_part
+      procedure, private :: check_lock
       procedure, private :: delete_part
    end type working_file_type
 
@@ -104,14 +107,37 @@ contains
       ! what this run has published becomes the part when the names are exchanged
       published = ''
       if (self%published) published = ' '//self%there
+      call self%check_lock(error)
+      if (allocated(error)) return
       call self%lock%note_files(about_to_be//published)
-      if (create_file(self%part)) then
-         self%made = file_identity(self%part)
-         call self%lock%note_files(self%made//published)
-      else
+      if (.not. create_file(self%part)) then
          call raise(error, system_error, 'cannot write '//self%part//': '//system_reason())
+         return
       end if
+      self%made = file_identity(self%part)
+      call self%lock%note_files(self%made//published)
+      ! it may have stood still for long at any of these lines
+      call self%check_part(error)
+      if (allocated(error)) call self%delete_part()
    end subroutine make_part
+
+   !> An error once another run has taken this one for dead, or the folder is gone.
+   subroutine check_lock(self, error)
+      class(working_file_type), intent(in) :: self
+      type(error_type), allocatable, intent(out) :: error
+      if (.not. self%lock%is_ours()) call raise(error, system_error, 'cannot write '//self%path &
+         & //': its lock is gone, to another run or with its folder')
+   end subroutine check_lock
+
+   !> The same, and where the part is no longer what this run has made.
+   subroutine check_part(self, error)
+      class(working_file_type), intent(in) :: self
+      type(error_type), allocatable, intent(out) :: error
+      call self%check_lock(error)
+      if (allocated(error)) return
+      if (file_identity(self%part) /= self%made) call raise(error, system_error, 'cannot write '//self%path//': ' &
+         & //self%part//' was removed or replaced by something else')
+   end subroutine check_part
 
    subroutine copy_published(self, error)
       class(working_file_type), intent(inout) :: self
@@ -133,16 +159,12 @@ contains
       character(len=:), allocatable :: found, made
       logical :: ok
       exchanged = .false.
-      if (.not. self%lock%is_ours()) then
-         call raise(error, system_error, 'cannot write '//self%path &
-            & //': its lock is gone, to another run or with its folder')
-      else if (file_identity(self%part) /= self%made) then
-         call raise(error, system_error, 'cannot write '//self%path//': '//self%part &
-            & //' was removed or replaced by something else')
-      else if (.not. sync_file(self%part)) then
-         call raise(error, system_error, 'cannot write '//self%path//': '//system_reason())
-      end if
+      call self%check_part(error)
       if (allocated(error)) return
+      if (.not. sync_file(self%part)) then
+         call raise(error, system_error, 'cannot write '//self%path//': '//system_reason())
+         return
+      end if
       found = file_identity(self%path)
       if (found /= '' .and. found /= self%there) then
          self%stranded = .true.

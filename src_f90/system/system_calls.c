@@ -281,6 +281,8 @@ void tiltpad_catch_signals(void)
    signal(SIGUSR1, note);
    signal(SIGTERM, note);
    signal(SIGPIPE, SIG_IGN);
+   /* whoever starts the program may ignore it; children could not be waited for then */
+   signal(SIGCHLD, SIG_DFL);
 }
 
 /* A file that grows past the limit of the shell then fails in writing, instead of ending the program. */

@@ -6,7 +6,11 @@ time: it is read, or refused in one line with the right status.
 
 import os
 import resource
+import shutil
+import signal
 import subprocess
+import sys
+import tempfile
 from pathlib import Path
 
 import h5py
@@ -80,6 +84,17 @@ def zeros(name):
     return edit
 
 
+def chunks_of_two_gigabytes(**options):
+    """Their values are not written, and take no room."""
+
+    def edit(file):
+        shape = file["journal_y"].shape
+        del file["journal_y"]
+        file.create_dataset("journal_y", shape, "f8", chunks=(2**28 - 1,), maxshape=(None,), **options)
+
+    return edit
+
+
 def root_in(name):
     def edit(file):
         file[name] = file["/"]
@@ -125,6 +140,8 @@ FALSE = {
     "sweep over nothing": attribute(member=np.int32(1), members=np.int32(2), sweep="operation%speed_rpm"),
     "member without members": attribute(member=np.int32(1)),
     "texts for numbers": replaced("journal_y", dtype="S3"),
+    "chunks of two gigabytes": chunks_of_two_gigabytes(),
+    "deflated chunks of two gigabytes": chunks_of_two_gigabytes(compression="gzip"),
 }
 #: They are refused by whoever uses what they touch; the others may be read, as far as that is possible.
 ATTACKS = OUTSIDE | FALSE
@@ -146,26 +163,32 @@ def hostile(result, tmp_path):
     return make
 
 
-def limited(command_line, folder):
-    """Runs a command with limits; it ends with a right status and, where it fails, one line."""
+def limited(command_line, folder, **variables):
+    """Runs a command with limits; it ends with a right status and, where it fails, one line. Gives both."""
 
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+        signal.alarm(60)
 
-    done = subprocess.run(
-        command_line,
-        cwd=folder,
-        preexec_fn=limit,
-        capture_output=True,
-        text=True,
-        timeout=60,
-        errors="replace",
-    )
-    assert done.returncode in (0, 1, 2, 3), done
-    lines = [line for line in done.stderr.splitlines() if ": warning: " not in line]
-    assert len(lines) == (done.returncode != 0), done.stderr
-    assert "please report" not in done.stderr
-    return done
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as errors:
+        started = subprocess.Popen(
+            command_line,
+            cwd=folder,
+            preexec_fn=limit,
+            stdout=out,
+            stderr=errors,
+            env={**os.environ, **variables},
+        )
+        _, status, used = os.wait4(started.pid, 0)
+        errors.seek(0)
+        said = errors.read().decode(errors="replace")
+    started.returncode = status = os.waitstatus_to_exitcode(status)
+    assert status in (0, 1, 2, 3), (status, said)
+    lines = [line for line in said.splitlines() if ": warning: " not in line]
+    assert len(lines) == (status != 0), said
+    assert "please report" not in said
+    assert used.ru_maxrss << 10 < MEMORY
+    return status, said
 
 
 def within_limits(work):
@@ -245,7 +268,36 @@ def test_letters_of_two_gigabytes(result, program, tmp_path):
     content[place : place + 4] = (2**31 - 1).to_bytes(4, "little")
     path = tmp_path / "hostile.h5"
     path.write_bytes(content)
-    assert limited([program, "--quiet", "--resume", path, "--check"], tmp_path).returncode == 3
+    assert limited([program, "--quiet", "--resume", path, "--check"], tmp_path)[0] == 3
+
+
+@pytest.mark.skipif(not shutil.which("cc"), reason="no C compiler")
+def test_a_filter_that_is_a_library(result, program, tmp_path):
+    """HDF5 would look for it in the folders of HDF5_PLUGIN_PATH, and load every library there."""
+    source = '__attribute__((constructor)) void run(void) { fopen("loaded", "w"); }'
+    library = tmp_path / "libfilter.so"
+    subprocess.run(
+        ["cc", "-shared", "-fPIC", "-x", "c", "-include", "stdio.h", "-", "-o", library],
+        input=source, text=True, check=True,
+    )  # fmt: skip
+    path = tmp_path / "hostile.h5"
+    path.write_bytes(result("lugre").read_bytes())
+    with h5py.File(path, "r+") as file:
+        values = file["journal_y"][()]
+        del file["journal_y"]
+        file.create_dataset("journal_y", data=values, chunks=True, compression="gzip")
+    # its number, and the length of its name
+    named = (bytes([1, 0, 8, 0, 1, 0, 1, 0]) + b"deflate", bytes([123, 125, 8, 0, 0, 0, 1, 0]) + b"deflate")
+    content = path.read_bytes()
+    assert named[0] in content
+    path.write_bytes(content.replace(*named))
+    here = {"HDF5_PLUGIN_PATH": str(tmp_path)}
+    assert limited([program, "--quiet", "--resume", path, "--check"], tmp_path, **here)[0] == 3
+    orbit = "from tiltpad import command; raise SystemExit(command.main(['orbit', 'hostile.h5']))"
+    status, said = limited([sys.executable, "-c", orbit], tmp_path, **here)
+    assert status == 3
+    assert "compressed by an unknown filter" in said
+    assert not (tmp_path / "loaded").exists()
 
 
 @pytest.mark.parametrize("name", ["20000000000000000000.h5", "b\udcff.h5", "\u0663.h5"])

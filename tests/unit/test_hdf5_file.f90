@@ -1,7 +1,8 @@
 !> Datasets of an HDF5 file: numbers to the last bit, dimension scales, and what is refused.
 program test_hdf5_file
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_positive_inf
-   use hdf5, only: hid_t, h5dopen_f, h5dclose_f
+   use hdf5, only: hid_t, hsize_t, h5dopen_f, h5dclose_f, h5dcreate_f, h5pcreate_f, h5pset_chunk_f, h5pclose_f, &
+      & h5p_dataset_create_f, h5screate_simple_f, h5sclose_f, h5t_native_double
    use h5ds, only: h5dsis_scale_f, h5dsis_attached_f
    use kinds, only: wp, i8
    use hdf5_file, only: hdf5_type
@@ -20,6 +21,7 @@ program test_hdf5_file
    if (runs('missing')) call missing()
    if (runs('wrong_size')) call wrong_size()
    if (runs('wrong_kind')) call wrong_kind()
+   if (runs('large_chunks')) call large_chunks()
    if (runs('nothing_after_a_failure')) call nothing_after_a_failure()
    call delete_file(path)
    call report()
@@ -198,6 +200,33 @@ contains
       call expect(file%get_count('real') == 0, 'a number as a count')
       call expect_damaged(file, 'find numbers of the right kind in real')
    end subroutine wrong_kind
+
+   !> A chunk of two gigabytes takes no room in a file, but memory.
+   subroutine large_chunks()
+      type(hdf5_type) :: file
+      integer(hid_t) :: space, properties, dataset
+      integer(hsize_t), parameter :: doubles(*) = [2_hsize_t**22, 2_hsize_t**23, 2_hsize_t**24, 2_hsize_t**28]
+      integer :: i, status
+      do i = 1, size(doubles)
+         call file%create(path)
+         call h5screate_simple_f(1, [2_hsize_t**28], space, status)
+         call h5pcreate_f(h5p_dataset_create_f, properties, status)
+         call h5pset_chunk_f(properties, 1, doubles(i:i), status)
+         call h5dcreate_f(file%id, 'list', h5t_native_double, space, dataset, status, properties)
+         call h5dclose_f(dataset, status)
+         call h5pclose_f(properties, status)
+         call h5sclose_f(space, status)
+         call file%open_dataset('list', dataset, status)
+         if (doubles(i) <= 2_hsize_t**23) then
+            call expect_well(file, 'a chunk of this size')
+            call h5dclose_f(dataset, status)
+            call file%close()
+         else
+            call expect(status < 0, 'no dataset')
+            call expect_damaged(file, 'take memory for the chunks of list')
+         end if
+      end do
+   end subroutine large_chunks
 
    subroutine nothing_after_a_failure()
       type(hdf5_type) :: file

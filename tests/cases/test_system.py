@@ -1,0 +1,441 @@
+"""What the system may do: no processes, a quota, clocks that jump, stops longer than the lock's beat.
+
+A small library, compiled here and loaded before the system's own, stands for each of them.
+"""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import h5py
+import numpy as np
+import pytest
+
+CASE = "&friction model='lugre' / &operation duration=0.3 / &output checkpoint_seconds=0.01 /\n"
+#: It would not end by itself.
+LONG = ["--set", "operation%duration=1000"]
+HEAD = """
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/time.h>
+#include <time.h>
+#include <unistd.h>
+#define NEXT(name) ((__typeof__(name) *)dlsym(RTLD_NEXT, #name))
+"""
+NO_PROCESSES = "pid_t fork(void) { errno = EAGAIN; return -1; }"
+#: The calendar jumps by years at every look, there and back.
+JUMPING_CLOCK = """
+static long jump(void) { static long k; return (++k % 3 - 1) * 100000000; }
+int clock_gettime(clockid_t clock, struct timespec *now)
+{
+   int result = NEXT(clock_gettime)(clock, now);
+   if (clock == CLOCK_REALTIME) now->tv_sec += jump();
+   return result;
+}
+int gettimeofday(struct timeval *restrict now, void *restrict zone)
+{
+   int result = NEXT(gettimeofday)(now, zone);
+   now->tv_sec += jump();
+   return result;
+}
+time_t time(time_t *now)
+{
+   time_t result = NEXT(time)(NULL) + jump();
+   if (now) *now = result;
+   return result;
+}
+"""
+#: No more than QUOTA bytes are written, in all; where SYNC is set, that is told when they go to the disk.
+QUOTA = """
+static size_t written;
+static int beyond(size_t size)
+{
+   if (getenv("SYNC") || (written += size) <= strtoul(getenv("QUOTA"), NULL, 10)) return 0;
+   errno = EDQUOT;
+   return 1;
+}
+ssize_t write(int file, const void *bytes, size_t size)
+{
+   return file > 2 && beyond(size) ? -1 : NEXT(write)(file, bytes, size);
+}
+ssize_t pwrite(int file, const void *bytes, size_t size, off_t place)
+{
+   return beyond(size) ? -1 : NEXT(pwrite)(file, bytes, size, place);
+}
+ssize_t pwrite64(int file, const void *bytes, size_t size, off64_t place)
+{
+   return beyond(size) ? -1 : NEXT(pwrite64)(file, bytes, size, place);
+}
+int fsync(int file)
+{
+   static int syncs;
+   if (!getenv("SYNC") || ++syncs < atoi(getenv("SYNC"))) return NEXT(fsync)(file);
+   errno = EDQUOT;
+   return -1;
+}
+"""
+#: Another machine with the same files and without locks, on which seconds are short.
+ELSEWHERE = """
+int lockf(int file, int task, off_t size) { errno = ENOLCK; return -1; }
+int lockf64(int file, int task, off64_t size) { errno = ENOLCK; return -1; }
+int gethostname(char *name, size_t size) { strncpy(name, getenv("HOST"), size); return 0; }
+unsigned sleep(unsigned seconds) { usleep(1000 * seconds); return 0; }
+"""
+
+#: Notes in the file LOG which files are opened for writing (w) and reading (r), which are deleted (d), which
+#: folders are made (m), and connections and programs (x).
+NOTES = """
+#include <fcntl.h>
+#include <stdarg.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <sys/socket.h>
+static void note(char what, const char *name)
+{
+   char line[5000];
+   int log = NEXT(open)(getenv("LOG"), O_WRONLY | O_APPEND | O_CREAT, 0666);
+   int length = snprintf(line, sizeof line, "%c %s\\n", what, name);
+   NEXT(write)(log, line, length);
+   close(log);
+}
+#define OPEN(name) \\
+int name(const char *path, int flags, ...) \\
+{ \\
+   va_list list; \\
+   va_start(list, flags); \\
+   note((flags & O_ACCMODE) == O_RDONLY ? 'r' : 'w', path); \\
+   return NEXT(name)(path, flags, va_arg(list, mode_t)); \\
+}
+OPEN(open) OPEN(open64)
+#define OPENAT(name) \\
+int name(int folder, const char *path, int flags, ...) \\
+{ \\
+   va_list list; \\
+   va_start(list, flags); \\
+   note((flags & O_ACCMODE) == O_RDONLY ? 'r' : 'w', path); \\
+   return NEXT(name)(folder, path, flags, va_arg(list, mode_t)); \\
+}
+OPENAT(openat) OPENAT(openat64)
+#define FOPEN(name) FILE *name(const char *path, const char *mode) \\
+{ note(*mode == 'r' ? 'r' : 'w', path); return NEXT(name)(path, mode); }
+FOPEN(fopen) FOPEN(fopen64)
+int unlink(const char *path) { note('d', path); return NEXT(unlink)(path); }
+int remove(const char *path) { note('d', path); return NEXT(remove)(path); }
+int rmdir(const char *path) { note('d', path); return NEXT(rmdir)(path); }
+int mkdir(const char *path, mode_t mode) { note('m', path); return NEXT(mkdir)(path, mode); }
+int socket(int a, int b, int c) { note('x', "socket"); return -1; }
+int connect(int a, const struct sockaddr *b, socklen_t c) { note('x', "connect"); return -1; }
+int system(const char *command) { note('x', command); return -1; }
+FILE *popen(const char *command, const char *mode) { note('x', command); return NULL; }
+int execv(const char *path, char *const a[]) { note('x', path); return NEXT(execv)(path, a); }
+int execve(const char *path, char *const a[], char *const b[])
+{ note('x', path); return NEXT(execve)(path, a, b); }
+int execvp(const char *path, char *const a[]) { note('x', path); return NEXT(execvp)(path, a); }
+#define SPAWN(name) \\
+int name(pid_t *process, const char *path, const posix_spawn_file_actions_t *a, const posix_spawnattr_t *b, \\
+         char *const c[], char *const d[]) \\
+{ note('x', path); return NEXT(name)(process, path, a, b, c, d); }
+SPAWN(posix_spawn) SPAWN(posix_spawnp)
+"""
+
+
+@pytest.fixture
+def case(tmp_path):
+    folder = tmp_path / "case"
+    folder.mkdir()
+    (folder / "case.nml").write_text(CASE)
+    return folder
+
+
+@pytest.fixture
+def loaded(tmp_path):
+    """loaded(NO_PROCESSES): the environment in which these functions stand for the system's."""
+
+    def environment(source, **variables):
+        library = tmp_path / "own.so"
+        compiler = shutil.which("cc") or shutil.which("gcc")
+        if not compiler:
+            pytest.skip("no C compiler")
+        subprocess.run(
+            [compiler, "-shared", "-fPIC", "-w", "-x", "c", "-", "-o", library, "-ldl"],
+            input=HEAD + source, text=True, check=True,
+        )  # fmt: skip
+        return {**os.environ, "LD_PRELOAD": str(library), **variables}
+
+    return environment
+
+
+def start(program, folder, *arguments, **options):
+    return subprocess.Popen(
+        [program, "-q", *arguments], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        **options,
+    )  # fmt: skip
+
+
+def wait_for(condition, seconds=30):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.001)
+
+
+def refused(done, *words):
+    assert done.returncode == 3, done.stderr
+    assert done.stderr.count("\n") == 1
+    assert done.stderr.startswith("tiltpad: error: ")
+    assert all(word in done.stderr for word in words), done.stderr
+
+
+def stopped_by(process, *words):
+    """The one line with which a run ended with status 3."""
+    error = process.communicate(timeout=30)[1]
+    refused(subprocess.CompletedProcess((), process.returncode, "", error), *words)
+    return error
+
+
+def names(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+def series(path):
+    """All series over time of a complete result."""
+    with h5py.File(path) as file:
+        assert file.attrs["complete"] == 1
+        return {name: file[name][()] for name in file if isinstance(file[name], h5py.Dataset)}
+
+
+# ---- processes ---------------------------------------------------------------------------------
+
+
+def test_no_process_for_a_trial(tiltpad, case, loaded):
+    """A file that nobody has tried is not read."""
+    assert tiltpad("case.nml", "-q", cwd=case).returncode == 0
+    before = (case / "case.h5").read_bytes()
+    environment = loaded(NO_PROCESSES)
+    for arguments in (
+        ["--resume", "case.h5"],
+        ["--resume", "case.h5", "--check"],
+        ["case.nml", "--overwrite"],
+    ):
+        done = tiltpad(*arguments, cwd=case, env=environment)
+        refused(
+            done, "case.h5: not looked at, as no process could be started for it: resource temporarily unav"
+        )
+    assert (case / "case.h5").read_bytes() == before
+    assert names(case) == ["case.h5", "case.nml"]
+
+
+def test_a_caller_that_ignores_its_children(tiltpad, case):
+    """The program inherits that, and waits for its own nevertheless."""
+    ignore = {"preexec_fn": lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN)}
+    assert tiltpad("case.nml", "-q", cwd=case, **ignore).returncode == 0
+    done = tiltpad("--resume", "case.h5", cwd=case, **ignore)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+# ---- clocks ------------------------------------------------------------------------------------
+
+
+def test_clocks_that_jump(program, tiltpad, case, loaded):
+    """Neither results nor checkpoints nor the lock depend on the calendar."""
+    environment = loaded(JUMPING_CLOCK)
+    assert tiltpad("case.nml", "-q", "-o", "still.h5", cwd=case).returncode == 0
+    run = start(program, case, "case.nml", env=environment)
+    assert run.wait(60) == 0, run.stderr.read()
+    jumped, still = series(case / "case.h5"), series(case / "still.h5")
+    assert jumped.keys() == still.keys()
+    assert all(np.array_equal(jumped[name], still[name]) for name in still)
+    with h5py.File(case / "case.h5") as file, h5py.File(case / "still.h5") as other:
+        years = {re.match(r"\d{4}", file.attrs[name])[0] for name in ("created", "ended")}
+        assert years != {other.attrs["created"][:4]}
+        assert 0 < file["statistics/wall_seconds"][()] < 60
+        assert 0 <= file["statistics/checkpoint_seconds"][()] < 60
+    # checkpoints, stopping, rivals, going on
+    (case / "case.h5").unlink()
+    run = start(program, case, "case.nml", *LONG, env=environment)
+    wait_for((case / "case.h5").exists)
+    first = (case / "case.h5").stat().st_ino
+    wait_for(lambda: (case / "case.h5").stat().st_ino != first)
+    refused(tiltpad("--resume", "case.h5", cwd=case, env=environment), f"process {run.pid}")
+    run.terminate()
+    assert run.wait(30) == 4
+    with h5py.File(case / "case.h5", "r+") as file:
+        end = file["checkpoint/time"][()] + 0.01
+        file.attrs["input"] = re.sub(r"duration = \S+", f"duration = {end}", file.attrs["input"])
+    assert tiltpad("--resume", "case.h5", "-q", cwd=case, env=environment).returncode == 0
+    assert names(case) == ["case.h5", "case.nml", "still.h5"]
+
+
+# ---- quotas ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kilobytes", [0, 0.1, 400, 4000])
+def test_a_quota(tiltpad, case, loaded, kilobytes):
+    """Whatever is written when it is reached, the last checkpoint stays, and the run goes on from it."""
+    environment = loaded(QUOTA, QUOTA=str(int(1000 * kilobytes)))
+    done = tiltpad("case.nml", "-q", *LONG, cwd=case, env=environment)
+    refused(done, "cannot write", "case.h5", "disk quota exceeded")
+    whole_and_going_on(tiltpad, case, (case / "case.h5").exists())
+    assert (case / "case.h5").exists() or kilobytes < 4000
+
+
+@pytest.mark.parametrize("syncs", [1, 2, 3, 6])
+def test_a_quota_that_is_told_late(tiltpad, case, loaded, syncs):
+    """By the disk, as network file systems do."""
+    done = tiltpad("case.nml", "-q", *LONG, cwd=case, env=loaded(QUOTA, QUOTA="0", SYNC=f"{syncs}"))
+    refused(done, "cannot write", "case.h5", "disk quota exceeded")
+    whole_and_going_on(tiltpad, case, there=syncs > 1)
+
+
+def whole_and_going_on(tiltpad, case, there):
+    """Nothing is beside the result, if there is one, and that is a checkpoint."""
+    assert names(case) == ["case.h5", "case.nml"][1 - there :]
+    if not there:
+        return
+    with h5py.File(case / "case.h5", "r+") as file:
+        samples, end = len(file["time"]), file["checkpoint/time"][()] + 0.01
+        file.attrs["input"] = re.sub(r"duration = \S+", f"duration = {end}", file.attrs["input"])
+    assert tiltpad("--resume", "case.h5", "-q", cwd=case).returncode == 0
+    assert len(series(case / "case.h5")["time"]) > samples
+
+
+# ---- stops -------------------------------------------------------------------------------------
+
+
+def test_a_stopped_writer_on_this_machine(program, tiltpad, case):
+    """It keeps its lock, however long it stands still."""
+    run = start(program, case, "case.nml", *LONG)
+    wait_for((case / "case.h5").exists)
+    run.send_signal(signal.SIGSTOP)
+    before = (case / "case.h5").read_bytes()
+    for arguments in (["--resume", "case.h5"], ["case.nml", "--overwrite"]):
+        refused(tiltpad(*arguments, cwd=case), f"process {run.pid} on {os.uname().nodename} is writing it")
+    assert (case / "case.h5").read_bytes() == before
+    run.send_signal(signal.SIGCONT)
+    run.terminate()
+    assert run.wait(30) == 4
+    assert names(case) == ["case.h5", "case.nml"]
+
+
+@pytest.mark.parametrize("when", ["while the other writes", "when the other is done"])
+def test_a_stopped_writer_elsewhere(program, case, loaded, when):
+    """Where locks are not known, a rival takes over from a writer that stands still, which then gives up."""
+    shared = "case.h5", "case.nml", "--set", f"operation%duration={'1000' if 'writes' in when else '2'}"
+    first = start(program, case, "--resume", *shared, env=loaded(ELSEWHERE, HOST="one"))
+    wait_for((case / "case.h5").exists)
+    first.send_signal(signal.SIGSTOP)
+    second = start(program, case, "--resume", *shared, env=loaded(ELSEWHERE, HOST="two"))
+    if "writes" in when:
+        wait_for(lambda: (case / "case.h5.lock").read_text().startswith(f"two {second.pid} "))
+        before = (case / "case.h5").stat().st_ino
+        wait_for(lambda: (case / "case.h5").stat().st_ino != before)
+    else:
+        assert second.wait(60) == 0, second.stderr.read()
+        before = (case / "case.h5").read_bytes()
+    first.send_signal(signal.SIGCONT)
+    stopped_by(first, "cannot write case.h5")
+    if "writes" in when:
+        second.terminate()
+        assert second.wait(30) == 4
+    else:
+        assert (case / "case.h5").read_bytes() == before
+    with h5py.File(case / "case.h5") as file:
+        assert file.attrs["complete"] == ("done" in when)
+        assert file.attrs["resumes"] == 1
+        assert len({len(file[name]) for name in ("time", "journal_y", "pad_tilt", "max_pressure")}) == 1
+        assert np.ptp(np.diff(file["time"][:])) < 1e-9
+    assert names(case) == ["case.h5", "case.nml"]
+
+
+# ---- what is opened, made, deleted, and never done ---------------------------------------------
+
+
+def touched(log, folder):
+    """What was noted, paths as seen from the folder."""
+    lines = log.read_text().replace(f"{folder}/", "").replace(f" {folder}\n", " .\n").splitlines()
+    return {re.sub(r"\d{4}(?=\.h5)|(?<=part)\d+", "N", line) for line in lines}
+
+
+def test_all_that_the_program_touches(program, tiltpad, case, loaded, tmp_path):
+    """Runs, a stop, going on, a refusal and a sweep: only files of their names, no connection, no program."""
+    log = tmp_path / "log"
+    environment = loaded(NOTES, LOG=str(log))
+    run = start(program, case, "case.nml", *LONG, env=environment)
+    wait_for((case / "case.h5").exists)
+    run.terminate()
+    assert run.wait(30) == 4
+    with h5py.File(case / "case.h5", "r+") as file:
+        end = file["checkpoint/time"][()] + 0.01
+        file.attrs["input"] = re.sub(r"duration = \S+", f"duration = {end}", file.attrs["input"])
+    for arguments, status in (
+        (["--resume", "case.h5"], 0), (["case.nml"], 3), (["case.nml", "--overwrite"], 0),
+    ):  # fmt: skip
+        assert tiltpad(*arguments, "-q", cwd=case, env=environment).returncode == status
+    own = {f"{what} case.h5.{side}" for what in "wd" for side in ("part", "lock")}
+    read = {f"r {name}" for name in (".", "case.nml", "case.h5", "case.h5.part", "/proc/self/statm")}
+    assert touched(log, case) == own | read | {"w /dev/null"}
+    log.unlink()
+    sweep = CASE.replace("0.3", "0.01").replace("seconds=0.01", "seconds=0")
+    (case / "case.nml").write_text(f"{sweep}&sweep operation%speed_rpm=4000,5000 /\n")
+    assert tiltpad("case.nml", "-q", cwd=case, env=environment).returncode == 0
+    own = {f"{what} case/N.h5.{side}" for what in "wd" for side in ("part", "lock")} - {"d case/N.h5.part"}
+    found = touched(log, case)
+    assert {line for line in found if line[0] != "r"} == own | {"m case", "m case/.partN", "d case/.partN"}
+    assert {"r case.nml"} < {line for line in found if line[0] == "r"} <= {
+        f"r {name}" for name in ("case.nml", "case", "case/.", "case/N.h5.part")
+    }  # fmt: skip
+
+
+def test_all_that_the_commands_touch(tiltpad, case, loaded, tmp_path):
+    """Beside what they are asked for: caches of Matplotlib at most; no connection, no program but uname."""
+    (case / "results").mkdir()
+    for name in ("a", "b"):
+        assert tiltpad("case.nml", "-q", "-o", f"results/{name}.h5", cwd=case).returncode == 0
+    log = tmp_path / "log"
+    environment = loaded(NOTES, LOG=str(log), PYTHONDONTWRITEBYTECODE="1")
+    for entry, *words in (
+        ("main", "orbit", "results/a.h5", "-o", "a.png"),
+        ("collect", "results", "-o", "study.h5"),
+    ):
+        code = (
+            "import sys; from tiltpad import command; sys.exit(getattr(command, sys.argv[1])(sys.argv[2:]))"
+        )
+        done = subprocess.run([sys.executable, "-c", code, entry, *words], cwd=case, env=environment)
+        assert done.returncode == 0
+    found = {line for line in touched(log, case) if line[0] != "r"}
+    import matplotlib
+
+    caches = (matplotlib.get_cachedir(), matplotlib.get_configdir())
+    # h5py asks for the processor
+    libraries = {line for line in found if line[2:].startswith(caches) or line.endswith("/uname")}
+    assert found - libraries - {"w /dev/null"} == {"w a.png", "w study.h5.partN", "d study.h5.partN"}
+
+
+# ---- make --------------------------------------------------------------------------------------
+
+
+@pytest.mark.skipif(not shutil.which("flock"), reason="no flock")
+def test_two_makes_in_one_folder(root, tmp_path):
+    """The second waits until the first has ended."""
+    shutil.copy(root / "Makefile", tmp_path)
+    (tmp_path / "more.mk").write_text(
+        "include Makefile\nslow:\n\t@touch began; until [ -e go ]; do sleep 0.1; done\n"
+    )
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")}
+    both = {"cwd": tmp_path, "env": environment, "stderr": subprocess.PIPE, "text": True}
+    first = subprocess.Popen(["make", "-f", "more.mk", "slow"], **both)
+    wait_for((tmp_path / "began").exists)
+    second = subprocess.Popen(["make", "-f", "more.mk", "clean"], **both)
+    assert second.stderr.readline() == "make: another make works in this folder; waiting\n"
+    assert second.poll() is None
+    assert (tmp_path / "build").exists()
+    (tmp_path / "go").touch()
+    assert (first.wait(30), second.wait(30)) == (0, 0)
+    assert not (tmp_path / "build").exists()
