@@ -2,9 +2,8 @@
 
 usage: damage.py FILE COUNT SEED [PICTURE-EVERY]
 
-Most of the damages are flipped bits, some are blocks of zeros or of noise, and files cut short; most are in
-the structure of the file, some in its samples. All calculations are done each time, a picture or a page for
-some of the damages. Prints a line for each damage that crashed, hung, needed too much memory, or ended with
+The damages are those of damages.py. All calculations are done each time, a picture or a page for some of the
+damages. Prints a line for each damage that crashed, hung, needed too much memory, or ended with
 neither success nor one line that names the file. The last line counts the damages that were read, refused
 and faulty.
 """
@@ -24,16 +23,15 @@ from pathlib import Path
 
 import h5py
 import matplotlib as mpl
+from damages import Source, damaged_copy
 
 mpl.use("agg")
 
 import tiltpad  # noqa: E402
 from tiltpad import command, diagrams, figures, summary  # noqa: E402, F401
 
-#: Shares of damages in samples, of flipped bits, of blocks (the rest are files cut short); length of a block.
-SAMPLES, BITS, BLOCKS, LONGEST = 0.15, 0.85, 0.1, 600
-#: Damages from one picture to the next; seconds and bytes for one damage.
-PICTURE_EVERY, SECONDS, MEMORY = 6, 60, 500 << 20
+#: Damages from one picture to the next; seconds, of the processor's time too, and bytes for one damage.
+PICTURE_EVERY, PATIENCE, SECONDS, MEMORY = 6, 60, 5, 500 << 20
 
 
 def main() -> None:
@@ -41,14 +39,13 @@ def main() -> None:
     every = int(sys.argv[4]) if len(sys.argv) > 4 else PICTURE_EVERY
     with h5py.File(source, "r") as file:
         calculate, entries = (STUDIED, STUDY) if file.attrs["task"] == "study" else (MARCHED, RUN)
-    content, inside = source.read_bytes(), sample_bytes(source)
-    dice = random.Random(seed)
+    sound = Source(source)
     outcomes = Counter()
     with tempfile.TemporaryDirectory() as folder:
         for number in range(count):
-            what, damaged = drawn(dice, content, inside)
+            dice = random.Random(f"{seed}/{number}")
             path = Path(folder) / f"{source.stem}.h5"
-            path.write_bytes(damaged)
+            what = damaged_copy(dice, sound, path)
             work = [calculate, *([dice.choice(entries)] if number % every == 0 else [])]
             outcome, said = in_child(lambda work=work, path=path: use(path, work))
             outcomes[outcome] += 1
@@ -57,59 +54,13 @@ def main() -> None:
     print(f"{outcomes.pop('read', 0)} read, {outcomes.pop('refused', 0)} refused, {outcomes.total()} faulty")
 
 
-def sample_bytes(path: Path) -> list[tuple[int, int]]:
-    """The arrays in the file: first byte and length of each piece."""
-    found = []
-
-    def pieces(_: str, item: h5py.HLObject) -> None:
-        if isinstance(item, h5py.Dataset):
-            if item.chunks is not None:
-                infos = (item.id.get_chunk_info(k) for k in range(item.id.get_num_chunks()))
-                found.extend((info.byte_offset, info.size) for info in infos)
-            elif item.id.get_offset() is not None:
-                found.append((item.id.get_offset(), item.id.get_storage_size()))
-
-    with h5py.File(path, "r") as file:
-        file.visititems(pieces)
-    return found
-
-
-def drawn(
-    dice: random.Random, content: bytes, inside: list[tuple[int, int]]
-) -> tuple[str, bytes | bytearray]:
-    """A damage in words, and the damaged content."""
-    kind, place, changed = dice.random(), drawn_place(dice, content, inside), bytearray(content)
-    if kind < BITS:
-        bit = dice.randrange(8)
-        changed[place] ^= 1 << bit
-        return f"bit {bit} of byte {place}", changed
-    if kind < BITS + BLOCKS:
-        length = min(dice.randrange(1, LONGEST), len(content) - place)
-        changed[place : place + length] = bytes(length) if dice.random() < 0.5 else dice.randbytes(length)
-        return f"{length} bytes from {place}", changed
-    length = dice.randrange(len(content))
-    return f"cut to {length} bytes", content[:length]
-
-
-def drawn_place(dice: random.Random, content: bytes, inside: list[tuple[int, int]]) -> int:
-    """A byte of a sample, or another byte that is not in a block of zeros, which is unused."""
-    if dice.random() < SAMPLES:
-        start, length = dice.choice(inside)
-        return start + dice.randrange(length)
-    while True:
-        byte = dice.randrange(len(content))
-        if any(content[max(0, byte - 8) : byte + 8]) and not any(
-            start <= byte < start + length for start, length in inside
-        ):
-            return byte
-
-
 def in_child(work: Callable[[], tuple[str, str]]) -> tuple[str, str]:
     """Outcome and message of the work in a process of its own, or the signal that ended it."""
     receive, send = os.pipe()
     child = os.fork()
     if child == 0:
-        signal.alarm(SECONDS)
+        signal.alarm(PATIENCE)
+        resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
         used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
         resource.setrlimit(resource.RLIMIT_AS, (used + MEMORY, used + MEMORY))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))

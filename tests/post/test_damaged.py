@@ -19,8 +19,8 @@ from tiltpad.files import heaps
 
 pytestmark = pytest.mark.usefixtures("closed_figures")
 
-#: Damages to a result and to a study.
-RUN, STUDY = (int(os.environ.get("TILTPAD_DAMAGES", count)) for count in (300, 100))
+#: Damages to a result and to a study for the readers in Python, and to any file for the program.
+RUN, STUDY, PROGRAM = (int(os.environ.get("TILTPAD_DAMAGES", count)) for count in (300, 100, 200))
 #: Commands by name, with the options that come before the file.
 COMMANDS = {"tiltpad-report": [()], "tiltpad-plot": [(plot,) for plot in command.PLOTS]}
 ENTRIES = {"tiltpad-report": command.report, "tiltpad-plot": command.main, "tiltpad-collect": command.collect}
@@ -47,17 +47,22 @@ def study(sweep, tmp_path_factory):
     return folder / "speeds.h5"
 
 
-def test_a_damage_is_read_or_refused(small, study, root):
+def test_a_damage_is_read_or_refused(small, study, program, root):
     """Half of the damages to a result at a time: a machine has two cores or more."""
-    script = [sys.executable, root / "tests/post/damage.py"]
-    calls = [(small, RUN // 2, 1, 25), (small, RUN - RUN // 2, 2, 25), (study, STUDY, 3, 25)]
+    calls = [
+        ("damage.py", small, RUN // 2, 1, 25),
+        ("damage.py", small, RUN - RUN // 2, 2, 25),
+        ("damage.py", study, STUDY, 3, 25),
+        ("damage_program.py", program, PROGRAM, 4),
+    ]
     started = [
         subprocess.Popen(
-            [*script, *map(str, call)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+            [sys.executable, root / "tests/post" / script, *map(str, words)],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
         )
-        for call in calls
-    ]
-    for each, (_, count, *_) in zip(started, calls, strict=True):
+        for script, *words in calls
+    ]  # fmt: skip
+    for each, (_, _, count, *_) in zip(started, calls, strict=True):
         said = each.communicate()[0].splitlines()
         assert said[-1].endswith(", 0 faulty"), "\n".join(said)
         read, refused = (int(part.split()[0]) for part in said[-1].split(", ")[:2])
@@ -158,6 +163,23 @@ def test_sizes_that_the_file_cannot_hold_are_not_allocated(changed):
     path = changed("none", resize)
     with tiltpad.read(path) as run, pytest.raises(tiltpad.RunError, match="journal_y .* fits the others"):
         run["journal_y"]
+
+
+@pytest.mark.parametrize("other", ["group", "itself"])
+def test_a_group_in_place_of_an_array(changed, other):
+    """Whoever reads the array is told so."""
+    for name in ("contact_force", "time", "pad", "equilibrium/journal_y", "statistics/steps"):
+
+        def edit(file, name=name):
+            del file[name]
+            if other == "group":
+                file.create_group(name)
+            else:
+                file[name] = file["/"]
+
+        path = changed("lugre", edit)
+        with pytest.raises(tiltpad.RunError, match="a group and not an array"), tiltpad.read(path) as run:
+            run[name]
 
 
 def test_what_the_library_itself_does_not_end_or_survive(small, tmp_path):

@@ -139,6 +139,8 @@ class Archive:
                 found = self.own(group + slash + self.former.get(own, own))
                 if not isinstance(found, h5py.Group):
                     self.check_dataset(name, found)
+                elif self.scales(name) is not None:
+                    raise ValueError("a group and not an array of numbers")
             self.found[name] = found
         return self.found[name]
 
