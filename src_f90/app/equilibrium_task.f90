@@ -10,7 +10,10 @@ module equilibrium_task
    use run_summary, only: print_equilibrium
    implicit none (type, external)
    private
-   public :: run_equilibrium, create_file, start_at_equilibrium
+   public :: run_equilibrium, create_file, start_at_equilibrium, nothing_computed
+
+   !> Said of a signal that stops a run before its march.
+   character(len=*), parameter :: nothing_computed = ' before the march; nothing was computed yet'
 
 contains
 
@@ -39,7 +42,7 @@ contains
       if (allocated(error)) return
       call find_equilibrium(run%model, static, error, stop_requested)
       if (allocated(error)) then
-         if (error%status == stopped) error%message = stop_reason()//' before the march; nothing was computed yet'
+         if (error%status == stopped) error%message = stop_reason()//nothing_computed
          return
       end if
       call put_equilibrium(run%file%file, static, run%scene%tilting_radial())

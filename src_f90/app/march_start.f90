@@ -1,12 +1,16 @@
 !> Where a march starts: the state that the group &start describes.
 module march_start
    use kinds, only: wp
-   use errors, only: error_type, raise, add_context, input_error, numerics_error
+   use text, only: to_text
+   use errors, only: error_type, raise, add_context, input_error, numerics_error, stopped
    use files, only: real_path
    use kinematics, only: journal_motion, pad_state
+   use equilibrium, only: equilibrium_type
+   use partial_equilibrium, only: find_partial_equilibrium
    use last_state, only: read_last_state
+   use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
-   use equilibrium_task, only: create_file, start_at_equilibrium
+   use equilibrium_task, only: create_file, start_at_equilibrium, nothing_computed
    use run_summary, only: print_start
    implicit none (type, external)
    private
@@ -29,11 +33,9 @@ contains
             journal = model%rotor%journal(y(:model%rotor%states))
             pads = model%layout%pad_states(y)
          else
-            if (from == 'file') then
-               call start_from_file(run, journal, pads, error)
-            else
-               allocate (pads(model%layout%pads))
-            end if
+            allocate (pads(model%layout%pads))
+            if (from == 'file') call start_from_file(run, journal, pads, error)
+            if (from == 'partial') call start_partially(run, journal, pads, error)
             if (.not. allocated(error)) call create_file(run, error)
             if (allocated(error)) return
          end if
@@ -53,8 +55,8 @@ contains
    !> The last state of another result.
    subroutine start_from_file(run, journal, pads, error)
       type(case_run_type), intent(in) :: run
-      type(journal_motion), intent(out) :: journal
-      type(pad_state), allocatable, intent(out) :: pads(:)
+      type(journal_motion), intent(inout) :: journal
+      type(pad_state), intent(inout) :: pads(:)
       type(error_type), allocatable, intent(out) :: error
       associate (file => run%scene%start%file)
          if (real_path(file) == real_path(run%path)) then
@@ -66,6 +68,29 @@ contains
          end if
       end associate
    end subroutine start_from_file
+
+   !> Journal and loaded pads in equilibrium, and pads without rest position held at zero tilt on their pivots.
+   subroutine start_partially(run, journal, pads, error)
+      type(case_run_type), intent(in) :: run
+      type(journal_motion), intent(inout) :: journal
+      type(pad_state), intent(inout) :: pads(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(equilibrium_type) :: static
+      logical, allocatable :: held(:)
+      integer :: i
+      call find_partial_equilibrium(run%model, static, held, error, stop_requested)
+      if (allocated(error)) then
+         if (error%status == stopped) error%message = stop_reason()//nothing_computed
+         return
+      end if
+      journal%position = static%journal
+      pads%tilt = static%tilt
+      pads%penetration = static%penetration
+      do i = 1, size(held)
+         if (held(i) .and. .not. run%quiet) print '(a)', 'pad '//to_text(i)//' has no rest position: it starts ' &
+            & //'without tilt on its pivot'
+      end do
+   end subroutine start_partially
 
    !> True where the group has values to add.
    pure logical function is_disturbed(run)

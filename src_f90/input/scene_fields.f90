@@ -166,9 +166,10 @@ contains
       class(visitor_type), intent(inout) :: v
       call v%group('start', 'Where a march starts; the values of journal and pads are added, as a disturbance; a ' &
          & //'resumed run does not start again')
-      call v%word(start%from, choice('from', 'equilibrium centred given file', &
-         & 'equilibrium: of the initial speed, at rest; centred: journal in the middle, pads at rest on their pivots ' &
-         & //'without tilt; given: only the values of journal and pads below; file: the end of another result'))
+      call v%word(start%from, choice('from', 'equilibrium partial centred given file', &
+         & 'equilibrium: of the initial speed, at rest; partial: the same, but pads without rest position stand on ' &
+         & //'their pivots without tilt; centred: journal in the middle, pads at rest on their pivots without tilt; ' &
+         & //'given: only the values of journal and pads below; file: the end of another result'))
       call v%word(start%file, choice('file', '', 'file: the result file, with the same pads; its last whole turn of ' &
          & //'the shaft is taken'))
       call v%numbers(start%journal, field('journal', -0.1_wp, 0.1_wp, 'm', 'displacement of the journal along y and z'))

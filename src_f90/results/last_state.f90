@@ -24,8 +24,8 @@ contains
    subroutine read_last_state(path, layout, journal, pads, error)
       character(len=*), intent(in) :: path
       type(state_layout_type), intent(in) :: layout
-      type(journal_motion), intent(out) :: journal
-      type(pad_state), allocatable, intent(out) :: pads(:)
+      type(journal_motion), intent(inout) :: journal
+      type(pad_state), intent(inout) :: pads(:)
       type(error_type), allocatable, intent(out) :: error
       type(restart_type) :: found
       type(hdf5_type) :: file
@@ -99,10 +99,9 @@ contains
       type(hdf5_type), intent(inout) :: file
       type(state_layout_type), intent(in) :: layout
       integer(i8), intent(in) :: at
-      type(journal_motion), intent(out) :: journal
-      type(pad_state), allocatable, intent(out) :: pads(:)
+      type(journal_motion), intent(inout) :: journal
+      type(pad_state), intent(inout) :: pads(:)
       real(wp) :: one(1)
-      allocate (pads(layout%pads))
       call read_one('journal_y', one)
       journal%position(1) = one(1)
       call read_one('journal_z', one)

@@ -77,7 +77,7 @@ module scene
    end type friction_type
 
    type :: start_type
-      !> 'equilibrium', 'centred', 'given' or 'file'.
+      !> 'equilibrium', 'partial', 'centred', 'given' or 'file'.
       character(len=:), allocatable :: from
       !> The result that a start from a file continues.
       character(len=:), allocatable :: file

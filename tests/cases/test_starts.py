@@ -39,6 +39,7 @@ def begins(file, name):
 
 
 STARTS = {
+    "partial": ("start%from='partial'",),
     "centred": ("start%from='centred'",),
     "given": ("start%from='given'", "start%journal=-20e-6,20e-6", "start%pad_tilt=1e-4,2e-4"),
     "disturbed": ("start%journal=5e-6,-2e-6", "start%journal_velocity=1e-2,0", "start%pad_tilt_rate(2)=0.1"),
@@ -103,6 +104,21 @@ def test_a_file_with_a_disturbance_and_another_speed(run):
     here = run("from_file", *STARTS["from_file"])
     assert begins(other, "journal_y") == begins(here, "journal_y") + 1e-6
     assert other["speed"][0] != whole["speed"][0]
+
+
+def test_a_partial_equilibrium(tiltpad, root, tmp_path):
+    """The top pad stands on its pivot without tilt; journal and loaded pads are where they are at rest."""
+    case = (root / "input/examples/five_pads.nml", "--set", "operation%duration=0.01")
+    rest = tiltpad(*case, "-q", "-o", "rest.h5", cwd=tmp_path)
+    part = tiltpad(*case, "-o", "part.h5", "--set", "start%from='partial'", cwd=tmp_path)
+    assert (rest.returncode, part.returncode) == (0, 0), rest.stderr + part.stderr
+    assert "pad 3 has no rest position: it starts without tilt on its pivot\n" in part.stdout
+    with h5py.File(tmp_path / "rest.h5") as whole, h5py.File(tmp_path / "part.h5") as file:
+        assert abs(begins(file, "pad_tilt")[2]) < 1e-15
+        assert begins(file, "journal_y") == pytest.approx(begins(whole, "journal_y"), abs=1e-7)
+        assert begins(file, "pad_tilt")[[0, 4]] == pytest.approx(begins(whole, "pad_tilt")[[0, 4]], abs=1e-6)
+        assert np.all(begins(file, "pad_tilt_rate") == 0)
+        assert "equilibrium" not in file
 
 
 REFUSED = {
