@@ -125,7 +125,7 @@ REFUSED = {
     "no file": (("start%from='file'", "start%file='none.h5'"), 3, "start%file: none.h5: no such file"),
     "no name": (("start%from='file'",), 1, "start%file = '': must name a result"),
     "not from it": (("start%file='whole.h5'",), 1, "needs start%from = 'file', not 'equilibrium'"),
-    "text": (("start%from='file'", "start%file='case.nml'"), 3, "no HDF5 file, or damaged"),
+    "text": (("start%from='file'", "start%file='case.nml'"), 3, "start%file: case.nml: "),
     "pads": ((*STARTS["from_file"], "pads%pivot_angle_deg=-90"), 3, "has 2 pads, and this case 1"),
     "motion": ((*STARTS["from_file"], "pads%motion='tilting_only'"), 3, "pads%motion = 'tilting_radial'"),
     "bristles": ((*STARTS["from_file"], "friction%model='none'"), 3, "friction%model = 'lugre'"),
