@@ -89,6 +89,18 @@ int gethostname(char *name, size_t size) { strncpy(name, getenv("HOST"), size); 
 unsigned sleep(unsigned seconds) { usleep(1000 * seconds); return 0; }
 """
 
+#: A file system that knows no times of birth.
+NO_BIRTHS = """
+#include <fcntl.h>
+#include <sys/stat.h>
+int statx(int folder, const char *restrict path, int flags, unsigned mask, struct statx *restrict found)
+{
+   int result = NEXT(statx)(folder, path, flags, mask, found);
+   found->stx_mask &= ~STATX_BTIME;
+   found->stx_btime.tv_sec = random();
+   return result;
+}
+"""
 #: Notes in the file LOG which files are opened for writing (w) and reading (r), which are deleted (d), which
 #: folders are made (m), and connections and programs (x).
 NOTES = """
@@ -416,6 +428,26 @@ def test_all_that_the_commands_touch(tiltpad, case, loaded, tmp_path):
     # h5py asks for the processor
     libraries = {line for line in found if line[2:].startswith(caches) or line.endswith("/uname")}
     assert found - libraries - {"w /dev/null"} == {"w a.png", "w study.h5.partN", "d study.h5.partN"}
+
+
+def test_a_file_system_without_times_of_birth(program, tiltpad, case, loaded):
+    """The part of a killed run is known by its inode alone."""
+    environment = loaded(NO_BIRTHS)
+    for copied in (False, True):
+        run = start(program, case, "case.nml", *LONG, env=environment)
+        wait_for(lambda: (case / "case.h5").exists() and (case / "case.h5.part").exists())
+        run.kill()
+        run.wait()
+        part = case / "case.h5.part"
+        if copied and part.exists():
+            shutil.copy(part, case / "copy")
+            part.unlink()
+            (case / "copy").rename(part)
+        copied = copied and part.exists()
+        done = tiltpad("case.nml", "-q", "--overwrite", cwd=case, env=environment)
+        assert (done.returncode, done.stderr) == (0, "")
+        assert part.exists() == copied
+        (case / "case.h5").unlink()
 
 
 # ---- make --------------------------------------------------------------------------------------

@@ -48,6 +48,12 @@ ranges, which must be completed or end with one line within {command:g} s. Reade
 bounds checks, floating-point traps and the sanitizers for addresses and undefined behaviour (the `extremes`
 run without sanitizers).
 
+**Damaged results** are tried by `make test` (`tests/post/damages.py`): results, checkpoints, members of
+sweeps and studies with flipped bits, other blocks, very large numbers in their structure, other lengths, and
+other objects and attributes in place of theirs. Every reader in Python, and the program, must give values or
+one line, within 5 s of the processor's time and 500 MB, and leave nothing behind.
+`TILTPAD_DAMAGES=3000 make test ONLY=damage_is` tries more of them.
+
 | kind | number |
 |---|---|
 {counts}

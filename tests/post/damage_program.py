@@ -2,10 +2,11 @@
 
 usage: damage_program.py PROGRAM COUNT SEED [FOLDER]
 
-The program looks at the damaged file (--resume --check), goes on with it, replaces it, or finds it among the
-members of a sweep. Prints a line for each damage at which it crashed, hung, needed too much time or memory,
-said anything but its own lines, changed a file that it refused, or left something behind; with FOLDER the
-damaged file is kept there. The last line counts the damages that were read, refused and faulty.
+The program looks at the damaged file (--resume --check), goes on with it, starts from it, replaces it, or
+finds it among the members of a sweep. Prints a line for each damage at which it crashed, hung, needed too
+much time or memory, said anything but its own lines, changed a file that it refused, or left something
+behind; with FOLDER the damaged file is kept there. The last line counts the damages that were read, refused
+and faulty.
 """
 
 import os
@@ -32,6 +33,7 @@ MARCH = "&friction model='lugre' /\n&output samples_per_revolution=40, checkpoin
 CASES = {
     "complete": "&operation duration=0.02 /\n" + MARCH,
     "other": "&operation duration=0.01 /\n" + MARCH,
+    "start": "&operation duration=0.01 /\n&start from='file', file='damaged.h5' /\n" + MARCH,
     "equilibrium": "&case task='equilibrium' /\n",
     "failed": "&integration max_steps=100 /\n" + MARCH,
     "stopped": "&operation duration=100 /\n" + MARCH.replace("=0 /", "=0.01 /"),
@@ -40,7 +42,7 @@ CASES = {
 #: Of a file: the arguments of the program. {} is the file; it is the second member in the folder of a sweep.
 USES = {
     "complete": ("--resume {} --check", "--resume {}", "complete.nml -o {}", "other.nml -o {}",
-                 "other.nml --overwrite -o {}"),
+                 "other.nml --overwrite -o {}", "start.nml"),
     "equilibrium": ("--resume {} --check", "equilibrium.nml -o {}"),
     "failed": ("--resume {} --check", "--resume {}"),
     "stopped": ("--resume {} --check", *("--resume {}",) * 4, "stopped.nml --resume {}"),
@@ -81,9 +83,11 @@ def make_sources(program: str, folder: Path) -> dict[str, Source]:
     """The sound files, by name."""
     for name, text in CASES.items():
         (folder / f"{name}.nml").write_text(text)
-    for name, status in (("complete", 0), ("equilibrium", 0), ("failed", 2), ("sweep", 0)):
+    for name, status in (("complete", 0), ("start", 0), ("equilibrium", 0), ("failed", 2), ("sweep", 0)):
         done = subprocess.run([program, "-q", f"{name}.nml"], cwd=folder, stderr=subprocess.DEVNULL)
         assert done.returncode == status
+        if name == "complete":
+            shutil.copy(folder / "complete.h5", folder / "damaged.h5")
     run = subprocess.Popen([program, "-q", "stopped.nml"], cwd=folder, stderr=subprocess.DEVNULL)
     while not (folder / "stopped.h5").exists():
         time.sleep(0.001)
