@@ -29,6 +29,7 @@ RUNS = {
     "grade6.3": (LUGRE, ("rotor%balance_grade=6.3", 'case%title=""')),
     "runup": (f"{PAPER}/runup_lugre.nml", ()),
     "four_pads": ("input/examples/four_pads.nml", ()),
+    "five_pads": ("input/examples/five_pads.nml", ()),
 }
 #: Studies: name, which is that of the folder, case, and what is swept.
 STUDIES = {
@@ -54,6 +55,7 @@ STUDIES = {
 #: Pictures: plot, runs, further options, what is seen.
 PICTURES = (
     ("orbit", "lugre bengisu frictionless", "", "friction enlarges the orbit"),
+    ("orbit", "five_pads", "", "pads that carry no load are pale"),
     ("equilibrium", "lugre", "", "the equilibrium at which the motion starts"),
     ("size", "grade1 grade2.5 grade6.3", "", "the orbit grows with the balance grade"),
     ("waveform", "lugre", "--last 3", "the tilt of the pads follows the journal, with pauses"),
