@@ -25,6 +25,8 @@ module film_resolution
    !> Largest (Lambda d)^2/12 of a mode on an even grid of step d where the layer of a pressure at the leading edge has
    !> to be resolved: beyond, the closed form is better than the grid.
    real(wp), parameter :: stiffest_mode = 0.5_wp
+   !> And the largest at that edge on the film's own nodes: there the scheme's 1 - d^2 V/12 is 0.
+   real(wp), parameter :: stiffest_layer = 1
 
    type :: resolution_type
       private
@@ -99,7 +101,8 @@ contains
       if (-dot_product(e, directions%middle) > distance*directions%half(2)) most = 1 + distance
       width = gap%axial_length/gap%pad_radius()
       cells = max(cells_by_length*most/width, cells_by_curvature*sqrt(max(0.0_wp, k + 9.0_wp/8)))
-      if (self%floods) cells = max(cells, cells_by_layer*edges(1)/width)
+      if (self%floods) cells = max(cells, max(cells_by_layer, (2*self%modes - 1)*pi/sqrt(12*stiffest_layer)) &
+         & *edges(1)/width)
       cells = self%more_cells*along*cells
       modes = self%more_modes*max(modes_by_length*aspect(gap), &
          & modes_by_slope*width*sqrt(max(0.0_wp, k + least*(3 - 2*least)))/least)

@@ -12,17 +12,18 @@ module modal_pad
    public :: modal_pad_type, init_pad, set_weights, set_motion
    public :: gauss, middle, point_weights
 
-   !> Gauss-Legendre points and weights across the half width, over it. Behind them those where rupture is
-   !> looked for, without weight: the middle, and towards the side, where a film that diverges at its trailing
-   !> edge first falls below the pressure of its edges.
+   !> Points and weights across the half width, over it: Gauss-Legendre's over the root of the distance from the side,
+   !> beside which the pressure of an uneven film falls steeply. Behind them those where rupture is looked for, without
+   !> weight: the middle, and towards the side, where a film that diverges at its trailing edge first falls below the
+   !> pressure of its edges.
    integer, parameter :: gauss = 8, middle = 9, all_points = gauss + looks
    real(wp), parameter :: half_points(4) = [0.183434642495650_wp, 0.525532409916329_wp, &
       & 0.796666477413627_wp, 0.960289856497536_wp]
    real(wp), parameter :: half_weights(4) = [0.362683783378362_wp, 0.313706645877887_wp, &
       & 0.222381034453374_wp, 0.101228536290376_wp]
-   real(wp), parameter :: points(all_points) = [0.5_wp*(1 + [-half_points, half_points]), &
-      & 0.0_wp, 0.75_wp, 0.9_wp, 0.95_wp]
-   real(wp), parameter :: point_weights(gauss) = 0.5_wp*[half_weights, half_weights]
+   real(wp), parameter :: roots(gauss) = 0.5_wp*(1 + [-half_points, half_points])
+   real(wp), parameter :: points(all_points) = [1 - roots**2, 0.0_wp, 0.75_wp, 0.9_wp, 0.95_wp]
+   real(wp), parameter :: point_weights(gauss) = roots*[half_weights, half_weights]
 
    !> One pad. Nodes 0:n run from the trailing to the leading edge at equal steps d of Sommerfeld's variable; film
    !> thickness H, and position e are over the clearance. Modes fill up blocks of `lanes`;
