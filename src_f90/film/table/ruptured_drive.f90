@@ -2,9 +2,10 @@
 !> For w = (1, w_2), with F the force of the ruptured film and M w that of the whole one, v = M^(-1) F.
 !>
 !> Both forces come from the same discretisation, so that most of its error is not in v. With the condition of Reynolds
-!> these are finite volumes: half of their columns lie where the film diverges, all of them are narrow where it is thin,
-!> and two grids are extrapolated by Richardson's rule. With Guembel's condition they are axial modes. Every film is
-!> solved from the same start: the answer does not depend on what came before.
+!> these are finite volumes: half of their columns lie where the film diverges, all of them are narrow where it is
+!> thin, and two grids are extrapolated by Richardson's rule. Where the film has gone from whole columns at the trailing
+!> edge, these are given to what is left of it. With Guembel's condition they are axial modes. Every film is solved from
+!> the same start: the answer does not depend on what came before.
 module ruptured_drive
    use kinds, only: wp
    use film_solver, only: film_motion, film_response, film_counters, film_ok
@@ -16,12 +17,14 @@ module ruptured_drive
    public :: ruptured_drive_type, drive_type, new_ruptured_drive, least_tolerance
 
    !> Columns and rows of the finer grid for a tolerance of 4e-5, and of any; the error falls with their squares.
-   integer, parameter :: base_columns = 64, base_rows = 8, most_rows = 48
+   integer, parameter :: base_columns = 56, base_rows = 8, most_rows = 48
    real(wp), parameter :: base_tolerance = 4e-5_wp
    !> What the finest grid keeps to.
    real(wp), parameter :: least_tolerance = base_tolerance*(real(base_rows, wp)/most_rows)**2
-   !> Share of the columns where the film diverges, at least.
-   real(wp), parameter :: diverging_share = 0.5_wp
+   !> Share of the columns where the film diverges or has gone, and where it has gone.
+   real(wp), parameter :: diverging_share = 0.5_wp, empty_share = 1.0_wp/32
+   !> So many columns beside the film count as part of it.
+   integer, parameter :: margin = 3
 
    !> A solver for one pad.
    type :: ruptured_drive_type
@@ -90,25 +93,44 @@ contains
       class(ruptured_drive_type), intent(in) :: self
       type(film_motion), intent(in) :: motion
       type(drive_type) :: drive, coarse_drive
-      type(direct_film_type) :: coarse, fine
+      type(direct_film_type) :: coarse, fine, coarse_whole, fine_whole
       type(film_response) :: ruptured, whole
       type(film_counters) :: unused
-      coarse = new_direct_film(self%pad%gap(0.0_wp), self%columns/2, self%rows/2, &
-         & angles(self%pad, motion, self%columns/2))
+      real(wp) :: line(0:self%columns/2), rim
+      integer :: empty
+      line = angles(self%pad, motion, -self%pad%half_arc, self%columns/2, 1)
+      coarse = grid(self, line, 2)
+      fine_whole = grid(self, angles(self%pad, motion, -self%pad%half_arc, self%columns/2, 2), 1)
       call coarse%evaluate(motion, 0.0_wp, .true., .false., unused, ruptured)
-      call coarse%evaluate(motion, 0.0_wp, .false., .true., unused, whole)
+      empty = coarse%empty_columns() - margin
+      coarse_whole = coarse
+      fine = fine_whole
+      if (empty > 0) then
+         rim = line(empty)
+         coarse = grid(self, angles(self%pad, motion, rim, self%columns/2, 1), 2)
+         fine = grid(self, angles(self%pad, motion, rim, self%columns/2, 2), 1)
+         call coarse%evaluate(motion, 0.0_wp, .true., .false., unused, ruptured)
+      end if
+      call coarse_whole%evaluate(motion, 0.0_wp, .false., .true., unused, whole)
       call set_drive(self%pad, ruptured, whole, coarse_drive)
-      fine = new_direct_film(self%pad%gap(0.0_wp), self%columns, self%rows, angles(self%pad, motion, self%columns))
       call fine%start_from(coarse)
       call fine%evaluate(motion, 0.0_wp, .true., .true., unused, ruptured)
-      call fine%evaluate(motion, 0.0_wp, .false., .true., unused, whole)
+      call fine_whole%evaluate(motion, 0.0_wp, .false., .true., unused, whole)
       call set_drive(self%pad, ruptured, whole, drive)
       drive%ok = drive%ok .and. coarse_drive%ok
       if (.not. drive%ok) return
-      call fine%evaluate(film_motion(motion%position, drive%value), 0.0_wp, .false., .true., unused, whole)
+      call fine_whole%evaluate(film_motion(motion%position, drive%value), 0.0_wp, .false., .true., unused, whole)
       call set_slopes(ruptured, whole, drive)
       drive%value = drive%value + (drive%value - coarse_drive%value)/3
    end function by_volumes
+
+   !> The grid with these angles between its columns, and a part of the rows.
+   type(direct_film_type) function grid(self, line, part)
+      class(ruptured_drive_type), intent(in) :: self
+      real(wp), intent(in) :: line(0:)
+      integer, intent(in) :: part
+      grid = new_direct_film(self%pad%gap(0.0_wp), self%columns/part, self%rows/part, line)
+   end function grid
 
    !> The drive by axial modes, with Guembel's condition; slopes over the position.
    function by_modes(self, motion) result(drive)
@@ -158,18 +180,22 @@ contains
       x = [b(1)*m(2, 2) - b(2)*m(1, 2), b(2)*m(1, 1) - b(1)*m(2, 1)]/(m(1, 1)*m(2, 2) - m(1, 2)*m(2, 1))
    end function solved
 
-   !> Angles between the columns, rad, from the trailing to the leading edge.
-   pure function angles(pad, motion, columns)
+   !> Angles between the columns, rad, from the trailing to the leading edge, where the film has gone up to an angle
+   !> `rim`; so many columns, each cut into so many parts.
+   pure function angles(pad, motion, rim, columns, parts)
       type(unit_pad_type), intent(in) :: pad
       type(film_motion), intent(in) :: motion
-      integer, intent(in) :: columns
-      real(wp) :: angles(0:columns), zero
-      integer :: diverging
-      ! where the source of pressure changes its sign
-      zero = -atan2(motion%velocity(2), motion%velocity(1))
-      diverging = nint(columns*max(diverging_share, 0.5_wp*(zero/pad%half_arc + 1)))
-      diverging = min(diverging, columns - 2)
-      angles(:diverging) = pad%spread_angles(motion%position, -pad%half_arc, zero, diverging)
-      angles(diverging:) = pad%spread_angles(motion%position, zero, pad%half_arc, columns - diverging)
+      real(wp), intent(in) :: rim
+      integer, intent(in) :: columns, parts
+      real(wp) :: angles(0:columns*parts), ends(0:3)
+      integer :: last(0:3), i
+      ! the film's end, and where the source of pressure changes its sign
+      ends = [-pad%half_arc, rim, -atan2(motion%velocity(2), motion%velocity(1)), pad%half_arc]
+      last = [0, merge(ceiling(empty_share*columns), 0, rim > -pad%half_arc), nint(diverging_share*columns), columns]
+      last = parts*last
+      do i = 1, 3
+         if (last(i) == last(i - 1)) cycle
+         angles(last(i - 1):last(i)) = pad%spread_angles(motion%position, ends(i - 1), ends(i), last(i) - last(i - 1))
+      end do
    end function angles
 end module ruptured_drive

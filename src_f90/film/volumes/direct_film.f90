@@ -40,6 +40,7 @@ module direct_film
       procedure :: force_of_rupture
       procedure :: field
       procedure :: start_from
+      procedure :: empty_columns
    end type direct_film_type
 
 contains
@@ -100,6 +101,14 @@ contains
          end if
       end associate
    end subroutine evaluate
+
+   !> How many columns from the trailing edge on the last film, with the Reynolds condition, has left.
+   pure integer function empty_columns(self) result(n)
+      class(direct_film_type), intent(in) :: self
+      do n = 0, self%grid%columns - 1
+         if (any(self%film(:self%grid%rows, n + 1) > 0)) return
+      end do
+   end function empty_columns
 
    !> Lets the next film start from the cells in which that on a grid of half as many columns and rows has ruptured.
    pure subroutine start_from(self, coarse)
