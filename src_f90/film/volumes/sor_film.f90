@@ -178,9 +178,12 @@ contains
             floor = -huge(floor)
             if (self%cavitation /= cavitation_none) floor = 0
             response%force = pad%grid%force(column_sums(pad, floor))
-            response%min_pressure = gap%cavitation_pressure + minval(pad%pressure, mask=pad%cells > 0)
-            response%max_pressure = gap%cavitation_pressure &
-               & + max(floor, maxval(pad%pressure, mask=pad%cells > 0))
+            associate (edges => [pad%grid%ambient, pad%grid%supply])
+               response%min_pressure = gap%cavitation_pressure &
+                  & + min(minval(edges), minval(pad%pressure, mask=pad%cells > 0))
+               response%max_pressure = gap%cavitation_pressure &
+                  & + max(floor, maxval(edges), maxval(pad%pressure, mask=pad%cells > 0))
+            end associate
             if (want_derivatives) call add_derivatives(self, pad, speed, response, ok)
          end if
          if (.not. ok) then
