@@ -49,6 +49,7 @@ program test_film_accuracy
       call reynolds(.false.)
       call reynolds(.true.)
    end if
+   if (runs('fields')) call fields()
    call report()
 
 contains
@@ -92,19 +93,20 @@ contains
       call expect(errors%pressure < limits(3), what//'highest pressure '//to_text(errors%pressure))
    end subroutine judge
 
-   !> The whole film by many modes, or by a part of them and of the cells.
-   function fine_film(state, part) result(film)
+   !> The film by many modes, or by a part of them and of the cells; whole or clipped.
+   function fine_film(state, part, clips) result(film)
       type(film_state), intent(in) :: state
       integer, intent(in) :: part
+      logical, intent(in) :: clips
       type(modal_film_type) :: film
-      film = new_modal_film([state%gap], fine_cells/part, fine_modes/part, .false.)
+      film = new_modal_film([state%gap], fine_cells/part, fine_modes/part, clips)
    end function fine_film
 
    type(volumes_type) function fine_answer(state)
       type(film_state), intent(in) :: state
       type(modal_film_type) :: film
       type(film_response) :: r(1)
-      film = fine_film(state, 1)
+      film = fine_film(state, 1, .false.)
       call film%evaluate([state%motion], shaft_speed, .true., r)
       fine_answer = volumes_type(r(1)%force, r(1)%derivatives, r(1)%max_pressure)
    end function fine_answer
@@ -181,7 +183,8 @@ contains
       logical, intent(in) :: ruptures, clips
       real(wp), intent(in) :: tolerance
       type(table_film_type) :: tables
-      tables = new_table_film([state%gap], [new_direct(state, 1, ruptures, clips)], ruptures .or. clips, clips, tolerance)
+      tables = new_table_film([state%gap], [new_direct(state, 1, ruptures, clips)], ruptures .or. clips, clips, &
+         & tolerance)
    end function new_tables
 
    !> `direct` with so many times its default volumes.
@@ -228,14 +231,14 @@ contains
       end do
    end subroutine gumbel
 
-   !> The film of fine modes, clipped where it is under tension: the integral of its pressure over points that crowd at
-   !> all edges, extrapolated from two numbers of points, as the middle rule is of second order.
+   !> The film of fine modes, clipped: the integral of its pressure over points that crowd at all edges, extrapolated
+   !> from two numbers of points, as the middle rule is of second order.
    type(volumes_type) function clipped(state)
       type(film_state), intent(in) :: state
       type(modal_film_type) :: film
       type(volumes_type) :: whole
       whole = fine_answer(state)
-      film = fine_film(state, 2)
+      film = fine_film(state, 2, .true.)
       clipped = extrapolated(integral(film, state, 120), integral(film, state, 240))
       clipped%max_pressure = max(0.0_wp, whole%max_pressure)
    end function clipped
@@ -260,7 +263,59 @@ contains
       end do
    end function integral
 
-   !> The force of the field, clipped; its points stay where the film of the state is thin.
+   !> The rebuilt pressure fields: their integral is the force that the solver has answered.
+   subroutine fields()
+      character(len=*), parameter :: names(6) = [character(len=24) :: 'modal, none', 'modal, gumbel', &
+         & 'direct 80 x 8, reynolds', 'sor 60 x 15, reynolds', 'auto, gumbel', 'auto, reynolds']
+      type(film_state) :: state
+      type(modal_film_type) :: modes
+      type(auto_film_type) :: direct
+      type(sor_film_type) :: sor
+      type(table_film_type) :: tables
+      real(wp) :: missing(size(names))
+      integer :: range, i, k
+      !> What sine and cosine leave over a cell, the part of the points, and of `auto` what `direct`, which solves its
+      !> fields, errs by.
+      real(wp), parameter :: limits(size(names)) = [1e-4_wp, 1e-4_wp, 3e-4_wp, 1e-4_wp, 1e-4_wp, 2e-2_wp]
+      missing = 0
+      do range = 1, 3
+         do i = 1, 20*times
+            state = random_film(ranges(range), ranges(range + 1), .true., .false.)
+            modes = converged_film(state%gap, .false., usual_error)
+            call add_missing(modes, state, missing(1))
+            modes = converged_film(state%gap, .true., usual_error)
+            call add_missing(modes, state, missing(2))
+            direct = new_direct(state, 1, .true., .false.)
+            call add_missing(direct, state, missing(3))
+            sor = new_sor_film([state%gap], sor_options(60, 15, tolerance=1e-7_wp, max_sweeps=100000, &
+               & cavitation=cavitation_reynolds))
+            call add_missing(sor, state, missing(4))
+            tables = new_tables(state, .false., .true., table_tolerances(1))
+            call add_missing(tables, state, missing(5))
+            tables = new_tables(state, .true., .false., table_tolerances(2))
+            call add_missing(tables, state, missing(6))
+         end do
+      end do
+      do k = 1, size(names)
+         print '(3a, es9.1)', 'field of ', names(k), ': integral less force ', missing(k)
+         call expect(missing(k) < limits(k), trim(names(k))//', integral less force '//to_text(missing(k)))
+      end do
+   end subroutine fields
+
+   !> Keeps the largest difference of the integral of a film's field and its force.
+   subroutine add_missing(film, state, missing)
+      class(film_solver_type), intent(inout) :: film
+      type(film_state), intent(in) :: state
+      real(wp), intent(inout) :: missing
+      type(film_response) :: r(1)
+      real(wp) :: force(2)
+      call film%evaluate([state%motion], shaft_speed, .false., r)
+      ! the middle rule is of second order
+      force = (4*field_force(film, state, state%motion, 360) - field_force(film, state, state%motion, 180))/3
+      missing = max(missing, norm2(force - r(1)%force)/state%force)
+   end subroutine add_missing
+
+   !> The force of the field; its points stay where the film of the state is thin.
    function field_force(film, state, motion, n) result(force)
       class(film_solver_type), intent(inout) :: film
       type(film_state), intent(in) :: state
@@ -270,7 +325,7 @@ contains
       real(wp) :: phi(n, 1), arc(n), z(n/5), width(n/5), p(n/5, n, 1), rows(n)
       call field_points(state, phi(:, 1), arc, z, width)
       call film%field([motion], shaft_speed, phi, z, p)
-      rows = matmul(width, max(0.0_wp, p(:, :, 1)))*arc
+      rows = matmul(width, p(:, :, 1))*arc
       force = -state%gap%pad_radius()*[dot_product(rows, sin(phi(:, 1))), dot_product(rows, cos(phi(:, 1)))]
    end function field_force
 
