@@ -58,8 +58,8 @@ contains
       complex(wp), intent(out) :: values(2*size(mass, 1))
       logical, intent(out) :: ok
       real(wp) :: matrix(2*size(mass, 1), 2*size(mass, 1)), per_mass(size(mass, 1), 2*size(mass, 1))
-      real(wp) :: factors(size(mass, 1), size(mass, 1)), re(2*size(mass, 1)), im(2*size(mass, 1)), none(1, 1)
-      real(wp) :: work(16*size(mass, 1))
+      real(wp) :: factors(size(mass, 1), size(mass, 1)), re(2*size(mass, 1)), im(2*size(mass, 1))
+      real(wp) :: work(16*size(mass, 1)), left(1, 1), right(1, 1)
       integer :: pivots(size(mass, 1)), info, i
       associate (n => size(mass, 1))
          per_mass(:, :n) = stiffness
@@ -73,7 +73,7 @@ contains
             matrix(i, n + i) = 1
          end do
          matrix(n + 1:, :) = per_mass
-         call dgeev('N', 'N', 2*n, matrix, 2*n, re, im, none, 1, none, 1, work, size(work), info)
+         call dgeev('N', 'N', 2*n, matrix, 2*n, re, im, left, 1, right, 1, work, size(work), info)
          ok = info == 0
          values = cmplx(re, im, wp)
       end associate
