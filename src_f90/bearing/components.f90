@@ -13,10 +13,11 @@ module components
    use contact_law, only: contact_law_type, make_contact_law
    use friction, only: friction_law, no_friction, bengisu_akay_friction, lugre_friction, &
       & default_bristle_damping
+   use asperity_contact, only: asperity_contact_type, new_asperity_contact, no_asperities
    use tilting_pad, only: tilting_pad_type
    implicit none (type, external)
    private
-   public :: make_film, make_law, make_friction, new_pads
+   public :: make_film, make_law, make_friction, new_asperities, new_pads
 
    !> Finite volumes along the arc and along half the width where the input leaves them to the solver, by the
    !> errors in docs/benchmarks.md.
@@ -128,6 +129,18 @@ contains
          end select
       end associate
    end subroutine make_friction
+
+   !> The contact of pads and journal.
+   pure type(asperity_contact_type) function new_asperities(scene) result(contact)
+      type(scene_type), intent(in) :: scene
+      associate (a => scene%asperity)
+         if (a%model == 'none') then
+            contact = no_asperities
+         else
+            contact = new_asperity_contact(a%roughness, a%elastic_modulus, a%factor, a%friction_coefficient)
+         end if
+      end associate
+   end function new_asperities
 
    !> The pads.
    pure function new_pads(scene) result(pads)

@@ -3,6 +3,7 @@ module tilting_pad
    use kinds, only: wp
    use film_solver, only: film_motion, film_response
    use pad_gap, only: pad_gap_type, pad_directions
+   use asperity_contact, only: asperity_load
    use contact_table, only: contact_table_type
    use friction, only: friction_law, friction_response
    use kinematics, only: journal_motion, pad_state, pad_position, pad_frame, frame_of, motion_of, motion_derivatives, &
@@ -36,7 +37,7 @@ module tilting_pad
 
    !> Loads of one pad at one instant.
    type :: pad_loads
-      !> Film force on the journal along global y and z, N.
+      !> Force of film and asperities on the journal along global y and z, N.
       real(wp) :: journal(2) = 0
       !> Contact force F_bs, N, and its derivative over the penetration, N/m (0 tilting-only).
       real(wp) :: contact = 0, contact_stiffness = 0
@@ -73,18 +74,21 @@ contains
    end function motion
 
    !> The loads in a state with a film force in the pad frame, N.
-   pure subroutine loads(self, frame, state, film_force, contact, friction, answer)
+   pure subroutine loads(self, frame, state, film_force, asperities, contact, friction, answer)
       class(tilting_pad_type), intent(in) :: self
       type(pad_frame), intent(in) :: frame
       type(pad_state), intent(in) :: state
       real(wp), intent(in) :: film_force(2)
+      type(asperity_load), intent(in) :: asperities
       type(contact_table_type), intent(in) :: contact
       class(friction_law), intent(in) :: friction
       type(pad_loads), intent(inout) :: answer
-      real(wp) :: inertial
-      answer%journal = to_global(frame, film_force)
+      real(wp) :: inertial, force(2)
+      force = film_force
+      if (asperities%touches) force = film_force + asperities%force
+      answer%journal = to_global(frame, force)
       inertial = self%mass*self%centre_radial*state%tilt_rate**2
-      answer%radial = -film_force(2) - self%weight*frame%s + inertial
+      answer%radial = -force(2) - self%weight*frame%s + inertial
       if (self%radial) then
          call contact%lookup(state%penetration, answer%contact, answer%contact_stiffness)
       else
@@ -92,23 +96,32 @@ contains
       end if
       answer%radial = answer%radial - answer%contact
       call friction%evaluate(self%ball_radius*state%tilt_rate, state%deflection, answer%contact, answer%friction)
-      answer%moment = -film_force(1)*self%position%centre_distance - self%ball_radius*answer%friction%force &
+      answer%moment = -force(1)*self%position%centre_distance - self%ball_radius*answer%friction%force &
          & - self%weight*(self%centre_tangential*frame%s - self%centre_radial*frame%c)
+      if (asperities%touches) answer%moment = answer%moment + asperities%moment
    end subroutine loads
 
-   !> The derivatives of the loads in the state in which these and the film were evaluated, film derivatives included.
-   pure subroutine derivatives(self, frame, motion, state, film, loads, answer)
+   !> The derivatives of the loads in the state in which these, film and asperities were evaluated, film derivatives
+   !> included.
+   pure subroutine derivatives(self, frame, motion, state, film, asperities, loads, answer)
       class(tilting_pad_type), intent(in) :: self
       type(pad_frame), intent(in) :: frame
       type(film_motion), intent(in) :: motion
       type(pad_state), intent(in) :: state
       type(film_response), intent(in) :: film
+      type(asperity_load), intent(in) :: asperities
       type(pad_loads), intent(in) :: loads
       type(pad_derivatives), intent(inout) :: answer
-      real(wp) :: force(2, columns)
+      real(wp) :: force(2, columns), across(2), of_motion(4, columns)
       integer :: k
-      force = matmul(film%derivatives, motion_derivatives(self%position, frame, motion, state%tilt_rate))
+      of_motion = motion_derivatives(self%position, frame, motion, state%tilt_rate)
+      force = matmul(film%derivatives, of_motion)
       answer%film = force
+      across = [-film%force(2), film%force(1)]
+      if (asperities%touches) then
+         force = force + matmul(asperities%force_slopes, of_motion(1:2, :))
+         across = across + [-asperities%force(2), asperities%force(1)]
+      end if
       associate (journal => answer%journal, contact => answer%contact, moment => answer%moment, radial => answer%radial)
          radial = -force(2, :)
          radial(tilt_column) = radial(tilt_column) + self%weight*frame%c
@@ -127,7 +140,8 @@ contains
             journal(:, k) = to_global(frame, force(:, k))
          end do
          ! the frame turns with the pad
-         journal(:, tilt_column) = journal(:, tilt_column) + to_global(frame, [-film%force(2), film%force(1)])
+         journal(:, tilt_column) = journal(:, tilt_column) + to_global(frame, across)
+         if (asperities%touches) moment = moment + matmul(asperities%moment_slopes, of_motion(1:2, :))
       end associate
    end subroutine derivatives
 

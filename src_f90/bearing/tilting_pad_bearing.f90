@@ -7,12 +7,13 @@ module tilting_pad_bearing
    use text, only: to_text
    use scene, only: scene_type
    use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_closed, film_not_converged
+   use asperity_contact, only: asperity_contact_type, asperity_load
    use contact_law, only: contact_law_type
    use contact_table, only: contact_table_type, new_contact_table
    use friction, only: friction_law, no_friction
    use kinematics, only: journal_motion, pad_state, pad_frame, columns
    use tilting_pad, only: tilting_pad_type, pad_loads, pad_derivatives
-   use components, only: make_film, make_law, make_friction, new_pads
+   use components, only: make_film, make_law, make_friction, new_asperities, new_pads
    implicit none (type, external)
    private
    public :: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
@@ -26,6 +27,8 @@ module tilting_pad_bearing
       real(wp) :: contact_force = 0, friction_moment = 0, film_force(2) = 0
       !> m; Pa.
       real(wp) :: min_film_thickness = 0, max_pressure = 0
+      !> Normal force between the asperities of pad and journal, N.
+      real(wp) :: asperity_force = 0
    end type pad_sample
 
    type :: tilting_pad_bearing_type
@@ -33,6 +36,8 @@ module tilting_pad_bearing
       !> The loads of each pad in the state evaluated last; their derivatives where they were taken last.
       type(pad_loads), allocatable :: loads(:)
       type(pad_derivatives), allocatable :: derivatives(:)
+      !> Contact of each pad with the journal in the state evaluated last.
+      type(asperity_load), allocatable :: asperity(:)
       !> Of each pad rates of tilt rate and penetration rate per moment and force, (2, 2, pad).
       real(wp), allocatable :: per_mass(:, :, :)
       class(friction_law), allocatable :: friction
@@ -41,11 +46,14 @@ module tilting_pad_bearing
       class(film_solver_type), allocatable, private :: film
       class(contact_law_type), allocatable, private :: law
       type(contact_table_type), private :: contact
+      type(asperity_contact_type) :: asperities
       !> Assembled clearance, m.
       real(wp), private :: clearance
       !> Of the state evaluated last.
       type(pad_frame), allocatable, private :: frame(:)
       type(film_motion), allocatable, private :: motion(:)
+      !> Motions at which the films are taken: those of the journal, but where it touches a pad.
+      type(film_motion), allocatable, private :: film_motion(:)
       type(film_response), allocatable, private :: response(:)
       !> rad/s.
       real(wp), private :: speed = 0
@@ -92,9 +100,10 @@ contains
       call make_friction(scene, bearing%friction)
       call make_film(scene, bearing%film)
       call make_law(scene, bearing%law)
+      bearing%asperities = new_asperities(scene)
       if (scene%tilting_radial()) bearing%contact = new_contact_table(bearing%law)
       allocate (bearing%loads(n), bearing%derivatives(n))
-      allocate (bearing%frame(n), bearing%motion(n), bearing%response(n))
+      allocate (bearing%frame(n), bearing%motion(n), bearing%asperity(n), bearing%film_motion(n), bearing%response(n))
    end function new_tilting_pad_bearing
 
    !> Sets the loads in a state, the speed in rad/s, and their derivatives where they are wanted. Refuses a state whose
@@ -111,6 +120,10 @@ contains
       do i = 1, size(self%pads)
          self%frame(i) = self%pads(i)%frame(journal, pads(i))
          self%motion(i) = self%pads(i)%motion(self%frame(i), journal, pads(i))
+         call self%asperities%evaluate(self%pads(i)%gap, self%pads(i)%directions, self%motion(i), speed, &
+            & self%asperity(i))
+         self%film_motion(i) = self%motion(i)
+         if (self%asperity(i)%touches) self%film_motion(i)%position = self%asperity(i)%film_position
       end do
       call self%evaluate_films(speed, want_derivatives)
       do i = 1, size(self%pads)
@@ -121,9 +134,9 @@ contains
          end if
       end do
       do i = 1, size(self%pads)
-         call self%set_loads(i, self%frame(i), pads(i), self%response(i)%force, self%loads(i))
+         call self%set_loads(i, self%frame(i), pads(i), self%response(i)%force, self%asperity(i), self%loads(i))
          if (want_derivatives) call self%pads(i)%derivatives(self%frame(i), self%motion(i), pads(i), self%response(i), &
-            & self%loads(i), self%derivatives(i))
+            & self%asperity(i), self%loads(i), self%derivatives(i))
       end do
    end subroutine evaluate
 
@@ -133,32 +146,41 @@ contains
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       real(wp) :: started
+      integer :: i
       self%speed = speed
       if (mod(self%evaluations, timing_stride) == 0) then
          ! tables are built now and then: their time must not count for evaluations without
          started = wall_clock() - self%film%counters%building
-         call self%film%evaluate(self%motion, speed, want_derivatives, self%response)
+         call self%film%evaluate(self%film_motion, speed, want_derivatives, self%response)
          associate (counters => self%film%counters)
             counters%seconds = counters%seconds + timing_stride*(wall_clock() - counters%building - started)
          end associate
       else
-         call self%film%evaluate(self%motion, speed, want_derivatives, self%response)
+         call self%film%evaluate(self%film_motion, speed, want_derivatives, self%response)
       end if
       self%evaluations = self%evaluations + 1
+      do i = 1, size(self%pads)
+         associate (film => self%response(i), asperity => self%asperity(i))
+            if (.not. asperity%touches) cycle
+            film%min_film_thickness = asperity%thickness
+            if (want_derivatives) film%derivatives(:, 1:2) = matmul(film%derivatives(:, 1:2), asperity%film_slopes)
+         end associate
+      end do
    end subroutine evaluate_films
 
-   !> The loads of a pad with a film force in its frame, N.
-   pure subroutine set_loads(self, pad, frame, state, film_force, loads)
+   !> The loads of a pad with a film force in its frame, N, and what the asperities bear.
+   pure subroutine set_loads(self, pad, frame, state, film_force, asperity, loads)
       class(tilting_pad_bearing_type), intent(in) :: self
       integer, intent(in) :: pad
       type(pad_frame), intent(in) :: frame
       type(pad_state), intent(in) :: state
       real(wp), intent(in) :: film_force(2)
+      type(asperity_load), intent(in) :: asperity
       type(pad_loads), intent(inout) :: loads
       if (self%rubs) then
-         call self%pads(pad)%loads(frame, state, film_force, self%contact, self%friction, loads)
+         call self%pads(pad)%loads(frame, state, film_force, asperity, self%contact, self%friction, loads)
       else
-         call self%pads(pad)%loads(frame, state, film_force, self%contact, no_rubbing, loads)
+         call self%pads(pad)%loads(frame, state, film_force, asperity, self%contact, no_rubbing, loads)
       end if
    end subroutine set_loads
 
@@ -201,7 +223,7 @@ contains
       real(wp) :: output(pad_outputs*size(self%pads))
       real(wp) :: added(2)
       integer :: i, k
-      call self%film%take_pressures(self%motion, self%speed, self%response)
+      call self%film%take_pressures(self%film_motion, self%speed, self%response)
       do i = 1, size(self%pads)
          associate (film => self%response(i), derivatives => self%derivatives(i)%film)
             added = 0
@@ -214,23 +236,26 @@ contains
    end function output
 
    !> The samples of all pads in a state whose outputs are known: without the film solver.
-   pure subroutine take_samples(self, journal, pads, output, samples)
+   pure subroutine take_samples(self, journal, pads, speed, output, samples)
       class(tilting_pad_bearing_type), intent(in) :: self
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: pads(:)
+      !> rad/s.
+      real(wp), intent(in) :: speed
       real(wp), intent(in) :: output(:)
       type(pad_sample), intent(inout) :: samples(:)
       type(pad_frame) :: frame
+      type(asperity_load) :: asperity
       type(pad_loads) :: loads
       integer :: i
       do i = 1, size(pads)
          frame = self%pads(i)%frame(journal, pads(i))
          associate (film => output(pad_outputs*(i - 1) + 1:pad_outputs*i), pad => self%pads(i), gap => self%pads(i)%gap)
-            call self%set_loads(i, frame, pads(i), film(1:2), loads)
+            call self%asperities%evaluate(gap, pad%directions, pad%motion(frame, journal, pads(i)), speed, asperity)
+            call self%set_loads(i, frame, pads(i), film(1:2), asperity, loads)
             ! between steps at which it leaps a polynomial may undershoot
             samples(i) = pad_sample(loads%contact, pad%ball_radius*loads%friction%force, film(1:2), &
-               & gap%min_film_thickness(pad%motion(frame, journal, pads(i)), pad%directions), &
-               & max(film(3), gap%supply_pressure, gap%ambient_pressure))
+               & asperity%thickness, max(film(3), gap%supply_pressure, gap%ambient_pressure), asperity%carried())
          end associate
       end do
    end subroutine take_samples
@@ -240,11 +265,11 @@ contains
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(pad_sample) :: sampled(size(self%pads))
       integer :: i
-      call self%film%take_pressures(self%motion, self%speed, self%response)
+      call self%film%take_pressures(self%film_motion, self%speed, self%response)
       do i = 1, size(self%pads)
          associate (film => self%response(i), loads => self%loads(i))
             sampled(i) = pad_sample(loads%contact, self%pads(i)%ball_radius*loads%friction%force, film%force, &
-               & film%min_film_thickness, film%max_pressure)
+               & film%min_film_thickness, film%max_pressure, self%asperity(i)%carried())
          end associate
       end do
    end function sampled
@@ -255,7 +280,7 @@ contains
       class(tilting_pad_bearing_type), intent(inout) :: self
       real(wp), intent(in) :: speed, phi(:, :), z(:)
       real(wp), intent(out) :: pressure(:, :, :)
-      call self%film%field(self%motion, speed, phi, z, pressure)
+      call self%film%field(self%film_motion, speed, phi, z, pressure)
    end subroutine pressure_field
 
    !> Names the pad whose film was nearly closed in the state evaluated last, if there is one; else empty.

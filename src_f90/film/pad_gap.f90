@@ -25,6 +25,7 @@ module pad_gap
       procedure :: thickness
       procedure :: directions
       procedure :: min_film_thickness
+      procedure :: thinnest_place
    end type pad_gap_type
 
    !> (sin phi, cos phi) at the edges and the middle of the arc, and of half the arc.
@@ -85,4 +86,25 @@ contains
             & dot_product(motion%position, directions%trailing))
       end if
    end function min_film_thickness
+
+   !> The direction (sin phi, cos phi) of the pad's thinnest place, and how fast it turns as the journal moves across
+   !> it, 1/m: not at all at an edge.
+   pure subroutine thinnest_place(self, position, directions, towards, turning)
+      class(pad_gap_type), intent(in) :: self
+      !> (e_y', e_z'), m.
+      real(wp), intent(in) :: position(2)
+      type(pad_directions), intent(in) :: directions
+      real(wp), intent(out) :: towards(2), turning
+      real(wp) :: e
+      e = sqrt(dot_product(position, position))
+      turning = 0
+      if (dot_product(position, directions%middle) > e*directions%half(2)) then
+         towards = position/e
+         turning = 1/e
+      else if (dot_product(position, directions%leading) > dot_product(position, directions%trailing)) then
+         towards = directions%leading
+      else
+         towards = directions%trailing
+      end if
+   end subroutine thinnest_place
 end module pad_gap

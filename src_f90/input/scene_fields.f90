@@ -4,7 +4,8 @@ module scene_fields
    use kinds, only: wp
    use field_visitor, only: visitor_type, field, choice
    use scene, only: scene_type, case_type, rotor_type, operation_type, bearing_type, pads_type, pivot_type, &
-      & friction_type, start_type, film_type, integration_type, output_type, mass_range, inertia_range, centre_range
+      & friction_type, asperity_type, start_type, film_type, integration_type, output_type, mass_range, inertia_range, &
+      & centre_range
    implicit none (type, external)
    private
    public :: visit_scene, title_variable, checkpoint_variable, pads_variable
@@ -29,6 +30,7 @@ contains
       call visit_pads(scene%pads, v)
       call visit_pivot(scene%pivot, v)
       call visit_friction(scene%friction, v)
+      call visit_asperity(scene%asperity, v)
       call visit_start(scene%start, v)
       call visit_film(scene%film, v)
       call visit_integration(scene%integration, v)
@@ -160,6 +162,23 @@ contains
       call v%number(friction%characteristic_load, field('characteristic_load', 1e-6_wp, 1e12_wp, 'N', &
          & 'LuGre: characteristic load N_m of eq (28)'))
    end subroutine visit_friction
+
+   subroutine visit_asperity(asperity, v)
+      type(asperity_type), intent(inout) :: asperity
+      class(visitor_type), intent(inout) :: v
+      call v%group('asperity', 'Contact of pad and journal where the film is thinner than 4 times their roughness')
+      call v%word(asperity%model, choice('model', 'greenwood_tripp none', &
+         & 'greenwood_tripp: pressure of the asperities; none: a film that closes ends the run'))
+      call v%number(asperity%roughness, field('roughness', 1e-9_wp, 1e-3_wp, 'm', &
+         & 'combined rms roughness sigma, the root of the sum of the squares of both; 0.5 um: ground or fine turned'))
+      call v%number(asperity%elastic_modulus, field('elastic_modulus', 1e5_wp, 1e14_wp, 'Pa', &
+         & 'composite modulus E'', 1/E'' = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2; 47 GPa: steel on white metal ' &
+         & //'(210 and 52 GPa)'))
+      call v%number(asperity%factor, field('factor', 1e-9_wp, 1.0_wp, '1', &
+         & 'K'' = 16 sqrt(2) pi/15 (sigma beta eta)^2 (sigma/beta)^0.5; 0.003: upper end of the usual 0.0003 to 0.003'))
+      call v%number(asperity%friction_coefficient, field('friction_coefficient', 0.0_wp, 10.0_wp, '1', &
+         & 'boundary friction of touching asperities; 0.1: usual for oiled metals'))
+   end subroutine visit_asperity
 
    subroutine visit_start(start, v)
       type(start_type), intent(inout) :: start

@@ -18,8 +18,8 @@ module equations_of_motion
    !> What is sampled at a time, s: shaft angle, rad; speed, rad/s; journal; states and loads of the pads.
    type :: model_sample
       real(wp) :: time = 0, shaft_angle = 0, speed = 0
-      !> Whether the pads have penetrations and bristle deflections.
-      logical :: radial = .false., bristles = .false.
+      !> Whether the pads have penetrations and bristle deflections, and whether their asperities may touch.
+      logical :: radial = .false., bristles = .false., asperities = .false.
       type(journal_motion) :: journal
       type(pad_state), allocatable :: states(:)
       type(pad_sample), allocatable :: loads(:)
@@ -249,13 +249,14 @@ contains
       type(model_sample), intent(inout) :: sample
       sample%radial = self%layout%radial
       sample%bristles = self%layout%bristles
+      sample%asperities = self%bearing%asperities%act()
       sample%time = t
       sample%shaft_angle = self%point%shaft_angle(t)
       sample%speed = self%point%speed(t)
       sample%journal = self%rotor%journal(y(:self%rotor%states))
       if (.not. allocated(sample%states)) allocate (sample%states(self%layout%pads), sample%loads(self%layout%pads))
       sample%states(:) = self%layout%pad_states(y)
-      call self%bearing%take_samples(sample%journal, sample%states, output, sample%loads)
+      call self%bearing%take_samples(sample%journal, sample%states, sample%speed, output, sample%loads)
    end subroutine take_sample
 
    !> What is sampled of the pads where the model was evaluated last.

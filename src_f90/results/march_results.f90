@@ -11,7 +11,7 @@ module march_results
    public :: add_sample, put_spectrum
 
    !> Values of a sample: of the journal, and of a pad at most.
-   integer, parameter :: of_journal = 7, of_pad = 11
+   integer, parameter :: of_journal = 7, of_pad = 12
 
 contains
 
@@ -57,6 +57,10 @@ contains
                values(i, k + 1) = state%deflection
                k = k + 1
             end if
+            if (sample%asperities) then
+               values(i, k + 1) = loads%asperity_force
+               k = k + 1
+            end if
          end associate
       end do
       n = k*pads
@@ -86,6 +90,7 @@ contains
          call each('pad_penetration_rate', 'm/s', 'pivot penetration rate')
       end if
       if (sample%bristles) call each('bristle_deflection', 'm', 'bristle deflection')
+      if (sample%asperities) call each('asperity_force', 'N', 'normal force between the asperities of pad and journal')
    contains
       subroutine one(name, units, long_name)
          character(len=*), intent(in) :: name, units, long_name

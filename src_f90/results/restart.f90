@@ -74,6 +74,8 @@ contains
          error%status = system_error
          call add_context(error, path//': its input cannot be read')
       end if
+      ! a run of a program that had no asperities goes on without
+      if (index(input, newline//'&asperity') == 0) found%scene%asperity%model = 'none'
       found%complete = complete == 1
    end subroutine read_result
 

@@ -6,7 +6,7 @@ module scene
    private
    public :: scene_type, max_pads, unset, is_set, mass_range, inertia_range, centre_range
    public :: case_type, rotor_type, operation_type, bearing_type, pads_type, pivot_type, friction_type
-   public :: start_type, film_type, integration_type, output_type
+   public :: asperity_type, start_type, film_type, integration_type, output_type
 
    !> Most pads of a bearing.
    integer, parameter :: max_pads = 24
@@ -76,6 +76,14 @@ module scene
       real(wp) :: characteristic_load = 1e4_wp
    end type friction_type
 
+   type :: asperity_type
+      !> 'greenwood_tripp' or 'none'.
+      character(len=:), allocatable :: model
+      !> Combined rms roughness sigma of pad and journal, m; composite modulus E' of steel on white metal, Pa; K'.
+      real(wp) :: roughness = 0.5e-6_wp, elastic_modulus = 4.7e10_wp, factor = 3e-3_wp
+      real(wp) :: friction_coefficient = 0.1_wp
+   end type asperity_type
+
    type :: start_type
       !> 'equilibrium', 'partial', 'centred', 'given' or 'file'.
       character(len=:), allocatable :: from
@@ -127,6 +135,7 @@ module scene
       type(pads_type) :: pads
       type(pivot_type) :: pivot
       type(friction_type) :: friction
+      type(asperity_type) :: asperity
       type(start_type) :: start
       type(film_type) :: film
       type(integration_type) :: integration
@@ -163,6 +172,7 @@ contains
       scene%pads%motion = 'tilting_radial'
       scene%pivot%law = 'fang'
       scene%friction%model = 'none'
+      scene%asperity%model = 'greenwood_tripp'
       scene%start%from = 'equilibrium'
       scene%start%file = ''
       scene%start%pad_tilt = [0.0_wp, 0.0_wp]

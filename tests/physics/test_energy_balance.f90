@@ -1,11 +1,12 @@
-!> Energy over a march: kinetic energy of journal and pads, their height, and what the pivots store change
+!> Energy over a march: kinetic energy of journal and pads, their height, and what pivots and asperities store change
 !> by the work of films, unbalance and friction. That work is marched along as one more state.
 module energy_ledger
    use kinds, only: wp, i8
    use errors, only: error_type
    use ode_model, only: ode_model_type
    use march_observer, only: march_observer_type
-   use kinematics, only: pad_state
+   use film_solver, only: film_motion
+   use kinematics, only: journal_motion, pad_state
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model
    implicit none (type, external)
@@ -15,6 +16,8 @@ module energy_ledger
    !> The bearing with the work done, the friction's share of it, and the sum of its amounts.
    type, extends(ode_model_type) :: ledger
       type(bearing_model) :: bearing
+      !> Whether a pad has touched the journal.
+      logical :: touched = .false.
    contains
       procedure :: rhs => ledger_rhs
       procedure :: linearize => ledger_linearize
@@ -37,7 +40,7 @@ contains
       logical, intent(out) :: ok
       type(pad_sample), allocatable :: films(:)
       type(pad_state), allocatable :: pads(:)
-      real(wp) :: power(4), film(2), frame(2, 2), a, speed, phase, weight
+      real(wp) :: power(6), film(2), frame(2, 2), a, speed, phase, weight
       integer :: pad
       associate (b => self%bearing, p => self%bearing%scene%pads, n => self%bearing%n)
          call b%rhs(t, y(:n), dydt(:n), ok)
@@ -68,11 +71,81 @@ contains
                end if
             end associate
          end do
+         if (any(b%bearing%asperity%touches)) then
+            self%touched = .true.
+            call add_asperities(b, y(:n), pads, power(5:6))
+         end if
          dydt(n + 1) = sum(power)
-         dydt(n + 2) = power(3)
+         dydt(n + 2) = power(3) + power(5)
          dydt(n + 3) = sum(abs(power))
       end associate
    end subroutine ledger_rhs
+
+   !> Power of the asperities beside what they store: of their friction, and what eqs (3)-(4) hold beside a potential, as
+   !> their arms are those of the arc's centre.
+   subroutine add_asperities(bearing, y, pads, power)
+      type(bearing_model), intent(in) :: bearing
+      real(wp), intent(in) :: y(:)
+      type(pad_state), intent(in) :: pads(:)
+      real(wp), intent(inout) :: power(2)
+      type(journal_motion) :: journal
+      type(film_motion) :: motion
+      real(wp) :: pushed(2), friction, coefficient
+      integer :: i
+      journal = bearing%rotor%journal(y(:4))
+      coefficient = bearing%scene%asperity%friction_coefficient
+      do i = 1, size(pads)
+         associate (load => bearing%bearing%asperity(i), pad => bearing%bearing%pads(i))
+            if (.not. load%touches) cycle
+            motion = pad%motion(pad%frame(journal, pads(i)), journal, pads(i))
+            ! the force is -pushed + coefficient (pushed(2), -pushed(1))
+            pushed = -[load%force(1) + coefficient*load%force(2), load%force(2) - coefficient*load%force(1)] &
+               & /(1 + coefficient**2)
+            friction = taken(i, coefficient*[pushed(2), -pushed(1)]) + load%moment*pads(i)%tilt_rate
+            power(1) = power(1) + friction
+            power(2) = power(2) + taken(i, -pushed) + dot_product(pushed, motion%velocity)
+         end associate
+      end do
+
+   contains
+
+      !> Power of a force on the journal in the frame of a pad, and of its opposite on the pad, W.
+      real(wp) function taken(i, force)
+         integer, intent(in) :: i
+         real(wp), intent(in) :: force(2)
+         real(wp) :: a
+         a = bearing%bearing%pads(i)%position%angle - pads(i)%tilt
+         taken = dot_product(force, [cos(a)*y(3) - sin(a)*y(4), sin(a)*y(3) + cos(a)*y(4)]) &
+            & - force(1)*bearing%bearing%pads(i)%position%centre_distance*pads(i)%tilt_rate
+         if (bearing%layout%radial) taken = taken - force(2)*pads(i)%penetration_rate
+      end function taken
+   end subroutine add_asperities
+
+   !> What the asperities of a pad store, J: the pressure's potential by the midpoint rule over the arc.
+   real(wp) function pressed(bearing, y, pad)
+      type(bearing_model), intent(in) :: bearing
+      real(wp), intent(in) :: y(:)
+      integer, intent(in) :: pad
+      integer, parameter :: n = 1000000
+      type(film_motion) :: motion
+      type(journal_motion) :: journal
+      type(pad_state), allocatable :: pads(:)
+      real(wp) :: phi, depth
+      integer :: i
+      journal = bearing%rotor%journal(y(:4))
+      pads = bearing%layout%pad_states(y)
+      pressed = 0
+      associate (p => bearing%bearing%pads(pad), gap => bearing%bearing%pads(pad)%gap, a => bearing%scene%asperity)
+         motion = p%motion(p%frame(journal, pads(pad)), journal, pads(pad))
+         do i = 1, n
+            phi = -gap%trailing_angle + (i - 0.5_wp)*gap%arc()/n
+            depth = 4 - gap%thickness(motion, sin(phi), cos(phi))/a%roughness
+            if (depth > 0) pressed = pressed + depth**7.804_wp
+         end do
+         pressed = pressed*a%factor*a%elastic_modulus*4.4086e-5_wp*a%roughness/7.804_wp &
+            & *gap%pad_radius()*gap%axial_length*gap%arc()/n
+      end associate
+   end function pressed
 
    subroutine ledger_linearize(self, t, y, ok)
       class(ledger), intent(inout) :: self
@@ -99,7 +172,7 @@ contains
       call self%bearing%solve(gamma, b(:self%bearing%n), ok)
    end subroutine ledger_solve
 
-   !> Energy of a state: (kinetic of the journal, of the pads, height, stored in the pivots), J.
+   !> Energy of a state: (kinetic of the journal, of the pads, height, stored in pivots and asperities), J.
    function energy_of(bearing, y) result(energy)
       type(bearing_model), intent(in) :: bearing
       real(wp), intent(in) :: y(:)
@@ -122,6 +195,7 @@ contains
                      & + p%centre_tangential(pad)*state%tilt_rate*state%penetration_rate)
                   energy(4) = energy(4) + stored(b, state%penetration)
                end if
+               energy(4) = energy(4) + pressed(b, y, pad)
             end associate
          end do
       end associate
@@ -163,7 +237,7 @@ program test_energy_balance
    use text, only: to_text
    use errors, only: error_type
    use scene, only: scene_type
-   use equations_of_motion, only: new_bearing_model
+   use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use marching, only: march, march_options, sample_plan
    use integrator_counts, only: integrator_counts_type
@@ -176,6 +250,11 @@ program test_energy_balance
       call balance('tilting_radial', 'none', 0.05_wp)
       call balance('tilting_radial', 'lugre', 0.05_wp)
       call balance('tilting_only', 'none', 0.05_wp)
+   end if
+   if (runs('bouncing')) then
+      call bouncing('tilting_radial', 0.0_wp)
+      call bouncing('tilting_radial', 0.2_wp)
+      call bouncing('tilting_only', 0.2_wp)
    end if
    call report()
 
@@ -193,25 +272,25 @@ contains
       scene%film%cavitation = 'none'
    end function shaken_scene
 
-   !> Over 6 ms (two thirds of a revolution) the energy changes by the work done. A step's error is the
-   !> tolerance, of every state in its own scale and of the work in that of the power that flows: with n steps
-   !> the balance closes to n tolerances of the work's amounts, and closer with closer tolerance.
+   !> Over 6 ms (two thirds of a revolution) the energy changes by the work done.
    subroutine balance(motion, friction, unbalance)
       character(len=*), intent(in) :: motion, friction
       real(wp), intent(in) :: unbalance
-      real(wp) :: gap, coarse, flow, rubbed, steps
+      type(scene_type) :: scene
+      type(bearing_model) :: bearing
+      type(equilibrium_type) :: static
+      type(error_type), allocatable :: error
+      real(wp) :: rubbed
+      logical :: touched
       character(len=:), allocatable :: what
-      integer :: e
       what = motion//', '//friction//', unbalance '//to_text(unbalance)
-      coarse = 0
-      do e = -4, -8, -2
-         call marched(shaken_scene(motion, friction, unbalance), 10.0_wp**e, gap, flow, rubbed, steps)
-         call expect(gap < steps*10.0_wp**e*flow, 'energy balance at 1e'//to_text(e)//': '//to_text(gap)//' of ' &
-            & //to_text(flow)//' J in '//to_text(steps)//' steps, '//what)
-         if (e > -8) coarse = max(coarse, gap)
-      end do
-      ! errors of a single tolerance may cancel
-      call expect(gap < 0.1_wp*coarse, 'a closer balance: '//to_text(gap)//' after '//to_text(coarse)//', '//what)
+      scene = shaken_scene(motion, friction, unbalance)
+      bearing = new_bearing_model(scene)
+      call find_equilibrium(bearing, static, error)
+      call expect_no_error(error, 'the equilibrium is found')
+      call closes(scene, bearing%at_rest(static%journal + [10e-6_wp, 5e-6_wp], static%tilt + [1e-4_wp, -5e-5_wp], &
+         & static%penetration*[1.02_wp, 0.97_wp]), what, rubbed, touched)
+      call expect(.not. touched, 'nothing touches, '//what)
       if (friction == 'none') then
          call expect(abs(rubbed) <= 0, 'nothing rubs, '//what)
       else
@@ -219,36 +298,90 @@ contains
       end if
    end subroutine balance
 
-   !> |change of energy - work|, the sum of the work's amounts, the friction's work, J, and the steps.
-   subroutine marched(scene, tolerance, gap, flow, rubbed, steps)
+   !> A pad above the journal strikes it with its leading edge and bounces: what the asperities store comes back, and what
+   !> their friction takes is work.
+   subroutine bouncing(motion, coefficient)
+      character(len=*), intent(in) :: motion
+      real(wp), intent(in) :: coefficient
+      type(scene_type) :: scene
+      type(bearing_model) :: bearing
+      real(wp), allocatable :: start(:)
+      real(wp) :: rubbed
+      logical :: touched
+      character(len=:), allocatable :: what
+      what = 'bouncing, '//motion//', friction '//to_text(coefficient)
+      scene = shaken_scene(motion, 'none', 0.0_wp)
+      scene%film%cavitation = 'gumbel'
+      scene%asperity%friction_coefficient = coefficient
+      associate (p => scene%pads)
+         p%pivot_angle_deg = [-45.0_wp, 225.0_wp, 90.0_wp]
+         p%arc_deg = spread(p%arc_deg(1), 1, 3)
+         p%pivot_ratio = spread(p%pivot_ratio(1), 1, 3)
+         p%pivot_distance = spread(p%pivot_distance(1), 1, 3)
+         p%mass = spread(p%mass(1), 1, 3)
+         p%inertia = spread(p%inertia(1), 1, 3)
+         p%centre_radial = spread(p%centre_radial(1), 1, 3)
+         p%centre_tangential = [2e-3_wp, -3e-3_wp, 1e-3_wp]
+      end associate
+      bearing = new_bearing_model(scene)
+      start = bearing%at_rest([-55e-6_wp, 0.0_wp], [-0.2e-3_wp, 1.03e-3_wp, -3.4e-3_wp], [7e-6_wp, 7e-6_wp, 1e-6_wp])
+      start(bearing%layout%tilt_rate(3)) = -1
+      call closes(scene, start, what, rubbed, touched)
+      call expect(touched, 'the edge strikes, '//what)
+      call expect(merge(rubbed < 0, abs(rubbed) <= 0, coefficient > 0), 'friction takes work alone: ' &
+         & //to_text(rubbed)//' J, '//what)
+   end subroutine bouncing
+
+   !> Expects that energy and work balance over 6 ms. A step's error is the tolerance, of every state in its own scale
+   !> and of the work in that of the power that flows: with n steps the balance closes to n tolerances of the work's
+   !> amounts, and closer with closer tolerance.
+   subroutine closes(scene, start, what, rubbed, touched)
       type(scene_type), intent(in) :: scene
-      real(wp), intent(in) :: tolerance
+      real(wp), intent(in) :: start(:)
+      character(len=*), intent(in) :: what
+      real(wp), intent(out) :: rubbed
+      logical, intent(out) :: touched
+      real(wp) :: gap, coarse, flow, steps
+      integer :: e
+      coarse = 0
+      do e = -4, -8, -2
+         call marched(scene, start, 10.0_wp**e, gap, flow, rubbed, steps, touched)
+         call expect(gap < steps*10.0_wp**e*flow, 'energy balance at 1e'//to_text(e)//': '//to_text(gap)//' of ' &
+            & //to_text(flow)//' J in '//to_text(steps)//' steps, '//what)
+         if (e > -8) coarse = max(coarse, gap)
+      end do
+      ! errors of a single tolerance may cancel
+      call expect(gap < 0.1_wp*coarse, 'a closer balance: '//to_text(gap)//' after '//to_text(coarse)//', '//what)
+   end subroutine closes
+
+   !> |change of energy - work|, the sum of the work's amounts, the friction's work, J, the steps, and whether a pad
+   !> touched the journal.
+   subroutine marched(scene, start, tolerance, gap, flow, rubbed, steps, touched)
+      type(scene_type), intent(in) :: scene
+      real(wp), intent(in) :: start(:), tolerance
       real(wp), intent(out) :: gap, flow, rubbed, steps
+      logical, intent(out) :: touched
       type(ledger) :: model
       type(silent) :: observer
-      type(equilibrium_type) :: static
       type(march_options) :: options
       type(integrator_counts_type) :: statistics
       type(error_type), allocatable :: error
-      real(wp), allocatable :: y(:), start(:)
-      call find_equilibrium(new_bearing_model(scene), static, error)
-      call expect_no_error(error, 'the equilibrium is found')
+      real(wp), allocatable :: y(:)
       model%bearing = new_bearing_model(scene)
       model%n = model%bearing%n + 3
       associate (n => model%bearing%n)
-         y = [model%bearing%at_rest(static%journal + [10e-6_wp, 5e-6_wp], static%tilt + [1e-4_wp, -5e-5_wp], &
-            & static%penetration*[1.02_wp, 0.97_wp]), 0.0_wp, 0.0_wp, 0.0_wp]
-         start = y
+         y = [start, 0.0_wp, 0.0_wp, 0.0_wp]
          options%relative_tolerance = tolerance
          ! work: of the order of the load times the clearance
          options%absolute_tolerance = tolerance*[model%bearing%scale, 1.0_wp, 1.0_wp, 1.0_wp]
          call march(model, options, 0.0_wp, 6e-3_wp, sample_plan(), y, observer, statistics, error)
          call expect_no_error(error, 'the march ends well')
          if (allocated(error)) call expect(.false., error%message)
-         gap = abs(sum(energy_of(model%bearing, y(:n)) - energy_of(model%bearing, start(:n))) - y(n + 1))
+         gap = abs(sum(energy_of(model%bearing, y(:n)) - energy_of(model%bearing, start)) - y(n + 1))
          rubbed = y(n + 2)
          flow = y(n + 3)
       end associate
+      touched = model%touched
       steps = real(statistics%steps, wp)
    end subroutine marched
 end program test_energy_balance

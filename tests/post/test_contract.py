@@ -25,6 +25,7 @@ SERIES = {
     "film_force_radial": (PADS, "N"),
     "min_film_thickness": (PADS, "m"),
     "max_pressure": (PADS, "Pa"),
+    "asperity_force": (PADS, "N"),
 }
 CONSTANT = {"pad": (("pad",), "1"), "pivot_angle": (("pad",), "rad")}
 EQUILIBRIUM = {

@@ -169,7 +169,7 @@ def test_orders_of_a_runup(longer):
 def test_every_series_can_be_drawn_and_has_a_unit(run):
     case = run("lugre")
     series = [name for name in case.file if getattr(case.file[name], "shape", ())[:1] == (case.samples,)]
-    assert len(series) == 18
+    assert len(series) == 19
     for name in series:
         ax = tiltpad.plots.waveform(case, name=name, last=1)
         assert re.search(r" \(.+\)$", ax.get_ylabel()), name

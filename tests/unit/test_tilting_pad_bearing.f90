@@ -18,10 +18,12 @@ program test_tilting_pad_bearing
 
    do i = 1, size(motions)
       do k = 1, size(frictions)
-         if (runs('derivatives')) call derivatives(motions(i), frictions(k))
+         if (runs('derivatives')) call derivatives(motions(i), frictions(k), .false.)
+         if (runs('derivatives_in_contact')) call derivatives(motions(i), frictions(k), .true.)
       end do
       if (runs('mass_matrix')) call mass_matrix(motions(i))
-      if (runs('samples')) call samples(motions(i))
+      if (runs('samples')) call samples(motions(i), .false.)
+      if (runs('samples_in_contact')) call samples(motions(i), .true.)
    end do
    if (runs('operating_point')) call operating_point()
    call report()
@@ -31,7 +33,11 @@ contains
    !> Heavy pads off their balance on films without rupture, hence smooth, solved closely.
    type(tilting_pad_bearing_type) function heavy_bearing(motion, friction) result(bearing)
       character(len=*), intent(in) :: motion, friction
-      type(scene_type) :: scene
+      bearing = new_tilting_pad_bearing(heavy_scene(motion, friction))
+   end function heavy_bearing
+
+   type(scene_type) function heavy_scene(motion, friction) result(scene)
+      character(len=*), intent(in) :: motion, friction
       scene = scene_type()
       scene%pads%motion = trim(motion)
       scene%friction%model = trim(friction)
@@ -42,8 +48,18 @@ contains
       scene%pads%pivot_ratio = [0.5_wp, 0.6_wp]
       scene%film%solver = 'modal'
       scene%film%cavitation = 'none'
+   end function heavy_scene
+
+   !> The same bearing with asperities as high as the films are thick, so that differences over steps of its films are
+   !> close: 4 sigma = 100 um, K' E' by which they bear about as much as the films.
+   type(tilting_pad_bearing_type) function rough_bearing(motion, friction) result(bearing)
+      character(len=*), intent(in) :: motion, friction
+      type(scene_type) :: scene
+      scene = heavy_scene(motion, friction)
+      scene%asperity%roughness = 25e-6_wp
+      scene%asperity%elastic_modulus = 1e9_wp
       bearing = new_tilting_pad_bearing(scene)
-   end function heavy_bearing
+   end function rough_bearing
 
    !> Pads that carry, tilted, in motion, sliding at some mm/s: away from the kinks of friction.
    subroutine draw(journal, pads)
@@ -84,8 +100,10 @@ contains
    !> Five-point differences with steps of 1e-3 of what changes the film: error 1e-12 times the fifth derivative, some
    !> 1e3, rounding 1e-16 of loads of 1e5 N over steps of 1e-3; each row by its largest entry times its step. The pads'
    !> own weight makes 1e-3 of the rows that it stands in, so 1e-7 shows every term.
-   subroutine derivatives(motion, friction)
+   subroutine derivatives(motion, friction, rough)
       character(len=*), intent(in) :: motion, friction
+      !> Whether asperities touch.
+      logical, intent(in) :: rough
       real(wp), parameter :: h = 1e-3_wp, offsets(4) = [-2*h, -h, h, 2*h]
       real(wp), parameter :: weights(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/(12*h)
       real(wp), parameter :: steps(columns) = [80e-6_wp, 80e-6_wp, 0.05_wp, 0.05_wp, 1e-3_wp, 0.2_wp, 7e-6_wp, 5e-3_wp]
@@ -99,8 +117,10 @@ contains
       integer :: pad, column, k, row
       what = trim(motion)//', '//trim(friction)
       bearing = heavy_bearing(motion, friction)
+      if (rough) bearing = rough_bearing(motion, friction)
       call draw(journal, pads)
       call bearing%evaluate(journal, pads, speed, .true., refusal, all_ok)
+      call expect(all(bearing%asperity%touches .eqv. rough), 'asperities touch, or not, '//what)
       taken = bearing%derivatives
       do pad = 1, 2
          call bearing%pads(pad)%friction_derivatives(bearing%loads(pad)%friction, taken(pad)%contact, of_moment, &
@@ -128,7 +148,8 @@ contains
          if (motion == 'tilting_only') found(:, penetration_column:) = expected(:, penetration_column:)
          do row = 1, size(found, 1)
             call expect_close(maxval(abs(found(row, :) - expected(row, :))), 0.0_wp, &
-               & 1e-7_wp*maxval(abs(expected(row, :))), 'load '//to_text(row)//' of pad '//to_text(pad)//', '//what)
+               & 1e-7_wp*maxval(abs(expected(row, :))), 'load '//to_text(row)//' of pad ' &
+               & //to_text(pad)//', '//what)
          end do
          call bearing%evaluate(journal, pads, speed, .false., refusal, ok)
       end do
@@ -158,8 +179,9 @@ contains
    end subroutine mass_matrix
 
    !> In the state of an evaluation its outputs give its samples; pressures are those at the edges at least.
-   subroutine samples(motion)
+   subroutine samples(motion, rough)
       character(len=*), intent(in) :: motion
+      logical, intent(in) :: rough
       type(tilting_pad_bearing_type) :: bearing
       type(journal_motion) :: journal
       type(pad_state) :: pads(2)
@@ -169,13 +191,14 @@ contains
       logical :: ok
       integer :: i
       bearing = heavy_bearing(motion, 'lugre')
+      if (rough) bearing = rough_bearing(motion, 'lugre')
       call draw(journal, pads)
       call bearing%evaluate(journal, pads, speed, .true., refusal, ok)
       call expect(ok, 'a state with films')
       evaluated = bearing%sampled()
       nothing = 0
       output = bearing%output(nothing)
-      call bearing%take_samples(journal, pads, output, completed)
+      call bearing%take_samples(journal, pads, speed, output, completed)
       do i = 1, 2
          associate (a => completed(i), b => evaluated(i))
             call expect_close(norm2(a%film_force - b%film_force) + abs(a%contact_force - b%contact_force), 0.0_wp, &
@@ -183,6 +206,8 @@ contains
             call expect_close(a%friction_moment, b%friction_moment, 1e-12_wp*abs(b%friction_moment), 'friction moment')
             call expect_close(a%min_film_thickness, b%min_film_thickness, 1e-18_wp, 'minimum film thickness')
             call expect_close(a%max_pressure, b%max_pressure, 0.0_wp, 'maximum pressure')
+            call expect_close(a%asperity_force, b%asperity_force, 1e-12_wp*b%asperity_force, 'asperity force')
+            call expect((a%asperity_force > 0) .eqv. rough, 'is there in contact alone')
          end associate
       end do
       change = nothing
@@ -192,7 +217,7 @@ contains
       call expect_close(norm2(output(4:5) - bearing%derivatives(2)%film(:, 1)*1e-6_wp), 0.0_wp, &
          & 1e-9_wp*norm2(output(4:5)), 'what a change adds to the force')
       output = -1e9_wp
-      call bearing%take_samples(journal, pads, output, completed)
+      call bearing%take_samples(journal, pads, speed, output, completed)
       call expect_close(maxval(abs(completed%max_pressure)), 0.0_wp, 0.0_wp, 'no pressure below that of the edges')
    end subroutine samples
 

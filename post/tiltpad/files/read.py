@@ -23,7 +23,7 @@ DIMENSIONS = {
         (
             *("pad_tilt", "pad_tilt_rate", "pad_penetration", "pad_penetration_rate", "bristle_deflection"),
             *("contact_force", "friction_moment", "film_force_tangential", "film_force_radial"),
-            *("min_film_thickness", "max_pressure"),
+            *("min_film_thickness", "max_pressure", "asperity_force"),
         ),
         ("time", "pad"),
     ),

@@ -1,0 +1,184 @@
+!> Contact between pad and journal where the film is thinner than four times their roughness: the asperities' pressure
+!> by Greenwood and Tripp, with boundary friction (docs/theory.md, *Asperity contact*).
+!>
+!> The thickness does not depend on the axial coordinate, so a load is an integral along the part of the arc where the
+!> film is so thin. Where it is thicker all over, there is no load, exactly.
+module asperity_contact
+   use kinds, only: wp, pi
+   use film_solver, only: film_motion
+   use pad_gap, only: pad_gap_type, pad_directions
+   implicit none (type, external)
+   private
+   public :: asperity_contact_type, asperity_load, new_asperity_contact, no_asperities
+
+   !> Mean pressure over K' E': 4.4086e-5 (4 - h/sigma)^6.804 below h = 4 sigma, the usual fit of F_5/2.
+   real(wp), parameter :: highest_ratio = 4, coefficient = 4.4086e-5_wp, exponent = 6.804_wp
+   !> Speed of the journal's surface at which boundary friction has 0.7 of its size, m/s: it has none at rest.
+   real(wp), parameter :: slow = 1e-3_wp
+   !> Mean gap that the oil has, over the roughness, from which on it is less than the film thickness falls by.
+   real(wp), parameter :: oil_ratio = 2
+
+   !> Gauss's points on (-1, 1) and their weights: an error of 1e-9 over a stretch at whose ends the pressure is 0.
+   integer, parameter :: points = 12
+   real(wp), parameter :: half_place(points/2) = [0.12523340851146894_wp, 0.36783149899818018_wp, &
+      & 0.58731795428661748_wp, 0.76990267419430469_wp, 0.9041172563704748_wp, 0.98156063424671924_wp]
+   real(wp), parameter :: half_weight(points/2) = [0.24914704581340288_wp, 0.23349253653835478_wp, &
+      & 0.20316742672306584_wp, 0.16007832854334633_wp, 0.10693932599531818_wp, 0.047175336386511835_wp]
+   real(wp), parameter :: place(points) = [-half_place, half_place], weight(points) = [half_weight, half_weight]
+
+   type :: asperity_contact_type
+      private
+      !> Film thickness below which asperities meet, m.
+      real(wp) :: reach = -huge(1.0_wp)
+      !> Combined rms roughness sigma, m; K' E' times the coefficient, Pa; coefficient of friction.
+      real(wp) :: roughness = 0, pressure = 0, friction = 0
+   contains
+      procedure :: act
+      procedure :: evaluate
+      procedure, private :: set_loads
+      procedure, private :: add_stretch
+      procedure, private :: set_film
+   end type asperity_contact_type
+
+   !> Nothing touches.
+   type(asperity_contact_type), parameter :: no_asperities = asperity_contact_type()
+
+   !> One pad's contact with the journal. Without contact only `touches` and `thickness` are set.
+   type :: asperity_load
+      logical :: touches = .false.
+      !> Minimum film thickness, m.
+      real(wp) :: thickness = 0
+      !> Integral of the pressure, N.
+      real(wp) :: normal = 0
+      !> Force on the journal in the pad frame, N; moment of friction on the pad about the centre of its arc, N m.
+      real(wp) :: force(2) = 0, moment = 0
+      !> Their derivatives over (e_y', e_z').
+      real(wp) :: force_slopes(2, 2) = 0, moment_slopes(2) = 0
+      !> (e_y', e_z') at which the oil's film is to be taken, m, and its derivatives over the true one.
+      real(wp) :: film_position(2) = 0, film_slopes(2, 2) = 0
+   contains
+      procedure :: carried
+   end type asperity_load
+
+   !> Integrals over a pad of the pressure p and of p n, n the outward direction; of -dp/dh n and -dp/dh n n.
+   type :: contact_sums
+      real(wp) :: normal = 0, pushed(2) = 0, slope(2) = 0, slopes(2, 2) = 0
+   end type contact_sums
+
+contains
+
+   !> Contact of surfaces of a combined rms roughness, m, and composite modulus, Pa, with the factor K' and a
+   !> coefficient of friction.
+   pure type(asperity_contact_type) function new_asperity_contact(roughness, modulus, factor, friction) result(contact)
+      real(wp), intent(in) :: roughness, modulus, factor, friction
+      contact = asperity_contact_type(highest_ratio*roughness, roughness, coefficient*factor*modulus, friction)
+   end function new_asperity_contact
+
+   !> True where asperities may touch.
+   pure logical function act(self)
+      class(asperity_contact_type), intent(in) :: self
+      act = self%reach > 0
+   end function act
+
+   !> The contact of a pad with a journal in this motion and at this shaft speed, rad/s. Where the film is negative by
+   !> more than the contact's reach there is none: the solvers of films refuse such a state.
+   pure subroutine evaluate(self, gap, directions, motion, speed, load)
+      class(asperity_contact_type), intent(in) :: self
+      type(pad_gap_type), intent(in) :: gap
+      type(pad_directions), intent(in) :: directions
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      type(asperity_load), intent(inout) :: load
+      load%thickness = gap%min_film_thickness(motion, directions)
+      load%touches = abs(load%thickness) < self%reach
+      if (.not. load%touches) return
+      call self%set_loads(gap, motion%position, speed*gap%journal_radius, load)
+      call self%set_film(gap, directions, motion%position, load)
+   end subroutine evaluate
+
+   !> Normal force, N.
+   pure real(wp) function carried(self)
+      class(asperity_load), intent(in) :: self
+      carried = 0
+      if (self%touches) carried = self%normal
+   end function carried
+
+   !> Sets forces and moment, and their derivatives; the journal's surface moves at a speed, m/s.
+   pure subroutine set_loads(self, gap, position, speed, load)
+      class(asperity_contact_type), intent(in) :: self
+      type(pad_gap_type), intent(in) :: gap
+      real(wp), intent(in) :: position(2), speed
+      type(asperity_load), intent(inout) :: load
+      type(contact_sums) :: sums
+      real(wp) :: half, towards, low, high
+      integer :: turn
+      ! the film is thin within `half` of the direction towards which the journal lies
+      towards = atan2(position(1), position(2))
+      half = acos(min(1.0_wp, max(-1.0_wp, (gap%machined_clearance - self%reach)/max(norm2(position), tiny(half)))))
+      do turn = -1, 1
+         low = max(towards + 2*pi*turn - half, -gap%trailing_angle)
+         high = min(towards + 2*pi*turn + half, gap%leading_angle)
+         if (high > low) call self%add_stretch(gap, position, low, high, sums)
+      end do
+      ! friction pulls the journal along phi, and turns the pad with the journal
+      associate (friction => self%friction*speed/sqrt(speed**2 + slow**2), s => sums%slopes)
+         load%normal = sums%normal
+         load%force = -sums%pushed + friction*[sums%pushed(2), -sums%pushed(1)]
+         load%force_slopes(1, :) = -s(1, :) + friction*s(2, :)
+         load%force_slopes(2, :) = -s(2, :) - friction*s(1, :)
+         load%moment = friction*gap%pad_radius()*sums%normal
+         load%moment_slopes = friction*gap%pad_radius()*sums%slope
+      end associate
+   end subroutine set_loads
+
+   !> Adds the integrals over the arc from one angle to another, rad.
+   pure subroutine add_stretch(self, gap, position, low, high, sums)
+      class(asperity_contact_type), intent(in) :: self
+      type(pad_gap_type), intent(in) :: gap
+      real(wp), intent(in) :: position(2), low, high
+      type(contact_sums), intent(inout) :: sums
+      real(wp) :: phi, outward(2), depth, force, falling
+      integer :: k
+      do k = 1, points
+         phi = 0.5_wp*(low + high + place(k)*(high - low))
+         outward = [sin(phi), cos(phi)]
+         depth = (self%reach - gap%machined_clearance + dot_product(position, outward))/self%roughness
+         ! rounding, at the ends
+         if (.not. depth > 0) cycle
+         force = 0.5_wp*(high - low)*weight(k)*gap%pad_radius()*gap%axial_length*self%pressure*depth**exponent
+         falling = exponent*force/(depth*self%roughness)
+         sums%normal = sums%normal + force
+         sums%pushed = sums%pushed + force*outward
+         sums%slope = sums%slope + falling*outward
+         sums%slopes(:, 1) = sums%slopes(:, 1) + (falling*outward(1))*outward
+         sums%slopes(:, 2) = sums%slopes(:, 2) + (falling*outward(2))*outward
+      end do
+   end subroutine add_stretch
+
+   !> Sets where the film is to be taken. Oil fills the valleys, so its gap never closes: the film is that of a journal
+   !> that lies less close, by as much as the mean gap h_T at the thinnest place is more than h. With u = 1 - h/h_1,
+   !> h_T = h_1/(1 + u + u^2 + u^3) below h_1 = 2 sigma, which joins h_T = h = h_1 (1 - u) with three derivatives.
+   pure subroutine set_film(self, gap, directions, position, load)
+      class(asperity_contact_type), intent(in) :: self
+      type(pad_gap_type), intent(in) :: gap
+      type(pad_directions), intent(in) :: directions
+      real(wp), intent(in) :: position(2)
+      type(asperity_load), intent(inout) :: load
+      real(wp) :: u, growth, rise, rate, towards(2), turning
+      integer :: k
+      u = 1 - load%thickness/(oil_ratio*self%roughness)
+      load%film_position = position
+      load%film_slopes = reshape([1, 0, 0, 1], [2, 2])
+      if (u <= 0) return
+      growth = 1 + u*(1 + u*(1 + u))
+      rise = oil_ratio*self%roughness/growth - load%thickness
+      ! of h_T over h
+      rate = (1 + u*(2 + 3*u))/growth**2
+      call gap%thinnest_place(position, directions, towards, turning)
+      load%film_position = position - rise*towards
+      do k = 1, 2
+         load%film_slopes(:, k) = (1 - rise*turning)*load%film_slopes(:, k) &
+            & + (rate - 1 + rise*turning)*towards(k)*towards
+      end do
+   end subroutine set_film
+end module asperity_contact
