@@ -2,13 +2,13 @@
 module march_task
    use kinds, only: wp, i8, pi
    use text, only: to_text
-   use errors, only: error_type, raise, system_error
+   use errors, only: error_type, raise, system_error, numerics_error
    use marching, only: march, march_options, sample_plan
    use integrator_counts, only: integrator_counts_type
    use spectra, only: one_sided_amplitude, full_amplitude
    use scene, only: scene_type
    use run_file, only: run_file_type
-   use march_results, only: put_spectrum
+   use march_results, only: put_spectrum, put_asperities
    use case_run, only: case_run_type
    use march_start, only: make_start
    use recorder, only: recorder_type, begin_recording
@@ -50,6 +50,10 @@ contains
       run%counts = counts
       call observer%progress%clear()
       if (.not. allocated(error)) call write_spectra(run%scene, plan%interval, run%file)
+      if (allocated(error)) then
+         if (error%status /= numerics_error) return
+      end if
+      call put_asperities(run%file, plan%interval, norm2(run%model%point%load))
    end subroutine run_march
 
    !> State and time, s, of the checkpoint in the file.

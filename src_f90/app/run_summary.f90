@@ -69,6 +69,7 @@ contains
             & //mega(maxval(pressure(i, :)))//' MPa, mean contact '//fixed_text(sum(contact(i, :))/n, 1) &
             & //' N, friction work '//fixed_text(1e3_wp*loop_area(tilt(i, :), moment(i, :)), 3)//' mJ'
       end do
+      call print_asperities(file)
    end subroutine print_march
 
    !> What a run cost.
@@ -94,6 +95,28 @@ contains
          duration = fixed_text(statistics%seconds(name), 2)
       end function duration
    end subroutine print_cost
+
+   !> Which pads touched the journal in the whole run, how hard and how long.
+   subroutine print_asperities(file)
+      type(run_file_type), intent(inout) :: file
+      real(wp), allocatable :: pads(:, :), force(:), share(:), time(:)
+      character(len=:), allocatable :: of_load
+      integer :: i
+      if (.not. file%file%has('asperities')) return
+      call file%last_samples('pad_tilt', 1, pads)
+      allocate (force(size(pads)), time(size(pads)))
+      allocate (share(size(pads)), source=0.0_wp)
+      call file%file%get_list('asperities/highest_force', force)
+      call file%file%get_list('asperities/contact_time', time)
+      if (file%file%has('asperities/highest_share')) call file%file%get_list('asperities/highest_share', share)
+      do i = 1, size(force)
+         if (.not. force(i) > 0) cycle
+         of_load = ''
+         if (share(i) > 0) of_load = ', '//fixed_text(100*share(i), 2)//' % of the load'
+         print '(a)', '  pad '//to_text(i)//' touched the journal for '//fixed_text(1e3_wp*time(i), 3) &
+            & //' ms of the run; its asperities bore up to '//fixed_text(force(i), 1)//' N'//of_load
+      end do
+   end subroutine print_asperities
 
    !> Metres as micrometres, radians as milliradians, pascals as megapascals.
    function micro(x)

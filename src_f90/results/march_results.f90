@@ -8,7 +8,7 @@ module march_results
    use run_file, only: run_file_type
    implicit none (type, external)
    private
-   public :: add_sample, put_spectrum
+   public :: add_sample, put_spectrum, put_asperities
 
    !> Values of a sample: of the journal, and of a pad at most.
    integer, parameter :: of_journal = 7, of_pad = 12
@@ -102,6 +102,34 @@ contains
          call file%table%declare(file%file, name, size(sample%states), 'pad', units, long_name)
       end subroutine each
    end subroutine declare_series
+
+   !> What the asperities bore in all samples, taken at this interval, s, with this load on the journal, N.
+   subroutine put_asperities(file, interval, load)
+      type(run_file_type), intent(inout) :: file
+      real(wp), intent(in) :: interval, load
+      !> Samples that are read at once.
+      integer(i8), parameter :: block = 65536
+      real(wp), allocatable :: force(:, :), highest(:)
+      integer(i8), allocatable :: touches(:)
+      integer(i8) :: skip
+      if (file%samples() == 0 .or. .not. file%file%has('asperity_force')) return
+      skip = 0
+      do while (skip < file%samples())
+         call file%part_of_samples('asperity_force', skip, int(min(block, file%samples() - skip)), force)
+         if (skip == 0) then
+            highest = 0*force(:, 1)
+            touches = int(highest, i8)
+         end if
+         highest = max(highest, maxval(force, dim=2))
+         touches = touches + count(force > 0, dim=2)
+         skip = skip + block
+      end do
+      if (.not. file%file%has('asperities')) call file%file%make_group('asperities')
+      call file%file%put_list('asperities/highest_force', highest, 'N', 'highest asperity force of the samples', 'pad')
+      if (load > 0) call file%file%put_list('asperities/highest_share', highest/load, '1', &
+         & 'highest asperity force over the load', 'pad')
+      call file%file%put_list('asperities/contact_time', touches*interval, 's', 'time in which asperities touched', 'pad')
+   end subroutine put_asperities
 
    !> Amplitude spectra over the last revolutions of a run at constant speed, rad/s.
    subroutine put_spectrum(file, interval, revolutions, speed, journal_y, journal_z, journal_full, tilt)

@@ -27,6 +27,7 @@ module growing_file
       procedure :: begin_series
       procedure :: samples
       procedure :: last_samples
+      procedure :: part_of_samples
       procedure :: publish
       !> Deletes what was not published, and frees the lock.
       procedure :: abandon
@@ -95,6 +96,16 @@ contains
       real(wp), allocatable, intent(out) :: values(:, :)
       call self%table%last(self%file, name, n, values)
    end subroutine last_samples
+
+   !> The n samples of a series behind the first `skip` ones, (width, n).
+   subroutine part_of_samples(self, name, skip, n, values)
+      class(growing_file_type), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      integer(i8), intent(in) :: skip
+      integer, intent(in) :: n
+      real(wp), allocatable, intent(out) :: values(:, :)
+      call self%table%part(self%file, name, skip, n, values)
+   end subroutine part_of_samples
 
    !> Publishes what there is. With `continued` the writing continues; otherwise the file is closed and the lock freed.
    subroutine publish(self, continued, error)

@@ -39,6 +39,7 @@ module sample_table
       procedure :: add
       procedure :: write => write_held
       procedure :: last
+      procedure :: part
       procedure :: copy_missing
       procedure :: open => open_all
       procedure :: close => close_all
@@ -136,19 +137,30 @@ contains
       character(len=*), intent(in) :: name
       integer, intent(in) :: n
       real(wp), allocatable, intent(out) :: values(:, :)
+      call self%part(file, name, self%samples - n, n, values)
+   end subroutine last
+
+   !> The n samples of a series behind the first `skip` ones, (width, n).
+   subroutine part(self, file, name, skip, n, values)
+      class(sample_table_type), intent(inout) :: self
+      type(hdf5_type), intent(inout) :: file
+      character(len=*), intent(in) :: name
+      integer(i8), intent(in) :: skip
+      integer, intent(in) :: n
+      real(wp), allocatable, intent(out) :: values(:, :)
       type(hdf5_series_type) :: data
       integer :: k
       call self%write(file)
       do k = 1, size(self%series)
          if (self%series(k)%name /= name) cycle
-         call self%series(k)%data%read(file, self%samples - n, n, values)
+         call self%series(k)%data%read(file, skip, n, values)
          return
       end do
       ! not one of this run's own: from before it was resumed
       call data%open(file, name)
-      call data%read(file, self%samples - n, n, values)
+      call data%read(file, skip, n, values)
       call data%close(file)
-   end subroutine last
+   end subroutine part
 
    !> Adds to a file, whose series are open, the samples that it lacks from another that has them all.
    subroutine copy_missing(self, file, whole)

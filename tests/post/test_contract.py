@@ -27,6 +27,11 @@ SERIES = {
     "max_pressure": (PADS, "Pa"),
     "asperity_force": (PADS, "N"),
 }
+ASPERITIES = {
+    "asperities/highest_force": (("pad",), "N"),
+    "asperities/highest_share": (("pad",), "1"),
+    "asperities/contact_time": (("pad",), "s"),
+}
 CONSTANT = {"pad": (("pad",), "1"), "pivot_angle": (("pad",), "rad")}
 EQUILIBRIUM = {
     "equilibrium/journal_y": ((), "m"),
@@ -59,7 +64,7 @@ ABSENT = {
     "tilting": RADIAL,
     "four": set(),
     "runup": set(SPECTRUM),
-    "equilibrium": set(SERIES) | set(SPECTRUM),
+    "equilibrium": set(SERIES) | set(SPECTRUM) | set(ASPERITIES),
 }
 
 
@@ -75,13 +80,13 @@ def file(result, scene):
 
 
 def test_every_dataset_is_there_and_no_other_scene_s(file, scene):
-    everything = SERIES | CONSTANT | EQUILIBRIUM | SPECTRUM
+    everything = SERIES | CONSTANT | EQUILIBRIUM | SPECTRUM | ASPERITIES
     there = {name for name in everything if name in file}
     assert there == set(everything) - ABSENT[scene]
 
 
 def test_dimensions_units_and_meaning(file, scene):
-    expected = SERIES | CONSTANT | EQUILIBRIUM | SPECTRUM
+    expected = SERIES | CONSTANT | EQUILIBRIUM | SPECTRUM | ASPERITIES
     for name in set(expected) - ABSENT[scene]:
         dimensions, units = expected[name]
         dataset = file[name]

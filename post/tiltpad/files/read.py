@@ -33,6 +33,7 @@ DIMENSIONS = {
         (
             *("equilibrium/pad_tilt", "equilibrium/pad_penetration", "equilibrium/contact_force"),
             *("equilibrium/min_film_thickness", "equilibrium/max_pressure"),
+            *("asperities/highest_force", "asperities/highest_share", "asperities/contact_time"),
         ),
         ("pad",),
     ),
