@@ -128,7 +128,8 @@ contains
       call file%file%put_list('asperities/highest_force', highest, 'N', 'highest asperity force of the samples', 'pad')
       if (load > 0) call file%file%put_list('asperities/highest_share', highest/load, '1', &
          & 'highest asperity force over the load', 'pad')
-      call file%file%put_list('asperities/contact_time', touches*interval, 's', 'time in which asperities touched', 'pad')
+      call file%file%put_list('asperities/contact_time', touches*interval, 's', 'time in which asperities touched', &
+         & 'pad')
    end subroutine put_asperities
 
    !> Amplitude spectra over the last revolutions of a run at constant speed, rad/s.

@@ -111,8 +111,12 @@ ASTRAY = {
     "pad on top only": ["pads%pivot_angle_deg=90"],
     "too heavy": ["rotor%mass=1e9"],
     "far too heavy": ["rotor%static_load=-1e12,0"],
-    "pads that fall over": ["pads%mass=100", "pads%inertia=100", "pads%centre_tangential=0.5",
-                            "asperity%model='none'"],
+    "pads that fall over": [
+        "pads%mass=100",
+        "pads%inertia=100",
+        "pads%centre_tangential=0.5",
+        "asperity%model='none'",
+    ],
 }
 
 

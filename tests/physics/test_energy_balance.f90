@@ -81,8 +81,8 @@ contains
       end associate
    end subroutine ledger_rhs
 
-   !> Power of the asperities beside what they store: of their friction, and what eqs (3)-(4) hold beside a potential, as
-   !> their arms are those of the arc's centre.
+   !> Power of the asperities beside what they store: of their friction, and what eqs (3)-(4) hold beside a potential,
+   !> as their arms are those of the arc's centre.
    subroutine add_asperities(bearing, y, pads, power)
       type(bearing_model), intent(in) :: bearing
       real(wp), intent(in) :: y(:)
@@ -298,8 +298,8 @@ contains
       end if
    end subroutine balance
 
-   !> A pad above the journal strikes it with its leading edge and bounces: what the asperities store comes back, and what
-   !> their friction takes is work.
+   !> A pad above the journal strikes it with its leading edge and bounces: what the asperities store comes back, and
+   !> what their friction takes is work.
    subroutine bouncing(motion, coefficient)
       character(len=*), intent(in) :: motion
       real(wp), intent(in) :: coefficient
