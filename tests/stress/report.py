@@ -23,8 +23,8 @@ that most scenes are bearings, though not always good ones.
 A scene passes if it ends with a complete result whose numbers are finite and physically possible (contact
 forces >= 0, film thickness > 0 unless asperities touch, friction within its bound, equally spaced
 samples). It also passes if it ends with a refusal of one line that says why, where and when; the results
-up to this point are then kept and finite. No scene may hang: `integration%max_steps` limits the work, and the tables count a scene that
-reaches this limit separately ("step budget").
+up to this point are then kept and finite. No scene may hang: `integration%max_steps` limits the work,
+and the tables count a scene that reaches this limit separately ("step budget").
 
 **{passed} passed, {failed} failed.** This command wrote the page:
 
