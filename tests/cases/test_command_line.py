@@ -103,6 +103,37 @@ def test_check_of_all_cases_that_come_along(tiltpad, tmp_path, root):
         assert check(tiltpad, tmp_path, "again.nml") == plain(first)
 
 
+def test_check_marks_what_is_not_given(tiltpad, tmp_path):
+    """Given, default and derived values; --set gives too."""
+    (tmp_path / "case.nml").write_text(
+        "&bearing preload=0.3, viscosity=19e-3 / &pads pivot_angle_deg=-90,0,90, arc_deg=60, mass(2)=1 /"
+        " &rotor balance_grade=2.5 /"
+    )
+    text = check(tiltpad, tmp_path, "case.nml", "--set", "operation%speed_rpm=3000")
+    marked, group = {}, ""
+    for line in text.splitlines():
+        if line.startswith("&"):
+            group = line[1:]
+        elif found := re.fullmatch(r"  (\w+) = .*?(?: +! (default|derived))?", line):
+            marked.setdefault(found[2], []).append(f"{group}%{found[1]}")
+    given = "viscosity pivot_angle_deg arc_deg mass balance_grade speed_rpm"
+    assert {name.partition("%")[2] for name in marked[None]} == set(given.split())
+    derived = "machined_clearance inertia centre_radial final_speed_rpm"
+    assert {name.partition("%")[2] for name in marked["derived"]} == set(derived.split())
+    assert "rotor%mass" in marked["default"]
+    assert "!   preload            0.3  1 - c_r/c_m\n" in text
+    # 9549*2.5*2000/3000 g mm
+    assert "!   unbalance          0.015915  kg m" in text
+    sommerfeld = 0.019 * 50 * 0.1 * 0.0998 / (2000 * 9.81) * (49.9 / 0.08) ** 2
+    assert float(re.search(r"Sommerfeld number +(\S+)", text)[1]) == pytest.approx(sommerfeld, rel=1e-5)
+
+
+def test_check_notes_a_negative_preload(tiltpad, tmp_path):
+    (tmp_path / "case.nml").write_text("&bearing preload=-0.2 / &case task='equilibrium' /")
+    assert "\n! note: negative preload -0.2:" in check(tiltpad, tmp_path, "case.nml")
+    assert tiltpad("case.nml", cwd=tmp_path).stdout.startswith("note: negative preload -0.2:")
+
+
 def test_check_tells_every_value(tiltpad, tmp_path):
     (tmp_path / "case.nml").write_text(RICH, encoding="utf-8")
     text = check(tiltpad, tmp_path, "case.nml")
