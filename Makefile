@@ -205,8 +205,8 @@ test-debian-%: build/deps-debian
 # random scenes; SCENES and SEED choose them
 SCENES ?= 300
 SEED   ?= 1
-stress: build python
-	$(venv_python) tests/stress/stress.py $(B)/bin/tiltpad --scenes $(SCENES) --seed $(SEED) --report docs/stability.md
+stress: build python $(B)/stress/global_search
+	$(venv_python) tests/stress/stress.py $(B)/bin/tiltpad --search $(B)/stress/global_search --scenes $(SCENES) --seed $(SEED) --report docs/stability.md
 
 # MINUTES and SEED choose what is drawn
 MINUTES ?= 5

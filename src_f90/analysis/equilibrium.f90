@@ -10,6 +10,7 @@ module equilibrium
    use damped_newton, only: follow_motion, imbalance, asked_to_stop, asked, newtons
    use small_vibrations, only: stability_at
    use pad_elimination, only: eliminate_pads
+   use pad_rest, only: find_rests
    use motion_to_rest, only: march_to_rest
    use static_model, only: equilibrium_type, describe, make_static, make_quick, start, starts
    use equilibrium_refusal, only: search_traces, refusal
@@ -18,7 +19,7 @@ module equilibrium
    public :: equilibrium_type, find_equilibrium
 
    !> The methods of the wider search, in their order.
-   integer, parameter :: by_pads = 1, by_newton = 2, by_motion = 3
+   integer, parameter :: by_pads = 1, by_newton = 2, by_rests = 3, by_motion = 4
 
 contains
 
@@ -151,14 +152,21 @@ contains
       procedure(asked_to_stop), optional :: give_up
       type(error_type), allocatable :: error
       logical :: at_rest(model%layout%pads)
-      real(wp) :: residual
+      real(wp) :: residual, y_of_pads(size(y))
       select case (method)
       case (by_pads)
+         ! where a pad finds no rest Newton's method on the whole may still find one, with the journal elsewhere
          call eliminate_pads(model, y, at_rest, ok, give_up)
-         if (ok .and. .not. all(at_rest)) then
-            traces%restless = .not. at_rest
-            ok = .false.
-         end if
+      case (by_rests)
+         call eliminate_pads(model, y, at_rest, ok, give_up)
+         if (ok) ok = .not. all(at_rest)
+         if (.not. ok) return
+         call find_rests(model, y, at_rest)
+         if (.not. all(at_rest)) traces%restless = .not. at_rest
+         y_of_pads = y
+         call eliminate_pads(model, y_of_pads, at_rest, ok, give_up)
+         if (ok .and. all(at_rest)) y = y_of_pads
+         ok = .true.
       case (by_newton)
          call follow_motion(model, y, residual, error, give_up)
          ok = .not. allocated(error)

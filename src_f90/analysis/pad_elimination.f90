@@ -9,7 +9,7 @@ module pad_elimination
    use damped_newton, only: asked_to_stop, asked, reference_force
    implicit none (type, external)
    private
-   public :: eliminate_pads
+   public :: eliminate_pads, settle_pads, film_of
 
    !> Unbalanced forces over the load at which a pad and the journal rest: near enough for Newton's method on the whole.
    real(wp), parameter :: pad_limit = 1e-9_wp, journal_limit = 1e-6_wp
@@ -58,14 +58,17 @@ contains
    end subroutine eliminate_pads
 
    !> Every pad to its own rest with the journal where it is; which of them found it.
-   subroutine settle_pads(model, journal, pads, at_rest, ok)
+   subroutine settle_pads(model, journal, pads, at_rest, ok, first_step)
       type(bearing_model), intent(inout) :: model
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(inout) :: pads(:)
       logical, intent(out) :: at_rest(:), ok
+      !> Time step to begin with, in radians of the shaft; 1 if it is left out.
+      real(wp), intent(in), optional :: first_step
       real(wp), dimension(size(pads)) :: time_step, residual, last
       integer :: iteration, i
       time_step = 1/model%point%speed(0.0_wp)
+      if (present(first_step)) time_step = first_step*time_step
       do iteration = 0, pad_iterations
          call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok)
          if (.not. ok) return
@@ -104,12 +107,12 @@ contains
       call pad_balance(model, i, force, stiffness, damping)
       damping = damping - trace*model%point%speed(0.0_wp)*model%bearing%pads(i)%masses()
       if (.not. model%layout%radial) call hold_second(force, stiffness, damping)
-      film = thickness(model, i, journal, pad)
+      film = film_of(model, i, journal, pad)
       do
          step = solved(stiffness + damping/time_step, -force)
          trial = pad_state(tilt=pad%tilt + step(1), penetration=pad%penetration + step(2))
          if (max(abs(step(1)*model%bearing%pads(i)%gap%arc()*model%bearing%pads(i)%gap%pad_radius()), abs(step(2))) &
-            & <= longest_move*clearance .and. thickness(model, i, journal, trial) >= least_film*film &
+            & <= longest_move*clearance .and. film_of(model, i, journal, trial) >= least_film*film &
             & .and. abs(trial%tilt) < model%bearing%pads(i)%largest_tilt) exit
          time_step = 0.5_wp*time_step
          if (time_step*model%point%speed(0.0_wp) < 1e-12_wp) return
@@ -151,7 +154,7 @@ contains
       integer :: i
       do i = 1, size(pads)
          if (at_rest(i)) cycle
-         if (thickness(model, i, journal, pad_state()) > 0) pads(i) = pad_state()
+         if (film_of(model, i, journal, pad_state()) > 0) pads(i) = pad_state()
       end do
       call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok)
    end subroutine put_down
@@ -228,7 +231,7 @@ contains
          do i = 1, size(pads)
             change = matmul(follow(:, :, i), step)
             trial(i) = pad_state(tilt=pads(i)%tilt + change(1), penetration=pads(i)%penetration + change(2))
-            if (thickness(model, i, moved, trial(i)) < least_film*thickness(model, i, journal, pads(i))) open = .false.
+            if (film_of(model, i, moved, trial(i)) < least_film*film_of(model, i, journal, pads(i))) open = .false.
          end do
          if (open) exit
          step = 0.5_wp*step
@@ -239,15 +242,15 @@ contains
    end subroutine move_journal
 
    !> Least thickness of a pad's film, m.
-   pure real(wp) function thickness(model, i, journal, pad)
+   pure real(wp) function film_of(model, i, journal, pad)
       type(bearing_model), intent(in) :: model
       integer, intent(in) :: i
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: pad
       associate (of => model%bearing%pads(i))
-         thickness = of%gap%min_film_thickness(of%motion(of%frame(journal, pad), journal, pad), of%directions)
+         film_of = of%gap%min_film_thickness(of%motion(of%frame(journal, pad), journal, pad), of%directions)
       end associate
-   end function thickness
+   end function film_of
 
    !> x of the equations A x = b; 0 where they are singular.
    pure function solved(a, b) result(x)

@@ -1,6 +1,6 @@
 !> What a run prints of its results.
 module run_summary
-   use kinds, only: wp, i8
+   use kinds, only: wp, i8, pi
    use text, only: to_text, fixed_text
    use loops, only: loop_area
    use scene, only: scene_type
@@ -37,7 +37,9 @@ contains
    subroutine print_equilibrium(static)
       type(equilibrium_type), intent(in) :: static
       integer :: i
-      print '(a)', 'equilibrium: journal y '//micro(static%journal(1))//', z '//micro(static%journal(2))//' um'
+      print '(a)', 'equilibrium: journal y '//micro(static%journal(1))//', z '//micro(static%journal(2))//' um, ' &
+         & //static%stability%name//' (eigenvalue '//fixed_text(static%stability%eigenvalue%re, 1)//' 1/s at ' &
+         & //fixed_text(static%stability%eigenvalue%im/(2*pi), 1)//' Hz)'
       do i = 1, size(static%tilt)
          print '(a)', '  pad '//to_text(i)//': tilt '//milli(static%tilt(i))//' mrad, penetration ' &
             & //micro(static%penetration(i))//' um, contact '//fixed_text(static%contact_force(i), 1) &

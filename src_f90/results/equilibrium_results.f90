@@ -24,5 +24,10 @@ contains
          & 'minimum film thickness', 'pad')
       call file%put_list('equilibrium/max_pressure', found%max_pressure, 'Pa', 'maximum film pressure', 'pad')
       call file%put_real('equilibrium/residual', found%residual, '1', 'unbalanced force over load')
+      call file%put_real('equilibrium/eigenvalue_real', found%stability%eigenvalue%re, '1/s', &
+         & 'growth of the small motion that grows most')
+      call file%put_real('equilibrium/eigenvalue_imag', found%stability%eigenvalue%im, '1/s', &
+         & 'angular frequency of the small motion that grows most')
+      call file%put_text('equilibrium_stability', found%stability%name)
    end subroutine put_equilibrium
 end module equilibrium_results

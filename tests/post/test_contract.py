@@ -42,6 +42,8 @@ EQUILIBRIUM = {
     "equilibrium/min_film_thickness": (("pad",), "m"),
     "equilibrium/max_pressure": (("pad",), "Pa"),
     "equilibrium/residual": ((), "1"),
+    "equilibrium/eigenvalue_real": ((), "1/s"),
+    "equilibrium/eigenvalue_imag": ((), "1/s"),
 }
 SPECTRUM = {
     "spectrum/frequency": (("spectrum/frequency",), "Hz"),
@@ -118,6 +120,8 @@ def test_attributes(file, scene):
     assert attributes["title"] == ("Steady, it's LuGre" if scene == "lugre" else "")
     assert attributes["task"] == ("equilibrium" if scene == "equilibrium" else "march")
     assert attributes["input"].startswith("&case\n")
+    grows = file["equilibrium/eigenvalue_real"][()] > 0
+    assert attributes["equilibrium_stability"] == ("fluttering" if grows else "stable")
     assert attributes["version"]
     assert attributes["commit"]
     assert np.datetime64(attributes["created"][:19]) > np.datetime64("2020-01-01")

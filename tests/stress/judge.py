@@ -19,6 +19,19 @@ AT_REST = 20
 COMPARED = 2.5
 #: How much finer the run is that a scene is compared with.
 FINER = 100.0
+#: Seconds for the global search of a scene; what it finds in them counts.
+SEARCHED = 60
+#: What a refusal for want of an equilibrium says of its cause, and how the report calls it.
+CAUSES = {
+    "where no pad is": "the load points where no pad is",
+    "past the only pad": "the load points past the only pad",
+    "one pad: the journal": "one pad: the journal rolls off",
+    "the journal away": "pads that push the journal away",
+    "no rest position": "unloaded pads have no rest position",
+    "leaves every rest": "the journal leaves every rest that was found",
+    "did not converge": "a film did not converge",
+    "did not end": "the search did not end",
+}
 PREFIX = "tiltpad: error: "
 NO_MESSAGE = ("At line", "runtime", "Backtrace", "HDF5-DIAG", "CVODE ERROR", "NaN", "Infinity", "with code")
 STATES = ("journal_y", "journal_z", "pad_tilt", "pad_penetration")
@@ -49,6 +62,10 @@ class Result:
     revolutions: float = 0.0
     failures: int = 0
     seconds: float = 0.0
+    #: Stability of the equilibrium at the start; where there is none, why, and what the global search found.
+    stability: str = ""
+    cause: str = ""
+    searched: str = ""
     comparison: Comparison | None = None
 
 
@@ -62,8 +79,11 @@ def run(program: Path, scene: Scene, folder: Path, name: str) -> subprocess.Comp
         return None
 
 
-def judge(program: Path, number: int, scene: Scene, folder: Path, compare: bool) -> Result:
-    """Runs a scene and checks how it ended; on request compares it with a finer run."""
+def judge(
+    program: Path, number: int, scene: Scene, folder: Path, compare: bool, search: Path | None = None
+) -> Result:
+    """Runs a scene and checks how it ended; on request compares it with a finer run, and looks with the
+    program of the global search for an equilibrium that was missed."""
     result = Result(number, scene)
     started = time.monotonic()
     done = run(program, scene, folder, "scene")
@@ -80,12 +100,19 @@ def judge(program: Path, number: int, scene: Scene, folder: Path, compare: bool)
     elif done.returncode in (1, 2):
         result.outcome = outcome_of(done)
         result.faults += refusal_faults(done, file)
+        if result.outcome == "no equilibrium":
+            result.cause = cause_of(result.message)
+        if result.outcome == "no equilibrium" and search:
+            result.searched, faults = searched(search, folder / "scene.nml")
+            result.faults += faults
     else:
         result.outcome = "crashed"
         result.faults = [f"exit status {done.returncode}: {result.message[:300]}"]
         return result
     if file.exists():
         result.faults += file_faults(file, scene, done.returncode == 0)
+        with h5py.File(file) as opened:
+            result.stability = opened.attrs.get("equilibrium_stability", "")
         read_cost(file, result)
     elif done.returncode == 0:
         result.faults.append("no result file")
@@ -96,6 +123,26 @@ def judge(program: Path, number: int, scene: Scene, folder: Path, compare: bool)
         if result.comparison.outcome == "hung":
             result.faults.append("a run to compare with hung")
     return result
+
+
+def cause_of(message: str) -> str:
+    """The cause that a refusal names; empty where it names none."""
+    return next((name for words, name in CAUSES.items() if words in message), "")
+
+
+def searched(search: Path, case: Path) -> tuple[str, list[str]]:
+    """What the global search finds: 'stable', 'fluttering', 'divergent' or 'none'; and the fault in it."""
+    try:
+        done = subprocess.run(
+            [search, case.name], cwd=case.parent, timeout=SEARCHED, text=True, capture_output=True
+        )
+    except subprocess.TimeoutExpired:
+        return "not ended", []
+    if done.returncode != 0:
+        return "failed", [f"the global search failed: {done.stderr.strip()[:200]}"]
+    found = done.stdout.split()[1]
+    usable = found in ("stable", "fluttering")
+    return found, [f"refused, but there is an equilibrium: {done.stdout.strip()}"] if usable else []
 
 
 def outcome_of(done: subprocess.CompletedProcess) -> str:
@@ -118,8 +165,8 @@ def refusal_faults(done: subprocess.CompletedProcess, file: Path) -> list[str]:
     if done.returncode == 1 and not re.search(r"\w+%\w+", said):
         faults.append(f"no variable named: {said.strip()}")
     if done.returncode == 2 and "no equilibrium found" in said:
-        if not re.search(r"pad \d+|still \S+ of the load", said):
-            faults.append(f"nothing named: {said.strip()}")
+        if not cause_of(said):
+            faults.append(f"no cause named: {said.strip()}")
         if file.exists():
             faults.append("a result file without an equilibrium")
     elif done.returncode == 2:

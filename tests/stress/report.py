@@ -5,7 +5,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable
 
 import numpy as np
-from judge import AT_REST, COMPARED, FINER, Result
+from judge import AT_REST, COMPARED, FINER, Result, cause_of
 
 OUTCOMES = ("done", "step budget", "march stopped", "no equilibrium", "input refused", "crashed", "hung")
 NUMBER = r"-?\d+(\.\d+)?([eE][+-]?\d+)?"
@@ -23,8 +23,10 @@ that most scenes are bearings, though not always good ones.
 A scene passes if it ends with a complete result whose numbers are finite and physically possible (contact
 forces >= 0, film thickness > 0 unless asperities touch, friction within its bound, equally spaced
 samples). It also passes if it ends with a refusal of one line that says why, where and when; the results
-up to this point are then kept and finite. No scene may hang: `integration%max_steps` limits the work,
-and the tables count a scene that reaches this limit separately ("step budget").
+up to this point are then kept and finite. A refusal for want of an equilibrium fails if a global search
+of its own (`tests/stress/global_search.f90`: slow, and independent of the one in the program) finds one
+that is stable or fluttering. No scene may hang: `integration%max_steps` limits the work, and the tables
+count a scene that reaches this limit separately ("step budget").
 
 **{passed} passed, {failed} failed.** This command wrote the page:
 
@@ -41,6 +43,17 @@ Outcomes by friction model and pad motion:
 Outcomes by number of pads:
 
 {counts}
+
+## Equilibria
+
+Stability of the equilibria at which the marches started, by the eigenvalues of the linearised motion:
+
+{classes}
+
+**{share:.0f} % of the scenes are refused for want of an equilibrium.** The causes, as the messages name
+them, and what the global search found in these scenes:
+
+{causes}
 
 ## Refusals
 
@@ -95,10 +108,14 @@ def page(results: list[Result], seed: int) -> str:
         passed=len(results) - failed,
         failed=failed,
         command="build/venv/bin/python tests/stress/stress.py build/bin/tiltpad "
-        f"--scenes {len(results)} --seed {seed} --report docs/stability.md",
+        f"--search build/stress/global_search --scenes {len(results)} --seed {seed} "
+        "--report docs/stability.md",
         outcomes=outcomes(results),
         models=crossed(results, lambda result: f"{model(result)}, {motion(result)}"),
         counts=crossed(results, pads),
+        classes=classes(results),
+        share=100 * sum(result.outcome == "no equilibrium" for result in results) / max(len(results), 1),
+        causes=causes(results),
         reasons=reasons(results),
         moved=AT_REST,
         cost=cost(results),
@@ -148,6 +165,24 @@ def crossed(results: list[Result], key: Callable[[Result], str]) -> str:
     return table(("", *used), ([name, *(found[name, outcome] for outcome in used)] for name in keys))
 
 
+def classes(results: list[Result]) -> str:
+    """Equilibria by stability."""
+    found = Counter(result.stability for result in results if result.stability)
+    return table(("stability", "scenes"), found.most_common()) if found else "None."
+
+
+def causes(results: list[Result]) -> str:
+    """Refusals for want of an equilibrium, by cause, over what the global search found."""
+    refused = [result for result in results if result.outcome == "no equilibrium"]
+    if not refused:
+        return "None."
+    ends = sorted({result.searched or "not searched" for result in refused})
+    found = Counter((result.cause or "no cause", result.searched or "not searched") for result in refused)
+    total = Counter(result.cause or "no cause" for result in refused)
+    rows = [(cause, count, *(found[cause, end] for end in ends)) for cause, count in total.most_common()]
+    return table(("cause", "scenes", *ends), rows)
+
+
 def reasons(results: list[Result]) -> str:
     """Refusals by their words, without numbers."""
     refused = [result for result in results if result.outcome in OUTCOMES[1:5]]
@@ -157,6 +192,8 @@ def reasons(results: list[Result]) -> str:
 
 def reason(message: str) -> str:
     """A message without its numbers, places and times."""
+    if name := cause_of(message):
+        return f"no equilibrium found: {name}"
     message = re.sub(r"; what was computed is in .*", "", message.removeprefix("tiltpad: error: "))
     message = re.sub(r"(the march \w+( up)?) at t = \S+ s, after \d+ steps:? ?", r"\1: ", message)
     message = re.sub(r" \(step size [^)]*\)| at \S+ rpm", "", message)

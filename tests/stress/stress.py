@@ -1,6 +1,7 @@
 """Stress test: random scenes over wide ranges of every input; each ends in a result or a named refusal.
 
-usage: stress.py TILTPAD [--scenes N] [--seed S] [--jobs J] [--compare SHARE] [--keep FOLDER] [--report FILE]
+usage: stress.py TILTPAD [--scenes N | --only N,N,..] [--seed S] [--jobs J] [--compare SHARE]
+                 [--search PROGRAM] [--keep FOLDER] [--report FILE]
 
 Scenes that fail are kept as namelists, to be run again. The last line reads "N passed, N failed".
 """
@@ -24,6 +25,8 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("program", type=lambda word: Path(word).resolve())
     parser.add_argument("--scenes", type=int, default=300, help="how many")
     parser.add_argument("--first", type=int, default=1, help="number of the first scene")
+    parser.add_argument("--only", type=lambda words: list(map(int, words.split(","))), help="these scenes")
+    parser.add_argument("--search", type=Path, help="global search for the equilibria of refused scenes")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--compare", type=float, default=0.5, help="share compared with a finer run")
@@ -39,7 +42,8 @@ def member(options: argparse.Namespace, number: int) -> Result:
     compare = Dice(f"compare {options.seed}/{number}").chance(options.compare)
     folder = Path(tempfile.mkdtemp(prefix="tiltpad-stress-"))
     try:
-        result = judge(options.program, number, scene, folder, compare)
+        search = options.search and options.search.resolve()
+        result = judge(options.program, number, scene, folder, compare, search)
     finally:
         shutil.rmtree(folder)
     if result.faults:
@@ -70,7 +74,7 @@ def main() -> int:
     started = time.monotonic()
     results = []
     with ThreadPoolExecutor(options.jobs) as pool:
-        numbers = range(options.first, options.first + options.scenes)
+        numbers = options.only or range(options.first, options.first + options.scenes)
         for result in pool.map(lambda number: member(options, number), numbers):
             tell(result, options.verbose)
             results.append(result)

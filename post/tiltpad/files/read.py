@@ -29,6 +29,7 @@ DIMENSIONS = {
     ),
     **dict.fromkeys(("pad", "pivot_angle"), ("pad",)),
     **dict.fromkeys(("equilibrium/journal_y", "equilibrium/journal_z", "equilibrium/residual"), ()),
+    **dict.fromkeys(("equilibrium/eigenvalue_real", "equilibrium/eigenvalue_imag"), ()),
     **dict.fromkeys(
         (
             *("equilibrium/pad_tilt", "equilibrium/pad_penetration", "equilibrium/contact_force"),

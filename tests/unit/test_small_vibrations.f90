@@ -1,0 +1,133 @@
+!> Eigenvalues of small motions: against closed forms, and against marches of the model itself.
+program test_small_vibrations
+   use kinds, only: wp, pi
+   use errors, only: error_type
+   use scene, only: scene_type
+   use cvode_integrator, only: integrator_type, integrator_options
+   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equilibrium, only: equilibrium_type, find_equilibrium
+   use static_model, only: make_static
+   use small_vibrations, only: stability_type, stability_of, eigenvalues
+   use check, only: runs, expect, expect_close, expect_no_error, report
+   implicit none (type, external)
+
+   if (runs('oscillators')) call oscillators()
+   if (runs('names')) call names()
+   if (runs('stable_march')) call against_march(paper_scene(), 'stable', 4)
+   if (runs('fluttering_march')) call against_march(five_pads(), 'fluttering', 8)
+   call report()
+
+contains
+
+   !> Two oscillators that do not know of each other: m x'' = -c x' - k x.
+   subroutine oscillators()
+      complex(wp) :: values(4)
+      real(wp) :: mass(2, 2), stiffness(2, 2), damping(2, 2)
+      logical :: ok
+      mass = reshape([2.0_wp, 0.0_wp, 0.0_wp, 0.5_wp], [2, 2])
+      ! -0.1 +- 4.9990 i, and 3 and -4
+      stiffness = reshape([-50.0_wp, 0.0_wp, 0.0_wp, 6.0_wp], [2, 2])
+      damping = reshape([-0.4_wp, 0.0_wp, 0.0_wp, -0.5_wp], [2, 2])
+      call eigenvalues(mass, stiffness, damping, values, ok)
+      call expect(ok, 'they are found')
+      call expect_close(minval(abs(values - cmplx(-0.1_wp, sqrt(24.99_wp), wp))), 0.0_wp, 1e-13_wp, &
+         & 'a damped vibration')
+      call expect_close(minval(abs(values - 3)), 0.0_wp, 1e-13_wp, 'a growth without vibration')
+      call expect_close(minval(abs(values + 4)), 0.0_wp, 1e-13_wp, 'a decay without vibration')
+   end subroutine oscillators
+
+   subroutine names()
+      complex(wp), parameter :: damped(2) = [(-1.0_wp, 5.0_wp), (-1.0_wp, -5.0_wp)]
+      complex(wp), parameter :: growing(2) = [(1.0_wp, 5.0_wp), (1.0_wp, -5.0_wp)]
+      type(stability_type) :: stability
+      stability = stability_of(damped, 1e-3_wp)
+      call expect(stability%name == 'stable', 'damped: '//stability%name)
+      stability = stability_of([damped, growing], 1e-3_wp)
+      call expect(stability%name == 'fluttering', 'growing: '//stability%name)
+      call expect_close(abs(stability%eigenvalue - growing(1)), 0.0_wp, 0.0_wp, 'the growing pair, its upper half')
+      stability = stability_of([damped, growing, (0.5_wp, 0.0_wp)], 1e-3_wp)
+      call expect(stability%name == 'divergent', 'slower than the flutter, without vibration: '//stability%name)
+      stability = stability_of([damped, (1e-4_wp, 0.0_wp)], 1e-3_wp)
+      call expect(stability%name == 'stable', 'a growth of rounding: '//stability%name)
+   end subroutine names
+
+   !> A small disturbance grows or decays as the eigenvalue of largest real part says, once the others have died: its
+   !> largest size in one period of the vibration over that in the period before is exp(period re). 1 % for what the
+   !> others leave and for the instants at which a period is looked at.
+   subroutine against_march(scene, expected, periods)
+      type(scene_type), intent(in) :: scene
+      character(len=*), intent(in) :: expected
+      !> How many are marched.
+      integer, intent(in) :: periods
+      type(bearing_model) :: model
+      type(bearing_model), target :: static
+      type(equilibrium_type) :: found
+      type(error_type), allocatable :: error
+      type(integrator_type) :: integrator
+      type(integrator_options) :: options
+      real(wp), allocatable :: rest(:), y(:), values(:)
+      integer, parameter :: samples = 400
+      real(wp) :: period, size_of(periods)
+      integer, allocatable :: tilts(:)
+      integer :: k, sample
+      model = new_bearing_model(scene)
+      call find_equilibrium(model, found, error)
+      call expect_no_error(error, 'equilibrium, '//expected)
+      if (allocated(error)) return
+      call expect(found%stability%name == expected, expected//', not '//found%stability%name)
+      call make_static(model, .true., static)
+      rest = static%at_rest(found%journal, found%tilt, found%penetration)
+      y = rest
+      y(1:2) = y(1:2) + 1e-5_wp*static%scale(1:2)
+      tilts = static%layout%tilt([(k, k=1, static%layout%pads)])
+      y(tilts) = y(tilts) + 1e-8_wp
+      options%relative_tolerance = 1e-9_wp
+      options%absolute_tolerance = 1e-13_wp*static%scale
+      period = 2*pi/found%stability%eigenvalue%im
+      call integrator%start(static, options, 0.0_wp, y, (periods + 1)*period, error)
+      allocate (values(static%n + static%outputs))
+      sample = 0
+      size_of = 0
+      do while (.not. allocated(error) .and. sample < periods*samples)
+         call integrator%step(error)
+         do while (period*sample/samples <= integrator%time() .and. sample < periods*samples)
+            call integrator%interpolate(period*sample/samples, values)
+            k = 1 + sample/samples
+            size_of(k) = max(size_of(k), maxval(abs(values(:static%n) - rest)/static%scale))
+            sample = sample + 1
+         end do
+      end do
+      call expect_no_error(error, 'march, '//expected)
+      call expect_close(log(size_of(periods)/size_of(periods - 1)), period*found%stability%eigenvalue%re, &
+         & 1e-2_wp, 'growth, '//expected)
+   end subroutine against_march
+
+   !> With films that are smooth.
+   type(scene_type) function paper_scene() result(scene)
+      scene = scene_type()
+      scene%film%solver = 'modal'
+      scene%film%cavitation = 'none'
+   end function paper_scene
+
+   !> An ordinary bearing whose pad on top carries nothing.
+   type(scene_type) function five_pads() result(scene)
+      scene = paper_scene()
+      scene%rotor%mass = 1500
+      scene%operation%speed_rpm = 9000
+      scene%operation%final_speed_rpm = 9000
+      scene%bearing%journal_radius = 63.5e-3_wp
+      scene%bearing%axial_length = 63.5e-3_wp
+      scene%bearing%assembled_clearance = 0.2e-3_wp
+      scene%bearing%machined_clearance = 0.2857e-3_wp
+      scene%bearing%viscosity = 0.022_wp
+      scene%film%cavitation = 'gumbel'
+      scene%pads%pivot_angle_deg = [-54.0_wp, 18.0_wp, 90.0_wp, 162.0_wp, 234.0_wp]
+      scene%pads%arc_deg = spread(60.0_wp, 1, 5)
+      scene%pads%pivot_ratio = spread(0.5_wp, 1, 5)
+      scene%pads%pivot_distance = spread(14e-3_wp, 1, 5)
+      scene%pads%mass = spread(0.8108_wp, 1, 5)
+      scene%pads%inertia = spread(4.055e-4_wp, 1, 5)
+      scene%pads%centre_tangential = spread(0.0_wp, 1, 5)
+      scene%pads%centre_radial = spread(-10.1e-3_wp, 1, 5)
+   end function five_pads
+end program test_small_vibrations
