@@ -190,8 +190,9 @@ contains
       follower = minloc(abs(next%share(:next%count) - row%share(k)), &
          & mask=next%stable(:next%count) .eqv. row%stable(k), dim=1)
       if (follower == 0) return
-      if (abs(next%share(follower) - row%share(k)) > longest_way .or. (row%radial(k) < 0 .eqv. next%radial(follower) < 0)) &
-         & follower = 0
+      if (abs(next%share(follower) - row%share(k)) > longest_way) follower = 0
+      if (follower == 0) return
+      if (row%radial(k) < 0 .eqv. next%radial(follower) < 0) follower = 0
    end function follower
 
    !> Where the radial force vanishes between balances of two rows.
