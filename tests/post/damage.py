@@ -86,7 +86,8 @@ def use(path: Path, work: list[Callable[[Path], None]]) -> tuple[str, str]:
                 each(path)
         except (tiltpad.RunError, tiltpad.LibraryError) as error:
             outcome, words = "refused", f"{error}"
-            if not words.startswith(str(path)) or "\n" in words:
+            # or it names the option that asks for what is not there
+            if not words.startswith((str(path), "--show: ")) or "\n" in words:
                 return "unclear", words
         except BaseException as error:
             frame = error.__traceback__
