@@ -187,7 +187,7 @@ run: build python
 	@for plot in orbit spectrum hysteresis; do \
 	   $(VENV)/bin/tiltpad-plot $$plot build/run/steady_lugre.h5 -o build/run/$$plot.png || exit 1; done
 
-test: build python build/deps-test
+test: build python build/deps-test $(B)/stress/global_search
 	@$(MAKE) --no-print-directory MODE=debug test-programs build/debug/fuzz/fuzz_input
 	@TILTPAD=$(abspath $(B)/bin/tiltpad) ONLY='$(ONLY)' tests/run_all $(VENV)/bin/python \
 	   $(patsubst %.f90,build/debug/tests/%,$(notdir $(tests)))

@@ -58,7 +58,7 @@ contains
       integer :: count
       count = model%layout%pads
       if (.not. norm2(model%point%load) > 0 .and. count <= 2) then
-         cause = 'without load '//to_text(count)//merge(' pad pushes', ' pads push ', count == 1) &
+         cause = 'without load '//to_text(count)//trim(merge(' pad pushes', ' pads push ', count == 1)) &
             & //' the journal away; give it a load or pads on all sides'
       else if (count == 1 .and. .not. load_on_pads(model)) then
          cause = 'the load points past the only pad; turn the load (rotor%static_load) or the pad ' &

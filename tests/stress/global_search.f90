@@ -38,6 +38,8 @@ program global_search
       & (1.4_wp*(farthest/1.4_wp)**(real(n, wp)/(far - 1)), n=0, far - 1)]
    !> Places of the journal along a side of the grid, draws of branches at each.
    integer, parameter :: side = 15, draws = 6
+   !> How far a piece is continued, in its lengths.
+   real(wp), parameter :: least_part = -0.5_wp
    real(wp), parameter :: residual_limit = 1e-8_wp, pi = acos(-1.0_wp)
 
    !> Films of one pad shape: the pad leans by b, so that the journal stands at distance rho, turned by b, before it.
@@ -385,13 +387,12 @@ contains
                   ok = .false.
                   cycle
                end if
-               if (t(i) < -1e-6_wp .or. t(i) > 1 + 1e-6_wp) ok = .false.
                associate (piece => curves(i)%pieces(at(i)), pad => model%bearing%pads(i))
                   force = force + out*(piece%force(1) + t(i)*(piece%force(2) - piece%force(1))) &
                      & - [out(2), -out(1)]*pad%weight*(pad%centre_tangential*out(1) - pad%centre_radial*out(2)) &
                      & /position%centre_distance
-                  slope = slope + (piece%force(2) - piece%force(1))/(piece%way(2) - piece%way(1)) &
-                     & *spread(out, 2, 2)*spread(out, 1, 2)
+                  if (t(i) > least_part .and. t(i) < 1 - least_part) slope = slope + (piece%force(2) - piece%force(1)) &
+                     & /(piece%way(2) - piece%way(1))*spread(out, 2, 2)*spread(out, 1, 2)
                end associate
             end associate
          end do
@@ -408,6 +409,7 @@ contains
 
    !> The piece on which a pad is when the journal has come a way towards it, and where on it: that which has it and is
    !> closest to the last one; one drawn of those that have it if there was none; the nearest where none has it.
+   !> Newton's method on the whole then says whether there is a rest.
    subroutine choose(pieces, way, handicap, at, t)
       type(piece_type), intent(in) :: pieces(:)
       real(wp), intent(in) :: way, handicap
@@ -439,6 +441,8 @@ contains
       end do
       at = chosen
       if (at > 0) t = (way - pieces(at)%way(1))/(pieces(at)%way(2) - pieces(at)%way(1))
+      ! a curve ends between two places of the table: a bit further it may go on
+      t = min(max(t, least_part), 1 - least_part)
    end subroutine choose
 
    !> The state with the journal at a place and the pads on their pieces.
