@@ -11,6 +11,7 @@ module auto_film
    use pad_gap, only: pad_gap_type
    use modal_film, only: modal_film_type, new_modal_film
    use direct_film, only: direct_film_type, new_direct_film
+   use following_volumes, only: new_following_film
    implicit none (type, external)
    private
    public :: auto_film_type, new_auto_film
@@ -26,6 +27,7 @@ module auto_film
 
    type, extends(film_solver_type) :: auto_film_type
       private
+      type(pad_gap_type), allocatable :: gaps(:)
       real(wp), allocatable :: cavitation_pressure(:), clearance(:)
       type(modal_film_type) :: modal
       type(direct_film_type), allocatable :: direct(:)
@@ -36,6 +38,7 @@ module auto_film
       procedure :: set_rupture
       procedure :: evaluate
       procedure :: field
+      procedure :: fine_field
    end type auto_film_type
 
 contains
@@ -52,6 +55,7 @@ contains
       integer :: i
       solver%made_to_project = reynolds
       solver%projects = reynolds
+      solver%gaps = gaps
       solver%cavitation_pressure = gaps%cavitation_pressure
       solver%clearance = gaps%machined_clearance
       solver%modal = new_modal_film(gaps, cells, modes, gumbel, tolerance)
@@ -163,13 +167,32 @@ contains
       if (tension < height) c = min(1.0_wp, (1 - tension/height)/(1 - loaded_tension))
    end function share_of_modes
 
-   !> As the force: where the film ruptures the field of the finite volumes with rupture and, outside the rupture,
-   !> c times (modes - finite volumes without rupture).
    subroutine field(self, motion, speed, phi, z, pressure)
       class(auto_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
       real(wp), intent(in) :: speed, phi(:, :), z(:)
       real(wp), intent(out) :: pressure(:, :, :)
+      call rebuild(self, .false., motion, speed, phi, z, pressure)
+   end subroutine field
+
+   !> The field, where it ruptures as accurate as the force from tables.
+   subroutine fine_field(self, motion, speed, phi, z, pressure)
+      class(auto_film_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion(:)
+      real(wp), intent(in) :: speed, phi(:, :), z(:)
+      real(wp), intent(out) :: pressure(:, :, :)
+      call rebuild(self, .true., motion, speed, phi, z, pressure)
+   end subroutine fine_field
+
+   !> The field. Where the film ruptures, that of volumes that follow it; or as the force: that of the finite volumes
+   !> with rupture and, outside the rupture, c times (modes - finite volumes without rupture).
+   subroutine rebuild(self, follows, motion, speed, phi, z, pressure)
+      class(auto_film_type), intent(inout) :: self
+      logical, intent(in) :: follows
+      type(film_motion), intent(in) :: motion(:)
+      real(wp), intent(in) :: speed, phi(:, :), z(:)
+      real(wp), intent(out) :: pressure(:, :, :)
+      type(direct_film_type) :: film
       type(film_response) :: response(size(motion))
       real(wp), dimension(size(z), size(phi, 1)) :: ruptured, whole
       real(wp) :: c
@@ -181,14 +204,17 @@ contains
          associate (lowest => self%cavitation_pressure(i))
             if (lowest - response(i)%min_pressure <= slight_tension*(response(i)%max_pressure - lowest)) then
                pressure(:, :, i) = max(lowest, pressure(:, :, i))
-               cycle
+            else if (follows) then
+               film = new_following_film(self%gaps(i), motion(i), speed)
+               call film%field(motion(i), speed, .true., phi(:, i), z, pressure(:, :, i))
+            else
+               c = share_of_modes(self, i, response(i))
+               call self%direct(i)%field(motion(i), speed, .true., phi(:, i), z, ruptured)
+               call self%direct(i)%field(motion(i), speed, .false., phi(:, i), z, whole)
+               where (ruptured > lowest) ruptured = max(lowest, ruptured + c*(pressure(:, :, i) - whole))
+               pressure(:, :, i) = ruptured
             end if
-            c = share_of_modes(self, i, response(i))
-            call self%direct(i)%field(motion(i), speed, .true., phi(:, i), z, ruptured)
-            call self%direct(i)%field(motion(i), speed, .false., phi(:, i), z, whole)
-            where (ruptured > lowest) ruptured = max(lowest, ruptured + c*(pressure(:, :, i) - whole))
-            pressure(:, :, i) = ruptured
          end associate
       end do
-   end subroutine field
+   end subroutine rebuild
 end module auto_film

@@ -133,7 +133,7 @@ contains
             last = extrapolated(grids(1), grids(2))
             modes = fine_answer(state)
             change = norm2(last%force - first%force)/state%force
-            left = change*merge(0.5_wp, 0.125_wp, supplied) + 3e-7_wp
+            left = change*merge(0.5_wp, 0.125_wp, supplied) + merge(5e-6_wp, 3e-7_wp, supplied)
             error = norm2(last%force - modes%force)/state%force
             call expect(error < min(left, 0.1_wp*usual_error), 'force '//to_text(error)//', left '//to_text(left) &
                & //': '//shown(state))
@@ -173,7 +173,7 @@ contains
             call compare(state, found(1), expected, looked_up)
          end do
          call judge('modal'//name, range, modes, [usual_error, 1e-3_wp, 1e-2_wp])
-         call judge('auto'//name, range, looked_up, [usual_error, 1e-3_wp, 1e-2_wp])
+         call judge('auto'//name, range, looked_up, [usual_error, 1e-3_wp, 5e-2_wp])
       end do
    end subroutine whole
 
@@ -210,6 +210,8 @@ contains
       type(error_type) :: modes, looked_up
       character(len=:), allocatable :: name
       integer :: range, i
+      !> Eight points across are few where a film under supply pressure ruptures beside the side.
+      real(wp), parameter :: supply_limits(3) = [1e-4_wp, 3e-4_wp, 1e-3_wp]
       name = ', gumbel'
       if (supplied) name = ', gumbel, supply pressure'
       do range = 1, 3
@@ -226,8 +228,10 @@ contains
             call tables%take_pressures([state%motion], shaft_speed, found)
             call compare(state, found(1), expected, looked_up)
          end do
-         call judge('modal'//name, range, modes, [merge(2, 1, supplied)*usual_error, 1e-2_wp, 1e-2_wp])
-         call judge('auto'//name, range, looked_up, [merge(2, 1, supplied)*usual_error, 1e-2_wp, 1e-2_wp])
+         associate (limits => [merge(supply_limits(range), usual_error, supplied), 2e-2_wp, 2e-2_wp])
+            call judge('modal'//name, range, modes, limits)
+            call judge('auto'//name, range, looked_up, limits)
+         end associate
       end do
    end subroutine gumbel
 
@@ -274,9 +278,9 @@ contains
       type(table_film_type) :: tables
       real(wp) :: missing(size(names))
       integer :: range, i, k
-      !> What sine and cosine leave over a cell, the part of the points, and of `auto` what `direct`, which solves its
-      !> fields, errs by.
-      real(wp), parameter :: limits(size(names)) = [1e-4_wp, 1e-4_wp, 3e-4_wp, 1e-4_wp, 1e-4_wp, 2e-2_wp]
+      !> What sine and cosine leave over a cell, and the points; of `auto` with the condition of Reynolds, what the
+      !> volumes of its fields err by.
+      real(wp), parameter :: limits(size(names)) = [1e-4_wp, 2e-4_wp, 3e-3_wp, 1e-4_wp, 1e-4_wp, 3e-3_wp]
       missing = 0
       do range = 1, 3
          do i = 1, 20*times

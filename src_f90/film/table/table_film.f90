@@ -180,7 +180,11 @@ contains
       real(wp), intent(out) :: pressure(:, :, :)
       integer :: i
       do i = 1, size(motion)
-         call self%single(i)%field(motion(i:i), speed, phi(:, i:i), z, pressure(:, :, i:i))
+         if (self%pads(i)%shape > 0 .and. self%pads(i)%even_pressure .and. self%tabulates) then
+            call self%single(i)%fine_field(motion(i:i), speed, phi(:, i:i), z, pressure(:, :, i:i))
+         else
+            call self%single(i)%field(motion(i:i), speed, phi(:, i:i), z, pressure(:, :, i:i))
+         end if
       end do
    end subroutine field
 end module table_film

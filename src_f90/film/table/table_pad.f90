@@ -31,7 +31,7 @@ module table_pad
       !> Whether the last film came from the tables.
       logical :: found = .false.
       !> Whether all pressures around the pad are equal: then the tables know ruptured films, too.
-      logical, private :: even_pressure
+      logical :: even_pressure
       !> Pressure at the leading edge above the ambient pressure, Pa; R^2, m^2.
       real(wp), private :: rise, square
       !> Force of the ambient pressure, N, in the pad frame.

@@ -1,0 +1,42 @@
+!> Finite volumes that follow one film: half of their columns lie on each side of where the source of pressure changes
+!> its sign, all of them are narrow where the film is thin. For its pressure field, which is asked for seldom and
+!> has to agree with the force from tables.
+module following_volumes
+   use kinds, only: wp
+   use film_solver, only: film_motion
+   use pad_gap, only: pad_gap_type
+   use unit_pad, only: unit_pad_type, new_unit_pad
+   use middle_frame, only: middle_motion, middle_frame_type, new_middle_frame
+   use direct_film, only: direct_film_type, new_direct_film
+   implicit none (type, external)
+   private
+   public :: new_following_film
+
+   integer, parameter :: columns = 192, rows = 24
+   !> Where the source changes its sign beside the arc or close to an edge, the columns change there, over half the arc.
+   real(wp), parameter :: farthest = 0.8_wp
+
+contains
+
+   !> Volumes for a film at a motion that leaves it open and a journal speed, rad/s.
+   type(direct_film_type) function new_following_film(gap, motion, speed) result(film)
+      type(pad_gap_type), intent(in) :: gap
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      type(unit_pad_type) :: pad
+      type(middle_frame_type) :: frame
+      type(middle_motion) :: seen
+      real(wp) :: angles(0:columns), zero
+      integer, parameter :: half = columns/2
+      pad = new_unit_pad(gap)
+      frame = new_middle_frame(gap, pad)
+      seen = frame%motion(motion, speed)
+      zero = -atan2(sign(1.0_wp, seen%w(1))*seen%w(2), abs(seen%w(1)))
+      zero = min(max(zero, -farthest*pad%half_arc), farthest*pad%half_arc)
+      associate (position => pad%position(seen%edges))
+         angles(:half) = pad%spread_angles(position, -pad%half_arc, zero, half)
+         angles(half:) = pad%spread_angles(position, zero, pad%half_arc, half)
+      end associate
+      film = new_direct_film(gap, columns, rows, 0.5_wp*(gap%leading_angle - gap%trailing_angle) + angles)
+   end function new_following_film
+end module following_volumes
