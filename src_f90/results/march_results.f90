@@ -112,7 +112,8 @@ contains
       real(wp), allocatable :: force(:, :), highest(:)
       integer(i8), allocatable :: touches(:)
       integer(i8) :: skip
-      if (file%samples() == 0 .or. .not. file%file%has('asperity_force')) return
+      if (file%samples() == 0) return
+      if (.not. file%file%has('asperity_force')) return
       skip = 0
       do while (skip < file%samples())
          call file%part_of_samples('asperity_force', skip, int(min(block, file%samples() - skip)), force)
