@@ -36,7 +36,7 @@ PLOTS = {
     "hysteresis": "friction moment over pad tilt, one panel per pad (last revolution)",
     "friction": "friction coefficient over sliding velocity, one panel per pad (last revolution)",
     "sticking": "tilt rate, with a bold line where the pivot sticks, one panel per pad (last 2 revolutions)",
-    "runup": "journal and tilt over the whole run, with the speed",
+    "runup": "journal, tilt and minimum film thickness over the whole run, with the speed",
     "orders": "amplitude and phase of the first orders over the speed of a run-up (--pad: also of its tilt)",
     "waterfall": "amplitudes over speed and order of a run-up (of the journal; --pad: of its tilt)",
     "pressure": "film pressure over the unrolled pads at one instant (--time; default: at the equilibrium)",

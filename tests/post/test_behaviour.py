@@ -107,3 +107,17 @@ def test_the_program_says_the_same(tiltpad, tmp_path, root, opened):
         assert len(words) == each.unloaded
         assert all("carries no load" in line and lifted in line for line in words)
         assert all(("flutters" in line) == each.flutters for line in words)
+
+
+def test_contact_is_marked_on_the_film(made, opened):
+    """In the samples of the waveform, and in the spans of a whole run, of the pad that touches alone."""
+    run = opened(made)
+    for draw, marks in (
+        (tiltpad.plots.history, 8),
+        (lambda *a, **k: tiltpad.plots.waveform(*a, last=40, **k), 720),
+    ):
+        for pad, expected in ((4, marks), (3, 0), (None, marks)):
+            ax = draw(run, name="min_film_thickness", pad=pad)
+            rug = [line for line in ax.get_lines() if line.get_marker() == "|"]
+            assert sum(len(line.get_xdata()) for line in rug) == expected
+            assert len(ax.texts) == (expected > 0)

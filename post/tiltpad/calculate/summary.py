@@ -128,6 +128,8 @@ PADS = [
     ("mean contact force", "contact_force", lambda run: last_one(run, "contact_force").mean(axis=0)),
     ("share of the time lifted off its pivot", "share", lambda run: behaves(run, "lifted")),
     ("share of the time rubbing", "share", lambda run: behaves(run, "rubbing")),
+    ("maximum asperity force, whole run", "asperity_force", lambda run: run["asperities/highest_force"]),
+    ("the same over the load", "share", lambda run: run["asperities/highest_share"]),
     ("dominant order of the tilt", "number", lambda run: behaves(run, "order")),
     ("amplitude at this order", "pad_tilt", lambda run: behaves(run, "amplitude")),
     ("maximum friction moment", "friction_moment", lambda run: max_moment(run)),

@@ -169,14 +169,18 @@ def waveform(runs: Sequence[Run], last: float | None = None, pad: int | None = N
 
 
 def runup(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
-    """Journal and tilt over the whole run, with the speed along the top where it changes."""
+    """Journal, tilt and film over the whole run, with the speed along the top where it changes.
+
+    Marks along the bottom say where asperities touch the journal.
+    """
     pads = shown_pads(runs, pad)
-    fig, panels = stacked(["journal_y", "journal_z", "pad_tilt"])
+    fig, panels = stacked(["journal_y", "journal_z", "pad_tilt", "min_film_thickness"])
     for i, run in enumerate(runs):
         for name, ax in panels.items():
             for k, p in drawn(name, pads):
                 plots.history(run, ax, name, pad=p, **look(i, k, runs))
     ends = {(*signals.ends(run, "time"), *signals.ends(run, "speed")) for run in runs}
+    panels["min_film_thickness"].set_ylabel(f"minimum film\nthickness ({SHOWN['min_film_thickness'].unit})")
     for ax in panels.values():
         ax.set_xlim(min(end[0] for end in ends), max(end[1] for end in ends))
     if len(ends) == 1:

@@ -87,7 +87,7 @@ def shown_pads(runs: Sequence[Run], pad: int | None) -> list[int]:
 
 def drawn(name: str, pads: Sequence[int]) -> Iterable[tuple[int | None, int | None]]:
     """Number of the part and pad of every line of a dataset; (None, None) for the journal."""
-    return enumerate(pads) if name.startswith("pad") else [(None, None)]
+    return [(None, None)] if name.startswith("journal") else enumerate(pads)
 
 
 def stacked(names: Sequence[Hashable]) -> tuple[Figure, dict[Hashable, Axes]]:

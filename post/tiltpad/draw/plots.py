@@ -278,6 +278,8 @@ def waveform(
     part = signals.last_revolutions(run, last)
     turns, values = signals.revolutions(run, part), signals.series(run, name, part, pad)
     ax.plot(turns - turns[0], SHOWN[name].factor * values, **line)
+    if name == "min_film_thickness" and "asperity_force" in run:
+        mark_contact(ax, turns - turns[0], signals.series(run, "asperity_force", part, pad))
     ax.set(xlabel="shaft revolutions", ylabel=SHOWN[name].label, xlim=(0, turns[-1] - turns[0]))
     return ax
 
@@ -298,6 +300,9 @@ def history(run: Run, ax: Axes, name: str = "journal_y", pad: int | None = None,
             (edge,) = ax.plot(middle, lower, **{**line, "linewidth": 0.6})
             ax.plot(middle, upper, **{**line, "color": edge.get_color(), "linewidth": 0.6})
             ax.fill_between(middle, lower, upper, facecolor=edge.get_color(), alpha=0.35, linewidth=0)
+    if name == "min_film_thickness" and "asperity_force" in run:
+        middle, _, highest = signals.envelope(run, "asperity_force")
+        mark_contact(ax, middle, highest[column])
     ax.set(xlabel=SHOWN["time"].label, ylabel=shown.label, xlim=signals.ends(run, "time"))
     return ax
 
@@ -320,6 +325,17 @@ def pressure(run: Run, ax: Axes, time: float | None = None, pad: int = 1, **cont
         ax.text(x, 0.5, edge, transform=ax.transAxes, **note)
     ax.set(xlabel=SHOWN["phi"].label, ylabel=SHOWN["axial"].label)
     return ax
+
+
+def mark_contact(ax: Axes, x: np.ndarray, force: np.ndarray) -> None:
+    """Marks along the bottom where asperities of a pad, or of any, touch the journal."""
+    touching = force > 0 if force.ndim == 1 else (force > 0).any(axis=1)
+    if not touching.any():
+        return
+    where = {"transform": ax.get_xaxis_transform(), "color": "red", "marker": "|", "linestyle": ""}
+    ax.plot(x[touching], np.full(touching.sum(), 0.03), **where)
+    note = {"transform": ax.transAxes, "color": "red", "fontsize": "x-small"}
+    ax.text(0.01, 0.08, "asperities touch", **note)
 
 
 def polar(radius: float, degrees: float) -> tuple[float, float]:
