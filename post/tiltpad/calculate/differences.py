@@ -6,6 +6,8 @@ from tiltpad.files import namelist, units
 
 #: Variables without influence on the results: inputs that differ in them alone count as the same.
 IGNORED = ("case%title", "output%checkpoint_seconds")
+#: How the names of variables begin that have a value for each pad.
+PER_PAD = ("pads%", "start%pad_")
 #: Names of friction models as they are written in pictures.
 WORDS = {"none": "no friction", "bengisu_akay": "Bengisu-Akay", "lugre": "LuGre"}
 
@@ -56,7 +58,7 @@ def flattened(groups: dict[str, dict[str, Any]]) -> dict[str, Any]:
     found = {"speed": f"{first:g} rpm" if first == last else f"{first:g} to {last:g} rpm"}
     found["pads"] = f"{namelist.count(values['pads%pivot_angle_deg'])} pads"
     for name, value in values.items():
-        found[name] = shared(value) if name.startswith("pads%") else value
+        found[name] = shared(value) if name.startswith(PER_PAD) else value
     return found
 
 
