@@ -1,4 +1,4 @@
-"""A fixed sample of the stress test: equilibria that are hard to find, refusals that a global search confirms."""
+"""A fixed sample of the stress test: hard equilibria, and refusals that the global search confirms."""
 
 import sys
 from pathlib import Path
