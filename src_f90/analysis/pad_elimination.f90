@@ -14,8 +14,9 @@ module pad_elimination
    !> Unbalanced forces over the load at which a pad and the journal rest: near enough for Newton's method on the whole.
    real(wp), parameter :: pad_limit = 1e-9_wp, journal_limit = 1e-6_wp
    integer, parameter :: pad_iterations = 40, journal_iterations = 60
-   !> Longest move in an iteration, in assembled clearances; least part of a film that one leaves.
-   real(wp), parameter :: longest_move = 0.2_wp, least_film = 0.3_wp
+   !> Longest move in an iteration, in assembled clearances; least part of a film that one leaves; move below which there
+   !> is none.
+   real(wp), parameter :: longest_move = 0.2_wp, least_film = 0.3_wp, shortest_move = 1e-12_wp
    !> Trace of damping for films that have ruptured everywhere, over mass and speed.
    real(wp), parameter :: trace = 1e-3_wp
    integer, parameter :: own(2) = [tilt_column, penetration_column]
@@ -208,7 +209,8 @@ contains
             matrix(k, k) = matrix(k, k) - trace*mass_rate/time_step
          end do
          step = solved(matrix, -force)
-         if (norm2(step) <= longest_move*clearance) exit
+         ! what is no number ends here too, and the films refuse it
+         if (.not. norm2(step) > longest_move*clearance) exit
          time_step = time_step*min(0.5_wp, longest_move*clearance/norm2(step))
       end do
    end subroutine find_step
@@ -233,7 +235,8 @@ contains
             trial(i) = pad_state(tilt=pads(i)%tilt + change(1), penetration=pads(i)%penetration + change(2))
             if (film_of(model, i, moved, trial(i)) < least_film*film_of(model, i, journal, pads(i))) open = .false.
          end do
-         if (open) exit
+         ! a film that is closed already, or nearly, stops no journal for ever
+         if (open .or. .not. norm2(step) > shortest_move*model%scene%bearing%assembled_clearance) exit
          step = 0.5_wp*step
          time_step = 0.5_wp*time_step
       end do
