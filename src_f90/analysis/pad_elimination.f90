@@ -14,8 +14,8 @@ module pad_elimination
    !> Unbalanced forces over the load at which a pad and the journal rest: near enough for Newton's method on the whole.
    real(wp), parameter :: pad_limit = 1e-9_wp, journal_limit = 1e-6_wp
    integer, parameter :: pad_iterations = 40, journal_iterations = 60
-   !> Longest move in an iteration, in assembled clearances; least part of a film that one leaves; move below which there
-   !> is none.
+   !> Longest move in an iteration, in assembled clearances; least part of a film that one leaves; move below which
+   !> there is none.
    real(wp), parameter :: longest_move = 0.2_wp, least_film = 0.3_wp, shortest_move = 1e-12_wp
    !> Trace of damping for films that have ruptured everywhere, over mass and speed.
    real(wp), parameter :: trace = 1e-3_wp
