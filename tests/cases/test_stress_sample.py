@@ -7,8 +7,8 @@ import h5py
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "stress"))
-from judge import cause_of, searched  # noqa: E402
-from scenes import draw, text  # noqa: E402
+from stress_judge import cause_of, searched  # noqa: E402
+from stress_scenes import draw, text  # noqa: E402
 
 # scenes of seed 1 whose equilibrium the first search misses, by the method that finds it: pads one by one
 # (163, 172, 225), Newton from another start (144), the rest of an unloaded pad (15, 297)

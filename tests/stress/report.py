@@ -5,7 +5,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable
 
 import numpy as np
-from judge import AT_REST, COMPARED, FINER, Result, cause_of
+from stress_judge import AT_REST, COMPARED, FINER, Result, cause_of
 
 OUTCOMES = ("done", "step budget", "march stopped", "no equilibrium", "input refused", "crashed", "hung")
 NUMBER = r"-?\d+(\.\d+)?([eE][+-]?\d+)?"

@@ -14,9 +14,9 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from judge import Result, judge
 from report import page
-from scenes import Dice, draw, text
+from stress_judge import Result, judge
+from stress_scenes import Dice, draw, text
 
 
 def arguments() -> argparse.Namespace:

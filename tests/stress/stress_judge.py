@@ -9,7 +9,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from scenes import Scene, text
+from stress_scenes import Scene, text
 
 #: Seconds after which a run counts as hung; the step budget should end it long before.
 HUNG = 300
