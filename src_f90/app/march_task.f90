@@ -9,6 +9,9 @@ module march_task
    use scene, only: scene_type
    use run_file, only: run_file_type
    use march_results, only: put_spectrum, put_asperities
+   use equations_of_motion, only: bearing_model
+   use static_model, only: make_static
+   use small_vibrations, only: has_light_modes
    use case_run, only: case_run_type
    use march_start, only: make_start
    use recorder, only: recorder_type, begin_recording
@@ -46,7 +49,7 @@ contains
       if (run%resumed) call check_samples(run, plan, t, error)
       if (allocated(error)) return
       call begin_recording(observer, run, t)
-      call march(run%model, options(run), t, run%scene%operation%duration, plan, y, observer, counts, error)
+      call march(run%model, options(run, y), t, run%scene%operation%duration, plan, y, observer, counts, error)
       run%counts = counts
       call observer%progress%clear()
       if (.not. allocated(error)) call write_spectra(run%scene, plan%interval, run%file)
@@ -70,8 +73,11 @@ contains
       if (.not. run%quiet) print '(a)', 'going on from t = '//to_text(t)//' s'
    end subroutine continue_from_checkpoint
 
-   type(march_options) function options(run)
+   !> How to march from the state y.
+   type(march_options) function options(run, y)
       type(case_run_type), intent(in) :: run
+      real(wp), intent(in) :: y(:)
+      type(bearing_model) :: static
       associate (integration => run%scene%integration)
          options%relative_tolerance = integration%relative_tolerance
          options%absolute_tolerance = integration%relative_tolerance*integration%tolerance_scale*run%model%scale
@@ -85,6 +91,8 @@ contains
          else if (.not. model%smooth()) then
             tolerance = friction_tolerance*tolerance
          end if
+         call make_static(model, model%point%rupture, static)
+         options%lowers_orders = has_light_modes(static, y, run%scene%highest_speed())
       end associate
    end function options
 

@@ -33,6 +33,8 @@ module cvode_integrator
       real(wp) :: max_step = 0
       !> Steps after which the derivatives are taken anew (CVODE: 51): they are cheap, and fresh they save steps.
       integer :: derivatives_age = 5
+      !> Whether orders are lowered where BDF is found unstable: for light modes (docs/theory.md).
+      logical :: lowers_orders = .false.
    end type integrator_options
 
    !> What CVODE holds pointers to, and hands back to the callbacks.
@@ -87,7 +89,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(sunlinearsolver_ops), pointer :: operations
       integer(c_int) :: flag
-
       call self%finish()
       allocate (self%core)
       associate (core => self%core)
@@ -117,8 +118,7 @@ contains
          flag = fcvodesetjacevalfrequency(core%memory, int(options%derivatives_age, c_long))
          flag = fcvodesetlsetupfrequency(core%memory, int(options%derivatives_age, c_long))
          flag = fcvodesetnonlinconvcoef(core%memory, newton_coefficient)
-         ! lightly damped modes of pads on stiff pivots lie where BDF of orders 3 to 5 is unstable (docs/theory.md)
-         flag = fcvodesetstablimdet(core%memory, 1_c_int)
+         if (options%lowers_orders) flag = fcvodesetstablimdet(core%memory, 1_c_int)
          flag = fcvodesetmaxstep(core%memory, options%max_step)
       end associate
       call begin(self%core, t, t_end, error)
