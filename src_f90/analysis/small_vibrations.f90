@@ -18,8 +18,8 @@ module small_vibrations
 
    !> Growth in a radian of the shaft that counts as none: films without any stiffness leave eigenvalues of rounding.
    real(wp), parameter :: no_growth = 1e-6_wp
-   !> Vibrations faster than the shaft by this factor, with damping ratios below this, are light: BDF of the orders 3 to 5
-   !> is unstable for damping ratios below 0.07, 0.29 and 0.62.
+   !> Vibrations faster than the shaft by this factor, with damping ratios below this, are light: BDF of the orders 3
+   !> to 5 is unstable for damping ratios below 0.07, 0.29 and 0.62.
    real(wp), parameter :: faster = 3, light_damping = 0.15_wp
 
 contains
