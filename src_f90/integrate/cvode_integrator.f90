@@ -5,10 +5,11 @@ module cvode_integrator
    use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodereinit, fcvodewftolerances, fcvodesetuserdata, &
       & fcvodesetlinearsolver, fcvodesetlinsysfn, fcvodesetlinearsolutionscaling, fcvodesetjacevalfrequency, &
       & fcvodesetlsetupfrequency, fcvodegetcurrentgamma, fcvodesetnonlinconvcoef, fcvodesetstablimdet, &
-      & fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, fcvode, fcvodefree, fcvodegetnumrhsevals, &
-      & fcvodegetnumjacevals, fcvodegetnumerrtestfails, fcvodegetnumnonlinsolvconvfails, fcvodegetcurrentstep, &
-      & fcvodegetlastorder, cv_bdf, cv_one_step, cv_err_failure, cv_conv_failure, cv_too_much_acc, cv_rhsfunc_fail, &
-      & cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, cv_unrec_rhsfunc_err, cv_lsetup_fail
+      & fcvodesetmaxerrtestfails, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, fcvode, fcvodefree, &
+      & fcvodegetnumrhsevals, fcvodegetnumjacevals, fcvodegetnumerrtestfails, fcvodegetnumnonlinsolvconvfails, &
+      & fcvodegetcurrentstep, fcvodegetlastorder, cv_bdf, cv_one_step, cv_err_failure, cv_conv_failure, &
+      & cv_too_much_acc, cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, cv_unrec_rhsfunc_err, &
+      & cv_lsetup_fail
    use sundials_context, only: index_kind, new_context, free_context, silence, n_vector, fn_vdestroy, sunmatrix, &
       & fsunmatdestroy, sunlinearsolver, sunlinearsolver_ops, sunlinearsolver_direct, fsunlinsolnewempty, &
       & fsunlinsolfreeempty
@@ -48,9 +49,8 @@ module cvode_integrator
       real(c_double) :: t(1) = 0, t_end = 0
       real(wp), allocatable :: y(:)
       real(wp) :: relative_tolerance = 0
-      real(wp), allocatable :: absolute_tolerance(:)
-      !> Newton's last correction of the state.
-      real(wp), allocatable :: correction(:)
+      !> Absolute tolerance of each state; Newton's last correction of it.
+      real(wp), allocatable :: absolute_tolerance(:), correction(:)
       type(step_history_type) :: history
       !> Order of the last step.
       integer(c_int) :: order(1) = 0
@@ -76,6 +76,8 @@ module cvode_integrator
    !> Newton's iteration ends where its correction passes the error test (CVODE: 0.1 of it). With derivatives as fresh
    !> as here what it leaves is far below (measured, docs/theory.md).
    real(c_double), parameter :: newton_coefficient = 1
+   !> Failures of the error test in one step (CVODE: 7): enough to pass a small jump of the forces.
+   integer(c_int), parameter :: max_failures = 20
 
 contains
 
@@ -104,7 +106,6 @@ contains
          core%relative_tolerance = options%relative_tolerance
          core%absolute_tolerance = options%absolute_tolerance
          flag = fcvodewftolerances(core%memory, c_funloc(weights_callback))
-         ! the model keeps its matrix and solves; CVODE wants to see one
          core%matrix => fsundensematrix(1_index_kind, 1_index_kind, core%context)
          core%linear_solver => fsunlinsolnewempty(core%context)
          core%linear_solver%content = c_loc(core)
@@ -113,12 +114,13 @@ contains
          operations%solve = c_funloc(solve_callback)
          flag = fcvodesetlinearsolver(core%memory, core%linear_solver, core%matrix)
          flag = fcvodesetlinsysfn(core%memory, c_funloc(linear_system_callback))
-         ! the model solves with the gamma of the step
+         ! the model keeps its matrix and solves with the gamma of the step
          flag = fcvodesetlinearsolutionscaling(core%memory, 0_c_int)
          flag = fcvodesetjacevalfrequency(core%memory, int(options%derivatives_age, c_long))
          flag = fcvodesetlsetupfrequency(core%memory, int(options%derivatives_age, c_long))
          flag = fcvodesetnonlinconvcoef(core%memory, newton_coefficient)
          if (options%lowers_orders) flag = fcvodesetstablimdet(core%memory, 1_c_int)
+         flag = fcvodesetmaxerrtestfails(core%memory, max_failures)
          flag = fcvodesetmaxstep(core%memory, options%max_step)
       end associate
       call begin(self%core, t, t_end, error)
@@ -250,8 +252,7 @@ contains
          reason = 'the Newton iteration kept failing'
       case (cv_too_much_acc)
          reason = 'the tolerances are finer than the machine can resolve'
-      case (cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, cv_unrec_rhsfunc_err, &
-         & cv_lsetup_fail)
+      case (cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, cv_unrec_rhsfunc_err, cv_lsetup_fail)
          reason = 'the equations of motion could not be evaluated'
       case default
          reason = 'CVODE gave up with code '//to_text(int(flag))
@@ -270,12 +271,11 @@ contains
       type(n_vector) :: y_vector, dydt_vector
       type(c_ptr), value :: user_pointer
       type(core_type), pointer :: core
-      real(c_double), pointer, contiguous :: y(:), dydt(:)
+      real(c_double), pointer, contiguous :: dydt(:)
       logical :: ok
       call c_f_pointer(user_pointer, core)
-      y => numbers(y_vector)
       dydt => numbers(dydt_vector)
-      call core%model%rhs(t, y, dydt, ok)
+      call core%model%rhs(t, numbers(y_vector), dydt, ok)
       rhs_callback = merge(0_c_int, 1_c_int, ok)
    end function rhs_callback
 
