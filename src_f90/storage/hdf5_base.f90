@@ -72,8 +72,12 @@ contains
    !> Readies the library. Files do so by themselves; a process that does it before it starts children saves them the
    !> time.
    subroutine start_hdf5()
+      ! each further start would make HDF5's types anew and keep the old ones, through which every closing goes
+      logical, save :: started = .false.
       integer :: status
       integer(c_int) :: ignored
+      if (started) return
+      started = .true.
       ! HDF5's own locks are for readers in the middle of a write; many file systems know none
       call set_environment('HDF5_USE_FILE_LOCKING', 'BEST_EFFORT')
       ! what is open is closed here; at exit HDF5 would crash over a file it could not write
@@ -81,7 +85,7 @@ contains
       call h5open_f(status)
       ! HDF5 would print its own stack of errors
       call h5eset_auto_f(0, status)
-      ! a link to another file is an error from now on; the second time there is no such class any more
+      ! a link to another file is an error from now on
       ignored = c_unregister_links(external_links)
       ! it would look for libraries with filters that a file names
       ignored = c_allow_libraries(0_c_int)
