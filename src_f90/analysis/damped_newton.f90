@@ -11,8 +11,8 @@ module damped_newton
    use force_balance, only: forces, force_derivatives, masses
    implicit none (type, external)
    private
-   public :: follow_motion, imbalance, reference_force, clearances, asked_to_stop, asked, residual_limit, &
-      & newtons
+   public :: follow_motion, imbalance, reference_force, clearances, asked_to_stop, asked, next_time_step, &
+      & residual_limit, newtons, longest_move, shortest_move, trace
 
    !> Unbalanced force over the load at rest.
    real(wp), parameter :: residual_limit = 1e-8_wp
@@ -23,6 +23,8 @@ module damped_newton
    real(wp), parameter :: longest_move = 0.2_wp
    !> Move below which an iteration without progress is the last.
    real(wp), parameter :: shortest_move = 1e-12_wp
+   !> Trace of damping for pads whose film has ruptured everywhere, over mass and speed.
+   real(wp), parameter :: trace = 1e-3_wp
 
    abstract interface
       !> True once the search is to be given up.
@@ -87,10 +89,16 @@ contains
          end if
          next = imbalance(model, free)
          stuck = move < shortest_move .and. next > 0.5_wp*residual
-         time_step = time_step*max(0.3_wp, 1.5_wp*residual/max(next, 0.15_wp*residual))
+         time_step = next_time_step(time_step, residual, next)
          residual = next
       end do
    end subroutine follow_motion
+
+   !> The time step after one that took the residual from `last` to `now`: longer as it falls.
+   elemental real(wp) function next_time_step(time_step, last, now)
+      real(wp), intent(in) :: time_step, last, now
+      next_time_step = time_step*max(0.3_wp, 1.5_wp*last/max(now, 0.15_wp*last))
+   end function next_time_step
 
    !> The positions that move: all but those of pads that are held.
    pure function free_positions(model, held) result(free)
@@ -180,8 +188,7 @@ contains
       logical, intent(out) :: ok
       real(wp) :: matrix(size(f), size(f))
       integer :: pivots(size(f)), info, i
-      ! with a trace of damping for pads whose film has ruptured everywhere
-      matrix = stiffness + (damping - 1e-3_wp*model%point%speed(0.0_wp)*masses(model))/time_step
+      matrix = stiffness + (damping - trace*model%point%speed(0.0_wp)*masses(model))/time_step
       step = -f
       do i = 1, size(f)
          if (free(i)) cycle

@@ -34,14 +34,14 @@ contains
       type(search_traces) :: traces
       real(wp), allocatable :: y(:)
       call make_static(model, model%point%rupture, static)
-      call search_first(model, static, y, found%residual, error, give_up)
+      call search_first(model, static, y, found%residual, traces%films_fail, error, give_up)
       if (.not. allocated(error)) then
          if (is_usable(static, y, found, traces)) return
       else if (error%status == stopped) then
          return
       else
          traces%last_words = error%message
-         if (traces%films_fail()) then
+         if (traces%films_fail) then
             call raise(error, numerics_error, refusal(model, traces))
             return
          end if
@@ -57,11 +57,13 @@ contains
 
    !> From the best start along the load; with films that rupture also from the equilibrium of films that are kept
    !> whole: on the way a pad may lose its film and with it all stiffness.
-   subroutine search_first(model, static, y, residual, error, give_up)
+   subroutine search_first(model, static, y, residual, films_fail, error, give_up)
       type(bearing_model), intent(in) :: model
       type(bearing_model), intent(inout) :: static
       real(wp), allocatable, intent(out) :: y(:)
       real(wp), intent(out) :: residual
+      !> Whether the search from the best start ended at a film that did not converge.
+      logical, intent(out) :: films_fail
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       type(bearing_model) :: whole
@@ -69,6 +71,7 @@ contains
       real(wp), allocatable :: y_whole(:)
       y = best_start(static, give_up)
       call follow_motion(static, y, residual, error, give_up)
+      films_fail = .not. static%bearing%films_converge()
       if (.not. allocated(error) .or. .not. static%bearing%films_rupture()) return
       if (error%status == stopped) return
       call make_static(model, .false., whole)
@@ -81,6 +84,7 @@ contains
       if (.not. allocated(second_error)) then
          y = y_whole
          deallocate (error)
+         films_fail = .false.
       else if (second_error%status == stopped) then
          call move_alloc(second_error, error)
       end if

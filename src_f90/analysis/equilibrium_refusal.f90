@@ -15,8 +15,8 @@ module equilibrium_refusal
       logical, allocatable :: restless(:)
       !> Growth, 1/s, of the last divergent equilibrium; 0: none was found.
       real(wp) :: divergence = 0
-   contains
-      procedure :: films_fail
+      !> Whether the first search ended at a film that did not converge: no other search would help.
+      logical :: films_fail = .false.
    end type search_traces
 
    !> Cosine of the angle between load and pivot below which one pad carries a load that points past it.
@@ -24,20 +24,13 @@ module equilibrium_refusal
 
 contains
 
-   !> True where a film that is solved by iteration did not converge: no other search would help.
-   pure logical function films_fail(self)
-      class(search_traces), intent(in) :: self
-      films_fail = .false.
-      if (allocated(self%last_words)) films_fail = index(self%last_words, 'did not converge') > 0
-   end function films_fail
-
    !> The message of a refusal: the cause, what the searches found, and what may help.
    function refusal(model, traces) result(message)
       type(bearing_model), intent(in) :: model
       type(search_traces), intent(in) :: traces
       character(len=:), allocatable :: message
       message = 'no equilibrium found at '//to_text(model%point%speed_rpm)//' rpm: '
-      if (traces%films_fail()) then
+      if (traces%films_fail) then
          message = message//traces%last_words
          return
       end if

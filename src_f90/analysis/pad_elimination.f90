@@ -2,11 +2,12 @@
 !> a time step of its own; then the journal moves under what the pads answer. A light pad that hunts holds up no other.
 module pad_elimination
    use kinds, only: wp
+   use two_equations, only: solved
    use kinematics, only: journal_motion, pad_state, tilt_column, tilt_rate_column, penetration_column, &
       & penetration_rate_column
    use equations_of_motion, only: bearing_model
    use force_balance, only: forces
-   use damped_newton, only: asked_to_stop, asked, reference_force
+   use damped_newton, only: asked_to_stop, asked, reference_force, next_time_step, longest_move, shortest_move, trace
    implicit none (type, external)
    private
    public :: eliminate_pads, settle_pads, film_of
@@ -14,11 +15,8 @@ module pad_elimination
    !> Unbalanced forces over the load at which a pad and the journal rest: near enough for Newton's method on the whole.
    real(wp), parameter :: pad_limit = 1e-9_wp, journal_limit = 1e-6_wp
    integer, parameter :: pad_iterations = 40, journal_iterations = 60
-   !> Longest move in an iteration, in assembled clearances; least part of a film that one leaves; move below which
-   !> there is none.
-   real(wp), parameter :: longest_move = 0.2_wp, least_film = 0.3_wp, shortest_move = 1e-12_wp
-   !> Trace of damping for films that have ruptured everywhere, over mass and speed.
-   real(wp), parameter :: trace = 1e-3_wp
+   !> Least part of a film that a move leaves.
+   real(wp), parameter :: least_film = 0.3_wp
    integer, parameter :: own(2) = [tilt_column, penetration_column]
    integer, parameter :: rates(2) = [tilt_rate_column, penetration_rate_column]
 
@@ -47,7 +45,7 @@ contains
          force = resultant(model)
          residual = norm2(force)/reference_force(model)
          if (residual <= journal_limit) exit
-         if (iteration > 1) time_step = time_step*max(0.3_wp, 1.5_wp*last/max(residual, 0.15_wp*last))
+         if (iteration > 1) time_step = next_time_step(time_step, last, residual)
          last = residual
          call reduce(model, at_rest, stiffness, damping, follow)
          call find_step(stiffness, damping, force, model%rotor%mass*model%point%speed(0.0_wp), &
@@ -76,7 +74,7 @@ contains
          residual = imbalances(model)
          at_rest = residual <= pad_limit
          if (all(at_rest) .or. iteration == pad_iterations) exit
-         if (iteration > 0) time_step = time_step*max(0.3_wp, 1.5_wp*last/max(residual, 0.15_wp*last))
+         if (iteration > 0) time_step = next_time_step(time_step, last, residual)
          last = residual
          do i = 1, size(pads)
             if (.not. at_rest(i)) call move_pad(model, i, journal, pads(i), time_step(i))
@@ -254,13 +252,4 @@ contains
          film_of = of%gap%min_film_thickness(of%motion(of%frame(journal, pad), journal, pad), of%directions)
       end associate
    end function film_of
-
-   !> x of the equations A x = b; 0 where they are singular.
-   pure function solved(a, b) result(x)
-      real(wp), intent(in) :: a(2, 2), b(2)
-      real(wp) :: x(2), determinant
-      x = 0
-      determinant = a(1, 1)*a(2, 2) - a(1, 2)*a(2, 1)
-      if (abs(determinant) > 0) x = [a(2, 2)*b(1) - a(1, 2)*b(2), a(1, 1)*b(2) - a(2, 1)*b(1)]/determinant
-   end function solved
 end module pad_elimination

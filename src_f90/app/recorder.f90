@@ -77,16 +77,13 @@ contains
       class(recorder_type), intent(inout) :: self
       real(wp), intent(in) :: t, y(:), output(:)
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: started, writing
-      if (mod(self%samples, timing_stride) == timing_stride - 1) then
-         started = wall_clock()
-         writing = self%run%file%table%seconds
-         call self%record(t, y, output, error)
-         self%run%sampling = self%run%sampling &
-            & + timing_stride*(wall_clock() - started - (self%run%file%table%seconds - writing))
-      else
-         call self%record(t, y, output, error)
-      end if
+      real(wp) :: started
+      logical :: timed
+      timed = mod(self%samples, timing_stride) == timing_stride - 1
+      if (timed) started = wall_clock() - self%run%file%table%seconds
+      call self%record(t, y, output, error)
+      if (timed) self%run%sampling = self%run%sampling &
+         & + timing_stride*(wall_clock() - self%run%file%table%seconds - started)
       self%samples = self%samples + 1
    end subroutine sample
 

@@ -6,7 +6,8 @@ module tilting_pad_bearing
    use clock, only: wall_clock
    use text, only: to_text
    use scene, only: scene_type
-   use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_closed, film_not_converged
+   use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_ok, film_closed, &
+      & film_not_converged
    use asperity_contact, only: asperity_contact_type, asperity_load
    use contact_law, only: contact_law_type
    use contact_table, only: contact_table_type, new_contact_table
@@ -70,6 +71,7 @@ module tilting_pad_bearing
       procedure :: contact_force
       procedure :: counters
       procedure :: films_rupture
+      procedure :: films_converge
       procedure :: set_rupture
       procedure :: set_accuracy
       procedure, private :: evaluate_films
@@ -146,18 +148,15 @@ contains
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       real(wp) :: started
+      logical :: timed
       integer :: i
       self%speed = speed
-      if (mod(self%evaluations, timing_stride) == 0) then
-         ! tables are built now and then: their time must not count for evaluations without
-         started = wall_clock() - self%film%counters%building
-         call self%film%evaluate(self%film_motion, speed, want_derivatives, self%response)
-         associate (counters => self%film%counters)
-            counters%seconds = counters%seconds + timing_stride*(wall_clock() - counters%building - started)
-         end associate
-      else
-         call self%film%evaluate(self%film_motion, speed, want_derivatives, self%response)
-      end if
+      timed = mod(self%evaluations, timing_stride) == 0
+      ! tables are built now and then: their time must not count for evaluations without
+      if (timed) started = wall_clock() - self%film%counters%building
+      call self%film%evaluate(self%film_motion, speed, want_derivatives, self%response)
+      if (timed) self%film%counters%seconds = self%film%counters%seconds &
+         & + timing_stride*(wall_clock() - self%film%counters%building - started)
       self%evaluations = self%evaluations + 1
       do i = 1, size(self%pads)
          associate (film => self%response(i), asperity => self%asperity(i))
@@ -189,8 +188,7 @@ contains
       type(tilting_pad_type), intent(in) :: pad
       type(pad_state), intent(in) :: state
       type(film_response), intent(in) :: film
-      admitted = abs(state%tilt) < pad%largest_tilt .and. film%status /= film_closed &
-         & .and. film%status /= film_not_converged .and. all(ieee_is_finite(film%force))
+      admitted = abs(state%tilt) < pad%largest_tilt .and. film%status == film_ok .and. all(ieee_is_finite(film%force))
    end function admitted
 
    !> Why the state evaluated last is refused for a pad.
@@ -291,9 +289,8 @@ contains
       warning = ''
       i = minloc(self%response%min_film_thickness, dim=1)
       associate (thickness => self%response(i)%min_film_thickness)
-         if (thickness < nearly_closed*self%clearance) then
-            warning = 'the film of pad '//to_text(i)//' is closing: thickness '//to_text(thickness)//' m'
-         end if
+         if (thickness < nearly_closed*self%clearance) warning = 'the film of pad '//to_text(i) &
+            & //' is closing: thickness '//to_text(thickness)//' m'
       end associate
    end function warning
 
@@ -329,6 +326,12 @@ contains
       class(tilting_pad_bearing_type), intent(in) :: self
       films_rupture = self%film%ruptures()
    end function films_rupture
+
+   !> False where a film of the state evaluated last, solved by iteration, did not converge.
+   pure logical function films_converge(self)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      films_converge = all(self%response%status /= film_not_converged)
+   end function films_converge
 
    !> Lets the films rupture by their condition, or keeps them whole.
    subroutine set_rupture(self, allowed)

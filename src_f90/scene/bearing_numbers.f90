@@ -2,6 +2,7 @@
 module bearing_numbers
    use kinds, only: wp
    use scene, only: scene_type
+   use operating_point, only: operating_point_type
    implicit none (type, external)
    private
    public :: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
@@ -29,7 +30,9 @@ contains
    !> Steady force W on the journal, weight and static load, N.
    pure real(wp) function load(scene)
       type(scene_type), intent(in) :: scene
-      load = norm2(scene%rotor%static_load - [scene%rotor%mass*scene%rotor%gravity, 0.0_wp])
+      associate (point => operating_point_type(scene))
+         load = norm2(point%load)
+      end associate
    end function load
 
    !> W/(L D), Pa.

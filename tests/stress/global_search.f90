@@ -1,5 +1,5 @@
 !> A global search for equilibria, slow, and independent of the one in the program: what it shares with it are the
-!> forces.
+!> forces, what counts as balanced, and how an equilibrium is judged.
 !>
 !> usage: global_search CASE.nml...
 !>
@@ -11,10 +11,12 @@
 !> and how many equilibria there are, then of the best one eigenvalue, 1/s, journal, clearances, and tilts, rad.
 program global_search
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use kinds, only: wp
+   use kinds, only: wp, pi
    use errors, only: error_type
    use scene, only: scene_type
+   use case_text, only: read_text
    use scene_namelist, only: scene_from_text
+   use two_equations, only: solved
    use lapack, only: dgesv
    use film_solver, only: film_solver_type, film_motion, film_response, film_ok
    use components, only: make_film
@@ -22,8 +24,9 @@ program global_search
    use tilting_pad, only: tilting_pad_type
    use operating_point, only: operating_point_type
    use equations_of_motion, only: bearing_model, new_bearing_model
-   use force_balance, only: forces, force_derivatives, masses
-   use small_vibrations, only: eigenvalues, stability_of, stability_type
+   use force_balance, only: forces, force_derivatives
+   use damped_newton, only: imbalance, residual_limit
+   use small_vibrations, only: stability_at, stability_type
    implicit none (type, external)
 
    !> Distances and leanings of a table; distances over the machined clearance.
@@ -40,7 +43,6 @@ program global_search
    integer, parameter :: side = 15, draws = 6
    !> How far a piece is continued, in its lengths.
    real(wp), parameter :: least_part = -0.5_wp
-   real(wp), parameter :: residual_limit = 1e-8_wp, pi = acos(-1.0_wp)
 
    !> Films of one pad shape: the pad leans by b, so that the journal stands at distance rho, turned by b, before it.
    type :: table_type
@@ -75,10 +77,12 @@ contains
       character(len=*), intent(in) :: path
       type(scene_type) :: scene
       type(error_type), allocatable :: error
+      character(len=:), allocatable :: text
       type(bearing_model) :: model
       type(operating_point_type) :: point
       type(curve_type), allocatable :: curves(:)
-      call scene_from_text(content(path), path, scene, error)
+      call read_text(path, text, error)
+      if (.not. allocated(error)) call scene_from_text(text, path, scene, error)
       if (allocated(error)) then
          write (error_unit, '(a)') error%message
          error stop 1
@@ -91,17 +95,6 @@ contains
       call make_curves(scene, model, curves)
       call search_plane(path, model, curves)
    end subroutine search_case
-
-   function content(path)
-      character(len=*), intent(in) :: path
-      character(len=:), allocatable :: content
-      integer :: unit, length
-      open (newunit=unit, file=path, access='stream', form='unformatted', action='read', status='old')
-      inquire (unit=unit, size=length)
-      allocate (character(len=length) :: content)
-      read (unit) content
-      close (unit)
-   end function content
 
    !> Of every pad the pieces of its curve.
    subroutine make_curves(scene, model, curves)
@@ -323,7 +316,8 @@ contains
                call polish(model, y, ok)
                if (.not. ok .or. known(model, y, found, 1e-4_wp)) cycle
                found = reshape([found, y], [model%n, size(found, 2) + 1])
-               call class_of(model, y, stability)
+               call stability_at(model, y, stability, ok)
+               if (.not. ok) cycle
                if (rank_of(stability%name) > rank) then
                   rank = rank_of(stability%name)
                   best = stability
@@ -482,7 +476,7 @@ contains
       do iteration = 1, 60
          call model%evaluate(0.0_wp, y, .true., ok)
          if (.not. ok) return
-         residual = imbalance_of(model)
+         residual = imbalance(model)
          if (residual <= residual_limit) return
          call force_derivatives(model, stiffness, damping)
          step = -forces(model, 0.0_wp)
@@ -495,7 +489,7 @@ contains
             trial(x) = y(x) + part*step
             call model%evaluate(0.0_wp, trial, .false., ok)
             if (ok) then
-               next = imbalance_of(model)
+               next = imbalance(model)
                if (next < residual .or. cut > 8) exit
             end if
             part = 0.5_wp*part
@@ -505,41 +499,4 @@ contains
       end do
       ok = .false.
    end subroutine polish
-
-   !> Largest unbalanced force over the load.
-   real(wp) function imbalance_of(model) result(residual)
-      type(bearing_model), intent(in) :: model
-      real(wp) :: force(model%layout%n_positions())
-      force = forces(model, 0.0_wp)
-      residual = norm2(force(:2))
-      associate (loads => model%bearing%loads, pads => model%bearing%pads)
-         residual = max(residual, maxval(abs(loads%moment)/pads%position%centre_distance))
-         if (model%layout%radial) residual = max(residual, maxval(abs(loads%radial)))
-         residual = residual/max(norm2(model%point%load), maxval(pads%weight), 1.0_wp)
-      end associate
-   end function imbalance_of
-
-   subroutine class_of(model, y, stability)
-      type(bearing_model), intent(inout) :: model
-      real(wp), intent(in) :: y(:)
-      type(stability_type), intent(out) :: stability
-      complex(wp) :: values(2*model%layout%n_positions())
-      real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: stiffness, damping
-      logical :: ok
-      stability%name = 'unknown'
-      call model%evaluate(0.0_wp, y, .true., ok)
-      if (.not. ok) return
-      call force_derivatives(model, stiffness, damping)
-      call eigenvalues(masses(model), stiffness, damping, values, ok)
-      if (ok) stability = stability_of(values, 1e-6_wp*model%point%speed(0.0_wp))
-   end subroutine class_of
-
-   !> x of the equations A x = b; 0 where they are singular.
-   pure function solved(a, b) result(x)
-      real(wp), intent(in) :: a(2, 2), b(2)
-      real(wp) :: x(2), determinant
-      x = 0
-      determinant = a(1, 1)*a(2, 2) - a(1, 2)*a(2, 1)
-      if (abs(determinant) > 0) x = [a(2, 2)*b(1) - a(1, 2)*b(2), a(1, 1)*b(2) - a(2, 1)*b(1)]/determinant
-   end function solved
 end program global_search

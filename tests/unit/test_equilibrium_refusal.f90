@@ -79,6 +79,7 @@ contains
       traces%restless = [.false., .false., .true., .false., .false.]
       call says(scene, traces, 'pad 3 has no rest position (unloaded)')
       traces%last_words = 'the film of pad 1 did not converge'
+      traces%films_fail = .true.
       call says(scene, traces, 'rpm: the film of pad 1 did not converge')
    end subroutine from_traces
 

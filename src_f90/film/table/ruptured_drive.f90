@@ -8,6 +8,7 @@
 !> the same start: the answer does not depend on what came before.
 module ruptured_drive
    use kinds, only: wp
+   use two_equations, only: solved
    use film_solver, only: film_motion, film_response, film_counters, film_ok
    use unit_pad, only: unit_pad_type, thickness_scale
    use direct_film, only: direct_film_type, new_direct_film
@@ -172,13 +173,6 @@ contains
       end associate
       if (whole%max_pressure > 0) drive%peak = ruptured%max_pressure/whole%max_pressure
    end subroutine set_slopes
-
-   !> x of m x = b.
-   pure function solved(m, b) result(x)
-      real(wp), intent(in) :: m(2, 2), b(2)
-      real(wp) :: x(2)
-      x = [b(1)*m(2, 2) - b(2)*m(1, 2), b(2)*m(1, 1) - b(1)*m(2, 1)]/(m(1, 1)*m(2, 2) - m(1, 2)*m(2, 1))
-   end function solved
 
    !> Angles between the columns, rad, from the trailing to the leading edge, where the film has gone up to an angle
    !> `rim`; so many columns, each cut into so many parts.
