@@ -207,9 +207,11 @@ contains
       real(wp) :: force(model%layout%n_positions())
       integer :: i
       force = forces(model, 0.0_wp)
-      associate (own => [(model%layout%first_position(i), i=1, model%layout%pads)])
-         force(own) = force(own)/model%bearing%pads%position%centre_distance
-      end associate
+      if (model%layout%tilting) then
+         associate (own => [(model%layout%first_position(i), i=1, model%layout%pads)])
+            force(own) = force(own)/model%bearing%pads%position%centre_distance
+         end associate
+      end if
       if (present(free)) force = merge(force, 0.0_wp, free)
       associate (rotor => model%layout%rotor/2)
          imbalance = max(norm2(force(:rotor)), maxval(abs(force(rotor + 1:))))/reference_force(model)

@@ -1,6 +1,6 @@
 !> Why a bearing has no equilibrium to start from, and what may help: in one line.
 module equilibrium_refusal
-   use kinds, only: wp, degree
+   use kinds, only: wp, degree, pi
    use text, only: to_text
    use equations_of_motion, only: bearing_model
    implicit none (type, external)
@@ -53,6 +53,8 @@ contains
       if (.not. norm2(model%point%load) > 0 .and. count <= 2) then
          cause = 'without load '//to_text(count)//trim(merge(' pad pushes', ' pads push ', count == 1)) &
             & //' the journal away; give it a load or pads on all sides'
+      else if (.not. model%layout%tilting .and. load_on_pads(model)) then
+         cause = 'the films do not hold the journal; try another load (rotor%static_load) or clearance'
       else if (count == 1 .and. .not. load_on_pads(model)) then
          cause = 'the load points past the only pad; turn the load (rotor%static_load) or the pad ' &
             & //'(pads%pivot_angle_deg)'
@@ -79,28 +81,34 @@ contains
       load_angle = anint(10*atan2(model%point%load(1), model%point%load(2))/degree)/10
    end function load_angle
 
-   !> True where pads can carry the load: a pad carries through its pivot, so that the load must lie between pivots less
-   !> than half a turn apart (or, of one pad, point through it).
+   !> True where pads can carry the load: a pad that tilts carries through its pivot, so that the load must lie between
+   !> pivots less than half a turn apart (or, of one pad, point through it); a fixed pad carries with all its arc.
    pure logical function load_on_pads(model)
       type(bearing_model), intent(in) :: model
+      real(wp), allocatable :: angles(:)
       real(wp) :: load(2), first(2), second(2), turn, part(2)
       integer :: i, k
       load_on_pads = .true.
       if (.not. norm2(model%point%load) > 0) return
       load = model%point%load/norm2(model%point%load)
-      associate (pivots => model%bearing%pads%position)
-         do i = 1, size(pivots)
-            first = [pivots(i)%sin_angle, pivots(i)%cos_angle]
-            if (dot_product(first, load) >= through_pivot) return
-            do k = i + 1, size(pivots)
-               second = [pivots(k)%sin_angle, pivots(k)%cos_angle]
-               turn = first(1)*second(2) - first(2)*second(1)
-               if (.not. abs(turn) > 0) cycle
-               part = [load(1)*second(2) - load(2)*second(1), first(1)*load(2) - first(2)*load(1)]/turn
-               if (all(part >= 0)) return
-            end do
-         end do
+      associate (pads => model%bearing%pads)
+         angles = pads%position%angle
+         if (.not. model%layout%tilting) then
+            angles = [angles - pads%gap%trailing_angle, angles + pads%gap%leading_angle]
+            if (any(pads%gap%arc() >= pi)) return
+         end if
       end associate
+      do i = 1, size(angles)
+         first = [sin(angles(i)), cos(angles(i))]
+         if (dot_product(first, load) >= through_pivot) return
+         do k = i + 1, size(angles)
+            second = [sin(angles(k)), cos(angles(k))]
+            turn = first(1)*second(2) - first(2)*second(1)
+            if (.not. abs(turn) > 0) cycle
+            part = [load(1)*second(2) - load(2)*second(1), first(1)*load(2) - first(2)*load(1)]/turn
+            if (all(part >= 0)) return
+         end do
+      end do
       load_on_pads = .false.
    end function load_on_pads
 

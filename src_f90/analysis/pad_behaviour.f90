@@ -1,10 +1,11 @@
-!> What each pad does at the end of a run: whether it carries load, lifts off its pivot, flutters or rubs.
+!> What each pad does at the end of a run: whether it carries load, lifts off its pivot, flutters or rubs; and whether
+!> the journal whirls.
 module pad_behaviour
    use kinds, only: wp, pi
    use spectra, only: one_sided_amplitude
    implicit none (type, external)
    private
-   public :: pad_behaviour_type, behaviour_of, dominant
+   public :: pad_behaviour_type, behaviour_of, whirl_of, dominant
 
    type :: pad_behaviour_type
       !> Mean contact force of the pivot, N; shares of the time in which it carries nothing, and in which the film is so
@@ -18,7 +19,8 @@ module pad_behaviour
 
    !> A pad is unloaded below this share of the load of all pads.
    real(wp), parameter :: smallest_share = 0.01_wp
-   !> A pad flutters if its dominant order is so far from a whole number, and its edge moves so far, in clearances.
+   !> A pad flutters, and a journal whirls, if the dominant order is so far from a whole number, and the pad's edge or
+   !> the journal moves so far, in clearances.
    real(wp), parameter :: off_whole = 0.03_wp, visible = 0.01_wp
    !> Revolutions that an order needs; lines of a spectrum that belong to mean and drift.
    integer, parameter :: enough = 8, drift = 3
@@ -46,6 +48,25 @@ contains
       end do
       found%unloaded = found%load < smallest_share*max(sum(found%load), tiny(1.0_wp))
    end function behaviour_of
+
+   !> Order and amplitude, m, of the largest part of the journal's motion (y, z), m, over whole revolutions, along that
+   !> of both directions in which it is larger; and whether it is a whirl other than that of the unbalance.
+   subroutine whirl_of(y, z, revolutions, clearance, order, amplitude, whirls)
+      real(wp), intent(in) :: y(:), z(:), clearance
+      integer, intent(in) :: revolutions
+      real(wp), intent(out) :: order, amplitude
+      logical, intent(out) :: whirls
+      real(wp) :: other_order, other
+      order = -1
+      amplitude = 0
+      if (revolutions >= enough) then
+         call dominant(y, revolutions, order, amplitude)
+         call dominant(z, revolutions, other_order, other)
+         if (other > amplitude) order = other_order
+         amplitude = max(amplitude, other)
+      end if
+      whirls = amplitude > visible*clearance .and. abs(order - anint(order)) > off_whole
+   end subroutine whirl_of
 
    !> Order and amplitude of the largest part of values at equal steps over whole revolutions. A Hann window and the
    !> higher neighbour tell them between the lines of the spectrum. Mean and drift do not count.

@@ -181,7 +181,7 @@ contains
          associate (derivatives => model%bearing%derivatives(i))
             stiffness = stiffness + derivatives%journal(:, 1:2)
             damping = damping + derivatives%journal(:, 3:4)
-            if (.not. at_rest(i)) cycle
+            if (.not. at_rest(i) .or. .not. model%layout%tilting) cycle
             call pad_balance(model, i, force, of_pad, ignored)
             if (.not. model%layout%radial) call hold_second(force, of_pad, ignored)
             over_journal(1, :) = derivatives%moment(1:2)

@@ -57,8 +57,8 @@ contains
       call make_static(new_bearing_model(scene), model%point%rupture, quick)
    end subroutine make_quick
 
-   !> Start k: the journal at its fraction of the clearance down the load, pivots carrying a share of it, and the pads
-   !> tilted so that every film converges.
+   !> Start k: the journal at its fraction of the clearance down the load, pivots carrying a share of it, and pads that
+   !> tilt tilted so that every film converges.
    function start(model, k) result(y)
       type(bearing_model), intent(in) :: model
       integer, intent(in) :: k

@@ -45,9 +45,9 @@ contains
          if (error%status == stopped) error%message = stop_reason()//nothing_computed
          return
       end if
-      call put_equilibrium(run%file%file, static, run%scene%tilting_radial())
+      call put_equilibrium(run%file%file, static, run%scene%tilting(), run%scene%tilting_radial())
       run%computed = .true.
-      if (.not. run%quiet) call print_equilibrium(static)
+      if (.not. run%quiet) call print_equilibrium(static, run%scene)
       y = run%model%at_rest(static%journal, static%tilt, static%penetration)
    end subroutine start_at_equilibrium
 end module equilibrium_task

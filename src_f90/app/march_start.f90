@@ -49,7 +49,7 @@ contains
          end if
       end associate
       run%computed = .true.
-      if (.not. run%quiet) call print_start(run%scene%start%from, journal%position, pads%tilt)
+      if (.not. run%quiet) call print_start(run%scene, journal%position, pads%tilt)
    end subroutine make_start
 
    !> The last state of another result.

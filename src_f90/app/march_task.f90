@@ -136,11 +136,13 @@ contains
       if (revolutions == 0 .or. n < 2) return
       call file%last_samples('journal_y', n, y)
       call file%last_samples('journal_z', n, z)
-      call file%last_samples('pad_tilt', n, tilt)
-      allocate (amplitudes(n/2 + 1, scene%pad_count()))
-      do i = 1, scene%pad_count()
-         amplitudes(:, i) = one_sided_amplitude(tilt(i, :))
-      end do
+      if (scene%tilting()) then
+         call file%last_samples('pad_tilt', n, tilt)
+         allocate (amplitudes(n/2 + 1, scene%pad_count()))
+         do i = 1, scene%pad_count()
+            amplitudes(:, i) = one_sided_amplitude(tilt(i, :))
+         end do
+      end if
       call put_spectrum(file%file, interval, revolutions, scene%highest_speed(), one_sided_amplitude(y(1, :)), &
          & one_sided_amplitude(z(1, :)), full_amplitude(cmplx(y(1, :), z(1, :), wp)), amplitudes)
    end subroutine write_spectra

@@ -55,16 +55,21 @@ contains
    subroutine follow_orbit(self)
       class(recorder_type), intent(inout) :: self
       real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), none(:)
-      integer :: passed, n, i
+      integer :: passed, n, i, watched
       associate (samples => self%run%scene%output%samples_per_revolution, pads => self%run%scene%pad_count())
          ! the last whole revolution and what came after it; comparing begins with the revolution after
          passed = max(0, int(self%run%file%samples()/samples) - 1)
          n = int(self%run%file%samples() - int(passed, i8)*samples)
-         self%orbit = new_periodicity(samples, 2 + pads, passed)
+         watched = 2 + merge(pads, 0, self%run%scene%tilting())
+         self%orbit = new_periodicity(samples, watched, passed)
          if (n == 0) return
          call self%run%file%last_samples('journal_y', n, y)
          call self%run%file%last_samples('journal_z', n, z)
-         call self%run%file%last_samples('pad_tilt', n, tilt)
+         if (self%run%scene%tilting()) then
+            call self%run%file%last_samples('pad_tilt', n, tilt)
+         else
+            allocate (tilt(pads, n), source=0.0_wp)
+         end if
          allocate (none(pads), source=0.0_wp)
          do i = 1, n
             call self%orbit%add(self%run%model%positions(self%run%model%at_rest([y(1, i), z(1, i)], tilt(:, i), none)))

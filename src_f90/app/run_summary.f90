@@ -21,30 +21,37 @@ contains
    end subroutine print_notes
 
    !> Where a march starts that does not start at the equilibrium itself; journal, m, tilts, rad.
-   subroutine print_start(from, journal, tilt)
-      character(len=*), intent(in) :: from
+   subroutine print_start(scene, journal, tilt)
+      type(scene_type), intent(in) :: scene
       real(wp), intent(in) :: journal(2), tilt(:)
       character(len=:), allocatable :: tilts
       integer :: i
-      tilts = milli(tilt(1))
-      do i = 2, size(tilt)
-         tilts = tilts//', '//milli(tilt(i))
-      end do
-      print '(a)', 'start from '''//from//''': journal y '//micro(journal(1))//', z '//micro(journal(2)) &
-         & //' um, tilts '//tilts//' mrad'
+      tilts = ''
+      if (scene%tilting()) then
+         tilts = ', tilts '//milli(tilt(1))
+         do i = 2, size(tilt)
+            tilts = tilts//', '//milli(tilt(i))
+         end do
+         tilts = tilts//' mrad'
+      end if
+      print '(a)', 'start from '''//scene%start%from//''': journal y '//micro(journal(1))//', z ' &
+         & //micro(journal(2))//' um'//tilts
    end subroutine print_start
 
-   subroutine print_equilibrium(static)
+   subroutine print_equilibrium(static, scene)
       type(equilibrium_type), intent(in) :: static
+      type(scene_type), intent(in) :: scene
+      character(len=:), allocatable :: pivot
       integer :: i
       print '(a)', 'equilibrium: journal y '//micro(static%journal(1))//', z '//micro(static%journal(2))//' um, ' &
          & //static%stability%name//' (eigenvalue '//fixed_text(static%stability%eigenvalue%re, 1)//' 1/s at ' &
          & //fixed_text(static%stability%eigenvalue%im/(2*pi), 1)//' Hz)'
       do i = 1, size(static%tilt)
-         print '(a)', '  pad '//to_text(i)//': tilt '//milli(static%tilt(i))//' mrad, penetration ' &
-            & //micro(static%penetration(i))//' um, contact '//fixed_text(static%contact_force(i), 1) &
-            & //' N, minimum film thickness '//micro(static%min_film_thickness(i))//' um, maximum pressure ' &
-            & //mega(static%max_pressure(i))//' MPa'
+         pivot = ''
+         if (scene%tilting()) pivot = 'tilt '//milli(static%tilt(i))//' mrad, penetration ' &
+            & //micro(static%penetration(i))//' um, contact '//fixed_text(static%contact_force(i), 1)//' N, '
+         print '(a)', '  pad '//to_text(i)//': '//pivot//'minimum film thickness ' &
+            & //micro(static%min_film_thickness(i))//' um, maximum pressure '//mega(static%max_pressure(i))//' MPa'
       end do
    end subroutine print_equilibrium
 
@@ -53,23 +60,30 @@ contains
       type(run_file_type), intent(inout) :: file
       type(scene_type), intent(in) :: scene
       real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), moment(:, :), film(:, :), pressure(:, :), contact(:, :)
+      character(len=:), allocatable :: before, after
       integer :: n, i
       n = int(min(int(scene%output%samples_per_revolution, i8), file%samples()))
       call file%last_samples('journal_y', n, y)
       call file%last_samples('journal_z', n, z)
-      call file%last_samples('pad_tilt', n, tilt)
-      call file%last_samples('friction_moment', n, moment)
-      call file%last_samples('contact_force', n, contact)
+      if (scene%tilting()) then
+         call file%last_samples('pad_tilt', n, tilt)
+         call file%last_samples('friction_moment', n, moment)
+         call file%last_samples('contact_force', n, contact)
+      end if
       call file%last_samples('min_film_thickness', n, film)
       call file%last_samples('max_pressure', n, pressure)
       print '(a)', 'last revolution: journal y '//micro(minval(y))//' to '//micro(maxval(y))//', z ' &
          & //micro(minval(z))//' to '//micro(maxval(z))//' um'
-      do i = 1, size(tilt, 1)
-         print '(a)', '  pad '//to_text(i)//': tilt '//milli(minval(tilt(i, :)))//' to ' &
-            & //milli(maxval(tilt(i, :)))//' mrad, minimum film thickness '//micro(minval(film(i, :))) &
-            & //' um, maximum pressure ' &
-            & //mega(maxval(pressure(i, :)))//' MPa, mean contact '//fixed_text(sum(contact(i, :))/n, 1) &
-            & //' N, friction work '//fixed_text(1e3_wp*loop_area(tilt(i, :), moment(i, :)), 3)//' mJ'
+      before = ''
+      after = ''
+      do i = 1, size(film, 1)
+         if (scene%tilting()) then
+            before = 'tilt '//milli(minval(tilt(i, :)))//' to '//milli(maxval(tilt(i, :)))//' mrad, '
+            after = ', mean contact '//fixed_text(sum(contact(i, :))/n, 1)//' N, friction work ' &
+               & //fixed_text(1e3_wp*loop_area(tilt(i, :), moment(i, :)), 3)//' mJ'
+         end if
+         print '(a)', '  pad '//to_text(i)//': '//before//'minimum film thickness '//micro(minval(film(i, :))) &
+            & //' um, maximum pressure '//mega(maxval(pressure(i, :)))//' MPa'//after
       end do
       call print_asperities(file)
    end subroutine print_march
@@ -105,7 +119,7 @@ contains
       character(len=:), allocatable :: of_load
       integer :: i
       if (.not. file%file%has('asperities')) return
-      call file%last_samples('pad_tilt', 1, pads)
+      call file%last_samples('max_pressure', 1, pads)
       allocate (force(size(pads)), time(size(pads)))
       allocate (share(size(pads)), source=0.0_wp)
       call file%file%get_list('asperities/highest_force', force)

@@ -157,13 +157,15 @@ contains
             position%centre_distance = b%journal_radius + b%machined_clearance + p%pivot_distance(i)
             pad%directions = pad%gap%directions()
             pad%largest_tilt = 0.5_wp*p%arc_deg(i)*degree
+            pad%ball_radius = v%socket_radius - v%radius_difference
+            pad%tilts = scene%tilting()
+            pad%radial = scene%tilting_radial()
+            if (.not. pad%tilts) cycle
             pad%mass = p%mass(i)
             pad%inertia = p%inertia(i)
             pad%weight = p%mass(i)*scene%rotor%gravity
             pad%centre_tangential = p%centre_tangential(i)
             pad%centre_radial = p%centre_radial(i)
-            pad%ball_radius = v%socket_radius - v%radius_difference
-            pad%radial = scene%tilting_radial()
          end associate
       end do
    end function new_pads

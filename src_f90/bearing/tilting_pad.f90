@@ -1,4 +1,5 @@
-!> One pad: loads on it and on the journal in a state, and their derivatives, which are not divided by masses.
+!> One pad: loads on it and on the journal in a state, and their derivatives, which are not divided by masses. A fixed
+!> pad stays without tilt; only its load on the journal counts.
 module tilting_pad
    use kinds, only: wp
    use film_solver, only: film_motion, film_response
@@ -20,11 +21,12 @@ module tilting_pad
       !> Tilt at which the pad counts as turned over, rad.
       real(wp) :: largest_tilt
       !> Mass; moment of inertia about the pivot; weight; centre of gravity from the pivot.
-      real(wp) :: mass, inertia, weight, centre_tangential, centre_radial
+      real(wp) :: mass = 0, inertia = 0, weight = 0, centre_tangential = 0, centre_radial = 0
       !> R1 of the pivot.
       real(wp) :: ball_radius
-      !> Whether the pivot yields: then its penetration is a state, else its force is the reaction.
-      logical :: radial
+      !> Whether the pad tilts; whether its pivot yields: then its penetration is a state, else its force is the
+      !> reaction.
+      logical :: tilts, radial
    contains
       procedure :: frame
       procedure :: motion
@@ -87,6 +89,7 @@ contains
       force = film_force
       if (asperities%touches) force = film_force + asperities%force
       answer%journal = to_global(frame, force)
+      if (.not. self%tilts) return
       inertial = self%mass*self%centre_radial*state%tilt_rate**2
       answer%radial = -force(2) - self%weight*frame%s + inertial
       if (self%radial) then
@@ -122,7 +125,13 @@ contains
          force = force + matmul(asperities%force_slopes, of_motion(1:2, :))
          across = across + [-asperities%force(2), asperities%force(1)]
       end if
-      associate (journal => answer%journal, contact => answer%contact, moment => answer%moment, radial => answer%radial)
+      do k = 1, columns
+         answer%journal(:, k) = to_global(frame, force(:, k))
+      end do
+      if (.not. self%tilts) return
+      ! the frame turns with the pad
+      answer%journal(:, tilt_column) = answer%journal(:, tilt_column) + to_global(frame, across)
+      associate (contact => answer%contact, moment => answer%moment, radial => answer%radial)
          radial = -force(2, :)
          radial(tilt_column) = radial(tilt_column) + self%weight*frame%c
          radial(tilt_rate_column) = radial(tilt_rate_column) + 2*self%mass*self%centre_radial*state%tilt_rate
@@ -136,11 +145,6 @@ contains
          moment = -force(1, :)*self%position%centre_distance
          moment(tilt_column) = -force(1, tilt_column)*self%position%centre_distance &
             & + (self%weight*(self%centre_tangential*frame%c + self%centre_radial*frame%s))
-         do k = 1, columns
-            journal(:, k) = to_global(frame, force(:, k))
-         end do
-         ! the frame turns with the pad
-         journal(:, tilt_column) = journal(:, tilt_column) + to_global(frame, across)
          if (asperities%touches) moment = moment + matmul(asperities%moment_slopes, of_motion(1:2, :))
       end associate
    end subroutine derivatives
@@ -167,7 +171,7 @@ contains
       end associate
    end function masses
 
-   !> Its inverse. A pad that only tilts has no second row and column.
+   !> Its inverse. A pad that only tilts has no second row and column, a fixed one none.
    pure function inverse_masses(self) result(inverse)
       class(tilting_pad_type), intent(in) :: self
       real(wp) :: inverse(2, 2), coupling, determinant
@@ -177,7 +181,7 @@ contains
          coupling = self%mass*self%centre_tangential
          determinant = self%inertia*self%mass - coupling**2
          inverse = reshape([self%mass, -coupling, -coupling, self%inertia], [2, 2])/determinant
-      else
+      else if (self%tilts) then
          inverse(1, 1) = 1/self%inertia
       end if
    end function inverse_masses

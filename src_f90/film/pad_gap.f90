@@ -43,7 +43,7 @@ contains
    end function pad_radius
 
    !> Arc of the pad, rad.
-   pure function arc(self)
+   elemental function arc(self)
       class(pad_gap_type), intent(in) :: self
       real(wp) :: arc
       arc = self%leading_angle + self%trailing_angle

@@ -99,7 +99,8 @@ contains
          & 'The bearing has one pad for each pivot angle; other variables take one value for all pads or one for each')
       call v%per_pad(pads%pivot_angle_deg, field('pivot_angle_deg', -360.0_wp, 360.0_wp, 'deg', &
          & 'angle theta of each pivot, from +z towards +y', fixes_pads=.true.))
-      call v%per_pad(pads%arc_deg, field('arc_deg', 0.1_wp, 350.0_wp, 'deg', 'arc theta_1 + theta_2'))
+      call v%per_pad(pads%arc_deg, field('arc_deg', 0.1_wp, 360.0_wp, 'deg', &
+         & 'arc theta_1 + theta_2; at most 350 for pads that tilt'))
       call v%per_pad(pads%pivot_ratio, field('pivot_ratio', 0.01_wp, 0.99_wp, '1', &
          & 'position of the pivot from the leading edge, theta_1 over the arc'))
       call v%per_pad(pads%pivot_distance, field('pivot_distance', 1e-6_wp, 1.0_wp, 'm', &
@@ -117,8 +118,9 @@ contains
       call v%per_pad(pads%thickness, field('thickness', 1e-6_wp, 1.0_wp, 'm', &
          & 'radial thickness of the pad, for mass, inertia and centre of gravity; pivot_distance where it is needed ' &
          & //'and not given'))
-      call v%word(pads%motion, choice('motion', 'tilting_radial tilting_only', &
-         & 'tilting_radial: the pads tilt and move radially on their pivots; tilting_only: they only tilt'))
+      call v%word(pads%motion, choice('motion', 'tilting_radial tilting_only fixed', &
+         & 'tilting_radial: the pads tilt and move radially on their pivots; tilting_only: they only tilt; fixed: ' &
+         & //'neither, lobes of a plain bearing'))
    end subroutine visit_pads
 
    subroutine visit_pivot(pivot, v)

@@ -18,8 +18,8 @@ module equations_of_motion
    !> What is sampled at a time, s: shaft angle, rad; speed, rad/s; journal; states and loads of the pads.
    type :: model_sample
       real(wp) :: time = 0, shaft_angle = 0, speed = 0
-      !> Whether the pads have penetrations and bristle deflections, and whether their asperities may touch.
-      logical :: radial = .false., bristles = .false., asperities = .false.
+      !> Whether the pads tilt, have penetrations and bristle deflections, and whether their asperities may touch.
+      logical :: tilting = .true., radial = .false., bristles = .false., asperities = .false.
       type(journal_motion) :: journal
       type(pad_state), allocatable :: states(:)
       type(pad_sample), allocatable :: loads(:)
@@ -68,7 +68,8 @@ contains
       model%scene = scene
       model%bearing = new_tilting_pad_bearing(scene)
       model%rotor%mass = scene%rotor%mass
-      model%layout = new_state_layout(model%rotor%states, n, scene%tilting_radial(), model%bearing%friction%has_bristle)
+      model%layout = new_state_layout(model%rotor%states, n, scene%tilting(), scene%tilting_radial(), &
+         & model%bearing%friction%has_bristle)
       model%n = model%layout%n
       model%outputs = pad_outputs*n
       call model%set_point(operating_point_type(scene))
@@ -115,8 +116,8 @@ contains
       call model%layout%put_pads(pads, scale)
    end function state_scales
 
-   !> The state with journal and pads at rest at given positions, m, tilts, rad, and penetrations, m (tilting-only:
-   !> they do not matter), bristles undeflected.
+   !> The state with journal and pads at rest at given positions, m, tilts, rad, and penetrations, m (what a pad lacks
+   !> does not matter), bristles undeflected.
    pure function at_rest(self, journal, tilt, penetration) result(y)
       class(bearing_model), intent(in) :: self
       real(wp), intent(in) :: journal(2), tilt(:), penetration(:)
@@ -135,18 +136,18 @@ contains
       call self%layout%put_pads(pads, y)
    end function state
 
-   !> Journal y, z and the tilts, each over its scale.
+   !> Journal y, z and (pads that tilt) the tilts, each over its scale.
    pure function positions(self, y)
       class(bearing_model), intent(in) :: self
       real(wp), intent(in) :: y(:)
-      real(wp) :: positions(2 + self%layout%pads)
+      real(wp), allocatable :: positions(:)
       type(journal_motion) :: journal, scale
-      integer :: i, tilts(self%layout%pads)
+      integer, allocatable :: tilts(:)
+      integer :: i
       journal = self%rotor%journal(y(:self%rotor%states))
       scale = self%rotor%journal(self%scale(:self%rotor%states))
-      positions(:2) = journal%position/scale%position
-      tilts = self%layout%tilt([(i, i=1, self%layout%pads)])
-      positions(3:) = y(tilts)/self%scale(tilts)
+      tilts = self%layout%tilt([(i, i=1, merge(self%layout%pads, 0, self%layout%tilting))])
+      positions = [journal%position/scale%position, y(tilts)/self%scale(tilts)]
    end function positions
 
    !> Evaluates the bearing at (t, y): loads and, where they are wanted, their derivatives.
@@ -173,6 +174,7 @@ contains
       do i = 1, self%layout%pads
          associate (loads => self%bearing%loads(i), layout => self%layout)
             force = force + loads%journal
+            if (.not. layout%tilting) cycle
             o = layout%first(i) - 1
             dydt(o + at_tilt) = y(o + at_tilt_rate)
             rates = self%bearing%per_mass(:, 1, i)*loads%moment + self%bearing%per_mass(:, 2, i)*loads%radial
@@ -247,6 +249,7 @@ contains
       class(bearing_model), intent(in) :: self
       real(wp), intent(in) :: t, y(:), output(:)
       type(model_sample), intent(inout) :: sample
+      sample%tilting = self%layout%tilting
       sample%radial = self%layout%radial
       sample%bristles = self%layout%bristles
       sample%asperities = self%bearing%asperities%act()

@@ -134,7 +134,9 @@ contains
       call self%add_friction(bearing, pad, over_positions, over_rates, over_deflection)
       own = self%layout%first_position(pad)
       m = self%layout%motion/2
-      of_pad = [x(1:2), x(own), merge(x(own + m - 1), 0.0_wp, m > 1)]
+      of_pad = 0
+      of_pad(1:2) = x(1:2)
+      of_pad(3:2 + m) = x(own:own + m - 1)
       known = 0
       do k = 1, 4
          known = known + over_positions(:, k)*of_pad(k)

@@ -1,6 +1,6 @@
 !> This module alone knows where the states lie. Those of the rotor come first, displacements and then their rates. Each
 !> pad follows with tilt, tilt rate, (pivots that yield) penetration and its rate, (LuGre) bristle deflection. A state
-!> that a model lacks is left out.
+!> that a model lacks is left out: fixed pads have none.
 module state_layout
    use kinds, only: wp
    use kinematics, only: pad_state, columns, journal_columns
@@ -15,8 +15,8 @@ module state_layout
    type :: state_layout_type
       !> States of the rotor, pads, states of a pad (its motion and its bristles), all states.
       integer :: rotor = 0, pads = 0, motion = 0, per_pad = 0, n = 0
-      !> Whether the pivots yield; whether there are bristles.
-      logical :: radial = .false., bristles = .false.
+      !> Whether the pads tilt; whether their pivots yield; whether there are bristles.
+      logical :: tilting = .true., radial = .false., bristles = .false.
    contains
       procedure :: first
       procedure :: tilt
@@ -36,15 +36,17 @@ module state_layout
 contains
 
    !> The layout for a rotor of so many states and so many pads.
-   pure type(state_layout_type) function new_state_layout(rotor, pads, radial, bristles) result(layout)
+   pure type(state_layout_type) function new_state_layout(rotor, pads, tilting, radial, bristles) result(layout)
       integer, intent(in) :: rotor, pads
-      logical, intent(in) :: radial, bristles
+      logical, intent(in) :: tilting, radial, bristles
       layout%rotor = rotor
       layout%pads = pads
-      layout%radial = radial
-      layout%bristles = bristles
-      layout%motion = merge(at_penetration_rate, at_tilt_rate, radial)
-      layout%per_pad = layout%motion + merge(1, 0, bristles)
+      layout%tilting = tilting
+      layout%radial = tilting .and. radial
+      layout%bristles = tilting .and. bristles
+      layout%motion = 0
+      if (tilting) layout%motion = merge(at_penetration_rate, at_tilt_rate, radial)
+      layout%per_pad = layout%motion + merge(1, 0, layout%bristles)
       layout%n = rotor + pads*layout%per_pad
    end function new_state_layout
 
@@ -55,14 +57,14 @@ contains
       first = self%rotor + (pad - 1)*self%per_pad + 1
    end function first
 
-   !> Index of a pad's tilt.
+   !> Index of a pad's tilt; only where the pads tilt.
    elemental integer function tilt(self, pad)
       class(state_layout_type), intent(in) :: self
       integer, intent(in) :: pad
       tilt = self%first(pad) + at_tilt - 1
    end function tilt
 
-   !> Index of a pad's tilt rate.
+   !> Index of a pad's tilt rate; only where the pads tilt.
    elemental integer function tilt_rate(self, pad)
       class(state_layout_type), intent(in) :: self
       integer, intent(in) :: pad
@@ -125,6 +127,7 @@ contains
       real(wp), intent(in) :: y(:)
       type(pad_state) :: pads(self%pads)
       integer :: i, o
+      if (.not. self%tilting) return
       do i = 1, self%pads
          o = self%first(i) - 1
          pads(i)%tilt = y(o + at_tilt)
@@ -143,6 +146,7 @@ contains
       type(pad_state), intent(in) :: pads(:)
       real(wp), intent(inout) :: y(:)
       integer :: i, o
+      if (.not. self%tilting) return
       do i = 1, self%pads
          o = self%first(i) - 1
          y(o + at_tilt) = pads(i)%tilt

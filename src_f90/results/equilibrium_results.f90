@@ -8,18 +8,19 @@ module equilibrium_results
 
 contains
 
-   !> Writes an equilibrium; `radial` where the pads have penetrations.
-   subroutine put_equilibrium(file, found, radial)
+   !> Writes an equilibrium; `tilting` where the pads have tilts, `radial` where they have penetrations.
+   subroutine put_equilibrium(file, found, tilting, radial)
       type(hdf5_type), intent(inout) :: file
       type(equilibrium_type), intent(in) :: found
-      logical, intent(in) :: radial
+      logical, intent(in) :: tilting, radial
       call file%make_group('equilibrium')
       call file%put_real('equilibrium/journal_y', found%journal(1), 'm', 'journal displacement, vertical')
       call file%put_real('equilibrium/journal_z', found%journal(2), 'm', 'journal displacement, horizontal')
-      call file%put_list('equilibrium/pad_tilt', found%tilt, 'rad', 'pad tilt', 'pad')
+      if (tilting) call file%put_list('equilibrium/pad_tilt', found%tilt, 'rad', 'pad tilt', 'pad')
       if (radial) call file%put_list('equilibrium/pad_penetration', found%penetration, 'm', &
          & 'pivot penetration', 'pad')
-      call file%put_list('equilibrium/contact_force', found%contact_force, 'N', 'pivot contact force', 'pad')
+      if (tilting) call file%put_list('equilibrium/contact_force', found%contact_force, 'N', 'pivot contact force', &
+         & 'pad')
       call file%put_list('equilibrium/min_film_thickness', found%min_film_thickness, 'm', &
          & 'minimum film thickness', 'pad')
       call file%put_list('equilibrium/max_pressure', found%max_pressure, 'Pa', 'maximum film pressure', 'pad')

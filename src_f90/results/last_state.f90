@@ -57,7 +57,7 @@ contains
       if (found%scene%pad_count() /= layout%pads) then
          call raise(error, system_error, path//': has '//to_text(found%scene%pad_count())//' pads, and this case ' &
             & //to_text(layout%pads)//'; no start for it')
-      else if (found%scene%tilting_radial() .neqv. layout%radial) then
+      else if (any([found%scene%tilting(), found%scene%tilting_radial()] .neqv. [layout%tilting, layout%radial])) then
          call raise(error, system_error, path//': has pads%motion = '''//found%scene%pads%motion &
             & //''', and this case another; no start for it')
       else if (bristles .neqv. layout%bristles) then
@@ -110,8 +110,8 @@ contains
       journal%velocity(1) = one(1)
       call read_one('journal_vz', one)
       journal%velocity(2) = one(1)
-      call read_one('pad_tilt', pads%tilt)
-      call read_one('pad_tilt_rate', pads%tilt_rate)
+      if (layout%tilting) call read_one('pad_tilt', pads%tilt)
+      if (layout%tilting) call read_one('pad_tilt_rate', pads%tilt_rate)
       if (layout%radial) call read_one('pad_penetration', pads%penetration)
       if (layout%radial) call read_one('pad_penetration_rate', pads%penetration_rate)
       if (layout%bristles) call read_one('bristle_deflection', pads%deflection)

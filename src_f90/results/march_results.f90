@@ -40,14 +40,21 @@ contains
       integer :: i, k
       do i = 1, pads
          associate (state => sample%states(i), loads => sample%loads(i))
-            values(i, 1) = loads%contact_force
-            values(i, 2) = loads%friction_moment
-            values(i, 3:4) = loads%film_force
-            values(i, 5) = loads%min_film_thickness
-            values(i, 6) = loads%max_pressure
-            values(i, 7) = state%tilt
-            values(i, 8) = state%tilt_rate
-            k = 8
+            k = 0
+            if (sample%tilting) then
+               values(i, 1) = loads%contact_force
+               values(i, 2) = loads%friction_moment
+               k = 2
+            end if
+            values(i, k + 1:k + 2) = loads%film_force
+            values(i, k + 3) = loads%min_film_thickness
+            values(i, k + 4) = loads%max_pressure
+            k = k + 4
+            if (sample%tilting) then
+               values(i, k + 1) = state%tilt
+               values(i, k + 2) = state%tilt_rate
+               k = k + 2
+            end if
             if (sample%radial) then
                values(i, k + 1) = state%penetration
                values(i, k + 2) = state%penetration_rate
@@ -77,14 +84,18 @@ contains
       call one('journal_z', 'm', 'journal displacement, horizontal')
       call one('journal_vy', 'm/s', 'journal velocity, vertical')
       call one('journal_vz', 'm/s', 'journal velocity, horizontal')
-      call each('contact_force', 'N', 'pivot contact force')
-      call each('friction_moment', 'N m', 'pivot friction moment')
+      if (sample%tilting) then
+         call each('contact_force', 'N', 'pivot contact force')
+         call each('friction_moment', 'N m', 'pivot friction moment')
+      end if
       call each('film_force_tangential', 'N', 'film force on the journal along the pad (y'')')
       call each('film_force_radial', 'N', 'film force on the journal outward (z'')')
       call each('min_film_thickness', 'm', 'minimum film thickness')
       call each('max_pressure', 'Pa', 'maximum film pressure')
-      call each('pad_tilt', 'rad', 'pad tilt')
-      call each('pad_tilt_rate', 'rad/s', 'pad tilt rate')
+      if (sample%tilting) then
+         call each('pad_tilt', 'rad', 'pad tilt')
+         call each('pad_tilt_rate', 'rad/s', 'pad tilt rate')
+      end if
       if (sample%radial) then
          call each('pad_penetration', 'm', 'pivot penetration')
          call each('pad_penetration_rate', 'm/s', 'pivot penetration rate')
@@ -140,8 +151,9 @@ contains
       real(wp), intent(in) :: interval
       integer, intent(in) :: revolutions
       real(wp), intent(in) :: speed
-      !> One-sided, at k/T; full, at k/T with k = -((n-1)/2) .. n/2; one-sided (k, pad).
-      real(wp), intent(in) :: journal_y(:), journal_z(:), journal_full(:), tilt(:, :)
+      !> One-sided, at k/T; full, at k/T with k = -((n-1)/2) .. n/2; one-sided (k, pad) of pads that tilt.
+      real(wp), intent(in) :: journal_y(:), journal_z(:), journal_full(:)
+      real(wp), intent(in), optional :: tilt(:, :)
       real(wp) :: step
       integer :: k, n
       n = size(journal_full)
@@ -152,7 +164,7 @@ contains
          & 'frequency over shaft frequency', 'spectrum/frequency')
       call file%put_list('spectrum/journal_y', journal_y, 'm', 'amplitude of journal_y', 'spectrum/frequency')
       call file%put_list('spectrum/journal_z', journal_z, 'm', 'amplitude of journal_z', 'spectrum/frequency')
-      call file%put_table('spectrum/pad_tilt', tilt, 'rad', 'amplitude of pad_tilt', &
+      if (present(tilt)) call file%put_table('spectrum/pad_tilt', tilt, 'rad', 'amplitude of pad_tilt', &
          & 'pad spectrum/frequency')
       call file%put_list('spectrum/full_frequency', [(k*step, k=-((n - 1)/2), n/2)], 'Hz', &
          & 'frequency, positive for forward whirl', 'spectrum/full_frequency')

@@ -50,9 +50,10 @@ module scene
    type :: pads_type
       real(wp), allocatable :: pivot_angle_deg(:), arc_deg(:), pivot_ratio(:), pivot_distance(:)
       real(wp), allocatable :: mass(:), inertia(:), centre_tangential(:), centre_radial(:)
-      !> What the four above follow from where they are left out; unset in a complete scene.
+      !> What the four above follow from where they are left out; unset in a complete scene. Fixed pads may leave out
+      !> all six: then they stay unset.
       real(wp), allocatable :: density(:), thickness(:)
-      !> 'tilting_radial' or 'tilting_only'.
+      !> 'tilting_radial', 'tilting_only' or 'fixed'.
       character(len=:), allocatable :: motion
    end type pads_type
 
@@ -142,6 +143,7 @@ module scene
       type(output_type) :: output
    contains
       procedure :: pad_count
+      procedure :: tilting
       procedure :: tilting_radial
       procedure :: highest_speed
       procedure :: unbalance
@@ -200,6 +202,12 @@ contains
       class(scene_type), intent(in) :: self
       pad_count = size(self%pads%pivot_angle_deg)
    end function pad_count
+
+   !> False for pads that are fixed: lobes of a plain bearing.
+   pure logical function tilting(self)
+      class(scene_type), intent(in) :: self
+      tilting = self%pads%motion /= 'fixed'
+   end function tilting
 
    pure logical function tilting_radial(self)
       class(scene_type), intent(in) :: self

@@ -10,6 +10,8 @@ module scene_checks
 
    !> Most values in the blocks of all columns and pads, times four: 400 MB.
    real(wp), parameter :: most_in_blocks = 2e8_wp
+   !> Longest arc of a pad that tilts, deg.
+   real(wp), parameter :: longest_arc = 350
 
 contains
 
@@ -107,6 +109,8 @@ contains
             & //to_text(f%static_coefficient), error)
          call require(f%model /= 'lugre' .or. f%dynamic_coefficient > 0, &
             & 'friction%dynamic_coefficient = 0: must be > 0 for model = ''lugre''', error)
+         call require(scene%tilting() .or. f%model == 'none', 'friction%model = '''//f%model//''': must be ''none'' ' &
+            & //'for pads%motion = ''fixed'', whose pads have no pivots', error)
       end associate
    end subroutine check_friction
 
@@ -130,9 +134,12 @@ contains
             & //'''file''', error)
          call require(s%from == 'file' .or. s%file == '', 'start%file = '''//s%file//''': needs start%from = ' &
             & //'''file'', not '''//s%from//'''', error)
+         call require(scene%tilting() .or. all(abs([s%pad_tilt, s%pad_tilt_rate]) <= 0), 'start%pad_tilt = ' &
+            & //to_text(s%pad_tilt(1))//', pad_tilt_rate = '//to_text(s%pad_tilt_rate(1)) &
+            & //': must be 0 for pads%motion = ''fixed''', error)
          call require(scene%tilting_radial() .or. all(abs([s%pad_penetration, s%pad_penetration_rate]) <= 0), &
             & 'start%pad_penetration = '//to_text(s%pad_penetration(1))//', pad_penetration_rate = ' &
-            & //to_text(s%pad_penetration_rate(1))//': must be 0 for pads%motion = ''tilting_only''', error)
+            & //to_text(s%pad_penetration_rate(1))//': must be 0 for pads%motion = '''//scene%pads%motion//'''', error)
       end associate
    end subroutine check_start
 
@@ -156,11 +163,14 @@ contains
       integer :: i
       associate (p => scene%pads)
          do i = 1, scene%pad_count()
+            call require_room(scene, i, error)
+            if (.not. scene%tilting()) cycle
+            call require(p%arc_deg(i) <= longest_arc, 'pads%arc_deg = '//to_text(p%arc_deg(i))//': must be at most ' &
+               & //to_text(longest_arc)//' for pads that tilt', error)
             smallest = p%mass(i)*(p%centre_tangential(i)**2 + p%centre_radial(i)**2)
             call require(p%inertia(i) > smallest, 'pads%inertia = '//to_text(p%inertia(i)) &
                & //': must exceed mass times the squared distance of the centre of gravity from the pivot, ' &
                & //to_text(smallest)//' (pad '//to_text(i)//')', error)
-            call require_room(scene, i, error)
          end do
       end associate
    end subroutine check_pads

@@ -72,7 +72,9 @@ contains
       associate (p => scene%pads, q => paper%pads)
          call refuse_surplus(scene, i, error)
          if (allocated(error)) return
-         if (has_size_of(scene, i, paper) .and. .not. (is_set(p%density(i)) .or. is_set(p%thickness(i)))) then
+         if (.not. scene%tilting()) then
+            ! fixed pads need no masses
+         else if (has_size_of(scene, i, paper) .and. .not. (is_set(p%density(i)) .or. is_set(p%thickness(i)))) then
             call fill(p%mass(i), q%mass(1))
             call fill(p%inertia(i), q%inertia(1))
             call fill(p%centre_tangential(i), q%centre_tangential(1))

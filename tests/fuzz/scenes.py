@@ -63,6 +63,8 @@ def draw(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
         found["film%axial_cells"] = (float(dice.choice((0, 2, 1000, dice.randint(2, 1000)))),)
     if dice.random() < few:
         found.update(pads(dice, variables))
+        if found["pads%motion"] == (b"fixed",):
+            found["friction%model"] = (b"none",)
     fit_memory(found)
     if dice.random() < few:
         found.update(start(dice, variables))

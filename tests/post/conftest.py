@@ -25,6 +25,7 @@ SCENES = {
     "flooded": "&operation duration=0.02 / &bearing supply_pressure=3e5, ambient_pressure=1e5 / "
     "&pads pivot_angle_deg=-45,225,45,135, pivot_ratio=0.5,0.6,0.5,0.5, motion='tilting_only' /",
     "runup": "&operation speed_rpm=1500, final_speed_rpm=6500, duration=0.1 / &friction model='lugre' /",
+    "fixed": "&operation duration=0.06 / &pads motion='fixed' /",
     "equilibrium": "&case task='equilibrium' /",
 }
 

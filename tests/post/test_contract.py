@@ -59,12 +59,15 @@ COUNTS += ["film_modal", "film_volumes", "film_passes"]
 
 RADIAL = {"pad_penetration", "pad_penetration_rate", "equilibrium/pad_penetration"}
 BRISTLE = {"bristle_deflection"}
+TILTING = {"pad_tilt", "pad_tilt_rate", "contact_force", "friction_moment", "spectrum/pad_tilt"}
+TILTING |= {"equilibrium/pad_tilt", "equilibrium/contact_force"}
 ABSENT = {
     "lugre": set(),
     "bengisu": BRISTLE,
     "none": BRISTLE,
     "tilting": RADIAL,
     "four": set(),
+    "fixed": RADIAL | BRISTLE | TILTING,
     "runup": set(SPECTRUM),
     "equilibrium": set(SERIES) | set(SPECTRUM) | set(ASPERITIES),
 }

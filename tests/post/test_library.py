@@ -24,7 +24,7 @@ def integrals(case, film):
     return -radius * np.array(parts).T
 
 
-@pytest.mark.parametrize("scene", [*SCENES, "equilibrium"])
+@pytest.mark.parametrize("scene", [*SCENES, "fixed", "equilibrium"])
 def test_the_equilibrium_is_as_archived(run, scene):
     """The same solver in the same state: to rounding, or to the tolerance of over-relaxation, 1e-6."""
     case = run(scene)

@@ -78,6 +78,7 @@ FRICTION = ["hysteresis", "friction", "sticking"]
     [
         ("lugre", STEADY + FRICTION),
         ("none", STEADY),
+        ("fixed", STEADY),
         ("tilting", STEADY + FRICTION),
         ("four", STEADY + FRICTION),
         ("runup", ["orbit", "waveform", "runup", "size", "poincare", *FRICTION]),

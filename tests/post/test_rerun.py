@@ -14,7 +14,7 @@ def datasets(path):
         return found, file.attrs["input"]
 
 
-@pytest.mark.parametrize("scene", ["lugre", "tilting", "runup", "equilibrium"])
+@pytest.mark.parametrize("scene", ["lugre", "tilting", "fixed", "runup", "equilibrium"])
 def test_bit_for_bit(result, tiltpad, tmp_path, scene):
     first, text = datasets(result(scene))
     (tmp_path / "again.nml").write_text(text)

@@ -2,7 +2,8 @@
 program test_equations_of_motion
    use kinds, only: wp
    use text, only: to_text
-   use scene, only: scene_type
+   use scene, only: scene_type, unset
+   use kinematics, only: journal_motion, pad_state
    use operating_point, only: operating_point_type
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
@@ -24,6 +25,11 @@ program test_equations_of_motion
       end do
       if (runs('trivial_rows')) call trivial_rows(motions(m))
    end do
+   if (runs('fixed_pads')) then
+      call fixed_pads()
+      call jacobian_by_differences('fixed', 'none', 0.0_wp)
+      call products_and_solutions('fixed', 'none')
+   end if
    if (runs('unbalance_force')) call unbalance_force()
    if (runs('forces_by_definition')) call forces_by_definition()
    if (runs('refusals')) call refusals()
@@ -171,6 +177,7 @@ contains
          & [between(-1e-4_wp, 1e-4_wp), between(6e-4_wp, 8e-4_wp)], [between(4e-6_wp, 8e-6_wp), between(4e-6_wp, &
          & 8e-6_wp)])
       y(3:4) = [between(-5e-3_wp, 5e-3_wp), between(-5e-3_wp, 5e-3_wp)]
+      if (.not. model%layout%tilting) return
       do pad = 1, 2
          y(model%layout%tilt_rate(pad)) = sign(between(0.3_wp, 0.6_wp), between(-1.0_wp, 1.0_wp))
          if (model%layout%radial) y(model%layout%penetration_rate(pad)) = between(-2e-3_wp, 2e-3_wp)
@@ -198,6 +205,29 @@ contains
             & y(model%layout%penetration_rate(pad)), 0.0_wp, 'rate of the penetration')
       end do
    end subroutine trivial_rows
+
+   !> Only the journal moves, by the films of pads as they stand without tilt; masses do not matter.
+   subroutine fixed_pads()
+      type(scene_type) :: scene
+      type(bearing_model) :: fixed, tilting
+      real(wp), allocatable :: y(:), f(:), f_tilting(:)
+      logical :: ok, tilting_ok
+      scene = paper_scene('tilting_only', 'none')
+      tilting = new_bearing_model(scene)
+      scene%pads%motion = 'fixed'
+      scene%pads%mass = unset
+      scene%pads%inertia = unset
+      fixed = new_bearing_model(scene)
+      call expect(fixed%n == 4 .and. size(fixed%scale) == 4, 'the states of the journal')
+      y = fixed%state(journal_motion([-3e-5_wp, 4e-6_wp], [2e-3_wp, -1e-3_wp]), spread(pad_state(), 1, 2))
+      allocate (f(fixed%n), f_tilting(tilting%n))
+      call fixed%rhs(1e-3_wp, y, f, ok)
+      call tilting%rhs(1e-3_wp, tilting%state(journal_motion(y(1:2), y(3:4)), spread(pad_state(), 1, 2)), f_tilting, &
+         & tilting_ok)
+      call expect(ok .and. tilting_ok, 'both have films')
+      call expect_close(norm2(f - f_tilting(:4)), 0.0_wp, 0.0_wp, 'the same motion')
+      call expect(size(fixed%positions(y)) == 2, 'positions to compare')
+   end subroutine fixed_pads
 
    !> The unbalance pulls like a mass on the shaft: with the shaft's angle phi(t) its force is
    !> -dmE d2/dt2 (cos phi, sin phi), in steady running and in run-up. Five-point differences of a step

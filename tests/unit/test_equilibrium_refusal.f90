@@ -14,6 +14,10 @@ program test_equilibrium_refusal
       call searched(loaded(bearing([-90.0_wp]), [0.0_wp, 0.0_wp]), 'one pad: the journal rolls off')
       call searched(loaded(bearing([90.0_wp]), [0.0_wp, 0.0_wp]), 'past the only pad')
    end if
+   if (runs('fixed_pads')) then
+      call searched(fixed(loaded(bearing([-90.0_wp]), [6e4_wp, 0.0_wp])), 'past the only pad')
+      call searched(fixed(loaded(bearing([-45.0_wp, 225.0_wp]), [6e4_wp, 0.0_wp])), 'points to 90 deg, where no pad is')
+   end if
    if (runs('from_traces')) call from_traces()
    call report()
 
@@ -43,6 +47,12 @@ contains
       scene = bare
       scene%rotor%static_load = load
    end function loaded
+
+   type(scene_type) function fixed(tilting)
+      type(scene_type), intent(in) :: tilting
+      fixed = tilting
+      fixed%pads%motion = 'fixed'
+   end function fixed
 
    type(scene_type) function weightless(bare) result(scene)
       type(scene_type), intent(in) :: bare

@@ -10,12 +10,13 @@ program test_force_balance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
-   character(len=*), parameter :: motions(2) = [character(len=14) :: 'tilting_radial', 'tilting_only']
+   character(len=*), parameter :: motions(3) = [character(len=14) :: 'tilting_radial', 'tilting_only', 'fixed']
    character(len=*), parameter :: frictions(3) = [character(len=12) :: 'none', 'bengisu_akay', 'lugre']
    integer :: i, k
 
    do i = 1, size(motions)
       do k = 1, size(frictions)
+         if (motions(i) == 'fixed' .and. k > 1) cycle
          if (runs('against_motion')) call against_motion(motions(i), frictions(k))
       end do
    end do

@@ -1,7 +1,7 @@
 !> What pads do, told from samples of which it is known, and the words of the summary.
 program test_pad_behaviour
    use kinds, only: wp, pi
-   use pad_behaviour, only: pad_behaviour_type, behaviour_of, dominant
+   use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, dominant
    use pad_remarks, only: pad_words
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -17,6 +17,7 @@ program test_pad_behaviour
    if (runs('nothing')) call nothing()
    if (runs('behaviours')) call behaviours()
    if (runs('run_up')) call run_up()
+   if (runs('whirl')) call whirl()
    if (runs('words')) call words()
    call report()
 
@@ -97,6 +98,26 @@ contains
       call expect(found(1)%order < 0 .and. .not. found(1)%flutters, 'no order')
       call expect(.not. found(1)%unloaded, 'a single pad carries all')
    end subroutine run_up
+
+   !> The larger part of both directions, unless it is the shaft's own or too small to see.
+   subroutine whirl()
+      real(wp) :: order, amplitude, y(n), z(n)
+      logical :: whirls
+      y = tone(0.47_wp, 2e-5_wp) + tone(1.0_wp, 1e-5_wp)
+      z = tone(0.47_wp, 3e-5_wp)
+      call whirl_of(y, z, revolutions, 1e-4_wp, order, amplitude, whirls)
+      call expect(whirls, 'a whirl')
+      call expect_close(order, 0.47_wp, 2e-3_wp, 'its order')
+      call expect_close(amplitude, 3e-5_wp, 1e-6_wp, 'its amplitude, the larger')
+      call whirl_of(y, z, 4, 1e-4_wp, order, amplitude, whirls)
+      call expect(.not. whirls, 'not known of four revolutions')
+      call whirl_of(y, z, revolutions, 1e-2_wp, order, amplitude, whirls)
+      call expect(.not. whirls, 'not in a clearance as wide as this')
+      call whirl_of(tone(1.0_wp, 2e-5_wp), z, revolutions, 1e-4_wp, order, amplitude, whirls)
+      call expect(whirls, 'z alone')
+      call whirl_of(y, tone(1.0_wp, 3e-5_wp), revolutions, 1e-4_wp, order, amplitude, whirls)
+      call expect(.not. whirls, 'the shaft''s own')
+   end subroutine whirl
 
    subroutine words()
       type(pad_behaviour_type) :: pad

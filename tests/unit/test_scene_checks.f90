@@ -2,7 +2,7 @@
 program test_scene_checks
    use kinds, only: wp
    use errors, only: error_type, input_error
-   use scene, only: scene_type
+   use scene, only: scene_type, unset
    use scene_checks, only: check_scene
    use check, only: runs, expect, expect_no_error, expect_error, report
    implicit none (type, external)
@@ -17,6 +17,7 @@ program test_scene_checks
    if (runs('pivots')) call pivots()
    if (runs('samples')) call samples()
    if (runs('starts')) call starts()
+   if (runs('fixed_pads')) call fixed_pads()
    if (runs('centre_of_gravity')) call centre_of_gravity()
    if (runs('room_for_pads')) call room_for_pads()
    if (runs('first_of_several')) call first_of_several()
@@ -195,7 +196,33 @@ contains
       s%start%pad_penetration = 0
       s%start%pad_tilt = 1e-3_wp
       call expect_allowed(s, 'a tilt of pads that only tilt')
+      s%pads%motion = 'fixed'
+      call expect_refused(s, 'start%pad_tilt', 'must be 0 for pads%motion = ''fixed''')
+      s%start%pad_tilt = 0
+      s%start%pad_tilt_rate = [0.0_wp, 1.0_wp]
+      call expect_refused(s, 'start%pad_tilt', 'must be 0 for pads%motion = ''fixed''')
+      s%start%pad_tilt_rate = 0
+      s%start%pad_penetration = 1e-6_wp
+      call expect_refused(s, 'start%pad_penetration', 'must be 0 for pads%motion = ''fixed''')
    end subroutine starts
+
+   !> No friction in pivots that are not there; arcs all around; masses do not matter.
+   subroutine fixed_pads()
+      type(scene_type) :: s
+      s = scene_type()
+      s%pads%motion = 'fixed'
+      s%pads%inertia = unset
+      s%pads%mass = unset
+      call expect_allowed(s, 'fixed pads without masses')
+      s%friction%model = 'lugre'
+      call expect_refused(s, 'friction%model', 'must be ''none'' for pads%motion = ''fixed''')
+      s = scene_type()
+      s%pads%pivot_angle_deg = s%pads%pivot_angle_deg(:1)
+      s%pads%arc_deg(1) = 360
+      call expect_refused(s, 'pads%arc_deg', 'must be at most 350 for pads that tilt')
+      s%pads%motion = 'fixed'
+      call expect_allowed(s, 'a fixed pad all around')
+   end subroutine fixed_pads
 
    subroutine samples()
       type(scene_type) :: s

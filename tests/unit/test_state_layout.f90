@@ -17,9 +17,12 @@ program test_state_layout
    do i = 1, size(rotors)
       do k = 1, size(choices)
          do l = 1, size(choices)
-            if (runs('indices')) call indices(new_state_layout(rotors(i), pads, choices(k), choices(l)))
-            if (runs('states_of_pads')) call states_of_pads(new_state_layout(rotors(i), pads, choices(k), choices(l)))
-            if (runs('changes')) call changes(new_state_layout(rotors(i), pads, choices(k), choices(l)))
+            associate (layout => new_state_layout(rotors(i), pads, .true., choices(k), choices(l)))
+               if (runs('indices')) call indices(layout)
+               if (runs('states_of_pads')) call states_of_pads(layout)
+               if (runs('changes')) call changes(layout)
+            end associate
+            if (runs('fixed_pads')) call fixed_pads(new_state_layout(rotors(i), pads, .false., choices(k), choices(l)))
          end do
       end do
    end do
@@ -60,6 +63,25 @@ contains
             & 'rates of the pads stand behind what they are rates of'//what(layout))
       end associate
    end subroutine indices
+
+   !> Fixed pads have no states: those of the rotor are all, what is put is lost, and only the journal changes.
+   subroutine fixed_pads(layout)
+      type(state_layout_type), intent(in) :: layout
+      type(pad_state) :: states(pads)
+      real(wp) :: y(layout%n), change(columns, pads)
+      integer :: i
+      call expect(layout%n == layout%rotor .and. layout%n_positions() == layout%rotor/2, 'the rotor''s alone')
+      call expect(all([layout%positions(), layout%rates()] == [(i, i=1, layout%n)]), 'positions and rates of the rotor')
+      states = pad_state(1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp, 5.0_wp)
+      y = -1
+      call layout%put_pads(states, y)
+      call expect(all(y < 0), 'nothing is put')
+      states = layout%pad_states(y)
+      call expect(all(abs([states%tilt, states%tilt_rate, states%penetration, states%penetration_rate, &
+         & states%deflection]) <= 0), 'all is 0')
+      change = layout%over_columns([1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp], y)
+      call expect(all(abs(sum(change, dim=1) - 10) <= 0) .and. all(abs(change(tilt_column:, :)) <= 0), 'the journal''s')
+   end subroutine fixed_pads
 
    subroutine expect_each_once(layout, found, name)
       type(state_layout_type), intent(in) :: layout

@@ -25,6 +25,11 @@ program test_tilting_pad_bearing
       if (runs('samples')) call samples(motions(i), .false.)
       if (runs('samples_in_contact')) call samples(motions(i), .true.)
    end do
+   if (runs('fixed')) then
+      call derivatives('fixed', 'none', .false.)
+      call derivatives('fixed', 'none', .true.)
+      call samples('fixed', .true.)
+   end if
    if (runs('operating_point')) call operating_point()
    call report()
 
@@ -119,6 +124,7 @@ contains
       bearing = heavy_bearing(motion, friction)
       if (rough) bearing = rough_bearing(motion, friction)
       call draw(journal, pads)
+      if (motion == 'fixed') pads = pad_state()
       call bearing%evaluate(journal, pads, speed, .true., refusal, all_ok)
       call expect(all(bearing%asperity%touches .eqv. rough), 'asperities touch, or not, '//what)
       taken = bearing%derivatives
@@ -144,7 +150,8 @@ contains
             end do
             found(:, column) = found(:, column)*steps(column)
          end do
-         ! the pads of a bearing that only tilt have no penetration
+         ! the pads of a bearing that only tilt have no penetration, fixed ones no tilt
+         if (motion == 'fixed') found(:, tilt_column:) = expected(:, tilt_column:)
          if (motion == 'tilting_only') found(:, penetration_column:) = expected(:, penetration_column:)
          do row = 1, size(found, 1)
             call expect_close(maxval(abs(found(row, :) - expected(row, :))), 0.0_wp, &
@@ -189,10 +196,14 @@ contains
       real(wp) :: output(6), nothing(columns, 2), change(columns, 2)
       character(len=:), allocatable :: refusal
       logical :: ok
+      character(len=:), allocatable :: friction
       integer :: i
-      bearing = heavy_bearing(motion, 'lugre')
-      if (rough) bearing = rough_bearing(motion, 'lugre')
+      friction = 'lugre'
+      if (motion == 'fixed') friction = 'none'
+      bearing = heavy_bearing(motion, friction)
+      if (rough) bearing = rough_bearing(motion, friction)
       call draw(journal, pads)
+      if (motion == 'fixed') pads = pad_state()
       call bearing%evaluate(journal, pads, speed, .true., refusal, ok)
       call expect(ok, 'a state with films')
       evaluated = bearing%sampled()

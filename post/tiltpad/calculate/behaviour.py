@@ -26,7 +26,7 @@ class Behaviour(NamedTuple):
     Mean contact force of its pivot, N, and its share of the sum over the pads; shares of the time in which
     the pivot carries nothing, and in which the film is so thin that the surfaces touch; order of the
     largest part of the tilt (nan where the speed changes or the run is short), and its amplitude, rad;
-    whether this is a flutter.
+    whether this is a flutter. Of a fixed pad only the rubbing is known, the other numbers are nan.
     """
 
     pad: int
@@ -69,9 +69,14 @@ def of_pads(run: Run, last: float = LAST) -> list[Behaviour]:
     """What each pad does in the last revolutions, or in all that were sampled."""
     part = signals.last_revolutions(run, last)
     part = slice(part.start, part.stop - 1) if part.stop - part.start > 2 else part
-    force, tilt = run.values("contact_force", part), run.values("pad_tilt", part)
     rubs = "asperity_force" in run
-    touching = run.values("asperity_force", part) > 0 if rubs else np.zeros_like(force, bool)
+    touching = run.values("asperity_force", part) > 0 if rubs else np.zeros((1, run.pads), bool)
+    if "pad_tilt" not in run and run.samples:
+        return [
+            Behaviour(i + 1, *3 * [np.nan], share, *2 * [np.nan], False)
+            for i, share in enumerate(touching.mean(axis=0))
+        ]
+    force, tilt = run.values("contact_force", part), run.values("pad_tilt", part)
     turns = signals.turned(run, slice(part.start, part.stop + 1))
     load = force.mean(axis=0)
     arc = np.radians(np.broadcast_to(run.input["pads"]["arc_deg"], run.pads))

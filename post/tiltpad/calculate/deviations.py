@@ -33,12 +33,12 @@ def deviation(values: np.ndarray, true: np.ndarray, scale: float = 0.0) -> float
 
 def deviations(run: Run, reference: Run, part: slice | None = None) -> dict[str, float]:
     """The deviation of each of SIGNALS from a reference run of the same scene, over the samples `part` of the
-    reference (default: its last revolution). A signal without a scale,
-    as the friction moment of a run without friction, is left out.
+    reference (default: its last revolution). A signal that the reference does not have, as the tilts of
+    fixed pads, or without a scale, as the friction moment of a run without friction, is left out.
     """
     part = last_revolutions(reference) if part is None else part
     found = {}
-    for name in SIGNALS:
+    for name in (name for name in SIGNALS if name in reference):
         values, true = run.values(name, part), reference.values(name, part)
         if values.shape != true.shape:
             raise RunError(

@@ -123,10 +123,11 @@ def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple
         return np.array([run.values(name, k) for name in names])
 
     journal = sample("journal_y", "journal_z", "journal_vy", "journal_vz")
-    tilt = sample("pad_tilt", "pad_tilt_rate")
-    radial = "pad_penetration" in run
-    penetration = sample("pad_penetration", "pad_penetration_rate") if radial else np.zeros_like(tilt)
-    return float(run.values("time", k)), journal, (tilt, penetration)
+
+    def pads(name: str) -> np.ndarray:
+        return sample(name, f"{name}_rate") if name in run else np.zeros((2, run.pads))
+
+    return float(run.values("time", k)), journal, (pads("pad_tilt"), pads("pad_penetration"))
 
 
 def shares(points: int | np.ndarray, first: float, outside: str) -> np.ndarray:

@@ -99,7 +99,7 @@ def measured(path: Path, run: Run) -> Member:
             values |= friction(run, part)
         with suppress(NotInRunError):
             points = signals.poincare(run, REVOLUTIONS, states=tuple(POINTS.values()))
-            values |= {name: points[state] for name, state in POINTS.items()}
+            values |= {name: points[state] for name, state in POINTS.items() if state in points}
     return Member(
         path,
         number,
@@ -146,7 +146,8 @@ def motion(run: Run, part: slice) -> dict[str, Any]:
     """The motion in the last revolution, the samples `part`; NotInRunError where the run was shorter."""
     if signals.turned(run, part) < WHOLE:
         raise NotInRunError(f"{run.path}: no revolution in this run")
-    y, z, tilt = (run.values(name, part) for name in ("journal_y", "journal_z", "pad_tilt"))
+    y, z = (run.values(name, part) for name in ("journal_y", "journal_z"))
+    tilting = "pad_tilt" in run
     film, peak = run.values("min_film_thickness", part), run.values("max_pressure", part)
     return {
         "speed": float(run.values("speed", -1)),
@@ -157,7 +158,7 @@ def motion(run: Run, part: slice) -> dict[str, Any]:
         "mean_z": z.mean(),
         "min_film_thickness": film.min(),
         "max_pressure": peak.max(),
-        "pad_tilt_size": np.ptp(tilt, axis=0),
+        **({"pad_tilt_size": np.ptp(run.values("pad_tilt", part), axis=0)} if tilting else {}),
         "pad_min_film_thickness": film.min(axis=0),
         "pad_max_pressure": peak.max(axis=0),
     }

@@ -36,6 +36,11 @@ from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN
 
 
+def all_tilt(runs: Sequence[Run]) -> bool:
+    """False where a run has fixed pads."""
+    return all(run.input["pads"]["motion"] != "fixed" for run in runs)
+
+
 def orbit(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Orbits in the clearance circle and enlarged, with the equilibrium."""
     fig = plt.figure(figsize=(PAGE, 3.6))
@@ -132,16 +137,20 @@ def sticking(runs: Sequence[Run], last: float | None = None, pad: int | None = N
 
 
 def poincare(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
-    """Journal, and tilt rate over tilt of a pad, once a revolution, on the path of the last ones."""
+    """Journal, and tilt rate over tilt of a pad, once a revolution, on the path of the last ones.
+
+    Where pads are fixed, the velocity of the journal stands in for the tilt.
+    """
     fig = plt.figure(figsize=(PAGE, 3.4))
     left, right = fig.subplots(1, 2)
+    tilting = all_tilt(runs)
     for i, run in enumerate(runs):
-        for ax, names in ((left, plots.ORBIT), (right, plots.PHASE)):
+        for ax, names in ((left, plots.ORBIT), (right, plots.PHASE if tilting else plots.RISE)):
             plots.poincare(run, ax, last or 50, names, pad or 1, **look(i, 0, runs))
     left.set(box_aspect=1, adjustable="datalim")
     left.margins(0.1)
     right.set(box_aspect=1)
-    right.set_title(f"pad {pad or 1}")
+    right.set_title(f"pad {pad or 1}" if tilting else "journal")
     left.set_title("journal")
     points = {"color": "0.3" if len(runs) > 1 else "C0", "linestyle": "", "marker": ".", "markersize": 5}
     legend(fig, runs, [("once a revolution", points), (f"last {plots.PATH} revolutions", {"color": "0.7"})])
@@ -149,10 +158,11 @@ def poincare(runs: Sequence[Run], last: float | None = None, pad: int | None = N
 
 
 def waveform(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
-    """Journal, tilt and tilt rate over the last revolutions."""
+    """Journal, tilt and tilt rate over the last revolutions; of fixed pads film and pressure."""
     last = last or 5
     pads = shown_pads(runs, pad)
-    fig, panels = stacked(["journal_y", "journal_z", "pad_tilt", "pad_tilt_rate"])
+    of_pads = plots.PHASE if all_tilt(runs) else ("min_film_thickness", "max_pressure")
+    fig, panels = stacked(["journal_y", "journal_z", *of_pads])
     for i, run in enumerate(runs):
         for name, ax in panels.items():
             for k, p in drawn(name, pads):
@@ -169,12 +179,13 @@ def waveform(runs: Sequence[Run], last: float | None = None, pad: int | None = N
 
 
 def runup(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
-    """Journal, tilt and film over the whole run, with the speed along the top where it changes.
+    """Journal, tilt (unless pads are fixed) and film over the whole run, with the speed where it changes.
 
     Marks along the bottom say where asperities touch the journal.
     """
     pads = shown_pads(runs, pad)
-    fig, panels = stacked(["journal_y", "journal_z", "pad_tilt", "min_film_thickness"])
+    tilts = ["pad_tilt"] if all_tilt(runs) else []
+    fig, panels = stacked(["journal_y", "journal_z", *tilts, "min_film_thickness"])
     for i, run in enumerate(runs):
         for name, ax in panels.items():
             for k, p in drawn(name, pads):

@@ -25,8 +25,8 @@ from tiltpad.files.units import SHOWN
 STYLE = "tiltpad.draw.tiltpad"
 #: A history of more revolutions is drawn as a band.
 BAND_FROM = 60
-#: Axes of a Poincare section: y over z of the journal, tilt rate over tilt of a pad.
-ORBIT, PHASE = ("journal_z", "journal_y"), ("pad_tilt", "pad_tilt_rate")
+#: Axes of a Poincare section: y over z of the journal, tilt rate over tilt of a pad, rate of y over y.
+ORBIT, PHASE, RISE = ("journal_z", "journal_y"), ("pad_tilt", "pad_tilt_rate"), ("journal_y", "journal_vy")
 #: Revolutions of the path that is drawn under a Poincare section.
 PATH = 4
 #: Line of a pivot that sticks.
@@ -84,16 +84,24 @@ def equilibrium(run: Run, ax: Axes, **line: Any) -> Axes:
 def clearance(run: Run, ax: Axes, marks: bool = True) -> Axes:
     """Clearance circle of radius c_r, pads around it (outlines only, not to scale), sense of rotation.
 
+    Fixed pads leave the journal the room within their bores, which is drawn instead of the circle.
     With `marks`, pads that carry no load are pale, and words say so, or that they flutter or rub.
     """
     radius = SHOWN["journal_y"].factor * run.clearance
-    ax.add_patch(Circle((0, 0), radius, fill=False, linewidth=0.8, color="0.3"))
+    bore = SHOWN["journal_y"].factor * run.input["bearing"]["machined_clearance"]
+    tilting = run.input["pads"]["motion"] != "fixed"
+    if tilting:
+        ax.add_patch(Circle((0, 0), radius, fill=False, linewidth=0.8, color="0.3"))
     note = {"ha": "center", "fontsize": "small", "color": "0.3"}
     arc, ratio = (np.atleast_1d(run.input["pads"][name]) for name in ("arc_deg", "pivot_ratio"))
     found = pad_marks(run) if marks else {}
     for pad, angle in enumerate(np.degrees(run.pivot_angle)):
         mark = found.get(pad + 1, "")
         ends = {"theta1": angle - (1 - ratio[pad]) * arc[pad], "theta2": angle + ratio[pad] * arc[pad]}
+        if not tilting:
+            ax.add_patch(
+                Arc(polar(radius - bore, angle), 2 * bore, 2 * bore, **ends, linewidth=0.8, color="0.3")
+            )
         color = "0.93" if "no load" in mark else "0.85"
         ax.add_patch(Arc((0, 0), 2.3 * radius, 2.3 * radius, **ends, linewidth=8, color=color))
         ax.text(*polar(1.15 * radius, angle), str(pad + 1), **note, va="center_baseline")

@@ -46,6 +46,8 @@ DIMENSIONS = {
     **dict.fromkeys(("spectrum/full_frequency", "spectrum/journal_full"), ("spectrum/full_frequency",)),
     **dict.fromkeys(("spectrum/revolutions", "checkpoint/time"), ()),
 }
+#: What only pads that tilt have.
+OF_TILTING = ("pad_tilt", "contact_force", "friction_moment")
 #: A group of single numbers.
 NUMBERS = "statistics"
 
@@ -146,6 +148,8 @@ class Run(Archive):
             return f"friction model is '{friction}'"
         if "pad_penetration" in name and motion != "tilting_radial":
             return f"pad motion is '{motion}'"
+        if motion == "fixed" and any(each in name for each in OF_TILTING):
+            return "pad motion is 'fixed'"
         if name.startswith("equilibrium") and (start := self.input.get("start", {}).get("from")):
             return f"it did not start at one (start%from = '{start}')"
         if self.task == "equilibrium":
