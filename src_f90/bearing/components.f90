@@ -11,13 +11,14 @@ module components
    use table_film, only: new_table_film
    use sor_film, only: new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
    use contact_law, only: contact_law_type, make_contact_law
+   use contact_table, only: contact_table_type, new_contact_table, new_untabulated_contact
    use friction, only: friction_law, no_friction, bengisu_akay_friction, lugre_friction, &
       & default_bristle_damping
    use asperity_contact, only: asperity_contact_type, new_asperity_contact, no_asperities
    use tilting_pad, only: tilting_pad_type
    implicit none (type, external)
    private
-   public :: make_film, make_law, make_friction, new_asperities, new_pads
+   public :: make_film, make_law, make_contact, make_friction, new_asperities, new_pads
 
    !> Finite volumes along the arc and along half the width where the input leaves them to the solver, by the
    !> errors in docs/benchmarks.md.
@@ -108,6 +109,19 @@ contains
             & v%poisson_ratio, v%penetration_factor, law)
       end associate
    end subroutine make_law
+
+   !> The contact of the pivots, with a table for a march: a task without one looks up too seldom.
+   subroutine make_contact(scene, contact)
+      type(scene_type), intent(in) :: scene
+      type(contact_table_type), intent(out) :: contact
+      class(contact_law_type), allocatable :: law
+      call make_law(scene, law)
+      if (scene%about%task == 'march') then
+         contact = new_contact_table(law)
+      else
+         contact = new_untabulated_contact(law)
+      end if
+   end subroutine make_contact
 
    !> The friction law of the pivots.
    subroutine make_friction(scene, law)

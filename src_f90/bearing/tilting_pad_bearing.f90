@@ -9,12 +9,11 @@ module tilting_pad_bearing
    use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_ok, film_closed, &
       & film_not_converged
    use asperity_contact, only: asperity_contact_type, asperity_load
-   use contact_law, only: contact_law_type
-   use contact_table, only: contact_table_type, new_contact_table
+   use contact_table, only: contact_table_type
    use friction, only: friction_law, no_friction
    use kinematics, only: journal_motion, pad_state, pad_frame, columns
    use tilting_pad, only: tilting_pad_type, pad_loads, pad_derivatives
-   use components, only: make_film, make_law, make_friction, new_asperities, new_pads
+   use components, only: make_film, make_contact, make_friction, new_asperities, new_pads
    implicit none (type, external)
    private
    public :: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
@@ -45,7 +44,6 @@ module tilting_pad_bearing
       !> False: the pivots slide freely, whatever the law.
       logical :: rubs = .true.
       class(film_solver_type), allocatable, private :: film
-      class(contact_law_type), allocatable, private :: law
       type(contact_table_type), private :: contact
       type(asperity_contact_type) :: asperities
       !> Assembled clearance, m.
@@ -101,9 +99,8 @@ contains
       bearing%clearance = scene%bearing%assembled_clearance
       call make_friction(scene, bearing%friction)
       call make_film(scene, bearing%film)
-      call make_law(scene, bearing%law)
+      call make_contact(scene, bearing%contact)
       bearing%asperities = new_asperities(scene)
-      if (scene%tilting_radial()) bearing%contact = new_contact_table(bearing%law)
       allocate (bearing%loads(n), bearing%derivatives(n))
       allocate (bearing%frame(n), bearing%motion(n), bearing%asperity(n), bearing%film_motion(n), bearing%response(n))
    end function new_tilting_pad_bearing
@@ -304,7 +301,7 @@ contains
    pure real(wp) function penetration(self, force)
       class(tilting_pad_bearing_type), intent(in) :: self
       real(wp), intent(in) :: force
-      penetration = self%law%penetration(force)
+      penetration = self%contact%penetration(force)
    end function penetration
 
    !> Contact force of a pivot, N, at a penetration, m.

@@ -4,12 +4,15 @@
 !> floating-point number are the cell's index. In each cell the force is the cubic that meets the
 !> law's force and stiffness at both ends: force and stiffness are continuous. The relative error of the force is
 !> the same in all octaves, about (2**-bits)**4/384 times eta**4 F''''/F, below 1e-6 by far: 3e-8.
+!>
+!> The table costs five hundred evaluations of the law, so where there are few lookups it is left out: the law itself
+!> answers.
 module contact_table
    use kinds, only: wp, i8
    use contact_law, only: contact_law_type, contact_point
    implicit none (type, external)
    private
-   public :: contact_table_type, new_contact_table
+   public :: contact_table_type, new_contact_table, new_untabulated_contact
 
    !> Cells per octave: 2**bits. Octaves covered: 2**first to 2**(last+1) metres.
    integer, parameter :: bits = 4, first = -40, last = -7
@@ -23,7 +26,8 @@ module contact_table
    !> Force and stiffness of one pivot over the penetration.
    type :: contact_table_type
       private
-      !> Cubic coefficients (4) of each cell over its width.
+      class(contact_law_type), allocatable :: law
+      !> Cubic coefficients (4) of each cell over its width; not allocated where the law itself answers.
       real(wp), allocatable :: cubic(:, :)
       !> Lower end and one over the width of each cell, m and 1/m.
       real(wp), allocatable :: start(:), per_width(:)
@@ -33,6 +37,8 @@ module contact_table
    contains
       !> Force, N, and stiffness, N/m, at a penetration, m; both zero where it is not positive.
       procedure :: lookup
+      !> Penetration, m, that carries a force > 0, N, by the law itself.
+      procedure :: penetration
    end type contact_table_type
 
 contains
@@ -44,10 +50,9 @@ contains
       type(contact_point) :: left, right
       real(wp) :: x, width
       integer :: k
+      table = new_untabulated_contact(law)
       allocate (table%cubic(4, 0:n_cells - 1), table%start(0:n_cells - 1), table%per_width(0:n_cells - 1))
-      right = law%at(cell_start(0))
-      table%low_end = right
-      table%low_exponent = right%stiffness*cell_start(0)/right%force
+      right = table%low_end
       do k = 0, n_cells - 1
          left = right
          x = cell_start(k)
@@ -59,20 +64,28 @@ contains
             table%cubic(:, k) = [f0, s0, 3*(f1 - f0) - 2*s0 - s1, 2*(f0 - f1) + s0 + s1]
          end associate
       end do
-      table%high_end = right
    end function new_contact_table
+
+   !> The same without a table: between its ends the law itself answers.
+   pure function new_untabulated_contact(law) result(table)
+      class(contact_law_type), intent(in) :: law
+      type(contact_table_type) :: table
+      allocate (table%law, source=law)
+      table%low_end = law%at(cell_start(0))
+      table%low_exponent = table%low_end%stiffness*cell_start(0)/table%low_end%force
+      table%high_end = law%at(cell_start(n_cells))
+   end function new_untabulated_contact
 
    pure subroutine lookup(self, penetration, force, stiffness)
       class(contact_table_type), intent(in) :: self
       real(wp), intent(in) :: penetration
       real(wp), intent(out) :: force, stiffness
+      type(contact_point) :: point
       integer(i8) :: k
       real(wp) :: t, d
-      if (.not. penetration > 0) then
-         force = 0
-         stiffness = 0
-         return
-      end if
+      force = 0
+      stiffness = 0
+      if (.not. penetration > 0) return
       k = shiftr(transfer(penetration, 1_i8), shift) - base
       if (k < 0) then
          force = self%low_end%force*(penetration/cell_start(0))**self%low_exponent
@@ -81,6 +94,10 @@ contains
          d = penetration - cell_start(n_cells)
          force = self%high_end%force + self%high_end%stiffness*d
          stiffness = self%high_end%stiffness
+      else if (.not. allocated(self%cubic)) then
+         point = self%law%at(penetration)
+         force = point%force
+         stiffness = point%stiffness
       else
          associate (c => self%cubic(:, k))
             t = (penetration - self%start(k))*self%per_width(k)
@@ -89,6 +106,12 @@ contains
          end associate
       end if
    end subroutine lookup
+
+   pure real(wp) function penetration(self, force)
+      class(contact_table_type), intent(in) :: self
+      real(wp), intent(in) :: force
+      penetration = self%law%penetration(force)
+   end function penetration
 
    !> Lower end of cell k, m: the real whose leading bits are the index.
    elemental function cell_start(k) result(x)

@@ -5,7 +5,7 @@ program test_contact_table
    use kinds, only: wp
    use text, only: to_text
    use contact_law, only: contact_law_type, contact_point
-   use contact_table, only: contact_table_type, new_contact_table
+   use contact_table, only: contact_table_type, new_contact_table, new_untabulated_contact
    use paper_bearing, only: paper_law
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
@@ -38,7 +38,31 @@ contains
       call above(table, what)
       call no_contact(table, what)
       call slope_is_derivative(table, what)
+      call without_table(law, table, new_untabulated_contact(law), what)
    end subroutine one_table
+
+   !> Without a table the law answers between the ends, to the bit, and beyond them what the table says there.
+   subroutine without_table(law, table, plain, what)
+      class(contact_law_type), intent(in) :: law
+      type(contact_table_type), intent(in) :: table, plain
+      character(len=*), intent(in) :: what
+      type(contact_point) :: point
+      real(wp) :: x, found(2), expected(2)
+      integer :: octave
+      do octave = -60, 4
+         x = 1.3_wp*2.0_wp**octave
+         call plain%lookup(x, found(1), found(2))
+         if (x > low_end .and. x < high_end) then
+            point = law%at(x)
+            expected = [point%force, point%stiffness]
+         else
+            call table%lookup(x, expected(1), expected(2))
+         end if
+         call expect_close(maxval(abs(found - expected)), 0.0_wp, 0.0_wp, 'no table at '//to_text(x)//' m'//what)
+      end do
+      call expect_close(table%penetration(1e3_wp), law%penetration(1e3_wp), 0.0_wp, 'penetration'//what)
+      call expect_close(plain%penetration(1e3_wp), law%penetration(1e3_wp), 0.0_wp, 'penetration without table'//what)
+   end subroutine without_table
 
    !> 32 cubic cells an octave: about (1/32)**4/384 = 2.5e-9 of the law's fourth logarithmic derivative,
    !> which is of order one, and of some hundred where contact spreads over the socket: 1e-6 at most.
