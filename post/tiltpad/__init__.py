@@ -12,6 +12,7 @@ MODULES are loaded when they are first used, most of them with matplotlib.
 from importlib import import_module
 from typing import Any
 
+from tiltpad.calculate.coefficients import Coefficients, coefficients
 from tiltpad.calculate.deviations import deviations
 from tiltpad.calculate.library import (
     Contact,
@@ -25,6 +26,7 @@ from tiltpad.calculate.library import (
     friction_force,
     pressure,
 )
+from tiltpad.calculate.modes import Modes, modes
 from tiltpad.calculate.pivots import (
     friction_coefficient,
     friction_power,
@@ -37,6 +39,7 @@ from tiltpad.calculate.pivots import (
     stick_velocity,
     sticking,
 )
+from tiltpad.calculate.ross import to_ross
 from tiltpad.calculate.signals import (
     envelope,
     last_revolutions,
@@ -47,24 +50,31 @@ from tiltpad.calculate.signals import (
     waveform,
 )
 from tiltpad.calculate.spectra import full, full_spectrum, one_sided, order_track, spectrum, waterfall
+from tiltpad.calculate.tables import write_coefficients
 from tiltpad.collect.collect import Collected, MemberWarning, collect
 from tiltpad.files.archive import NotInRunError, RunError
+from tiltpad.files.namelist import write_case
 from tiltpad.files.read import IncompleteRunWarning, Run, read
 from tiltpad.files.study import Study, read_study
+from tiltpad.running import MissingProgramError, run
 
 __all__ = [
+    "Coefficients",
     "Collected",
     "Contact",
     "IncompleteRunWarning",
     "LibraryError",
     "MemberWarning",
     "MissingLibraryError",
+    "MissingProgramError",
+    "Modes",
     "NotInRunError",
     "Pressure",
     "Run",
     "RunError",
     "Study",
     "bristle_rate",
+    "coefficients",
     "collect",
     "contact",
     "contact_force",
@@ -80,6 +90,7 @@ __all__ = [
     "hysteresis",
     "last_revolutions",
     "loop_area",
+    "modes",
     "one_sided",
     "orbit",
     "orbit_size",
@@ -89,14 +100,18 @@ __all__ = [
     "read",
     "read_study",
     "revolutions",
+    "run",
     "sliding_velocity",
     "spectrum",
     "stick_fraction",
     "stick_intervals",
     "stick_velocity",
     "sticking",
+    "to_ross",
     "waterfall",
     "waveform",
+    "write_case",
+    "write_coefficients",
 ]
 
 

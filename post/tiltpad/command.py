@@ -14,15 +14,23 @@ from tiltpad.collect.collect import MemberWarning
 from tiltpad.collect.collect import collect as collected
 from tiltpad.files.archive import NotInRunError, RunError
 from tiltpad.files.read import IncompleteRunWarning, read
-from tiltpad.files.study import read_study
+from tiltpad.files.study import read_either, read_study
 
 FORMATS = ("png", "pdf", "svg")
 #: The plot of a study.
 STUDY = "study"
-#: Options of one plot alone.
-OWN_OPTIONS = {"time": "pressure", "show": STUDY, "over": STUDY, "kind": STUDY, "where": STUDY}
-#: Plots without the option --last.
-WITHOUT_LAST = ("equilibrium", "runup", "orders", "waterfall", "pressure", STUDY)
+#: Plots of coefficients and modes: of results, and of studies.
+VIBRATIONS = ("coefficients", "stability", "campbell")
+#: Options of some plots alone.
+OWN_OPTIONS = {
+    "time": ("pressure",),
+    **dict.fromkeys(("show", "kind"), (STUDY,)),
+    **dict.fromkeys(("over", "where"), (STUDY, *VIBRATIONS)),
+    "pivot": VIBRATIONS,
+}
+#: Plots without the options --last and --pad.
+WITHOUT_LAST = ("equilibrium", "runup", "orders", "waterfall", "pressure", STUDY, *VIBRATIONS)
+WITHOUT_PAD = VIBRATIONS
 #: Exit status, as the program's own.
 INPUT_ERROR, FILE_ERROR = 1, 3
 
@@ -40,6 +48,9 @@ PLOTS = {
     "orders": "amplitude and phase of the first orders over the speed of a run-up (--pad: also of its tilt)",
     "waterfall": "amplitudes over speed and order of a run-up (of the journal; --pad: of its tilt)",
     "pressure": "film pressure over the unrolled pads at one instant (--time; default: at the equilibrium)",
+    "coefficients": "stiffness and damping: of a study over its speed, of a result over whirl frequency",
+    "stability": "damping ratio and logarithmic decrement of the modes, of studies and results",
+    "campbell": "frequencies of the modes over the speed, of studies",
     "study": "results over parameters, from a file of tiltpad-collect (--show, --over, --as, --where)",
 }
 
@@ -116,12 +127,14 @@ def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
 def draw(options: argparse.Namespace, output: Path) -> None:
     """Reads the runs, draws them and writes the picture."""
     form = needs_suffix(output, FORMATS)
-    for name, plot in OWN_OPTIONS.items():
-        if getattr(options, name) is not None and options.plot != plot:
+    for name, allowed in OWN_OPTIONS.items():
+        if getattr(options, name) is not None and options.plot not in allowed:
             option = {"kind": "as"}.get(name, name)
-            raise ValueError(f"--{option}: for the plot {plot}, not for {options.plot}")
-    if options.last is not None and options.plot in WITHOUT_LAST:
-        raise ValueError(f"--last: not for the plot {options.plot}")
+            words = f"the plot {allowed[0]}" if len(allowed) == 1 else f"the plots {', '.join(allowed)}"
+            raise ValueError(f"--{option}: for {words}, not for {options.plot}")
+    for name, without in (("last", WITHOUT_LAST), ("pad", WITHOUT_PAD)):
+        if getattr(options, name) is not None and options.plot in without:
+            raise ValueError(f"--{name}: not for the plot {options.plot}")
     mpl = matplotlib_for_files()
     if options.plot == STUDY:
         draw_study(options, output, form)
@@ -129,12 +142,17 @@ def draw(options: argparse.Namespace, output: Path) -> None:
     from tiltpad.draw import figures, plots
 
     with ExitStack() as stack:
-        runs = [stack.enter_context(read(path)) for path in options.files]
+        vibrations = options.plot in VIBRATIONS
+        runs = [
+            stack.enter_context(read_either(path) if vibrations else read(path)) for path in options.files
+        ]
         stack.enter_context(mpl.style.context(plots.STYLE))
         if options.pad is not None:
             figures.shown_pads(runs, options.pad)
-        when = {"time": options.time} if options.plot == "pressure" else {}
-        figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **when)
+        more = {"time": options.time} if options.plot == "pressure" else {}
+        if vibrations:
+            more = {"pivot": options.pivot, "over": options.over, "where": kept(options)}
+        figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **more)
         stack.callback(plots.plt.close, figure)
         figure.savefig(output, format=form)
 
@@ -146,12 +164,18 @@ def draw_study(options: argparse.Namespace, output: Path, form: str) -> None:
     if len(options.files) > 1:
         raise ValueError("study: one file; tiltpad-collect puts several into one")
     with read_study(options.files[0]) as study, plots.plt.style.context(plots.STYLE):
-        where = dict(options.where or ())
-        if len(where) < len(options.where or ()):
-            raise ValueError("--where: one value of each parameter")
+        where = kept(options)
         figure = figures.study(study, options.show, options.over, options.kind, where, options.pad)
         figure.savefig(output, format=form)
         plots.plt.close(figure)
+
+
+def kept(options: argparse.Namespace) -> dict[str, str]:
+    """The values of parameters that --where asks for."""
+    where = dict(options.where or ())
+    if len(where) < len(options.where or ()):
+        raise ValueError("--where: one value of each parameter")
+    return where
 
 
 def write_report(path: str, output: Path) -> None:
@@ -238,7 +262,10 @@ def plot_parser() -> Parser:
     parser.add_argument(
         "--time", type=float, metavar="T", help="time of the pressure in s; the nearest sample is taken"
     )
-    study = parser.add_argument_group("options of the plot study")
+    parser.add_argument(
+        "--pivot", metavar="NAME", help="coefficients and modes of pivots free, stuck or locked"
+    )
+    study = parser.add_argument_group("options for studies")
     study.add_argument(
         "--show", metavar="RESULT", help="result to draw (orbit_size, max_pressure, steps, ...)"
     )

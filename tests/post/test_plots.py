@@ -18,7 +18,9 @@ from tiltpad import command
 pytestmark = pytest.mark.usefixtures("closed_figures")
 
 #: Plots by the runs that they need; the others have tests of their own.
-PLOTS = [plot for plot in command.PLOTS if plot not in ("equilibrium", "pressure", "study")]
+PLOTS = [
+    plot for plot in command.PLOTS if plot not in ("equilibrium", "pressure", "study", *command.VIBRATIONS)
+]
 STEADY = [plot for plot in PLOTS if plot not in ("orders", "waterfall")]
 RUNUP = [plot for plot in PLOTS if plot != "spectrum"]
 

@@ -11,7 +11,7 @@ import numpy as np
 from tiltpad.calculate import pivots, signals
 from tiltpad.collect.parameters import swept
 from tiltpad.files.archive import NotInRunError, RunError, damaged, reading
-from tiltpad.files.read import Run, read
+from tiltpad.files.read import LABELS, Run, read
 from tiltpad.files.study import POINTS, QUANTITIES, REVOLUTIONS
 
 #: Exit status of a member that was done, and those of one that did not end: running or killed, stopped.
@@ -37,8 +37,8 @@ class Member(NamedTuple):
                           they are not known
         input             resolved namelist, None where the file cannot be read
         origin            version, title and input text
-        values            results by names of tiltpad.files.study: a number, (pad,), (revolution,),
-                          (revolution, pad)
+        values            results by names of tiltpad.files.study, with their dimensions less the member
+        labels            values of its dimensions, where they are not counted from 1
         cost              the numbers of its group statistics
     """
 
@@ -52,6 +52,7 @@ class Member(NamedTuple):
     input: dict[str, dict[str, Any]] | None = None
     origin: dict[str, str] | None = None
     values: dict[str, Any] | None = None
+    labels: dict[str, Sequence[Any]] | None = None
     cost: dict[str, float] | None = None
 
 
@@ -92,6 +93,8 @@ def measured(path: Path, run: Run) -> Member:
         values["resumes"] = float(attributes["resumes"])
     with suppress(NotInRunError):
         values |= at_rest(run)
+    with suppress(NotInRunError):
+        values |= vibrations(run)
     if complete and status == DONE:
         with suppress(NotInRunError):
             part = signals.last_revolutions(run)
@@ -111,6 +114,7 @@ def measured(path: Path, run: Run) -> Member:
         run.input,
         {name: attributes[name] for name in ("version", "title", "input")},
         values,
+        labels(run, values),
         cost(run),
     )
 
@@ -140,6 +144,28 @@ def at_rest(run: Run) -> dict[str, float]:
         "equilibrium_min_film_thickness": run["equilibrium/min_film_thickness"].min(),
         "equilibrium_max_pressure": run["equilibrium/max_pressure"].max(),
     }
+
+
+def vibrations(run: Run) -> dict[str, Any]:
+    """Coefficients and modes; of a run without equilibrium only the speed."""
+    if run.task != "coefficients":
+        raise NotInRunError(f"{run.path}: no coefficients in this run")
+    values = {"speed": run.input["operation"]["speed_rpm"] * np.pi / 30}
+    with suppress(NotInRunError):
+        values |= {
+            name: run[f"coefficients/{name}"] for name in run.names("coefficients") if name in QUANTITIES
+        }
+    with suppress(NotInRunError):
+        values |= {name: run[f"modes/{name}"] for name in run.names("modes") if name in QUANTITIES}
+        values["least_log_decrement"] = np.nanmin(values["log_decrement"], axis=1)
+    return values
+
+
+def labels(run: Run, values: dict[str, Any]) -> dict[str, Sequence[Any]]:
+    """Values of the dimensions that are not counted from 1."""
+    found = {name: list(run[name]) for name in (*LABELS, "frequency_ratio") if name in run}
+    points = len(values.get("poincare_y", ()))
+    return found | {"revolution": range(1 - points, 1)}
 
 
 def motion(run: Run, part: slice) -> dict[str, Any]:

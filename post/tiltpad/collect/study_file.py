@@ -13,11 +13,11 @@ import numpy as np
 from tiltpad.collect.members import Member, planned
 from tiltpad.collect.parameters import differing, parameters
 from tiltpad.files.archive import FORMAT_VERSION, RunError, plain
-from tiltpad.files.read import read
-from tiltpad.files.study import MEMBER, QUANTITIES, Quantity
+from tiltpad.files.namelist import count
+from tiltpad.files.read import COEFFICIENTS, LABELS, read
+from tiltpad.files.study import DIMENSIONS, MEMBER, QUANTITIES, Quantity
 
-#: Names of the dimensions, and the texts of a member with their meaning.
-DIMENSIONS = ("member", "pad", "revolution")
+#: Texts of a member with their meaning.
 TEXTS = {"reason": "reason of the failure", "file": "result file, relative to the folder of this file"}
 
 
@@ -47,7 +47,9 @@ def fill(file: h5py.File, members: Sequence[Member], missing: Sequence[int], fol
     else:
         own = differing([each.input for each in readable])
         known = {each.path: values for each, values in zip(readable, own, strict=True)}
-    taken = {*DIMENSIONS, *TEXTS, "members", *QUANTITIES}.union(*(each.cost or {} for each in members))
+    taken = {*MEMBER, *DIMENSIONS, *TEXTS, "members", *QUANTITIES}.union(
+        *(each.cost or {} for each in members)
+    )
     found = parameters([known.get(each.path) for each in members], taken)
     titles = {each.origin["title"] for each in readable}
     file.attrs.update(
@@ -65,14 +67,14 @@ def fill(file: h5py.File, members: Sequence[Member], missing: Sequence[int], fol
             "missing": ranges(missing),
         }
     )
-    scales(file, members)
+    labels = scales(file, members)
     coordinates = " ".join(each.name for each in found)
     for each in found:
         put(file, each.name, each.values, MEMBER, each.units, each.long_name)
     paths = [os.path.relpath(each.path.resolve(), folder) for each in members]
     for name, values in (("reason", [each.reason for each in members]), ("file", paths)):
         put(file, name, values, MEMBER, "", TEXTS[name], coordinates)
-    for name, quantity, values in tables(members):
+    for name, quantity, values in tables(members, labels):
         put(file, name, values, quantity.dimensions, quantity.units, quantity.long_name, coordinates)
     links = file.create_group("members")
     digits = max(4, len(str(members[-1].number)))
@@ -80,53 +82,81 @@ def fill(file: h5py.File, members: Sequence[Member], missing: Sequence[int], fol
         links[f"{each.number:0{digits}d}"] = h5py.ExternalLink(path, "/")
 
 
-def scales(file: h5py.File, members: Sequence[Member]) -> None:
-    """The dimensions: members by their numbers, pads, revolutions counted from the last one, which is 0."""
-    read = [each for each in members if each.input]
-    pads = max(len(np.atleast_1d(each.input["pads"]["pivot_angle_deg"])) for each in read)
-    points = max((len(each.values["poincare_y"]) for each in read if "poincare_y" in each.values), default=0)
-    for name, values, long_name in (
-        ("member", [each.number for each in members], "number of the member"),
-        ("pad", range(1, pads + 1), "number of the pad"),
-        ("revolution", range(1 - points, 1), "revolutions before the last Poincare point"),
-    ):
-        if len(values):
-            file[name] = np.array(values, dtype=np.int64)
-            file[name].make_scale(name)
-            file[name].attrs.update({"units": "1", "long_name": long_name})
+def scales(file: h5py.File, members: Sequence[Member]) -> dict[str, list[Any]]:
+    """Writes the dimensions; gives the values of each: those that any of the members has.
+
+    Members have their numbers, revolutions are counted from the last one, which is 0.
+    """
+    labels: dict[str, dict[Any, None]] = {name: {} for name in DIMENSIONS}
+    for each in members:
+        for name, values in (each.values or {}).items():
+            for dimension, size in zip(QUANTITIES[name].dimensions[1:], np.shape(values), strict=True):
+                labels[dimension].update(dict.fromkeys(own_labels(each, dimension, size)))
+        if each.input:
+            labels["pad"].update(dict.fromkeys(range(1, count(each.input["pads"]["pivot_angle_deg"]) + 1)))
+    found = {name: in_order(name, list(values)) for name, values in labels.items() if values}
+    numbers = [each.number for each in members]
+    for name, values in ({"member": numbers} | found).items():
+        if isinstance(values[0], str):
+            file.create_dataset(name, data=values, dtype=h5py.string_dtype())
+        else:
+            file[name] = np.array(values)
+        file[name].make_scale(name)
+        meaning = DIMENSIONS.get(name, "number of the member")
+        file[name].attrs.update({"units": "1", "long_name": meaning})
+    return found
 
 
-def tables(members: Sequence[Member]) -> Iterator[tuple[str, Quantity, np.ndarray]]:
+def own_labels(one: Member, dimension: str, size: int) -> Sequence[Any]:
+    """What a member's values along a dimension belong to; numbers from 1 where it has no labels."""
+    return (one.labels or {}).get(dimension, range(1, size + 1))
+
+
+def in_order(name: str, values: list[Any]) -> list[Any]:
+    """Numbers rise; texts stay in the order of the members."""
+    return values if name in LABELS else sorted(values)
+
+
+def tables(
+    members: Sequence[Member], labels: dict[str, list[Any]]
+) -> Iterator[tuple[str, Quantity, np.ndarray]]:
     """Name, meaning and array of every quantity that a member has; nan for members that do not have it."""
     yield "status", QUANTITIES["status"], np.array([each.status for each in members], dtype=float)
     for name, quantity in QUANTITIES.items():
-        values = [(each.values or {}).get(name) for each in members]
-        if any(each is not None for each in values):
-            yield name, quantity, padded(values, from_end=name.startswith("poincare"))
+        having = [each for each in members if name in (each.values or {})]
+        if having:
+            group = "coefficients" if name in COEFFICIENTS else "modes"
+            about = quantity if quantity.units else meaning(having[0].path, f"{group}/{name}")
+            values = placed(name, quantity.dimensions[1:], members, labels)
+            yield name, about._replace(dimensions=quantity.dimensions), values
     measured = [each for each in members if each.cost]
     for name in dict.fromkeys(name for each in measured for name in each.cost):
         first = next(each for each in measured if name in each.cost)
         values = np.array([(each.cost or {}).get(name, np.nan) for each in members])
-        yield name, meaning(first.path, name), values
+        yield name, meaning(first.path, f"statistics/{name}"), values
 
 
 def meaning(path: Path, name: str) -> Quantity:
-    """Unit and meaning of a number of the cost, from a file that has it."""
+    """Unit and meaning of a number for each member, from a file that has it."""
     with warnings.catch_warnings(action="ignore"), read(path) as run:
-        units, long_name = (run.about(f"statistics/{name}", each) for each in ("units", "long_name"))
+        units, long_name = (run.about(name, each) for each in ("units", "long_name"))
     return Quantity(MEMBER, units, long_name)
 
 
-def padded(values: Sequence[Any], from_end: bool) -> np.ndarray:
-    """One array of several: nan fills up the shorter ones at their ends, or at the start of axis 1."""
-    sizes = [np.shape(each) for each in values if each is not None]
-    table = np.full((len(values), *np.max(sizes, axis=0).astype(int)), np.nan)
-    for k, each in enumerate(values):
-        if each is not None:
-            part = [slice(0, size) for size in np.shape(each)]
-            if from_end:
-                part[0] = slice(table.shape[1] - len(each), None)
-            table[k, *part] = each
+def placed(
+    name: str, dimensions: Sequence[str], members: Sequence[Member], labels: dict[str, list[Any]]
+) -> np.ndarray:
+    """One array of the members' own, each value at the place of its labels; nan where there is none."""
+    places = {each: {label: k for k, label in enumerate(labels[each])} for each in dimensions}
+    table = np.full((len(members), *map(len, places.values())), np.nan)
+    for k, each in enumerate(members):
+        if name in (each.values or {}):
+            values = np.asarray(each.values[name], dtype=float)
+            part = [
+                [places[dimension][label] for label in own_labels(each, dimension, size)]
+                for dimension, size in zip(dimensions, values.shape, strict=True)
+            ]
+            table[(k, *np.ix_(*part))] = values
     return table
 
 

@@ -4,13 +4,12 @@ They are drawn from the arrays of the study alone. Members that failed are marke
 """
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 
-from tiltpad.calculate.differences import WORDS
+from tiltpad.calculate.selection import default_over, distinct, is_number, needs, selected, written
 from tiltpad.draw.plots import on_axes
 from tiltpad.files import units
 from tiltpad.files.study import POINTS, QUANTITIES, Study
@@ -150,37 +149,6 @@ def bifurcation(
     return ax
 
 
-def selected(study: Study, where: Mapping[str, str]) -> np.ndarray:
-    """True for the members with the given values of parameters, (member,)."""
-    chosen = np.ones(study.length("member"), dtype=bool)
-    for name, text in where.items():
-        needs(name, study.parameters, "where", "a parameter")
-        values = study[name]
-        if is_number(study, name):
-            try:
-                here = np.isclose(values, float(text), rtol=1e-6, atol=0)
-            except ValueError:
-                here = np.zeros(len(values), dtype=bool)
-        else:
-            here = values == text
-        if not here.any():
-            there = ", ".join(written(value) for value in distinct(values))
-            raise ValueError(f"{study.path}: no member with {name} = {text}: there are {there}")
-        chosen &= here
-    if not chosen.any():
-        raise ValueError(f"{study.path}: no member with all of these values")
-    return chosen
-
-
-def default_over(study: Study, several: Sequence[str], chosen: np.ndarray) -> str:
-    """The number with the most values; without numbers the text with the most."""
-    if not study.parameters:
-        raise ValueError(f"{study.path}: its members differ in no parameter that they could be drawn over")
-    names = several or study.parameters
-    numeric = [name for name in names if is_number(study, name)]
-    return max(numeric or names, key=lambda name: len(distinct(study[name][chosen])))
-
-
 def default_kind(study: Study, show: str | None, over: str, others: Sequence[str], chosen: np.ndarray) -> str:
     """A bifurcation diagram for Poincare points, a map over two numbers of many values, otherwise lines."""
     if show in POINTS:
@@ -237,17 +205,6 @@ def axis(study: Study, name: str, ax: Axes, which: str) -> tuple[Shown, np.ndarr
     return shown, shown.factor * values
 
 
-def is_number(study: Study, name: str) -> bool:
-    return study.item(name).dtype.kind != "O"
-
-
-def distinct(values: np.ndarray) -> list:
-    """The different values in rising order, texts in the order of the study; without nan and empty texts."""
-    if values.dtype.kind == "O":
-        return [value for value in dict.fromkeys(values) if value]
-    return list(np.unique(values[np.isfinite(values)]))
-
-
 def spread_in_ratio(values: Sequence[float]) -> bool:
     """True for values that rise by nearly equal factors, over LOG_FROM or more."""
     if len(values) < 3 or values[0] <= 0 or values[-1] / values[0] < LOG_FROM:
@@ -274,11 +231,6 @@ def too_many(groups: Sequence[tuple[str, np.ndarray]], others: Sequence[str]) ->
             f"{len(groups)} lines, one for each {' and '.join(others)}, are more than {MOST_LINES}: "
             "choose by --where, or --as map"
         )
-
-
-def written(value: Any) -> str:
-    """A value of a parameter in words."""
-    return WORDS.get(value, value.replace("_", " ")) if isinstance(value, str) else f"{value:g}"
 
 
 def mark_failed(ax: Axes, place: np.ndarray, color: int | None) -> None:
@@ -320,9 +272,3 @@ def edges(values: np.ndarray, scale: str) -> np.ndarray:
 
 def parameters_in_words(study: Study) -> str:
     return f"its parameters are {', '.join(study.parameters) or 'none'}"
-
-
-def needs(name: str, allowed: Sequence[str], option: str, what: str) -> None:
-    """Raises ValueError for a name that is not allowed."""
-    if name not in allowed:
-        raise ValueError(f"--{option}: {name} is not {what} of this study: {', '.join(allowed)}")

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tiltpad.calculate import differences, pivots, signals
-from tiltpad.draw import diagrams, plots
+from tiltpad.draw import diagrams, plots, vibrations
 from tiltpad.draw.layout import (
     COLUMN,
     PAGE,
@@ -317,5 +317,6 @@ FIGURES = {
     for each in (
         *(orbit, equilibrium, size, poincare, waveform, spectrum),
         *(hysteresis, friction, sticking, runup, orders, waterfall, pressure),
+        *(vibrations.coefficients, vibrations.stability, vibrations.campbell),
     )
 }

@@ -14,18 +14,20 @@ from matplotlib.patches import ConnectionPatch, Rectangle
 
 from tiltpad.calculate import differences, signals
 from tiltpad.files.read import Run
+from tiltpad.files.study import Study
 
 COLUMN, PAGE = 3.35, 6.9  # widths in a paper, inches
 LONGEST_LABEL = 90  # characters
 DASHES = ("-", "--", ":", "-.")
 
 
-def labels(runs: Sequence[Run]) -> list[str]:
+def labels(runs: Sequence[Run | Study]) -> list[str]:
     """Different names for runs: their titles, else the differences of their inputs, else their files."""
     titles = [run.title for run in runs]
     stems = [Path(run.path).stem for run in runs]
-    for texts in (titles, differences.differences([run.input for run in runs]), stems):
-        if all(0 < len(text) <= LONGEST_LABEL for text in texts) and len(set(texts)) == len(runs):
+    inputs = [run.input for run in runs if isinstance(run, Run)]
+    for texts in (titles, differences.differences(inputs) if inputs else [], stems):
+        if len(set(texts)) == len(runs) and all(0 < len(text) <= LONGEST_LABEL for text in texts):
             return texts
     return [run.path for run in runs]
 

@@ -14,7 +14,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from tiltpad.calculate import behaviour, signals, summary
+from tiltpad.calculate.coefficients import coefficients
 from tiltpad.calculate.library import MissingLibraryError
+from tiltpad.calculate.modes import modes
 from tiltpad.draw import figures, plots
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
@@ -35,6 +37,9 @@ PICTURES = {
     "sticking": "Tilt rate, bold where the pivot sticks, over the last two revolutions.",
     "poincare": "States once a revolution, on the path of the last revolutions.",
     "pressure": "Film pressure over the unrolled pads at the equilibrium.",
+    "coefficients": "Stiffness and damping over the whirl frequency.",
+    "stability": "Damping ratio and logarithmic decrement of the modes over their frequency.",
+    "campbell": "Frequencies of the modes over the speed.",
 }
 
 
@@ -49,6 +54,8 @@ def report(run: Run) -> str:
         section("Key figures", key_figures(run)),
         section("Pads", pad_figures(run)),
         section("Spectrum", spectrum_peaks(run)),
+        section("Stiffness and damping", coefficient_table(run)),
+        section("Modes", mode_table(run)),
         section("Pictures", "".join(pictures(run))),
         section("Input", f"<pre>{escape(run.attributes['input'].strip())}</pre>"),
         section("Cost", statistics(run)),
@@ -137,6 +144,45 @@ def spectrum_peaks(run: Run) -> str:
     ]
     note = f"Highest peaks of the last {summary.LAST} revolutions, or of all if there are fewer."
     return table(head, rows) + f"<p>{note}</p>" if rows else ""
+
+
+def coefficient_table(run: Run) -> str:
+    """The coefficients of all pivots at all whirl frequencies."""
+    if "coefficients" not in run:
+        return ""
+    rows = []
+    for pivot in run["pivot"]:
+        found = coefficients(run, pivot)
+        for ratio, *both in zip(found.frequency_ratio, found.stiffness, found.damping, strict=True):
+            named = zip(("stiffness", "damping"), both, strict=True)
+            values = [number(each, name) for name, matrix in named for each in matrix.ravel()]
+            rows.append((f"{pivot}, {ratio:g}", *values))
+    heads = [
+        f"{letter} {element} ({SHOWN[name].unit})"
+        for letter, name in (("K", "stiffness"), ("C", "damping"))
+        for element in ("yy", "yz", "zy", "zz")
+    ]
+    note = "The frequency is that of the whirl over the shaft's; y is up, the shaft turns from +y to +z."
+    return table(("pivots, frequency", *heads), rows) + f"<p>{note}</p>"
+
+
+def mode_table(run: Run) -> str:
+    """The modes of all pivots, and the thresholds of stability where they were looked for."""
+    if "modes" not in run:
+        return ""
+    rows, thresholds = [], []
+    for pivot in run["pivot"]:
+        found = modes(run, pivot)
+        own = zip(found.frequency, found.damping_ratio, found.log_decrement, strict=True)
+        rows += [
+            (f"{pivot}", f"{hertz:.5g}", number(ratio, "damping_ratio"), number(decrement, "log_decrement"))
+            for hertz, ratio, decrement in own
+            if np.isfinite(hertz)
+        ]
+        if np.isfinite(found.threshold_rpm):
+            thresholds.append(f"{pivot} pivots: {found.threshold_rpm:.1f} rpm")
+    note = f"<p>Threshold of stability: {'; '.join(thresholds)}.</p>" if thresholds else ""
+    return table(("pivots", "frequency (Hz)", "damping ratio (%)", "logarithmic decrement"), rows) + note
 
 
 def pictures(run: Run) -> Iterable[str]:

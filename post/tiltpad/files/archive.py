@@ -48,7 +48,7 @@ class Archive:
     """An HDF5 file of tiltpad, open for reading; a dataset is loaded when it is used."""
 
     #: Names that are groups.
-    GROUPS = ("equilibrium", "spectrum", "statistics", "checkpoint", "members")
+    GROUPS = ("equilibrium", "spectrum", "statistics", "checkpoint", "coefficients", "modes", "members")
     #: Kinds of numpy's types that its datasets may have.
     KINDS = "fiu"
     #: Its own attributes: where one is not set yet, no dataset of that name is looked for.

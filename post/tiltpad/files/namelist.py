@@ -1,10 +1,18 @@
 """The resolved namelist that every result file carries in its attribute `input`."""
 
+import numbers
+import os
 import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 ASSIGNMENT = re.compile(r"^&(?P<group>\w+)|^\s+(?P<name>\w+) = (?P<value>.*)$", re.MULTILINE)
 
+#: The group whose values are those of other variables.
+SWEEP = "sweep"
 #: The range of no variable reaches beyond it.
 LARGEST = 1e30
 
@@ -63,3 +71,38 @@ def number_of(word: str) -> int | float:
     if abs(number) > LARGEST:
         raise ValueError(f"{word.strip()} is beyond all ranges")
     return number
+
+
+def write_case(path: str | os.PathLike, groups: Mapping[str, Mapping[str, Any]]) -> Path:
+    """Writes a case for the program: {"operation": {"speed_rpm": 3000}, ...}; gives its path.
+
+    Values are numbers, texts, truth values, or sequences of them. The input of a result, `run.input`, is such
+    a dictionary. Raises ValueError for anything else.
+    """
+    lines = []
+    for group, values in groups.items():
+        own = variables(group, values).items()
+        lines += [f"&{group}", *(f"  {name} = {written(value, group == SWEEP)}" for name, value in own), "/"]
+    target = Path(path)
+    target.write_text("\n".join([*lines, ""]), encoding="utf-8")
+    return target
+
+
+def variables(group: str, values: Any) -> Mapping[str, Any]:
+    """The variables of a group; ValueError where they are not given by name."""
+    if not isinstance(values, Mapping):
+        raise ValueError(f"{group} = {values!r}: a group has variables: {group}={{'name': value, ...}}")
+    return values
+
+
+def written(value: Any, swept: bool = False) -> str:
+    """A value as a namelist has it; a text of swept values as it is ("1000:6000:500")."""
+    if isinstance(value, str):
+        return value if swept else "'" + value.replace("'", "''") + "'"
+    if isinstance(value, bool | np.bool_):
+        return ".true." if value else ".false."
+    if isinstance(value, numbers.Real):
+        return f"{value:d}" if isinstance(value, numbers.Integral) else repr(float(value))
+    if isinstance(value, Sequence | np.ndarray) and len(value):
+        return ", ".join(written(each) for each in value)
+    raise ValueError(f"{value!r} is neither a number nor a text, nor a sequence of them")

@@ -10,10 +10,24 @@ from typing import Any
 import numpy as np
 
 from tiltpad.files import namelist
-from tiltpad.files.archive import Archive, RunError, damaged, reading, shown
+from tiltpad.files.archive import Archive, RunError, damaged, plain, reading, shown
 
 #: Datasets over which the others are drawn and integrated; they must be finite.
 AXES = ("time", "shaft_angle", "speed", "pivot_angle")
+#: Dimensions whose values are texts.
+LABELS = ("pivot", "row", "column", "position_row", "position_column")
+#: Dimensions of the groups coefficients and modes.
+COEFFICIENTS = {
+    **dict.fromkeys(("stiffness", "damping"), ("pivot", "frequency_ratio", "row", "column")),
+    **dict.fromkeys(("full_stiffness", "full_damping"), ("pivot", "position_row", "position_column")),
+    "full_mass": ("position_row", "position_column"),
+}
+MODES = {
+    **dict.fromkeys(("eigenvalue_real", "eigenvalue_imag"), ("pivot", "mode")),
+    **dict.fromkeys(("frequency", "damping_ratio", "log_decrement"), ("pivot", "mode")),
+    **dict.fromkeys(("shape_real", "shape_imag"), ("pivot", "mode", "position_row")),
+    "threshold_rpm": ("pivot",),
+}
 #: Dimensions of the known datasets; those of a later program are read as they are.
 DIMENSIONS = {
     **dict.fromkeys(
@@ -45,6 +59,9 @@ DIMENSIONS = {
     "spectrum/pad_tilt": ("pad", "spectrum/frequency"),
     **dict.fromkeys(("spectrum/full_frequency", "spectrum/journal_full"), ("spectrum/full_frequency",)),
     **dict.fromkeys(("spectrum/revolutions", "checkpoint/time"), ()),
+    **{f"coefficients/{name}": dimensions for name, dimensions in COEFFICIENTS.items()},
+    **{f"modes/{name}": dimensions for name, dimensions in MODES.items()},
+    **{name: (name,) for name in (*LABELS, "frequency_ratio", "mode")},
 }
 #: What only pads that tilt have.
 OF_TILTING = ("pad_tilt", "contact_force", "friction_moment")
@@ -54,6 +71,10 @@ NUMBERS = "statistics"
 
 class IncompleteRunWarning(UserWarning):
     """The run did not reach its end; the file has the samples up to the time at which it stopped."""
+
+
+class StudyError(RunError):
+    """The file is a study, and not the result of one run."""
 
 
 def read(path: str | os.PathLike) -> "Run":
@@ -73,6 +94,8 @@ class Run(Archive):
         run.title, run.complete, ...         attributes of the file; run.attributes has all of them
         run.input["bearing"]                 resolved namelist, a dictionary a group
     """
+
+    KINDS = "fiuS"
 
     def __init__(self, path: str | os.PathLike):
         super().__init__(path)
@@ -114,7 +137,7 @@ class Run(Archive):
     def check_whole(self) -> None:
         """Refuses a study, and a file whose input has another number of pads than its datasets."""
         if self.attributes["task"] == "study":
-            raise RunError(f"{self.path}: a study, not the result of one run: see tiltpad.read_study")
+            raise StudyError(f"{self.path}: a study, not the result of one run: see tiltpad.read_study")
         if "complete" not in self.attributes:
             raise damaged(self.path, "attribute 'complete'", "it is missing")
         if "pad" in self and (there := self.length("pad")) != self.pads:
@@ -124,6 +147,10 @@ class Run(Archive):
         return () if name.startswith(f"{NUMBERS}/") else DIMENSIONS.get(name)
 
     def sound(self, name: str, values: Any) -> Any:
+        if (np.asarray(values).dtype.kind == "S") != (name in LABELS):
+            raise ValueError("not an array of texts" if name in LABELS else "not an array of numbers")
+        if name in LABELS:
+            return np.array([plain(each).rstrip() for each in values])
         if name in AXES and not np.isfinite(values).all():
             raise ValueError("it is not finite")
         if np.any(np.abs(values) > namelist.LARGEST):
@@ -152,8 +179,11 @@ class Run(Archive):
             return "pad motion is 'fixed'"
         if name.startswith("equilibrium") and (start := self.input.get("start", {}).get("from")):
             return f"it did not start at one (start%from = '{start}')"
-        if self.task == "equilibrium":
-            return "its task is 'equilibrium', nothing was marched in time"
+        if name in ("coefficients", "modes"):
+            failed = f"{self.attributes.get('reason', '')}" or "it did not come to its end"
+            return f"its task is '{self.task}'" if self.task != "coefficients" else failed
+        if self.task in ("equilibrium", "coefficients"):
+            return f"its task is '{self.task}', nothing was marched in time"
         if not self.samples:
             return "it ended before its first sample"
         operation = self.input["operation"]

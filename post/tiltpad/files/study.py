@@ -7,15 +7,31 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tiltpad.files.archive import Archive, RunError, damaged, plain
+from tiltpad.files.read import COEFFICIENTS, MODES, Run, StudyError, read
 
 #: Dimensions of the arrays.
-MEMBER, PADS = ("member",), ("member", "pad")
+MEMBER, PADS, PIVOTS = ("member",), ("member", "pad"), ("member", "pivot")
+#: All dimensions but the members, with their meaning.
+DIMENSIONS = {
+    "pad": "number of the pad",
+    "revolution": "revolutions before the last Poincare point",
+    "pivot": "pivots in small vibrations",
+    "frequency_ratio": "whirl frequency over shaft speed",
+    "row": "direction of the force on the journal",
+    "column": "direction of the journal's motion",
+    "position_row": "position that the force belongs to",
+    "position_column": "position that moves",
+    "mode": "number of the mode",
+}
 #: Maximum number of revolutions of which Poincare points are kept.
 REVOLUTIONS = 50
 
 
 class Quantity(NamedTuple):
-    """A result of every member in a study: dimensions, unit, meaning."""
+    """A result of every member in a study: dimensions, unit, meaning.
+
+    Where unit and meaning are empty, they are those in the members' files.
+    """
 
     dimensions: tuple[str, ...]
     units: str
@@ -50,6 +66,8 @@ QUANTITIES = {
     "poincare_y": Quantity(("member", "revolution"), "m", "journal y once a revolution"),
     "poincare_z": Quantity(("member", "revolution"), "m", "journal z once a revolution"),
     "poincare_tilt": Quantity(("member", "revolution", "pad"), "rad", "tilt once a revolution"),
+    **{name: Quantity(("member", *each), "", "") for name, each in (COEFFICIENTS | MODES).items()},
+    "least_log_decrement": Quantity(PIVOTS, "1", "least logarithmic decrement of all modes"),
 }
 #: States that Poincare points are kept of.
 POINTS = {"poincare_y": "journal_y", "poincare_z": "journal_z", "poincare_tilt": "pad_tilt"}
@@ -58,6 +76,14 @@ POINTS = {"poincare_y": "journal_y", "poincare_z": "journal_z", "poincare_tilt":
 def read_study(path: str | os.PathLike) -> "Study":
     """Opens a study, the file that tiltpad-collect writes. Raises RunError."""
     return Study(path)
+
+
+def read_either(path: str | os.PathLike) -> "Run | Study":
+    """Opens the result of a run or a study, whichever it is. Raises RunError."""
+    try:
+        return read(path)
+    except StudyError:
+        return read_study(path)
 
 
 class Study(Archive):
@@ -100,7 +126,7 @@ class Study(Archive):
                 raise damaged(self.path, name, "it is missing")
 
     def scales(self, name: str) -> Sequence[str] | None:
-        if name in ("member", "pad", "revolution"):
+        if name in MEMBER or name in DIMENSIONS:
             return (name,)
         if name in QUANTITIES:
             return QUANTITIES[name].dimensions

@@ -61,6 +61,11 @@ SHOWN = {
     "equilibrium_z": Shown("journal $z$ at equilibrium", 1e6, "µm"),
     "equilibrium_min_film_thickness": Shown("minimum film thickness at equilibrium", 1e6, "µm"),
     "equilibrium_max_pressure": Shown("maximum pressure at equilibrium", 1e-6, "MPa"),
+    "stiffness": Shown("stiffness", 1e-6, "MN/m"),
+    "damping": Shown("damping", 1e-3, "kN s/m"),
+    "damping_ratio": Shown("damping ratio", 100, "%"),
+    "log_decrement": Shown("logarithmic decrement", 1, ""),
+    "least_log_decrement": Shown("least logarithmic decrement", 1, ""),
     "axial": Shown("axial position", 1e3, "mm"),
 }
 

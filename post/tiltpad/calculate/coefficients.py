@@ -1,0 +1,155 @@
+"""Stiffness and damping coefficients of the bearing, of a run or over the members of a study."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tiltpad.calculate.selection import selected
+from tiltpad.files.archive import NotInRunError
+from tiltpad.files.read import COEFFICIENTS, MODES, Run
+from tiltpad.files.study import Study
+
+#: The two positions of the journal come first.
+JOURNAL = 2
+
+
+class Coefficients(NamedTuple):
+    """Stiffness and damping of the bearing at the journal, pads condensed; its fields:
+
+        pivot              of which they are: free, stuck or locked
+        speed_rpm          shaft speed, (); of a study (member,), rising
+        frequency_ratio    whirl frequency over shaft speed, (frequency_ratio,)
+        stiffness          N/m, (frequency_ratio, row, column); of a study (member, ...) before these
+        damping            N s/m, likewise
+        parameters         of a study: values of its parameters by name, (member,) each
+
+    Rows are directions of the force on the journal, columns directions of its motion: y (up), z. The shaft
+    turns from +y to +z. Members of a study that have no equilibrium are nan.
+    """
+
+    pivot: str
+    speed_rpm: np.ndarray
+    frequency_ratio: np.ndarray
+    stiffness: np.ndarray
+    damping: np.ndarray
+    parameters: dict[str, np.ndarray]
+
+    @property
+    def frequency(self) -> np.ndarray:
+        """Whirl frequency, rad/s, (frequency_ratio,); of a study (member, frequency_ratio)."""
+        return np.multiply.outer(np.pi / 30 * np.asarray(self.speed_rpm), self.frequency_ratio)
+
+
+class Series(NamedTuple):
+    """Datasets of some members, (member, ...) each; a run is one member. Its fields:
+
+    pivot         that they are of
+    speed_rpm     shaft speed, (member,), rising
+    values        by the names that the datasets have in a study
+    parameters    of the study, (member,) each
+    """
+
+    pivot: str
+    speed_rpm: np.ndarray
+    values: dict[str, np.ndarray]
+    parameters: dict[str, np.ndarray]
+
+
+def coefficients(
+    source: Run | Study,
+    pivot: str | None = None,
+    frequency_ratio: Sequence[float] | float | None = None,
+    where: Mapping[str, Any] | None = None,
+) -> Coefficients:
+    """Stiffness and damping of a run of the task coefficients, or of a study of such runs.
+
+    `pivot` is one of those in the file, by default the first; `where` keeps the members of a study with these
+    values of parameters. With `frequency_ratio` (whirl frequency over shaft speed, from 0 on) the pads are
+    condensed at these frequencies; without it they are the program's own coefficients.
+    """
+    found = series(source, pivot, where)
+    if frequency_ratio is None:
+        ratios = source["frequency_ratio"]
+        stiffness, damping = found.values["stiffness"], found.values["damping"]
+    else:
+        ratios = np.atleast_1d(np.asarray(frequency_ratio, dtype=float))
+        if not (np.isfinite(ratios) & (ratios >= 0)).all():
+            raise ValueError(f"frequency_ratio = {frequency_ratio}: must be numbers from 0 on")
+        frequency = np.multiply.outer(np.pi / 30 * found.speed_rpm, ratios)
+        stiffness, damping = at_frequencies(found, frequency)
+    if isinstance(source, Run):
+        return Coefficients(found.pivot, found.speed_rpm[0], ratios, stiffness[0], damping[0], {})
+    return Coefficients(found.pivot, found.speed_rpm, ratios, stiffness, damping, found.parameters)
+
+
+def at_frequencies(found: Series, frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Coefficients at whirl frequencies in rad/s, (member, frequency): (member, frequency, row, column)."""
+    matrices = [found.values[name] for name in ("full_stiffness", "full_damping", "full_mass")]
+    each = [condensed(*one, at) for *one, at in zip(*matrices, frequency, strict=True)]
+    return tuple(np.stack(values) for values in zip(*each, strict=True))
+
+
+def condensed(
+    stiffness: np.ndarray, damping: np.ndarray, mass: np.ndarray, frequency: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Stiffness and damping at the journal at frequencies in rad/s, (frequency, row, column) each.
+
+    The matrices are those of all positions; those without numbers (a locked tilt) are left out.
+    """
+    there = np.isfinite(np.diagonal(stiffness))
+    if not there[:JOURNAL].all():
+        return (np.full((len(frequency), JOURNAL, JOURNAL), np.nan),) * 2
+    stiffness, damping, mass = (each[np.ix_(there, there)] for each in (stiffness, damping, mass))
+    # where the frequency is 0, damping is the derivative of the imaginary part
+    own = np.where(frequency == 0, 1e-6, frequency)[:, None, None]
+    dynamic = stiffness + 1j * own * damping - own**2 * mass
+    j, p = slice(None, JOURNAL), slice(JOURNAL, None)
+    pads = np.linalg.solve(dynamic[:, p, p], dynamic[:, p, j])
+    whole = dynamic[:, j, j] - dynamic[:, j, p] @ pads
+    return whole.real, whole.imag / own
+
+
+def series(
+    source: Run | Study,
+    pivot: str | None = None,
+    where: Mapping[str, Any] | None = None,
+    over: str | None = None,
+) -> Series:
+    """Coefficients and modes of a run, or of the chosen members of a study at rising speed or parameter."""
+    own, k = chosen_pivot(source, pivot)
+    if isinstance(source, Run):
+        if where:
+            raise ValueError(f"{source.path}: where: for a study, this is one run")
+        place, speed, parameters = (
+            np.array([0]),
+            np.array([source.input["operation"]["speed_rpm"]], float),
+            {},
+        )
+    else:
+        chosen = np.flatnonzero(selected(source, where or {}) & np.isfinite(source.speed))
+        speed = np.round(source.speed * 30 / np.pi, 9)
+        place = chosen[np.argsort((source[over] if over else speed)[chosen], kind="stable")]
+        speed, parameters = speed[place], {name: source[name][place] for name in source.parameters}
+    values = {}
+    for group, dimensions in (("coefficients", COEFFICIENTS), ("modes", MODES)):
+        for name in dimensions:
+            each = source[f"{group}/{name}"][None] if isinstance(source, Run) else source[name][place]
+            values[name] = each[:, k] if dimensions[name][0] == "pivot" else each
+    return Series(own, speed, values, parameters)
+
+
+def chosen_pivot(source: Run | Study, pivot: str | None) -> tuple[str, int]:
+    """Name of the pivots that are chosen, and their place; the first ones by default."""
+    if not isinstance(source, Run | Study):
+        raise TypeError(
+            f"{source!r}: not a result or study, as tiltpad.read and tiltpad.read_study open them"
+        )
+    if ("coefficients" if isinstance(source, Run) else "stiffness") not in source:
+        raise NotInRunError(source.without("coefficients"))
+    there = [str(each) for each in source["pivot"]]
+    if pivot is None:
+        return there[0], 0
+    if pivot not in there:
+        raise ValueError(f"{source.path}: pivot {pivot}: there are {', '.join(there)}")
+    return pivot, there.index(pivot)

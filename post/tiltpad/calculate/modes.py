@@ -1,0 +1,112 @@
+"""Modes of rotor and pads, of a run or over the members of a study."""
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tiltpad.calculate.coefficients import JOURNAL, series
+from tiltpad.files.read import Run
+from tiltpad.files.study import Study
+
+
+class Modes(NamedTuple):
+    """Modes of rotor and pads at the equilibrium; its fields:
+
+        pivot            of which they are: free, stuck or locked
+        speed_rpm        shaft speed, (); of a study (member,), rising
+        eigenvalue       1/s, complex, (mode,); of a study (member, mode)
+        frequency        Hz, likewise
+        damping_ratio, log_decrement     likewise
+        shape            complex, (mode, position); of a study (member, mode, position)
+        position         names of the positions: y, z, tilt_1, penetration_1, ...
+        threshold_rpm    lowest speed at which a mode turns unstable, nan where there is none, or none was
+                         looked for; of a study (member,)
+        parameters       of a study: values of its parameters by name, (member,) each
+
+    In a study a mode keeps its place over the speed, and nan stands where a member does not have it.
+    """
+
+    pivot: str
+    speed_rpm: np.ndarray
+    eigenvalue: np.ndarray
+    frequency: np.ndarray
+    damping_ratio: np.ndarray
+    log_decrement: np.ndarray
+    shape: np.ndarray
+    position: np.ndarray
+    threshold_rpm: np.ndarray
+    parameters: dict[str, np.ndarray]
+
+
+def modes(
+    source: Run | Study,
+    pivot: str | None = None,
+    where: Mapping[str, Any] | None = None,
+    over: str | None = None,
+) -> Modes:
+    """Modes of a run of the task coefficients, or of a study of such runs over the speed.
+
+    `pivot` is one of those in the file, by default the first; `where` keeps the members of a study with these
+    values of parameters; `over` is a parameter of the study that rises in place of the speed.
+    """
+    found = series(source, pivot, where, over)
+    values = dict(found.values)
+    values["eigenvalue"] = values["eigenvalue_real"] + 1j * values["eigenvalue_imag"]
+    values["shape"] = values["shape_real"] + 1j * values["shape_imag"]
+    order = tracked(values["eigenvalue"], values["shape"])
+    names = ("eigenvalue", "frequency", "damping_ratio", "log_decrement")
+    own = [np.take_along_axis(values[name], order, axis=1) for name in names]
+    own.append(np.take_along_axis(values["shape"], order[:, :, None], axis=1))
+    threshold = values["threshold_rpm"]
+    if isinstance(source, Run):
+        own = [each[0] for each in own]
+        return Modes(found.pivot, found.speed_rpm[0], *own, source["position_row"], threshold[0], {})
+    return Modes(found.pivot, found.speed_rpm, *own, source["position_row"], threshold, found.parameters)
+
+
+def tracked(eigenvalue: np.ndarray, shape: np.ndarray) -> np.ndarray:
+    """For each member and place the mode to put there, so that a mode keeps its place: (member, mode).
+
+    Each member's modes are paired with those of the last member that has any: the pairs that are closest by
+    eigenvalue and shape first.
+    """
+    order = np.tile(np.arange(eigenvalue.shape[1]), (len(eigenvalue), 1))
+    last = None
+    for k, (now, form) in enumerate(zip(eigenvalue, shape, strict=True)):
+        if not np.isfinite(now).any():
+            continue
+        if last is not None:
+            order[k] = paired(distance(*last, now, form))
+        last = now[order[k]], form[order[k]]
+    return order
+
+
+def distance(before: np.ndarray, forms: np.ndarray, now: np.ndarray, form: np.ndarray) -> np.ndarray:
+    """How far the modes of two members are apart, (mode before, mode now); inf where one is missing."""
+    size = np.maximum(np.abs(before)[:, None], np.abs(now))
+    apart = np.abs(before[:, None] - now) / np.where(size > 0, size, 1)
+    return np.where(np.isfinite(apart), apart + 1 - likeness(forms, form), np.inf)
+
+
+def likeness(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Modal assurance criterion of all pairs of shapes, 0 to 1."""
+    one, other = np.nan_to_num(one), np.nan_to_num(other)
+    scale = np.linalg.norm(one, axis=1)[:, None] * np.linalg.norm(other, axis=1)
+    return (np.abs(one.conj() @ other.T) / np.where(scale > 0, scale, 1)) ** 2
+
+
+def paired(apart: np.ndarray) -> np.ndarray:
+    """For each row a column of its own: the closest pair first, then the closest of the others."""
+    apart, found = np.where(np.isfinite(apart), apart, 1e300), np.empty(len(apart), dtype=int)
+    for _ in found:
+        row, column = np.unravel_index(np.argmin(apart), apart.shape)
+        found[row] = column
+        apart[row], apart[:, column] = np.inf, np.inf
+    return found
+
+
+def forward(shape: np.ndarray) -> np.ndarray:
+    """True for modes in which the journal whirls in the sense of rotation, from +y to +z: (..., mode)."""
+    y, z = (shape[..., k] for k in range(JOURNAL))
+    return (np.conj(y) * z).imag < 0

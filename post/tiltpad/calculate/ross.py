@@ -1,0 +1,119 @@
+"""Coefficients for ROSS, a program for rotor dynamics (https://ross.readthedocs.io), from its version 3 on.
+
+ROSS has the axes x and y, y up, and its shafts turn from +x to +y. This program's shaft turns from +y to +z:
+ROSS's x is -z, so that k_xx = K_zz, k_xy = -K_zy, k_yx = -K_yz, k_yy = K_yy, and likewise for the damping.
+"""
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tiltpad.calculate.coefficients import Series, at_frequencies, series
+from tiltpad.files.archive import NotInRunError
+from tiltpad.files.read import Run
+from tiltpad.files.study import Study
+
+#: Row and column (0: y, 1: z) of ROSS's elements, and their signs.
+ELEMENTS = {"xx": (1, 1, 1), "xy": (1, 0, -1), "yx": (0, 1, -1), "yy": (0, 0, 1)}
+#: What tables may go over.
+OVER = ("speed", "frequency", "both")
+#: Number of whirl frequencies of a table over both, where none are given.
+FREQUENCIES = 25
+
+
+def to_ross(
+    source: Run | Study,
+    path: str | os.PathLike | None = None,
+    *,
+    over: str | None = None,
+    frequency: Sequence[float] | None = None,
+    pivot: str | None = None,
+    where: Mapping[str, Any] | None = None,
+    node: int = 0,
+) -> dict[str, Any]:
+    """Keywords for ROSS's bearing: `ross.BearingElement(n=2, **tiltpad.to_ross(study))`.
+
+    The tables are `over` the speed (synchronous coefficients, for unbalance response), over the whirl
+    `frequency` at one speed, or over both (for modes, Campbell diagrams and stability). By default those of a
+    run are over the frequency, those of a study over both where its runs have several frequency ratios, and
+    otherwise over the speed. The pads are condensed at each `frequency` (rad/s) without interpolation; by
+    default these are the run's own, or 25 over the range of the study. `pivot` and `where` choose as in
+    `coefficients`. Members of a study without equilibrium are left out.
+
+    With `path` (.toml) a file is written, too, for `ross.BearingElement.load(path)`, for the node `node`.
+    """
+    found = at_rest(source, series(source, pivot, where))
+    ratios = np.unique(source["frequency_ratio"])
+    if over is None:
+        over = "frequency" if isinstance(source, Run) else "both" if len(ratios) > 1 else "speed"
+    check(source, over, frequency, found)
+    speed = np.pi / 30 * found.speed_rpm
+    if over == "speed":
+        whirl = speed[:, None]
+    elif frequency is not None:
+        whirl = np.tile(np.unique(np.asarray(frequency, dtype=float)), (len(speed), 1))
+    elif over == "frequency":
+        whirl = speed[:, None] * ratios
+    else:
+        ends = ratios[0] * speed[0], ratios[-1] * speed[-1]
+        whirl = np.tile(np.linspace(*ends, FREQUENCIES), (len(speed), 1))
+    keywords = dict(tables(found, whirl, over))
+    keywords |= {"speed": speed} if over != "frequency" else {}
+    keywords |= {"frequency": whirl[0]} if over != "speed" else {}
+    if path is not None:
+        write(Path(path), keywords, node)
+    return keywords
+
+
+def tables(found: Series, whirl: np.ndarray, over: str) -> dict[str, np.ndarray]:
+    """ROSS's kxx, ... cyy: (speed,), (frequency,) or (speed, frequency)."""
+    part = {"speed": (slice(None), 0), "frequency": 0, "both": ()}[over]
+    return {
+        letter + name: sign * values[..., row, column][part]
+        for letter, values in zip("kc", at_frequencies(found, whirl), strict=True)
+        for name, (row, column, sign) in ELEMENTS.items()
+    }
+
+
+def at_rest(source: Run | Study, found: Series) -> Series:
+    """The members that have an equilibrium."""
+    there = np.isfinite(found.values["full_stiffness"][:, 0, 0])
+    if not there.any():
+        raise NotInRunError(f"{source.path}: no coefficients to write: no member has an equilibrium")
+    values = {name: each[there] for name, each in found.values.items()}
+    parameters = {name: each[there] for name, each in found.parameters.items()}
+    return Series(found.pivot, found.speed_rpm[there], values, parameters)
+
+
+def check(source: Run | Study, over: str, frequency: Sequence[float] | None, found: Series) -> None:
+    """Raises ValueError for arguments that do not fit each other or the source."""
+    if over not in OVER:
+        raise ValueError(f"over = {over}: must be {', '.join(OVER)}")
+    if frequency is not None and over == "speed":
+        raise ValueError("frequency: not for tables over the speed, which are of synchronous whirl")
+    if frequency is not None and not (np.size(frequency) and (np.asarray(frequency) >= 0).all()):
+        raise ValueError(f"frequency = {frequency}: must be numbers from 0 on, rad/s")
+    speeds = found.speed_rpm
+    if over == "frequency" and len(speeds) > 1:
+        raise ValueError(f"{source.path}: over = frequency: of one member, choose it by where")
+    if (twice := speeds[1:][np.diff(speeds) <= 0]).size:
+        others = ", ".join(name for name in found.parameters if name != "speed_rpm") or "nothing"
+        raise ValueError(
+            f"{source.path}: several members at {twice[0]:g} rpm, which differ in {others}: choose by where"
+        )
+
+
+def write(path: Path, keywords: Mapping[str, np.ndarray], node: int) -> None:
+    """The file that ROSS loads an element from."""
+    if path.suffix != ".toml":
+        raise ValueError(f"{path}: the name must end in .toml")
+    lines = [
+        "# Written by tiltpad; axes and sense of rotation are those of ROSS. SI units.",
+        "[BearingElement_tiltpad]",
+    ]
+    lines += [f"n = {node}", 'tag = "tiltpad"']
+    lines += [f"{name} = {values.tolist()}" for name, values in keywords.items()]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")

@@ -1,0 +1,62 @@
+"""Members of a study by the values of their parameters."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from tiltpad.calculate.differences import WORDS
+from tiltpad.files.study import Study
+
+
+def selected(study: Study, where: Mapping[str, Any]) -> np.ndarray:
+    """True for the members with the given values of parameters, (member,)."""
+    chosen = np.ones(study.length("member"), dtype=bool)
+    for name, value in where.items():
+        needs(name, study.parameters, "where", "a parameter")
+        values = study[name]
+        if is_number(study, name):
+            try:
+                here = np.isclose(values, float(value), rtol=1e-6, atol=0)
+            except ValueError:
+                here = np.zeros(len(values), dtype=bool)
+        else:
+            here = values == value
+        if not here.any():
+            there = ", ".join(written(each) for each in distinct(values))
+            raise ValueError(f"{study.path}: no member with {name} = {value}: there are {there}")
+        chosen &= here
+    if not chosen.any():
+        raise ValueError(f"{study.path}: no member with all of these values")
+    return chosen
+
+
+def default_over(study: Study, several: Sequence[str], chosen: np.ndarray) -> str:
+    """The number with the most values; without numbers the text with the most."""
+    if not study.parameters:
+        raise ValueError(f"{study.path}: its members differ in no parameter that they could be drawn over")
+    names = several or study.parameters
+    numeric = [name for name in names if is_number(study, name)]
+    return max(numeric or names, key=lambda name: len(distinct(study[name][chosen])))
+
+
+def is_number(study: Study, name: str) -> bool:
+    return study.item(name).dtype.kind != "O"
+
+
+def distinct(values: np.ndarray) -> list:
+    """The different values in rising order, texts in the order of the study; without nan and empty texts."""
+    if values.dtype.kind == "O":
+        return [value for value in dict.fromkeys(values) if value]
+    return list(np.unique(values[np.isfinite(values)]))
+
+
+def written(value: Any) -> str:
+    """A value of a parameter in words."""
+    return WORDS.get(value, value.replace("_", " ")) if isinstance(value, str) else f"{value:g}"
+
+
+def needs(name: str, allowed: Sequence[str], option: str, what: str) -> None:
+    """Raises ValueError for a name that is not allowed."""
+    if name not in allowed:
+        raise ValueError(f"--{option}: {name} is not {what} of this study: {', '.join(allowed)}")

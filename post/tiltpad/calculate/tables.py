@@ -1,0 +1,83 @@
+"""Tables of coefficients, for spreadsheets and other programs."""
+
+import csv
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tiltpad.calculate.coefficients import Coefficients, coefficients
+from tiltpad.files.read import Run
+from tiltpad.files.study import Study
+
+#: Elements of the matrices in the order of the columns.
+ELEMENTS = ("yy", "yz", "zy", "zz")
+HEAD = "Stiffness in N/m, damping in N s/m; y is up, the shaft turns from +y to +z."
+
+
+def write_coefficients(
+    source: Run | Study,
+    path: str | os.PathLike,
+    *,
+    pivot: str | None = None,
+    where: Mapping[str, Any] | None = None,
+) -> None:
+    """Writes the coefficients of a run or a study to a table, .csv or .toml; by default of all its pivots.
+
+    A row has pivot, speed, frequency ratio and the elements of both matrices, rows before columns.
+    """
+    target = Path(path)
+    first = coefficients(source, pivot, where=where)
+    names = [first.pivot] if pivot else [str(each) for each in source["pivot"]]
+    found = [coefficients(source, each, where=where) for each in names]
+    if target.suffix == ".csv":
+        with target.open("w", newline="", encoding="utf-8") as file:
+            csv.writer(file, lineterminator="\n").writerows(table(found))
+    elif target.suffix == ".toml":
+        target.write_text("\n".join(sections(found)), encoding="utf-8")
+    else:
+        raise ValueError(f"{target}: the name must end in .csv or .toml")
+
+
+def table(found: list[Coefficients]) -> list[list[Any]]:
+    """Head and rows of the table."""
+    others = [name for name in found[0].parameters if name != "speed_rpm"]
+    elements = [
+        f"{letter}_{each} ({unit})" for letter, unit in (("K", "N/m"), ("C", "N s/m")) for each in ELEMENTS
+    ]
+    rows: list[list[Any]] = [["pivot", *others, "speed_rpm", "frequency_ratio", *elements]]
+    for one in found:
+        shape = (-1, len(one.frequency_ratio), len(ELEMENTS))
+        both = zip(one.stiffness.reshape(shape), one.damping.reshape(shape), strict=True)
+        for k, (stiffness, damping) in enumerate(both):
+            start = [
+                one.pivot,
+                *(one.parameters[name][k] for name in others),
+                np.atleast_1d(one.speed_rpm)[k],
+            ]
+            for ratio, *values in zip(one.frequency_ratio, stiffness, damping, strict=True):
+                rows.append([*start, ratio, *values[0], *values[1]])
+    return rows
+
+
+def sections(found: list[Coefficients]) -> list[str]:
+    """Lines of the TOML file: a section for each pivot, with nested arrays as in `coefficients`."""
+    lines = [f"# {HEAD}", "# Arrays: (speed, frequency ratio, row, column)."]
+    for one in found:
+        shape = (-1, len(one.frequency_ratio), 2, 2)
+        arrays = {name: np.asarray(each) for name, each in one.parameters.items()}
+        arrays |= {"speed_rpm": np.atleast_1d(one.speed_rpm), "frequency_ratio": one.frequency_ratio}
+        arrays |= {"stiffness": one.stiffness.reshape(shape), "damping": one.damping.reshape(shape)}
+        lines += ["", f"[{one.pivot}]", *(f"{name} = {toml(each.tolist())}" for name, each in arrays.items())]
+    return [*lines, ""]
+
+
+def toml(value: Any) -> str:
+    """A number, a text or nested lists of them as TOML has them."""
+    if isinstance(value, list):
+        return f"[{', '.join(map(toml, value))}]"
+    return (
+        '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"' if isinstance(value, str) else repr(value)
+    )

@@ -1,0 +1,307 @@
+"""Pictures of coefficients and modes: of studies over a parameter, of single results.
+
+Every function takes results of the task coefficients or studies of them, and returns the figure.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tiltpad.calculate.coefficients import Coefficients
+from tiltpad.calculate.coefficients import coefficients as coefficients_of
+from tiltpad.calculate.modes import Modes, forward, modes
+from tiltpad.calculate.selection import default_over, distinct, needs, selected, written
+from tiltpad.draw.diagrams import mark_failed
+from tiltpad.draw.layout import COLUMN, DASHES, PAGE, heading, labels
+from tiltpad.files import units
+from tiltpad.files.archive import NotInRunError
+from tiltpad.files.read import Run
+from tiltpad.files.study import Study
+from tiltpad.files.units import SHOWN
+
+#: Elements of the matrices, and the columns of the panels in which they are.
+DIRECT, CROSS = {"yy": (0, 0), "zz": (1, 1)}, {"yz": (0, 1), "zy": (1, 0)}
+#: Most lines of one kind in a picture.
+MOST = 10
+#: Axes reach up to modes of this damping ratio.
+DAMPED = 0.6
+#: Frequencies of a Campbell diagram reach up to this multiple of the shaft's.
+ORDERS = 2
+
+
+class Part(NamedTuple):
+    """Results that are drawn in one colour; its fields:
+
+    text      its name in the legend
+    source    result or study
+    pivot     of which pivots
+    where     values of the study's parameters
+    over      parameter along the axis; None for a result
+    """
+
+    text: str
+    source: Run | Study
+    pivot: str
+    where: dict[str, Any]
+    over: str | None
+
+
+def coefficients(
+    sources: Sequence[Run | Study],
+    last: float | None = None,
+    pad: int | None = None,
+    pivot: str | None = None,
+    over: str | None = None,
+    where: Mapping[str, Any] | None = None,
+) -> Figure:
+    """Stiffness and damping of studies over a parameter (the speed), of results over the whirl frequency."""
+    lines = list(coefficient_lines(parts(sources, pivot, over, where)))
+    fig = plt.figure(figsize=(PAGE, 4.6))
+    panels = fig.subplots(2, 2, sharex=True)
+    for row, name in zip(panels, ("stiffness", "damping"), strict=True):
+        for ax, elements in zip(row, (DIRECT, CROSS), strict=True):
+            for color, (_, x, found) in enumerate(lines):
+                for dashes, (i, j) in zip(DASHES, elements.values(), strict=False):
+                    values = SHOWN[name].factor * getattr(found, name)[..., i, j]
+                    dots = {"marker": "o", "markersize": 3} if len(x) < 30 else {}
+                    ax.plot(x, values, dashes, color=f"C{color}", **dots)
+                mark_failed(ax, x[np.isnan(values)], color if len(lines) > 1 else None)
+            ax.set_ylabel(f"{SHOWN[name].text} {', '.join(elements)} ({SHOWN[name].unit})")
+    for ax in panels[-1]:
+        ax.set_xlabel(axis_label(sources, over, where))
+    texts = [(text, {"color": f"C{k}"}) for k, (text, *_) in enumerate(lines) if text]
+    dashed = [("yy or yz", {"color": "0.3"}), ("zz or zy", {"color": "0.3", "linestyle": DASHES[1]})]
+    heading(fig, [*texts, *dashed], title(sources))
+    return fig
+
+
+def coefficient_lines(found: Sequence[Part]) -> Iterator[tuple[str, np.ndarray, Coefficients]]:
+    """Name, places along the axis and coefficients of each line; of studies one for each frequency ratio."""
+    for one in found:
+        own = coefficients_of(one.source, one.pivot, where=one.where or None)
+        if isinstance(one.source, Run):
+            yield one.text, own.frequency_ratio, own
+            continue
+        order = np.argsort(own.parameters[one.over], kind="stable")
+        ratios = range(len(own.frequency_ratio))
+        if len(found) > 1 or len(ratios) > MOST:
+            ratios = [int(np.argmin(np.abs(own.frequency_ratio - 1)))]
+        for k in ratios:
+            many = len(own.frequency_ratio) > 1 and len(found) == 1
+            text = f"{own.frequency_ratio[k]:g} × shaft speed" if many else one.text
+            matrices = {name: getattr(own, name)[order, k] for name in ("stiffness", "damping")}
+            yield text, own.parameters[one.over][order], own._replace(**matrices)
+
+
+def stability(
+    sources: Sequence[Run | Study],
+    last: float | None = None,
+    pad: int | None = None,
+    pivot: str | None = None,
+    over: str | None = None,
+    where: Mapping[str, Any] | None = None,
+) -> Figure:
+    """Damping ratio and logarithmic decrement of the modes, of results over their frequency."""
+    found = parts(sources, pivot, over, where)
+    fig = plt.figure(figsize=(COLUMN, 4.2))
+    panels = fig.subplots(2, 1, sharex=True)
+    for color, one in enumerate(found):
+        own = modes(one.source, one.pivot, one.where or None, one.over)
+        single = isinstance(one.source, Run)
+        x = own.frequency if single else own.parameters[one.over]
+        for ax, name in zip(panels, ("damping_ratio", "log_decrement"), strict=True):
+            values = SHOWN[name].factor * getattr(own, name)
+            for k in range(values.shape[-1]):
+                line = {
+                    "color": f"C{color if len(found) > 1 or single else k}",
+                    "marker": "o",
+                    "markersize": 3,
+                }
+                if single:
+                    ax.plot(x[k], values[k], **line)
+                else:
+                    ax.plot(x, values[:, k], **line)
+        if not single:
+            missing = x[np.isnan(own.frequency).all(axis=1)]
+            mark_failed(panels[1], missing, color if len(found) > 1 else None)
+        if one.over == "speed_rpm":
+            mark_thresholds(panels, own, f"C{color}" if len(found) > 1 else "0.3")
+    tops = (DAMPED, 2 * np.pi * DAMPED / np.sqrt(1 - DAMPED**2))
+    for ax, name, top in zip(panels, ("damping_ratio", "log_decrement"), tops, strict=True):
+        limit_above(ax, SHOWN[name].factor * top)
+        ax.set_ylabel(SHOWN[name].label)
+        ax.axhline(0, color="0.3", linewidth=0.8)
+        low, high = ax.get_ylim()
+        ax.axhspan(min(low, 0), 0, color="C1", alpha=0.12, linewidth=0)
+        ax.set_ylim(min(low, 0), high)
+    panels[1].set_xlabel(
+        SHOWN["frequency"].label if isinstance(sources[0], Run) else axis_label(sources, over, where)
+    )
+    heading(fig, [(one.text, {"color": f"C{k}"}) for k, one in enumerate(found) if one.text], title(sources))
+    return fig
+
+
+def mark_thresholds(panels: Sequence[Axes], own: Modes, color: str) -> None:
+    """Dotted lines at the speeds at which a mode turns unstable."""
+    for speed in np.unique(np.round(own.threshold_rpm[np.isfinite(own.threshold_rpm)], 3)):
+        for ax in panels:
+            ax.axvline(speed, color=color, linestyle=":", linewidth=0.8)
+        panels[0].annotate(
+            f"{speed:.0f} rpm", (speed, 1), xycoords=("data", "axes fraction"), xytext=(-2, -2),
+            textcoords="offset points", ha="right", va="top", fontsize="x-small", color=color, rotation=90,
+        )  # fmt: skip
+
+
+def limit_above(ax: Axes, top: float) -> None:
+    """Lets the axis end at `top` where lines go beyond it, if any is below."""
+    values = np.concatenate([np.asarray(each.get_ydata(), float) for each in ax.get_lines()])
+    values = values[np.isfinite(values)]
+    if values.size and values.min() < top < values.max():
+        ax.set_ylim(top=top)
+
+
+def campbell(
+    sources: Sequence[Run | Study],
+    last: float | None = None,
+    pad: int | None = None,
+    pivot: str | None = None,
+    over: str | None = None,
+    where: Mapping[str, Any] | None = None,
+) -> Figure:
+    """Frequencies of the modes over the speed of studies, with the whirl of the journal and the damping."""
+    for each in sources:
+        if isinstance(each, Run):
+            raise NotInRunError(
+                f"{each.path}: a Campbell diagram is of a study over the speed, not of one speed"
+            )
+    needs(over or "speed_rpm", ("speed_rpm",), "over", "the parameter of a Campbell diagram")
+    found = parts(sources, pivot, "speed_rpm", where)
+    fig = plt.figure(figsize=(COLUMN, 3.2))
+    ax = fig.subplots()
+    top = 0.0
+    for color, one in enumerate(found):
+        own = modes(one.source, one.pivot, one.where or None)
+        for k in range(own.frequency.shape[1]):
+            ax.plot(
+                own.speed_rpm,
+                own.frequency[:, k],
+                color=f"C{color}" if len(found) > 1 else "0.8",
+                linewidth=0.8,
+                zorder=1,
+            )
+        points = campbell_points(ax, own, f"C{color}" if len(found) > 1 else None)
+        mark_failed(ax, own.speed_rpm[np.isnan(own.frequency).all(axis=1)], None)
+        top = max(top, ORDERS * own.speed_rpm.max() / 60)
+    if len(found) == 1:
+        fig.colorbar(points, ax=ax, label=SHOWN["log_decrement"].label, extend="max")
+    ends = np.array(ax.get_xlim())
+    for order, dashes in ((1, "-"), (0.5, "--")):
+        ax.plot(ends, order * ends / 60, dashes, color="0.3", linewidth=0.8, zorder=0)
+    ax.set(xlim=ends, ylim=(0, top), xlabel=SHOWN["speed"].label, ylabel=SHOWN["frequency"].label)
+    mark = {"linestyle": "", "color": "0.3", "markersize": 4}
+    marks = [
+        ("forward", mark | {"marker": "^"}),
+        ("backward", mark | {"marker": "v"}),
+        (
+            "unstable",
+            mark | {"marker": "o", "markerfacecolor": "none", "markeredgecolor": "C1", "markersize": 8},
+        ),
+        ("shaft speed", {"color": "0.3"}),
+        ("half of it", {"color": "0.3", "linestyle": "--"}),
+    ]
+    heading(
+        fig,
+        [*((one.text, {"color": f"C{k}"}) for k, one in enumerate(found) if one.text), *marks],
+        title(sources),
+    )
+    return fig
+
+
+def campbell_points(ax: Axes, own: Modes, color: str | None) -> Any:
+    """Points of all modes, triangles by the whirl of the journal; without a colour by their damping."""
+    speed = np.broadcast_to(own.speed_rpm[:, None], own.frequency.shape)
+    ahead = forward(own.shape)
+    look = {"vmin": 0, "vmax": 3, "cmap": "viridis", "s": 14, "linewidths": 0, "zorder": 3}
+    for part, marker in ((ahead, "^"), (~ahead, "v")):
+        colours = {"c": own.log_decrement[part]} if color is None else {"color": color}
+        points = ax.scatter(
+            speed[part],
+            own.frequency[part],
+            marker=marker,
+            **(look if color is None else {"s": 14}),
+            **colours,
+        )
+    growing = own.log_decrement < 0
+    ax.scatter(speed[growing], own.frequency[growing], s=50, facecolors="none", edgecolors="C1", zorder=4)
+    return points
+
+
+def parts(
+    sources: Sequence[Run | Study],
+    pivot: str | None,
+    over: str | None,
+    where: Mapping[str, Any] | None,
+) -> list[Part]:
+    """What is drawn in a colour of its own: files, pivots (of results all), values of other parameters."""
+    if len({isinstance(each, Run) for each in sources}) > 1:
+        raise ValueError("results and studies do not go into one picture")
+    found = []
+    for source, name in zip(sources, labels(sources) if len(sources) > 1 else [""], strict=True):
+        if pivot is not None:
+            pivots = [pivot]
+        else:
+            everyone = [str(each) for each in source["pivot"]] if "pivot" in source else [None]
+            pivots = everyone if isinstance(source, Run) else everyone[:1]
+        for own, (text, kept, along) in product(pivots, groups(source, over, dict(where or {}))):
+            words = (name, own if len(pivots) > 1 else "", text)
+            found.append(Part(", ".join(word for word in words if word), source, own, kept, along))
+    if len(found) > MOST:
+        raise ValueError(f"{len(found)} kinds of lines are more than {MOST}: choose by where")
+    return found
+
+
+def groups(
+    source: Run | Study, over: str | None, where: dict[str, Any]
+) -> list[tuple[str, dict[str, Any], str | None]]:
+    """Name and values of every combination of the parameters that are not along the axis, and that one."""
+    if isinstance(source, Run):
+        return [("", where, None)]
+    chosen = selected(source, where)
+    several = [name for name in source.parameters if len(distinct(source[name][chosen])) > 1]
+    along = axis_of(source, over, where)
+    others = [name for name in several if name != along]
+    keys = dict.fromkeys(zip(*(source[name][chosen] for name in others), strict=True) if others else [()])
+    known = [key for key in keys if all(value == value and value != "" for value in key)]
+    return [
+        (", ".join(f"{name} {written(value)}" for name, value in zip(others, key, strict=True)),
+         where | dict(zip(others, key, strict=True)), along)
+        for key in known
+    ]  # fmt: skip
+
+
+def axis_of(study: Study, over: str | None, where: Mapping[str, Any]) -> str:
+    """The parameter along the axis: the speed where it differs, otherwise the number with the most values."""
+    chosen = selected(study, where)
+    several = [name for name in study.parameters if len(distinct(study[name][chosen])) > 1]
+    over = over or ("speed_rpm" if "speed_rpm" in several else default_over(study, several, chosen))
+    needs(over, study.parameters, "over", "a parameter")
+    return over
+
+
+def axis_label(sources: Sequence[Run | Study], over: str | None, where: Mapping[str, Any] | None) -> str:
+    """What is along the axis of coefficients."""
+    if isinstance(sources[0], Run):
+        return "whirl frequency over shaft speed"
+    name = axis_of(sources[0], over, where or {})
+    text, unit = (sources[0].about(name, each) for each in ("long_name", "units"))
+    return units.Shown(text or name, 1, "" if unit == "1" else unit).label
+
+
+def title(sources: Sequence[Run | Study]) -> str:
+    return (sources[0].title or Path(sources[0].path).stem) if len(sources) == 1 else ""

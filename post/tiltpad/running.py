@@ -1,0 +1,103 @@
+"""Running the program: a case in, its result out."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import weakref
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from tiltpad.collect.collect import collect
+from tiltpad.files import namelist
+from tiltpad.files.archive import RunError
+from tiltpad.files.read import Run, read
+from tiltpad.files.study import Study, read_study
+
+#: The program, where the environment variable TILTPAD names no other.
+PROGRAM = "tiltpad"
+#: Exit status of the program where case or command are wrong, and where there may be a result.
+INPUT_ERROR, NUMERICS, STOPPED = 1, 2, 4
+
+Groups = Mapping[str, Mapping[str, Any]]
+
+
+class MissingProgramError(RunError):
+    """There is no program to run."""
+
+
+def run(
+    case: "str | os.PathLike | Groups | None" = None,
+    output: str | os.PathLike | None = None,
+    *,
+    overwrite: bool = False,
+    quiet: bool = True,
+    **overrides: Mapping[str, Any],
+) -> Run | Study:
+    """Runs a case and gives its result, opened.
+
+        run = tiltpad.run("mine.nml")
+        run = tiltpad.run("mine.nml", "faster.h5", operation={"speed_rpm": 9000})
+        run = tiltpad.run({"operation": {"speed_rpm": 3000}, "friction": {"model": "lugre"}})
+        study = tiltpad.run("mine.nml", sweep={"operation%speed_rpm": "1000:6000:500"})
+
+    `case` is a namelist file, or groups of variables as for `write_case`; without it all have their defaults.
+    Each further keyword is a group with values of its own. A sweep gives the study of its members. The
+    result is written to `output` (of a sweep: the folder of its members, with study.h5); it replaces that of
+    another case only with `overwrite`. Without a name it is temporary, for as long as it is used. A wrong
+    case is a ValueError with the program's message. Where the numerics fail the result is there up to this
+    point, with an IncompleteRunWarning.
+    """
+    folder = Path(tempfile.mkdtemp(prefix="tiltpad-"))
+    target = Path(output) if output is not None else folder / "result.h5"
+    try:
+        result = started(case, folder, target, overwrite, quiet, overrides)
+    except BaseException:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise
+    weakref.finalize(result, shutil.rmtree, folder, ignore_errors=True)
+    return result
+
+
+def started(
+    case: "str | os.PathLike | Groups | None",
+    folder: Path,
+    target: Path,
+    overwrite: bool,
+    quiet: bool,
+    overrides: Groups,
+) -> Run | Study:
+    """Runs the program with what else it needs in `folder`."""
+    if not isinstance(case, str | os.PathLike):
+        case = namelist.write_case(folder / "case.nml", case or {"case": {}})
+    words = [program(), os.fspath(case), "--output", os.fspath(target)]
+    words += ["--overwrite"] if overwrite else []
+    words += ["--quiet"] if quiet else []
+    for group, values in overrides.items():
+        for name, value in namelist.variables(group, values).items():
+            words += ["--set", f"{group}%{name}={namelist.written(value, group == namelist.SWEEP)}"]
+    done = subprocess.run(words, stderr=subprocess.PIPE, text=True)
+    said = done.stderr.strip().removeprefix("tiltpad: error: ")
+    if done.returncode == INPUT_ERROR:
+        raise ValueError(said)
+    if done.returncode not in (0, NUMERICS, STOPPED) or not target.exists():
+        raise RunError(said or f"the program ended with status {done.returncode}")
+    if not target.is_dir():
+        return read(target)
+    return read_study(collect(target, target / "study.h5").output)
+
+
+def program() -> str:
+    """The program: TILTPAD in the environment, that of this Python, on PATH, or built where the source is."""
+    if given := os.environ.get("TILTPAD"):
+        return given
+    beside = Path(sys.executable).parent / PROGRAM
+    built = Path(__file__).resolve().parents[2] / "build/bin" / PROGRAM
+    for each in (beside, shutil.which(PROGRAM), built):
+        if each and os.access(each, os.X_OK):
+            return os.fspath(each)
+    raise MissingProgramError(
+        "no program tiltpad: build it (make build), put it on PATH, or name it in the variable TILTPAD"
+    )
