@@ -23,6 +23,10 @@ module components
    !> Finite volumes along the arc and along half the width where the input leaves them to the solver, by the
    !> errors in docs/benchmarks.md.
    integer, parameter :: sor_volumes(2) = [60, 15], rupture_volumes(2) = [80, 8]
+   !> The films of 'fine', which is no word of the input: for what is linearised at a single state. Errors of whole and
+   !> ruptured films, and volumes of those that no table would have.
+   real(wp), parameter :: fine_error = 1e-6_wp, fine_ruptured_error = 1e-5_wp
+   integer, parameter :: fine_volumes(2) = [160, 16]
    !> Residual of over-relaxation over the relative tolerance of the march, at most, and what rounding leaves: films
    !> solved less well shake stiff pivots, and the steps become short.
    real(wp), parameter :: sor_tolerance = 1e-3_wp, least_residual = 1e-13_wp
@@ -39,6 +43,7 @@ contains
       type(sor_options) :: options
       integer :: cavitation, cells, modes, volumes(2), i
       real(wp), allocatable :: error
+      real(wp) :: tolerance
       gaps = new_gaps(scene)
       associate (f => scene%film)
          select case (f%cavitation)
@@ -53,7 +58,9 @@ contains
          modes = merge(f%axial_modes, enough_modes(gaps), f%axial_modes > 0)
          ! what the input sets stays the same for every film
          if (f%circumferential_cells == 0 .and. f%axial_modes == 0) error = usual_error
+         if (f%solver == 'fine') error = fine_error
          volumes = merge(sor_volumes, rupture_volumes, f%solver == 'sor')
+         if (f%solver == 'fine') volumes = fine_volumes
          associate (given => [f%circumferential_cells, f%axial_cells])
             volumes = merge(given, volumes, given > 0)
          end associate
@@ -75,9 +82,10 @@ contains
                      single(i) = new_auto_film(gaps(i:i), cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
                   end do
                   ! ruptured films by volumes are dear, by modes they are cheap
-                  film = new_table_film(gaps, single, reynolds .or. gumbel, gumbel, &
-                     & merge(f%table_tolerance, merge(1, 4, gumbel)*scene%integration%relative_tolerance, &
-                     & f%table_tolerance > 0))
+                  tolerance = merge(1, 4, gumbel)*scene%integration%relative_tolerance
+                  if (f%table_tolerance > 0) tolerance = f%table_tolerance
+                  if (f%solver == 'fine') tolerance = merge(fine_error, fine_ruptured_error, gumbel)
+                  film = new_table_film(gaps, single, reynolds .or. gumbel, gumbel, tolerance, f%solver == 'fine')
                end if
             end associate
          end if

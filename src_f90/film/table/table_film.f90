@@ -32,8 +32,10 @@ module table_film
       type(auto_film_type), allocatable :: single(:)
       !> Whether the solver was made for films that rupture, and whether they may.
       logical :: made_to_rupture, may_rupture
-      !> False: every film is solved.
+      !> False: every film is solved by `single`.
       logical :: tabulates = .true.
+      !> Whether the tables are empty and solve every film themselves, closely.
+      logical :: solves
    contains
       procedure :: ruptures
       procedure :: set_rupture
@@ -47,19 +49,23 @@ module table_film
 contains
 
    !> Tables for the films in these gaps, that rupture by Guembel's condition, by that of Reynolds or not at all, with
-   !> errors of this tolerance over the force.
-   function new_table_film(gaps, single, ruptures, gumbel, tolerance) result(solver)
+   !> errors of this tolerance over the force. With `solves` no table is built: what would be looked up is solved at the
+   !> motion itself, which is quicker where motions are few, and has exact derivatives.
+   function new_table_film(gaps, single, ruptures, gumbel, tolerance, solves) result(solver)
       type(pad_gap_type), intent(in) :: gaps(:)
       !> Of every pad the solver for what is in no table.
       type(auto_film_type), intent(in) :: single(:)
       logical, intent(in) :: ruptures, gumbel
       real(wp), intent(in) :: tolerance
+      logical, intent(in), optional :: solves
       type(table_film_type) :: solver
       logical :: supplied
       integer :: i, k, n
       solver%single = single
       solver%made_to_rupture = ruptures
       solver%may_rupture = ruptures
+      solver%solves = .false.
+      if (present(solves)) solver%solves = solves
       allocate (solver%pads(size(gaps)), solver%shapes(size(gaps)))
       n = 0
       do i = 1, size(gaps)
@@ -74,8 +80,9 @@ contains
                n = k
                shapes(k)%pad = unit
                shapes(k)%supplied = supplied
-               shapes(k)%whole = new_whole_table(unit, supplied, share_of_whole*tolerance, most_whole/size(gaps))
-               shapes(k)%rupture = new_rupture_table(unit, gumbel, tolerance, most_ruptured/size(gaps))
+               shapes(k)%whole = new_whole_table(unit, supplied, share_of_whole*tolerance, most_whole/size(gaps), &
+                  & solves)
+               shapes(k)%rupture = new_rupture_table(unit, gumbel, tolerance, most_ruptured/size(gaps), solves)
             end if
             solver%pads(i)%shape = k
          end associate
@@ -108,7 +115,7 @@ contains
       class(table_film_type), intent(inout) :: self
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: max_sweeps
-      self%tabulates = .false.
+      self%tabulates = self%solves
    end subroutine set_accuracy
 
    subroutine evaluate(self, motion, speed, want_derivatives, response)

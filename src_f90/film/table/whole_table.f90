@@ -44,9 +44,10 @@ module whole_table
       type(unit_pad_type) :: pad
       !> Without pressure around the pad, and with a pressure 1 at its leading edge.
       type(modal_film_type) :: film, supplied_film
-      !> Error of M over its norm; whether there is a pressure at the leading edge.
+      !> Error of M over its norm; whether there is a pressure at the leading edge; whether no cell is built, and every
+      !> film is solved.
       real(wp) :: tolerance
-      logical :: supplied
+      logical :: supplied, solves = .false.
       type(cell_index_type) :: index
       type(cell_type), allocatable :: cells(:)
       !> Most cells: when they are used up all are forgotten. Cells in use.
@@ -58,6 +59,8 @@ module whole_table
       procedure :: look_up
       procedure :: look_up_supply
       procedure :: highest_pressure
+      procedure, private :: solve
+      procedure, private :: solve_pressure
       procedure, private :: find_cell
       procedure, private :: new_cell
       procedure, private :: build
@@ -66,17 +69,20 @@ module whole_table
 
 contains
 
-   !> An empty table for a pad, with a pressure at its leading edge or without: M to a tolerance, over its norm.
-   function new_whole_table(pad, supplied, tolerance, most) result(table)
+   !> An empty table for a pad, with a pressure at its leading edge or without: M to a tolerance, over its norm. With
+   !> `solves` it stays empty.
+   function new_whole_table(pad, supplied, tolerance, most, solves) result(table)
       type(unit_pad_type), intent(in) :: pad
       logical, intent(in) :: supplied
       real(wp), intent(in) :: tolerance
       integer, intent(in), optional :: most
+      logical, intent(in), optional :: solves
       type(whole_table_type) :: table
       table%pad = pad
       table%supplied = supplied
       table%tolerance = tolerance
       if (present(most)) table%most = most
+      if (present(solves)) table%solves = solves
       table%film = converged_film(pad%gap(0.0_wp), .false., share_of_nodes*tolerance)
       table%supplied_film = converged_film(pad%gap(1.0_wp), .false., share_of_nodes*tolerance)
    end function new_whole_table
@@ -91,6 +97,10 @@ contains
       integer, intent(inout) :: last
       real(wp), intent(out) :: value(lanes), slope(lanes, 2)
       logical, intent(out) :: good
+      if (self%solves) then
+         call self%solve(edges, want_slopes, value, slope, good)
+         return
+      end if
       if (.not. holds(self, last, edges)) call self%find_cell(edges, last)
       good = self%cells(last)%good
       call evaluate_in(self%cells(last), self%cells(last)%driven, edges, want_slopes, value, slope)
@@ -103,9 +113,57 @@ contains
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
       real(wp), intent(out) :: value(lanes), slope(lanes, 2)
+      type(film_response) :: still(1)
+      if (self%solves) then
+         call self%supplied_film%evaluate([film_motion(self%pad%position(edges))], 0.0_wp, want_slopes, still)
+         value = [still(1)%force, 0.0_wp, 0.0_wp]
+         slope = 0
+         if (want_slopes) slope(:2, :) = over_edges(self%pad, still(1))
+         return
+      end if
       if (.not. holds(self, last, edges)) call self%find_cell(edges, last)
       call evaluate_in(self%cells(last), self%cells(last)%supplied, edges, want_slopes, value, slope)
    end subroutine look_up_supply
+
+   !> What `look_up` answers, from the axial modes.
+   subroutine solve(self, edges, want_slopes, value, slope, open)
+      class(whole_table_type), intent(inout) :: self
+      real(wp), intent(in) :: edges(2)
+      logical, intent(in) :: want_slopes
+      real(wp), intent(out) :: value(lanes), slope(lanes, 2)
+      logical, intent(out) :: open
+      type(film_response), dimension(1) :: along, outward
+      integer :: i
+      call self%film%evaluate([film_motion(self%pad%position(edges), [1.0_wp, 0.0_wp])], 0.0_wp, want_slopes, along)
+      call self%film%evaluate([film_motion(self%pad%position(edges), [0.0_wp, 1.0_wp])], 0.0_wp, want_slopes, outward)
+      open = along(1)%status == film_ok
+      value = symmetric(along(1)%force, outward(1)%force)/thickness_scale(edges(1), edges(2))
+      slope = 0
+      if (.not. want_slopes) return
+      associate (of_along => over_edges(self%pad, along(1)), of_outward => over_edges(self%pad, outward(1)))
+         do i = 1, 2
+            slope(:, i) = symmetric(of_along(:, i), of_outward(:, i))/thickness_scale(edges(1), edges(2)) &
+               & + 1.5_wp*value/edges(i)
+         end do
+      end associate
+   end subroutine solve
+
+   !> M_11, M_12, M_22, 0 from the columns of M, which is symmetric by reciprocity; what the discretisation adds to that
+   !> is shared.
+   pure function symmetric(along, outward) result(m)
+      real(wp), intent(in) :: along(2), outward(2)
+      real(wp) :: m(lanes)
+      m = [along(1), 0.5_wp*(along(2) + outward(1)), outward(2), 0.0_wp]
+   end function symmetric
+
+   !> Derivatives of a force over the thicknesses at both edges, (component, edge).
+   pure function over_edges(pad, film) result(slopes)
+      type(unit_pad_type), intent(in) :: pad
+      type(film_response), intent(in) :: film
+      real(wp) :: slopes(2, 2)
+      slopes(1, :) = pad%over_edges(film%derivatives(1, :2))
+      slopes(2, :) = pad%over_edges(film%derivatives(2, :2))
+   end function over_edges
 
    !> Four of a cell's functions, with these coefficients, and their derivatives over both thicknesses.
    pure subroutine evaluate_in(cell, coefficients, edges, want_slopes, value, slope)
@@ -126,6 +184,10 @@ contains
       integer, intent(inout) :: last
       real(wp), intent(out) :: pressure
       logical, intent(out) :: good
+      if (self%solves) then
+         call self%solve_pressure(edges, w, supply, pressure, good)
+         return
+      end if
       if (.not. holds(self, last, edges)) call self%find_cell(edges, last)
       pressure = 0
       associate (cell => self%cells(last))
@@ -136,6 +198,23 @@ contains
          pressure = cell%profile%highest(edges, (edges - cell%middle)*cell%per_half, [w, supply])
       end associate
    end subroutine highest_pressure
+
+   !> The same from the axial modes: that of a pressure 1 at the leading edge, scaled.
+   subroutine solve_pressure(self, edges, w, supply, pressure, open)
+      class(whole_table_type), intent(inout) :: self
+      real(wp), intent(in) :: edges(2), w(2), supply
+      real(wp), intent(out) :: pressure
+      logical, intent(out) :: open
+      type(film_response) :: film(1)
+      if (abs(supply) > 0) then
+         call self%supplied_film%evaluate([film_motion(self%pad%position(edges), w/supply)], 0.0_wp, .false., film)
+         pressure = max(supply*film(1)%max_pressure, supply*film(1)%min_pressure)
+      else
+         call self%film%evaluate([film_motion(self%pad%position(edges), w)], 0.0_wp, .false., film)
+         pressure = film(1)%max_pressure
+      end if
+      open = film(1)%status == film_ok
+   end subroutine solve_pressure
 
    !> True where a cell of this number holds these thicknesses and is not cut.
    pure logical function holds(self, number, edges)
@@ -247,9 +326,7 @@ contains
          if (self%supplied) call self%supplied_film%evaluate([film_motion(position)], 0.0_wp, .false., still)
       end associate
       open = along(1)%status == film_ok
-      ! M is symmetric by reciprocity; what the discretisation adds to that is shared
-      driven = [along(1)%force(1), 0.5_wp*(along(1)%force(2) + outward(1)%force(1)), outward(1)%force(2), 0.0_wp] &
-         & /thickness_scale(edges(1), edges(2))
+      driven = symmetric(along(1)%force, outward(1)%force)/thickness_scale(edges(1), edges(2))
       supplied = [still(1)%force, 0.0_wp, 0.0_wp]
    end subroutine node
 end module whole_table
