@@ -3,7 +3,7 @@ module lapack
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgesv, dgeev
+   public :: dgesv, dgeev, zgesv
 
    interface
       !> Solves a x = b by elimination with row exchanges; `info` /= 0: a is singular.
@@ -13,6 +13,14 @@ module lapack
          real(wp), intent(inout) :: a(lda, *), b(ldb, *)
          integer, intent(out) :: ipiv(*), info
       end subroutine dgesv
+
+      !> The same of complex numbers.
+      subroutine zgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         integer, intent(in) :: n, nrhs, lda, ldb
+         complex(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         integer, intent(out) :: ipiv(*), info
+      end subroutine zgesv
 
       !> Eigenvalues wr + i wi of a, and (jobvl, jobvr 'V'; else 'N') left and right eigenvectors; `info` /= 0: it does
       !> not converge.

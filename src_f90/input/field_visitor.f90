@@ -34,6 +34,8 @@ module field_visitor
       procedure(visit_numbers), deferred :: numbers
       !> One real for each pad.
       procedure(visit_per_pad), deferred :: per_pad
+      !> A list of reals of any length up to a largest one.
+      procedure(visit_list), deferred :: list
       !> One real.
       procedure, non_overridable :: number
    end type visitor_type
@@ -72,6 +74,14 @@ module field_visitor
          real(wp), allocatable, intent(inout) :: values(:)
          type(field_type), intent(in) :: field
       end subroutine visit_per_pad
+
+      subroutine visit_list(self, values, most, field)
+         import :: visitor_type, field_type, wp
+         class(visitor_type), intent(inout) :: self
+         real(wp), allocatable, intent(inout) :: values(:)
+         integer, intent(in) :: most
+         type(field_type), intent(in) :: field
+      end subroutine visit_list
    end interface
 
 contains

@@ -18,6 +18,7 @@ module input_reference
       procedure :: whole => write_whole
       procedure :: numbers => write_numbers
       procedure :: per_pad => write_per_pad
+      procedure :: list => write_list
       procedure, private :: row
    end type reference_writer
 
@@ -97,4 +98,15 @@ contains
          call self%numbers(values(1:1), field)
       end if
    end subroutine write_per_pad
+
+   subroutine write_list(self, values, most, field)
+      class(reference_writer), intent(inout) :: self
+      real(wp), allocatable, intent(inout) :: values(:)
+      integer, intent(in) :: most
+      type(field_type), intent(in) :: field
+      type(field_type) :: shown
+      shown = field
+      shown%meaning = field%meaning//'; 1 to '//to_text(most)//' of them'
+      call self%numbers(values, shown)
+   end subroutine write_list
 end module input_reference

@@ -19,6 +19,7 @@ module namelist_writer
       procedure :: whole => write_whole
       procedure :: numbers => write_numbers
       procedure :: per_pad => write_per_pad
+      procedure :: list => write_list
       procedure, private :: line
    end type scene_writer
 
@@ -93,4 +94,12 @@ contains
       type(field_type), intent(in) :: field
       call self%numbers(values, field)
    end subroutine write_per_pad
+
+   subroutine write_list(self, values, most, field)
+      class(scene_writer), intent(inout) :: self
+      real(wp), allocatable, intent(inout) :: values(:)
+      integer, intent(in) :: most
+      type(field_type), intent(in) :: field
+      call self%numbers(values, field)
+   end subroutine write_list
 end module namelist_writer

@@ -4,8 +4,8 @@ module scene_fields
    use kinds, only: wp
    use field_visitor, only: visitor_type, field, choice
    use scene, only: scene_type, case_type, rotor_type, operation_type, bearing_type, pads_type, pivot_type, &
-      & friction_type, asperity_type, start_type, film_type, integration_type, output_type, mass_range, inertia_range, &
-      & centre_range
+      & friction_type, asperity_type, start_type, film_type, integration_type, output_type, coefficients_type, &
+      & most_ratios, mass_range, inertia_range, centre_range
    implicit none (type, external)
    private
    public :: visit_scene, title_variable, checkpoint_variable, pads_variable
@@ -35,6 +35,7 @@ contains
       call visit_film(scene%film, v)
       call visit_integration(scene%integration, v)
       call visit_output(scene%output, v)
+      call visit_coefficients(scene%coefficients, v)
    end subroutine visit_scene
 
    subroutine visit_case(case, v)
@@ -42,8 +43,9 @@ contains
       class(visitor_type), intent(inout) :: v
       call v%group('case', 'Title and task of the run')
       call v%word(case%title, choice('title', '', 'free text, which the result file contains'))
-      call v%word(case%task, choice('task', 'march equilibrium', &
-         & 'march: motion over time; equilibrium: only the static equilibrium'))
+      call v%word(case%task, choice('task', 'march equilibrium coefficients', &
+         & 'march: motion over time; equilibrium: only the static equilibrium; coefficients: the same, with ' &
+         & //'stiffness, damping and stability there'))
    end subroutine visit_case
 
    subroutine visit_rotor(rotor, v)
@@ -260,4 +262,16 @@ contains
       call v%number(output%checkpoint_seconds, field('checkpoint_seconds', 0.0_wp, 1e9_wp, 's', &
          & 'wall time between checkpoints, from which --resume continues; 0: only when a signal stops the run'))
    end subroutine visit_output
+
+   subroutine visit_coefficients(coefficients, v)
+      type(coefficients_type), intent(inout) :: coefficients
+      class(visitor_type), intent(inout) :: v
+      call v%group('coefficients', 'Stiffness, damping and stability, for the task coefficients')
+      call v%list(coefficients%frequency_ratio, most_ratios, field('frequency_ratio', 0.0_wp, 1e6_wp, '1', &
+         & 'whirl frequencies over the speed of the shaft, of the coefficients of the journal'))
+      call v%number(coefficients%threshold_up_to_rpm, field('threshold_up_to_rpm', 0.0_wp, 1e6_wp, 'rpm', &
+         & '> 0: the speed at which stability is lost is sought from speed_rpm up to this one'))
+      call v%number(coefficients%cross_stiffness, field('cross_stiffness', -1e15_wp, 1e15_wp, 'N/m', &
+         & 'Q: cross stiffness at the journal beside the bearing''s, for the modes; > 0 drives forward whirl'))
+   end subroutine visit_coefficients
 end module scene_fields

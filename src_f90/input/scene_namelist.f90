@@ -30,6 +30,7 @@ module scene_namelist
       procedure :: whole => visit_whole
       procedure :: numbers => visit_numbers
       procedure :: per_pad => visit_per_pad
+      procedure :: list => visit_list
       procedure, private :: look_up
       procedure, private :: check_unused
       procedure, private :: refuse_unknown_group
@@ -237,6 +238,24 @@ contains
       end do
       if (field%fixes_pads) self%pad_count = size(values)
    end subroutine visit_per_pad
+
+   subroutine visit_list(self, values, most, field)
+      class(scene_reader), intent(inout) :: self
+      real(wp), allocatable, intent(inout) :: values(:)
+      integer, intent(in) :: most
+      type(field_type), intent(in) :: field
+      type(assignment_type), allocatable :: found(:)
+      real(wp), allocatable :: given(:)
+      integer :: i
+      call self%look_up(field, found)
+      do i = 1, size(found)
+         call read_reals(found(i), most, field, given, self%error)
+         if (.not. allocated(self%error) .and. found(i)%subscript > 0) call refuse_values(found(i), &
+            & 'takes a list; give all of it without subscript', self%error)
+         if (allocated(self%error)) return
+         values = given
+      end do
+   end subroutine visit_list
 
    !> Marks the elements that an assignment of the file sets, and refuses those that were set before. An element may be
    !> set after the whole list, unless the list has only one. An assignment of --set may set anything again.

@@ -6,10 +6,12 @@ module scene
    private
    public :: scene_type, max_pads, unset, is_set, mass_range, inertia_range, centre_range
    public :: case_type, rotor_type, operation_type, bearing_type, pads_type, pivot_type, friction_type
-   public :: asperity_type, start_type, film_type, integration_type, output_type
+   public :: asperity_type, start_type, film_type, coefficients_type, most_ratios, integration_type, output_type
 
    !> Most pads of a bearing.
    integer, parameter :: max_pads = 24
+   !> Most whirl frequencies of an analysis.
+   integer, parameter :: most_ratios = 1000
    !> A number that a case leaves out and that follows from others.
    real(wp), parameter :: unset = -huge(1.0_wp)
    !> What the input allows of the pads, kg, kg m^2 and m: their masses may follow from other variables.
@@ -18,7 +20,7 @@ module scene
 
    type :: case_type
       character(len=:), allocatable :: title
-      !> 'equilibrium' or 'march'.
+      !> 'equilibrium', 'coefficients' or 'march'.
       character(len=:), allocatable :: task
    end type case_type
 
@@ -127,6 +129,15 @@ module scene
       real(wp) :: checkpoint_seconds = 300
    end type output_type
 
+   type :: coefficients_type
+      !> Whirl frequencies over the speed of the shaft.
+      real(wp), allocatable :: frequency_ratio(:)
+      !> > 0: up to where the threshold of stability is sought.
+      real(wp) :: threshold_up_to_rpm = 0
+      !> Q at the journal, N/m: what whirls forward is driven by Q times its displacement, across it.
+      real(wp) :: cross_stiffness = 0
+   end type coefficients_type
+
    type :: scene_type
       !> The namelist group &case.
       type(case_type) :: about
@@ -141,6 +152,7 @@ module scene
       type(film_type) :: film
       type(integration_type) :: integration
       type(output_type) :: output
+      type(coefficients_type) :: coefficients
    contains
       procedure :: pad_count
       procedure :: tilting
@@ -183,6 +195,7 @@ contains
       scene%start%pad_penetration_rate = [0.0_wp, 0.0_wp]
       scene%film%solver = 'auto'
       scene%film%cavitation = 'reynolds'
+      scene%coefficients%frequency_ratio = [1.0_wp]
       call scene%set_final_speed()
    end function new_scene
 

@@ -1,9 +1,10 @@
 !> An HDF5 file with datasets and dimension scales. After a failure every routine does nothing; `failure` says what
 !> failed first. Datasets whose values lie in other files are refused, and those whose chunks claim too much memory.
 module hdf5_file
-   use, intrinsic :: iso_c_binding, only: c_loc, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
    use hdf5, only: hid_t, hsize_t, size_t, h5screate_f, h5screate_simple_f, h5sclose_f, h5s_scalar_f, &
-      & h5sget_simple_extent_npoints_f, h5sget_simple_extent_ndims_f, h5tclose_f, h5tequal_f, h5tget_size_f, &
+      & h5sget_simple_extent_npoints_f, h5sget_simple_extent_ndims_f, h5tclose_f, h5tcopy_f, h5tequal_f, &
+      & h5tget_size_f, h5tset_size_f, h5tset_strpad_f, h5t_fortran_s1, h5t_str_nullpad_f, &
       & h5dcreate_f, h5dopen_f, h5dwrite_f, h5dread_f, h5dclose_f, h5dget_space_f, h5dget_type_f, &
       & h5dget_create_plist_f, h5pget_layout_f, h5pget_chunk_f, h5pget_external_count_f, h5pclose_f, h5d_virtual_f, &
       & h5d_chunked_f, h5p_default_f, h5t_native_double, h5kind_to_type, h5_integer_kind
@@ -27,6 +28,8 @@ module hdf5_file
       procedure :: put_real
       procedure :: put_list
       procedure :: put_table
+      procedure :: put_array
+      procedure :: put_labels
       procedure :: get_count
       procedure :: get_real
       procedure :: get_list
@@ -75,6 +78,34 @@ contains
       real(wp), intent(in) :: values(:, :)
       call self%write_reals(path, [values], int(shape(values), hsize_t), units, long_name, scales)
    end subroutine put_table
+
+   !> Values in the order of Fortran, with so many in each dimension, the fastest first.
+   subroutine put_array(self, path, values, counts, units, long_name, scales)
+      class(hdf5_type), intent(inout) :: self
+      character(len=*), intent(in) :: path, units, long_name, scales
+      real(wp), intent(in) :: values(:)
+      integer, intent(in) :: counts(:)
+      call self%write_reals(path, values, int(counts, hsize_t), units, long_name, scales)
+   end subroutine put_array
+
+   !> A dimension scale of texts, all of one length in the file, filled up with zero bytes.
+   subroutine put_labels(self, path, labels, long_name)
+      class(hdf5_type), intent(inout) :: self
+      character(len=*), intent(in) :: path, labels(:), long_name
+      character(kind=c_char, len=len(labels)), target :: buffer(size(labels))
+      integer(hid_t) :: dataset, kind
+      integer :: status, i
+      if (allocated(self%failure)) return
+      do i = 1, size(labels)
+         buffer(i) = trim(labels(i))//repeat(c_null_char, len(labels) - len_trim(labels(i)))
+      end do
+      call h5tcopy_f(h5t_fortran_s1, kind, status)
+      call h5tset_size_f(kind, len(labels, size_t), status)
+      call h5tset_strpad_f(kind, h5t_str_nullpad_f, status)
+      call self%open_or_create(path, kind, [size(labels, kind=hsize_t)], '1', long_name, path, dataset)
+      call self%write_all(dataset, kind, c_loc(buffer), path)
+      call h5tclose_f(kind, status)
+   end subroutine put_labels
 
    subroutine write_reals(self, path, values, dims, units, long_name, scales)
       class(hdf5_type), intent(inout) :: self

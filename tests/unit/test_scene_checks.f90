@@ -20,6 +20,7 @@ program test_scene_checks
    if (runs('fixed_pads')) call fixed_pads()
    if (runs('centre_of_gravity')) call centre_of_gravity()
    if (runs('room_for_pads')) call room_for_pads()
+   if (runs('coefficients')) call coefficients()
    if (runs('first_of_several')) call first_of_several()
    call report()
 
@@ -281,6 +282,41 @@ contains
       s%pads%pivot_angle_deg = [0.0_wp, 73.0_wp]
       call expect_allowed(s, 'one pivot behind the middle')
    end subroutine room_for_pads
+
+   !> The group coefficients belongs to its task, and what belongs to a march does not.
+   subroutine coefficients()
+      type(scene_type) :: s
+      s = scene_type()
+      s%coefficients%frequency_ratio = [1.0_wp, 0.5_wp]
+      call expect_refused(s, 'coefficients%frequency_ratio', 'has no effect but with case%task = ''coefficients''')
+      s%coefficients%frequency_ratio = [0.5_wp]
+      call expect_refused(s, 'coefficients%frequency_ratio', 'has no effect but with')
+      s%about%task = 'coefficients'
+      call expect_allowed(s, 'half the speed')
+      s%coefficients%threshold_up_to_rpm = 6501
+      call expect_allowed(s, 'a threshold above the speed')
+      s%coefficients%threshold_up_to_rpm = 6500
+      call expect_refused(s, 'coefficients%threshold_up_to_rpm', 'must be 0 or above operation%speed_rpm = 6500')
+      s%coefficients%threshold_up_to_rpm = 0
+      s%coefficients%cross_stiffness = -1e6_wp
+      call expect_allowed(s, 'a cross stiffness of either sign')
+      s%operation%final_speed_rpm = 7000
+      call expect_refused(s, 'operation%final_speed_rpm', 'must be operation%speed_rpm = 6500')
+      s = scene_type()
+      s%coefficients%cross_stiffness = 1
+      call expect_refused(s, 'coefficients%cross_stiffness', 'has no effect but with')
+      s%coefficients%cross_stiffness = 0
+      s%coefficients%threshold_up_to_rpm = 7000
+      s%about%task = 'equilibrium'
+      call expect_refused(s, 'coefficients%threshold_up_to_rpm', 'has no effect but with')
+      s = scene_type()
+      s%about%task = 'coefficients'
+      s%start%from = 'centred'
+      call expect_refused(s, 'start%from', 'has no effect with case%task = ''coefficients''')
+      s%start%from = 'equilibrium'
+      s%start%journal(2) = 1e-6_wp
+      call expect_refused(s, 'start%journal', 'a disturbance: has no effect with')
+   end subroutine coefficients
 
    subroutine first_of_several()
       type(scene_type) :: s

@@ -17,11 +17,13 @@ module scene_probes
       procedure :: whole => collect_whole
       procedure :: numbers => collect_numbers
       procedure :: per_pad => collect_per_pad
+      procedure :: list => collect_list
    end type collector
 
-   !> Takes up to a thousandth off every real, so that all its bits count.
+   !> Takes up to a thousandth off every real, so that all its bits count; lists belong to tasks of their own.
    type, extends(collector) :: shaker
    contains
+      procedure :: list => keep_list
       procedure :: numbers => shake_numbers
    end type shaker
 
@@ -65,6 +67,21 @@ contains
       call self%numbers(values, field)
    end subroutine collect_per_pad
 
+   subroutine collect_list(self, values, most, field)
+      class(collector), intent(inout) :: self
+      real(wp), allocatable, intent(inout) :: values(:)
+      integer, intent(in) :: most
+      type(field_type), intent(in) :: field
+      call self%numbers(values, field)
+   end subroutine collect_list
+
+   subroutine keep_list(self, values, most, field)
+      class(shaker), intent(inout) :: self
+      real(wp), allocatable, intent(inout) :: values(:)
+      integer, intent(in) :: most
+      type(field_type), intent(in) :: field
+   end subroutine keep_list
+
    subroutine shake_numbers(self, values, field)
       class(shaker), intent(inout) :: self
       real(wp), intent(inout) :: values(:)
@@ -101,6 +118,7 @@ program test_scene_namelist
    do i = 1, 10
       if (runs('round_trip')) call round_trip()
    end do
+   if (runs('lists')) call lists()
    if (runs('awkward_titles')) call awkward_titles()
    if (runs('refused_values')) call refused_values()
    if (runs('refused_scenes')) call refused_scenes()
@@ -241,6 +259,29 @@ contains
          & 'the same bits come back')
       call expect(scene_text(back) == scene_text(scene), 'the same text comes back')
    end subroutine round_trip
+
+   !> As many values as there are, and back to the same bits.
+   subroutine lists()
+      character(len=*), parameter :: task = '&case task = ''coefficients'' / &coefficients frequency_ratio = '
+      type(scene_type) :: scene, back
+      type(error_type), allocatable :: error
+      scene = scene_of(task//'0, 0.1 2*0.5, 1e6 /')
+      call expect(size(scene%coefficients%frequency_ratio) == 5, 'five of them')
+      call expect_close(maxval(abs(scene%coefficients%frequency_ratio - [0.0_wp, 0.1_wp, 0.5_wp, 0.5_wp, 1e6_wp])), &
+         & 0.0_wp, 0.0_wp, 'the values')
+      call scene_from_text(scene_text(scene), 'scene', back, error)
+      call expect_no_error(error, 'the text of a list is accepted')
+      call expect(all(transfer(scene%coefficients%frequency_ratio, [1_i8]) &
+         & == transfer(back%coefficients%frequency_ratio, [1_i8])), 'the same bits come back')
+      scene = scene_of(task//'1000*0.5 /')
+      call expect(size(scene%coefficients%frequency_ratio) == 1000, 'a thousand')
+      call expect_refused(task//'1001*0.5 /', 'at most 1000 values')
+      call expect_refused(task//'1, -0.5 /', 'coefficients%frequency_ratio = 1, -0.5: must be 0 to 1e6')
+      call expect_refused(task//'nan /', 'must be finite')
+      call expect_refused(task//'fast /', 'must be a number')
+      call expect_refused('&case task = ''coefficients'' / &coefficients frequency_ratio(2) = 0.5 /', &
+         & 'give all of it without subscript')
+   end subroutine lists
 
    subroutine awkward_titles()
       character(len=*), parameter :: titles(*) = [character(len=12) :: '''', '''''', '/', '! no', '&end', ' a', '"', &
