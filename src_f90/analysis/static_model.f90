@@ -11,7 +11,7 @@ module static_model
    use small_vibrations, only: stability_type
    implicit none (type, external)
    private
-   public :: equilibrium_type, describe, make_static, make_quick, start, starts
+   public :: equilibrium_type, describe, make_static, make_quick, make_fine, start, starts
 
    type :: equilibrium_type
       !> Journal, m; per pad tilt, rad, penetration, m (0 tilting-only), contact force, N.
@@ -56,6 +56,16 @@ contains
       if (scene%film%solver == 'sor') scene%film%solver = 'direct'
       call make_static(new_bearing_model(scene), model%point%rupture, quick)
    end subroutine make_quick
+
+   !> The same with films that are converged, where the scene leaves their solver to the program.
+   subroutine make_fine(model, fine)
+      type(bearing_model), intent(in) :: model
+      type(bearing_model), intent(out) :: fine
+      type(scene_type) :: scene
+      scene = model%scene
+      if (scene%film%solver == 'auto') scene%film%solver = 'fine'
+      call make_static(new_bearing_model(scene), model%point%rupture, fine)
+   end subroutine make_fine
 
    !> Start k: the journal at its fraction of the clearance down the load, pivots carrying a share of it, and pads that
    !> tilt tilted so that every film converges.

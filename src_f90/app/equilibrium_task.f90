@@ -10,7 +10,7 @@ module equilibrium_task
    use run_summary, only: print_equilibrium
    implicit none (type, external)
    private
-   public :: run_equilibrium, create_file, start_at_equilibrium, nothing_computed
+   public :: run_equilibrium, create_file, start_at_equilibrium, seek_equilibrium, note_equilibrium, nothing_computed
 
    !> Said of a signal that stops a run before its march.
    character(len=*), parameter :: nothing_computed = ' before the march; nothing was computed yet'
@@ -38,16 +38,30 @@ contains
       real(wp), allocatable, intent(out) :: y(:)
       type(error_type), allocatable, intent(out) :: error
       type(equilibrium_type) :: static
+      call seek_equilibrium(run, static, error)
+      if (allocated(error)) return
+      call note_equilibrium(run, static)
+      y = run%model%at_rest(static%journal, static%tilt, static%penetration)
+   end subroutine start_at_equilibrium
+
+   !> Creates the file and finds the equilibrium.
+   subroutine seek_equilibrium(run, static, error)
+      type(case_run_type), intent(inout) :: run
+      type(equilibrium_type), intent(out) :: static
+      type(error_type), allocatable, intent(out) :: error
       call create_file(run, error)
       if (allocated(error)) return
       call find_equilibrium(run%model, static, error, stop_requested)
-      if (allocated(error)) then
-         if (error%status == stopped) error%message = stop_reason()//nothing_computed
-         return
-      end if
+      if (.not. allocated(error)) return
+      if (error%status == stopped) error%message = stop_reason()//nothing_computed
+   end subroutine seek_equilibrium
+
+   !> Writes an equilibrium.
+   subroutine note_equilibrium(run, static)
+      type(case_run_type), intent(inout) :: run
+      type(equilibrium_type), intent(in) :: static
       call put_equilibrium(run%file%file, static, run%scene%tilting(), run%scene%tilting_radial())
       run%computed = .true.
       if (.not. run%quiet) call print_equilibrium(static, run%scene)
-      y = run%model%at_rest(static%journal, static%tilt, static%penetration)
-   end subroutine start_at_equilibrium
+   end subroutine note_equilibrium
 end module equilibrium_task

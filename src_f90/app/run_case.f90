@@ -8,6 +8,7 @@ module run_case
    use files, only: is_regular
    use case_run, only: case_run_type, begin_run
    use equilibrium_task, only: run_equilibrium
+   use coefficients_task, only: run_coefficients
    use march_task, only: run_march
    use run_summary, only: print_notes, print_march, print_cost
    use pad_remarks, only: print_pad_remarks
@@ -42,6 +43,8 @@ contains
       select case (scene%about%task)
       case ('equilibrium')
          call run_equilibrium(run, error)
+      case ('coefficients')
+         call run_coefficients(run, error)
       case ('march')
          call run_march(run, error)
       case default

@@ -3,10 +3,11 @@
 module force_balance
    use kinds, only: wp
    use kinematics, only: columns, position_columns, rate_columns
+   use friction, only: friction_response
    use equations_of_motion, only: bearing_model
    implicit none (type, external)
    private
-   public :: forces, force_derivatives, masses
+   public :: forces, force_derivatives, masses, add_sticking
 
 contains
 
@@ -69,6 +70,25 @@ contains
          end associate
       end subroutine add
    end subroutine force_derivatives
+
+   !> Adds to the derivatives of the forces at rest what friction adds where the pivots stick, under the contact forces
+   !> evaluated last: bristles that are not deflected move with the pivot; a law without them has its slope at no
+   !> velocity.
+   pure subroutine add_sticking(model, over_positions, over_rates)
+      type(bearing_model), intent(in) :: model
+      real(wp), intent(inout) :: over_positions(:, :), over_rates(:, :)
+      type(friction_response) :: friction
+      integer :: i, tilt
+      do i = 1, model%layout%pads
+         tilt = model%layout%first_position(i)
+         call model%bearing%friction%evaluate(0.0_wp, 0.0_wp, model%bearing%loads(i)%contact, friction)
+         associate (square => model%bearing%pads(i)%ball_radius**2)
+            over_positions(tilt, tilt) = over_positions(tilt, tilt) &
+               & - square*friction%force_deflection*friction%rate_velocity
+            over_rates(tilt, tilt) = over_rates(tilt, tilt) - square*friction%force_velocity
+         end associate
+      end do
+   end subroutine add_sticking
 
    !> Masses of the positions: kg of the journal, and of each pad the matrix of eqs (3)-(4).
    pure function masses(model)

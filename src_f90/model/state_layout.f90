@@ -12,6 +12,10 @@ module state_layout
    !> Order of a pad's own states; those of its motion stand in the order of the columns of its derivatives.
    integer, parameter :: at_tilt = 1, at_tilt_rate = 2, at_penetration = 3, at_penetration_rate = 4
 
+   !> Names of a pad's displacements; length of such a name with the number of a pad.
+   character(len=*), parameter :: of_pad(2) = [character(len=11) :: 'tilt', 'penetration']
+   integer, parameter :: longest_name = 14
+
    type :: state_layout_type
       !> States of the rotor, pads, states of a pad (its motion and its bristles), all states.
       integer :: rotor = 0, pads = 0, motion = 0, per_pad = 0, n = 0
@@ -27,6 +31,7 @@ module state_layout
       procedure :: positions
       procedure :: rates
       procedure :: n_positions
+      procedure :: position_names
       procedure :: first_position
       procedure :: pad_states
       procedure :: put_pads
@@ -113,6 +118,19 @@ contains
       class(state_layout_type), intent(in) :: self
       n_positions = self%rotor/2 + self%pads*self%motion/2
    end function n_positions
+
+   !> Names of the displacements of a rigid rotor and the pads, in the same order.
+   pure function position_names(self) result(names)
+      class(state_layout_type), intent(in) :: self
+      character(len=longest_name) :: names(self%n_positions())
+      integer :: i, k
+      names(:self%rotor/2) = ['y', 'z']
+      do i = 1, self%pads
+         do k = 1, self%motion/2
+            write (names(self%first_position(i) + k - 1), '(a,"_",i0)') trim(of_pad(k)), i
+         end do
+      end do
+   end function position_names
 
    !> Which of these is a pad's tilt; its penetration is the next.
    elemental integer function first_position(self, pad)
