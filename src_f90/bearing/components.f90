@@ -27,6 +27,8 @@ module components
    !> ruptured films, and volumes of those that no table would have.
    real(wp), parameter :: fine_error = 1e-6_wp, fine_ruptured_error = 1e-5_wp
    integer, parameter :: fine_volumes(2) = [160, 16]
+   !> So many volumes serve an arc of this length, rad, and shorter ones.
+   real(wp), parameter :: usual_arc = 120*degree
    !> Residual of over-relaxation over the relative tolerance of the march, at most, and what rounding leaves: films
    !> solved less well shake stiff pivots, and the steps become short.
    real(wp), parameter :: sor_tolerance = 1e-3_wp, least_residual = 1e-13_wp
@@ -61,6 +63,7 @@ contains
          if (f%solver == 'fine') error = fine_error
          volumes = merge(sor_volumes, rupture_volumes, f%solver == 'sor')
          if (f%solver == 'fine') volumes = fine_volumes
+         volumes(1) = volumes(1)*max(1, nint(maxval(gaps%arc())/usual_arc))
          associate (given => [f%circumferential_cells, f%axial_cells])
             volumes = merge(given, volumes, given > 0)
          end associate

@@ -215,7 +215,7 @@ contains
          & //'a film ruptures; modal: axial modes; sor: over-relaxation'))
       call v%whole(film%circumferential_cells, field('circumferential_cells', 0.0_wp, 2000.0_wp, '1', &
          & 'direct, modal, sor: cells along the arc, an even number; 0: as many as axial modes need, 80 where a film ' &
-         & //'ruptures, 60 for sor'))
+         & //'ruptures, 60 for sor, twice or three times as many from 180 or 300 degrees on'))
       call v%whole(film%axial_cells, field('axial_cells', 0.0_wp, 1000.0_wp, '1', &
          & 'direct, sor: cells along half the width, at least 2; 0: 8, or 15 for sor'))
       call v%whole(film%axial_modes, field('axial_modes', 0.0_wp, 200.0_wp, '1', &

@@ -50,7 +50,7 @@ contains
          call require(f%solver /= 'modal' .or. f%cavitation /= 'reynolds', 'film%solver = ''modal''' &
             & //': needs film%cavitation = ''gumbel'' or ''none''; film%solver = ''auto'' knows ''reynolds''', error)
          ! where films rupture, elimination keeps a block of (axial cells/2)**2 values a column and pad;
-         ! 0 stands for fewer than 100 columns
+         ! 0 stands for some 100 columns
          most = int(sqrt(most_in_blocks/(max(cells, 100)*scene%pad_count())))
          call require(f%solver == 'sor' .or. f%cavitation /= 'reynolds' .or. f%axial_cells <= most, &
             & 'film%axial_cells = '//to_text(f%axial_cells)//': must be at most '//to_text(most) &

@@ -37,7 +37,7 @@ def deviations(path: Path, reference: Path, whole: bool = False) -> Deviation:
             return resting(run.equilibrium, true)
         part = slice(0, None) if whole else tiltpad.last_revolutions(true)
         found = Deviation({})
-        for name in SIGNALS:
+        for name in (name for name in SIGNALS if name in true):
             values, exact = (each.values(name, part).reshape(-1, pads(true, name)) for each in (run, true))
             span = max(float(np.ptp(exact, axis=0).max()), RESTING * natural_scale(true, name))
             if span > 0:
@@ -70,5 +70,6 @@ def resting(found: dict, true: tiltpad.Run) -> Deviation:
             name: float(abs(found[name] - true.equilibrium[name]).max())
             / (RESTING * natural_scale(true, name))
             for name in ("journal_y", "journal_z", "pad_tilt")
+            if name in true.equilibrium
         }
     )

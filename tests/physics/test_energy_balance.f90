@@ -250,11 +250,16 @@ program test_energy_balance
       call balance('tilting_radial', 'none', 0.05_wp)
       call balance('tilting_radial', 'lugre', 0.05_wp)
       call balance('tilting_only', 'none', 0.05_wp)
+      call balance('fixed', 'none', 0.05_wp)
    end if
    if (runs('bouncing')) then
       call bouncing('tilting_radial', 0.0_wp)
       call bouncing('tilting_radial', 0.2_wp)
       call bouncing('tilting_only', 0.2_wp)
+   end if
+   if (runs('striking')) then
+      call striking(0.0_wp)
+      call striking(0.2_wp)
    end if
    call report()
 
@@ -331,6 +336,29 @@ contains
       call expect(merge(rubbed < 0, abs(rubbed) <= 0, coefficient > 0), 'friction takes work alone: ' &
          & //to_text(rubbed)//' J, '//what)
    end subroutine bouncing
+
+   !> A journal is thrown onto fixed pads and comes back.
+   subroutine striking(coefficient)
+      real(wp), intent(in) :: coefficient
+      type(scene_type) :: scene
+      type(bearing_model) :: bearing
+      real(wp), allocatable :: start(:)
+      real(wp) :: rubbed
+      logical :: touched
+      character(len=:), allocatable :: what
+      what = 'striking, friction '//to_text(coefficient)
+      scene = shaken_scene('fixed', 'none', 0.0_wp)
+      ! rough surfaces, which the film does not keep apart
+      scene%asperity%roughness = 3e-6_wp
+      scene%asperity%friction_coefficient = coefficient
+      bearing = new_bearing_model(scene)
+      start = bearing%at_rest([-60e-6_wp, 0.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp])
+      start(3:4) = [-0.5_wp, 0.2_wp]
+      call closes(scene, start, what, rubbed, touched)
+      call expect(touched, 'it strikes, '//what)
+      call expect(merge(rubbed < 0, abs(rubbed) <= 0, coefficient > 0), 'friction takes work alone: ' &
+         & //to_text(rubbed)//' J, '//what)
+   end subroutine striking
 
    !> Expects that energy and work balance over 6 ms. A step's error is the tolerance, of every state in its own scale
    !> and of the work in that of the power that flows: with n steps the balance closes to n tolerances of the work's
