@@ -52,8 +52,8 @@ contains
          associate (bearing => bearings(i))
             allocate (bearing%moves(size(over_rates, 1)), source=.true.)
             if (bearing%pivot == 'stuck') call add_sticking(model, over_positions, over_rates)
-            if (bearing%pivot == 'locked') bearing%moves(model%layout%first_position([(k, k=1, model%layout%pads)])) &
-               & = .false.
+            if (bearing%pivot == 'locked' .and. model%layout%tilting) &
+               & bearing%moves(model%layout%first_position([(k, k=1, model%layout%pads)])) = .false.
             bearing%mass = masses(model)
             bearing%mass(:journal, :journal) = 0
             bearing%stiffness = -over_positions
@@ -62,12 +62,12 @@ contains
       end do
    end subroutine linearize
 
-   !> The ways that the pivots of a model's scene may behave; pads that do not tilt have one.
+   !> The ways that the pivots of a model's scene may behave; fixed pads have one.
    pure function pivots_of(model) result(pivots)
       type(bearing_model), intent(in) :: model
       character(len=pivot_name), allocatable :: pivots(:)
       if (.not. model%scene%tilting()) then
-         pivots = [character(len=pivot_name) :: 'free']
+         pivots = [character(len=pivot_name) :: 'locked']
       else if (model%scene%friction%model == 'none') then
          pivots = [character(len=pivot_name) :: 'free', 'locked']
       else

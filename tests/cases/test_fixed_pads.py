@@ -1,0 +1,183 @@
+"""Whole runs with fixed pads: starts, checkpoints, sweeps, what is written, what is refused."""
+
+import h5py
+import numpy as np
+import pytest
+import tiltpad as package
+
+#: Below its threshold; an unbalance keeps it moving.
+CASE = """&pads motion='fixed', pivot_angle_deg=-90,90, arc_deg=160 /
+&bearing journal_radius=50e-3, assembled_clearance=100e-6, preload=0, axial_length=50e-3, viscosity=0.02 /
+&rotor mass=300, balance_grade=2.5 /
+&operation speed_rpm=5000, duration=0.5 /
+"""
+OF_TILTING = ("pad_tilt", "pad_penetration", "contact_force", "friction_moment", "bristle_deflection")
+STARTS = {
+    "partial": ("start%from='partial'",),
+    "centred": ("start%from='centred'",),
+    "given": ("start%from='given'", "start%journal=-40e-6,10e-6"),
+    "disturbed": ("start%journal=5e-6,-2e-6", "start%journal_velocity=1e-2,0"),
+    "from_file": ("start%from='file'", "start%file='whole.h5'"),
+}
+
+
+@pytest.fixture(scope="module")
+def run(tiltpad, tmp_path_factory):
+    """run(name, overrides): path of the result of the case with these overrides, made once."""
+    folder = tmp_path_factory.mktemp("fixed")
+    (folder / "case.nml").write_text(CASE)
+
+    def make(name, *overrides):
+        path = folder / f"{name}.h5"
+        if not path.exists():
+            done = tiltpad("case.nml", "-o", path.name, *options(overrides), cwd=folder)
+            assert (done.returncode, done.stderr) == (0, "")
+            path.with_suffix(".txt").write_text(done.stdout)
+        return path
+
+    make.folder = folder
+    return make
+
+
+def options(overrides):
+    return [word for each in overrides for word in ("--set", each)]
+
+
+@pytest.mark.parametrize("start", STARTS)
+def test_each_start_leads_to_the_orbit(run, start):
+    """After forty revolutions e^-20 of the start is left (the eigenvalue is -43 1/s), and no more than what
+    the march errs by: 1e-3 of an orbit of a tenth of the clearance.
+    """
+    run("whole")
+    with h5py.File(run("whole")) as whole, h5py.File(run(start, *STARTS[start])) as other:
+        for name in ("journal_y", "journal_z"):
+            one, two = (np.sort(file[name][-360:]) for file in (whole, other))
+            assert np.abs(one - two).max() < 1e-8, name
+
+
+def test_what_pads_without_pivots_have(run):
+    path = run("whole")
+    with h5py.File(path) as file:
+        assert not [name for name in (*file, *file["equilibrium"], *file["spectrum"]) if name in OF_TILTING]
+        assert file["film_force_radial"].shape == (file["time"].size, 2)
+        load = 300 * 9.81
+        upward = file["film_force_radial"][0] * np.sin(file["pivot_angle"][()])
+        along = file["film_force_tangential"][0] * np.cos(file["pivot_angle"][()])
+        assert (upward + along).sum() == pytest.approx(load, rel=1e-6)
+        assert file["equilibrium/max_pressure"][0] == pytest.approx(file["max_pressure"][0, 0])
+    said = path.with_suffix(".txt").read_text()
+    assert "pad 1: minimum film thickness" in said
+    assert not [word for word in ("tilt", "pivot", "contact", "friction") if f"{word} " in said]
+
+
+def test_oil_whirl_of_the_example(tiltpad, root, tmp_path):
+    """Above the threshold the journal whirls at nearly half the shaft speed; below it does not."""
+    example = root / "input/examples/two_groove.nml"
+    above = tiltpad(example, "-o", "above.h5", cwd=tmp_path)
+    below = tiltpad(example, "-o", "below.h5", *options(["operation%speed_rpm=6000"]), cwd=tmp_path)
+    assert above.returncode == below.returncode == 0
+    assert ", fluttering (" in above.stdout
+    assert ", stable (" in below.stdout
+    assert "the journal whirls at 0.4" in above.stdout
+    assert "whirls" not in below.stdout
+    with package.read(tmp_path / "above.h5") as run:
+        frequency, amplitude = package.full_spectrum(run)
+        assert 0.4 < frequency[np.argmax(amplitude)] / (8500 / 60) < 0.52
+
+
+def test_it_goes_on_from_a_checkpoint(tiltpad, run):
+    """As any other run (test_checkpoint.py): stopped by its steps, and given more of them."""
+    whole = run("whole")
+    stop = ("--set", "integration%max_steps=500", "-q", "-o", "part.h5")
+    part = tiltpad("case.nml", *stop, cwd=run.folder)
+    assert part.returncode == 2
+    assert "gave up" in part.stderr
+    with h5py.File(whole) as one, h5py.File(run.folder / "part.h5") as two:
+        count = two["time"].size
+        assert 360 < count < one["time"].size
+        np.testing.assert_array_equal(one["journal_y"][:count], two["journal_y"][()])
+
+
+def test_a_sweep_is_collected(tiltpad, run):
+    sweep = ("sweep%operation%speed_rpm=3000,5000", "operation%duration=0.05")
+    done = tiltpad("case.nml", "-q", "-o", "sweep", *options(sweep), cwd=run.folder)
+    assert (done.returncode, done.stderr) == (0, "")
+    package.collect([run.folder / "sweep"], run.folder / "study.h5")
+    with package.read_study(run.folder / "study.h5") as study:
+        assert np.isfinite(study.orbit_y).all()
+        assert np.isfinite(study.poincare_y).any(axis=1).all()
+        assert "pad_tilt_size" not in study
+        assert "poincare_tilt" not in study
+
+
+#: Case of the paper, made fixed; a case without films to carry the load.
+REFUSED = {
+    "friction": (("friction%model='lugre'",), 1, "friction%model = 'lugre': must be 'none'"),
+    "tilt": (("start%pad_tilt=1e-3",), 1, "start%pad_tilt = 0.001, pad_tilt_rate = 0: must be 0"),
+    "penetration": (("start%pad_penetration=1e-6",), 1, "must be 0 for pads%motion = 'fixed'"),
+    "arc": (("pads%arc_deg=360.5",), 1, "0.1 to 360"),
+    "overlap": (("pads%arc_deg=181",), 1, "overlap"),
+    "other states": (("start%from='file'", "start%file='paper.h5'"), 3, "has pads%motion = 'tilting_radial'"),
+    "no pad": (
+        ("pads%pivot_angle_deg=-90", "rotor%static_load=1e4,0"),
+        2,
+        "no equilibrium found at 5000 rpm: the load points past the only pad",
+    ),
+    "too much": (
+        ("pads%arc_deg=60", "rotor%static_load=0,1e5"),
+        2,
+        "no equilibrium found at 5000 rpm: the films do not hold the journal",
+    ),
+}
+
+
+@pytest.mark.parametrize("why", REFUSED)
+def test_refused(tiltpad, run, why):
+    overrides, status, words = REFUSED[why]
+    if why == "other states":
+        (run.folder / "paper.nml").write_text("&operation duration=0.01 /\n")
+        assert tiltpad("paper.nml", "-q", cwd=run.folder).returncode == 0
+    done = tiltpad("case.nml", "-q", "-o", "out.h5", *options(overrides), cwd=run.folder)
+    assert (done.returncode, done.stdout) == (status, "")
+    assert done.stderr.count("\n") == 1
+    assert words in done.stderr
+
+
+def test_the_paper_s_bearing_made_fixed(tiltpad, tmp_path):
+    """One word makes pads fixed; what the case says of masses and pivots may stay."""
+    (tmp_path / "case.nml").write_text("&operation duration=0.02 /\n&pads mass=0.9 /\n&pivot law='hertz' /\n")
+    done = tiltpad("case.nml", "--set", "pads%motion='fixed'", "-q", cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    checked = tiltpad("case.nml", "--set", "pads%motion=fixed", "--check", cwd=tmp_path)
+    assert checked.returncode == 0
+    assert "  mass = 0.9, 0.9\n" in checked.stdout
+    assert "inertia" not in checked.stdout
+
+
+@pytest.mark.parametrize("arc", [60, 120, 170, 200, 300, 350, 360])
+@pytest.mark.parametrize("cavitation", ["reynolds", "gumbel", "none"])
+def test_one_pad_of_any_arc_carries(tiltpad, tmp_path, arc, cavitation):
+    (tmp_path / "case.nml").write_text(CASE)
+    overrides = (f"pads%arc_deg={arc}", f"film%cavitation='{cavitation}'", "operation%duration=0.02")
+    overrides += ("pads%pivot_angle_deg=-90", "operation%speed_rpm=3000")
+    done = tiltpad("case.nml", "-q", *options(overrides), cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    with h5py.File(tmp_path / "case.h5") as file:
+        assert file["min_film_thickness"][()].min() > 0
+        rise = file["journal_y"][0]
+        assert rise < 0
+
+
+def test_coefficients_have_the_journal_alone(tiltpad, run):
+    """They are those that the march feels, whatever the frequency, and the threshold is where it whirls."""
+    overrides = ("case%task='coefficients'", "coefficients%frequency_ratio=0.5,1")
+    path = run("linear", *overrides, "coefficients%threshold_up_to_rpm=9000")
+    with package.read(path) as file:
+        found = package.coefficients(file)
+        assert found.pivot == "locked"
+        assert list(file["position_row"]) == ["y", "z"]
+        np.testing.assert_allclose(found.stiffness[0], found.stiffness[1], rtol=1e-12)
+        np.testing.assert_allclose(found.stiffness[0], file["coefficients/full_stiffness"][0], rtol=1e-12)
+        mode = file["modes/eigenvalue_real"][0, 0]
+        assert mode == pytest.approx(file["equilibrium/eigenvalue_real"], rel=1e-9)
+        assert 6500 < file["modes/threshold_rpm"][0] < 7000
