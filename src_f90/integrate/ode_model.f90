@@ -17,6 +17,8 @@ module ode_model
       procedure(take_derivatives), deferred :: linearize
       procedure(multiply), deferred :: jacobian_times
       procedure(solve_system), deferred :: solve
+      !> The right-hand side and its derivatives together.
+      procedure :: tangent
       !> The quantities sampled beside the states.
       procedure :: output
       !> What may soon stop the integration in the state evaluated last, for its message; else empty.
@@ -61,6 +63,24 @@ module ode_model
    end interface
 
 contains
+
+   !> f(t, y) and the whole matrix J = df/dy there; a model that has both at once replaces it.
+   subroutine tangent(self, t, y, dydt, matrix, ok)
+      class(ode_model_type), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: dydt(:), matrix(:, :)
+      logical, intent(out) :: ok
+      real(wp) :: column(self%n)
+      integer :: k
+      call self%rhs(t, y, dydt, ok)
+      if (ok) call self%linearize(t, y, ok)
+      if (.not. ok) return
+      do k = 1, self%n
+         column = 0
+         column(k) = 1
+         call self%jacobian_times(column, matrix(:, k))
+      end do
+   end subroutine tangent
 
    !> From the last evaluation, and to first order at the state that `correction` leads to from the state of that
    !> evaluation; 0: in that state itself.

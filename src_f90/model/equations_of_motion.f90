@@ -41,7 +41,7 @@ module equations_of_motion
       procedure :: solve
       procedure :: output
       procedure :: warning
-      procedure :: jacobian
+      procedure :: tangent
       procedure :: evaluate
       procedure :: set_point
       procedure :: state
@@ -166,10 +166,17 @@ contains
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:)
       logical, intent(out) :: ok
+      call self%evaluate(t, y, .false., ok)
+      if (ok) call set_rates(self, t, y, dydt)
+   end subroutine rhs
+
+   !> Rates of all states at (t, y), where the bearing was evaluated.
+   subroutine set_rates(self, t, y, dydt)
+      class(bearing_model), intent(in) :: self
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: dydt(:)
       real(wp) :: force(2), rates(2)
       integer :: i, o
-      call self%evaluate(t, y, .false., ok)
-      if (.not. ok) return
       force = self%rotor%force(self%point, t)
       do i = 1, self%layout%pads
          associate (loads => self%bearing%loads(i), layout => self%layout)
@@ -187,7 +194,7 @@ contains
          end associate
       end do
       dydt(:self%rotor%states) = self%rotor%rates(y(:self%rotor%states), force)
-   end subroutine rhs
+   end subroutine set_rates
 
    !> Derivatives of film and contact at (t, y), for `solve`.
    subroutine linearize(self, t, y, ok)
@@ -233,16 +240,17 @@ contains
       warning = self%bearing%warning()
    end function warning
 
-   !> The whole Jacobian at (t, y).
-   subroutine jacobian(self, t, y, matrix, ok)
+   !> Rates of all states at (t, y), and the whole Jacobian there.
+   subroutine tangent(self, t, y, dydt, matrix, ok)
       class(bearing_model), intent(inout) :: self
       real(wp), intent(in) :: t, y(:)
-      real(wp), intent(out) :: matrix(:, :)
+      real(wp), intent(out) :: dydt(:), matrix(:, :)
       logical, intent(out) :: ok
       call self%linearize(t, y, ok)
       if (.not. ok) return
+      call set_rates(self, t, y, dydt)
       matrix = self%newton%jacobian(self%rotor, self%bearing)
-   end subroutine jacobian
+   end subroutine tangent
 
    !> What is sampled at (t, y), where these outputs are known; no film is evaluated. The record may be used again.
    pure subroutine take_sample(self, t, y, output, sample)

@@ -110,7 +110,7 @@ contains
       all_ok = .true.
       do repeat = 1, 3
          y = moving_state(model)
-         call model%jacobian(t, y, found, ok)
+         call model%tangent(t, y, f, found, ok)
          all_ok = all_ok .and. ok
          do column = 1, model%n
             expected(:, column) = 0
@@ -144,7 +144,7 @@ contains
       what = trim(motion)//', '//trim(friction)
       model = new_bearing_model(heavy_scene(motion, friction, 0.003_wp))
       allocate (matrix(model%n, model%n), jv(model%n))
-      call model%jacobian(t, moving_state(model), matrix, ok)
+      call model%tangent(t, moving_state(model), jv, matrix, ok)
       call expect(ok, 'the state is admitted, '//what)
       v = [(between(-1.0_wp, 1.0_wp)*model%scale(k), k=1, model%n)]
       call model%jacobian_times(v, jv)
