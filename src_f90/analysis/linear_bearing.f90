@@ -52,8 +52,9 @@ contains
          associate (bearing => bearings(i))
             allocate (bearing%moves(size(over_rates, 1)), source=.true.)
             if (bearing%pivot == 'stuck') call add_sticking(model, over_positions, over_rates)
-            if (bearing%pivot == 'locked' .and. model%layout%tilting) &
-               & bearing%moves(model%layout%first_position([(k, k=1, model%layout%pads)])) = .false.
+            if (bearing%pivot == 'locked' .and. model%layout%tilting) then
+               bearing%moves(model%layout%first_position([(k, k=1, model%layout%pads)])) = .false.
+            end if
             bearing%mass = masses(model)
             bearing%mass(:journal, :journal) = 0
             bearing%stiffness = -over_positions
