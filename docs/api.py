@@ -97,8 +97,9 @@ def entry(prefix: str, member: type | types.FunctionType) -> None:
 def methods(kind: type) -> dict[str, types.FunctionType | property]:
     """What a class and those that it extends offer by name, the first ones first."""
     found = {name: each for base in reversed(kind.__mro__[:-1]) for name, each in vars(base).items()}
-    internal = ("check_whole", "check_dataset", "scales", "sound", "without", "item", "KINDS", "OWN")
-    return {name: each for name, each in found.items() if not name.startswith("_") and name not in internal}
+    return {
+        name: each for name, each in found.items() if not name.startswith("_") and name not in kind.INTERNAL
+    }
 
 
 def signature(function: types.FunctionType) -> str:

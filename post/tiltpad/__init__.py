@@ -10,6 +10,7 @@ MODULES are loaded when they are first used, most of them with matplotlib.
 """
 
 from importlib import import_module
+from importlib.metadata import version
 from typing import Any
 
 from tiltpad.calculate.coefficients import Coefficients, coefficients
@@ -54,7 +55,7 @@ from tiltpad.calculate.tables import write_coefficients
 from tiltpad.collect.collect import Collected, MemberWarning, collect
 from tiltpad.files.archive import NotInRunError, RunError
 from tiltpad.files.namelist import write_case
-from tiltpad.files.read import IncompleteRunWarning, Run, read
+from tiltpad.files.read import IncompleteRunWarning, Run, of_run, read
 from tiltpad.files.study import Study, read_study
 from tiltpad.running import MissingProgramError, run
 
@@ -115,6 +116,8 @@ __all__ = [
 ]
 
 
+__version__: str
+
 #: Modules with a name of their own here, and the floors that they are on.
 MODULES = {
     **dict.fromkeys(("diagrams", "figures", "plots", "report"), "draw"),
@@ -126,4 +129,16 @@ MODULES = {
 def __getattr__(name: str) -> Any:
     if name in MODULES:
         return import_module(f"tiltpad.{MODULES[name]}.{name}")
+    if name == "__version__":
+        return version("tiltpad")
     raise AttributeError(f"module 'tiltpad' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return [*__all__, *MODULES, "__version__"]
+
+
+# a file's name or a study where a result is needed is answered by a sentence
+for _name in __all__:
+    if next(iter(getattr(globals()[_name], "__annotations__", {})), "") == "run":
+        globals()[_name] = of_run(globals()[_name])

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from tiltpad.calculate.library import LibraryError, MissingLibraryError
+from tiltpad.calculate.selection import ArgumentError
 from tiltpad.collect.collect import MemberWarning
 from tiltpad.collect.collect import collect as collected
 from tiltpad.files.archive import NotInRunError, RunError
@@ -104,6 +105,8 @@ def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
                 f"{command}: warning: {message}", file=sys.stderr
             )
             work()
+    except ArgumentError as error:
+        return complain(command, error.of_command(), INPUT_ERROR)
     except (ValueError, NotInRunError) as error:
         return complain(command, error, INPUT_ERROR)
     except RunError as error:

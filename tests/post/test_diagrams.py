@@ -142,9 +142,9 @@ def test_a_model_without_the_result_keeps_its_place_in_the_legend(study):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"show": "pad_max_pressure"}, "--show: pad_max_pressure is not a result of this study"),
-        ({"show": "orbit_y", "pad": 1}, "--show: orbit_y is not a result of a pad of this study"),
-        ({"show": "pad_tilt_size", "pad": 3}, "--pad 3: must be 1 to 2, the pads of this study"),
+        ({"show": "pad_max_pressure"}, "show: pad_max_pressure is not a result of this study"),
+        ({"show": "orbit_y", "pad": 1}, "show: orbit_y is not a result of a pad of this study"),
+        ({"show": "pad_tilt_size", "pad": 3}, "pad 3: must be 1 to 2, the pads of this study"),
         ({"show": "poincare_y", "kind": "bifurcation", "pad": 1}, "not Poincare points of a pad"),
     ],
 )

@@ -275,7 +275,8 @@ def test_runs_that_are_no_members(result, tmp_path):
         assert np.isnan(study.pad_max_pressure[0, 2:]).all()
         assert np.isfinite(study.pad_max_pressure[1]).all()
         assert np.isnan(study.orbit_y[2])
-        assert study.equilibrium_y[2] == study.equilibrium_y[0]
+        # a march looks its contact up in a table
+        assert study.equilibrium_y[2] == pytest.approx(study.equilibrium_y[0], rel=1e-6)
 
 
 def test_names_of_parameters():

@@ -9,6 +9,25 @@ from tiltpad.calculate.differences import WORDS
 from tiltpad.files.study import Study
 
 
+class ArgumentError(ValueError):
+    """Arguments that do not fit the study.
+
+    The text has {show}, {over}, {kind}, {where} and {pad} where it speaks of these arguments, so that
+    the command can put its options there.
+    """
+
+    #: Arguments by the command's options.
+    OPTIONS = {"show": "--show", "over": "--over", "kind": "--as", "where": "--where", "pad": "--pad"}
+
+    def __init__(self, text: str, **values: object):
+        self.text, self.values = text, values
+        super().__init__(text.format(**dict(zip(self.OPTIONS, self.OPTIONS, strict=True)), **values))
+
+    def of_command(self) -> str:
+        """The message with the command's options."""
+        return self.text.format(**self.OPTIONS, **self.values)
+
+
 def selected(study: Study, where: Mapping[str, Any]) -> np.ndarray:
     """True for the members with the given values of parameters, (member,)."""
     chosen = np.ones(study.length("member"), dtype=bool)
@@ -59,4 +78,5 @@ def written(value: Any) -> str:
 def needs(name: str, allowed: Sequence[str], option: str, what: str) -> None:
     """Raises ValueError for a name that is not allowed."""
     if name not in allowed:
-        raise ValueError(f"--{option}: {name} is not {what} of this study: {', '.join(allowed)}")
+        text = f"{{{option}}}: {{name}} is not {what} of this study: {{there}}"
+        raise ArgumentError(text, name=name, there=", ".join(allowed))

@@ -25,6 +25,8 @@ def last_revolutions(run: Run, count: float = 1) -> slice:
     At constant speed and n samples a revolution these are count * n + 1 samples. They are searched for
     in the file; the shaft angle is not loaded.
     """
+    if not count > 0:
+        raise ValueError(f"last = {count:g}: must be a number of revolutions above 0")
     if run.samples < 2:
         reason = "it has one sample" if run.samples else run.why_not("time")
         raise NotInRunError(f"{run.path}: no revolution in this run: {reason}")

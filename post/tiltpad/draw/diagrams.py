@@ -9,7 +9,15 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 
-from tiltpad.calculate.selection import default_over, distinct, is_number, needs, selected, written
+from tiltpad.calculate.selection import (
+    ArgumentError,
+    default_over,
+    distinct,
+    is_number,
+    needs,
+    selected,
+    written,
+)
 from tiltpad.draw.plots import on_axes
 from tiltpad.files import units
 from tiltpad.files.study import POINTS, QUANTITIES, Study
@@ -53,7 +61,7 @@ def diagram(
     needs(over, study.parameters, "over", "a parameter")
     others = [name for name in several if name != over]
     kind = kind or default_kind(study, show, over, others, chosen)
-    needs(kind, KINDS, "as", "a kind of diagram")
+    needs(kind, KINDS, "kind", "a kind of diagram")
     draw, revolutions, default = {
         "lines": (lines, False, "orbit_size"),
         "map": (field, False, "orbit_size"),
@@ -99,9 +107,11 @@ def field(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
         cell = np.searchsorted(rows, y[k]), np.searchsorted(columns, x[k])
         if taken[cell]:
             rest = ", ".join(name for name in others if name != second) or "nothing"
-            raise ValueError(
-                f"{study.path}: a map has one member in each cell, here are several that differ in {rest}: "
-                "choose by --where"
+            raise ArgumentError(
+                "{path}: a map has one member in each cell, here are several that differ in {rest}: "
+                "choose by {where}",
+                path=study.path,
+                rest=rest,
             )
         taken[cell] = True
         if study.done[k]:
@@ -180,7 +190,9 @@ def result(study: Study, name: str, revolutions: bool, pad: int | None) -> Resul
     if pad is None:
         return values, shown
     if not 1 <= pad <= shape[-1]:
-        raise ValueError(f"--pad {pad}: must be 1 to {shape[-1]}, the pads of this study")
+        raise ArgumentError(
+            "{pad} {own}: must be 1 to {last}, the pads of this study", own=pad, last=shape[-1]
+        )
     return values[..., pad - 1], shown._replace(text=f"{shown.text}, pad {pad}")
 
 
@@ -227,9 +239,11 @@ def grouped(study: Study, others: Sequence[str], chosen: np.ndarray) -> list[tup
 
 def too_many(groups: Sequence[tuple[str, np.ndarray]], others: Sequence[str]) -> None:
     if len(groups) > MOST_LINES:
-        raise ValueError(
-            f"{len(groups)} lines, one for each {' and '.join(others)}, are more than {MOST_LINES}: "
-            "choose by --where, or --as map"
+        raise ArgumentError(
+            "{lines} lines, one for each {others}, are more than {most}: choose by {where}, or {kind} map",
+            lines=len(groups),
+            others=" and ".join(others),
+            most=MOST_LINES,
         )
 
 

@@ -22,6 +22,7 @@ from tiltpad.draw.layout import (
     legend,
     look,
     mark_enlarged,
+    of_several,
     order_axis,
     panel_a_pad,
     parts,
@@ -41,6 +42,7 @@ def all_tilt(runs: Sequence[Run]) -> bool:
     return all(run.input["pads"]["motion"] != "fixed" for run in runs)
 
 
+@of_several
 def orbit(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Orbits in the clearance circle and enlarged, with the equilibrium."""
     fig = plt.figure(figsize=(PAGE, 3.6))
@@ -62,6 +64,7 @@ def orbit(runs: Sequence[Run], last: float | None = None, pad: int | None = None
     return fig
 
 
+@of_several
 def equilibrium(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Equilibria of the journal in the clearance circle."""
     fig = plt.figure(figsize=(COLUMN, 3.4))
@@ -72,6 +75,7 @@ def equilibrium(runs: Sequence[Run], last: float | None = None, pad: int | None 
     return fig
 
 
+@of_several
 def spectrum(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Amplitudes of the journal: one-sided of y and z, and full of y + i z."""
     fig = plt.figure(figsize=(COLUMN, 4.6))
@@ -95,6 +99,7 @@ def spectrum(runs: Sequence[Run], last: float | None = None, pad: int | None = N
     return fig
 
 
+@of_several
 def hysteresis(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Friction moment over tilt, a panel for each pad, with the work dissipated in a revolution."""
     fig, panels = panel_a_pad(runs, pad)
@@ -110,6 +115,7 @@ def hysteresis(runs: Sequence[Run], last: float | None = None, pad: int | None =
     return fig
 
 
+@of_several
 def friction(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Friction coefficient over sliding velocity, a panel for each pad."""
     fig, panels = panel_a_pad(runs, pad)
@@ -121,6 +127,7 @@ def friction(runs: Sequence[Run], last: float | None = None, pad: int | None = N
     return fig
 
 
+@of_several
 def sticking(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Tilt rate, bold where the pivot sticks, a panel for each pad, with the share of time that it sticks."""
     last = last or 2
@@ -136,6 +143,7 @@ def sticking(runs: Sequence[Run], last: float | None = None, pad: int | None = N
     return fig
 
 
+@of_several
 def poincare(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Journal, and tilt rate over tilt of a pad, once a revolution, on the path of the last ones.
 
@@ -157,6 +165,7 @@ def poincare(runs: Sequence[Run], last: float | None = None, pad: int | None = N
     return fig
 
 
+@of_several
 def waveform(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Journal, tilt and tilt rate over the last revolutions; of fixed pads film and pressure."""
     last = last or 5
@@ -178,6 +187,7 @@ def waveform(runs: Sequence[Run], last: float | None = None, pad: int | None = N
     return fig
 
 
+@of_several
 def runup(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Journal, tilt (unless pads are fixed) and film over the whole run, with the speed where it changes.
 
@@ -203,6 +213,7 @@ def runup(runs: Sequence[Run], last: float | None = None, pad: int | None = None
     return fig
 
 
+@of_several
 def pressure(
     runs: Sequence[Run], last: float | None = None, pad: int | None = None, time: float | None = None
 ) -> Figure:
@@ -224,6 +235,7 @@ def pressure(
     return fig
 
 
+@of_several
 def orders(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Amplitudes of the first three orders over the speed, and the phase of the first, of a run-up."""
     names = [("journal_y", None), ("journal_z", None), *([("pad_tilt", pad)] if pad else [])]
@@ -241,6 +253,7 @@ def orders(runs: Sequence[Run], last: float | None = None, pad: int | None = Non
     return fig
 
 
+@of_several
 def waterfall(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Amplitudes over speed and order of run-ups: for each run a column of y and z (with a pad: its tilt)."""
     names = ["pad_tilt"] if pad else ["journal_y", "journal_z"]
@@ -258,6 +271,7 @@ def waterfall(runs: Sequence[Run], last: float | None = None, pad: int | None = 
     return fig
 
 
+@of_several
 def size(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Peak-to-peak of y and z of the journal.
 

@@ -1,7 +1,8 @@
 """Parts of pictures: names of runs, colours, legends, panels, further axes."""
 
 import textwrap
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from functools import wraps
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +14,28 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import ConnectionPatch, Rectangle
 
 from tiltpad.calculate import differences, signals
-from tiltpad.files.read import Run
+from tiltpad.files.read import Run, needs_run
 from tiltpad.files.study import Study
 
 COLUMN, PAGE = 3.35, 6.9  # widths in a paper, inches
 LONGEST_LABEL = 90  # characters
 DASHES = ("-", "--", ":", "-.")
+
+
+def of_several(draw: Callable[..., Figure]) -> Callable[..., Figure]:
+    """Lets `draw`, a picture of results, be called with one, and say what is wrong with anything else."""
+
+    @wraps(draw)
+    def drawn(runs: Run | Study | Sequence[Run | Study], *arguments: Any, **options: Any) -> Figure:
+        several = [runs] if isinstance(runs, Run | Study | str) else list(runs)
+        if not several:
+            raise ValueError("no result to draw")
+        for each in several:
+            if not isinstance(each, Study):
+                needs_run(each)
+        return draw(several, *arguments, **options)
+
+    return drawn
 
 
 def labels(runs: Sequence[Run | Study]) -> list[str]:

@@ -18,7 +18,8 @@ from matplotlib.ticker import MaxNLocator
 
 from tiltpad.calculate import behaviour, library, pivots, signals, spectra
 from tiltpad.files.archive import NotInRunError
-from tiltpad.files.read import Run
+from tiltpad.files.read import Run, needs_run
+from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN
 
 #: Name of the package's own style, for matplotlib.style.use and .context.
@@ -38,6 +39,8 @@ def on_axes(draw: Callable[..., Axes]) -> Callable[..., Axes]:
 
     @wraps(draw)
     def drawn(run: Run, ax: Axes | None = None, *arguments: Any, **options: Any) -> Axes:
+        if not isinstance(run, Study):
+            needs_run(run)
         if ax is not None:
             return draw(run, ax, *arguments, **options)
         with plt.style.context(STYLE):

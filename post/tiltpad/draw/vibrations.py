@@ -18,7 +18,7 @@ from tiltpad.calculate.coefficients import coefficients as coefficients_of
 from tiltpad.calculate.modes import Modes, forward, modes
 from tiltpad.calculate.selection import default_over, distinct, needs, selected, written
 from tiltpad.draw.diagrams import mark_failed
-from tiltpad.draw.layout import COLUMN, DASHES, PAGE, heading, labels
+from tiltpad.draw.layout import COLUMN, DASHES, PAGE, heading, labels, of_several
 from tiltpad.files import units
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
@@ -52,6 +52,7 @@ class Part(NamedTuple):
     over: str | None
 
 
+@of_several
 def coefficients(
     sources: Sequence[Run | Study],
     last: float | None = None,
@@ -99,6 +100,7 @@ def coefficient_lines(found: Sequence[Part]) -> Iterator[tuple[str, np.ndarray, 
             yield text, own.parameters[one.over][order], own._replace(**matrices)
 
 
+@of_several
 def stability(
     sources: Sequence[Run | Study],
     last: float | None = None,
@@ -166,6 +168,7 @@ def limit_above(ax: Axes, top: float) -> None:
         ax.set_ylim(top=top)
 
 
+@of_several
 def campbell(
     sources: Sequence[Run | Study],
     last: float | None = None,

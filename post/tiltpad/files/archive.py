@@ -51,6 +51,11 @@ class Archive:
     GROUPS = ("equilibrium", "spectrum", "statistics", "checkpoint", "coefficients", "modes", "members")
     #: Kinds of numpy's types that its datasets may have.
     KINDS = "fiu"
+    #: Names that are of no use outside.
+    INTERNAL = (
+        *("check_whole", "check_dataset", "scales", "sound", "without", "item", "own", "found", "listed"),
+        *("former", "size", "why_not", "end", "in_words", "is_series", "KINDS", "OWN", "GROUPS", "INTERNAL"),
+    )
     #: Its own attributes: where one is not set yet, no dataset of that name is looked for.
     OWN = ("file", "path", "attributes", "former", "found", "listed", "size")
 
@@ -90,7 +95,11 @@ class Archive:
         return self.attributes[name] if name in self.attributes else self.values(name)
 
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *self.names(), *self.attributes]
+        own = [name for name in super().__dir__() if name not in self.INTERNAL]
+        return list(dict.fromkeys([*own, *self.names(), *self.attributes]))
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names())
 
     def __contains__(self, name: str) -> bool:
         group, _, own = name.rpartition("/")

@@ -1,16 +1,17 @@
 """Reading result files, with a reason if a file cannot be read."""
 
 import os
+import textwrap
 import warnings
 from bisect import bisect_left
-from collections.abc import Sequence
-from functools import cached_property
+from collections.abc import Callable, Sequence
+from functools import cached_property, wraps
 from typing import Any
 
 import numpy as np
 
 from tiltpad.files import namelist
-from tiltpad.files.archive import Archive, RunError, damaged, plain, reading, shown
+from tiltpad.files.archive import Archive, NotInRunError, RunError, damaged, plain, reading, shown
 
 #: Datasets over which the others are drawn and integrated; they must be finite.
 AXES = ("time", "shaft_angle", "speed", "pivot_angle")
@@ -103,7 +104,56 @@ class Run(Archive):
             warnings.warn(f"{self.path}: incomplete run{self.end()}", IncompleteRunWarning, stacklevel=3)
 
     def __repr__(self) -> str:
-        return f"<tiltpad run {self.path!r}: {self.title or self.task}, {', '.join(self.names())}>"
+        lines = [f"<tiltpad run {self.path!r}: {self.title or 'no title'}", f"  {self.in_words()}"]
+        single = [name for name in self.names() if name not in self.GROUPS]
+        lines += textwrap.wrap(", ".join(single), 100, initial_indent="  ", subsequent_indent="    ")
+        for group in (name for name in self.names() if name in self.GROUPS and name != "checkpoint"):
+            own = f"{group}/: {', '.join(self.names(group))}"
+            lines += textwrap.wrap(own, 100, initial_indent="  ", subsequent_indent="    ")
+        return "\n".join(lines) + ">"
+
+    def in_words(self) -> str:
+        """Task, whether it is complete, duration, pads, friction and speed."""
+        pads, friction = self.input["pads"]["motion"], self.input["friction"]["model"]
+        first, final = (self.input["operation"][name] for name in ("speed_rpm", "final_speed_rpm"))
+        words = [self.task, "complete" if self.complete else f"incomplete{self.end()}"]
+        if self.samples and self.complete:
+            words.append(f"{self.values('time', -1):g} s")
+        words.append(f"{self.pads} pad{'s' if self.pads > 1 else ''} ({pads})")
+        words.append("no friction" if friction == "none" else f"friction {friction}")
+        words.append(
+            f"{first:g} rpm" if first == final or self.task != "march" else f"{first:g} to {final:g} rpm"
+        )
+        return ", ".join(words)
+
+    def to_xarray(self, group: str | None = None) -> Any:
+        """The datasets, or those of a group, as an xarray.Dataset in memory; needs xarray and h5netcdf."""
+        import xarray
+
+        with reading(self.path, group or "it"):
+            data = xarray.load_dataset(self.path, engine="h5netcdf", group=group)
+        scales = {name: self[name] for name in data.dims if name in self and name not in data.coords}
+        return data.assign_coords(scales)
+
+    def to_csv(self, path: str | os.PathLike, names: Sequence[str] | None = None) -> None:
+        """Writes series over the time, by default all, a column each; of pads pad_tilt_1, pad_tilt_2, ..."""
+        if not self.samples:
+            raise NotInRunError(f"{self.path}: no series in this run: {self.why_not('time')}")
+        there = [name for name in self.names() if self.is_series(name)]
+        for name in names or ():
+            if name not in there:
+                raise ValueError(f"{self.path}: {name} is no series of this run: {', '.join(there)}")
+        head, columns = ["time"], [self.time]
+        for name in names or there:
+            values = self[name]
+            if name != "time":
+                head += [name] if values.ndim == 1 else [f"{name}_{k + 1}" for k in range(values.shape[1])]
+                columns += [values] if values.ndim == 1 else list(values.T)
+        np.savetxt(path, np.column_stack(columns), "%.17g", ",", header=",".join(head), comments="")
+
+    def is_series(self, name: str) -> bool:
+        """True for datasets over the time."""
+        return DIMENSIONS.get(name, ())[:1] == ("time",)
 
     def first(self, name: str, value: float) -> int:
         """Index of the first sample at or above a value in a rising dataset; reads only a few of them."""
@@ -160,7 +210,8 @@ class Run(Archive):
     def end(self) -> str:
         """The time at which an incomplete run ended, as words for the end of a sentence."""
         if not self.samples:
-            return " without samples in time"
+            reason = f"{self.attributes.get('reason', '')}"
+            return f" without samples in time{': ' if reason else ''}{reason}"
         duration = self.input["operation"]["duration"]
         return f", ended at {self.values('time', -1):g} s of {duration:g} s"
 
@@ -192,3 +243,25 @@ class Run(Archive):
         if name == "spectrum":
             return "less than one revolution was sampled, or the run is incomplete"
         return f"there are {', '.join(self.names())}"
+
+
+def needs_run(given: object) -> None:
+    """Raises TypeError where something else was given than an opened result."""
+    if not isinstance(given, Run):
+        file = isinstance(given, str | os.PathLike)
+        raise TypeError(
+            f"a result is needed, and {given!r} is a file: tiltpad.read({os.fspath(given)!r}) opens it"
+            if file
+            else f"a result as tiltpad.read opens it is needed, not {type(given).__name__}"
+        )
+
+
+def of_run(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Lets a function of a run say what is wrong with anything else."""
+
+    @wraps(function)
+    def checked(run: Run, *arguments: Any, **options: Any) -> Any:
+        needs_run(run)
+        return function(run, *arguments, **options)
+
+    return checked

@@ -1,12 +1,13 @@
 """Studies: the file that tiltpad-collect writes, results of many runs over their parameters."""
 
+import csv
 import os
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from tiltpad.files.archive import Archive, RunError, damaged, plain
+from tiltpad.files.archive import Archive, RunError, damaged, plain, reading
 from tiltpad.files.read import COEFFICIENTS, MODES, Run, StudyError, read
 
 #: Dimensions of the arrays.
@@ -104,6 +105,23 @@ class Study(Archive):
     def __repr__(self) -> str:
         members, over = self.length("member"), ", ".join(self.parameters)
         return f"<tiltpad study {self.path!r}: {members} members over {over}>"
+
+    def to_xarray(self) -> Any:
+        """The datasets as an xarray.Dataset in memory, over the members; needs xarray and h5netcdf."""
+        import xarray
+
+        with reading(self.path, "it"):
+            return xarray.load_dataset(self.path, engine="h5netcdf")
+
+    def to_csv(self, path: str | os.PathLike) -> None:
+        """Writes parameters and results of one number, a row for each member."""
+        others = {*MEMBER, *DIMENSIONS, *self.parameters, *self.GROUPS}
+        single = [name for name in self.names() if name not in others and self.item(name).ndim == 1]
+        names = ["member", *self.parameters, *single]
+        with open(path, "w", newline="", encoding="utf-8") as file:
+            rows = csv.writer(file, lineterminator="\n")
+            rows.writerow(names)
+            rows.writerows(zip(*(self[name] for name in names), strict=True))
 
     @property
     def parameters(self) -> list[str]:
