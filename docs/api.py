@@ -46,7 +46,9 @@ def main() -> None:
     section("tiltpad.plots", plots, own_functions(plots, *HELPERS))
     section("tiltpad.figures", figures, [])
     for name, each in figures.FIGURES.items():
-        print(f"- `tiltpad.figures.{name}(runs, last=None, pad=None)`: {inspect.getdoc(each)}")
+        names, *optional = inspect.signature(each).parameters
+        call = ", ".join([names, *(f"{option}=None" for option in optional)])
+        print(f"- `tiltpad.figures.{name}({call})`: {inspect.getdoc(each)}")
     print()
     entry("tiltpad.figures", figures.study)
     section("tiltpad.diagrams", diagrams, [diagrams.diagram])

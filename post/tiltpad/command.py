@@ -27,7 +27,7 @@ OWN_OPTIONS = {
     "time": ("pressure",),
     **dict.fromkeys(("show", "kind"), (STUDY,)),
     **dict.fromkeys(("over", "where"), (STUDY, *VIBRATIONS)),
-    "pivot": VIBRATIONS,
+    "pivot": (STUDY, *VIBRATIONS),
 }
 #: Plots without the options --last and --pad.
 WITHOUT_LAST = ("equilibrium", "runup", "orders", "waterfall", "pressure", STUDY, *VIBRATIONS)
@@ -168,7 +168,9 @@ def draw_study(options: argparse.Namespace, output: Path, form: str) -> None:
         raise ValueError("study: one file; tiltpad-collect puts several into one")
     with read_study(options.files[0]) as study, plots.plt.style.context(plots.STYLE):
         where = kept(options)
-        figure = figures.study(study, options.show, options.over, options.kind, where, options.pad)
+        figure = figures.study(
+            study, options.show, options.over, options.kind, where, options.pad, options.pivot
+        )
         figure.savefig(output, format=form)
         plots.plt.close(figure)
 

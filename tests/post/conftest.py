@@ -27,6 +27,10 @@ SCENES = {
     "runup": "&operation speed_rpm=1500, final_speed_rpm=6500, duration=0.1 / &friction model='lugre' /",
     "fixed": "&operation duration=0.06 / &pads motion='fixed' /",
     "equilibrium": "&case task='equilibrium' /",
+    # offset pivots and a load beside the vertical: no symmetry
+    "offset": "&case title='Offset', task='coefficients' / &coefficients frequency_ratio=0.5, 1, 2 / "
+    "&pads pivot_angle_deg=-54, 18, 90, 162, 234, arc_deg=60, pivot_ratio=0.6 / "
+    "&bearing preload=0.3 / &rotor mass=1200, static_load=0, 4000 / &friction model='lugre' /",
 }
 
 
@@ -35,6 +39,12 @@ def closed_figures():
     """For tests that draw."""
     yield
     plt.close("all")
+
+
+@pytest.fixture(scope="session")
+def scenes():
+    """Texts of the cases by their names."""
+    return SCENES
 
 
 @pytest.fixture(scope="session")

@@ -118,7 +118,7 @@ def series(
 ) -> Series:
     """Coefficients and modes of a run, or of the chosen members of a study at rising speed or parameter."""
     own, k = chosen_pivot(source, pivot)
-    if isinstance(source, Run):
+    if single := isinstance(source, Run):
         if where:
             raise ValueError(f"{source.path}: where: for a study, this is one run")
         place, speed, parameters = (
@@ -133,8 +133,8 @@ def series(
         speed, parameters = speed[place], {name: source[name][place] for name in source.parameters}
     values = {}
     for group, dimensions in (("coefficients", COEFFICIENTS), ("modes", MODES)):
-        for name in dimensions:
-            each = source[f"{group}/{name}"][None] if isinstance(source, Run) else source[name][place]
+        for name in (each for each in dimensions if (f"{group}/{each}" if single else each) in source):
+            each = source[f"{group}/{name}"][None] if single else source[name][place]
             values[name] = each[:, k] if dimensions[name][0] == "pivot" else each
     return Series(own, speed, values, parameters)
 

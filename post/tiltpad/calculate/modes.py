@@ -17,7 +17,7 @@ class Modes(NamedTuple):
         speed_rpm        shaft speed, (); of a study (member,), rising
         eigenvalue       1/s, complex, (mode,); of a study (member, mode)
         frequency        Hz, likewise
-        damping_ratio, log_decrement     likewise
+        damping_ratio, log_decrement     likewise; a mode without vibration has no decrement (nan)
         shape            complex, (mode, position); of a study (member, mode, position)
         position         names of the positions: y, z, tilt_1, penetration_1, ...
         threshold_rpm    lowest speed at which a mode turns unstable, nan where there is none, or none was
@@ -58,7 +58,7 @@ def modes(
     names = ("eigenvalue", "frequency", "damping_ratio", "log_decrement")
     own = [np.take_along_axis(values[name], order, axis=1) for name in names]
     own.append(np.take_along_axis(values["shape"], order[:, :, None], axis=1))
-    threshold = values["threshold_rpm"]
+    threshold = values.get("threshold_rpm", np.full(len(found.speed_rpm), np.nan))
     if isinstance(source, Run):
         own = [each[0] for each in own]
         return Modes(found.pivot, found.speed_rpm[0], *own, source["position_row"], threshold[0], {})

@@ -157,7 +157,7 @@ def vibrations(run: Run) -> dict[str, Any]:
         }
     with suppress(NotInRunError):
         values |= {name: run[f"modes/{name}"] for name in run.names("modes") if name in QUANTITIES}
-        values["least_log_decrement"] = np.nanmin(values["log_decrement"], axis=1)
+        values["least_damping_ratio"] = np.nanmin(values["damping_ratio"], axis=1)
     return values
 
 

@@ -9,6 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 
+from tiltpad.calculate.coefficients import chosen_pivot
 from tiltpad.calculate.selection import (
     ArgumentError,
     default_over,
@@ -20,11 +21,13 @@ from tiltpad.calculate.selection import (
 )
 from tiltpad.draw.plots import on_axes
 from tiltpad.files import units
-from tiltpad.files.study import POINTS, QUANTITIES, Study
+from tiltpad.files.study import PIVOTS, POINTS, QUANTITIES, Study
 from tiltpad.files.units import SHOWN, Shown
 
 #: Kinds of diagrams.
 KINDS = ("lines", "map", "bifurcation")
+#: Results that are drawn where none is asked for.
+DEFAULTS = ("orbit_size", "least_damping_ratio", "equilibrium_min_film_thickness")
 #: Maximum number of lines in one diagram.
 MOST_LINES = 10
 #: Up to this number of values of a second parameter there is a line for each, beyond it a map.
@@ -47,13 +50,15 @@ def diagram(
     kind: str | None = None,
     where: Mapping[str, str] | None = None,
     pad: int | None = None,
+    pivot: str | None = None,
 ) -> Axes:
     """A result of the members over a parameter: lines, a map over two of them, or a bifurcation diagram.
 
-    `show` is a result, by default orbit_size (poincare_y for a bifurcation diagram); with `pad` (1, 2, ...)
-    it is a result of the pads; `over` is a parameter, by default the number with the most values; `kind` is
-    one of KINDS; `where` keeps the members with these values of parameters. Defaults follow from the study.
-    Raises ValueError for arguments that do not fit the study.
+    `show` is a result, by default the first of DEFAULTS that the study has (poincare_y for a bifurcation
+    diagram); with `pad` (1, 2, ...) it is a result of the pads; `pivot` chooses of which pivots results of
+    small vibrations are (the first ones by default); `over` is a parameter, by default the number with the
+    most values; `kind` is one of KINDS; `where` keeps the members with these values of parameters. Raises
+    ValueError for arguments that do not fit the study.
     """
     chosen = selected(study, where or {})
     several = [name for name in study.parameters if len(distinct(study[name][chosen])) > 1]
@@ -62,12 +67,23 @@ def diagram(
     others = [name for name in several if name != over]
     kind = kind or default_kind(study, show, over, others, chosen)
     needs(kind, KINDS, "kind", "a kind of diagram")
-    draw, revolutions, default = {
-        "lines": (lines, False, "orbit_size"),
-        "map": (field, False, "orbit_size"),
-        "bifurcation": (bifurcation, True, "poincare_y"),
-    }[kind]
-    return draw(study, ax, result(study, show or default, revolutions, pad), over, others, chosen)
+    draw = {"lines": lines, "map": field, "bifurcation": bifurcation}[kind]
+    revolutions = draw is bifurcation
+    if show is None:
+        first = next((name for name in DEFAULTS if name in study), DEFAULTS[0])
+        show = "poincare_y" if revolutions else first
+    if show in study and show in QUANTITIES and QUANTITIES[show].dimensions == PIVOTS:
+        shown = of_pivot(study, show, pivot)
+    else:
+        shown = result(study, show, revolutions, pad)
+    return draw(study, ax, shown, over, others, chosen)
+
+
+def of_pivot(study: Study, name: str, pivot: str | None) -> Result:
+    """A result of pivots, (member,): of the ones that are asked for, or of the first."""
+    own, k = chosen_pivot(study, pivot)
+    shown = SHOWN[name]
+    return study[name][:, k], shown._replace(text=f"{shown.text}, pivots {own}")
 
 
 def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str], chosen: np.ndarray) -> Axes:

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tiltpad.calculate import differences, pivots, signals
-from tiltpad.draw import diagrams, plots, vibrations
+from tiltpad.draw import diagrams, plots
 from tiltpad.draw.layout import (
     COLUMN,
     PAGE,
@@ -32,6 +32,7 @@ from tiltpad.draw.layout import (
     top_axis,
     width,
 )
+from tiltpad.draw.vibrations import campbell, coefficients, stability
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN
@@ -317,10 +318,11 @@ def study(
     kind: str | None = None,
     where: Mapping[str, str] | None = None,
     pad: int | None = None,
+    pivot: str | None = None,
 ) -> Figure:
     """A diagram of a study; the arguments are those of tiltpad.diagrams.diagram."""
     fig = plt.figure(figsize=(COLUMN, 2.6))
-    diagrams.diagram(study, fig.subplots(), show, over, kind, where, pad)
+    diagrams.diagram(study, fig.subplots(), show, over, kind, where, pad, pivot)
     kept = ", ".join(f"{name} = {value}" for name, value in (where or {}).items())
     fig.suptitle(plain(", ".join(text for text in (study.title, kept) if text), width(fig)))
     return fig
@@ -331,6 +333,6 @@ FIGURES = {
     for each in (
         *(orbit, equilibrium, size, poincare, waveform, spectrum),
         *(hysteresis, friction, sticking, runup, orders, waterfall, pressure),
-        *(vibrations.coefficients, vibrations.stability, vibrations.campbell),
+        *(coefficients, stability, campbell),
     )
 }

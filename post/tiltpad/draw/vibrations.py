@@ -54,7 +54,7 @@ class Part(NamedTuple):
 
 @of_several
 def coefficients(
-    sources: Sequence[Run | Study],
+    runs: Sequence[Run | Study],
     last: float | None = None,
     pad: int | None = None,
     pivot: str | None = None,
@@ -62,7 +62,7 @@ def coefficients(
     where: Mapping[str, Any] | None = None,
 ) -> Figure:
     """Stiffness and damping of studies over a parameter (the speed), of results over the whirl frequency."""
-    lines = list(coefficient_lines(parts(sources, pivot, over, where)))
+    lines = list(coefficient_lines(parts(runs, pivot, over, where)))
     fig = plt.figure(figsize=(PAGE, 4.6))
     panels = fig.subplots(2, 2, sharex=True)
     for row, name in zip(panels, ("stiffness", "damping"), strict=True):
@@ -75,10 +75,10 @@ def coefficients(
                 mark_failed(ax, x[np.isnan(values)], color if len(lines) > 1 else None)
             ax.set_ylabel(f"{SHOWN[name].text} {', '.join(elements)} ({SHOWN[name].unit})")
     for ax in panels[-1]:
-        ax.set_xlabel(axis_label(sources, over, where))
+        ax.set_xlabel(axis_label(runs, over, where))
     texts = [(text, {"color": f"C{k}"}) for k, (text, *_) in enumerate(lines) if text]
     dashed = [("yy or yz", {"color": "0.3"}), ("zz or zy", {"color": "0.3", "linestyle": DASHES[1]})]
-    heading(fig, [*texts, *dashed], title(sources))
+    heading(fig, [*texts, *dashed], title(runs))
     return fig
 
 
@@ -102,7 +102,7 @@ def coefficient_lines(found: Sequence[Part]) -> Iterator[tuple[str, np.ndarray, 
 
 @of_several
 def stability(
-    sources: Sequence[Run | Study],
+    runs: Sequence[Run | Study],
     last: float | None = None,
     pad: int | None = None,
     pivot: str | None = None,
@@ -110,7 +110,7 @@ def stability(
     where: Mapping[str, Any] | None = None,
 ) -> Figure:
     """Damping ratio and logarithmic decrement of the modes, of results over their frequency."""
-    found = parts(sources, pivot, over, where)
+    found = parts(runs, pivot, over, where)
     fig = plt.figure(figsize=(COLUMN, 4.2))
     panels = fig.subplots(2, 1, sharex=True)
     for color, one in enumerate(found):
@@ -136,16 +136,12 @@ def stability(
             mark_thresholds(panels, own, f"C{color}" if len(found) > 1 else "0.3")
     tops = (DAMPED, 2 * np.pi * DAMPED / np.sqrt(1 - DAMPED**2))
     for ax, name, top in zip(panels, ("damping_ratio", "log_decrement"), tops, strict=True):
-        limit_above(ax, SHOWN[name].factor * top)
+        show_from_zero(ax, SHOWN[name].factor * top)
         ax.set_ylabel(SHOWN[name].label)
-        ax.axhline(0, color="0.3", linewidth=0.8)
-        low, high = ax.get_ylim()
-        ax.axhspan(min(low, 0), 0, color="C1", alpha=0.12, linewidth=0)
-        ax.set_ylim(min(low, 0), high)
     panels[1].set_xlabel(
-        SHOWN["frequency"].label if isinstance(sources[0], Run) else axis_label(sources, over, where)
+        SHOWN["frequency"].label if isinstance(runs[0], Run) else axis_label(runs, over, where)
     )
-    heading(fig, [(one.text, {"color": f"C{k}"}) for k, one in enumerate(found) if one.text], title(sources))
+    heading(fig, [(one.text, {"color": f"C{k}"}) for k, one in enumerate(found) if one.text], title(runs))
     return fig
 
 
@@ -160,17 +156,20 @@ def mark_thresholds(panels: Sequence[Axes], own: Modes, color: str) -> None:
         )  # fmt: skip
 
 
-def limit_above(ax: Axes, top: float) -> None:
-    """Lets the axis end at `top` where lines go beyond it, if any is below."""
-    values = np.concatenate([np.asarray(each.get_ydata(), float) for each in ax.get_lines()])
-    values = values[np.isfinite(values)]
-    if values.size and values.min() < top < values.max():
-        ax.set_ylim(top=top)
+def show_from_zero(ax: Axes, top: float) -> None:
+    """Lets the axis reach from 0 or the lowest value to the highest, or to `top`; marks what is unstable."""
+    values = np.concatenate([np.asarray(each.get_ydata(), float) for each in ax.get_lines()] or [[]])
+    low, high = (pick(values[np.isfinite(values)], initial=0) for pick in (np.min, np.max))
+    end = 1.05 * high if high < top else top
+    ax.axhline(0, color="0.3", linewidth=0.8)
+    if low < 0:
+        ax.axhspan(1.05 * low, 0, color="C1", alpha=0.12, linewidth=0)
+    ax.set_ylim(1.05 * low, end if end > 0 else None)
 
 
 @of_several
 def campbell(
-    sources: Sequence[Run | Study],
+    runs: Sequence[Run | Study],
     last: float | None = None,
     pad: int | None = None,
     pivot: str | None = None,
@@ -178,18 +177,19 @@ def campbell(
     where: Mapping[str, Any] | None = None,
 ) -> Figure:
     """Frequencies of the modes over the speed of studies, with the whirl of the journal and the damping."""
-    for each in sources:
+    for each in runs:
         if isinstance(each, Run):
             raise NotInRunError(
                 f"{each.path}: a Campbell diagram is of a study over the speed, not of one speed"
             )
     needs(over or "speed_rpm", ("speed_rpm",), "over", "the parameter of a Campbell diagram")
-    found = parts(sources, pivot, "speed_rpm", where)
+    found = parts(runs, pivot, "speed_rpm", where)
     fig = plt.figure(figsize=(COLUMN, 3.2))
     ax = fig.subplots()
     top = 0.0
     for color, one in enumerate(found):
         own = modes(one.source, one.pivot, one.where or None)
+        own = own._replace(frequency=np.where(own.frequency > 0, own.frequency, np.nan))
         for k in range(own.frequency.shape[1]):
             ax.plot(
                 own.speed_rpm,
@@ -221,7 +221,7 @@ def campbell(
     heading(
         fig,
         [*((one.text, {"color": f"C{k}"}) for k, one in enumerate(found) if one.text), *marks],
-        title(sources),
+        title(runs),
     )
     return fig
 

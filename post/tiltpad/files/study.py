@@ -68,7 +68,7 @@ QUANTITIES = {
     "poincare_z": Quantity(("member", "revolution"), "m", "journal z once a revolution"),
     "poincare_tilt": Quantity(("member", "revolution", "pad"), "rad", "tilt once a revolution"),
     **{name: Quantity(("member", *each), "", "") for name, each in (COEFFICIENTS | MODES).items()},
-    "least_log_decrement": Quantity(PIVOTS, "1", "least logarithmic decrement of all modes"),
+    "least_damping_ratio": Quantity(PIVOTS, "1", "least damping ratio of all modes"),
 }
 #: States that Poincare points are kept of.
 POINTS = {"poincare_y": "journal_y", "poincare_z": "journal_z", "poincare_tilt": "pad_tilt"}

@@ -65,7 +65,8 @@ SHOWN = {
     "damping": Shown("damping", 1e-3, "kN s/m"),
     "damping_ratio": Shown("damping ratio", 100, "%"),
     "log_decrement": Shown("logarithmic decrement", 1, ""),
-    "least_log_decrement": Shown("least logarithmic decrement", 1, ""),
+    "least_damping_ratio": Shown("least damping ratio", 100, "%"),
+    "threshold_rpm": Shown("threshold of stability", 1, "rpm"),
     "axial": Shown("axial position", 1e3, "mm"),
 }
 

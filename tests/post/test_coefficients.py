@@ -1,0 +1,243 @@
+"""Coefficients and modes of the program's results, in studies, tables and pictures."""
+
+import csv
+import tomllib
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+import tiltpad
+import xarray
+from tiltpad import command, figures
+
+pytestmark = pytest.mark.usefixtures("closed_figures")
+
+SPEEDS, FAILED = [4000, 5000, 6000, 7000, 8000], 2
+PIVOTS = ["free", "stuck", "locked"]
+
+
+@pytest.fixture(scope="module")
+def folder(sweep, scenes, tmp_path_factory):
+    """Members at five speeds, the slowest one last; the second has no equilibrium."""
+    values = {"operation%speed_rpm": SPEEDS[1:] + SPEEDS[:1]}
+    return sweep(tmp_path_factory.mktemp("sweeps") / "offset", scenes["offset"], values, failed=(FAILED,))
+
+
+@pytest.fixture(scope="module")
+def study(folder):
+    tiltpad.collect(folder, folder.with_suffix(".h5"))
+    with tiltpad.read_study(folder.with_suffix(".h5")) as opened:
+        yield opened
+
+
+@pytest.fixture
+def run(folder, opened):
+    """The member at 5000 rpm."""
+    return opened(folder / "0001.h5")
+
+
+def test_a_study_has_what_its_members_have(study, run, folder):
+    assert list(study.pivot) == PIVOTS
+    assert list(study.row) == list(study.column) == ["y", "z"]
+    assert list(study.position_row)[:4] == ["y", "z", "tilt_1", "penetration_1"]
+    np.testing.assert_array_equal(study.frequency_ratio, [0.5, 1, 2])
+    for group in ("coefficients", "modes"):
+        for name, values in run[group].items():
+            np.testing.assert_array_equal(study[name][0], values, name)
+            assert np.isnan(study[name][FAILED - 1]).all(), name
+            assert study.about(name, "units") == run.about(f"{group}/{name}", "units"), name
+    np.testing.assert_allclose(study.speed * 30 / np.pi, study.speed_rpm)
+    np.testing.assert_array_equal(study.least_damping_ratio[0], np.nanmin(run["modes/damping_ratio"], axis=1))
+
+
+def test_members_with_other_frequencies_are_placed_by_their_labels(result, tiltpad, tmp_path, opened):
+    """Without friction nothing sticks; two pads have fewer positions."""
+    import tiltpad as package
+
+    (tmp_path / "two.nml").write_text("&case task='coefficients' /\n&coefficients frequency_ratio=3, 1 /\n")
+    assert tiltpad("--quiet", tmp_path / "two.nml", "--output", tmp_path / "two.h5").returncode == 0
+    package.collect([tmp_path / "two.h5", result("offset")], tmp_path / "both.h5")
+    two = opened(tmp_path / "two.h5")
+    assert list(two["pivot"]) == ["free", "locked"]
+    with package.read_study(tmp_path / "both.h5") as both:
+        np.testing.assert_array_equal(both.frequency_ratio, [0.5, 1, 2, 3])
+        assert sorted(both.pivot) == sorted(PIVOTS)
+        for pivot in two["pivot"]:
+            found = both.stiffness[0][list(both.pivot).index(pivot)]
+            wanted = two["coefficients/stiffness"][list(two["pivot"]).index(pivot)]
+            np.testing.assert_array_equal(found[[3, 1]], wanted[np.argsort(two["frequency_ratio"])[::-1]])
+            assert np.isnan(found[[0, 2]]).all()
+        assert np.isnan(both.stiffness[0][list(both.pivot).index("stuck")]).all()
+        assert np.isfinite(both.stiffness[1][:, :3]).all()
+
+
+def test_xarray_selects_by_names(study, run):
+    with xarray.open_dataset(study.path, engine="h5netcdf") as data:
+        assert data.stiffness.dims == ("member", "pivot", "frequency_ratio", "row", "column")
+        over = data.set_index(member="speed_rpm").stiffness.sel(
+            pivot="stuck", frequency_ratio=1, row="y", column="z"
+        )
+        assert over.sel(member=5000) == run["coefficients/stiffness"][1, 1, 0, 1]
+    own = run.to_xarray("coefficients").stiffness.sel(pivot="stuck", frequency_ratio=1, row="y", column="z")
+    assert own == run["coefficients/stiffness"][1, 1, 0, 1]
+
+
+def test_coefficients_of_a_result_and_of_a_study(study, run):
+    for k, pivot in enumerate(PIVOTS):
+        found = tiltpad.coefficients(run, pivot)
+        assert (found.pivot, found.speed_rpm) == (pivot, 5000)
+        np.testing.assert_array_equal(found.stiffness, run["coefficients/stiffness"][k])
+        np.testing.assert_array_equal(found.damping, run["coefficients/damping"][k])
+        several = tiltpad.coefficients(study, pivot)
+        np.testing.assert_array_equal(several.speed_rpm, SPEEDS)
+        np.testing.assert_array_equal(several.stiffness[1], found.stiffness)
+        assert list(np.isnan(several.damping).all(axis=(1, 2, 3))) == [False, False, True, False, False]
+        np.testing.assert_allclose(several.frequency[1], found.frequency)
+    assert tiltpad.coefficients(study).pivot == "free"
+    one = tiltpad.coefficients(study, where={"speed_rpm": 5000})
+    np.testing.assert_array_equal(one.stiffness, tiltpad.coefficients(run).stiffness[None])
+
+
+def test_pads_condensed_here_are_those_of_the_program(run):
+    """Both solve the same small systems; their conditions lose four digits of sixteen."""
+    for pivot in PIVOTS:
+        own = tiltpad.coefficients(run, pivot)
+        here = tiltpad.coefficients(run, pivot, frequency_ratio=own.frequency_ratio)
+        for one, other in ((own.stiffness, here.stiffness), (own.damping, here.damping)):
+            np.testing.assert_allclose(other, one, rtol=0, atol=1e-9 * np.abs(one).max())
+
+
+def test_modes_solve_the_equations_of_motion(run):
+    """Free pivots: (lambda^2 M + lambda C + K) shape = 0 with the rotor's mass."""
+    found = tiltpad.modes(run)
+    mass = run["coefficients/full_mass"] + np.diag([1200.0, 1200.0] + [0.0] * 10)
+    stiffness, damping = run["coefficients/full_stiffness"][0], run["coefficients/full_damping"][0]
+    there = np.isfinite(found.frequency)
+    assert there.sum() >= 4
+    for value, shape in zip(found.eigenvalue[there], found.shape[there], strict=True):
+        parts = np.array([value**2 * mass @ shape, value * damping @ shape, stiffness @ shape])
+        assert np.abs(parts.sum(axis=0)).max() < 1e-7 * np.abs(parts).max()
+    np.testing.assert_allclose(found.damping_ratio, -found.eigenvalue.real / np.abs(found.eigenvalue))
+
+
+def test_a_study_s_modes_are_those_of_its_members_in_another_order(study, run):
+    found, own = tiltpad.modes(study, "stuck"), tiltpad.modes(run, "stuck")
+    assert found.frequency.shape == (5, len(own.frequency))
+    assert np.isnan(found.frequency[2]).all()
+    np.testing.assert_array_equal(np.sort_complex(found.eigenvalue[1]), np.sort_complex(own.eigenvalue))
+    rotor = np.argsort(found.damping_ratio[0])[:2]
+    whole = found.frequency[[0, 1, 3, 4]][:, rotor]
+    assert (np.abs(np.diff(whole, axis=0)) < 0.2 * whole[1:]).all()
+    assert np.isnan(found.threshold_rpm).all()
+
+
+def test_thresholds_are_kept(tiltpad, tmp_path):
+    import tiltpad as package
+
+    (tmp_path / "case.nml").write_text(
+        "&case task='coefficients' /\n&rotor mass=200 /\n&operation speed_rpm=14000 /\n"
+        "&coefficients threshold_up_to_rpm=16000 /\n"
+    )
+    assert tiltpad("--quiet", "case.nml", cwd=tmp_path).returncode == 0
+    with package.read(tmp_path / "case.h5") as case:
+        assert package.modes(case).threshold_rpm == case["modes/threshold_rpm"][0]
+        assert package.modes(case).threshold_rpm == pytest.approx(14945.85, abs=0.05)
+        figure = figures.stability(case)
+    lines = [line.get_xdata() for line in figure.axes[0].get_lines()]
+    assert len(lines) > 4
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.toml"])
+def test_tables(study, run, tmp_path, name):
+    tiltpad.write_coefficients(study, tmp_path / name)
+    tiltpad.write_coefficients(run, tmp_path / f"one-{name}", pivot="stuck")
+    own = tiltpad.coefficients(study, "stuck")
+    if name.endswith("csv"):
+        rows = list(csv.DictReader((tmp_path / name).open()))
+        assert len(rows) == len(PIVOTS) * len(SPEEDS) * 3
+        found = {
+            (row["pivot"], float(row["speed_rpm"]), float(row["frequency_ratio"])): [
+                float(row["K_zy (N/m)"]), float(row["C_yz (N s/m)"])
+            ]
+            for row in rows
+        }  # fmt: skip
+        assert found["stuck", 7000, 2] == [own.stiffness[3, 2, 1, 0], own.damping[3, 2, 0, 1]]
+        assert len(list(csv.DictReader((tmp_path / f"one-{name}").open()))) == 3
+        return
+    found = tomllib.loads((tmp_path / name).read_text())
+    assert list(found) == PIVOTS
+    np.testing.assert_array_equal(found["stuck"]["stiffness"], own.stiffness)
+    np.testing.assert_array_equal(found["stuck"]["damping"], own.damping)
+    assert found["stuck"]["speed_rpm"] == SPEEDS
+    assert list(tomllib.loads((tmp_path / f"one-{name}").read_text())) == ["stuck"]
+
+
+def test_pictures_show_the_coefficients(study, run):
+    own = tiltpad.coefficients(study)
+    axes = figures.coefficients(study).axes
+    lines = [line for line in axes[1].get_lines() if len(line.get_xdata()) == len(SPEEDS)]
+    np.testing.assert_array_equal(lines[2].get_xdata(), SPEEDS)
+    np.testing.assert_allclose(lines[2].get_ydata(), 1e-6 * own.stiffness[:, 1, 0, 1])
+    np.testing.assert_allclose(lines[3].get_ydata(), 1e-6 * own.stiffness[:, 1, 1, 0])
+    lines = figures.coefficients([run], pivot="locked").axes[2].get_lines()
+    np.testing.assert_allclose(
+        lines[1].get_ydata(), 1e-3 * tiltpad.coefficients(run, "locked").damping[:, 1, 1]
+    )
+
+
+def test_pictures_show_the_modes(study, run):
+    own = tiltpad.modes(study, "stuck")
+    upper, lower = figures.stability([study], pivot="stuck").axes
+    for ax, values in ((upper, 100 * own.damping_ratio), (lower, own.log_decrement)):
+        for k in range(values.shape[1]):
+            np.testing.assert_allclose(ax.get_lines()[k].get_ydata(), values[:, k])
+    points = np.concatenate([each.get_offsets() for each in figures.campbell(study).axes[0].collections])
+    known = tiltpad.modes(study).frequency
+    assert set(known[known > 0]) <= set(points[:, 1])
+    assert len(figures.stability(run).axes[0].get_lines()) > 6
+
+
+@pytest.mark.parametrize("plot", command.VIBRATIONS)
+def test_the_command_draws_studies_and_results(study, run, tmp_path, capsys, plot):
+    picture = tmp_path / "a.png"
+    assert command.main([plot, study.path, "--pivot", "stuck", "-o", str(picture)]) == 0
+    assert command.main([plot, study.path, study.path, "-o", str(picture)]) == 0
+    assert command.main([plot, run.path, "-o", str(picture)]) == (plot == "campbell")
+    assert plt.imread(picture).shape[2] == 4
+    capsys.readouterr()
+    for options, message in (
+        (["--pivot", "nix"], "pivot nix: there are free, stuck, locked"),
+        (["--where", "speed_rpm=1"], "no member with speed_rpm = 1: there are 4000"),
+        (["--over", "nix"], "--over: nix is not"),
+        (["--pad", "1"], f"--pad: not for the plot {plot}"),
+        (["--last", "1"], f"--last: not for the plot {plot}"),
+    ):
+        assert command.main([plot, study.path, *options, "-o", str(picture)]) == 1
+        assert message in capsys.readouterr().err
+    assert command.main(["study", study.path, "--pivot", "locked", "-o", str(picture)]) == 0
+
+
+def test_results_without_coefficients_say_why(result, opened, folder):
+    for scene, reason in (("none", "its task is 'march'"), ("equilibrium", "its task is 'equilibrium'")):
+        with pytest.raises(tiltpad.NotInRunError, match=reason):
+            tiltpad.coefficients(opened(result(scene)))
+    with pytest.warns(tiltpad.IncompleteRunWarning, match="no equilibrium found"):
+        failed = opened(folder / f"{FAILED:04d}.h5")
+    with pytest.raises(tiltpad.NotInRunError, match="no coefficients in this run: no equilibrium found"):
+        tiltpad.modes(failed)
+    with pytest.raises(TypeError, match="not a result or study"):
+        tiltpad.coefficients("own.h5")
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"frequency_ratio": -1}, "must be numbers from 0 on"),
+        ({"frequency_ratio": [1, np.nan]}, "must be numbers from 0 on"),
+        ({"pivot": "nix"}, "pivot nix: there are free, stuck, locked"),
+        ({"where": {"speed_rpm": 1}}, "no member with speed_rpm = 1"),
+    ],
+)
+def test_wrong_arguments(study, options, message):
+    with pytest.raises(ValueError, match=message):
+        tiltpad.coefficients(study, **options)
