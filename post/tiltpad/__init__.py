@@ -18,6 +18,7 @@ from tiltpad.calculate.deviations import deviations
 from tiltpad.calculate.library import (
     Contact,
     LibraryError,
+    Losses,
     MissingLibraryError,
     Pressure,
     bristle_rate,
@@ -25,6 +26,7 @@ from tiltpad.calculate.library import (
     contact_force,
     contact_pressure,
     friction_force,
+    losses,
     pressure,
 )
 from tiltpad.calculate.modes import Modes, modes
@@ -65,6 +67,7 @@ __all__ = [
     "Contact",
     "IncompleteRunWarning",
     "LibraryError",
+    "Losses",
     "MemberWarning",
     "MissingLibraryError",
     "MissingProgramError",
@@ -91,6 +94,7 @@ __all__ = [
     "hysteresis",
     "last_revolutions",
     "loop_area",
+    "losses",
     "modes",
     "one_sided",
     "orbit",

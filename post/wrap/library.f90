@@ -11,6 +11,7 @@ module tiltpad_library
    use components, only: make_law, make_friction
    use kinematics, only: journal_motion, pad_state
    use tilting_pad_bearing, only: pad_sample
+   use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
    use equations_of_motion, only: bearing_model, new_bearing_model
    use contact_law, only: contact_law_type, contact_point
    use friction, only: friction_law, friction_response
@@ -18,7 +19,7 @@ module tiltpad_library
    use spectra, only: one_sided_amplitude, full_amplitude
    implicit none (type, external)
    private
-   public :: film_pressure, contact, contact_pressure, friction_force, one_sided, full
+   public :: film_pressure, power_losses, contact, contact_pressure, friction_force, one_sided, full
 
 contains
 
@@ -54,11 +55,7 @@ contains
       force = 0
       max_pressure = 0
       min_film_thickness = 0
-      call read_case(text, name, scene, error)
-      if (.not. allocated(error)) then
-         if (scene%pad_count() /= pads) call raise(error, input_error, name//': '//to_text(scene%pad_count()) &
-            & //' pads, but states of '//to_text(int(pads)))
-      end if
+      call read_case_of(text, name, int(pads), scene, error)
       if (.not. allocated(error)) then
          ! one state is not worth a table
          if (scene%film%solver == 'auto') scene%film%solver = 'direct'
@@ -84,6 +81,45 @@ contains
       end if
       call tell(error, status, message)
    end subroutine film_pressure
+
+   !> Loads, losses and flows of all pads in n states of the bearing.
+   subroutine power_losses(text, name, time, journal, tilt, penetration, losses, status, message, pads, n)
+      integer(c_int), intent(in) :: pads, n
+      character(len=*), intent(in) :: text, name
+      !> As in film_pressure, state by state.
+      real(c_double), intent(in) :: time(n), journal(4, n), tilt(2, pads, n), penetration(2, pads, n)
+      !> Load, N; Couette, pressure and boundary loss, W; drag on the journal and on the pad, N m; inlet, outlet and
+      !> side flow, m^3/s. No numbers where a film is closed.
+      real(c_double), intent(out) :: losses(9, pads, n)
+      integer(c_int), intent(out) :: status
+      character(len=2000), intent(out) :: message
+      type(error_type), allocatable :: error
+      type(scene_type) :: scene
+      type(bearing_model) :: model
+      type(bearing_losses_type) :: finder
+      type(pad_loss) :: found(pads)
+      integer :: i, k
+      losses = 0
+      call read_case_of(text, name, int(pads), scene, error)
+      if (.not. allocated(error)) then
+         ! no film of the model is solved
+         if (scene%film%solver == 'auto') scene%film%solver = 'direct'
+         model = new_bearing_model(scene)
+         finder = new_bearing_losses(scene)
+         do k = 1, n
+            call finder%find(model%bearing, journal_motion(journal(:2, k), journal(3:4, k)), &
+               & [(pad_state(tilt(1, i, k), tilt(2, i, k), penetration(1, i, k), penetration(2, i, k)), i=1, pads)], &
+               & model%point%speed(time(k)), found)
+            do i = 1, pads
+               associate (pad => found(i))
+                  losses(:, i, k) = [pad%load, pad%couette, pad%pressure, pad%boundary, pad%journal_drag, &
+                     & pad%pad_drag, pad%inlet, pad%outlet, pad%side]
+               end associate
+            end do
+         end do
+      end if
+      call tell(error, status, message)
+   end subroutine power_losses
 
    !> Contact of a pivot at penetrations, m; all zero where these are not positive.
    subroutine contact(text, name, penetration, force, slope, radius, exponent, peak_pressure, status, message, n)
@@ -174,6 +210,18 @@ contains
       type(error_type), allocatable, intent(out) :: error
       call scene_from_text(text, name, scene, error)
    end subroutine read_case
+
+   !> The same, which has to have so many pads.
+   subroutine read_case_of(text, name, pads, scene, error)
+      character(len=*), intent(in) :: text, name
+      integer, intent(in) :: pads
+      type(scene_type), intent(out) :: scene
+      type(error_type), allocatable, intent(out) :: error
+      call read_case(text, name, scene, error)
+      if (allocated(error)) return
+      if (scene%pad_count() /= pads) call raise(error, input_error, name//': '//to_text(scene%pad_count()) &
+         & //' pads, but states of '//to_text(pads))
+   end subroutine read_case_of
 
    !> The contact at each penetration, m; that of no force where it is not positive.
    subroutine find_contacts(text, name, penetration, points, error)

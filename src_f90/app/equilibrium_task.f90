@@ -4,10 +4,11 @@ module equilibrium_task
    use errors, only: error_type, stopped
    use equilibrium, only: equilibrium_type, find_equilibrium
    use namelist_writer, only: scene_text
-   use equilibrium_results, only: put_equilibrium
+   use static_figures, only: static_figures_type, find_static_figures
+   use equilibrium_results, only: put_equilibrium, put_figures
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
-   use run_summary, only: print_equilibrium
+   use run_summary, only: print_equilibrium, print_figures
    implicit none (type, external)
    private
    public :: run_equilibrium, create_file, start_at_equilibrium, seek_equilibrium, note_equilibrium, nothing_computed
@@ -56,12 +57,17 @@ contains
       if (error%status == stopped) error%message = stop_reason()//nothing_computed
    end subroutine seek_equilibrium
 
-   !> Writes an equilibrium.
+   !> Writes an equilibrium with its losses and flows.
    subroutine note_equilibrium(run, static)
       type(case_run_type), intent(inout) :: run
       type(equilibrium_type), intent(in) :: static
+      type(static_figures_type) :: figures
       call put_equilibrium(run%file%file, static, run%scene%tilting(), run%scene%tilting_radial())
+      call find_static_figures(run%model, static, figures)
+      call put_figures(run%file%file, run%scene, figures)
       run%computed = .true.
-      if (.not. run%quiet) call print_equilibrium(static, run%scene)
+      if (run%quiet) return
+      call print_equilibrium(static, run%scene)
+      call print_figures(run%scene, figures)
    end subroutine note_equilibrium
 end module equilibrium_task

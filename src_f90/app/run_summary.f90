@@ -1,16 +1,18 @@
 !> What a run prints of its results.
 module run_summary
-   use kinds, only: wp, i8, pi
+   use kinds, only: wp, i8, pi, degree
    use text, only: to_text, fixed_text
    use loops, only: loop_area
    use scene, only: scene_type
    use checked_case, only: preload_note
+   use bearing_numbers, only: load, specific_load, sommerfeld_number
    use equilibrium, only: equilibrium_type
+   use static_figures, only: static_figures_type
    use run_file, only: run_file_type
    use run_statistics, only: run_statistics_type
    implicit none (type, external)
    private
-   public :: print_notes, print_start, print_equilibrium, print_march, print_cost
+   public :: print_notes, print_start, print_equilibrium, print_figures, print_march, print_cost
 
 contains
 
@@ -54,6 +56,31 @@ contains
             & //micro(static%min_film_thickness(i))//' um, maximum pressure '//mega(static%max_pressure(i))//' MPa'
       end do
    end subroutine print_equilibrium
+
+   !> Where the journal lies at the equilibrium, loads, losses and flows.
+   subroutine print_figures(scene, figures)
+      type(scene_type), intent(in) :: scene
+      type(static_figures_type), intent(in) :: figures
+      character(len=:), allocatable :: of_load
+      integer :: i
+      of_load = ''
+      if (load(scene) > 0) of_load = ', attitude angle '//fixed_text(figures%attitude_angle/degree, 2) &
+         & //' deg, specific load '//mega(specific_load(scene))//' MPa, Sommerfeld number ' &
+         & //fixed_text(sommerfeld_number(scene), 4)
+      print '(a)', '  eccentricity ratio '//fixed_text(figures%eccentricity_ratio, 4)//of_load
+      do i = 1, size(figures%pads)
+         associate (pad => figures%pads(i))
+            print '(a)', '  pad '//to_text(i)//': load '//fixed_text(pad%load, 1)//' N, loss ' &
+               & //fixed_text(pad%power(), 1)//' W, oil in '//micro(pad%inlet)//', out '//micro(pad%outlet) &
+               & //' and at the sides '//micro(pad%side)//' ml/s'
+         end associate
+      end do
+      associate (pads => figures%pads)
+         print '(a)', '  all pads: loss '//fixed_text(sum(pads%power()), 1)//' W, oil in '//micro(sum(pads%inlet)) &
+            & //', at the sides '//micro(sum(pads%side))//' ml/s, oil warmer by '//fixed_text(figures%rise_fresh, 1) &
+            & //' K (fresh at every pad) to '//fixed_text(figures%rise_side, 1)//' K (fresh for the sides alone)'
+      end associate
+   end subroutine print_figures
 
    !> Key figures of the last revolution (or of what there is).
    subroutine print_march(file, scene)

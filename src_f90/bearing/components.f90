@@ -9,6 +9,7 @@ module components
    use film_resolution, only: enough_cells, enough_modes, usual_error
    use auto_film, only: auto_film_type, new_auto_film
    use table_film, only: new_table_film
+   use film_losses, only: film_losses_type, new_film_losses
    use sor_film, only: new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
    use contact_law, only: contact_law_type, make_contact_law
    use contact_table, only: contact_table_type, new_contact_table, new_untabulated_contact
@@ -18,7 +19,7 @@ module components
    use tilting_pad, only: tilting_pad_type
    implicit none (type, external)
    private
-   public :: make_film, make_law, make_contact, make_friction, new_asperities, new_pads
+   public :: make_film, new_losses, make_law, make_contact, make_friction, new_asperities, new_pads
 
    !> Finite volumes along the arc and along half the width where the input leaves them to the solver, by the
    !> errors in docs/benchmarks.md.
@@ -96,6 +97,18 @@ contains
          film%max_sweeps = options%max_sweeps
       end associate
    end subroutine make_film
+
+   !> What finds losses and flows of the films of all pads: by converged films, whatever solver the motion takes.
+   pure function new_losses(scene) result(losses)
+      type(scene_type), intent(in) :: scene
+      type(film_losses_type) :: losses(scene%pad_count())
+      type(pad_gap_type) :: gaps(scene%pad_count())
+      integer :: i
+      gaps = new_gaps(scene)
+      do i = 1, size(gaps)
+         losses(i) = new_film_losses(gaps(i), scene%film%cavitation == 'reynolds', scene%film%cavitation == 'gumbel')
+      end do
+   end function new_losses
 
    !> The gaps between pads and journal.
    pure function new_gaps(scene) result(gaps)

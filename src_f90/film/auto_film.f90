@@ -14,12 +14,14 @@ module auto_film
    use following_volumes, only: new_following_film
    implicit none (type, external)
    private
-   public :: auto_film_type, new_auto_film
+   public :: auto_film_type, new_auto_film, is_ruptured, share_of_modes
 
    !> How far below the cavitation pressure the whole film may fall, over its maximum pressure, before it
    !> counts as ruptured: the force left out is of the second order in it, below the discretisation error.
    real(wp), parameter :: slight_tension = 1e-4_wp
 
+   !> Rows of the volumes of a fine field.
+   integer, parameter :: fine_rows = 24
    !> Tension over the maximum pressure up to which a pad is loaded: c = 1.
    real(wp), parameter :: loaded_tension = 0.1_wp
    !> Step of the derivatives of what slight rupture adds, in clearances (times the speed).
@@ -85,21 +87,19 @@ contains
       logical, intent(in) :: want_derivatives
       type(film_response), intent(out) :: response(:)
       type(film_response) :: changed
-      real(wp) :: tension, height, force(2)
+      real(wp) :: force(2)
       integer :: i
       logical :: few
       call self%modal%evaluate(motion, speed, want_derivatives, response)
       do i = 1, size(motion)
          if (response(i)%status /= film_ok) cycle
-         tension = self%cavitation_pressure(i) - response(i)%min_pressure
-         height = response(i)%max_pressure - self%cavitation_pressure(i)
-         if (tension <= slight_tension*height .or. .not. self%projects) then
+         if (.not. (self%projects .and. is_ruptured(self%cavitation_pressure(i), response(i)))) then
             self%counters%modal = self%counters%modal + 1
             cycle
          end if
          self%counters%volumes = self%counters%volumes + 1
          few = .false.
-         if (tension <= loaded_tension*height) then
+         if (.not. share_of_modes(self%cavitation_pressure(i), response(i)) < 1) then
             call self%direct(i)%force_of_rupture(motion(i), speed, self%counters, force, few)
          end if
          if (few) then
@@ -146,7 +146,7 @@ contains
       type(film_response), intent(out) :: ruptured
       type(film_response) :: whole
       real(wp) :: c
-      c = share_of_modes(self, i, modal)
+      c = share_of_modes(self%cavitation_pressure(i), modal)
       call self%direct(i)%evaluate(motion, speed, .true., want_derivatives, self%counters, ruptured)
       if (ruptured%status /= film_ok .or. .not. c > 0) return
       call self%direct(i)%evaluate(motion, speed, .false., want_derivatives, self%counters, whole)
@@ -155,14 +155,20 @@ contains
       ruptured%max_pressure = ruptured%max_pressure + c*(modal%max_pressure - whole%max_pressure)
    end subroutine change_of_rupture
 
-   !> c of a pad whose whole film has the response `modal`.
-   pure real(wp) function share_of_modes(self, i, modal) result(c)
-      class(auto_film_type), intent(in) :: self
-      integer, intent(in) :: i
+   !> True where a pad whose whole film has the response `modal` ruptures at this pressure, Pa.
+   pure logical function is_ruptured(cavitation_pressure, modal)
+      real(wp), intent(in) :: cavitation_pressure
+      type(film_response), intent(in) :: modal
+      is_ruptured = cavitation_pressure - modal%min_pressure > slight_tension*(modal%max_pressure - cavitation_pressure)
+   end function is_ruptured
+
+   !> c of a pad whose whole film has the response `modal`, where it ruptures at this pressure, Pa.
+   pure real(wp) function share_of_modes(cavitation_pressure, modal) result(c)
+      real(wp), intent(in) :: cavitation_pressure
       type(film_response), intent(in) :: modal
       real(wp) :: tension, height
-      tension = self%cavitation_pressure(i) - modal%min_pressure
-      height = modal%max_pressure - self%cavitation_pressure(i)
+      tension = cavitation_pressure - modal%min_pressure
+      height = modal%max_pressure - cavitation_pressure
       c = 0
       if (tension < height) c = min(1.0_wp, (1 - tension/height)/(1 - loaded_tension))
    end function share_of_modes
@@ -202,13 +208,13 @@ contains
       if (.not. self%projects) return
       do i = 1, size(motion)
          associate (lowest => self%cavitation_pressure(i))
-            if (lowest - response(i)%min_pressure <= slight_tension*(response(i)%max_pressure - lowest)) then
+            if (.not. is_ruptured(lowest, response(i))) then
                pressure(:, :, i) = max(lowest, pressure(:, :, i))
             else if (follows) then
-               film = new_following_film(self%gaps(i), motion(i), speed)
+               film = new_following_film(self%gaps(i), motion(i), speed, fine_rows)
                call film%field(motion(i), speed, .true., phi(:, i), z, pressure(:, :, i))
             else
-               c = share_of_modes(self, i, response(i))
+               c = share_of_modes(lowest, response(i))
                call self%direct(i)%field(motion(i), speed, .true., phi(:, i), z, ruptured)
                call self%direct(i)%field(motion(i), speed, .false., phi(:, i), z, whole)
                where (ruptured > lowest) ruptured = max(lowest, ruptured + c*(pressure(:, :, i) - whole))

@@ -3,9 +3,9 @@
 module scene_fields
    use kinds, only: wp
    use field_visitor, only: visitor_type, field, choice
-   use scene, only: scene_type, case_type, rotor_type, operation_type, bearing_type, pads_type, pivot_type, &
-      & friction_type, asperity_type, start_type, film_type, integration_type, output_type, coefficients_type, &
-      & most_ratios, mass_range, inertia_range, centre_range
+   use scene, only: scene_type, case_type, rotor_type, operation_type, bearing_type, oil_type, pads_type, &
+      & pivot_type, friction_type, asperity_type, start_type, film_type, integration_type, output_type, &
+      & coefficients_type, most_ratios, mass_range, inertia_range, centre_range
    implicit none (type, external)
    private
    public :: visit_scene, title_variable, checkpoint_variable, pads_variable
@@ -27,6 +27,7 @@ contains
       call visit_rotor(scene%rotor, v)
       call visit_operation(scene%operation, v)
       call visit_bearing(scene%bearing, v)
+      call visit_oil(scene%oil, v)
       call visit_pads(scene%pads, v)
       call visit_pivot(scene%pivot, v)
       call visit_friction(scene%friction, v)
@@ -93,6 +94,14 @@ contains
       call v%number(bearing%cavitation_pressure, field('cavitation_pressure', -1e9_wp, 1e9_wp, 'Pa', &
          & 'pressure at which the film ruptures'))
    end subroutine visit_bearing
+
+   subroutine visit_oil(oil, v)
+      type(oil_type), intent(inout) :: oil
+      class(visitor_type), intent(inout) :: v
+      call v%group('oil', 'What heats the oil by how much; its viscosity stands in bearing')
+      call v%number(oil%density, field('density', 1.0_wp, 1e5_wp, 'kg/m^3', 'density'))
+      call v%number(oil%specific_heat, field('specific_heat', 1.0_wp, 1e6_wp, 'J/(kg K)', 'specific heat'))
+   end subroutine visit_oil
 
    subroutine visit_pads(pads, v)
       type(pads_type), intent(inout) :: pads

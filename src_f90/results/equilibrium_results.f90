@@ -1,10 +1,14 @@
 !> What the file of a run says of its equilibrium: names, dimensions and units as docs/results.md lists them.
 module equilibrium_results
+   use kinds, only: wp
    use hdf5_file, only: hdf5_type
+   use scene, only: scene_type
+   use bearing_numbers, only: load, specific_load, sommerfeld_number
    use equilibrium, only: equilibrium_type
+   use static_figures, only: static_figures_type
    implicit none (type, external)
    private
-   public :: put_equilibrium
+   public :: put_equilibrium, put_figures
 
 contains
 
@@ -31,4 +35,56 @@ contains
          & 'angular frequency of the small motion that grows most')
       call file%put_text('equilibrium_stability', found%stability%name)
    end subroutine put_equilibrium
+
+   !> Writes where the journal lies, what the pads carry, losses, flows and temperature rises.
+   subroutine put_figures(file, scene, figures)
+      type(hdf5_type), intent(inout) :: file
+      type(scene_type), intent(in) :: scene
+      type(static_figures_type), intent(in) :: figures
+      call number('eccentricity_ratio', figures%eccentricity_ratio, '1', &
+         & 'journal displacement over assembled clearance')
+      call number('specific_load', specific_load(scene), 'Pa', 'load over diameter and axial length')
+      if (load(scene) > 0) then
+         call number('attitude_angle', figures%attitude_angle, 'rad', &
+            & 'angle from the load to the journal displacement, in the sense of rotation')
+         call number('sommerfeld_number', sommerfeld_number(scene), '1', 'mu N L D/W (R_J/c_r)^2')
+      end if
+      associate (pads => figures%pads)
+         call list('load', pads%load, 'N', 'force of film and asperities on the journal')
+         call list('power_loss', pads%power(), 'W', 'power loss')
+         call list('couette_loss', pads%couette, 'W', 'power loss by shear of sliding')
+         call list('pressure_loss', pads%pressure, 'W', 'power loss by shear of the flow that pressure drives')
+         if (scene%asperity%model /= 'none') call list('boundary_loss', pads%boundary, 'W', &
+            & 'power loss by boundary friction of asperities')
+         call list('journal_drag', pads%journal_drag, 'N m', &
+            & 'moment of the film''s shear against the journal''s rotation')
+         call list('pad_drag', pads%pad_drag, 'N m', &
+            & 'moment of the film''s shear on the pad about the centre of its arc')
+         call list('inlet_flow', pads%inlet, 'm^3/s', 'flow in at the leading edge')
+         call list('outlet_flow', pads%outlet, 'm^3/s', 'flow out at the trailing edge')
+         call list('side_flow', pads%side, 'm^3/s', 'flow out at both sides')
+         call list('temperature_rise', figures%temperature_rise, 'K', &
+            & 'warming of the oil from leading to trailing edge')
+         call number('total_power_loss', sum(pads%power()), 'W', 'power loss of all pads')
+         call number('total_inlet_flow', sum(pads%inlet), 'm^3/s', 'flow in at all leading edges')
+         call number('total_outlet_flow', sum(pads%outlet), 'm^3/s', 'flow out at all trailing edges')
+         call number('total_side_flow', sum(pads%side), 'm^3/s', 'flow out at the sides of all pads')
+      end associate
+      call number('temperature_rise_fresh', figures%rise_fresh, 'K', &
+         & 'warming of the oil if every pad draws fresh oil alone')
+      call number('temperature_rise_side', figures%rise_side, 'K', &
+         & 'warming of the oil if fresh oil replaces only what leaves at the sides')
+   contains
+      subroutine number(name, value, units, long_name)
+         character(len=*), intent(in) :: name, units, long_name
+         real(wp), intent(in) :: value
+         call file%put_real('equilibrium/'//name, value, units, long_name)
+      end subroutine number
+
+      subroutine list(name, values, units, long_name)
+         character(len=*), intent(in) :: name, units, long_name
+         real(wp), intent(in) :: values(:)
+         call file%put_list('equilibrium/'//name, values, units, long_name, 'pad')
+      end subroutine list
+   end subroutine put_figures
 end module equilibrium_results

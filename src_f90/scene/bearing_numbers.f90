@@ -6,6 +6,7 @@ module bearing_numbers
    implicit none (type, external)
    private
    public :: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
+   public :: eccentricity_ratio, attitude_angle
 
 contains
 
@@ -49,4 +50,25 @@ contains
       sommerfeld_number = scene%bearing%viscosity*scene%operation%speed_rpm/60/specific_load(scene) &
          & /clearance_ratio(scene)**2
    end function sommerfeld_number
+
+   !> Distance of the journal, at (y, z), m, from the middle over c_r.
+   pure real(wp) function eccentricity_ratio(scene, journal)
+      type(scene_type), intent(in) :: scene
+      real(wp), intent(in) :: journal(2)
+      eccentricity_ratio = norm2(journal)/scene%bearing%assembled_clearance
+   end function eccentricity_ratio
+
+   !> Angle from the load to the journal, at (y, z), m, in the sense of rotation, from -pi to pi; 0 where one of them
+   !> has no direction.
+   pure real(wp) function attitude_angle(scene, journal)
+      type(scene_type), intent(in) :: scene
+      real(wp), intent(in) :: journal(2)
+      real(wp) :: along, across
+      associate (point => operating_point_type(scene))
+         along = dot_product(point%load, journal)
+         across = point%load(1)*journal(2) - point%load(2)*journal(1)
+      end associate
+      attitude_angle = 0
+      if (abs(along) + abs(across) > 0) attitude_angle = atan2(across, along)
+   end function attitude_angle
 end module bearing_numbers

@@ -5,7 +5,7 @@ module scene
    implicit none (type, external)
    private
    public :: scene_type, max_pads, unset, is_set, mass_range, inertia_range, centre_range
-   public :: case_type, rotor_type, operation_type, bearing_type, pads_type, pivot_type, friction_type
+   public :: case_type, rotor_type, operation_type, bearing_type, oil_type, pads_type, pivot_type, friction_type
    public :: asperity_type, start_type, film_type, coefficients_type, most_ratios, integration_type, output_type
 
    !> Most pads of a bearing.
@@ -47,6 +47,12 @@ module scene
       real(wp) :: viscosity = 19e-3_wp
       real(wp) :: supply_pressure = 0, ambient_pressure = 0, cavitation_pressure = 0
    end type bearing_type
+
+   !> Beside its viscosity: for the heat balance.
+   type :: oil_type
+      !> kg/m^3; J/(kg K).
+      real(wp) :: density = 860, specific_heat = 1950
+   end type oil_type
 
    !> One value a pad.
    type :: pads_type
@@ -144,6 +150,7 @@ module scene
       type(rotor_type) :: rotor
       type(operation_type) :: operation
       type(bearing_type) :: bearing
+      type(oil_type) :: oil
       type(pads_type) :: pads
       type(pivot_type) :: pivot
       type(friction_type) :: friction

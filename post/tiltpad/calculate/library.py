@@ -61,6 +61,35 @@ class Pressure(NamedTuple):
     min_film_thickness: np.ndarray
 
 
+class Losses(NamedTuple):
+    """Loads, power losses and oil flows of the pads over time.
+
+    Its fields; all but the first are (time, pad):
+
+        time                      s, (time,)
+        load                      force of film and asperities on the journal, N
+        power                     heat made, W: the sum of the three below
+        couette, pressure         by shear of sliding, and of the flow that pressure drives, W
+        boundary                  by friction of touching asperities, W
+        journal_drag              moment of the film's shear on the journal, against its rotation, N m
+        pad_drag                  the same on the pad, about the centre of its arc, N m
+        inlet_flow, outlet_flow   in at the leading edge, out at the trailing edge, m^3/s
+        side_flow                 out at both sides, m^3/s
+    """
+
+    time: np.ndarray
+    load: np.ndarray
+    power: np.ndarray
+    couette: np.ndarray
+    pressure: np.ndarray
+    boundary: np.ndarray
+    journal_drag: np.ndarray
+    pad_drag: np.ndarray
+    inlet_flow: np.ndarray
+    outlet_flow: np.ndarray
+    side_flow: np.ndarray
+
+
 class Contact(NamedTuple):
     """Contact of ball and socket, arrays of the shape of the penetrations.
 
@@ -99,6 +128,29 @@ def pressure(
         shares(across, -1, outside[1]),
     )
     return Pressure(at, field.T, phi.T, z, force.T, max_pressure, min_film_thickness)
+
+
+def losses(run: Run, last: float = 1) -> Losses:
+    """Load, power loss and oil flow of every pad over the last revolutions, from the archived states.
+
+    The film of each sample is solved anew, whatever solver the run had: some microseconds for a pad with a
+    whole film, a millisecond where it ruptures. A sample whose film is closed has no numbers. Raises
+    NotInRunError for a run that was not marched.
+    """
+    part = signals.last_revolutions(run, last)
+    time = run.values("time", part)
+    journal = [run.values(name, part) for name in ("journal_y", "journal_z", "journal_vy", "journal_vz")]
+    still = np.zeros((len(time), run.pads))
+
+    def motion(name: str) -> np.ndarray:
+        values = [run.values(each, part) if each in run else still for each in (name, f"{name}_rate")]
+        # the library counts samples last
+        return np.moveaxis(values, 1, -1)
+
+    states = motion("pad_tilt"), motion("pad_penetration")
+    (found,) = called("power_losses", run, time, np.array(journal), *states)
+    load, couette, pressure, boundary, *others = np.moveaxis(found, -1, 1)
+    return Losses(time, load, couette + pressure + boundary, couette, pressure, boundary, *others)
 
 
 def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple[np.ndarray, np.ndarray]]:

@@ -118,6 +118,23 @@ JOURNAL = [
     ("equilibrium, speed", "speed", lambda run: run.input["operation"]["speed_rpm"] * np.pi / 30),
     ("equilibrium y", "size", lambda run: run["equilibrium/journal_y"]),
     ("equilibrium z", "size", lambda run: run["equilibrium/journal_z"]),
+    ("eccentricity ratio", "number", lambda run: run["equilibrium/eccentricity_ratio"]),
+    ("attitude angle", "attitude_angle", lambda run: run["equilibrium/attitude_angle"]),
+    ("specific load", "specific_load", lambda run: run["equilibrium/specific_load"]),
+    ("Sommerfeld number", "number", lambda run: run["equilibrium/sommerfeld_number"]),
+    ("equilibrium power loss", "power_loss", lambda run: run["equilibrium/total_power_loss"]),
+    ("equilibrium inlet flow, all pads", "oil_flow", lambda run: run["equilibrium/total_inlet_flow"]),
+    ("equilibrium side flow, all pads", "oil_flow", lambda run: run["equilibrium/total_side_flow"]),
+    (
+        "oil warmer by, if every pad draws fresh oil alone",
+        "temperature_rise",
+        lambda run: run["equilibrium/temperature_rise_fresh"],
+    ),
+    (
+        "oil warmer by, if fresh oil replaces only what leaves at the sides",
+        "temperature_rise",
+        lambda run: run["equilibrium/temperature_rise_side"],
+    ),
 ]
 
 PADS = [
@@ -141,6 +158,19 @@ PADS = [
     ("equilibrium contact force", "contact_force", lambda run: run["equilibrium/contact_force"]),
     ("equilibrium minimum film thickness", "size", lambda run: run["equilibrium/min_film_thickness"]),
     ("equilibrium maximum pressure", "max_pressure", lambda run: run["equilibrium/max_pressure"]),
+    ("equilibrium load", "contact_force", lambda run: run["equilibrium/load"]),
+    ("equilibrium power loss", "power_loss", lambda run: run["equilibrium/power_loss"]),
+    ("by shear of sliding", "power_loss", lambda run: run["equilibrium/couette_loss"]),
+    ("by shear of the pressure's flow", "power_loss", lambda run: run["equilibrium/pressure_loss"]),
+    ("by boundary friction", "power_loss", lambda run: run["equilibrium/boundary_loss"]),
+    ("equilibrium inlet flow", "oil_flow", lambda run: run["equilibrium/inlet_flow"]),
+    ("equilibrium outlet flow", "oil_flow", lambda run: run["equilibrium/outlet_flow"]),
+    ("equilibrium side flow", "oil_flow", lambda run: run["equilibrium/side_flow"]),
+    (
+        "oil warmer by, leading to trailing edge",
+        "temperature_rise",
+        lambda run: run["equilibrium/temperature_rise"],
+    ),
 ]
 
 

@@ -12,7 +12,7 @@ from tiltpad.calculate import pivots, signals
 from tiltpad.collect.parameters import swept
 from tiltpad.files.archive import NotInRunError, RunError, damaged, reading
 from tiltpad.files.read import LABELS, Run, read
-from tiltpad.files.study import POINTS, QUANTITIES, REVOLUTIONS
+from tiltpad.files.study import FIGURES, POINTS, QUANTITIES, REVOLUTIONS
 
 #: Exit status of a member that was done, and those of one that did not end: running or killed, stopped.
 DONE, UNENDED = 0, (-1, 4)
@@ -136,9 +136,10 @@ def place(attributes: dict[str, Any]) -> tuple[int | None, int | None, dict[str,
     return number, members, sweep, marks if len(marks) == len(("before", "own", "all")) else None
 
 
-def at_rest(run: Run) -> dict[str, float]:
+def at_rest(run: Run) -> dict[str, Any]:
     """The equilibrium."""
-    return {
+    known = {name: run[f"equilibrium/{own}"] for name, own in FIGURES.items() if f"equilibrium/{own}" in run}
+    return known | {
         "equilibrium_y": float(run["equilibrium/journal_y"]),
         "equilibrium_z": float(run["equilibrium/journal_z"]),
         "equilibrium_min_film_thickness": run["equilibrium/min_film_thickness"].min(),

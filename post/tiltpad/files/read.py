@@ -47,8 +47,21 @@ DIMENSIONS = {
     **dict.fromkeys(("equilibrium/eigenvalue_real", "equilibrium/eigenvalue_imag"), ()),
     **dict.fromkeys(
         (
+            *("equilibrium/eccentricity_ratio", "equilibrium/attitude_angle", "equilibrium/specific_load"),
+            *("equilibrium/sommerfeld_number", "equilibrium/total_power_loss"),
+            *("equilibrium/total_inlet_flow", "equilibrium/total_outlet_flow", "equilibrium/total_side_flow"),
+            *("equilibrium/temperature_rise_fresh", "equilibrium/temperature_rise_side"),
+        ),
+        (),
+    ),
+    **dict.fromkeys(
+        (
             *("equilibrium/pad_tilt", "equilibrium/pad_penetration", "equilibrium/contact_force"),
-            *("equilibrium/min_film_thickness", "equilibrium/max_pressure"),
+            *("equilibrium/min_film_thickness", "equilibrium/max_pressure", "equilibrium/load"),
+            *("equilibrium/power_loss", "equilibrium/couette_loss", "equilibrium/pressure_loss"),
+            *("equilibrium/boundary_loss", "equilibrium/journal_drag", "equilibrium/pad_drag"),
+            *("equilibrium/inlet_flow", "equilibrium/outlet_flow", "equilibrium/side_flow"),
+            *("equilibrium/temperature_rise",),
             *("asperities/highest_force", "asperities/highest_share", "asperities/contact_time"),
         ),
         ("pad",),

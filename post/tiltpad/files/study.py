@@ -64,11 +64,41 @@ QUANTITIES = {
     "equilibrium_z": Quantity(MEMBER, "m", "journal z at the equilibrium"),
     "equilibrium_min_film_thickness": Quantity(MEMBER, "m", "minimum film thickness at the equilibrium"),
     "equilibrium_max_pressure": Quantity(MEMBER, "Pa", "maximum pressure at the equilibrium"),
+    "sommerfeld_number": Quantity(MEMBER, "1", "Sommerfeld number"),
+    "specific_load": Quantity(MEMBER, "Pa", "specific load"),
+    "equilibrium_eccentricity_ratio": Quantity(MEMBER, "1", "eccentricity ratio at the equilibrium"),
+    "equilibrium_attitude_angle": Quantity(MEMBER, "rad", "attitude angle at the equilibrium"),
+    "equilibrium_power_loss": Quantity(MEMBER, "W", "power loss of all pads at the equilibrium"),
+    "equilibrium_inlet_flow": Quantity(MEMBER, "m^3/s", "flow in at all leading edges at the equilibrium"),
+    "equilibrium_side_flow": Quantity(MEMBER, "m^3/s", "flow out at all sides at the equilibrium"),
+    "equilibrium_temperature_rise_fresh": Quantity(
+        MEMBER, "K", "warming of the oil if every pad draws fresh oil alone"
+    ),
+    "equilibrium_temperature_rise_side": Quantity(
+        MEMBER, "K", "warming of the oil if fresh oil replaces only what leaves at the sides"
+    ),
+    "pad_equilibrium_load": Quantity(PADS, "N", "force of film and asperities at the equilibrium"),
+    "pad_equilibrium_power_loss": Quantity(PADS, "W", "power loss at the equilibrium"),
+    "pad_equilibrium_inlet_flow": Quantity(PADS, "m^3/s", "flow in at the leading edge at the equilibrium"),
+    "pad_equilibrium_side_flow": Quantity(PADS, "m^3/s", "flow out at both sides at the equilibrium"),
     "poincare_y": Quantity(("member", "revolution"), "m", "journal y once a revolution"),
     "poincare_z": Quantity(("member", "revolution"), "m", "journal z once a revolution"),
     "poincare_tilt": Quantity(("member", "revolution", "pad"), "rad", "tilt once a revolution"),
     **{name: Quantity(("member", *each), "", "") for name, each in (COEFFICIENTS | MODES).items()},
     "least_damping_ratio": Quantity(PIVOTS, "1", "least damping ratio of all modes"),
+}
+#: Those that a run has in its group `equilibrium`, by their names there; files of earlier programs lack them.
+FIGURES = {
+    **{name: name for name in ("sommerfeld_number", "specific_load")},
+    **{
+        f"equilibrium_{name}": name
+        for name in (
+            *("eccentricity_ratio", "attitude_angle"),
+            *("temperature_rise_fresh", "temperature_rise_side"),
+        )
+    },
+    **{f"equilibrium_{name}": f"total_{name}" for name in ("power_loss", "inlet_flow", "side_flow")},
+    **{f"pad_equilibrium_{name}": name for name in ("load", "power_loss", "inlet_flow", "side_flow")},
 }
 #: States that Poincare points are kept of.
 POINTS = {"poincare_y": "journal_y", "poincare_z": "journal_z", "poincare_tilt": "pad_tilt"}

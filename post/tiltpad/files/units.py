@@ -61,6 +61,19 @@ SHOWN = {
     "equilibrium_z": Shown("journal $z$ at equilibrium", 1e6, "µm"),
     "equilibrium_min_film_thickness": Shown("minimum film thickness at equilibrium", 1e6, "µm"),
     "equilibrium_max_pressure": Shown("maximum pressure at equilibrium", 1e-6, "MPa"),
+    "attitude_angle": Shown("attitude angle", 180 / pi, "deg"),
+    "sommerfeld_number": Shown("Sommerfeld number", 1, ""),
+    "specific_load": Shown("specific load", 1e-6, "MPa"),
+    "power_loss": Shown("power loss", 1e-3, "kW"),
+    "oil_flow": Shown("oil flow", 6e4, "l/min"),
+    "temperature_rise": Shown("warming of the oil", 1, "K"),
+    "equilibrium_eccentricity_ratio": Shown("eccentricity ratio at equilibrium", 1, ""),
+    "equilibrium_attitude_angle": Shown("attitude angle at equilibrium", 180 / pi, "deg"),
+    "equilibrium_power_loss": Shown("power loss at equilibrium", 1e-3, "kW"),
+    "equilibrium_inlet_flow": Shown("inlet flow at equilibrium", 6e4, "l/min"),
+    "equilibrium_side_flow": Shown("side flow at equilibrium", 6e4, "l/min"),
+    "equilibrium_temperature_rise_fresh": Shown("warming of the oil, all of it fresh", 1, "K"),
+    "equilibrium_temperature_rise_side": Shown("warming of the oil, the sides' replaced", 1, "K"),
     "stiffness": Shown("stiffness", 1e-6, "MN/m"),
     "damping": Shown("damping", 1e-3, "kN s/m"),
     "damping_ratio": Shown("damping ratio", 100, "%"),
@@ -72,6 +85,7 @@ SHOWN = {
 
 #: Units of the input variables by name. Others are pure numbers, or their names end in _rpm or _deg.
 UNITS = {
+    **{"specific_heat": "J/(kg K)"},
     **{"mass": "kg", "unbalance": "kg m", "inertia": "kg m²", "characteristic_load": "N", "static_load": "N"},
     **{"balance_grade": "mm/s", "gravity": "m/s²", "viscosity": "Pa s"},
     **dict.fromkeys(("duration", "start_time", "max_step", "checkpoint_seconds"), "s"),

@@ -16,6 +16,7 @@ module modal_film
    use pad_gap, only: pad_gap_type, pad_directions
    use clipped_quadrature, only: clipped_weights
    use film_resolution, only: resolution_type, new_resolution, most_levels, enough_cells, enough_modes
+   use modal_edges, only: edge_flows
    use modal_field, only: field_of_modes
    use modal_pad, only: modal_pad_type, init_pad, set_weights, set_motion, gauss, middle, point_weights
    use modal_slopes, only: force_slopes
@@ -43,6 +44,7 @@ module modal_film
       procedure :: set_rupture
       procedure :: evaluate => evaluate_all
       procedure :: field => field_all
+      procedure :: supply_flows
    end type modal_film_type
 
 contains
@@ -156,6 +158,14 @@ contains
          if (self%gumbel) pressure(:, :, i) = max(pressure(:, :, i), self%gaps(i)%cavitation_pressure)
       end do
    end subroutine field_all
+
+   !> Flows in at the leading and out at the trailing edge of the first pad, m^3/s, in its last film, which a pressure
+   !> of 1 Pa at the leading edge alone has driven.
+   pure function supply_flows(self)
+      class(modal_film_type), intent(in) :: self
+      real(wp) :: supply_flows(2)
+      supply_flows = edge_flows(self%pads(self%level(1), 1))
+   end function supply_flows
 
    !> Force of the whole film, minimum and maximum pressure.
    pure subroutine sum_up(pad, rise, response)

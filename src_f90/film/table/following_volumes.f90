@@ -12,22 +12,25 @@ module following_volumes
    private
    public :: new_following_film
 
-   integer, parameter :: columns = 192, rows = 24
+   !> Columns for every row.
+   integer, parameter :: columns_a_row = 8
    !> Where the source changes its sign beside the arc or close to an edge, the columns change there, over half the arc.
    real(wp), parameter :: farthest = 0.8_wp
 
 contains
 
-   !> Volumes for a film at a motion that leaves it open and a journal speed, rad/s.
-   type(direct_film_type) function new_following_film(gap, motion, speed) result(film)
+   !> Volumes for a film at a motion that leaves it open and a journal speed, rad/s, on so many rows.
+   type(direct_film_type) function new_following_film(gap, motion, speed, rows) result(film)
       type(pad_gap_type), intent(in) :: gap
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
+      integer, intent(in) :: rows
       type(unit_pad_type) :: pad
       type(middle_frame_type) :: frame
       type(middle_motion) :: seen
-      real(wp) :: angles(0:columns), zero
-      integer, parameter :: half = columns/2
+      real(wp) :: angles(0:columns_a_row*rows), zero
+      integer :: half
+      half = columns_a_row*rows/2
       pad = new_unit_pad(gap)
       frame = new_middle_frame(gap, pad)
       seen = frame%motion(motion, speed)
@@ -37,6 +40,6 @@ contains
          angles(:half) = pad%spread_angles(position, -pad%half_arc, zero, half)
          angles(half:) = pad%spread_angles(position, zero, pad%half_arc, half)
       end associate
-      film = new_direct_film(gap, columns, rows, 0.5_wp*(gap%leading_angle - gap%trailing_angle) + angles)
+      film = new_direct_film(gap, 2*half, rows, 0.5_wp*(gap%leading_angle - gap%trailing_angle) + angles)
    end function new_following_film
 end module following_volumes

@@ -39,6 +39,7 @@ module direct_film
       procedure :: evaluate
       procedure :: force_of_rupture
       procedure :: field
+      procedure :: cells
       procedure :: start_from
       procedure :: empty_columns
    end type direct_film_type
@@ -134,12 +135,23 @@ contains
       real(wp), intent(out) :: pressure(:, :)
       type(film_counters) :: counters
       type(film_response) :: response
-      real(wp), allocatable :: p(:, :)
+      type(film_grid_type) :: grid
+      real(wp), allocatable :: p(:, :), film(:, :)
       call self%evaluate(motion, speed, ruptures, .false., counters, response)
-      p = self%pressure
-      call to_rows(self, p)
-      pressure = self%grid%pressure_at(p, ruptures, phi, z)
+      call self%cells(grid, p, film)
+      pressure = grid%pressure_at(p, ruptures, phi, z)
    end subroutine field
+
+   !> Grid of the last film, its pressure above that of cavitation, Pa, (row, column), and its cells, the others 0.
+   pure subroutine cells(self, grid, pressure, film)
+      class(direct_film_type), intent(in) :: self
+      type(film_grid_type), intent(out) :: grid
+      real(wp), allocatable, intent(out) :: pressure(:, :), film(:, :)
+      grid = self%grid
+      pressure = self%pressure
+      call to_rows(self, pressure)
+      film = self%film
+   end subroutine cells
 
    !> Force with the Reynolds condition less force without rupture, N, where only a few cells rupture; else
    !> `few` is false, and `evaluate` has to be asked.

@@ -1,0 +1,56 @@
+!> What a bearing engineer asks of an equilibrium beside its state: where the journal lies, losses, flows, and how much
+!> warmer they make the oil.
+module static_figures
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
+   use kinds, only: wp
+   use bearing_numbers, only: eccentricity_ratio, attitude_angle
+   use kinematics, only: journal_motion, pad_state
+   use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
+   use equations_of_motion, only: bearing_model
+   use static_model, only: equilibrium_type
+   implicit none (type, external)
+   private
+   public :: static_figures_type, find_static_figures
+
+   type :: static_figures_type
+      !> Distance of the journal from the middle over the assembled clearance; angle from the load to the journal in the
+      !> sense of rotation, rad.
+      real(wp) :: eccentricity_ratio = 0, attitude_angle = 0
+      type(pad_loss), allocatable :: pads(:)
+      !> K: of the oil of each film from the leading to the trailing edge; of all oil where the pads draw fresh oil
+      !> alone, and where fresh oil replaces only what leaves at the sides. All heat stays in the oil.
+      real(wp), allocatable :: temperature_rise(:)
+      real(wp) :: rise_fresh = 0, rise_side = 0
+   end type static_figures_type
+
+contains
+
+   !> The figures of an equilibrium of the model.
+   subroutine find_static_figures(model, static, figures)
+      type(bearing_model), intent(in) :: model
+      type(equilibrium_type), intent(in) :: static
+      type(static_figures_type), intent(out) :: figures
+      type(bearing_losses_type) :: losses
+      integer :: i
+      figures%eccentricity_ratio = eccentricity_ratio(model%scene, static%journal)
+      figures%attitude_angle = attitude_angle(model%scene, static%journal)
+      allocate (figures%pads(size(static%tilt)))
+      losses = new_bearing_losses(model%scene)
+      call losses%find(model%bearing, journal_motion(static%journal), [(pad_state(static%tilt(i), &
+         & penetration=static%penetration(i)), i=1, size(static%tilt))], model%point%speed(0.0_wp), figures%pads)
+      associate (pads => figures%pads, heat => model%scene%oil%density*model%scene%oil%specific_heat)
+         ! oil that leaves at the sides is warmed half of the way
+         figures%temperature_rise = rise(pads%power(), heat*(pads%inlet + pads%outlet)/2)
+         figures%rise_fresh = rise(sum(pads%power()), heat*sum(pads%inlet))
+         figures%rise_side = rise(sum(pads%power()), heat*sum(pads%side))
+      end associate
+   end subroutine find_static_figures
+
+   !> Rise of temperature, K, by a power, W, in a flow of heat capacity, W/K; no number where there is no flow.
+   elemental real(wp) function rise(power, capacity)
+      real(wp), intent(in) :: power, capacity
+      rise = ieee_value(power, ieee_quiet_nan)
+      if (ieee_is_nan(capacity)) return
+      if (capacity > 0) rise = power/capacity
+   end function rise
+end module static_figures

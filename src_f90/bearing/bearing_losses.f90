@@ -1,0 +1,103 @@
+!> Loads, losses and flows of all pads in a state of the bearing.
+module bearing_losses
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use kinds, only: wp
+   use scene, only: scene_type
+   use film_solver, only: film_motion, film_ok
+   use film_losses, only: film_losses_type, film_loss
+   use asperity_contact, only: asperity_load
+   use kinematics, only: journal_motion, pad_state
+   use tilting_pad, only: tilting_pad_type
+   use tilting_pad_bearing, only: tilting_pad_bearing_type
+   use components, only: new_losses
+   implicit none (type, external)
+   private
+   public :: bearing_losses_type, pad_loss, new_bearing_losses
+
+   !> Of one pad.
+   type :: pad_loss
+      !> Force of film and asperities on the journal, N.
+      real(wp) :: load = 0
+      !> Heat made in the film by shear of sliding and of pressure flow, and by boundary friction of asperities, W.
+      real(wp) :: couette = 0, pressure = 0, boundary = 0
+      !> Moments of the film's shear, N m: on the journal, against its rotation; on the pad about the centre of its arc,
+      !> with the rotation.
+      real(wp) :: journal_drag = 0, pad_drag = 0
+      !> Flow in at the leading edge, out at the trailing edge and out at both sides, m^3/s.
+      real(wp) :: inlet = 0, outlet = 0, side = 0
+   contains
+      procedure :: power
+   end type pad_loss
+
+   type :: bearing_losses_type
+      private
+      type(film_losses_type), allocatable :: films(:)
+   contains
+      procedure :: find
+   end type bearing_losses_type
+
+contains
+
+   !> For the bearing of a scene.
+   function new_bearing_losses(scene) result(losses)
+      type(scene_type), intent(in) :: scene
+      type(bearing_losses_type) :: losses
+      losses%films = new_losses(scene)
+   end function new_bearing_losses
+
+   !> All heat that a pad makes, W.
+   elemental real(wp) function power(self)
+      class(pad_loss), intent(in) :: self
+      power = self%couette + self%pressure + self%boundary
+   end function power
+
+   !> Of every pad in a state, the speed in rad/s. What a pad lacks whose film is closed or not found is no number.
+   subroutine find(self, bearing, journal, pads, speed, losses)
+      class(bearing_losses_type), intent(inout) :: self
+      type(tilting_pad_bearing_type), intent(in) :: bearing
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(in) :: pads(:)
+      real(wp), intent(in) :: speed
+      type(pad_loss), intent(out) :: losses(:)
+      type(film_motion) :: motion
+      type(asperity_load) :: asperity
+      type(film_loss) :: film
+      integer :: i
+      do i = 1, size(pads)
+         associate (pad => bearing%pads(i))
+            motion = pad%motion(pad%frame(journal, pads(i)), journal, pads(i))
+            call bearing%asperities%evaluate(pad%gap, pad%directions, motion, speed, asperity)
+            if (asperity%touches) motion%position = asperity%film_position
+            call self%films(i)%find(motion, speed, film)
+            losses(i) = of_pad(pad, speed, film, asperity)
+         end associate
+      end do
+   end subroutine find
+
+   pure type(pad_loss) function of_pad(pad, speed, film, asperity) result(loss)
+      type(tilting_pad_type), intent(in) :: pad
+      real(wp), intent(in) :: speed
+      type(film_loss), intent(in) :: film
+      type(asperity_load), intent(in) :: asperity
+      real(wp) :: force(2)
+      force = film%force
+      if (asperity%touches) then
+         force = force + asperity%force
+         loss%boundary = asperity%moment/pad%gap%pad_radius()*speed*pad%gap%journal_radius
+      end if
+      loss%load = norm2(force)
+      loss%couette = film%couette
+      loss%pressure = film%pressure
+      loss%inlet = film%inlet
+      loss%outlet = film%outlet
+      loss%side = film%side
+      if (abs(speed) > 0) then
+         loss%journal_drag = (film%couette + film%wedge)/speed
+         loss%pad_drag = (film%couette - film%wedge)/speed*pad%gap%pad_radius()/pad%gap%journal_radius
+      end if
+      if (film%status == film_ok) return
+      associate (unknown => ieee_value(force(1), ieee_quiet_nan))
+         loss = pad_loss(unknown, unknown, unknown, loss%boundary, unknown, unknown, unknown, unknown, unknown)
+      end associate
+   end function of_pad
+end module bearing_losses

@@ -1,0 +1,239 @@
+!> Power that a film turns into heat, what turns the journal against it, and the flows through its edges
+!> (docs/theory.md, *Loss and flow*).
+!>
+!> Shear makes mu U^2/h of heat by the sliding of the journal's surface (Couette) and h^3/(12 mu) |grad p|^2 by what
+!> pressure drives. With the velocity w that drives the film (middle_frame) the second integrates to -w . F, F the force
+!> of the pressure above that of cavitation, plus the power of the flows through edges under pressure; this holds for
+!> ruptured films too. Of a whole film the first is Sommerfeld's variable along the arc, and what pressure drives
+!> through an edge is, by reciprocity, the force of a unit of pressure there, times w.
+!>
+!> Where a film ruptures, finite volumes that follow it give the force and the flows with and without rupture, and how
+!> far the ruptured part is filled.
+module film_losses
+   use kinds, only: wp
+   use film_solver, only: film_motion, film_response, film_counters, film_ok
+   use pad_gap, only: pad_gap_type, pad_directions
+   use film_grid, only: film_grid_type
+   use direct_film, only: direct_film_type
+   use auto_film, only: is_ruptured, share_of_modes
+   use following_volumes, only: new_following_film
+   use modal_film, only: modal_film_type, converged_film
+   use sommerfeld_nodes, only: span
+   use volume_flows, only: volume_flow_type, flows_of_volumes
+   implicit none (type, external)
+   private
+   public :: film_losses_type, film_loss, new_film_losses
+
+   !> Error of forces by modes over themselves.
+   real(wp), parameter :: tolerance = 1e-5_wp
+
+   !> Rows of volumes that are enough.
+   integer, parameter :: enough_rows = 12
+
+   type :: film_loss
+      integer :: status = film_ok
+      !> On the journal in the pad frame, N.
+      real(wp) :: force(2) = 0
+      !> Heat made by shear of sliding and of pressure flow; power by which the pressure resists the journal's rotation
+      !> (the shear of sliding does so with all its heat), W.
+      real(wp) :: couette = 0, pressure = 0, wedge = 0
+      !> Flow in at the leading edge, out at the trailing edge and out at both sides, m^3/s.
+      real(wp) :: inlet = 0, outlet = 0, side = 0
+      !> What a film takes up downstream of a rupture beyond what arrives there, m^3/s.
+      real(wp) :: unfed = 0
+   end type film_loss
+
+   !> One pad's.
+   type :: film_losses_type
+      private
+      type(pad_gap_type) :: gap
+      type(pad_directions) :: directions
+      !> The whole film; that of a pressure of 1 Pa at the leading and, in a mirror, at the trailing edge.
+      type(modal_film_type) :: whole, leading, trailing
+      logical :: reynolds, gumbel
+      !> Of the volumes of a ruptured film.
+      integer :: rows
+   contains
+      procedure :: find
+      procedure, private :: whole_film
+      procedure, private :: add_rupture
+      procedure, private :: set_heat
+   end type film_losses_type
+
+   !> What its heat follows from: force, N; flow that pressure drives in at the leading edge, m^3/s; integral of
+   !> (sin phi, cos phi) over the ruptured part, m^2.
+   type :: driven_film
+      real(wp) :: force(2) = 0, inlet = 0, void(2) = 0
+   end type driven_film
+
+contains
+
+   !> For the films in a gap that rupture by the condition of Reynolds or Guembel or not at all.
+   pure type(film_losses_type) function new_film_losses(gap, reynolds, gumbel, rows) result(self)
+      type(pad_gap_type), intent(in) :: gap
+      logical, intent(in) :: reynolds, gumbel
+      !> Of the volumes of a ruptured film; enough, by default.
+      integer, intent(in), optional :: rows
+      type(pad_gap_type) :: edge
+      self%gap = gap
+      self%directions = gap%directions()
+      self%reynolds = reynolds
+      self%gumbel = gumbel
+      self%rows = enough_rows
+      if (present(rows)) self%rows = rows
+      self%whole = converged_film(gap, .false., tolerance)
+      edge = gap
+      edge%supply_pressure = 1
+      edge%ambient_pressure = 0
+      edge%cavitation_pressure = 0
+      self%leading = converged_film(edge, .false., tolerance)
+      edge%leading_angle = gap%trailing_angle
+      edge%trailing_angle = gap%leading_angle
+      self%trailing = converged_film(edge, .false., tolerance)
+   end function new_film_losses
+
+   !> Loss and flows at a motion and a journal speed, rad/s. Where the film is closed only the status is set.
+   subroutine find(self, motion, speed, loss)
+      class(film_losses_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      type(film_loss), intent(out) :: loss
+      type(film_response) :: response(1)
+      type(driven_film) :: driven
+      call self%whole%evaluate([motion], speed, .false., response)
+      loss%status = response(1)%status
+      if (loss%status /= film_ok) return
+      driven%force = response(1)%force
+      call self%whole_film(motion, speed, driven, loss)
+      if (self%reynolds .or. self%gumbel) then
+         if (is_ruptured(self%gap%cavitation_pressure, response(1))) call self%add_rupture(motion, speed, &
+            & response(1), driven, loss)
+      end if
+      loss%force = driven%force
+      call self%set_heat(motion, speed, driven, loss)
+   end subroutine find
+
+   !> Shear of sliding of the whole film, what pressure drives in at its leading edge, and the other flows.
+   subroutine whole_film(self, motion, speed, driven, loss)
+      class(film_losses_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      type(driven_film), intent(inout) :: driven
+      type(film_loss), intent(inout) :: loss
+      type(film_response) :: response(1)
+      real(wp) :: w(2), thickness(2), out, flows(2)
+      associate (gap => self%gap, d => self%directions, radius => self%gap%pad_radius(), &
+         & surface => speed*self%gap%journal_radius)
+         loss%couette = gap%viscosity*surface**2*radius*gap%axial_length/gap%machined_clearance &
+            & *span(motion%position/gap%machined_clearance, d%middle, d%half)
+         w = motion%velocity + wedge_velocity(self, motion, speed)
+         call self%trailing%evaluate([mirrored(motion)], 0.0_wp, .false., response)
+         out = -dot_product(w, [-response(1)%force(1), response(1)%force(2)])
+         call self%leading%evaluate([at_rest(motion)], 0.0_wp, .false., response)
+         driven%inlet = dot_product(w, response(1)%force)
+         associate (rise => gap%supply_pressure - gap%ambient_pressure)
+            if (abs(rise) > 0) then
+               flows = rise*self%leading%supply_flows()
+               driven%inlet = driven%inlet + flows(1)
+               out = out + flows(2)
+            end if
+         end associate
+         thickness = gap%thickness(motion, [d%leading(1), d%trailing(1)], [d%leading(2), d%trailing(2)])
+         loss%outlet = surface*thickness(2)*gap%axial_length/2 + out
+         ! the rest leaves at the sides, less what the growing gap takes up
+         loss%side = surface*thickness(1)*gap%axial_length/2 + driven%inlet - loss%outlet + radius*gap%axial_length &
+            & *dot_product(motion%velocity, over_arc(d))
+      end associate
+   end subroutine whole_film
+
+   !> The same motion of the mirrored pad without velocity, and of the pad.
+   pure type(film_motion) function mirrored(motion)
+      type(film_motion), intent(in) :: motion
+      mirrored%position = [-motion%position(1), motion%position(2)]
+   end function mirrored
+
+   pure type(film_motion) function at_rest(motion)
+      type(film_motion), intent(in) :: motion
+      at_rest%position = motion%position
+   end function at_rest
+
+   !> Integrals of sine and cosine over the arc.
+   pure function over_arc(directions)
+      type(pad_directions), intent(in) :: directions
+      real(wp) :: over_arc(2)
+      over_arc = [directions%trailing(2) - directions%leading(2), directions%leading(1) - directions%trailing(1)]
+   end function over_arc
+
+   !> The part of w that comes from the journal's rotation, m/s.
+   pure function wedge_velocity(self, motion, speed)
+      type(film_losses_type), intent(in) :: self
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      real(wp) :: wedge_velocity(2)
+      wedge_velocity = speed*self%gap%journal_radius/(2*self%gap%pad_radius())*[motion%position(2), -motion%position(1)]
+   end function wedge_velocity
+
+   !> Makes the film that of volumes with rupture and, like auto_film, a share c of (modes - volumes without rupture).
+   subroutine add_rupture(self, motion, speed, modal, driven, loss)
+      class(film_losses_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      !> That of the modes.
+      type(film_response), intent(in) :: modal
+      type(driven_film), intent(inout) :: driven
+      type(film_loss), intent(inout) :: loss
+      real(wp) :: c
+      type(direct_film_type) :: volumes
+      type(film_grid_type) :: grid
+      type(film_response) :: response
+      type(film_counters) :: counters
+      type(volume_flow_type) :: whole, ruptured
+      real(wp), allocatable :: pressure(:, :), film(:, :)
+      logical, allocatable :: filled(:, :)
+      c = share_of_modes(self%gap%cavitation_pressure, modal)
+      associate (surface => speed*self%gap%journal_radius)
+         volumes = new_following_film(self%gap, motion, speed, self%rows)
+         call volumes%evaluate(motion, speed, .false., .false., counters, response)
+         call volumes%cells(grid, pressure, film)
+         filled = film > 0
+         whole = flows_of_volumes(grid, surface, pressure, filled)
+         if (self%reynolds) then
+            call volumes%evaluate(motion, speed, .true., .false., counters, response)
+            call volumes%cells(grid, pressure, film)
+            filled = film > 0
+         else
+            filled = pressure > 0
+         end if
+         ruptured = flows_of_volumes(grid, surface, pressure, filled)
+      end associate
+      driven%force = ruptured%force + c*(driven%force - whole%force)
+      driven%inlet = ruptured%inlet + c*(driven%inlet - whole%inlet)
+      driven%void = ruptured%void
+      loss%status = response%status
+      loss%couette = loss%couette - ruptured%lacking
+      loss%outlet = ruptured%outlet + c*(loss%outlet - whole%outlet)
+      loss%side = ruptured%side + c*(loss%side - whole%side)
+      loss%unfed = ruptured%unfed
+   end subroutine add_rupture
+
+   !> Flow in at the leading edge, heat of the pressure flow, and the pressure's resistance to rotation.
+   pure subroutine set_heat(self, motion, speed, driven, loss)
+      class(film_losses_type), intent(in) :: self
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      type(driven_film), intent(in) :: driven
+      type(film_loss), intent(inout) :: loss
+      real(wp) :: force(2), wedge(2), thickness
+      associate (gap => self%gap, d => self%directions)
+         wedge = wedge_velocity(self, motion, speed)
+         thickness = gap%thickness(motion, d%leading(1), d%leading(2))
+         loss%inlet = speed*gap%journal_radius*thickness*gap%axial_length/2 + driven%inlet
+         force = driven%force + gap%ambient_pressure*gap%pad_radius()*gap%axial_length*over_arc(d)
+         associate (rise => gap%supply_pressure - gap%ambient_pressure, surface => speed*gap%journal_radius)
+            loss%wedge = -dot_product(wedge, force) - rise*surface*thickness*gap%axial_length/2
+            loss%pressure = rise*driven%inlet - dot_product(motion%velocity + wedge, force &
+               & - (gap%ambient_pressure - gap%cavitation_pressure)*driven%void)
+         end associate
+      end associate
+   end subroutine set_heat
+end module film_losses

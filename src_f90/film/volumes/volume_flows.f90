@@ -1,0 +1,107 @@
+!> Flows of a film on finite volumes, and how far its ruptured part is filled.
+!>
+!> Between two cells the oil flows as the equations of the film have it, so that the cells of a whole film lose nothing.
+!> What flows across the edge of the film into its ruptured part runs on along the arc, in streamers that fill the gap's
+!> height and a share of its width.
+module volume_flows
+   use kinds, only: wp
+   use film_grid, only: film_grid_type
+   implicit none (type, external)
+   private
+   public :: volume_flow_type, flows_of_volumes
+
+   type :: volume_flow_type
+      !> m^3/s: what pressure drives in at the leading edge, less than 0 where it drives oil out; out at the trailing
+      !> edge and at both sides.
+      real(wp) :: inlet = 0, outlet = 0, side = 0
+      !> m^3/s that a film takes up downstream of a rupture beyond what the streamers bring.
+      real(wp) :: unfed = 0
+      !> Power that shear of sliding lacks in the ruptured part, W.
+      real(wp) :: lacking = 0
+      !> Force on the journal in the pad frame, N; integral of (sin phi, cos phi) over the ruptured part, m^2.
+      real(wp) :: force(2) = 0, void(2) = 0
+   end type volume_flow_type
+
+contains
+
+   !> The flows at the motion that the grid has been set to and a speed of the journal's surface, m/s.
+   pure type(volume_flow_type) function flows_of_volumes(grid, surface_speed, pressure, filled) result(flow)
+      type(film_grid_type), intent(in) :: grid
+      real(wp), intent(in) :: surface_speed
+      !> Above the cavitation pressure, Pa, (row, column); where the film is. Elsewhere the pressure counts only for
+      !> the flow across the edge of the film.
+      real(wp), intent(in) :: pressure(:, :)
+      logical, intent(in) :: filled(:, :)
+      real(wp) :: held(grid%rows, grid%columns)
+      integer :: k
+      held = merge(pressure(:grid%rows, :), 0.0_wp, filled(:grid%rows, :))
+      flow%force = grid%force(matmul(grid%height, held))
+      do k = 1, grid%rows
+         call add_row(grid, surface_speed, k, pressure, filled, flow)
+      end do
+   end function flows_of_volumes
+
+   !> Adds a row of cells, from the leading edge downstream.
+   pure subroutine add_row(grid, surface_speed, k, pressure, filled, flow)
+      type(film_grid_type), intent(in) :: grid
+      real(wp), intent(in) :: surface_speed
+      integer, intent(in) :: k
+      real(wp), intent(in) :: pressure(:, :)
+      logical, intent(in) :: filled(:, :)
+      type(volume_flow_type), intent(inout) :: flow
+      !> Flow a unit of width per unit of the grid's equations; heights of two mirrored cells, m.
+      real(wp) :: unit, both, driven, arriving, carried
+      logical :: upstream
+      real(wp) :: area
+      integer :: i
+      associate (gap => grid%gap, n => grid%columns, p => pressure)
+         unit = grid%d_phi/(12*gap%viscosity*gap%pad_radius())
+         both = 2*grid%d_z*grid%height(k)
+         upstream = .true.
+         carried = 0
+         do i = n, 1, -1
+            driven = 0
+            if (i < n) then
+               if (filled(k, i) .or. upstream) driven = unit*grid%along(i)*(p(k, i + 1) - p(k, i))
+            else if (filled(k, n)) then
+               driven = unit*grid%along(n)*(grid%supply - p(k, n))
+               flow%inlet = flow%inlet + both*driven
+            end if
+            arriving = surface_speed*grid%h_face(i)/2 + driven
+            if (.not. upstream) then
+               if (filled(k, i)) flow%unfed = flow%unfed + both*(arriving - carried)
+               if (.not. filled(k, i)) arriving = carried
+            end if
+            if (filled(k, i)) then
+               if (k == grid%rows) flow%side = flow%side &
+                  & + both*unit*grid%beside(i)*grid%outward(k)*(p(k, i) - grid%ambient)
+            else
+               carried = arriving + unit*grid%beside(i)*from_beside(grid, k, p(:, i), filled(:, i))
+               area = both*gap%pad_radius()*grid%d_phi*grid%width(i)
+               flow%void = flow%void + area*[grid%sin_cell(i), grid%cos_cell(i)]
+               flow%lacking = flow%lacking + area*gap%viscosity*surface_speed/grid%h_cell(i) &
+                  & *max(0.0_wp, surface_speed - (arriving + carried)/grid%h_cell(i))
+            end if
+            upstream = filled(k, i)
+         end do
+         if (upstream) carried = surface_speed*grid%h_face(0)/2 + unit*grid%along(0)*(p(k, 1) - grid%ambient)
+         flow%outlet = flow%outlet + both*carried
+      end associate
+   end subroutine add_row
+
+   !> What flows into a ruptured cell from the film in the rows beside it, over the conductance of uniform rows.
+   pure real(wp) function from_beside(grid, k, p, filled) result(inflow)
+      type(film_grid_type), intent(in) :: grid
+      integer, intent(in) :: k
+      !> Of the column.
+      real(wp), intent(in) :: p(:)
+      logical, intent(in) :: filled(:)
+      inflow = 0
+      if (k > 1) then
+         if (filled(k - 1)) inflow = grid%inward(k)*(p(k - 1) - p(k))
+      end if
+      if (k < grid%rows) then
+         if (filled(k + 1)) inflow = inflow + grid%outward(k)*(p(k + 1) - p(k))
+      end if
+   end function from_beside
+end module volume_flows

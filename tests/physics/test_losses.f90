@@ -1,0 +1,427 @@
+!> Losses and flows of films: against sums over finite volumes that share only the pressure with them, analytic limits,
+!> balances of oil and power, symmetries, and the values of an independent program.
+program test_losses
+   use kinds, only: wp, pi, degree
+   use errors, only: error_type
+   use scene, only: scene_type
+   use scene_completion, only: complete_scene
+   use film_solver, only: film_motion, film_response, film_counters, film_ok, film_closed
+   use pad_gap, only: pad_gap_type
+   use film_grid, only: film_grid_type
+   use direct_film, only: direct_film_type, new_direct_film
+   use film_losses, only: film_losses_type, film_loss, new_film_losses
+   use random_films, only: film_state, random_film, shown, shaft_speed
+   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equilibrium, only: equilibrium_type, find_equilibrium
+   use static_figures, only: static_figures_type, find_static_figures
+   use paper_bearing, only: paper_pad, offset_pad
+   use check, only: runs, expect, expect_close, expect_no_error, between, report
+   implicit none (type, external)
+
+   if (runs('independent_program')) call independent_program()
+   if (runs('petroff')) call petroff()
+   if (runs('closed')) call closed()
+   if (runs('whole_by_volumes')) call whole_by_volumes()
+   if (runs('ruptured_by_volumes')) call ruptured_by_volumes()
+   if (runs('clipped')) call clipped()
+   if (runs('order')) call order()
+   if (runs('oil_is_kept')) call oil_is_kept()
+   if (runs('power_is_kept')) call power_is_kept()
+   if (runs('viscosity')) call viscosity()
+   if (runs('mirror')) call mirror()
+   if (runs('even_strip_under_pressure')) call even_strip_under_pressure()
+   if (runs('supply_by_volumes')) call supply_by_volumes()
+   if (runs('onset_of_rupture')) call onset_of_rupture()
+   call report()
+
+contains
+
+   !> Loss and flows of a film on a grid by the plain sums: q = U h/2 + h^3/(12 mu) dp/dX over the edges, the square of
+   !> the pressure's gradient and 1/h over the area. With rupture a row of the film leaves off at its first empty cell
+   !> downstream, and the oil that crosses there goes on to the trailing edge; heat of sliding by its share of the gap.
+   type(film_loss) function by_volumes(gap, motion, speed, columns, rows, ruptures) result(loss)
+      type(pad_gap_type), intent(in) :: gap
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      integer, intent(in) :: columns, rows
+      logical, intent(in) :: ruptures
+      type(direct_film_type) :: film
+      type(film_grid_type) :: grid
+      type(film_response) :: response
+      type(film_counters) :: unused
+      real(wp), allocatable :: p(:, :), cells(:, :)
+      real(wp) :: to_flow, width, surface, drop, carried, filled
+      integer :: i, k
+      film = new_direct_film(gap, columns, rows)
+      call film%evaluate(motion, speed, ruptures, .false., unused, response)
+      call film%cells(grid, p, cells)
+      surface = speed*gap%journal_radius
+      to_flow = grid%d_phi/(12*gap%viscosity*gap%pad_radius())
+      loss%force = response%force
+      if (ruptures) p(:rows, :) = p(:rows, :)*cells(:rows, :)
+      do k = 1, rows
+         width = 2*grid%d_z*grid%height(k)
+         drop = grid%supply - p(k, columns)
+         carried = surface*grid%h_face(columns)/2 + to_flow*grid%along(columns)*drop
+         loss%inlet = loss%inlet + width*carried
+         loss%pressure = loss%pressure + width*to_flow*grid%along(columns)*drop**2
+         do i = columns, 1, -1
+            drop = p(k, i) - grid%ambient
+            if (i > 1) drop = p(k, i) - p(k, i - 1)
+            filled = 1
+            if (ruptures .and. .not. cells(k, i) > 0) then
+               if (k > 1) carried = carried + to_flow*grid%beside(i)*grid%inward(k)*p(k - 1, i)
+               if (k < rows) carried = carried + to_flow*grid%beside(i)*grid%outward(k)*p(k + 1, i)
+               filled = min(1.0_wp, 2*carried/(surface*grid%h_cell(i)))
+            else
+               carried = surface*grid%h_face(i - 1)/2 + to_flow*grid%along(i - 1)*drop
+            end if
+            loss%pressure = loss%pressure + width*to_flow*grid%along(i - 1)*drop**2
+            loss%couette = loss%couette + width*gap%pad_radius()*grid%d_phi*gap%viscosity*surface**2*filled &
+               & /grid%h_cell(i)
+            drop = p(k, i) - grid%ambient
+            if (k < rows) drop = p(k, i) - p(k + 1, i)
+            loss%pressure = loss%pressure + width*to_flow*grid%beside(i)*grid%outward(k)*drop**2
+            if (k == rows) loss%side = loss%side + width*to_flow*grid%beside(i)*grid%outward(k)*drop
+         end do
+         loss%outlet = loss%outlet + width*carried
+      end do
+   end function by_volumes
+
+   !> What two grids tell of one that is infinitely fine.
+   type(film_loss) function extrapolated(gap, motion, speed, columns, rows, ruptures) result(loss)
+      type(pad_gap_type), intent(in) :: gap
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      integer, intent(in) :: columns, rows
+      logical, intent(in) :: ruptures
+      type(film_loss) :: coarse
+      coarse = by_volumes(gap, motion, speed, columns, rows, ruptures)
+      loss = by_volumes(gap, motion, speed, 2*columns, 2*rows, ruptures)
+      loss%couette = (4*loss%couette - coarse%couette)/3
+      loss%pressure = (4*loss%pressure - coarse%pressure)/3
+      loss%inlet = (4*loss%inlet - coarse%inlet)/3
+      loss%outlet = (4*loss%outlet - coarse%outlet)/3
+      loss%side = (4*loss%side - coarse%side)/3
+   end function extrapolated
+
+   type(film_loss) function found(gap, motion, speed, reynolds, gumbel) result(loss)
+      type(pad_gap_type), intent(in) :: gap
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      logical, intent(in) :: reynolds, gumbel
+      type(film_losses_type) :: losses
+      losses = new_film_losses(gap, reynolds, gumbel)
+      call losses%find(motion, speed, loss)
+   end function found
+
+   !> Largest error of losses over both, and of flows over U h L/2 at the thicker edge and the largest of them.
+   real(wp) function difference(gap, motion, speed, a, b)
+      type(pad_gap_type), intent(in) :: gap
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      type(film_loss), intent(in) :: a, b
+      real(wp) :: flow
+      associate (d => gap%directions())
+         flow = max(speed*gap%journal_radius*gap%axial_length/2*maxval(gap%thickness(motion, [d%leading(1), &
+            & d%trailing(1)], [d%leading(2), d%trailing(2)])), abs(b%inlet), abs(b%outlet), abs(b%side))
+      end associate
+      difference = max(abs(a%couette - b%couette)/b%couette, abs(a%pressure - b%pressure)/(b%couette + b%pressure), &
+         & abs(a%inlet - b%inlet)/flow, abs(a%outlet - b%outlet)/flow, abs(a%side - b%side)/flow)
+   end function difference
+
+   !> The paper's bearing with rigid pivots at 6500 rpm, figures of a program that shares no code with this one, to
+   !> the digits given.
+   subroutine independent_program()
+      type(scene_type) :: scene
+      type(equilibrium_type) :: static
+      type(static_figures_type) :: figures
+      type(error_type), allocatable :: error
+      type(bearing_model) :: model
+      scene = scene_type()
+      scene%pads%motion = 'tilting_only'
+      call complete_scene(scene, error)
+      model = new_bearing_model(scene)
+      call find_equilibrium(model, static, error)
+      call expect_no_error(error, 'equilibrium')
+      call find_static_figures(model, static, figures)
+      associate (pad => figures%pads(1))
+         call expect_close(pad%couette, 2684.97_wp, 1.5e-5_wp*2684.97_wp, 'Couette loss')
+         call expect_close(pad%pressure, 124.15_wp, 0.005_wp + 1e-5_wp*124.15_wp, 'pressure loss')
+         call expect_close(1e6_wp*pad%inlet, 91.06_wp, 0.005_wp + 1e-5_wp*91.06_wp, 'inflow')
+         call expect_close(1e6_wp*pad%outlet, 76.22_wp, 0.005_wp + 1e-5_wp*76.22_wp, 'outflow')
+         call expect_close(pad%load, static%contact_force(1) - 0.8108_wp*9.81_wp*sin(45*degree), 1.0_wp, &
+            & 'the pivot carries load and pad')
+      end associate
+      call expect_close(figures%eccentricity_ratio, 0.56951_wp, 2e-5_wp, 'eccentricity ratio, -45.561 um')
+      ! to the side of +z, while the journal at the bottom moves towards -z
+      call expect_close(figures%attitude_angle, -0.0234_wp/45.561_wp, 2e-6_wp, 'attitude angle')
+      call expect(figures%rise_fresh > maxval(figures%temperature_rise)*0.8_wp .and. figures%rise_side > &
+         & 5*figures%rise_fresh, 'warming')
+   end subroutine independent_program
+
+   !> Petroff: journal in the middle of the arc, no pressure.
+   subroutine petroff()
+      type(pad_gap_type) :: gap
+      type(film_loss) :: loss
+      real(wp) :: surface
+      gap = offset_pad()
+      loss = found(gap, film_motion(), shaft_speed, .true., .false.)
+      surface = shaft_speed*gap%journal_radius
+      associate (area => gap%pad_radius()*gap%arc()*gap%axial_length, c => gap%machined_clearance)
+         call expect_close(loss%couette, gap%viscosity*surface**2*area/c, 1e-12_wp*loss%couette, 'Petroff')
+         call expect_close(loss%inlet, surface*c*gap%axial_length/2, 1e-12_wp*loss%inlet, 'in')
+         call expect_close(loss%outlet, loss%inlet, 1e-12_wp*loss%inlet, 'out')
+      end associate
+      call expect(abs(loss%pressure) + abs(loss%wedge) < 1e-12_wp*loss%couette, 'no pressure')
+      call expect(abs(loss%side) < 1e-12_wp*loss%inlet, 'nothing at the sides')
+   end subroutine petroff
+
+   subroutine closed()
+      type(film_loss) :: loss
+      loss = found(paper_pad(), film_motion([0.0_wp, 101e-6_wp]), shaft_speed, .true., .false.)
+      call expect(loss%status == film_closed, 'a closed film has no loss')
+   end subroutine closed
+
+   !> Modes against volumes on uniform columns, extrapolated from 96 x 12 and 192 x 24.
+   subroutine whole_by_volumes()
+      type(film_state) :: state
+      type(film_loss) :: loss
+      real(wp) :: error, worst
+      integer :: i
+      worst = 0
+      do i = 1, 40
+         state = random_film(1.0_wp, 4.0_wp, .false., .false.)
+         loss = found(state%gap, state%motion, shaft_speed, .false., .false.)
+         call expect(loss%status == film_ok, 'open')
+         error = difference(state%gap, state%motion, shaft_speed, loss, extrapolated(state%gap, state%motion, &
+            & shaft_speed, 96, 12, .false.))
+         call expect(error < 2e-4_wp, 'whole: '//shown(state))
+         worst = max(worst, error)
+      end do
+      print '(a, es9.2)', 'whole films, largest error ', worst
+   end subroutine whole_by_volumes
+
+   !> Volumes that follow the film against four times as many uniform ones: both are of first order where the film
+   !> ends, and the flow at the trailing edge of a film that is squeezed is more so, as it is cut off at whole cells.
+   subroutine ruptured_by_volumes()
+      type(film_state) :: state
+      type(film_loss) :: loss, fine
+      real(wp) :: error, worst(2)
+      integer :: i
+      worst = 0
+      do i = 1, 40
+         state = random_film(1.0_wp, 4.0_wp, .true., .false.)
+         if (state%t > 0.95_wp) cycle
+         if (mod(i, 2) == 0) state%motion%velocity = 0
+         loss = found(state%gap, state%motion, shaft_speed, .true., .false.)
+         fine = by_volumes(state%gap, state%motion, shaft_speed, 192, 24, .true.)
+         ! a film that forms again takes up more than arrives: the plain sums do not follow it
+         if (abs(loss%unfed) > 1e-3_wp*loss%inlet) cycle
+         if (mod(i, 2) == 1) fine%outlet = loss%outlet
+         error = difference(state%gap, state%motion, shaft_speed, loss, fine)
+         worst(1 + mod(i, 2)) = max(worst(1 + mod(i, 2)), error)
+         call expect(error < 5e-3_wp, 'ruptured: '//shown(state))
+      end do
+      print '(a, 2es9.2)', 'ruptured films, largest errors at rest and squeezed ', worst
+   end subroutine ruptured_by_volumes
+
+   !> Guembel's condition leaves the field and the flow across the film's edge as they are without rupture; the force,
+   !> and with it the heat of the pressure flow, is that of the clipped pressure.
+   subroutine clipped()
+      type(film_loss) :: whole, ruptured
+      type(pad_gap_type) :: gap
+      type(film_motion) :: motion
+      gap = paper_pad()
+      motion = film_motion([-5e-6_wp, 60e-6_wp])
+      whole = found(gap, motion, shaft_speed, .false., .false.)
+      ruptured = found(gap, motion, shaft_speed, .false., .true.)
+      call expect(ruptured%couette < 0.999_wp*whole%couette, 'less oil, less shear')
+      call expect(ruptured%side > whole%side, 'nothing is sucked in at the sides')
+      call expect_close(ruptured%inlet, whole%inlet, 1e-3_wp*whole%inlet, 'the film begins at the leading edge')
+      call expect_close(ruptured%outlet + ruptured%side, ruptured%inlet + ruptured%unfed, 1e-10_wp*whole%inlet, &
+         & 'no oil is lost')
+      call expect_close(ruptured%wedge, ruptured%pressure, 1e-10_wp*ruptured%pressure, 'no power is lost')
+      ! the same film under a cavitation pressure that it does not reach
+      gap%cavitation_pressure = -1e9_wp
+      ruptured = found(gap, motion, shaft_speed, .false., .true.)
+      call expect(all(abs([ruptured%couette - whole%couette, ruptured%inlet - whole%inlet, &
+         & ruptured%side - whole%side]) <= 0), 'whole')
+   end subroutine clipped
+
+   !> Volumes approach the modes, and fine volumes of a ruptured film, by the second power of their cells.
+   subroutine order()
+      type(pad_gap_type) :: gap
+      type(film_motion) :: motion
+      type(film_loss) :: exact
+      real(wp) :: error(3)
+      integer :: k
+      gap = offset_pad()
+      motion = film_motion([-15e-6_wp, 50e-6_wp], [2e-3_wp, -3e-3_wp])
+      exact = found(gap, motion, shaft_speed, .false., .false.)
+      do k = 1, 3
+         error(k) = difference(gap, motion, shaft_speed, exact, by_volumes(gap, motion, shaft_speed, 24*2**k, &
+            & 3*2**k, .false.))
+      end do
+      call expect(all(error(2:) < 0.3_wp*error(:2)) .and. error(3) < 1e-3_wp, 'second order')
+   end subroutine order
+
+   !> What flows in flows out, less what the growing gap holds back; where a film forms again it takes up more than
+   !> arrives. For whole films test whole_by_volumes has it, whose side flow is a sum of its own.
+   subroutine oil_is_kept()
+      type(film_state) :: state
+      type(film_loss) :: loss
+      integer :: i, again
+      again = 0
+      do i = 1, 60
+         state = random_film(1.0_wp, 10.0_wp, .true., .false.)
+         state%motion%velocity = 0
+         loss = found(state%gap, state%motion, shaft_speed, .true., .false.)
+         call expect_close(loss%outlet + loss%side, loss%inlet + loss%unfed, 1e-9_wp*loss%inlet, 'ruptured: ' &
+            & //shown(state))
+         if (abs(loss%unfed) > 1e-3_wp*loss%inlet) again = again + 1
+      end do
+      call expect(again < 30, 'most films do not form again')
+   end subroutine oil_is_kept
+
+   !> The journal's rotation, its motion and the pumps bring what becomes heat.
+   subroutine power_is_kept()
+      type(film_state) :: state
+      type(film_loss) :: loss
+      real(wp) :: brought, forced
+      integer :: i
+      do i = 1, 60
+         state = random_film(1.0_wp, 10.0_wp, .true., mod(i, 3) == 0)
+         loss = found(state%gap, state%motion, shaft_speed, mod(i, 2) == 0, .false.)
+         forced = -dot_product(state%motion%velocity, loss%force)
+         brought = loss%couette + loss%wedge + forced + state%gap%supply_pressure*loss%inlet
+         call expect_close(loss%couette + loss%pressure, brought, 1e-10_wp*(loss%couette + abs(forced) &
+            & + abs(loss%wedge)), 'power: '//shown(state))
+         call expect(loss%pressure > 0, 'heat is positive: '//shown(state))
+      end do
+   end subroutine power_is_kept
+
+   !> Losses grow with viscosity, flows stay.
+   subroutine viscosity()
+      type(pad_gap_type) :: gap
+      type(film_motion) :: motion
+      type(film_loss) :: thin, thick
+      integer :: i
+      do i = 1, 2
+         gap = offset_pad()
+         motion = film_motion([merge(25e-6_wp, -25e-6_wp, i == 1), 45e-6_wp], [1e-3_wp, 1e-3_wp])
+         thin = found(gap, motion, shaft_speed, .true., .false.)
+         gap%viscosity = 3*gap%viscosity
+         thick = found(gap, motion, shaft_speed, .true., .false.)
+         call expect(all(abs([thick%couette, thick%pressure, thick%wedge]/[thin%couette, thin%pressure, thin%wedge] &
+            & - 3) < 1e-9_wp), 'losses')
+         call expect(all(abs([thick%inlet, thick%outlet, thick%side] - [thin%inlet, thin%outlet, thin%side]) &
+            & < 1e-9_wp*thin%inlet), 'flows')
+      end do
+   end subroutine viscosity
+
+   !> In a mirror the shaft turns backward, and oil that came in goes out.
+   subroutine mirror()
+      type(film_state) :: state
+      type(pad_gap_type) :: gap
+      type(film_loss) :: there, seen
+      real(wp) :: error
+      integer :: i
+      do i = 1, 20
+         state = random_film(1.0_wp, 10.0_wp, .false., .false.)
+         there = found(state%gap, state%motion, shaft_speed, .false., .false.)
+         gap = state%gap
+         gap%leading_angle = state%gap%trailing_angle
+         gap%trailing_angle = state%gap%leading_angle
+         associate (m => state%motion)
+            seen = found(gap, film_motion([-m%position(1), m%position(2)], [-m%velocity(1), m%velocity(2)]), &
+               & -shaft_speed, .false., .false.)
+         end associate
+         error = maxval(abs([seen%couette, seen%pressure, seen%wedge] - [there%couette, there%pressure, &
+            & there%wedge]))/(there%couette + there%pressure)
+         error = max(error, maxval(abs([seen%inlet + there%outlet, seen%outlet + there%inlet, seen%side &
+            & - there%side]))/maxval(abs([there%inlet, there%outlet, there%side])))
+         call expect(error < 1e-9_wp, 'mirror: '//shown(state))
+      end do
+   end subroutine mirror
+
+   !> An even film at rest under pressure: every mode is a hyperbolic sine, and their sum without the corners, a film
+   !> thickness wide, is an integral in closed form.
+   subroutine even_strip_under_pressure()
+      real(wp), parameter :: rise = 3e5_wp
+      type(pad_gap_type) :: gap
+      type(film_loss) :: loss
+      real(wp) :: unit, wave, weight, inlet, outlet
+      integer :: k
+      gap = paper_pad([rise, 0.0_wp, 0.0_wp])
+      loss = found(gap, film_motion(), 0.0_wp, .false., .false.)
+      associate (c => gap%machined_clearance, r => gap%pad_radius(), l => gap%axial_length)
+         unit = rise*c**3/(12*gap%viscosity*r)
+         inlet = r*4/pi*log(1/tan(pi*c/(2*l)))
+         outlet = 0
+         do k = 1, 60
+            wave = (2*k - 1)*pi*r/l
+            weight = 8*l/((2*k - 1)*pi)**2
+            inlet = inlet + weight*wave*(1/tanh(wave*gap%arc()) - 1)
+            outlet = outlet + weight*wave/sinh(wave*gap%arc())
+         end do
+         call expect_close(loss%inlet, unit*inlet, 1e-3_wp*unit*inlet, 'in')
+         call expect_close(loss%outlet, unit*outlet, 1e-4_wp*unit*outlet, 'out')
+      end associate
+      call expect_close(loss%side, loss%inlet - loss%outlet, 1e-12_wp*loss%inlet, 'sides')
+      call expect_close(loss%pressure, rise*loss%inlet, 1e-12_wp*loss%pressure, 'the pump heats')
+   end subroutine even_strip_under_pressure
+
+   !> Volumes let more oil through the corners the smaller they are, by the same amount whatever the film does
+   !> elsewhere: what a film differs by from an even one that is as thick at its leading edge is the same by both.
+   subroutine supply_by_volumes()
+      real(wp), parameter :: rise = 3e5_wp
+      type(pad_gap_type) :: gap, even
+      type(film_motion) :: motion
+      type(film_loss) :: loss, of_even, fine, fine_of_even
+      real(wp) :: unit
+      integer :: i
+      do i = 1, 6
+         gap = offset_pad([rise, 0.0_wp, 0.0_wp])
+         motion = film_motion([between(-40e-6_wp, 40e-6_wp), between(-40e-6_wp, 50e-6_wp)])
+         even = gap
+         associate (d => gap%directions())
+            even%machined_clearance = gap%thickness(motion, d%leading(1), d%leading(2))
+         end associate
+         loss = found(gap, motion, 0.0_wp, .false., .false.)
+         of_even = found(even, film_motion(), 0.0_wp, .false., .false.)
+         fine = extrapolated(gap, motion, 0.0_wp, 192, 24, .false.)
+         fine_of_even = extrapolated(even, film_motion(), 0.0_wp, 192, 24, .false.)
+         unit = of_even%inlet
+         call expect_close(loss%inlet - of_even%inlet, fine%inlet - fine_of_even%inlet, 4e-3_wp*unit, 'in')
+         call expect_close(loss%outlet, fine%outlet, 1e-4_wp*unit, 'out')
+      end do
+   end subroutine supply_by_volumes
+
+   !> Nothing leaps where a film begins to rupture.
+   subroutine onset_of_rupture()
+      type(pad_gap_type) :: gap
+      type(film_motion) :: motion
+      type(film_loss) :: whole, ruptured
+      real(wp) :: low, high
+      integer :: i
+      gap = paper_pad()
+      low = -40e-6_wp
+      high = 40e-6_wp
+      do i = 1, 60
+         motion = film_motion([0.5_wp*(low + high), 40e-6_wp])
+         ruptured = found(gap, motion, shaft_speed, .true., .false.)
+         whole = found(gap, motion, shaft_speed, .false., .false.)
+         if (abs(ruptured%pressure - whole%pressure) > 0) then
+            high = motion%position(1)
+         else
+            low = motion%position(1)
+         end if
+      end do
+      call expect(low > -40e-6_wp .and. high < 40e-6_wp .and. high - low < 1e-15_wp, 'there is an onset')
+      call expect(abs(ruptured%pressure - whole%pressure) < 1e-6_wp*whole%couette .and. abs(ruptured%couette &
+         & - whole%couette) < 1e-4_wp*whole%couette, 'losses')
+      call expect(maxval(abs([ruptured%inlet - whole%inlet, ruptured%outlet - whole%outlet, ruptured%side &
+         & - whole%side])) < 1e-4_wp*whole%inlet, 'flows')
+   end subroutine onset_of_rupture
+end program test_losses
