@@ -16,7 +16,8 @@ module orbit_collocation
    !> Where the points stand in an interval, and the integrals of their polynomials up to each.
    real(wp), parameter :: place(points) = [(4 - s6)/10, (4 + s6)/10, 1.0_wp]
    real(wp), parameter :: weight(points, points) = reshape([(88 - 7*s6)/360, (296 + 169*s6)/1800, (16 - s6)/36, &
-      & (296 - 169*s6)/1800, (88 + 7*s6)/360, (16 + s6)/36, (-2 + 3*s6)/225, (-2 - 3*s6)/225, 1/9.0_wp], [points, points])
+      & (296 - 169*s6)/1800, (88 + 7*s6)/360, (16 + s6)/36, (-2 + 3*s6)/225, (-2 - 3*s6)/225, 1/9.0_wp], &
+      & [points, points])
 
    type :: orbit_type
       !> Ends of the intervals, s, (0:intervals).
@@ -192,8 +193,8 @@ contains
       ok = info == 0
    end subroutine close_period
 
-   !> The corrections of an interval's points for the change of the state at its start, over the scales; `change` becomes
-   !> that at its end.
+   !> The corrections of an interval's points for the change of the state at its start, over the scales; `change`
+   !> becomes that at its end.
    pure subroutine follow(by_start, change, corrections)
       real(wp), intent(in) :: by_start(:, :)
       real(wp), intent(inout) :: change(:)

@@ -11,17 +11,17 @@ module periodic_orbit
    use orbit_collocation, only: orbit_type, newton_round, points, place
    implicit none (type, external)
    private
-   public :: periodic_type, periodic_options, find_periodic_orbit
+   public :: periodic_orbit_type, orbit_options, find_periodic_orbit, set_multipliers
 
-   type :: periodic_options
+   type :: orbit_options
       !> Turns of the shaft in a period.
       integer :: revolutions = 1
       !> Newton's last correction over the scales; most rounds.
       real(wp) :: tolerance = 1e-8_wp
       integer :: max_iterations = 30
-   end type periodic_options
+   end type orbit_options
 
-   type :: periodic_type
+   type :: periodic_orbit_type
       type(orbit_type) :: orbit
       !> Period, s.
       real(wp) :: period = 0
@@ -32,7 +32,9 @@ module periodic_orbit
       integer(i8) :: evaluations = 0
    contains
       procedure :: is_stable
-   end type periodic_type
+      !> How stability is lost.
+      procedure :: loss
+   end type periodic_orbit_type
 
    !> A step of the march: its end, s, and the states at the points of Radau in it.
    type :: step_type
@@ -48,6 +50,8 @@ module periodic_orbit
    !> moved to one.
    real(wp), parameter :: kinks_known = 1e-5_wp
    real(wp), parameter :: beside = 0.3_wp
+   !> Tolerance of the march over what is asked for: on its steps the collocation is that much more accurate.
+   real(wp), parameter :: looser = 10
    !> Largest correction that is made, over the scales.
    real(wp), parameter :: longest = 0.5_wp
 
@@ -57,18 +61,22 @@ contains
    !> `stopped`, where `give_up` says so.
    subroutine find_periodic_orbit(model, march, options, y, found, error, give_up)
       type(bearing_model), intent(inout), target :: model
-      !> Tolerances of the march, and so of the mesh.
-      class(integrator_options), intent(in) :: march
-      type(periodic_options), intent(in) :: options
+      !> Tolerances of a march; they choose the mesh.
+      type(integrator_options), intent(in) :: march
+      type(orbit_options), intent(in) :: options
       real(wp), intent(in) :: y(:)
-      type(periodic_type), intent(out) :: found
+      type(periodic_orbit_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       type(integrator_type) :: integrator
+      type(integrator_options) :: mesh
       real(wp) :: change
       integer :: next_try
       found%period = options%revolutions*2*pi/model%point%speed(0.0_wp)
-      call integrator%start(model, march, 0.0_wp, y, last_try*found%period, error)
+      mesh = march
+      mesh%relative_tolerance = looser*march%relative_tolerance
+      mesh%absolute_tolerance = looser*march%absolute_tolerance
+      call integrator%start(model, mesh, 0.0_wp, y, last_try*found%period, error)
       next_try = first_try
       found%orbit%start = y
       found%orbit%scale = model%scale
@@ -147,8 +155,8 @@ contains
    !> the polynomials would lose their order.
    subroutine close_orbit(model, options, found, error)
       type(bearing_model), intent(inout) :: model
-      type(periodic_options), intent(in) :: options
-      type(periodic_type), intent(inout) :: found
+      type(orbit_options), intent(in) :: options
+      type(periodic_orbit_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: mesh(:)
       logical :: ok
@@ -170,7 +178,7 @@ contains
       type(bearing_model), intent(inout) :: model
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: max_iterations
-      type(periodic_type), intent(inout) :: found
+      type(periodic_orbit_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
       logical :: ok
       associate (orbit => found%orbit)
@@ -296,7 +304,22 @@ contains
 
    !> True where a small disturbance of the orbit dies out.
    pure logical function is_stable(self)
-      class(periodic_type), intent(in) :: self
+      class(periodic_orbit_type), intent(in) :: self
       is_stable = abs(self%multipliers(1)) < 1
    end function is_stable
+
+   !> How an unstable orbit loses its stability, by its leading multiplier.
+   pure function loss(self)
+      class(periodic_orbit_type), intent(in) :: self
+      character(len=:), allocatable :: loss
+      associate (leading => self%multipliers(1))
+         if (abs(leading%im) > 0) then
+            loss = 'a second frequency grows'
+         else if (leading%re < 0) then
+            loss = 'the period doubles'
+         else
+            loss = 'it is left without oscillation'
+         end if
+      end associate
+   end function loss
 end module periodic_orbit

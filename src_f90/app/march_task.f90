@@ -17,7 +17,7 @@ module march_task
    use recorder, only: recorder_type, begin_recording
    implicit none (type, external)
    private
-   public :: run_march
+   public :: run_march, record_march, tolerances
 
    !> Steps after which the derivatives are taken anew without friction: the motion is smooth, the steps are long.
    integer, parameter :: smooth_derivatives_age = 2
@@ -32,9 +32,7 @@ contains
    subroutine run_march(run, error)
       type(case_run_type), intent(inout), target :: run
       type(error_type), allocatable, intent(out) :: error
-      type(recorder_type) :: observer
       type(sample_plan) :: plan
-      type(integrator_counts_type) :: counts
       real(wp), allocatable :: y(:)
       real(wp) :: t
       if (run%resumed) then
@@ -47,9 +45,21 @@ contains
       call run%file%begin_series('time')
       plan = planned(run)
       if (run%resumed) call check_samples(run, plan, t, error)
-      if (allocated(error)) return
+      if (.not. allocated(error)) call record_march(run, y, t, run%scene%operation%duration, plan, error)
+   end subroutine run_march
+
+   !> Marches from state y at time t to t_end, s, and writes samples, their spectra and the asperities' contact; the
+   !> file has its series.
+   subroutine record_march(run, y, t, t_end, plan, error)
+      type(case_run_type), intent(inout), target :: run
+      real(wp), intent(inout) :: y(:)
+      real(wp), intent(in) :: t, t_end
+      type(sample_plan), intent(in) :: plan
+      type(error_type), allocatable, intent(out) :: error
+      type(recorder_type) :: observer
+      type(integrator_counts_type) :: counts
       call begin_recording(observer, run, t)
-      call march(run%model, options(run, y), t, run%scene%operation%duration, plan, y, observer, counts, error)
+      call march(run%model, tolerances(run, y), t, t_end, plan, y, observer, counts, error)
       run%counts = counts
       call observer%progress%clear()
       if (.not. allocated(error)) call write_spectra(run%scene, plan%interval, run%file)
@@ -57,7 +67,7 @@ contains
          if (error%status /= numerics_error) return
       end if
       call put_asperities(run%file, plan%interval, norm2(run%model%point%load))
-   end subroutine run_march
+   end subroutine record_march
 
    !> State and time, s, of the checkpoint in the file.
    subroutine continue_from_checkpoint(run, t, y, error)
@@ -74,7 +84,7 @@ contains
    end subroutine continue_from_checkpoint
 
    !> How to march from the state y.
-   type(march_options) function options(run, y)
+   type(march_options) function tolerances(run, y) result(options)
       type(case_run_type), intent(in) :: run
       real(wp), intent(in) :: y(:)
       type(bearing_model) :: static
@@ -94,7 +104,7 @@ contains
          call make_static(model, model%point%rupture, static)
          options%lowers_orders = has_light_modes(static, y, run%scene%highest_speed())
       end associate
-   end function options
+   end function tolerances
 
    type(sample_plan) function planned(run) result(plan)
       type(case_run_type), intent(in) :: run

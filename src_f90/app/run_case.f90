@@ -9,6 +9,7 @@ module run_case
    use case_run, only: case_run_type, begin_run
    use equilibrium_task, only: run_equilibrium
    use coefficients_task, only: run_coefficients
+   use periodic_task, only: run_periodic
    use march_task, only: run_march
    use run_summary, only: print_notes, print_march, print_cost
    use pad_remarks, only: print_pad_remarks
@@ -45,6 +46,8 @@ contains
          call run_equilibrium(run, error)
       case ('coefficients')
          call run_coefficients(run, error)
+      case ('periodic')
+         call run_periodic(run, error)
       case ('march')
          call run_march(run, error)
       case default

@@ -134,13 +134,13 @@ contains
       end associate
    end subroutine make_law
 
-   !> The contact of the pivots, with a table for a march: a task without one looks up too seldom.
+   !> The contact of the pivots, with a table for a motion: a task without one looks up too seldom.
    subroutine make_contact(scene, contact)
       type(scene_type), intent(in) :: scene
       type(contact_table_type), intent(out) :: contact
       class(contact_law_type), allocatable :: law
       call make_law(scene, law)
-      if (scene%about%task == 'march') then
+      if (scene%moves()) then
          contact = new_contact_table(law)
       else
          contact = new_untabulated_contact(law)

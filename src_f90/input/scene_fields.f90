@@ -5,7 +5,7 @@ module scene_fields
    use field_visitor, only: visitor_type, field, choice
    use scene, only: scene_type, case_type, rotor_type, operation_type, bearing_type, oil_type, pads_type, &
       & pivot_type, friction_type, asperity_type, start_type, film_type, integration_type, output_type, &
-      & coefficients_type, most_ratios, mass_range, inertia_range, centre_range
+      & coefficients_type, periodic_type, most_ratios, mass_range, inertia_range, centre_range
    implicit none (type, external)
    private
    public :: visit_scene, title_variable, checkpoint_variable, pads_variable
@@ -37,6 +37,7 @@ contains
       call visit_integration(scene%integration, v)
       call visit_output(scene%output, v)
       call visit_coefficients(scene%coefficients, v)
+      call visit_periodic(scene%periodic, v)
    end subroutine visit_scene
 
    subroutine visit_case(case, v)
@@ -44,9 +45,9 @@ contains
       class(visitor_type), intent(inout) :: v
       call v%group('case', 'Title and task of the run')
       call v%word(case%title, choice('title', '', 'free text, which the result file contains'))
-      call v%word(case%task, choice('task', 'march equilibrium coefficients', &
+      call v%word(case%task, choice('task', 'march equilibrium coefficients periodic', &
          & 'march: motion over time; equilibrium: only the static equilibrium; coefficients: the same, with ' &
-         & //'stiffness, damping and stability there'))
+         & //'stiffness, damping and stability there; periodic: the orbit that the motion repeats, and its stability'))
    end subroutine visit_case
 
    subroutine visit_rotor(rotor, v)
@@ -283,4 +284,16 @@ contains
       call v%number(coefficients%cross_stiffness, field('cross_stiffness', -1e15_wp, 1e15_wp, 'N/m', &
          & 'Q: cross stiffness at the journal beside the bearing''s, for the modes; > 0 drives forward whirl'))
    end subroutine visit_coefficients
+
+   subroutine visit_periodic(periodic, v)
+      type(periodic_type), intent(inout) :: periodic
+      class(visitor_type), intent(inout) :: v
+      call v%group('periodic', 'A periodic orbit and its stability, for the task periodic')
+      call v%whole(periodic%revolutions, field('revolutions', 1.0_wp, 1000.0_wp, '1', &
+         & 'revolutions of the shaft in a period'))
+      call v%number(periodic%tolerance, field('tolerance', 1e-12_wp, 1e-2_wp, '1', &
+         & 'last correction of Newton''s method, over the natural size of each state'))
+      call v%whole(periodic%max_iterations, field('max_iterations', 1.0_wp, 1e6_wp, '1', &
+         & 'maximum number of iterations of Newton''s method; more is a failure'))
+   end subroutine visit_periodic
 end module scene_fields

@@ -6,7 +6,8 @@ module scene
    private
    public :: scene_type, max_pads, unset, is_set, mass_range, inertia_range, centre_range
    public :: case_type, rotor_type, operation_type, bearing_type, oil_type, pads_type, pivot_type, friction_type
-   public :: asperity_type, start_type, film_type, coefficients_type, most_ratios, integration_type, output_type
+   public :: asperity_type, start_type, film_type, coefficients_type, most_ratios
+   public :: periodic_type, integration_type, output_type
 
    !> Most pads of a bearing.
    integer, parameter :: max_pads = 24
@@ -20,7 +21,7 @@ module scene
 
    type :: case_type
       character(len=:), allocatable :: title
-      !> 'equilibrium', 'coefficients' or 'march'.
+      !> 'equilibrium', 'coefficients', 'periodic' or 'march'.
       character(len=:), allocatable :: task
    end type case_type
 
@@ -144,6 +145,14 @@ module scene
       real(wp) :: cross_stiffness = 0
    end type coefficients_type
 
+   type :: periodic_type
+      !> Turns of the shaft in a period.
+      integer :: revolutions = 1
+      !> Newton's last correction, over the natural size of each state; most rounds.
+      real(wp) :: tolerance = 1e-8_wp
+      integer :: max_iterations = 30
+   end type periodic_type
+
    type :: scene_type
       !> The namelist group &case.
       type(case_type) :: about
@@ -160,8 +169,10 @@ module scene
       type(integration_type) :: integration
       type(output_type) :: output
       type(coefficients_type) :: coefficients
+      type(periodic_type) :: periodic
    contains
       procedure :: pad_count
+      procedure :: moves
       procedure :: tilting
       procedure :: tilting_radial
       procedure :: highest_speed
@@ -217,6 +228,12 @@ contains
       class(scene_type), intent(inout) :: self
       if (self%operation%final_speed_rpm < 0) self%operation%final_speed_rpm = self%operation%speed_rpm
    end subroutine set_final_speed
+
+   !> Whether the task integrates the motion.
+   pure logical function moves(self)
+      class(scene_type), intent(in) :: self
+      moves = self%about%task == 'march' .or. self%about%task == 'periodic'
+   end function moves
 
    pure integer function pad_count(self)
       class(scene_type), intent(in) :: self

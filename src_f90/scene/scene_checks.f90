@@ -3,7 +3,7 @@ module scene_checks
    use kinds, only: wp, degree
    use text, only: to_text
    use errors, only: error_type, raise, input_error
-   use scene, only: scene_type
+   use scene, only: scene_type, periodic_type
    implicit none (type, external)
    private
    public :: check_scene
@@ -29,6 +29,7 @@ contains
       call check_output(scene, error)
       call check_pads(scene, error)
       call check_coefficients(scene, error)
+      call check_periodic(scene, error)
    end subroutine check_scene
 
    !> Keeps the first unmet requirement.
@@ -206,6 +207,33 @@ contains
          end associate
       end associate
    end subroutine check_coefficients
+
+   !> The group periodic belongs to its task, which needs a constant speed and takes its samples over the period.
+   subroutine check_periodic(scene, error)
+      type(scene_type), intent(in) :: scene
+      type(error_type), allocatable, intent(inout) :: error
+      type(periodic_type), parameter :: default = periodic_type()
+      character(len=*), parameter :: only = ': has no effect but with case%task = ''periodic'''
+      character(len=*), parameter :: without = ': has no effect with case%task = ''periodic'''
+      associate (p => scene%periodic, o => scene%operation)
+         if (scene%about%task /= 'periodic') then
+            call require(p%revolutions == default%revolutions, 'periodic%revolutions = '//to_text(p%revolutions) &
+               & //only, error)
+            call require(.not. abs(p%tolerance - default%tolerance) > 0, 'periodic%tolerance = ' &
+               & //to_text(p%tolerance)//only, error)
+            call require(p%max_iterations == default%max_iterations, 'periodic%max_iterations = ' &
+               & //to_text(p%max_iterations)//only, error)
+            return
+         end if
+         call require(.not. abs(o%final_speed_rpm - o%speed_rpm) > 0, 'operation%final_speed_rpm = ' &
+            & //to_text(o%final_speed_rpm)//': must be operation%speed_rpm = '//to_text(o%speed_rpm) &
+            & //' with case%task = ''periodic''', error)
+         call require(.not. scene%output%start_time > 0, 'output%start_time = '//to_text(scene%output%start_time) &
+            & //without, error)
+         call require(.not. scene%integration%stop_when_periodic > 0, 'integration%stop_when_periodic = ' &
+            & //to_text(scene%integration%stop_when_periodic)//without, error)
+      end associate
+   end subroutine check_periodic
 
    !> A pad reaches from theta - theta_2 to theta + theta_1; the next one must start after that.
    subroutine require_room(scene, i, error)

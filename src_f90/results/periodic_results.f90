@@ -1,0 +1,35 @@
+!> What the file of a run says of its periodic orbit: names, dimensions and units as docs/results.md lists them.
+module periodic_results
+   use kinds, only: wp, i8
+   use hdf5_file, only: hdf5_type
+   use periodic_orbit, only: periodic_orbit_type
+   implicit none (type, external)
+   private
+   public :: put_periodic
+
+contains
+
+   subroutine put_periodic(file, found, revolutions)
+      type(hdf5_type), intent(inout) :: file
+      type(periodic_orbit_type), intent(in) :: found
+      integer, intent(in) :: revolutions
+      integer :: k
+      associate (values => found%multipliers)
+         call file%put_list('multiplier', [(real(k, wp), k=1, size(values))], '1', 'multiplier number', 'multiplier')
+         call file%make_group('periodic')
+         call file%put_real('periodic/period', found%period, 's', 'period of the orbit')
+         call file%put_count('periodic/revolutions', int(revolutions, i8), 'revolutions of the shaft in a period')
+         call file%put_real('periodic/residual', found%orbit%residual, '1', &
+            & 'largest residual of the equations before Newton''s last correction, over the size of the states')
+         call file%put_count('periodic/iterations', int(found%iterations, i8), 'iterations of Newton''s method')
+         call file%put_count('periodic/intervals', int(found%orbit%intervals(), i8), 'intervals of the collocation')
+         call file%put_count('periodic/evaluations', found%evaluations, &
+            & 'evaluations of the equations and their derivatives in these iterations')
+         call file%put_count('periodic/marched_periods', int(found%marched, i8), 'periods of the march before them')
+         call file%put_list('periodic/multiplier_real', values%re, '1', 'multiplier, real part', 'multiplier')
+         call file%put_list('periodic/multiplier_imag', values%im, '1', 'multiplier, imaginary part', 'multiplier')
+         call file%put_count('periodic/stable', merge(1_i8, 0_i8, found%is_stable()), &
+            & '1 where all multipliers are inside the unit circle')
+      end associate
+   end subroutine put_periodic
+end module periodic_results

@@ -1,0 +1,233 @@
+!> Collocation of periodic orbits on problems with known orbits and multipliers: a forced linear oscillator with a stiff
+!> state beside it, and Van der Pol's oscillator, forced at its own period.
+module orbit_problems
+   use kinds, only: wp
+   use ode_model, only: ode_model_type
+   implicit none (type, external)
+   private
+   public :: linear_problem, van_der_pol
+
+   !> x'' + 2 d x' + x = cos t, and z' = -k (z - x).
+   type, extends(ode_model_type) :: linear_problem
+      real(wp) :: damping = 0.1_wp, stiffness = 1e4_wp
+   contains
+      procedure :: rhs => linear_rhs
+      procedure :: linearize => no_preparation
+      procedure :: jacobian_times => linear_times
+      procedure :: solve => no_solution
+   end type linear_problem
+
+   !> x'' - mu (1 - x^2) x' + x = 0.
+   type, extends(ode_model_type) :: van_der_pol
+      real(wp) :: mu = 1, x = 0, v = 0
+   contains
+      procedure :: rhs => van_der_pol_rhs
+      procedure :: linearize => keep_state
+      procedure :: jacobian_times => van_der_pol_times
+      procedure :: solve => no_solution_either
+   end type van_der_pol
+
+contains
+
+   subroutine linear_rhs(self, t, y, dydt, ok)
+      class(linear_problem), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: dydt(:)
+      logical, intent(out) :: ok
+      dydt = [y(2), cos(t) - y(1) - 2*self%damping*y(2), -self%stiffness*(y(3) - y(1))]
+      ok = .true.
+   end subroutine linear_rhs
+
+   subroutine no_preparation(self, t, y, ok)
+      class(linear_problem), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      logical, intent(out) :: ok
+      ok = .true.
+   end subroutine no_preparation
+
+   subroutine linear_times(self, v, jv)
+      class(linear_problem), intent(inout) :: self
+      real(wp), intent(in) :: v(:)
+      real(wp), intent(out) :: jv(:)
+      jv = [v(2), -v(1) - 2*self%damping*v(2), -self%stiffness*(v(3) - v(1))]
+   end subroutine linear_times
+
+   subroutine no_solution(self, gamma, b, ok)
+      class(linear_problem), intent(inout) :: self
+      real(wp), intent(in) :: gamma
+      real(wp), intent(inout) :: b(:)
+      logical, intent(out) :: ok
+      ok = .false.
+   end subroutine no_solution
+
+   subroutine van_der_pol_rhs(self, t, y, dydt, ok)
+      class(van_der_pol), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: dydt(:)
+      logical, intent(out) :: ok
+      dydt = [y(2), self%mu*(1 - y(1)**2)*y(2) - y(1)]
+      ok = .true.
+   end subroutine van_der_pol_rhs
+
+   subroutine keep_state(self, t, y, ok)
+      class(van_der_pol), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      logical, intent(out) :: ok
+      self%x = y(1)
+      self%v = y(2)
+      ok = .true.
+   end subroutine keep_state
+
+   subroutine van_der_pol_times(self, v, jv)
+      class(van_der_pol), intent(inout) :: self
+      real(wp), intent(in) :: v(:)
+      real(wp), intent(out) :: jv(:)
+      jv = [v(2), (-2*self%mu*self%x*self%v - 1)*v(1) + self%mu*(1 - self%x**2)*v(2)]
+   end subroutine van_der_pol_times
+
+   subroutine no_solution_either(self, gamma, b, ok)
+      class(van_der_pol), intent(inout) :: self
+      real(wp), intent(in) :: gamma
+      real(wp), intent(inout) :: b(:)
+      logical, intent(out) :: ok
+      ok = .false.
+   end subroutine no_solution_either
+end module orbit_problems
+
+program test_orbit_collocation
+   use kinds, only: wp, pi
+   use ode_model, only: ode_model_type
+   use orbit_collocation, only: orbit_type, newton_round, points, place
+   use periodic_orbit, only: set_multipliers
+   use orbit_problems, only: linear_problem, van_der_pol
+   use check, only: runs, expect, expect_close, report
+   implicit none (type, external)
+
+   if (runs('linear')) call linear()
+   if (runs('order')) call order()
+   if (runs('state_at')) call state_at()
+   if (runs('limit_cycle')) call limit_cycle()
+   call report()
+
+contains
+
+   !> An orbit at rest on n equal intervals of a period.
+   type(orbit_type) function at_rest(states, n, period) result(orbit)
+      integer, intent(in) :: states, n
+      real(wp), intent(in) :: period
+      integer :: k
+      allocate (orbit%time(0:n), orbit%at(states, points, n), orbit%start(states), orbit%scale(states))
+      orbit%time = [(period*k/n, k=0, n)]
+      orbit%at = 0
+      orbit%start = 0
+      orbit%scale = 1
+   end function at_rest
+
+   !> x = sin(t)/(2 d) and z = x - x'/k + ..., for d = 0.1. One round solves what is linear. Of the multipliers, exp(2 pi (-d +- i sqrt(1 - d^2))) and exp(-2 pi k) = 0, the largest
+   !> have the modulus exp(-0.2 pi). Radau's error with 40 intervals is of (2 pi/40)^5/7200 = 1e-8.
+   subroutine linear()
+      type(linear_problem) :: problem
+      type(orbit_type) :: orbit
+      complex(wp), allocatable :: values(:)
+      complex(wp) :: expected
+      logical :: ok
+      problem%n = 3
+      orbit = at_rest(3, 40, 2*pi)
+      call newton_round(problem, orbit, huge(1.0_wp), ok)
+      call expect(ok, 'a round')
+      call expect_close(orbit%start(1), 0.0_wp, 1e-6_wp, 'x at the start')
+      call expect_close(orbit%start(2), 5.0_wp, 1e-6_wp, 'its velocity')
+      call expect_close(orbit%start(3), -5/problem%stiffness, 1e-6_wp, 'the stiff state')
+      call newton_round(problem, orbit, huge(1.0_wp), ok)
+      call expect_close(orbit%correction, 0.0_wp, 1e-9_wp, 'the second round has nothing to correct')
+      call expect_close(orbit%residual, 0.0_wp, 1e-9_wp, 'and its equations are satisfied')
+      call set_multipliers(orbit%monodromy, values, ok)
+      expected = exp(2*pi*cmplx(-problem%damping, sqrt(1 - problem%damping**2), wp))
+      call expect_close(values(1)%re, expected%re, 1e-6_wp, 'multiplier, real part')
+      call expect_close(abs(values(1)%im), abs(expected%im), 1e-6_wp, 'multiplier, imaginary part')
+      call expect_close(abs(values(3)), 0.0_wp, 1e-12_wp, 'the stiff state forgets its start')
+   end subroutine linear
+
+   !> With twice the intervals the error of the multipliers falls by 2^5: 28 to 36 where higher orders are small.
+   subroutine order()
+      real(wp) :: errors(2), exact
+      integer :: i
+      exact = exp(-0.2_wp*pi)
+      do i = 1, 2
+         errors(i) = abs(modulus(10*2**i) - exact)
+      end do
+      call expect(errors(1)/errors(2) > 28 .and. errors(1)/errors(2) < 36, 'order 5')
+   end subroutine order
+
+   !> Modulus of the leading multiplier of the linear problem on n intervals.
+   real(wp) function modulus(n)
+      integer, intent(in) :: n
+      type(linear_problem) :: problem
+      type(orbit_type) :: orbit
+      complex(wp), allocatable :: values(:)
+      logical :: ok
+      problem%n = 3
+      orbit = at_rest(3, n, 2*pi)
+      call newton_round(problem, orbit, huge(1.0_wp), ok)
+      call set_multipliers(orbit%monodromy, values, ok)
+      modulus = abs(values(1))
+   end function modulus
+
+   !> Between the points the orbit is a polynomial: the state of one of degree 3 is exact at any time, and so is it on
+   !> another mesh.
+   subroutine state_at()
+      type(orbit_type) :: orbit
+      real(wp) :: y(1), mesh(0:7), t
+      integer :: k, i
+      orbit = at_rest(1, 4, 2.0_wp)
+      orbit%start = cubic(0.0_wp)
+      do k = 1, 4
+         do i = 1, points
+            orbit%at(1, i, k) = cubic(orbit%time(k - 1) + place(i)*0.5_wp)
+         end do
+      end do
+      do k = 0, 20
+         t = 0.1_wp*k
+         call orbit%state_at(t, y)
+         call expect_close(y(1), cubic(t), 1e-13_wp, 'a cubic')
+      end do
+      mesh = [0.0_wp, 0.1_wp, 0.3_wp, 0.7_wp, 0.9_wp, 1.3_wp, 1.9_wp, 2.0_wp]
+      call orbit%change_mesh(mesh)
+      call expect(orbit%intervals() == 7, 'seven intervals')
+      call expect_close(maxval(abs(orbit%time - mesh)), 0.0_wp, 0.0_wp, 'the mesh')
+      do k = 0, 20
+         t = 0.1_wp*k
+         call orbit%state_at(t, y)
+         call expect_close(y(1), cubic(t), 1e-12_wp, 'a cubic on another mesh')
+      end do
+   end subroutine state_at
+
+   pure real(wp) function cubic(t)
+      real(wp), intent(in) :: t
+      cubic = 1 - 2*t + 0.5_wp*t**2 + t**3
+   end function cubic
+
+   !> Van der Pol's rest, x = 0, for mu = 1 over the period T = 6.6632868593 of its limit cycle: the multipliers are
+   !> exp(T (1 +- i sqrt(3))/2), far outside the unit circle. Newton's method is not led away by that.
+   subroutine limit_cycle()
+      type(van_der_pol) :: problem
+      type(orbit_type) :: orbit
+      complex(wp), allocatable :: values(:)
+      complex(wp) :: expected
+      real(wp), parameter :: period = 6.6632868593_wp
+      integer :: round
+      logical :: ok
+      problem%n = 2
+      orbit = at_rest(2, 80, period)
+      orbit%start = [0.1_wp, -0.1_wp]
+      do round = 1, 6
+         call newton_round(problem, orbit, huge(1.0_wp), ok)
+         call expect(ok, 'a round')
+      end do
+      call expect_close(maxval(abs(orbit%start)), 0.0_wp, 1e-12_wp, 'the rest is found')
+      call set_multipliers(orbit%monodromy, values, ok)
+      expected = exp(period*cmplx(0.5_wp, sqrt(0.75_wp), wp))
+      call expect_close(abs(values(1)), abs(expected), 1e-6_wp*abs(expected), 'modulus of its multipliers')
+      call expect_close(values(1)%re, expected%re, 1e-6_wp*abs(expected), 'and their angle')
+   end subroutine limit_cycle
+end program test_orbit_collocation
