@@ -72,6 +72,34 @@ def test_the_clearance_circle(run):
     assert pads[0].theta2 - pads[0].theta1 == pytest.approx(69.3)
 
 
+def test_fixed_pads_leave_room_within_their_bores(run, tiltpad_set):
+    """The arcs of both bores meet the circle of radius c_r where the pads are anchored, and lie around it."""
+    ax = tiltpad.plots.clearance(tiltpad_set("none", "pads%motion='fixed'"))
+    assert not [each for each in ax.patches if type(each).__name__ == "Circle"]
+    bores = [each for each in ax.patches if type(each).__name__ == "Arc" and each.get_linewidth() < 1]
+    for arc, angle in zip(bores, np.radians([-45, 225]), strict=True):
+        z, y = arc.center
+        assert arc.width == arc.height == pytest.approx(200)
+        assert (z, y) == pytest.approx((-20 * np.cos(angle), -20 * np.sin(angle)), abs=1e-9)
+
+
+def test_pictures_of_fixed_pads(run, result, tmp_path, capsys):
+    from tiltpad import figures
+
+    for plot in ("orbit", "equilibrium", "size", "poincare", "waveform", "spectrum", "runup", "pressure"):
+        assert command.main([plot, str(result("fixed")), "-o", str(tmp_path / "a.png")]) == 0
+        assert 0.01 < drawn(tmp_path / "a.png") < 0.7
+    labels = [ax.get_ylabel() for ax in figures.waveform([run("fixed")]).axes]
+    assert labels[2:] == ["minimum film\nthickness (µm)", "maximum\npressure (MPa)"]
+    assert len(figures.runup([run("fixed"), run("lugre")]).axes) == 3
+    assert len(figures.runup([run("lugre")]).axes) == 4
+    assert figures.poincare([run("fixed")]).axes[1].get_xlabel() == "journal $y$ (µm)"
+    for plot in ("hysteresis", "friction", "sticking"):
+        capsys.readouterr()
+        assert command.main([plot, str(result("fixed")), "-o", str(tmp_path / "b.png")]) == 1
+        assert capsys.readouterr().err.count("\n") == 1
+
+
 def test_axes_that_are_given_are_used_and_returned(run):
     _, ax = plt.subplots()
     case = run("lugre")

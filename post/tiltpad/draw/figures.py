@@ -9,6 +9,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tiltpad.calculate import differences, pivots, signals
@@ -41,6 +42,13 @@ from tiltpad.files.units import SHOWN
 def all_tilt(runs: Sequence[Run]) -> bool:
     """False where a run has fixed pads."""
     return all(run.input["pads"]["motion"] != "fixed" for run in runs)
+
+
+def label_films(panels: Mapping[str, Axes]) -> None:
+    """Labels in two lines, as long as a panel is high."""
+    for name, text in zip(plots.FILM, ("minimum film\nthickness", "maximum\npressure"), strict=True):
+        if name in panels:
+            panels[name].set_ylabel(f"{text} ({SHOWN[name].unit})")
 
 
 @of_several
@@ -171,13 +179,15 @@ def waveform(runs: Sequence[Run], last: float | None = None, pad: int | None = N
     """Journal, tilt and tilt rate over the last revolutions; of fixed pads film and pressure."""
     last = last or 5
     pads = shown_pads(runs, pad)
-    of_pads = plots.PHASE if all_tilt(runs) else ("min_film_thickness", "max_pressure")
+    of_pads = plots.PHASE if all_tilt(runs) else plots.FILM
     fig, panels = stacked(["journal_y", "journal_z", *of_pads])
     for i, run in enumerate(runs):
         for name, ax in panels.items():
             for k, p in drawn(name, pads):
                 plots.waveform(run, ax, name, last, pad=p, **look(i, k, runs))
     longest = max(signals.turned(run, signals.last_revolutions(run, last)) for run in runs)
+    if of_pads == plots.FILM:
+        label_films(panels)
     for ax in panels.values():
         ax.set_xlim(0, longest)
     if len(runs) == 1:
@@ -202,7 +212,7 @@ def runup(runs: Sequence[Run], last: float | None = None, pad: int | None = None
             for k, p in drawn(name, pads):
                 plots.history(run, ax, name, pad=p, **look(i, k, runs))
     ends = {(*signals.ends(run, "time"), *signals.ends(run, "speed")) for run in runs}
-    panels["min_film_thickness"].set_ylabel(f"minimum film\nthickness ({SHOWN['min_film_thickness'].unit})")
+    label_films(panels)
     for ax in panels.values():
         ax.set_xlim(min(end[0] for end in ends), max(end[1] for end in ends))
     if len(ends) == 1:

@@ -28,6 +28,8 @@ STYLE = "tiltpad.draw.tiltpad"
 BAND_FROM = 60
 #: Axes of a Poincare section: y over z of the journal, tilt rate over tilt of a pad, rate of y over y.
 ORBIT, PHASE, RISE = ("journal_z", "journal_y"), ("pad_tilt", "pad_tilt_rate"), ("journal_y", "journal_vy")
+#: What is drawn of pads that do not tilt.
+FILM = ("min_film_thickness", "max_pressure")
 #: Revolutions of the path that is drawn under a Poincare section.
 PATH = 4
 #: Line of a pivot that sticks.
