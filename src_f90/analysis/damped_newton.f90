@@ -36,7 +36,7 @@ contains
 
    !> Follows the motion without inertia from y to rest, where y is then. An error says why it did not come to rest, or,
    !> of status `stopped`, that `give_up`, asked between evaluations of the films, said so.
-   subroutine follow_motion(model, y, residual, error, give_up, held, first_step)
+   subroutine follow_motion(model, y, residual, error, give_up, held, first_step, most)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       !> Largest unbalanced force over the load.
@@ -47,11 +47,15 @@ contains
       logical, intent(in), optional :: held(:)
       !> Time step to begin with, in radians of the shaft; 1 if it is left out.
       real(wp), intent(in), optional :: first_step
+      !> Iterations at most, if they are fewer than usual.
+      integer, intent(in), optional :: most
       real(wp) :: time_step, next, move
       real(wp), allocatable :: step(:)
       logical :: ok, stuck, free(model%layout%n_positions())
-      integer :: iterations
+      integer :: iterations, limit
 
+      limit = max_iterations
+      if (present(most)) limit = most
       free = free_positions(model, held)
       stuck = .false.
       time_step = 1/model%point%speed(0.0_wp)
@@ -65,7 +69,7 @@ contains
       residual = imbalance(model, free)
       iterations = 0
       do while (.not. residual <= residual_limit)
-         if (iterations == max_iterations .or. stuck) then
+         if (iterations == limit .or. stuck) then
             call raise(error, numerics_error, 'after '//to_text(iterations) &
                & //' iterations the unbalanced force is still '//to_text(residual)//' of the load')
             if (model%warning() /= '') error%message = error%message//'; '//model%warning()

@@ -20,6 +20,10 @@ module equilibrium
 
    !> The methods of the wider search, in their order.
    integer, parameter :: by_pads = 1, by_newton = 2, by_rests = 3, by_motion = 4
+   !> Iterations from an equilibrium of quick films to that of the model's own.
+   integer, parameter :: few = 40
+   !> Residual of quick films from which on this is tried.
+   real(wp), parameter :: near = 0.1_wp
 
 contains
 
@@ -113,8 +117,7 @@ contains
    end function best_start
 
    !> From every start by every method, up to the first stable equilibrium; where there is none, `found` is that which
-   !> flutters least, or has no pads. Ways are sought with films that need no iteration, their ends with the model's
-   !> own.
+   !> flutters least, or has no pads. All is sought with quick films; their equilibrium leads to the model's own.
    subroutine search_wider(static, found, traces, give_up)
       type(bearing_model), intent(inout) :: static
       type(equilibrium_type), intent(inout) :: found
@@ -127,14 +130,17 @@ contains
       integer :: method, k
       logical :: ok
       if (allocated(found%tilt)) deallocate (found%tilt)
-      call make_quick(static, quick)
+      call make_quick(static%scene, static%point%rupture, quick)
       do method = by_pads, by_motion
          do k = 1, starts
             if (asked(give_up)) return
             y = start(quick, k)
             call approach(quick, method, y, traces, ok, give_up)
             if (.not. ok) cycle
-            call follow_motion(static, y, candidate%residual, error, give_up, first_step=newtons)
+            ! loose films leap by their error: where they do nothing comes to rest
+            call follow_motion(quick, y, candidate%residual, error, give_up, first_step=newtons)
+            if (candidate%residual > near) cycle
+            call follow_motion(static, y, candidate%residual, error, give_up, first_step=newtons, most=few)
             if (allocated(error)) cycle
             if (.not. is_usable(static, y, candidate, traces)) cycle
             if (allocated(found%tilt)) then
@@ -173,7 +179,7 @@ contains
          ok = .true.
       case (by_newton)
          call follow_motion(model, y, residual, error, give_up)
-         ok = .not. allocated(error)
+         ok = residual <= near
       case default
          call march_to_rest(model, y, ok, give_up)
       end select

@@ -11,7 +11,7 @@ module motion_to_rest
 
    !> Loose tolerances, as only the end counts; when to give up, in steps and revolutions.
    real(wp), parameter :: tolerance = 1e-4_wp
-   integer, parameter :: max_steps = 2000
+   integer, parameter :: max_steps = 1000
    real(wp), parameter :: revolutions = 200
    !> Velocities at rest, in scales of the positions per radian of the shaft.
    real(wp), parameter :: slow = 1e-4_wp

@@ -68,8 +68,9 @@ contains
       integer :: iteration, i
       time_step = 1/model%point%speed(0.0_wp)
       if (present(first_step)) time_step = first_step*time_step
+      at_rest = .false.
       do iteration = 0, pad_iterations
-         call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok)
+         call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok, .not. at_rest)
          if (.not. ok) return
          residual = imbalances(model)
          at_rest = residual <= pad_limit
@@ -155,7 +156,7 @@ contains
          if (at_rest(i)) cycle
          if (film_of(model, i, journal, pad_state()) > 0) pads(i) = pad_state()
       end do
-      call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok)
+      call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok, .not. at_rest)
    end subroutine put_down
 
    !> Force on the journal, N.

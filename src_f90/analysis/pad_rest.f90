@@ -4,10 +4,10 @@ module pad_rest
    use kinds, only: wp, pi
    use scene, only: scene_type
    use kinematics, only: journal_motion, pad_state, pad_frame
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: bearing_model
    use damped_newton, only: newtons
    use pad_elimination, only: settle_pads, film_of
-   use static_model, only: make_static
+   use static_model, only: make_quick
    implicit none (type, external)
    private
    public :: find_rests
@@ -42,7 +42,7 @@ contains
       pads = model%layout%pad_states(y)
       do i = 1, size(at_rest)
          if (at_rest(i)) cycle
-         call make_static(new_bearing_model(scene_of_pad(model%scene, i)), model%point%rupture, alone)
+         call make_quick(scene_of_pad(model%scene, i), model%point%rupture, alone)
          call find_rest(alone, journal, pads(i), at_rest(i))
       end do
       y = model%state(journal, pads)

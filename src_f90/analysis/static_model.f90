@@ -47,14 +47,15 @@ contains
       call static%bearing%set_accuracy(film_tolerance, film_sweeps)
    end subroutine make_static
 
-   !> The same with films that need no iteration: quick, and nearly those of the model.
-   subroutine make_quick(model, quick)
-      type(bearing_model), intent(in) :: model
+   !> A static model of a scene with films solved loosely: quick, and nearly the scene's.
+   subroutine make_quick(scene, rupture, quick)
+      type(scene_type), intent(in) :: scene
+      logical, intent(in) :: rupture
       type(bearing_model), intent(out) :: quick
-      type(scene_type) :: scene
-      scene = model%scene
-      if (scene%film%solver == 'sor') scene%film%solver = 'direct'
-      call make_static(new_bearing_model(scene), model%point%rupture, quick)
+      type(scene_type) :: changed
+      changed = scene
+      changed%film%solver = 'loose'
+      call make_static(new_bearing_model(changed), rupture, quick)
    end subroutine make_quick
 
    !> The same with films that are converged, where the scene leaves their solver to the program.

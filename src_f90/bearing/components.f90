@@ -28,6 +28,9 @@ module components
    !> ruptured films, and volumes of those that no table would have.
    real(wp), parameter :: fine_error = 1e-6_wp, fine_ruptured_error = 1e-5_wp
    integer, parameter :: fine_volumes(2) = [160, 16]
+   !> Error of those of 'loose', which is no word of the input either: for ways that are long and of which only the end
+   !> counts.
+   real(wp), parameter :: loose_error = 1e-2_wp
    !> So many volumes serve an arc of this length, rad, and shorter ones.
    real(wp), parameter :: usual_arc = 120*degree
    !> Residual of over-relaxation over the relative tolerance of the march, at most, and what rounding leaves: films
@@ -60,7 +63,8 @@ contains
          cells = merge(f%circumferential_cells, enough_cells(gaps), f%circumferential_cells > 0)
          modes = merge(f%axial_modes, enough_modes(gaps), f%axial_modes > 0)
          ! what the input sets stays the same for every film
-         if (f%circumferential_cells == 0 .and. f%axial_modes == 0) error = usual_error
+         if (f%circumferential_cells == 0 .and. f%axial_modes == 0) error = merge(loose_error, usual_error, &
+            & f%solver == 'loose')
          if (f%solver == 'fine') error = fine_error
          volumes = merge(sor_volumes, rupture_volumes, f%solver == 'sor')
          if (f%solver == 'fine') volumes = fine_volumes
@@ -77,7 +81,7 @@ contains
             film = new_modal_film(gaps, cells, modes, cavitation == cavitation_gumbel, error)
          else
             associate (reynolds => cavitation == cavitation_reynolds, gumbel => cavitation == cavitation_gumbel)
-               if (f%solver == 'direct') then
+               if (f%solver == 'direct' .or. f%solver == 'loose') then
                   film = new_auto_film(gaps, cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
                else
                   ! one by one: gfortran never frees the elements of a list of them

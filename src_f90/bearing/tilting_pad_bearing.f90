@@ -1,18 +1,17 @@
 !> A bearing of tilting pads: the motion of the journal, the states of the pads and the speed go in, the loads of
 !> every pad and their derivatives come out. One evaluation of the film solver serves all pads.
 module tilting_pad_bearing
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, i8
    use clock, only: wall_clock
    use text, only: to_text
    use scene, only: scene_type
-   use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_ok, film_closed, &
-      & film_not_converged
+   use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_not_converged
    use asperity_contact, only: asperity_contact_type, asperity_load
    use contact_table, only: contact_table_type
    use friction, only: friction_law, no_friction
    use kinematics, only: journal_motion, pad_state, pad_frame, columns
    use tilting_pad, only: tilting_pad_type, pad_loads, pad_derivatives
+   use pad_admission, only: admitted, why_not
    use components, only: make_film, make_contact, make_friction, new_asperities, new_pads
    implicit none (type, external)
    private
@@ -74,7 +73,6 @@ module tilting_pad_bearing
       procedure :: set_accuracy
       procedure, private :: evaluate_films
       procedure, private :: set_loads
-      procedure, private :: refusal
    end type tilting_pad_bearing_type
 
    !> Every so many evaluations of the films one is timed.
@@ -106,8 +104,9 @@ contains
    end function new_tilting_pad_bearing
 
    !> Sets the loads in a state, the speed in rad/s, and their derivatives where they are wanted. Refuses a state whose
-   !> film is closed or did not converge, or whose pad has turned over: then `refusal` says why.
-   subroutine evaluate(self, journal, pads, speed, want_derivatives, refusal, ok)
+   !> film is closed or did not converge, or whose pad has turned over: then `refusal` says why. Loads of pads that are
+   !> not chosen stay what they are.
+   subroutine evaluate(self, journal, pads, speed, want_derivatives, refusal, ok, chosen)
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: pads(:)
@@ -115,8 +114,14 @@ contains
       logical, intent(in) :: want_derivatives
       character(len=:), allocatable, intent(inout) :: refusal
       logical, intent(out) :: ok
+      !> Left out: all.
+      logical, intent(in), optional :: chosen(:)
+      logical :: skipped(size(pads))
       integer :: i
+      skipped = .false.
+      if (present(chosen)) skipped = .not. chosen
       do i = 1, size(self%pads)
+         if (skipped(i)) cycle
          self%frame(i) = self%pads(i)%frame(journal, pads(i))
          self%motion(i) = self%pads(i)%motion(self%frame(i), journal, pads(i))
          call self%asperities%evaluate(self%pads(i)%gap, self%pads(i)%directions, self%motion(i), speed, &
@@ -124,15 +129,16 @@ contains
          self%film_motion(i) = self%motion(i)
          if (self%asperity(i)%touches) self%film_motion(i)%position = self%asperity(i)%film_position
       end do
-      call self%evaluate_films(speed, want_derivatives)
+      call self%evaluate_films(speed, want_derivatives, chosen)
       do i = 1, size(self%pads)
+         if (skipped(i)) cycle
          ok = admitted(self%pads(i), pads(i), self%response(i))
-         if (.not. ok) then
-            refusal = self%refusal(i, pads(i)%tilt)
-            return
-         end if
+         if (ok) cycle
+         refusal = why_not(self%pads(i), i, pads(i), self%response(i), self%film%max_sweeps)
+         return
       end do
       do i = 1, size(self%pads)
+         if (skipped(i)) cycle
          call self%set_loads(i, self%frame(i), pads(i), self%response(i)%force, self%asperity(i), self%loads(i))
          if (want_derivatives) call self%pads(i)%derivatives(self%frame(i), self%motion(i), pads(i), self%response(i), &
             & self%asperity(i), self%loads(i), self%derivatives(i))
@@ -140,10 +146,11 @@ contains
    end subroutine evaluate
 
    !> The films at the motions set; some evaluations are timed, for all.
-   subroutine evaluate_films(self, speed, want_derivatives)
+   subroutine evaluate_films(self, speed, want_derivatives, chosen)
       class(tilting_pad_bearing_type), intent(inout) :: self
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
+      logical, intent(in), optional :: chosen(:)
       real(wp) :: started
       logical :: timed
       integer :: i
@@ -151,13 +158,16 @@ contains
       timed = mod(self%evaluations, timing_stride) == 0
       ! tables are built now and then: their time must not count for evaluations without
       if (timed) started = wall_clock() - self%film%counters%building
-      call self%film%evaluate(self%film_motion, speed, want_derivatives, self%response)
+      call self%film%evaluate(self%film_motion, speed, want_derivatives, self%response, chosen)
       if (timed) self%film%counters%seconds = self%film%counters%seconds &
          & + timing_stride*(wall_clock() - self%film%counters%building - started)
       self%evaluations = self%evaluations + 1
       do i = 1, size(self%pads)
          associate (film => self%response(i), asperity => self%asperity(i))
             if (.not. asperity%touches) cycle
+            if (present(chosen)) then
+               if (.not. chosen(i)) cycle
+            end if
             film%min_film_thickness = asperity%thickness
             if (want_derivatives) film%derivatives(:, 1:2) = matmul(film%derivatives(:, 1:2), asperity%film_slopes)
          end associate
@@ -179,36 +189,6 @@ contains
          call self%pads(pad)%loads(frame, state, film_force, asperity, self%contact, no_rubbing, loads)
       end if
    end subroutine set_loads
-
-   !> True where a pad stands and its film has a force.
-   pure logical function admitted(pad, state, film)
-      type(tilting_pad_type), intent(in) :: pad
-      type(pad_state), intent(in) :: state
-      type(film_response), intent(in) :: film
-      admitted = abs(state%tilt) < pad%largest_tilt .and. film%status == film_ok .and. all(ieee_is_finite(film%force))
-   end function admitted
-
-   !> Why the state evaluated last is refused for a pad.
-   function refusal(self, pad, tilt) result(reason)
-      class(tilting_pad_bearing_type), intent(in) :: self
-      integer, intent(in) :: pad
-      !> Its tilt, rad.
-      real(wp), intent(in) :: tilt
-      character(len=:), allocatable :: reason, thickness
-      associate (film => self%response(pad))
-         thickness = ': thickness '//to_text(film%min_film_thickness)//' m'
-         if (.not. abs(tilt) < self%pads(pad)%largest_tilt) then
-            reason = 'pad '//to_text(pad)//' turned over: tilt '//to_text(tilt)//' rad'
-         else if (film%status == film_closed) then
-            reason = 'the film of pad '//to_text(pad)//' closed'//thickness
-         else if (film%status == film_not_converged) then
-            reason = 'the film of pad '//to_text(pad)//' did not converge: residual '//to_text(film%residual) &
-               & //' after film%max_sweeps = '//to_text(self%film%max_sweeps)
-         else
-            reason = 'the film force of pad '//to_text(pad)//' is not finite'//thickness
-         end if
-      end associate
-   end function refusal
 
    !> What a sample takes from the films, pad by pad: force and maximum pressure as evaluated last, the force with what
    !> a change of the state, (column, pad), adds to first order.

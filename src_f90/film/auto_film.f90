@@ -80,18 +80,22 @@ contains
       call self%modal%set_rupture(allowed)
    end subroutine set_rupture
 
-   subroutine evaluate(self, motion, speed, want_derivatives, response)
+   subroutine evaluate(self, motion, speed, want_derivatives, response, chosen)
       class(auto_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
-      type(film_response), intent(out) :: response(:)
+      type(film_response), intent(inout) :: response(:)
+      logical, intent(in), optional :: chosen(:)
       type(film_response) :: changed
       real(wp) :: force(2)
       integer :: i
       logical :: few
-      call self%modal%evaluate(motion, speed, want_derivatives, response)
+      call self%modal%evaluate(motion, speed, want_derivatives, response, chosen)
       do i = 1, size(motion)
+         if (present(chosen)) then
+            if (.not. chosen(i)) cycle
+         end if
          if (response(i)%status /= film_ok) cycle
          if (.not. (self%projects .and. is_ruptured(self%cavitation_pressure(i), response(i)))) then
             self%counters%modal = self%counters%modal + 1

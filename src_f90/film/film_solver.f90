@@ -56,14 +56,17 @@ module film_solver
    end type film_solver_type
 
    abstract interface
-      !> The film of every pad at a motion each and a journal speed, rad/s.
-      subroutine evaluate_film(self, motion, speed, want_derivatives, response)
+      !> The film of every pad at a motion each and a journal speed, rad/s; the answers of pads that are not chosen
+      !> stay what they are.
+      subroutine evaluate_film(self, motion, speed, want_derivatives, response, chosen)
          import :: film_solver_type, film_motion, film_response, wp
          class(film_solver_type), intent(inout) :: self
          type(film_motion), intent(in) :: motion(:)
          real(wp), intent(in) :: speed
          logical, intent(in) :: want_derivatives
-         type(film_response), intent(out) :: response(:)
+         type(film_response), intent(inout) :: response(:)
+         !> Left out: all.
+         logical, intent(in), optional :: chosen(:)
       end subroutine evaluate_film
 
       !> True where pressures below the cavitation pressure are not kept.

@@ -150,14 +150,16 @@ contains
       positions = [journal%position/scale%position, y(tilts)/self%scale(tilts)]
    end function positions
 
-   !> Evaluates the bearing at (t, y): loads and, where they are wanted, their derivatives.
-   subroutine evaluate(self, t, y, want_derivatives, ok)
+   !> Evaluates the bearing at (t, y): loads and, where they are wanted, their derivatives; those of pads that are not
+   !> chosen stay what they are.
+   subroutine evaluate(self, t, y, want_derivatives, ok, chosen)
       class(bearing_model), intent(inout) :: self
       real(wp), intent(in) :: t, y(:)
       logical, intent(in) :: want_derivatives
       logical, intent(out) :: ok
+      logical, intent(in), optional :: chosen(:)
       call self%bearing%evaluate(self%rotor%journal(y(:self%rotor%states)), self%layout%pad_states(y), &
-         & self%point%speed(t), want_derivatives, self%refusal, ok)
+         & self%point%speed(t), want_derivatives, self%refusal, ok, chosen)
    end subroutine evaluate
 
    !> Rates of all states at (t, y).

@@ -14,6 +14,7 @@ program test_tilting_pad_bearing
    real(wp), parameter :: speed = 680
    character(len=*), parameter :: motions(2) = [character(len=14) :: 'tilting_radial', 'tilting_only']
    character(len=*), parameter :: frictions(3) = [character(len=12) :: 'none', 'bengisu_akay', 'lugre']
+   character(len=*), parameter :: solvers(4) = [character(len=6) :: 'modal', 'direct', 'sor', 'auto']
    integer :: i, k
 
    do i = 1, size(motions)
@@ -30,10 +31,45 @@ program test_tilting_pad_bearing
       call derivatives('fixed', 'none', .true.)
       call samples('fixed', .true.)
    end if
+   do i = 1, size(solvers)
+      if (runs('chosen_pads')) call chosen_pads(solvers(i))
+   end do
    if (runs('operating_point')) call operating_point()
    call report()
 
 contains
+
+   !> Loads of a pad that is chosen are those of its new state, loads of another stay those of the state before.
+   subroutine chosen_pads(solver)
+      character(len=*), intent(in) :: solver
+      type(scene_type) :: scene
+      type(tilting_pad_bearing_type) :: bearing, all_pads
+      type(journal_motion) :: journal
+      type(pad_state) :: pads(2), moved(2)
+      character(len=:), allocatable :: refusal
+      logical :: ok
+      scene = heavy_scene('tilting_radial', 'none')
+      scene%film%solver = solver
+      bearing = new_tilting_pad_bearing(scene)
+      call draw(journal, pads)
+      call bearing%evaluate(journal, pads, speed, .true., refusal, ok)
+      all_pads = bearing
+      moved = pads
+      moved%tilt = pads%tilt + 1e-5_wp
+      call bearing%evaluate(journal, moved, speed, .true., refusal, ok, [.false., .true.])
+      call expect_close(difference(bearing, all_pads, 1), 0.0_wp, 0.0_wp, solver//': a pad that is not chosen')
+      call all_pads%evaluate(journal, moved, speed, .true., refusal, ok)
+      call expect_close(difference(bearing, all_pads, 2), 0.0_wp, 1e-9_wp, solver//': a chosen pad')
+      call expect(difference(bearing, all_pads, 1) > 1e-3_wp, solver//': the move is felt')
+   end subroutine chosen_pads
+
+   !> Of a pad's moments and their derivatives in two bearings, over themselves.
+   real(wp) function difference(a, b, pad)
+      type(tilting_pad_bearing_type), intent(in) :: a, b
+      integer, intent(in) :: pad
+      difference = maxval(abs([a%loads(pad)%moment - b%loads(pad)%moment, a%derivatives(pad)%moment &
+         & - b%derivatives(pad)%moment])/max(abs([b%loads(pad)%moment, b%derivatives(pad)%moment]), tiny(difference)))
+   end function difference
 
    !> Heavy pads off their balance on films without rupture, hence smooth, solved closely.
    type(tilting_pad_bearing_type) function heavy_bearing(motion, friction) result(bearing)

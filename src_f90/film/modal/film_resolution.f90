@@ -14,7 +14,8 @@ module film_resolution
    private
    public :: resolution_type, new_resolution, enough_cells, enough_modes, most_levels, usual_error
 
-   integer, parameter :: most_levels = 5
+   !> Levels at most: in all; of a film with a tolerance above the usual one.
+   integer, parameter :: most_levels = 5, loose_levels = 3
    !> The error for which the thresholds below hold.
    real(wp), parameter :: usual_error = 1e-4_wp
    !> Cells over the arc's span times the largest H over the pad's length, and the same with the H at a leading edge
@@ -30,7 +31,7 @@ module film_resolution
 
    type :: resolution_type
       private
-      integer :: cells = 0, modes = 0
+      integer :: cells = 0, modes = 0, levels = most_levels
       logical :: follows = .false., floods = .false.
       !> What the thresholds are multiplied by.
       real(wp) :: more_cells = 1, more_modes = 1
@@ -74,6 +75,7 @@ contains
       self%floods = gap%supply_pressure > gap%ambient_pressure
       self%follows = present(tolerance)
       if (self%follows) then
+         if (tolerance > usual_error) self%levels = loose_levels
          self%more_cells = (usual_error/tolerance)**0.25_wp
          self%more_modes = (usual_error/tolerance)**(1.0_wp/3)
       end if
@@ -106,7 +108,7 @@ contains
       cells = self%more_cells*along*cells
       modes = self%more_modes*max(modes_by_length*aspect(gap), &
          & modes_by_slope*width*sqrt(max(0.0_wp, k + least*(3 - 2*least)))/least)
-      do while (level < most_levels .and. (cells > self%cells*2**(level - 1) .or. modes > modes_at(self, level)))
+      do while (level < self%levels .and. (cells > self%cells*2**(level - 1) .or. modes > modes_at(self, level)))
          level = level + 1
       end do
    end function level

@@ -95,15 +95,20 @@ contains
       end do
    end subroutine set_rupture
 
-   subroutine evaluate_all(self, motion, speed, want_derivatives, response)
+   subroutine evaluate_all(self, motion, speed, want_derivatives, response, chosen)
       class(modal_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
-      type(film_response), intent(out) :: response(:)
+      type(film_response), intent(inout) :: response(:)
+      logical, intent(in), optional :: chosen(:)
       real(wp) :: along
       integer :: i
       do i = 1, size(motion)
+         if (present(chosen)) then
+            if (.not. chosen(i)) cycle
+         end if
+         response(i) = film_response()
          associate (gap => self%gaps(i), level => self%level(i))
             response(i)%min_film_thickness = gap%min_film_thickness(motion(i), self%directions(i))
             if (.not. response(i)%min_film_thickness > thinnest*gap%machined_clearance) then

@@ -118,14 +118,19 @@ contains
       self%tabulates = self%solves
    end subroutine set_accuracy
 
-   subroutine evaluate(self, motion, speed, want_derivatives, response)
+   subroutine evaluate(self, motion, speed, want_derivatives, response, chosen)
       class(table_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
-      type(film_response), intent(out) :: response(:)
+      type(film_response), intent(inout) :: response(:)
+      logical, intent(in), optional :: chosen(:)
       integer :: i
       do i = 1, size(motion)
+         if (present(chosen)) then
+            if (.not. chosen(i)) cycle
+         end if
+         response(i) = film_response()
          associate (pad => self%pads(i))
             response(i)%min_film_thickness = pad%gap%min_film_thickness(motion(i), pad%directions)
             pad%found = .false.

@@ -124,14 +124,18 @@ contains
       self%cavitation = merge(self%options%cavitation, cavitation_none, allowed)
    end subroutine set_rupture
 
-   subroutine evaluate_all(self, motion, speed, want_derivatives, response)
+   subroutine evaluate_all(self, motion, speed, want_derivatives, response, chosen)
       class(sor_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
-      type(film_response), intent(out) :: response(:)
+      type(film_response), intent(inout) :: response(:)
+      logical, intent(in), optional :: chosen(:)
       integer :: i
       do i = 1, size(self%pads)
+         if (present(chosen)) then
+            if (.not. chosen(i)) cycle
+         end if
          call self%evaluate_pad(i, motion(i), speed, want_derivatives, response(i))
       end do
    end subroutine evaluate_all
