@@ -70,9 +70,7 @@ contains
       iterations = 0
       do while (.not. residual <= residual_limit)
          if (iterations == limit .or. stuck) then
-            call raise(error, numerics_error, 'after '//to_text(iterations) &
-               & //' iterations the unbalanced force is still '//to_text(residual)//' of the load')
-            if (model%warning() /= '') error%message = error%message//'; '//model%warning()
+            call raise(error, numerics_error, last_words(model, iterations, residual))
             return
          end if
          iterations = iterations + 1
@@ -97,6 +95,17 @@ contains
          residual = next
       end do
    end subroutine follow_motion
+
+   !> What is said of a search that does not end.
+   function last_words(model, iterations, residual)
+      type(bearing_model), intent(in) :: model
+      integer, intent(in) :: iterations
+      real(wp), intent(in) :: residual
+      character(len=:), allocatable :: last_words
+      last_words = 'after '//to_text(iterations)//' iterations the unbalanced force is still '//to_text(residual) &
+         & //' of the load'
+      if (model%warning() /= '') last_words = last_words//'; '//model%warning()
+   end function last_words
 
    !> The time step after one that took the residual from `last` to `now`: longer as it falls.
    elemental real(wp) function next_time_step(time_step, last, now)
