@@ -31,6 +31,7 @@ class MissingProgramError(RunError):
 def run(
     case: "str | os.PathLike | Groups | None" = None,
     output: str | os.PathLike | None = None,
+    /,
     *,
     overwrite: bool = False,
     quiet: bool = True,
@@ -47,8 +48,8 @@ def run(
     Each further keyword is a group with values of its own. A sweep gives the study of its members. The
     result is written to `output` (of a sweep: the folder of its members, with study.h5); it replaces that of
     another case only with `overwrite`. Without a name it is temporary, for as long as it is used. A wrong
-    case is a ValueError with the program's message. Where the numerics fail the result is there up to this
-    point, with an IncompleteRunWarning.
+    case is a ValueError with the program's message, a run that gives no result a RunError. Where the numerics
+    fail on the way the result is there up to this point, with an IncompleteRunWarning.
     """
     folder = Path(tempfile.mkdtemp(prefix="tiltpad-"))
     target = Path(output) if output is not None else folder / "result.h5"
@@ -80,6 +81,7 @@ def started(
             words += ["--set", f"{group}%{name}={namelist.written(value, group == namelist.SWEEP)}"]
     done = subprocess.run(words, stderr=subprocess.PIPE, text=True)
     said = done.stderr.strip().removeprefix("tiltpad: error: ")
+    said = said.replace("--overwrite", "overwrite=True").replace("--output", "output")
     if done.returncode == INPUT_ERROR:
         raise ValueError(said)
     if done.returncode not in (0, NUMERICS, STOPPED) or not target.exists():
@@ -92,6 +94,8 @@ def started(
 def program() -> str:
     """The program: TILTPAD in the environment, that of this Python, on PATH, or built where the source is."""
     if given := os.environ.get("TILTPAD"):
+        if not os.access(given, os.X_OK):
+            raise MissingProgramError(f"TILTPAD = {given}: no program")
         return given
     beside = Path(sys.executable).parent / PROGRAM
     built = Path(__file__).resolve().parents[2] / "build/bin" / PROGRAM
