@@ -38,7 +38,21 @@ module orbit_collocation
       procedure :: change_mesh
    end type orbit_type
 
+   !> Where displacements x and their rates v, x' = v, stand among the states, all states u but the displacements, and
+   !> where the rates stand among these.
+   type :: parts_type
+      integer, allocatable :: x(:), v(:), u(:), v_in_u(:)
+   end type parts_type
+
 contains
+
+   type(parts_type) function new_parts(model) result(parts)
+      class(ode_model_type), intent(in) :: model
+      integer :: i
+      call model%pairs(parts%x, parts%v)
+      parts%u = pack([(i, i=1, model%n)], [(all(parts%x /= i), i=1, model%n)])
+      parts%v_in_u = [(findloc(parts%u, parts%v(i), dim=1), i=1, size(parts%v))]
+   end function new_parts
 
    pure integer function intervals(self)
       class(orbit_type), intent(in) :: self
@@ -75,8 +89,9 @@ contains
    pure subroutine change_mesh(self, time)
       class(orbit_type), intent(inout) :: self
       real(wp), intent(in) :: time(0:)
-      real(wp) :: at(size(self%start), points, ubound(time, 1))
+      real(wp), allocatable :: at(:, :, :)
       integer :: k, i
+      allocate (at(size(self%start), points, ubound(time, 1)))
       do k = 1, ubound(time, 1)
          do i = 1, points
             call self%state_at(time(k - 1) + place(i)*(time(k) - time(k - 1)), at(:, i, k))
@@ -84,7 +99,7 @@ contains
       end do
       deallocate (self%time)
       allocate (self%time(0:ubound(time, 1)), source=time)
-      self%at = at
+      call move_alloc(at, self%at)
       self%correction = huge(self%correction)
    end subroutine change_mesh
 
@@ -97,19 +112,20 @@ contains
       real(wp), intent(in) :: longest
       logical, intent(out) :: ok
       !> Corrections of the points of each interval: by a change of the state at its start, and without one.
-      real(wp), allocatable :: by_start(:, :, :)
+      real(wp), allocatable :: by_start(:, :, :), corrections(:, :)
+      type(parts_type) :: parts
       real(wp) :: product(model%n, model%n + 1), closing(model%n, 1), change(model%n), share
-      real(wp) :: corrections(points*model%n, orbit%intervals())
       integer :: k, i, n
       n = model%n
-      allocate (by_start(points*n, n + 1, orbit%intervals()))
+      parts = new_parts(model)
+      allocate (by_start(points*n, n + 1, orbit%intervals()), corrections(points*n, orbit%intervals()))
       product = 0
       do i = 1, n
          product(i, i) = 1
       end do
       orbit%residual = 0
       do k = 1, orbit%intervals()
-         call eliminate(model, orbit, k, by_start(:, :, k), ok)
+         call eliminate(model, orbit, parts, k, by_start(:, :, k), ok)
          if (.not. ok) return
          associate (last => by_start((points - 1)*n + 1:, :, k))
             product = matmul(last(:, :n), product)
@@ -128,7 +144,7 @@ contains
          call follow(by_start(:, :, k), change, corrections(:, k))
       end do
       orbit%correction = max(orbit%correction, maxval(abs(corrections)))
-      share = min(1.0_wp, longest/orbit%correction)
+      share = longest/max(longest, orbit%correction)
       orbit%start = orbit%start + share*orbit%scale*closing(:, 1)
       do k = 1, orbit%intervals()
          do i = 1, points
@@ -138,44 +154,106 @@ contains
    end subroutine newton_round
 
    !> Solves the linear equations of interval k for the corrections of its points, over the scales: columns 1 to n by a
-   !> change of the state at its start, the last without one.
-   subroutine eliminate(model, orbit, k, by_start, ok)
+   !> change of the state at its start, the last without one. The equations of the displacements, x' = v, are satisfied
+   !> by x_i = x_0 + h sum_j a_ij v_j, which leaves a system on the other states alone.
+   subroutine eliminate(model, orbit, parts, k, by_start, ok)
       class(ode_model_type), intent(inout) :: model
       type(orbit_type), intent(inout) :: orbit
+      type(parts_type), intent(in) :: parts
       integer, intent(in) :: k
       real(wp), intent(out) :: by_start(:, :)
       logical, intent(out) :: ok
-      real(wp) :: matrix(points*model%n, points*model%n), rate(model%n, points), jacobian(model%n, model%n)
-      real(wp) :: before(model%n), h
-      integer :: pivots(points*model%n), info, i, j, l, n
-      n = model%n
+      real(wp) :: jacobian(model%n, model%n, points), gap(model%n, points), per_rate(size(parts%x))
+      real(wp) :: matrix(points*size(parts%u), points*size(parts%u)), b(points*size(parts%u), model%n + 1)
+      integer :: pivots(points*size(parts%u)), info, i, j, m
+      m = size(parts%u)
+      associate (x => parts%x, h => orbit%time(k) - orbit%time(k - 1))
+         call linearize(model, orbit, k, jacobian, gap, ok)
+         if (.not. ok) return
+         per_rate = h*orbit%scale(parts%v)/orbit%scale(x)
+         call assemble(parts, per_rate, jacobian, gap, matrix, b)
+         call dgesv(points*m, model%n + 1, matrix, points*m, pivots, b, points*m, info)
+         ok = info == 0
+         if (.not. ok) return
+         do i = 1, points
+            associate (o => (i - 1)*model%n)
+               by_start(o + parts%u, :) = b((i - 1)*m + 1:i*m, :)
+               by_start(o + x, :) = 0
+               by_start(o + x, model%n + 1) = gap(x, i)
+               do j = 1, size(x)
+                  by_start(o + x(j), x(j)) = 1
+               end do
+               do j = 1, points
+                  by_start(o + x, :) = by_start(o + x, :) + weight(i, j) &
+                     & *spread(per_rate, 2, model%n + 1)*b((j - 1)*m + parts%v_in_u, :)
+               end do
+            end associate
+         end do
+      end associate
+   end subroutine eliminate
+
+   !> At the points of interval k: the derivatives of the rates, over the scales and times the interval, and how far the
+   !> equations are from being satisfied.
+   subroutine linearize(model, orbit, k, jacobian, gap, ok)
+      class(ode_model_type), intent(inout) :: model
+      type(orbit_type), intent(inout) :: orbit
+      integer, intent(in) :: k
+      real(wp), intent(out) :: jacobian(:, :, :), gap(:, :)
+      logical, intent(out) :: ok
+      real(wp) :: rate(model%n, points), before(model%n), h
+      integer :: i, l
       h = orbit%time(k) - orbit%time(k - 1)
       before = orbit%start
       if (k > 1) before = orbit%at(:, points, k - 1)
-      do j = 1, points
-         call model%tangent(orbit%time(k - 1) + place(j)*h, orbit%at(:, j, k), rate(:, j), jacobian, ok)
-         if (.not. ok) return
-         do l = 1, n
-            jacobian(:, l) = h*jacobian(:, l)*orbit%scale(l)/orbit%scale
-         end do
-         do i = 1, points
-            matrix((i - 1)*n + 1:i*n, (j - 1)*n + 1:j*n) = -weight(i, j)*jacobian
-         end do
-      end do
-      by_start = 0
       do i = 1, points
-         by_start((i - 1)*n + 1:i*n, n + 1) = (before - orbit%at(:, i, k) + h*matmul(rate, weight(i, :)))/orbit%scale
-         do l = 1, n
-            by_start((i - 1)*n + l, l) = 1
+         call model%tangent(orbit%time(k - 1) + place(i)*h, orbit%at(:, i, k), rate(:, i), jacobian(:, :, i), ok)
+         if (.not. ok) return
+         do l = 1, model%n
+            jacobian(:, l, i) = h*orbit%scale(l)*jacobian(:, l, i)/orbit%scale
          end do
       end do
-      orbit%residual = max(orbit%residual, maxval(abs(by_start(:, n + 1))))
-      do i = 1, points*n
-         matrix(i, i) = matrix(i, i) + 1
+      do i = 1, points
+         gap(:, i) = (before - orbit%at(:, i, k) + h*matmul(rate, weight(i, :)))/orbit%scale
       end do
-      call dgesv(points*n, n + 1, matrix, points*n, pivots, by_start, points*n, info)
-      ok = info == 0
-   end subroutine eliminate
+      orbit%residual = max(orbit%residual, maxval(abs(gap)))
+   end subroutine linearize
+
+   !> The linear system of an interval on what is no displacement.
+   pure subroutine assemble(parts, per_rate, jacobian, gap, matrix, b)
+      type(parts_type), intent(in) :: parts
+      real(wp), intent(in) :: per_rate(:), jacobian(:, :, :), gap(:, :)
+      real(wp), intent(out) :: matrix(:, :), b(:, :)
+      real(wp) :: over_x(size(parts%u), size(parts%x)), over_v(size(parts%u), size(parts%x))
+      integer :: i, j, l, m
+      m = size(parts%u)
+      matrix = 0
+      b = 0
+      do j = 1, points
+         over_x = jacobian(parts%u, parts%x, j)
+         over_v = over_x*spread(per_rate, 1, m)
+         do i = 1, points
+            associate (rows => b((i - 1)*m + 1:i*m, :), block => matrix((i - 1)*m + 1:i*m, :))
+               block(:, (j - 1)*m + 1:j*m) = block(:, (j - 1)*m + 1:j*m) &
+                  & - weight(i, j)*jacobian(parts%u, parts%u, j)
+               do l = 1, points
+                  block(:, (l - 1)*m + parts%v_in_u) = block(:, (l - 1)*m + parts%v_in_u) &
+                     & - weight(i, j)*weight(j, l)*over_v
+               end do
+               rows(:, parts%x) = rows(:, parts%x) + weight(i, j)*over_x
+               rows(:, size(rows, 2)) = rows(:, size(rows, 2)) + weight(i, j)*matmul(over_x, gap(parts%x, j))
+            end associate
+         end do
+      end do
+      do i = 1, points
+         associate (last => size(b, 2))
+            b((i - 1)*m + 1:i*m, last) = b((i - 1)*m + 1:i*m, last) + gap(parts%u, i)
+         end associate
+         do l = 1, m
+            b((i - 1)*m + l, parts%u(l)) = b((i - 1)*m + l, parts%u(l)) + 1
+            matrix((i - 1)*m + l, (i - 1)*m + l) = matrix((i - 1)*m + l, (i - 1)*m + l) + 1
+         end do
+      end do
+   end subroutine assemble
 
    !> (1 - M) x = b: the change of the start that closes the orbit.
    subroutine close_period(monodromy, b, x, ok)

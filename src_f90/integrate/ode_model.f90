@@ -19,6 +19,8 @@ module ode_model
       procedure(solve_system), deferred :: solve
       !> The right-hand side and its derivatives together.
       procedure :: tangent
+      !> Which states are displacements, and which their rates.
+      procedure :: pairs
       !> The quantities sampled beside the states.
       procedure :: output
       !> What may soon stop the integration in the state evaluated last, for its message; else empty.
@@ -81,6 +83,13 @@ contains
          call self%jacobian_times(column, matrix(:, k))
       end do
    end subroutine tangent
+
+   !> States x(i) and v(i) with x' = v.
+   pure subroutine pairs(self, x, v)
+      class(ode_model_type), intent(in) :: self
+      integer, allocatable, intent(out) :: x(:), v(:)
+      allocate (x(0), v(0))
+   end subroutine pairs
 
    !> From the last evaluation, and to first order at the state that `correction` leads to from the state of that
    !> evaluation; 0: in that state itself.

@@ -42,6 +42,7 @@ module equations_of_motion
       procedure :: output
       procedure :: warning
       procedure :: tangent
+      procedure :: pairs
       procedure :: evaluate
       procedure :: set_point
       procedure :: state
@@ -253,6 +254,14 @@ contains
       call set_rates(self, t, y, dydt)
       matrix = self%newton%jacobian(self%rotor, self%bearing)
    end subroutine tangent
+
+   !> Displacements of rotor and pads, and their rates.
+   pure subroutine pairs(self, x, v)
+      class(bearing_model), intent(in) :: self
+      integer, allocatable, intent(out) :: x(:), v(:)
+      x = self%layout%positions()
+      v = self%layout%rates()
+   end subroutine pairs
 
    !> What is sampled at (t, y), where these outputs are known; no film is evaluated. The record may be used again.
    pure subroutine take_sample(self, t, y, output, sample)
