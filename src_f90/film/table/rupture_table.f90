@@ -25,6 +25,8 @@ module rupture_table
    real(wp), parameter :: error_of_solver = 1e-3_wp
    !> Most cells, and most nodes, unless told otherwise.
    integer, parameter :: usual_most = 20000
+   !> Films that are remembered: of a state of all pads.
+   integer, parameter :: memory = 24
    !> How much an error of the slopes at a cell's middle, times its size, counts.
    real(wp), parameter :: share_of_slopes = 0.15_wp
 
@@ -51,6 +53,10 @@ module rupture_table
       type(ruptured_drive_type) :: drive
       !> Whether no cell is built, and every film is solved.
       logical :: solves = .false.
+      !> The films solved last, one after the other, and where; for `solves`.
+      type(node_type), allocatable :: remembered(:)
+      real(wp), allocatable :: remembered_at(:, :)
+      integer :: remember_next = 0
       !> Error of the force over that of the film that is just whole, T = 0.
       real(wp) :: tolerance
       !> Terms of a cubic from the data at its corners, once it is needed.
@@ -70,6 +76,7 @@ module rupture_table
       procedure, private :: build
       procedure, private :: find_node
       procedure, private :: solved_node
+      procedure, private :: solve_once
    end type rupture_table_type
 
 contains
@@ -89,6 +96,8 @@ contains
       table%drive = new_ruptured_drive(pad, gumbel, table%tolerance)
       if (present(most)) table%most = max(most, corners + 1)
       if (present(solves)) table%solves = solves
+      if (table%solves) allocate (table%remembered(memory), table%remembered_at(3, memory))
+      if (table%solves) table%remembered_at = huge(1.0_wp)
    end function new_rupture_table
 
    !> The functions and, if they are wanted, their derivatives over both thicknesses and T, (function, axis), for an
@@ -104,14 +113,14 @@ contains
       type(node_type) :: node
       real(wp) :: place(3)
       integer :: axis
+      place = [edges, t]
       if (self%solves) then
-         node = self%solved_node(edges, t)
+         call self%solve_once(place, node)
          value = node%data(:, 1)
          slope = node%data(:, 2:)
          good = node%ok
          return
       end if
-      place = [edges, t]
       if (.not. holds(self, last, place)) call self%find_cell(place, last)
       associate (cell => self%cells(last))
          good = cell%good
@@ -121,6 +130,24 @@ contains
          end do
       end associate
    end subroutine look_up
+
+   !> The node at a place, from memory if it is among the last that were solved: a state is often evaluated again, for
+   !> its derivatives.
+   subroutine solve_once(self, place, node)
+      class(rupture_table_type), intent(inout) :: self
+      real(wp), intent(in) :: place(3)
+      type(node_type), intent(out) :: node
+      integer :: i
+      do i = 1, size(self%remembered)
+         if (any(abs(self%remembered_at(:, i) - place) > 0)) cycle
+         node = self%remembered(i)
+         return
+      end do
+      node = self%solved_node(place(:2), place(3))
+      self%remember_next = modulo(self%remember_next, size(self%remembered)) + 1
+      self%remembered(self%remember_next) = node
+      self%remembered_at(:, self%remember_next) = place
+   end subroutine solve_once
 
    !> True where a cell of this number holds this place and is not cut.
    pure logical function holds(self, number, place)
