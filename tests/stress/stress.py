@@ -1,6 +1,6 @@
 """Stress test: random scenes over wide ranges of every input; each ends in a result or a named refusal.
 
-usage: stress.py TILTPAD [--scenes N | --only N,N,..] [--seed S] [--jobs J] [--compare SHARE]
+usage: stress.py TILTPAD [--scenes N | --only N,N,..] [--seed S] [--fixed] [--jobs J] [--compare SHARE]
                  [--search PROGRAM] [--keep FOLDER] [--report FILE]
 
 Scenes that fail are kept as namelists, to be run again. The last line reads "N passed, N failed".
@@ -27,6 +27,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--first", type=int, default=1, help="number of the first scene")
     parser.add_argument("--only", type=lambda words: list(map(int, words.split(","))), help="these scenes")
     parser.add_argument("--search", type=Path, help="global search for the equilibria of refused scenes")
+    parser.add_argument("--fixed", action="store_true", help="the same scenes with fixed pads")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--compare", type=float, default=0.5, help="share compared with a finer run")
@@ -38,7 +39,7 @@ def arguments() -> argparse.Namespace:
 
 def member(options: argparse.Namespace, number: int) -> Result:
     """Draws, runs and judges one scene in a folder of its own."""
-    scene = draw(options.seed, number)
+    scene = draw(options.seed, number, options.fixed)
     compare = Dice(f"compare {options.seed}/{number}").chance(options.compare)
     folder = Path(tempfile.mkdtemp(prefix="tiltpad-stress-"))
     try:

@@ -21,8 +21,14 @@ class Dice(random.Random):
         return self.random() < share
 
 
-def draw(seed: int, number: int) -> Scene:
-    """Scene `number` of a seed."""
+def draw(seed: int, number: int, fixed: bool = False) -> Scene:
+    """Scene `number` of a seed; on request the same with fixed pads, drawn with dice of their own."""
+    scene = tilting(seed, number)
+    return fix(scene, Dice(f"fixed {seed}/{number}")) if fixed else scene
+
+
+def tilting(seed: int, number: int) -> Scene:
+    """A scene with pads that tilt."""
     dice = Dice(f"{seed}/{number}")
     scene: Scene = {"case": {"title": f"stress scene {number} of seed {seed}"}}
     scene["bearing"] = bearing(dice)
@@ -134,6 +140,31 @@ def pads(dice: Dice, bearing: dict, direction: float) -> dict:
         "centre_tangential": tangential,
         "centre_radial": radial,
     }
+
+
+def fix(scene: Scene, dice: Dice) -> Scene:
+    """Makes pads fixed: of a plain, partial or grooved bearing or one with lobes, some anchored off their middle."""
+    bearing, rotor = scene["bearing"], scene["rotor"]
+    extra = rotor.get("static_load", [0.0, 0.0])
+    load = math.atan2(extra[0] - rotor["mass"] * rotor.get("gravity", 9.81), extra[1])
+    count = dice.choice((1, 1, 2, 2, 2, 3, 4))
+    groove = dice.choice((0.0, dice.uniform(1, 40))) if count == 1 else dice.uniform(2, 40)
+    if count == 1 and dice.chance(0.4):
+        groove = dice.uniform(160, 290)
+    arc, ratio = 360 / count - groove, 0.5
+    # the load somewhere on the middle half of a pad, or of a partial one
+    middle = math.degrees(load) + dice.uniform(-0.25, 0.25) * min(arc, 120)
+    if dice.chance(0.6):
+        bearing["assembled_clearance"] = bearing["machined_clearance"]
+    elif dice.chance(0.5):
+        ratio = dice.uniform(0.01, 0.99)
+    angles = [(middle + (ratio - 0.5) * -arc + 360 * i / count + 720) % 360 for i in range(count)]
+    scene["pads"] = {"motion": "fixed", "pivot_angle_deg": angles, "arc_deg": [0.9999 * arc] * count}
+    scene["pads"]["pivot_ratio"] = [ratio] * count
+    scene["friction"] = {"model": "none"}
+    del scene["pivot"]
+    scene["integration"]["max_steps"] = step_budget(scene)
+    return scene
 
 
 def pivot_ratio(dice: Dice) -> float:
