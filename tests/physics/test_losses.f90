@@ -27,6 +27,7 @@ program test_losses
    if (runs('order')) call order()
    if (runs('oil_is_kept')) call oil_is_kept()
    if (runs('power_is_kept')) call power_is_kept()
+   if (runs('raimondi_boyd')) call raimondi_boyd()
    if (runs('viscosity')) call viscosity()
    if (runs('mirror')) call mirror()
    if (runs('even_strip_under_pressure')) call even_strip_under_pressure()
@@ -300,6 +301,49 @@ contains
          call expect(loss%pressure > 0, 'heat is positive: '//shown(state))
       end do
    end subroutine power_is_kept
+
+   !> Full bearings that draw oil at the thickest place: tables of Raimondi and Boyd, ASLE Transactions 1 (1958), which
+   !> come from differences on a coarse grid and count a full gap in the ruptured part: Sommerfeld number, attitude
+   !> angle, friction R/c, flow over R c N L, share of it that leaves at the sides.
+   subroutine raimondi_boyd()
+      real(wp), parameter :: tables(7, 8) = reshape([ &
+         & 1.0_wp, 0.2_wp, 0.631_wp, 74.02_wp, 12.8_wp, 3.59_wp, 0.280_wp, &
+         & 1.0_wp, 0.4_wp, 0.264_wp, 63.10_wp, 5.79_wp, 3.99_wp, 0.497_wp, &
+         & 1.0_wp, 0.6_wp, 0.121_wp, 50.58_wp, 3.22_wp, 4.33_wp, 0.680_wp, &
+         & 1.0_wp, 0.8_wp, 0.0446_wp, 36.24_wp, 1.70_wp, 4.62_wp, 0.842_wp, &
+         & 0.5_wp, 0.2_wp, 2.03_wp, 74.94_wp, 40.9_wp, 3.72_wp, 0.318_wp, &
+         & 0.5_wp, 0.4_wp, 0.779_wp, 61.45_wp, 17.0_wp, 4.29_wp, 0.552_wp, &
+         & 0.5_wp, 0.6_wp, 0.319_wp, 48.14_wp, 8.10_wp, 4.85_wp, 0.730_wp, &
+         & 0.5_wp, 0.8_wp, 0.0923_wp, 33.31_wp, 3.26_wp, 5.41_wp, 0.874_wp], [7, 8])
+      real(wp), parameter :: radius = 50e-3_wp, clearance = 10e-6_wp, speed = 300, viscosity = 0.02_wp
+      type(film_loss) :: loss, whole
+      real(wp) :: load, length, friction
+      integer :: i
+      do i = 1, size(tables, 2)
+         length = 2*radius*tables(1, i)
+         associate (gap => pad_gap_type(radius, clearance, length, 0.9999999_wp*pi, 0.9999999_wp*pi, viscosity, &
+            & 0.0_wp, 0.0_wp, 0.0_wp), motion => film_motion([0.0_wp, clearance*tables(2, i)]))
+            loss = found(gap, motion, speed, .true., .false.)
+            whole = found(gap, motion, speed, .false., .false.)
+         end associate
+         load = norm2(loss%force)
+         friction = (whole%couette + loss%wedge)/(speed*radius*load)*radius/clearance
+         call within(viscosity*speed/pi*radius*length/load*(radius/clearance)**2, tables(3, i), 0.015_wp, &
+            & 'Sommerfeld number')
+         call within(atan2(abs(loss%force(1)), abs(loss%force(2)))/degree, tables(4, i), 0.012_wp, 'attitude angle')
+         call within(friction, tables(5, i), 0.01_wp, 'friction of a full gap')
+         call expect(loss%couette < whole%couette, 'streamers shear less')
+         call within(loss%inlet/(radius*clearance*speed/(2*pi)*length), tables(6, i), 0.002_wp, 'inlet flow')
+         call within(loss%side/loss%inlet, tables(7, i), 0.004_wp, 'side flow')
+      end do
+   end subroutine raimondi_boyd
+
+   !> Relative error below a limit.
+   subroutine within(value, expected, limit, what)
+      real(wp), intent(in) :: value, expected, limit
+      character(len=*), intent(in) :: what
+      call expect_close(value, expected, limit*expected, what)
+   end subroutine within
 
    !> Losses grow with viscosity, flows stay.
    subroutine viscosity()

@@ -1,0 +1,143 @@
+!> Losses of all pads of a bearing in a state: each that of its own film, boundary friction apart, and no numbers where
+!> there is no film.
+program test_bearing_losses
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use kinds, only: wp, rpm
+   use errors, only: error_type
+   use scene, only: scene_type
+   use scene_namelist, only: scene_from_text
+   use film_solver, only: film_motion
+   use film_losses, only: film_losses_type, film_loss, new_film_losses
+   use kinematics, only: journal_motion, pad_state, pad_frame
+   use equations_of_motion, only: bearing_model, new_bearing_model
+   use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
+   use check, only: runs, expect, expect_close, expect_no_error, report
+   implicit none (type, external)
+
+   real(wp), parameter :: speed = 6500*rpm
+
+   if (runs('each_pad')) call each_pad()
+   if (runs('any_solver')) call any_solver()
+   if (runs('boundary_friction')) call boundary_friction()
+   if (runs('standing_shaft')) call standing_shaft()
+   if (runs('closed_film')) call closed_film()
+   call report()
+
+contains
+
+   subroutine make(text, model, losses)
+      character(len=*), intent(in) :: text
+      type(bearing_model), intent(out) :: model
+      type(bearing_losses_type), intent(out) :: losses
+      type(scene_type) :: scene
+      type(error_type), allocatable :: error
+      call scene_from_text(text, 'case', scene, error)
+      call expect_no_error(error, 'scene')
+      model = new_bearing_model(scene)
+      losses = new_bearing_losses(scene)
+   end subroutine make
+
+   !> Two pads that differ, in motion.
+   subroutine each_pad()
+      type(bearing_model) :: model
+      type(bearing_losses_type) :: losses
+      type(film_losses_type) :: single
+      type(film_loss) :: film
+      type(pad_loss) :: found(2)
+      type(journal_motion) :: journal
+      type(pad_state) :: pads(2)
+      type(film_motion) :: motion
+      integer :: i
+      call make('&pads arc_deg=69.3, 60, pivot_ratio=0.5, 0.6 /', model, losses)
+      journal = journal_motion([-40e-6_wp, 5e-6_wp], [1e-3_wp, -2e-3_wp])
+      pads = [pad_state(-1e-4_wp, 0.1_wp, 7e-6_wp, 1e-3_wp), pad_state(8e-4_wp, -0.1_wp, 6e-6_wp, 0.0_wp)]
+      call losses%find(model%bearing, journal, pads, speed, found)
+      do i = 1, 2
+         associate (pad => model%bearing%pads(i))
+            motion = pad%motion(pad%frame(journal, pads(i)), journal, pads(i))
+            single = new_film_losses(pad%gap, .true., .false.)
+            call single%find(motion, speed, film)
+            call expect_close(found(i)%load, norm2(film%force), 0.0_wp, 'load')
+            call expect_close(found(i)%power(), film%couette + film%pressure, 1e-12_wp*film%couette, 'power')
+            call expect(all(abs([found(i)%inlet - film%inlet, found(i)%outlet - film%outlet, found(i)%side &
+               & - film%side]) <= 0), 'flows')
+            ! what pressure adds on the journal it takes from the pad, but for the film between their radii
+            call expect_close(speed*(found(i)%journal_drag + found(i)%pad_drag*pad%gap%journal_radius &
+               & /pad%gap%pad_radius()), 2*film%couette, 1e-12_wp*film%couette, 'drag')
+            call expect_close(speed*found(i)%journal_drag, film%couette + film%wedge, 1e-12_wp*film%couette, 'drive')
+            call expect(.not. abs(found(i)%boundary) > 0, 'nothing touches')
+         end associate
+      end do
+      call expect(abs(found(1)%couette - found(2)%couette) > 1, 'the pads differ')
+   end subroutine each_pad
+
+   !> Films are those of converged films, whatever solver the motion takes.
+   subroutine any_solver()
+      type(bearing_model) :: model
+      type(bearing_losses_type) :: losses
+      type(pad_loss) :: found(2, 2)
+      type(pad_state), parameter :: pads(2) = pad_state(5e-4_wp, 0.0_wp, 7e-6_wp)
+      integer :: k
+      do k = 1, 2
+         call make('&film solver='''//merge('auto', 'sor ', k == 1)//''' /', model, losses)
+         call losses%find(model%bearing, journal_motion([-50e-6_wp, 0.0_wp]), pads, speed, found(:, k))
+      end do
+      call expect(all(abs(found(:, 1)%power() - found(:, 2)%power()) <= 0), 'the same')
+   end subroutine any_solver
+
+   !> The coefficient of friction times the force that the asperities bear times the speed of the surface; the film is
+   !> that of the mean gap in the valleys, which stays open.
+   subroutine boundary_friction()
+      type(bearing_model) :: model
+      type(bearing_losses_type) :: losses
+      type(pad_loss) :: found(2)
+      type(journal_motion) :: journal
+      type(pad_state) :: pads(2)
+      type(pad_frame) :: frame
+      character(len=:), allocatable :: refusal
+      integer :: i
+      logical :: ok
+      call make('&asperity friction_coefficient=0.2 /', model, losses)
+      ! down to half a micrometre short of the pads, which turn until their middles lie closest
+      journal = journal_motion([-79.5e-6_wp*sqrt(2.0_wp), 0.0_wp])
+      do i = 1, 2
+         frame = model%bearing%pads(i)%frame(journal, pads(i))
+         pads(i)%tilt = frame%along/model%bearing%pads(i)%position%centre_distance
+      end do
+      call losses%find(model%bearing, journal, pads, speed, found)
+      refusal = ''
+      call model%bearing%evaluate(journal, pads, speed, .false., refusal, ok)
+      call expect(ok .and. all(model%bearing%asperity%touches), 'they touch')
+      call expect_close(found(1)%boundary, 0.2_wp*model%bearing%asperity(1)%carried()*speed*49.9e-3_wp, &
+         & 1e-3_wp*found(1)%boundary, 'boundary friction')
+      call expect_close(found(1)%power(), found(1)%couette + found(1)%pressure + found(1)%boundary, &
+         & 1e-12_wp*found(1)%power(), 'apart')
+      call expect(found(1)%load > model%bearing%asperity(1)%carried(), 'film and asperities carry')
+      call make('&asperity friction_coefficient=0 /', model, losses)
+      call losses%find(model%bearing, journal, pads, speed, found)
+      call expect(found(1)%boundary <= 0 .and. found(1)%couette > 0, 'none')
+   end subroutine boundary_friction
+
+   !> A shaft that stands has no drag; squeezing the film makes heat all the same.
+   subroutine standing_shaft()
+      type(bearing_model) :: model
+      type(bearing_losses_type) :: losses
+      type(pad_loss) :: found(2)
+      type(pad_state), parameter :: pads(2) = pad_state()
+      call make('&film cavitation=''none'' /', model, losses)
+      call losses%find(model%bearing, journal_motion([-30e-6_wp, 0.0_wp], [-1e-2_wp, 0.0_wp]), pads, 0.0_wp, found)
+      call expect(all(found%couette <= 0 .and. abs(found%journal_drag) <= 0 .and. found%pressure > 0), 'squeeze')
+      call expect(all(found%side > 0 .and. found%outlet > 0 .and. found%inlet < 0), 'it flows out everywhere')
+   end subroutine standing_shaft
+
+   subroutine closed_film()
+      type(bearing_model) :: model
+      type(bearing_losses_type) :: losses
+      type(pad_loss) :: found(2)
+      type(pad_state), parameter :: pads(2) = pad_state()
+      call make('&asperity model=''none'' /', model, losses)
+      call losses%find(model%bearing, journal_motion([0.0_wp, 130e-6_wp]), pads, speed, found)
+      call expect(ieee_is_nan(found(1)%power()) .and. ieee_is_nan(found(1)%inlet), 'no numbers')
+      call expect(found(2)%power() > 0, 'the other pad has them')
+   end subroutine closed_film
+end program test_bearing_losses
