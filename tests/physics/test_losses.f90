@@ -24,6 +24,7 @@ program test_losses
    if (runs('whole_by_volumes')) call whole_by_volumes()
    if (runs('ruptured_by_volumes')) call ruptured_by_volumes()
    if (runs('clipped')) call clipped()
+   if (runs('under_pressure')) call under_pressure()
    if (runs('order')) call order()
    if (runs('oil_is_kept')) call oil_is_kept()
    if (runs('power_is_kept')) call power_is_kept()
@@ -249,6 +250,25 @@ contains
       call expect(all(abs([ruptured%couette - whole%couette, ruptured%inlet - whole%inlet, &
          & ruptured%side - whole%side]) <= 0), 'whole')
    end subroutine clipped
+
+   !> Edges under pressure drive oil into the rupture: their work is heat as well. By the plain sums.
+   subroutine under_pressure()
+      real(wp), parameter :: edges = 3e5_wp
+      type(film_loss) :: loss, fine, without
+      type(pad_gap_type) :: gap
+      type(film_motion) :: motion
+      gap = paper_pad([edges, edges, 0.0_wp])
+      motion = film_motion([10e-6_wp, 70e-6_wp])
+      loss = found(gap, motion, shaft_speed, .true., .false.)
+      fine = by_volumes(gap, motion, shaft_speed, 384, 48, .true.)
+      call expect_close(loss%pressure, fine%pressure, 1.5e-2_wp*fine%pressure, 'heat of the pressure flow')
+      call expect_close(loss%couette, fine%couette, 2e-3_wp*fine%couette, 'heat of sliding')
+      gap%ambient_pressure = 0
+      gap%supply_pressure = 0
+      without = found(gap, motion, shaft_speed, .true., .false.)
+      call expect(loss%pressure - without%pressure > 0.02_wp*without%pressure, 'the edges matter')
+      call expect(loss%wedge > 1.2_wp*loss%pressure, 'the shaft pumps oil through the rupture to the edges')
+   end subroutine under_pressure
 
    !> Volumes approach the modes, and fine volumes of a ruptured film, by the second power of their cells.
    subroutine order()
