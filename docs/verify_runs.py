@@ -1,0 +1,24 @@
+"""What the parts of verify.py share: runs of the program, and rows of tables."""
+
+import itertools
+import subprocess
+from pathlib import Path
+
+import tiltpad
+
+CASES = Path(__file__).resolve().parent.parent / "input/paper"
+NUMBERS = itertools.count()
+
+
+def run(program, case, folder, *overrides):
+    """Runs a case file, or a case of the paper by its name, and returns the open result."""
+    path = case if isinstance(case, Path) else CASES / f"{case}.nml"
+    output = Path(folder) / f"{next(NUMBERS)}.h5"
+    options = [word for override in overrides for word in ("--set", override)]
+    subprocess.run([program, path, "--quiet", "--output", output, *options], check=True)
+    return tiltpad.read(output)
+
+
+def row(*cells):
+    """A row of a Markdown table."""
+    return "| " + " | ".join(map(str, cells)) + " |"
