@@ -1,4 +1,4 @@
-"""Tables of docs/verification.md on what a bearing is to its rotor: coefficients, stability, losses, plain bearings."""
+"""Tables of docs/verification.md on coefficients, stability, losses and plain bearings."""
 
 import math
 from pathlib import Path
@@ -25,7 +25,8 @@ INDEPENDENT = {
 }
 PLACES = ("yy", "yz", "zy", "zz")
 
-# Someya (1989), four pads, load between them: S, eccentricity over clearance, K c/W and C c omega/W along the load.
+# Someya (1989), four pads, load between them: S, eccentricity over clearance, K c/W and C c omega/W along
+# the load.
 SOMEYA = (
     (0.756, 0.5, 1.94, 3.33),
     (0.550, 0.6, 2.26, 3.21),
@@ -34,8 +35,8 @@ SOMEYA = (
     (0.168, 0.9, 3.72, 2.97),
     (0.103, 1.0, 4.47, 2.99),
 )
-# Lund and Thomsen (1978), two pads of 160 degrees: L/D, S: eccentricity ratio, attitude angle, Kxx Kxy Kyx Kyy,
-# Cxx Cxy Cyx Cyy; x along the load.
+# Lund and Thomsen (1978), two pads of 160 degrees: L/D, S: eccentricity ratio, attitude angle, Kxx Kxy Kyx
+# Kyy, Cxx Cxy Cyx Cyy; x along the load.
 LUND_THOMSEN = {
     (0.5, 1.656): (0.244, 65.85, 1.69, 5.06, -2.20, 1.95, 9.93, 2.15, 2.15, 4.80),
     (0.5, 0.244): (0.655, 40.25, 4.21, 3.74, -0.13, 1.64, 6.87, 1.82, 1.82, 1.54),
@@ -46,10 +47,12 @@ PLAIN = """\
 &case task = 'coefficients' /
 &rotor mass = 1000, unbalance = 0 /
 &operation speed_rpm = 3000 /
-&bearing journal_radius = 0.05, assembled_clearance = 1e-4, preload = 0, axial_length = {length}, viscosity = {viscosity} /
+&bearing journal_radius = 0.05, assembled_clearance = 1e-4, preload = 0,
+  axial_length = {length}, viscosity = {viscosity} /
 """
 FOUR_PADS = """\
-&pads pivot_angle_deg = -45, 45, 135, 225, arc_deg = 80, motion = 'tilting_only', mass = 1e-6, inertia = 1e-9 /
+&pads pivot_angle_deg = -45, 45, 135, 225, arc_deg = 80, motion = 'tilting_only',
+  mass = 1e-6, inertia = 1e-9 /
 """
 TWO_GROOVES = "&pads motion = 'fixed', pivot_angle_deg = -90, 90, arc_deg = 160 /\n"
 LOAD, RADIUS, CLEARANCE, SPEED = 9810.0, 0.05, 1e-4, 100 * math.pi
