@@ -6,7 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-BLOCK = re.compile(r"```(\w+)( fails)?\n(.*?)```", re.DOTALL)
+BLOCK = re.compile(r"```(\w+)( fails| ross)?\n(.*?)```", re.DOTALL)
 SAVED = re.compile(r"Save this text as `([\w.]+)`")
 
 
@@ -15,9 +15,14 @@ def test_every_command_of_the_tutorial_does_what_it_says(root, program, tmp_path
     folders = [str(Path(program).parent), str(Path(sys.executable).parent), os.environ["PATH"]]
     environment = os.environ | {"PATH": os.pathsep.join(folders)}
     commands, cases = 0, iter(SAVED.findall(text))
-    for language, fails, block in BLOCK.findall(text):
+    for language, mark, block in BLOCK.findall(text):
+        fails, in_ross = mark == " fails", mark == " ross"
         if language == "nml":
             (tmp_path / next(cases)).write_text(block)
+            continue
+        if in_ross:
+            unbalance_response(root, block, tmp_path)
+            commands += 1
             continue
         lines = block.splitlines() if language == "sh" else [None]
         for line in lines:
@@ -28,7 +33,7 @@ def test_every_command_of_the_tutorial_does_what_it_says(root, program, tmp_path
             assert (done.returncode != 0) == bool(fails), f"{line or block}: {done.stdout}{done.stderr}"
             assert len(done.stderr.splitlines()) == bool(fails), done.stderr
             commands += 1
-    assert commands == len(re.findall(r"^tiltpad|^python -c", text, re.MULTILINE)) + text.count("```python")
+    assert commands == len(re.findall(r"^tiltpad[ -]|^python -c", text, re.MULTILINE)) + text.count("```python")
     for name in re.findall(r"images/[\w-]+\.png", text):
         assert (root / "docs" / name).exists(), name
     for name in re.findall(r"(?<!images/)\b[\w-]+\.(?:h5|png|pdf|svg|nml)\b", text):
@@ -38,3 +43,16 @@ def test_every_command_of_the_tutorial_does_what_it_says(root, program, tmp_path
     assert example.endswith((tmp_path / "five.nml").read_text())
     same = [(tmp_path / name).stat().st_size for name in ("mine.h5", "again.h5")]
     assert same[0] == same[1]
+
+
+def unbalance_response(root, block, folder):
+    """Runs a block in ROSS, where it is installed: the text says where the critical speed is."""
+    python = root / "build/venv-ross/bin/python"
+    if not (root / "build/venv-ross/ready").exists():
+        return
+    done = subprocess.run([python, "-c", block], cwd=folder, text=True, capture_output=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    found = re.findall(r"^(\d+) rpm: ([\d.]+) um$", done.stdout, re.MULTILINE)
+    speed, size = max(found, key=lambda row: float(row[1]))
+    assert len(found) == 17
+    assert (speed, round(float(size))) == ("9000", 19)
