@@ -33,7 +33,8 @@ def test_every_command_of_the_tutorial_does_what_it_says(root, program, tmp_path
             assert (done.returncode != 0) == bool(fails), f"{line or block}: {done.stdout}{done.stderr}"
             assert len(done.stderr.splitlines()) == bool(fails), done.stderr
             commands += 1
-    assert commands == len(re.findall(r"^tiltpad[ -]|^python -c", text, re.MULTILINE)) + text.count("```python")
+    lines = re.findall(r"^tiltpad[ -]|^python -c", text, re.MULTILINE)
+    assert commands == len(lines) + text.count("```python")
     for name in re.findall(r"images/[\w-]+\.png", text):
         assert (root / "docs" / name).exists(), name
     for name in re.findall(r"(?<!images/)\b[\w-]+\.(?:h5|png|pdf|svg|nml)\b", text):
