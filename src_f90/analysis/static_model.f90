@@ -68,8 +68,8 @@ contains
       call make_static(new_bearing_model(scene), model%point%rupture, fine)
    end subroutine make_fine
 
-   !> Start k: the journal at its fraction of the clearance down the load, pivots carrying a share of it, and pads that
-   !> tilt tilted so that every film converges.
+   !> Start k: the journal at its fraction of the clearance down the load (among fixed pads from the middle of their
+   !> bores), pivots carrying a share of it, and pads that tilt tilted so that every film converges.
    function start(model, k) result(y)
       type(bearing_model), intent(in) :: model
       integer, intent(in) :: k
@@ -83,6 +83,7 @@ contains
             journal%position = fractions(k)*bearing%assembled_clearance*load/norm2(load)
             if (model%layout%radial) pads%penetration = model%bearing%penetration(norm2(load)/size(pads))
          end if
+         if (.not. model%layout%tilting) journal%position = journal%position + middle_of_bores(model)
          do i = 1, size(pads)
             frame = model%bearing%pads(i)%frame(journal, pads(i))
             pads(i)%tilt = (frame%along + bearing%machined_clearance/3)/model%bearing%pads(i)%position%centre_distance
@@ -90,6 +91,16 @@ contains
       end associate
       y = model%state(journal, pads)
    end function start
+
+   !> The mean of the places, m, at which the journal lies in the middle of a pad's bore, among pads without tilt.
+   pure function middle_of_bores(model) result(middle)
+      type(bearing_model), intent(in) :: model
+      real(wp) :: middle(2)
+      associate (b => model%scene%bearing, pads => model%bearing%pads)
+         middle = -(b%machined_clearance - b%assembled_clearance)/size(pads) &
+            & *[sum(pads%position%sin_angle), sum(pads%position%cos_angle)]
+      end associate
+   end function middle_of_bores
 
    !> The record of the equilibrium y, where the model was evaluated last.
    subroutine describe(model, y, found)

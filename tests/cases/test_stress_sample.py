@@ -1,4 +1,4 @@
-"""A fixed sample of the stress test: hard equilibria, and refusals that the global search confirms."""
+"""A sample of the stress test: hard equilibria, refusals that the global search confirms, fixed pads."""
 
 import sys
 from pathlib import Path
@@ -7,7 +7,7 @@ import h5py
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "stress"))
-from stress_judge import cause_of, searched  # noqa: E402
+from stress_judge import cause_of, judge, searched  # noqa: E402
 from stress_scenes import draw, text  # noqa: E402
 
 # scenes of seed 1 whose equilibrium the first search misses, by the method that finds it: pads one by one
@@ -22,6 +22,8 @@ HARD = {
 }
 # one pad (13, 27); every rest is divergent (70, 209)
 REFUSED = (13, 27, 70, 209)
+# fixed pads: a part of the arc, all around, four lobes, two grooves, three lobes
+FIXED = (9, 24, 40, 43, 59)
 
 
 def at_rest(tiltpad, folder, number):
@@ -48,3 +50,10 @@ def test_refused(tiltpad, tmp_path, number, program):
     found, faults = searched(Path(program).parents[1] / "stress/global_search", tmp_path / "scene.nml")
     assert not faults
     assert found in ("none", "divergent")
+
+
+@pytest.mark.parametrize("number", FIXED)
+def test_fixed_pads(tmp_path, number, program):
+    result = judge(Path(program), number, draw(1, number, fixed=True), tmp_path, compare=False)
+    assert result.outcome == "done"
+    assert not result.faults

@@ -143,7 +143,7 @@ def pads(dice: Dice, bearing: dict, direction: float) -> dict:
 
 
 def fix(scene: Scene, dice: Dice) -> Scene:
-    """Makes pads fixed: of a plain, partial or grooved bearing or one with lobes, some anchored off their middle."""
+    """Makes pads fixed: of a plain, partial, grooved or lobed bearing, some anchored off their middle."""
     bearing, rotor = scene["bearing"], scene["rotor"]
     extra = rotor.get("static_load", [0.0, 0.0])
     load = math.atan2(extra[0] - rotor["mass"] * rotor.get("gravity", 9.81), extra[1])
