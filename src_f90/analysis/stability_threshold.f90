@@ -6,7 +6,8 @@ module stability_threshold
    use errors, only: error_type
    use operating_point, only: operating_point_type
    use equations_of_motion, only: bearing_model
-   use damped_newton, only: follow_motion, asked_to_stop, asked, newtons
+   use damped_newton, only: asked_to_stop, asked
+   use static_model, only: come_to_rest
    use linear_bearing, only: linear_bearing_type, linearize
    use vibration_modes, only: find_growths
    implicit none (type, external)
@@ -89,7 +90,7 @@ contains
       call model%set_point(point)
       place%rpm = rpm
       place%y = y
-      call follow_motion(model, place%y, residual, error, first_step=newtons)
+      call come_to_rest(model, place%y, residual, error)
       ok = .not. allocated(error)
       if (ok) call linearize(model, place%y, bearings, ok)
       if (.not. ok) return

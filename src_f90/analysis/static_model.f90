@@ -7,11 +7,12 @@ module static_model
    use kinematics, only: journal_motion, pad_frame, pad_state
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
-   use damped_newton, only: residual_limit
+   use errors, only: error_type
+   use damped_newton, only: follow_motion, asked_to_stop, residual_limit, newtons
    use small_vibrations, only: stability_type
    implicit none (type, external)
    private
-   public :: equilibrium_type, describe, make_static, make_quick, make_fine, start, starts
+   public :: equilibrium_type, describe, make_static, make_quick, make_fine, come_to_rest, start, starts
 
    type :: equilibrium_type
       !> Journal, m; per pad tilt, rad, penetration, m (0 tilting-only), contact force, N.
@@ -27,6 +28,9 @@ module static_model
    !> Accuracy of films that are solved by iteration: below the residual limit.
    real(wp), parameter :: film_tolerance = 0.1_wp*residual_limit
    integer, parameter :: film_sweeps = 100000
+
+   !> Unbalanced force over the load that leaps of ruptured films may leave.
+   real(wp), parameter :: largest_leap = 1e-5_wp
 
    !> Positions of the journal to start from, in assembled clearances down the load.
    real(wp), parameter :: fractions(*) = [-0.6_wp, -0.3_wp, 0.0_wp, 0.3_wp, 0.6_wp, 0.9_wp]
@@ -67,6 +71,21 @@ contains
       if (scene%film%solver == 'auto') scene%film%solver = 'fine'
       call make_static(new_bearing_model(scene), model%point%rupture, fine)
    end subroutine make_fine
+
+   !> Brings a state that is nearly at rest to rest by Newton's method. Volumes of ruptured films make their force leap
+   !> by less than its error; where the rest lies in a leap, y ends beside it.
+   subroutine come_to_rest(model, y, residual, error, give_up)
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(inout) :: y(:)
+      real(wp), intent(out) :: residual
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      logical :: ok
+      call follow_motion(model, y, residual, error, give_up, first_step=newtons)
+      if (.not. allocated(error) .or. residual > largest_leap) return
+      call model%evaluate(0.0_wp, y, .false., ok)
+      if (ok) deallocate (error)
+   end subroutine come_to_rest
 
    !> Start k: the journal at its fraction of the clearance down the load (among fixed pads from the middle of their
    !> bores), pivots carrying a share of it, and pads that tilt tilted so that every film converges.

@@ -8,7 +8,7 @@ module components
    use modal_film, only: new_modal_film
    use film_resolution, only: enough_cells, enough_modes, usual_error
    use auto_film, only: auto_film_type, new_auto_film
-   use table_film, only: new_table_film
+   use table_film, only: new_table_film, has_tables
    use film_losses, only: film_losses_type, new_film_losses
    use sor_film, only: new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
    use contact_law, only: contact_law_type, make_contact_law
@@ -24,9 +24,10 @@ module components
    !> Finite volumes along the arc and along half the width where the input leaves them to the solver, by the
    !> errors in docs/benchmarks.md.
    integer, parameter :: sor_volumes(2) = [60, 15], rupture_volumes(2) = [80, 8]
-   !> The films of 'fine', which is no word of the input: for what is linearised at a single state. Errors of whole and
-   !> ruptured films, and volumes of those that no table would have.
-   real(wp), parameter :: fine_error = 1e-6_wp, fine_ruptured_error = 1e-5_wp
+   !> The films of 'fine', which is no word of the input: for what is linearised at a single state. Errors of whole
+   !> films and of ruptured ones up to an arc, rad, beyond which volumes stay as long; volumes where no table knows the
+   !> film.
+   real(wp), parameter :: fine_error = 1e-6_wp, fine_ruptured_error = 1e-5_wp, fine_arc = 80*degree
    integer, parameter :: fine_volumes(2) = [160, 16]
    !> Error of those of 'loose', which is no word of the input either: for ways that are long and of which only the end
    !> counts.
@@ -67,7 +68,7 @@ contains
             & f%solver == 'loose')
          if (f%solver == 'fine') error = fine_error
          volumes = merge(sor_volumes, rupture_volumes, f%solver == 'sor')
-         if (f%solver == 'fine') volumes = fine_volumes
+         if (f%solver == 'fine' .and. .not. all(has_tables(gaps))) volumes = fine_volumes
          volumes(1) = volumes(1)*max(1, nint(maxval(gaps%arc())/usual_arc))
          associate (given => [f%circumferential_cells, f%axial_cells])
             volumes = merge(given, volumes, given > 0)
@@ -91,8 +92,9 @@ contains
                   end do
                   ! ruptured films by volumes are dear, by modes they are cheap
                   tolerance = merge(1, 4, gumbel)*scene%integration%relative_tolerance
+                  if (f%solver == 'fine') tolerance = merge(fine_error, fine_ruptured_error &
+                     & *min(1.0_wp, (fine_arc/maxval(gaps%arc()))**2), gumbel)
                   if (f%table_tolerance > 0) tolerance = f%table_tolerance
-                  if (f%solver == 'fine') tolerance = merge(fine_error, fine_ruptured_error, gumbel)
                   film = new_table_film(gaps, single, reynolds .or. gumbel, gumbel, tolerance, f%solver == 'fine')
                end if
             end associate

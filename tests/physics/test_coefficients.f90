@@ -2,10 +2,13 @@
 !> of the films themselves, and by symmetry.
 program test_coefficients
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use kinds, only: wp, pi
+   use kinds, only: wp, pi, degree
+   use text, only: to_text
    use errors, only: error_type
    use scene, only: scene_type
    use equations_of_motion, only: bearing_model, new_bearing_model
+   use force_balance, only: forces
+   use scene_namelist, only: scene_from_text
    use equilibrium, only: equilibrium_type, find_equilibrium
    use static_model, only: make_fine
    use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
@@ -15,6 +18,12 @@ program test_coefficients
    if (runs('published')) call published()
    if (runs('modes')) call modes()
    if (runs('threshold')) call threshold()
+   if (runs('cross_stiffness')) call cross_stiffness()
+   if (runs('differences')) call differences()
+   if (runs('refinement')) call refinement()
+   if (runs('load')) call change_of_load()
+   if (runs('rotation')) call rotation()
+   if (runs('sticking')) call sticking()
    call report()
 
 contains
@@ -111,6 +120,225 @@ contains
       call expect(all(ieee_is_nan(found%thresholds)), 'none up to 8000 rpm')
       call expect_close(found%sought_up_to, 8000.0_wp, 0.0_wp, 'all of the range was looked at')
    end subroutine threshold
+
+   !> What is displaced along +y is pushed along +z by Q > 0, in the sense of rotation: forward whirl is damped less,
+   !> backward whirl more, and of two modes that are alike otherwise the difference of the real parts is Q/(m omega).
+   subroutine cross_stiffness()
+      type(scene_type) :: scene
+      type(bearing_coefficients_type) :: found
+      complex(wp) :: forward
+      scene = whole(6500.0_wp)
+      scene%coefficients%cross_stiffness = 1e8_wp
+      call analyse(scene, 'cross stiffness', found)
+      associate (first => found%modes(1))
+         forward = first%shape(2, 1)/first%shape(1, 1)
+         call expect_close(abs(forward - cmplx(0.0_wp, -1.0_wp, wp)), 0.0_wp, 0.02_wp, 'z lags y by a quarter')
+         call expect(first%damping_ratio(1) < 0.2_wp .and. first%damping_ratio(2) > 0.3_wp, 'one less, one more')
+      end associate
+      call compare(found%stiffness(:, :, 1, 1), [521.449_wp, -0.768_wp, -0.200_wp, 522.734_wp], 'K is without it')
+   end subroutine cross_stiffness
+
+   !> The full matrices against central differences of the forces, to a part of each row's largest element in its
+   !> column's scale: of whole films to 1e-6; of ruptured films, whose slopes leave out how cells leave the film, to 2 %
+   !> (pads that carry nothing err most).
+   subroutine differences()
+      call against_differences(whole(6500.0_wp), 'whole films', 1e-4_wp, 1e-6_wp)
+      call against_differences(ruptured(), 'ruptured films', 1e-4_wp, 2e-2_wp)
+   end subroutine differences
+
+   type(scene_type) function scene_from(text) result(scene)
+      character(len=*), intent(in) :: text
+      type(error_type), allocatable :: error
+      call scene_from_text(text, 'scene', scene, error)
+      call expect_no_error(error, 'a scene')
+   end function scene_from
+
+   !> Four pads without preload: the loaded pads' films rupture at the trailing edges, two pads carry nothing.
+   type(scene_type) function ruptured() result(scene)
+      scene = scene_from('&case task = ''coefficients''/ &rotor mass = 1000/ &operation speed_rpm = 3000/ &bearing ' &
+         & //'journal_radius = 50e-3 axial_length = 50e-3 assembled_clearance = 100e-6 machined_clearance = 100e-6 ' &
+         & //'viscosity = 20e-3/ &pads pivot_angle_deg = -45, 45, 135, 225 arc_deg = 80/')
+   end function ruptured
+
+   subroutine against_differences(scene, what, part, tolerance)
+      type(scene_type), intent(in) :: scene
+      character(len=*), intent(in) :: what
+      !> Of the scale of each state that the differences span.
+      real(wp), intent(in) :: part, tolerance
+      type(bearing_coefficients_type) :: found
+      type(bearing_model) :: model
+      real(wp), allocatable :: y(:)
+      call analyse(scene, what, found, fine=model, y=y)
+      associate (x => model%layout%positions(), v => model%layout%rates())
+         call agree(-over(model, y, x, part), found%bearings(1)%stiffness, model%scale(x), tolerance, what//', K')
+         call agree(-over(model, y, v, part), found%bearings(1)%damping, model%scale(v), tolerance, what//', C')
+      end associate
+   end subroutine against_differences
+
+   !> Derivatives of the forces over these states.
+   function over(model, y, states, part) result(slopes)
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:), part
+      integer, intent(in) :: states(:)
+      real(wp) :: slopes(size(states), size(states)), shifted(size(y))
+      integer :: k, side
+      logical :: ok
+      slopes = 0
+      do k = 1, size(states)
+         associate (step => part*model%scale(states(k)))
+            do side = -1, 1, 2
+               shifted = y
+               shifted(states(k)) = y(states(k)) + side*step
+               call model%evaluate(0.0_wp, shifted, .false., ok)
+               call expect(ok, 'a state beside the rest')
+               slopes(:, k) = slopes(:, k) + side*forces(model, 0.0_wp)/(2*step)
+            end do
+         end associate
+      end do
+   end function over
+
+   !> Rows, each column times its scale, to a part of the row's largest.
+   subroutine agree(found, expected, scale, tolerance, what)
+      real(wp), intent(in) :: found(:, :), expected(:, :), scale(:), tolerance
+      character(len=*), intent(in) :: what
+      integer :: row
+      do row = 1, size(scale)
+         call expect_close(maxval(abs(found(row, :) - expected(row, :))*scale), 0.0_wp, &
+            & tolerance*maxval(abs(expected(row, :))*scale), what//', row '//to_text(row))
+      end do
+   end subroutine agree
+
+   !> With the defaults the coefficients are those of films that are four times as close at least, to 1e-6 where
+   !> they are whole and to 2e-3 where they rupture.
+   subroutine refinement()
+      call against_refined(whole(6500.0_wp), 'whole', 1e-6_wp)
+      call against_refined(ruptured(), 'ruptured', 2e-3_wp)
+   end subroutine refinement
+
+   subroutine against_refined(scene, what, tolerance)
+      type(scene_type), intent(in) :: scene
+      character(len=*), intent(in) :: what
+      real(wp), intent(in) :: tolerance
+      type(scene_type) :: refined
+      type(bearing_coefficients_type) :: found, expected
+      call analyse(scene, what, found)
+      refined = scene
+      refined%film%table_tolerance = 2.5e-6_wp
+      if (tolerance < 1e-5_wp) refined%film%table_tolerance = 1e-8_wp
+      call analyse(refined, what//', refined', expected)
+      call expect_close(maxval(abs(found%stiffness - expected%stiffness)), 0.0_wp, &
+         & tolerance*maxval(abs(expected%stiffness)), 'K, '//what)
+      call expect_close(maxval(abs(found%damping - expected%damping)), 0.0_wp, &
+         & tolerance*maxval(abs(expected%damping)), 'C, '//what)
+   end subroutine against_refined
+
+   !> A little more load moves the journal by that over the stiffness at rest, weight of the pads included: differences
+   !> over 2e-4 of the load to 1e-6.
+   subroutine change_of_load()
+      type(scene_type) :: scene
+      type(bearing_coefficients_type) :: found
+      type(equilibrium_type) :: rest(-1:1)
+      real(wp), parameter :: part = 1e-4_wp
+      real(wp) :: force(2)
+      integer :: axis, side
+      scene = whole(6500.0_wp)
+      scene%pads%mass = 50
+      scene%pads%inertia = 0.1_wp
+      scene%pads%centre_tangential = 5e-3_wp
+      scene%coefficients%frequency_ratio = [0.0_wp]
+      call analyse(scene, 'stiffness at rest', found)
+      do axis = 1, 2
+         force = 0
+         force(axis) = part*scene%rotor%mass*scene%rotor%gravity
+         do side = -1, 1, 2
+            scene%rotor%static_load = side*force
+            call analyse(scene, 'other load', found, rest(side))
+         end do
+         scene%rotor%static_load = 0
+         call analyse(scene, 'stiffness at rest', found)
+         associate (moved => 0.5_wp*(rest(1)%journal - rest(-1)%journal))
+            call expect_close(norm2(matmul(found%stiffness(:, :, 1, 1), moved) - force), 0.0_wp, &
+               & 1e-6_wp*norm2(force), 'force along axis '//to_text(axis))
+         end associate
+      end do
+   end subroutine change_of_load
+
+   !> A bearing and its load that are turned by an angle have the coefficients turned by it: rounding, and what rests
+   !> differ by within the limit of the residual, 1e-8.
+   subroutine rotation()
+      type(scene_type) :: scene
+      type(bearing_coefficients_type) :: found, turned
+      real(wp), parameter :: angle = 35
+      real(wp) :: turn(2, 2)
+      integer :: i
+      scene = whole(6500.0_wp)
+      scene%friction%model = 'bengisu_akay'
+      scene%pads%pivot_ratio = [0.55_wp, 0.6_wp]
+      scene%rotor%gravity = 0
+      scene%rotor%static_load = [-20e3_wp, 5e3_wp]
+      call analyse(scene, 'as it is', found)
+      associate (s => sin(angle*degree), c => cos(angle*degree))
+         ! angles of pivots go from z to y
+         turn = reshape([c, -s, s, c], [2, 2])
+      end associate
+      scene%pads%pivot_angle_deg = scene%pads%pivot_angle_deg + angle
+      scene%rotor%static_load = matmul(turn, scene%rotor%static_load)
+      call analyse(scene, 'turned', turned)
+      do i = 1, size(found%bearings)
+         call same(turn, found%stiffness(:, :, 1, i), turned%stiffness(:, :, 1, i), 'K, '//found%bearings(i)%pivot)
+         call same(turn, found%damping(:, :, 1, i), turned%damping(:, :, 1, i), 'C, '//found%bearings(i)%pivot)
+      end do
+   end subroutine rotation
+
+   subroutine same(turn, before, after, what)
+      real(wp), intent(in) :: turn(2, 2), before(2, 2), after(2, 2)
+      character(len=*), intent(in) :: what
+      call expect_close(maxval(abs(matmul(turn, matmul(before, transpose(turn))) - after)), 0.0_wp, &
+         & 1e-7_wp*maxval(abs(after)), what)
+   end subroutine same
+
+   !> What sticking adds to the tilts is R1^2 F_bs times sigma_0, and sigma_1 + sigma_2, or 2 f_s/v_c; of pads that only
+   !> tilt F_bs is the reaction of the pivot.
+   subroutine sticking()
+      type(scene_type) :: scene
+      integer :: i
+      scene = whole(6500.0_wp)
+      do i = 1, 2
+         if (i == 2) scene%pads%motion = 'tilting_only'
+         scene%friction%model = 'lugre'
+         scene%friction%bristle_damping = 7
+         scene%friction%viscous_coefficient = 3
+         call adds(scene, 1e6_wp, 10.0_wp)
+         scene%friction%model = 'bengisu_akay'
+         call adds(scene, 0.0_wp, 2*0.1_wp/1e-5_wp)
+      end do
+   end subroutine sticking
+
+   subroutine adds(scene, stiffness, damping)
+      type(scene_type), intent(in) :: scene
+      !> Over R1^2 F_bs, 1/m and s/m.
+      real(wp), intent(in) :: stiffness, damping
+      type(bearing_coefficients_type) :: found
+      type(equilibrium_type) :: static
+      type(bearing_model) :: model
+      real(wp), parameter :: radius = 13e-3_wp - 15e-6_wp
+      integer :: i
+      character(len=:), allocatable :: what
+      what = scene%friction%model//', '//scene%pads%motion
+      call analyse(scene, what, found, static, model)
+      associate (free => found%bearings(1), stuck => found%bearings(2), at => model%layout%first_position([1, 2]))
+         do i = 1, 2
+            associate (normal => radius**2*static%contact_force(i))
+               free%stiffness(at(i), at(i)) = free%stiffness(at(i), at(i)) + stiffness*normal
+               free%damping(at(i), at(i)) = free%damping(at(i), at(i)) + damping*normal
+            end associate
+         end do
+         call expect_close(maxval(abs(free%stiffness - stuck%stiffness)), 0.0_wp, &
+            & 1e-12_wp*maxval(abs(stuck%stiffness)), what//', K')
+         call expect_close(maxval(abs(free%damping - stuck%damping)), 0.0_wp, 1e-9_wp*maxval(abs(stuck%damping)), &
+            & what//', C')
+      end associate
+   end subroutine adds
 
    !> Row by row, in millions; 1e-5 of the largest element, or a tolerance of one's own.
    subroutine compare(found, expected, what, tolerance)

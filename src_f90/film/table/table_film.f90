@@ -14,7 +14,7 @@ module table_film
    use table_pad, only: table_pad_type, shape_tables, new_table_pad
    implicit none (type, external)
    private
-   public :: table_film_type, new_table_film
+   public :: table_film_type, new_table_film, has_tables
 
    !> Pads with half arcs above this, rad, have no table: their film is not told by its thickness at the edges.
    real(wp), parameter :: largest_half_arc = 1.3_wp
@@ -71,7 +71,7 @@ contains
       do i = 1, size(gaps)
          associate (gap => gaps(i), shapes => solver%shapes, unit => new_unit_pad(gaps(i)))
             solver%pads(i) = new_table_pad(gap, unit)
-            if (unit%half_arc > largest_half_arc) cycle
+            if (.not. has_tables(gap)) cycle
             supplied = abs(gap%supply_pressure - gap%ambient_pressure) > 0
             do k = 1, n
                if (same(shapes(k)%pad, unit) .and. (shapes(k)%supplied .eqv. supplied)) exit
@@ -88,6 +88,12 @@ contains
          end associate
       end do
    end function new_table_film
+
+   !> True where the film in a gap is told by its thickness at the edges.
+   elemental logical function has_tables(gap)
+      type(pad_gap_type), intent(in) :: gap
+      has_tables = 0.5_wp*gap%arc() <= largest_half_arc
+   end function has_tables
 
    !> True where two pads have the same shape.
    pure logical function same(a, b)

@@ -1,0 +1,235 @@
+!> The linearised bearing against the motion itself, marched: the response to a small harmonic force on the journal, and
+!> growth and decay on both sides of the threshold of stability.
+module forced_motion
+   use kinds, only: wp
+   use equations_of_motion, only: bearing_model
+   implicit none (type, external)
+   private
+   public :: forced_model
+
+   !> A model with a harmonic force on the journal.
+   type, extends(bearing_model) :: forced_model
+      !> Along y and z, N; angular frequency, rad/s.
+      real(wp) :: force(2) = 0, frequency = 0
+   contains
+      procedure :: rhs => forced_rhs
+   end type forced_model
+
+contains
+
+   subroutine forced_rhs(self, t, y, dydt, ok)
+      class(forced_model), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: dydt(:)
+      logical, intent(out) :: ok
+      call self%bearing_model%rhs(t, y, dydt, ok)
+      if (ok) dydt(3:4) = dydt(3:4) + self%force*cos(self%frequency*t)/self%rotor%mass
+   end subroutine forced_rhs
+end module forced_motion
+
+program test_linear_motion
+   use kinds, only: wp, pi
+   use text, only: to_text
+   use errors, only: error_type
+   use scene, only: scene_type
+   use operating_point, only: operating_point_type
+   use cvode_integrator, only: integrator_type, integrator_options
+   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equilibrium, only: equilibrium_type, find_equilibrium
+   use static_model, only: make_fine
+   use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
+   use vibration_modes, only: vibration_modes_type
+   use forced_motion, only: forced_model
+   use check, only: runs, expect, expect_close, expect_no_error, report
+   implicit none (type, external)
+
+   if (runs('response')) call response()
+   if (runs('free')) call both_sides('free', 14945.85_wp)
+   if (runs('stuck')) call both_sides('stuck', 8700.0_wp)
+   call report()
+
+contains
+
+   !> The coefficients of a scene; the model that is linearised, at rest in y.
+   subroutine analyse(scene, found, model, y)
+      type(scene_type), intent(in) :: scene
+      type(bearing_coefficients_type), intent(out) :: found
+      type(bearing_model), intent(out) :: model
+      real(wp), allocatable, intent(out) :: y(:)
+      type(bearing_model) :: whole
+      type(equilibrium_type) :: static
+      type(error_type), allocatable :: error
+      whole = new_bearing_model(scene)
+      call find_equilibrium(whole, static, error)
+      call make_fine(whole, model)
+      if (.not. allocated(error)) call settle(model, static, y, error)
+      if (.not. allocated(error)) call find_coefficients(model, y, found, error)
+      call expect_no_error(error, 'analysis')
+   end subroutine analyse
+
+   !> Films that are smooth, so that a small motion is.
+   type(scene_type) function smooth_scene(speed_rpm) result(scene)
+      real(wp), intent(in) :: speed_rpm
+      scene = scene_type()
+      scene%about%task = 'coefficients'
+      scene%film%solver = 'modal'
+      scene%film%cavitation = 'none'
+      scene%operation%speed_rpm = speed_rpm
+      scene%operation%final_speed_rpm = speed_rpm
+   end function smooth_scene
+
+   !> F = (K(nu) + i nu C(nu) - nu^2 m) x of the steady vibration x that a force F leaves. 10 N move the journal by some
+   !> 20 nm, a part of 5e-4 of the film: what is not linear changes the first harmonic by the square of that. The start
+   !> has died away to exp(-20).
+   subroutine response()
+      type(scene_type) :: scene
+      type(bearing_coefficients_type) :: found
+      type(bearing_model) :: model
+      real(wp), allocatable :: y(:)
+      complex(wp) :: z(2, 2), expected(2, 2)
+      real(wp) :: frequency
+      integer :: k, i
+      scene = smooth_scene(6500.0_wp)
+      scene%coefficients%frequency_ratio = [0.4_wp, 1.0_wp, 1.7_wp]
+      call analyse(scene, found, model, y)
+      do k = 1, 3
+         frequency = scene%coefficients%frequency_ratio(k)*model%point%speed(0.0_wp)
+         z = measured(model, y, frequency)
+         expected = cmplx(found%stiffness(:, :, k, 1), frequency*found%damping(:, :, k, 1), wp)
+         do i = 1, 2
+            expected(i, i) = expected(i, i) - frequency**2*model%rotor%mass
+         end do
+         call expect_close(maxval(abs(z - expected)), 0.0_wp, 1e-5_wp*maxval(abs(expected)), 'at ' &
+            & //to_text(scene%coefficients%frequency_ratio(k))//' of the speed')
+      end do
+   end subroutine response
+
+   !> What the marched motion has for the force along y and z over the displacement, N/m.
+   function measured(model, rest, frequency) result(z)
+      type(bearing_model), intent(in) :: model
+      real(wp), intent(in) :: rest(:), frequency
+      complex(wp) :: z(2, 2), x(2, 2), determinant
+      type(forced_model), target :: forced
+      real(wp), parameter :: force = 10
+      integer :: k
+      forced%bearing_model = model
+      forced%frequency = frequency
+      do k = 1, 2
+         forced%force = 0
+         forced%force(k) = force
+         x(:, k) = amplitude(forced, rest)/force
+      end do
+      determinant = x(1, 1)*x(2, 2) - x(1, 2)*x(2, 1)
+      z = reshape([x(2, 2), -x(2, 1), -x(1, 2), x(1, 1)], [2, 2])/determinant
+   end function measured
+
+   !> Of exp(i nu t) in the journal's motion, m, in the last of so many periods of 0.02 s at least.
+   function amplitude(model, rest) result(x)
+      type(forced_model), intent(inout), target :: model
+      real(wp), intent(in) :: rest(:)
+      complex(wp) :: x(2)
+      integer, parameter :: samples = 64
+      real(wp), parameter :: until = 0.16_wp
+      type(integrator_type) :: integrator
+      type(integrator_options) :: options
+      type(error_type), allocatable :: error
+      real(wp) :: values(model%n + model%outputs), period, t
+      integer :: sample
+      options%relative_tolerance = 1e-9_wp
+      options%absolute_tolerance = 1e-13_wp*model%scale
+      period = 2*pi/model%frequency
+      call integrator%start(model, options, 0.0_wp, rest, until + 2*period, error)
+      x = 0
+      sample = 0
+      do while (.not. allocated(error) .and. sample < samples)
+         call integrator%step(error)
+         do while (sample < samples)
+            t = until + sample*period/samples
+            if (t > integrator%time()) exit
+            call integrator%interpolate(t, values)
+            x = x + (values(1:2) - rest(1:2))*exp(cmplx(0.0_wp, -model%frequency*t, wp))*2/samples
+            sample = sample + 1
+         end do
+      end do
+      call expect_no_error(error, 'march under a force')
+   end function amplitude
+
+   !> The threshold of a light rotor is near this speed, and 2 % below and above it a small motion dies away and grows
+   !> as the first mode says. Pads that stick are marched with LuGre friction.
+   subroutine both_sides(pivot, near)
+      character(len=*), intent(in) :: pivot
+      real(wp), intent(in) :: near
+      type(scene_type) :: scene
+      type(bearing_coefficients_type) :: found
+      type(bearing_model) :: model
+      real(wp), allocatable :: y(:)
+      real(wp) :: threshold
+      integer :: side, i
+      scene = smooth_scene(6500.0_wp)
+      scene%rotor%mass = 200
+      if (pivot == 'stuck') scene%friction%model = 'lugre'
+      scene%coefficients%threshold_up_to_rpm = 20000
+      call analyse(scene, found, model, y)
+      i = merge(1, 2, pivot == 'free')
+      threshold = found%thresholds(i)
+      call expect_close(threshold, near, 0.05_wp*near, 'threshold')
+      scene%coefficients%threshold_up_to_rpm = 0
+      do side = -1, 1, 2
+         scene%operation%speed_rpm = (1 + 0.02_wp*side)*threshold
+         scene%operation%final_speed_rpm = scene%operation%speed_rpm
+         call analyse(scene, found, model, y)
+         associate (value => found%modes(i)%eigenvalue(1))
+            call expect(side*value%re > 0, 'stable below, unstable above')
+            call expect_close(growth(model, y, found%modes(i)), value%re, 1e-3_wp*abs(value%re), 'growth of '//pivot &
+               & //' pads '//trim(merge('below', 'above', side < 0)))
+         end associate
+      end do
+   end subroutine both_sides
+
+   !> Growth, 1/s, of a mode in a march that starts with its shape, in the journal's speed: the largest of a vibration
+   !> over that four vibrations before. Bristles move with the pads.
+   real(wp) function growth(model, rest, modes)
+      type(bearing_model), intent(in) :: model
+      real(wp), intent(in) :: rest(:)
+      type(vibration_modes_type), intent(in) :: modes
+      integer, parameter :: samples = 100, periods = 6, last = 4
+      type(bearing_model), target :: moving
+      type(operating_point_type) :: point
+      type(integrator_type) :: integrator
+      type(integrator_options) :: options
+      type(error_type), allocatable :: error
+      real(wp) :: y(size(rest)), values(model%n + model%outputs), period, fastest(periods)
+      integer :: sample, k
+      moving = model
+      point = moving%point
+      point%friction = .true.
+      call moving%set_point(point)
+      y = rest
+      associate (layout => moving%layout, shape => 1e-9_wp*modes%shape(:, 1))
+         y(layout%positions()) = y(layout%positions()) + shape%re
+         y(layout%rates()) = y(layout%rates()) + real(modes%eigenvalue(1)*shape)
+         if (layout%bristles) then
+            do k = 1, layout%pads
+               y(layout%bristle(k)) = moving%bearing%pads(k)%ball_radius*real(shape(layout%first_position(k)))
+            end do
+         end if
+      end associate
+      options%relative_tolerance = 1e-9_wp
+      options%absolute_tolerance = 1e-13_wp*moving%scale
+      period = 2*pi/modes%eigenvalue(1)%im
+      fastest = 0
+      call integrator%start(moving, options, 0.0_wp, y, (periods + 1)*period, error)
+      sample = 0
+      do while (.not. allocated(error) .and. sample < periods*samples)
+         call integrator%step(error)
+         do while (period*sample/samples <= integrator%time() .and. sample < periods*samples)
+            call integrator%interpolate(period*sample/samples, values)
+            k = 1 + sample/samples
+            fastest(k) = max(fastest(k), norm2(values(3:4)))
+            sample = sample + 1
+         end do
+      end do
+      call expect_no_error(error, 'march from a disturbance')
+      growth = log(fastest(periods)/fastest(periods - last))/(last*period)
+   end function growth
+end program test_linear_motion
