@@ -25,9 +25,9 @@ module components
    !> errors in docs/benchmarks.md.
    integer, parameter :: sor_volumes(2) = [60, 15], rupture_volumes(2) = [80, 8]
    !> The films of 'fine', which is no word of the input: for what is linearised at a single state. Errors of whole
-   !> films and of ruptured ones up to an arc, rad, beyond which volumes stay as long; volumes where no table knows the
-   !> film.
-   real(wp), parameter :: fine_error = 1e-6_wp, fine_ruptured_error = 1e-5_wp, fine_arc = 80*degree
+   !> films and of ruptured ones up to an arc, rad, beyond which rupture takes so much more of the film that the error
+   !> is divided by the fourth power of the arc; volumes where no table knows the film.
+   real(wp), parameter :: fine_error = 1e-6_wp, fine_ruptured_error = 4e-5_wp, fine_arc = 80*degree
    integer, parameter :: fine_volumes(2) = [160, 16]
    !> Error of those of 'loose', which is no word of the input either: for ways that are long and of which only the end
    !> counts.
@@ -93,7 +93,7 @@ contains
                   ! ruptured films by volumes are dear, by modes they are cheap
                   tolerance = merge(1, 4, gumbel)*scene%integration%relative_tolerance
                   if (f%solver == 'fine') tolerance = merge(fine_error, fine_ruptured_error &
-                     & *min(1.0_wp, (fine_arc/maxval(gaps%arc()))**2), gumbel)
+                     & *min(1.0_wp, (fine_arc/maxval(gaps%arc()))**4), gumbel)
                   if (f%table_tolerance > 0) tolerance = f%table_tolerance
                   film = new_table_film(gaps, single, reynolds .or. gumbel, gumbel, tolerance, f%solver == 'fine')
                end if
