@@ -22,6 +22,7 @@ SCENES = {
     "bengisu": "--set friction%model='bengisu_akay' --set operation%duration=0.1",
     "none": "--set friction%model='none' --set operation%duration=2",
     "tilting": "--set pads%motion='tilting_only'",
+    "fixed": "--set pads%motion='fixed' --set friction%model='none' --set film%cavitation='gumbel'",
     "runup": "--set operation%speed_rpm=3000 --set operation%final_speed_rpm=6500",
     "gumbel": "--set film%cavitation='gumbel' --set pads%pivot_angle_deg=-45,225,45,135 "
     "--set operation%duration=0.2",
