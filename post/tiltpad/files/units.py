@@ -85,7 +85,7 @@ SHOWN = {
 
 #: Units of the input variables by name. Others are pure numbers, or their names end in _rpm or _deg.
 UNITS = {
-    **{"specific_heat": "J/(kg K)"},
+    **{"specific_heat": "J/(kg K)", "cross_stiffness": "N/m"},
     **{"mass": "kg", "unbalance": "kg m", "inertia": "kg m²", "characteristic_load": "N", "static_load": "N"},
     **{"balance_grade": "mm/s", "gravity": "m/s²", "viscosity": "Pa s"},
     **dict.fromkeys(("duration", "start_time", "max_step", "checkpoint_seconds"), "s"),
