@@ -27,6 +27,9 @@ module march_task
    !> And with friction over those without: what its moment errs by is above what the states do.
    real(wp), parameter :: friction_tolerance = 0.5_wp
 
+   !> Steps in a revolution from which on low orders are tried.
+   real(wp), parameter :: many_steps = 1000
+
 contains
 
    subroutine run_march(run, error)
@@ -93,6 +96,7 @@ contains
          options%absolute_tolerance = integration%relative_tolerance*integration%tolerance_scale*run%model%scale
          options%max_step = integration%max_step
          options%max_steps = integration%max_steps - run%earlier%count('steps')
+         options%short_step = 2*pi/(run%scene%highest_speed()*many_steps)
       end associate
       associate (model => run%model, tolerance => options%absolute_tolerance)
          if (model%smooth()) options%derivatives_age = smooth_derivatives_age

@@ -5,11 +5,11 @@ module cvode_integrator
    use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodereinit, fcvodewftolerances, fcvodesetuserdata, &
       & fcvodesetlinearsolver, fcvodesetlinsysfn, fcvodesetlinearsolutionscaling, fcvodesetjacevalfrequency, &
       & fcvodesetlsetupfrequency, fcvodegetcurrentgamma, fcvodesetnonlinconvcoef, fcvodesetstablimdet, &
-      & fcvodesetmaxerrtestfails, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, fcvode, fcvodefree, &
-      & fcvodegetnumrhsevals, fcvodegetnumjacevals, fcvodegetnumerrtestfails, fcvodegetnumnonlinsolvconvfails, &
-      & fcvodegetcurrentstep, fcvodegetlastorder, cv_bdf, cv_one_step, cv_err_failure, cv_conv_failure, &
-      & cv_too_much_acc, cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, cv_unrec_rhsfunc_err, &
-      & cv_lsetup_fail
+      & fcvodesetmaxord, fcvodesetmaxerrtestfails, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, fcvode, &
+      & fcvodefree, fcvodegetnumrhsevals, fcvodegetnumjacevals, fcvodegetnumerrtestfails, &
+      & fcvodegetnumnonlinsolvconvfails, fcvodegetcurrentstep, fcvodegetlastorder, cv_bdf, cv_one_step, &
+      & cv_err_failure, cv_conv_failure, cv_too_much_acc, cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, &
+      & cv_unrec_rhsfunc_err, cv_lsetup_fail
    use sundials_context, only: index_kind, new_context, free_context, silence, n_vector, fn_vdestroy, sunmatrix, &
       & fsunmatdestroy, sunlinearsolver, sunlinearsolver_ops, sunlinearsolver_direct, fsunlinsolnewempty, &
       & fsunlinsolfreeempty
@@ -34,8 +34,9 @@ module cvode_integrator
       real(wp) :: max_step = 0
       !> Steps after which the derivatives are taken anew (CVODE: 51): they are cheap, and fresh they save steps.
       integer :: derivatives_age = 5
-      !> Whether orders are lowered where BDF is found unstable: for light modes (docs/theory.md).
+      !> Whether orders are lowered where BDF is found unstable, for light modes (docs/theory.md); the highest.
       logical :: lowers_orders = .false.
+      integer :: max_order = 5
    end type integrator_options
 
    !> What CVODE holds pointers to, and hands back to the callbacks.
@@ -73,8 +74,7 @@ module cvode_integrator
       final :: finish_last
    end type integrator_type
 
-   !> Newton's iteration ends where its correction passes the error test (CVODE: 0.1 of it). With derivatives as fresh
-   !> as here what it leaves is far below (measured, docs/theory.md).
+   !> Newton's iteration ends where its correction passes the error test (CVODE: 0.1 of it; docs/theory.md).
    real(c_double), parameter :: newton_coefficient = 1
    !> Failures of the error test in one step (CVODE: 7): enough to pass a small jump of the forces.
    integer(c_int), parameter :: max_failures = 20
@@ -120,6 +120,7 @@ contains
          flag = fcvodesetlsetupfrequency(core%memory, int(options%derivatives_age, c_long))
          flag = fcvodesetnonlinconvcoef(core%memory, newton_coefficient)
          if (options%lowers_orders) flag = fcvodesetstablimdet(core%memory, 1_c_int)
+         flag = fcvodesetmaxord(core%memory, int(options%max_order, c_int))
          flag = fcvodesetmaxerrtestfails(core%memory, max_failures)
          flag = fcvodesetmaxstep(core%memory, options%max_step)
       end associate
@@ -190,8 +191,7 @@ contains
       state = self%core%y
    end function state
 
-   !> States and outputs of the model, one after the other, at a time t, s, in the last step; before the first step, at
-   !> the start. Nothing is evaluated for them.
+   !> States, then outputs of the model, at a time t, s, in the last step, or at the start. Nothing is evaluated.
    subroutine interpolate(self, t, values)
       class(integrator_type), intent(in) :: self
       real(wp), intent(in) :: t

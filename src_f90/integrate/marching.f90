@@ -6,6 +6,7 @@ module marching
    use ode_model, only: ode_model_type
    use integrator_counts, only: integrator_counts_type
    use cvode_integrator, only: integrator_type, integrator_options
+   use order_watch, only: order_watch_type, low_order
    use march_observer, only: march_observer_type
    implicit none (type, external)
    private
@@ -14,6 +15,8 @@ module marching
    type, extends(integrator_options) :: march_options
       !> Most steps before the march gives up.
       integer(i8) :: max_steps = huge(1_i8)
+      !> Mean step, s, below which low orders are tried; 0: they never are.
+      real(wp) :: short_step = 0
    end type march_options
 
    !> When the observer sees the state: at first + k interval, k = 0 .. count - 1; those before `next` it has seen.
@@ -50,24 +53,29 @@ contains
       type(integrator_counts_type), intent(out) :: counts
       type(error_type), allocatable, intent(out) :: error
       type(integrator_type) :: integrator
+      type(integrator_counts_type) :: earlier
+      type(order_watch_type) :: watch
       real(wp) :: t
       integer(i8) :: next
 
       t = t_start
+      watch = order_watch_type(options%short_step, t)
       next = plan%next
       call integrator%start(model, options, t, y, t_end, error)
       if (allocated(error)) call add_context(error, stopped_at(t, counts%steps))
       do while (.not. allocated(error))
          call give_samples(integrator, model, plan, t_end, next, observer, error)
          if (allocated(error) .or. observer%satisfied .or. t >= t_end) exit
-         if (observer%wants_state()) call observer%take_state(t, integrator%state(), integrator%counts(), error)
+         if (observer%wants_state()) call observer%take_state(t, integrator%state(), earlier + integrator%counts(), error)
          if (allocated(error)) exit
          if (counts%steps >= options%max_steps) then
             call raise(error, numerics_error, 'the march gave up at t = '//to_text(t)//' s, after ' &
                & //to_text(counts%steps)//' steps (integration%max_steps)')
             exit
          end if
-         call integrator%step(error)
+         if (watch%changes(t, counts%steps)) call change_orders(integrator, model, options, watch%low, t_end, earlier, &
+            & error)
+         if (.not. allocated(error)) call integrator%step(error)
          t = integrator%time()
          if (allocated(error)) then
             call add_context(error, stopped_at(t, counts%steps))
@@ -77,8 +85,25 @@ contains
          if (mod(counts%steps, steps_per_report) == 0) call observer%report(t, counts%steps)
       end do
       y = integrator%state()
-      counts = integrator%counts()
+      counts = earlier + integrator%counts()
    end subroutine march
+
+   !> Goes on from the state reached, whose samples are given, with low orders or with all.
+   subroutine change_orders(integrator, model, options, low, t_end, earlier, error)
+      type(integrator_type), intent(inout) :: integrator
+      class(ode_model_type), intent(inout), target :: model
+      class(march_options), intent(in) :: options
+      logical, intent(in) :: low
+      real(wp), intent(in) :: t_end
+      !> What the integrations before this one cost.
+      type(integrator_counts_type), intent(inout) :: earlier
+      type(error_type), allocatable, intent(out) :: error
+      type(march_options) :: changed
+      changed = options
+      if (low) changed%max_order = low_order
+      earlier = earlier + integrator%counts()
+      call integrator%start(model, changed, integrator%time(), integrator%state(), t_end, error)
+   end subroutine change_orders
 
    !> Gives the observer the samples that the time reached has passed. They never shorten a step.
    subroutine give_samples(integrator, model, plan, t_end, next, observer, error)

@@ -242,15 +242,15 @@ def film(dice: Dice) -> dict:
     return values
 
 
-def may_sweep(scene: Scene) -> bool:
-    """Whether films may be solved by over-relaxation, which costs a hundred times more."""
-    return scene["film"].get("solver") == "sor" or scene["film"]["cavitation"] == "reynolds"
+def sweeps(scene: Scene) -> bool:
+    """Whether films are solved by over-relaxation, which costs a hundred times more."""
+    return scene["film"].get("solver") == "sor"
 
 
 def step_budget(scene: Scene) -> int:
     """Steps that take some ten seconds."""
     count = len(scene["pads"]["pivot_angle_deg"])
-    a_pad = 3e-4 if may_sweep(scene) else 5e-6
+    a_pad = 3e-4 if sweeps(scene) else 5e-6
     return int(min(400000, 15 / (3e-5 + count * a_pad + count**2 * 1e-6)))
 
 

@@ -8,7 +8,7 @@ module march_problems
    use integrator_counts, only: integrator_counts_type
    implicit none (type, external)
    private
-   public :: stiff_cosine, robertson, keeper
+   public :: stiff_cosine, robertson, light_vibration, keeper
 
    !> A problem with a full Jacobian.
    type, abstract, extends(ode_model_type) :: dense_problem
@@ -42,6 +42,14 @@ module march_problems
       procedure :: rhs => cosine_rhs
       procedure :: jacobian => cosine_jacobian
    end type stiff_cosine
+
+   !> y'' + 2 zeta w y' + w^2 y = w^2 cos t, fast and hardly damped: in the orders 3 to 5 of BDF it grows.
+   type, extends(dense_problem) :: light_vibration
+      real(wp) :: frequency = 400, damping = 0.0045_wp
+   contains
+      procedure :: rhs => light_rhs
+      procedure :: jacobian => light_jacobian
+   end type light_vibration
 
    !> Robertson's chemical reaction.
    type, extends(dense_problem) :: robertson
@@ -121,6 +129,23 @@ contains
       matrix(3, 2) = -4
    end function cosine_jacobian
 
+   subroutine light_rhs(self, t, y, dydt, ok)
+      class(light_vibration), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: dydt(:)
+      logical, intent(out) :: ok
+      dydt = matmul(self%jacobian(y), y) + [0.0_wp, self%frequency**2*cos(t)]
+      ok = .true.
+   end subroutine light_rhs
+
+   pure function light_jacobian(self, y) result(matrix)
+      class(light_vibration), intent(in) :: self
+      real(wp), intent(in) :: y(:)
+      real(wp) :: matrix(size(y), size(y))
+      matrix(1, :) = [0.0_wp, 1.0_wp]
+      matrix(2, :) = [-self%frequency**2, -2*self%damping*self%frequency]
+   end function light_jacobian
+
    subroutine robertson_rhs(self, t, y, dydt, ok)
       class(robertson), intent(inout) :: self
       real(wp), intent(in) :: t, y(:)
@@ -186,7 +211,7 @@ program test_marching
    use errors, only: error_type, numerics_error
    use marching, only: march, march_options, sample_plan
    use integrator_counts, only: integrator_counts_type
-   use march_problems, only: stiff_cosine, robertson, keeper
+   use march_problems, only: stiff_cosine, robertson, light_vibration, keeper
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
 
@@ -199,9 +224,54 @@ program test_marching
    if (runs('step_limits')) call step_limits()
    if (runs('observer_stops')) call observer_stops()
    if (runs('going_on')) call going_on()
+   if (runs('orders')) call orders()
    call report()
 
 contains
+
+   !> Low orders are tried where steps are short, and stay where they go much further: with the same samples, an error
+   !> within the tolerances of the steps (of the position: a rate errs by the frequency times more), and all counted.
+   !> Where steps are short for good reason, a trial costs little.
+   subroutine orders()
+      integer(i8) :: with_all, with_low, none
+      call vibrate(0.0045_wp, 0.0_wp, with_all)
+      call vibrate(0.0045_wp, 0.05_wp, with_low)
+      call expect(4*with_low < with_all, 'low orders go further: '//to_text(with_low)//' steps, not '//to_text(with_all))
+      call vibrate(1.0_wp, 0.0_wp, none)
+      call vibrate(1.0_wp, 1.0_wp, with_low)
+      call expect(with_low < 1.3_wp*none, 'a trial in vain: '//to_text(with_low)//' steps, not '//to_text(none))
+   end subroutine orders
+
+   !> Marches a vibration that begins at its forced response.
+   subroutine vibrate(damping, short_step, steps)
+      real(wp), intent(in) :: damping, short_step
+      integer(i8), intent(out) :: steps
+      type(light_vibration) :: model
+      type(keeper) :: observer
+      type(march_options) :: options
+      type(integrator_counts_type) :: counts
+      type(error_type), allocatable :: error
+      real(wp) :: y(2), found
+      complex(wp) :: response
+      integer :: k
+      model%n = 2
+      model%damping = damping
+      response = model%frequency**2/cmplx(model%frequency**2 - 1, 2*damping*model%frequency, wp)
+      y = [response%re, -response%im]
+      options%relative_tolerance = 1e-5_wp
+      options%absolute_tolerance = [1e-5_wp, 1e-4_wp]
+      options%short_step = short_step
+      call march(model, options, 0.0_wp, 60.0_wp, sample_plan(0.0_wp, 0.1_wp, 601_i8), y, observer, counts, error)
+      call expect_no_error(error, 'the march ends well')
+      call expect(size(observer%t) == 601, 'as many samples as planned')
+      steps = counts%steps
+      call expect(counts%rhs_evaluations >= steps, 'work is counted over all orders')
+      found = 0
+      do k = 1, size(observer%t)
+         found = max(found, abs(observer%y(1, k) - real(response*exp((0.0_wp, 1.0_wp)*observer%t(k)), wp)))
+      end do
+      call expect(found < 3*steps*1e-5_wp, 'error '//to_text(found)//' after '//to_text(steps)//' steps')
+   end subroutine vibrate
 
    !> A march left at a state goes on from it: no sample twice, none missing, as accurate as in one go.
    subroutine going_on()
