@@ -8,13 +8,14 @@ module order_watch
 
    !> The highest order that is stable in any vibration.
    integer, parameter :: low_order = 2
-   !> Steps that are looked at together; such windows of a trial, of which the last one counts: before, vibrations that
-   !> high orders have raised die away.
+   !> Steps that are looked at together.
    integer(i8), parameter :: window = 250
-   integer, parameter :: trial = 2
-   !> How much further low orders must go to stay; how much longer to wait after each trial in vain.
+   !> Windows in a row with short steps before the first trial, and how many times as many after one in vain.
+   integer, parameter :: first_wait = 4, patience = 4
+   !> Windows of a trial, of which the last one counts: before, vibrations that high orders have raised die away. How
+   !> much further it must go for low orders to stay, and for how many windows they do.
+   integer, parameter :: trial = 2, stay = 20
    real(wp), parameter :: gain = 4
-   integer, parameter :: patience = 4
 
    type :: order_watch_type
       !> Mean step, s, below which low orders are tried; 0: they never are.
@@ -23,10 +24,10 @@ module order_watch
       real(wp) :: time = 0
       !> Whether low orders are in force.
       logical :: low = .false.
-      logical, private :: stays_low = .false.
-      !> How far the window before the trial went, s; windows since orders changed, and to wait for the next trial.
+      !> How far the window before the trial went, s; windows with low orders, or in a row with short steps, and how many
+      !> of these lead to a trial.
       real(wp), private :: span = 0
-      integer, private :: since = 0, wait = 2
+      integer, private :: windows = 0, wait = first_wait
    contains
       procedure :: changes
    end type order_watch_type
@@ -40,20 +41,23 @@ contains
       integer(i8), intent(in) :: steps
       real(wp) :: span
       changes = .false.
-      if (self%stays_low .or. mod(steps, window) /= 0) return
+      if (mod(steps, window) /= 0) return
       span = t - self%time
       self%time = t
-      self%since = self%since + 1
-      if (.not. self%low) then
-         changes = span < window*self%short_step .and. self%since > self%wait
+      self%windows = self%windows + 1
+      if (self%low) then
+         changes = self%windows == stay
+         if (self%windows == trial) then
+            changes = .not. span > gain*self%span
+            self%wait = merge(patience*self%wait, first_wait, changes)
+         end if
+      else
+         if (.not. span < window*self%short_step) self%windows = 0
+         changes = self%windows == self%wait
          self%span = span
-      else if (self%since == trial) then
-         self%stays_low = span > gain*self%span
-         changes = .not. self%stays_low
-         self%wait = patience*self%wait
       end if
       if (.not. changes) return
       self%low = .not. self%low
-      self%since = 0
+      self%windows = 0
    end function changes
 end module order_watch
