@@ -51,6 +51,15 @@ STUDIES = {
         ),
     ),
     "upper": ("input/examples/four_pads.nml", ("sweep%operation%speed_rpm=2000:9250:250",)),
+    "whirl": (
+        "input/examples/five_pads.nml",
+        (
+            "case%task=coefficients",
+            "coefficients%frequency_ratio=0.5,1",
+            "friction%model=lugre",
+            "sweep%operation%speed_rpm=2000:12000:250",
+        ),
+    ),
 }
 #: Pictures: plot, runs, further options, what is seen.
 PICTURES = (
@@ -68,6 +77,9 @@ PICTURES = (
     ("orders", "runup", "", "amplitude and phase of the orders over speed"),
     ("waterfall", "runup", "", "all orders over speed"),
     ("pressure", "lugre", "--time 1.9", "the film of the loaded pads"),
+    ("coefficients", "whirl", "", "stiffness and damping over speed, at two whirl frequencies"),
+    ("stability", "whirl", "--pivot stuck", "the modes with pivots that stick"),
+    ("campbell", "whirl", "", "frequencies of the modes, free pivots"),
     ("study", "laws", "--show friction_work", "friction work over speed"),
     ("study", "map", "", "a map over two parameters"),
     ("study", "upper", "--show poincare_tilt --pad 3", "the motion of an upper pad bifurcates"),

@@ -1,4 +1,4 @@
-"""Benchmark: run time against error, every scene with the defaults, film solvers, pads, production, peers.
+"""Benchmark: run time against error, every scene with the defaults, films, pads, production, peers, maps.
 
 usage: bench.py TILTPAD [--only PART...] [--folder FOLDER] [--docs FOLDER]
 
@@ -20,6 +20,7 @@ from diagram import diagram, ladder
 from figures import draw
 from films import films, pads
 from machine import described
+from maps import maps
 from page import page
 from peers import peers
 from production import production
@@ -38,6 +39,7 @@ PARTS = {
     "pads": pads,
     "production": production,
     "peers": peers,
+    "maps": maps,
 }
 
 

@@ -1,6 +1,7 @@
 """The page of the benchmark: its words. Every number in it comes from the rows."""
 
 import costs
+import maps
 import tables
 from errors import JUMP
 from runner import Row
@@ -207,6 +208,21 @@ converged run, which also contains the error of the film's grid.
 {peers}
 
 {peers_words}
+
+## Coefficients: ROSS beside it
+
+A map of stiffness and damping over {map_speeds} speeds from {map_first:g} to {map_last:g} rpm and
+{map_ratios} whirl frequencies: a sweep of this program on one core, a file for each speed, and ROSS 3.1
+(`ross.TiltingPad`), which solves some of the speeds at one frequency; its map is extrapolated from them.
+The bearing is one that both describe: five pads with a preload of {map_preload:g}, the load between two of
+them, rigid pivots, pads nearly without mass, oil of one viscosity, laminar. ROSS's time starts when its
+code is compiled and has solved one speed; it does more than is asked here for (it has a thermal model, for
+instance, that is switched off). ROSS finds the equilibrium anew for each frequency. "K" and "K and C"
+are the largest differences of an element from tiltpad's, over the largest element; they contain the grid of
+ROSS, and both programs treat the rupture of the film in their own way. ROSS 3.1 asks for Python 3.13; where
+that is not at hand it runs on an older one, which its code allows.
+
+{maps}
 """
 
 
@@ -250,4 +266,10 @@ def page(rows: dict[str, list[Row]], machine: str) -> str:
         pads_words=costs.pads_words(rows["pads"]),
         peers=costs.peers(rows["peers"]),
         peers_words=costs.peers_words(rows["peers"]),
+        map_speeds=len(maps.SPEEDS),
+        map_first=maps.SPEEDS[0],
+        map_last=maps.SPEEDS[-1],
+        map_ratios=len(maps.RATIOS),
+        map_preload=maps.B.preload,
+        maps=maps.compared(rows["maps"]),
     )
