@@ -241,3 +241,30 @@ def test_results_without_coefficients_say_why(result, opened, folder):
 def test_wrong_arguments(study, options, message):
     with pytest.raises(ValueError, match=message):
         tiltpad.coefficients(study, **options)
+
+
+@pytest.mark.parametrize("plot", command.VIBRATIONS)
+def test_nothing_is_cut_off(study, plot):
+    with plt.style.context("tiltpad.draw.tiltpad"):
+        fig = figures.FIGURES[plot]([study, study], pivot="stuck")
+        fig.canvas.draw()
+    page = fig.bbox.padded(1)
+    texts = [text for ax in fig.axes for text in (ax.xaxis.label, ax.yaxis.label, ax.title)]
+    texts += [text for legend in fig.legends for text in legend.get_texts()]
+    for text in (each for each in texts if each.get_text()):
+        box = text.get_window_extent()
+        assert page.contains(box.x0, box.y0), text
+        assert page.contains(box.x1, box.y1), text
+
+
+def test_unstable_modes_are_in_sight(study):
+    """The axis of the damping ratio reaches to the least of all."""
+    upper = figures.stability(study, pivot="stuck").axes[0]
+    assert upper.get_ylim()[0] <= 100 * np.nanmin(tiltpad.modes(study, "stuck").damping_ratio)
+
+
+def test_diagrams_of_pivots(study):
+    ax = tiltpad.diagrams.diagram(study, pivot="locked")
+    order = np.argsort(study.speed_rpm)
+    np.testing.assert_allclose(ax.get_lines()[0].get_ydata(), 100 * study.least_damping_ratio[order, 2])
+    assert ax.get_ylabel() == "least damping ratio, pivots locked (%)"

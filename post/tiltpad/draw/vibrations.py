@@ -134,9 +134,11 @@ def stability(
             mark_failed(panels[1], missing, color if len(found) > 1 else None)
         if one.over == "speed_rpm":
             mark_thresholds(panels, own, f"C{color}" if len(found) > 1 else "0.3")
-    tops = (DAMPED, 2 * np.pi * DAMPED / np.sqrt(1 - DAMPED**2))
-    for ax, name, top in zip(panels, ("damping_ratio", "log_decrement"), tops, strict=True):
-        show_from_zero(ax, SHOWN[name].factor * top)
+    # every unstable mode is in sight in the upper panel
+    decrement = 2 * np.pi * DAMPED / np.sqrt(1 - DAMPED**2)
+    ends = {"damping_ratio": (-1, DAMPED), "log_decrement": (-decrement, decrement)}
+    for ax, (name, end) in zip(panels, ends.items(), strict=True):
+        show_from_zero(ax, *(SHOWN[name].factor * each for each in end))
         ax.set_ylabel(SHOWN[name].label)
     panels[1].set_xlabel(
         SHOWN["frequency"].label if isinstance(runs[0], Run) else axis_label(runs, over, where)
@@ -156,10 +158,11 @@ def mark_thresholds(panels: Sequence[Axes], own: Modes, color: str) -> None:
         )  # fmt: skip
 
 
-def show_from_zero(ax: Axes, top: float) -> None:
-    """Lets the axis reach from 0 or the lowest value to the highest, or to `top`; marks what is unstable."""
+def show_from_zero(ax: Axes, bottom: float, top: float) -> None:
+    """Lets the axis reach from 0 or the lowest value to the highest, within these; marks what is unstable."""
     values = np.concatenate([np.asarray(each.get_ydata(), float) for each in ax.get_lines()] or [[]])
-    low, high = (pick(values[np.isfinite(values)], initial=0) for pick in (np.min, np.max))
+    values = values[np.isfinite(values)]
+    low, high = max(np.min(values, initial=0), bottom), np.max(values, initial=0)
     end = 1.05 * high if high < top else top
     ax.axhline(0, color="0.3", linewidth=0.8)
     if low < 0:
