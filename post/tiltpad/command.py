@@ -11,6 +11,7 @@ from typing import Any
 
 from tiltpad.calculate.library import LibraryError, MissingLibraryError
 from tiltpad.calculate.selection import ArgumentError
+from tiltpad.calculate.tables import write_coefficients
 from tiltpad.collect.collect import MemberWarning
 from tiltpad.collect.collect import collect as collected
 from tiltpad.files.archive import NotInRunError, RunError
@@ -18,6 +19,8 @@ from tiltpad.files.read import IncompleteRunWarning, read
 from tiltpad.files.study import read_either, read_study
 
 FORMATS = ("png", "pdf", "svg")
+#: Formats of tables, which the plot of coefficients can be, too.
+COEFFICIENTS, TABLES = "coefficients", ("csv", "toml")
 #: The plot of a study.
 STUDY = "study"
 #: Plots of coefficients and modes: of results, and of studies.
@@ -49,7 +52,7 @@ PLOTS = {
     "orders": "amplitude and phase of the first orders over the speed of a run-up (--pad: also of its tilt)",
     "waterfall": "amplitudes over speed and order of a run-up (of the journal; --pad: of its tilt)",
     "pressure": "film pressure over the unrolled pads at one instant (--time; default: at the equilibrium)",
-    "coefficients": "stiffness and damping: of a study over its speed, of a result over whirl frequency",
+    "coefficients": "stiffness and damping over speed, of one result over whirl frequency (also .csv, .toml)",
     "stability": "damping ratio and logarithmic decrement of the modes, of studies and results",
     "campbell": "frequencies of the modes over the speed, of studies",
     "study": "results over parameters, from a file of tiltpad-collect (--show, --over, --as, --where)",
@@ -129,7 +132,7 @@ def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
 
 def draw(options: argparse.Namespace, output: Path) -> None:
     """Reads the runs, draws them and writes the picture."""
-    form = needs_suffix(output, FORMATS)
+    form = needs_suffix(output, FORMATS + (TABLES if options.plot == COEFFICIENTS else ()))
     for name, allowed in OWN_OPTIONS.items():
         if getattr(options, name) is not None and options.plot not in allowed:
             option = {"kind": "as"}.get(name, name)
@@ -138,6 +141,9 @@ def draw(options: argparse.Namespace, output: Path) -> None:
     for name, without in (("last", WITHOUT_LAST), ("pad", WITHOUT_PAD)):
         if getattr(options, name) is not None and options.plot in without:
             raise ValueError(f"--{name}: not for the plot {options.plot}")
+    if form in TABLES:
+        write_table(options, output)
+        return
     mpl = matplotlib_for_files()
     if options.plot == STUDY:
         draw_study(options, output, form)
@@ -158,6 +164,14 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **more)
         stack.callback(plots.plt.close, figure)
         figure.savefig(output, format=form)
+
+
+def write_table(options: argparse.Namespace, output: Path) -> None:
+    """Reads a result or a study and writes its coefficients as a table."""
+    if len(options.files) > 1 or options.over is not None:
+        raise ValueError(f"{output}: a table is of one file, and over all its parameters")
+    with read_either(options.files[0]) as source:
+        write_coefficients(source, output, pivot=options.pivot, where=kept(options) or None)
 
 
 def draw_study(options: argparse.Namespace, output: Path, form: str) -> None:

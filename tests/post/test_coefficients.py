@@ -172,6 +172,19 @@ def test_tables(study, run, tmp_path, name):
     assert list(tomllib.loads((tmp_path / f"one-{name}").read_text())) == ["stuck"]
 
 
+def test_the_command_writes_tables(study, run, tmp_path, capsys):
+    tiltpad.write_coefficients(study, tmp_path / "a.csv", pivot="free")
+    assert command.main(["coefficients", study.path, "--pivot", "free", "-o", str(tmp_path / "b.csv")]) == 0
+    assert (tmp_path / "a.csv").read_text() == (tmp_path / "b.csv").read_text()
+    assert command.main(["coefficients", run.path, "-o", str(tmp_path / "b.toml")]) == 0
+    for words, message in (
+        (["coefficients", run.path, run.path, "-o", "c.csv"], "c.csv: a table is of one file"),
+        (["stability", run.path, "-o", "c.csv"], "the name must end in .png, .pdf or .svg"),
+    ):
+        assert command.main(words) == 1
+        assert message in capsys.readouterr().err
+
+
 def test_pictures_show_the_coefficients(study, run):
     own = tiltpad.coefficients(study)
     axes = figures.coefficients(study).axes

@@ -10,6 +10,8 @@ from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import COEFFICIENTS, MODES, Run
 from tiltpad.files.study import Study
 
+#: The one dataset that is there only where it was asked for.
+SOUGHT = "threshold_rpm"
 #: The two positions of the journal come first.
 JOURNAL = 2
 
@@ -133,8 +135,11 @@ def series(
         speed, parameters = speed[place], {name: source[name][place] for name in source.parameters}
     values = {}
     for group, dimensions in (("coefficients", COEFFICIENTS), ("modes", MODES)):
-        for name in (each for each in dimensions if (f"{group}/{each}" if single else each) in source):
-            each = source[f"{group}/{name}"][None] if single else source[name][place]
+        for name in dimensions:
+            path = f"{group}/{name}" if single else name
+            if name == SOUGHT and path not in source:
+                continue
+            each = source[path][None] if single else source[path][place]
             values[name] = each[:, k] if dimensions[name][0] == "pivot" else each
     return Series(own, speed, values, parameters)
 
