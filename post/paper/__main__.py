@@ -17,7 +17,7 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 from tiltpad.draw.plots import STYLE
 
-from paper import laws
+from paper import laws, sticking
 from paper.claims import check
 from paper.figures import FIGURES
 from paper.judging import Checked
@@ -28,9 +28,11 @@ from paper.settings import FOLDERS, ROOT
 from paper.studies import REUSED, STUDIES
 
 #: Pictures by their file's name, with the folder of their runs.
-PICTURES: dict[str, tuple[Callable, str]] = {
-    f"fig{name}": (draw, "paper") for name, draw in (laws.FIGURES | FIGURES).items()
-} | {name: (draw, "paper" if name in REUSED else "studies") for name, draw in STUDIES.items()}
+PICTURES: dict[str, tuple[Callable, str]] = (
+    {f"fig{name}": (draw, "paper") for name, draw in (laws.FIGURES | FIGURES).items()}
+    | {name: (draw, "paper" if name in REUSED else "studies") for name, draw in STUDIES.items()}
+    | {name: (draw, "studies") for name, draw in sticking.FIGURES.items()}
+)
 
 
 def arguments() -> argparse.Namespace:
