@@ -9,7 +9,7 @@ module coefficients_task
    use coefficient_results, only: put_coefficients
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
-   use equilibrium_task, only: seek_equilibrium, note_equilibrium, nothing_computed
+   use equilibrium_task, only: seek_equilibrium, note_equilibrium
    use coefficients_summary, only: print_coefficients
    implicit none (type, external)
    private
@@ -34,7 +34,11 @@ contains
       end if
       if (allocated(error)) then
          call add_context(error, 'with converged films')
-         if (error%status == stopped) error%message = stop_reason()//nothing_computed
+         if (error%status == stopped) then
+            ! nothing to go on from
+            run%computed = .false.
+            error%message = stop_reason()//' while the coefficients were calculated; nothing was written'
+         end if
          return
       end if
       call put_coefficients(run%file%file, found, run%scene%coefficients%frequency_ratio, &

@@ -1,0 +1,116 @@
+"""Whole runs of the task coefficients: what the file says, sweeps, and what is refused."""
+
+import h5py
+import numpy as np
+import pytest
+
+TASK = "case%task=coefficients"
+
+
+@pytest.fixture
+def case(tiltpad, root, tmp_path):
+    """Runs a case of input/paper with overrides; gives the process and the path of its result."""
+
+    def run(name, *overrides):
+        path = tmp_path / "found.h5"
+        options = [word for override in overrides for word in ("--set", override)]
+        arguments = ("--output", path, "--overwrite", "--quiet", *options)
+        return tiltpad(root / "input/paper" / f"{name}.nml", *arguments), path
+
+    return run
+
+
+def condensed(matrices, pivot, nu):
+    """Complex stiffness of the journal, by numpy."""
+    stiffness, damping = matrices["full_stiffness"][pivot], matrices["full_damping"][pivot]
+    moves = np.isfinite(np.diag(stiffness))
+    z = (stiffness + 1j * nu * damping - nu**2 * matrices["full_mass"][:])[np.ix_(moves, moves)]
+    return z[:2, :2] - z[:2, 2:] @ np.linalg.solve(z[2:, 2:], z[2:, :2])
+
+
+def test_file_fits_its_own_matrices(case):
+    """Coefficients and modes follow from the full matrices: the same by numpy, to rounding."""
+    done, path = case(
+        "steady_lugre", TASK, "coefficients%frequency_ratio=0.25,1", "coefficients%cross_stiffness=2e7"
+    )
+    assert done.returncode == 0, done.stderr
+    with h5py.File(path) as file:
+        assert list(file["pivot"].asstr()) == ["free", "stuck", "locked"]
+        names = ["y", "z", "tilt_1", "penetration_1", "tilt_2", "penetration_2"]
+        assert list(file["position_row"].asstr()) == list(file["position_column"].asstr()) == names
+        group, modes = file["coefficients"], file["modes"]
+        speed = 6500 * np.pi / 30
+        for pivot in range(3):
+            for k, ratio in enumerate((0.25, 1)):
+                z = condensed(group, pivot, ratio * speed)
+                np.testing.assert_allclose(group["stiffness"][pivot, k], z.real, rtol=1e-9, atol=1)
+                np.testing.assert_allclose(
+                    group["damping"][pivot, k], z.imag / (ratio * speed), rtol=1e-9, atol=1e-2
+                )
+            check_modes(group, modes, pivot)
+        tilts = np.ix_([2, 4], range(6))
+        assert np.isnan(group["full_stiffness"][2][tilts]).all()
+        assert np.isfinite(group["full_stiffness"][1]).all()
+        assert (modes["shape_real"][2, 0][[2, 4]] == 0).all()
+
+
+def check_modes(group, modes, pivot):
+    """Eigenvalues, their order and shapes against numpy."""
+    stiffness, damping, mass = (group[f"full_{name}"][:] for name in ("stiffness", "damping", "mass"))
+    moves = np.isfinite(np.diag(stiffness[pivot]))
+    kept = np.ix_(moves, moves)
+    m, c, k = (mass + np.diag([2000, 2000, 0, 0, 0, 0]))[kept], damping[pivot][kept], stiffness[pivot][kept]
+    k = k.copy()
+    k[0, 1] += 2e7
+    k[1, 0] -= 2e7
+    n = len(m)
+    matrix = np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(m, k), -np.linalg.solve(m, c)]])
+    expected = np.linalg.eigvals(matrix)
+    expected = expected[expected.imag >= 0]
+    found = modes["eigenvalue_real"][pivot] + 1j * modes["eigenvalue_imag"][pivot]
+    found = found[np.isfinite(found)]
+    assert len(found) == len(expected)
+    apart = np.abs(found[:, None] - expected).min(axis=1)
+    assert (apart <= 1e-8 * np.abs(found)).all()
+    ratio = modes["damping_ratio"][pivot][: len(found)]
+    assert (np.diff(ratio) >= 0).all()
+    np.testing.assert_allclose(ratio, -found.real / np.abs(found), rtol=1e-12)
+    shape = (modes["shape_real"][pivot] + 1j * modes["shape_imag"][pivot])[: len(found), moves]
+    for value, form in zip(found, shape, strict=True):
+        left = (m * value**2 + c * value + k) @ form
+        assert np.abs(left).max() <= 1e-6 * np.abs(k @ form).max()
+
+
+def test_sweep_goes_on_without_equilibrium(tiltpad, root, tmp_path):
+    """A load between pads that nothing carries: its member is marked, the others are whole."""
+    loads = "sweep%rotor%static_load(2)=0,1e5,1000"
+    arguments = ("--output", tmp_path / "map", "--quiet", "--set", TASK, "--set", loads)
+    done = tiltpad(root / "input/paper/steady_tr.nml", *arguments)
+    assert done.returncode == 2
+    assert "member 2 (rotor%static_load(2) = 1e5): no equilibrium found" in done.stderr
+    for number, complete in ((1, 1), (2, 0), (3, 1)):
+        with h5py.File(tmp_path / "map" / f"{number:04d}.h5") as file:
+            assert file.attrs["complete"] == complete
+            assert ("coefficients" in file) == bool(complete)
+
+
+@pytest.mark.parametrize(
+    ("overrides", "words"),
+    [
+        ((TASK, "coefficients%frequency_ratio=1,-0.5"), "must be 0 to 1e6"),
+        ((TASK, "coefficients%frequency_ratio=nan"), "must be finite"),
+        ((TASK, "coefficients%frequency_ratio=1001*1"), "at most 1000 values"),
+        ((TASK, "coefficients%threshold_up_to_rpm=6000"), "must be 0 or above operation%speed_rpm = 6500"),
+        ((TASK, "operation%final_speed_rpm=7000"), "must be operation%speed_rpm = 6500"),
+        ((TASK, "start%from=centred"), "has no effect with case%task = 'coefficients'"),
+        ((TASK, "start%journal=1e-6,0"), "a disturbance: has no effect"),
+        (("coefficients%cross_stiffness=1e6",), "has no effect but with case%task = 'coefficients'"),
+        (("case%task=equilibrium", "coefficients%frequency_ratio=0.5"), "has no effect but with"),
+    ],
+)
+def test_refused(case, overrides, words):
+    done, path = case("steady_tr", *overrides)
+    assert done.returncode == 1
+    assert words in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert not path.exists()
