@@ -4,6 +4,8 @@
 !> unstable orbit is found like a stable one. Elimination from interval to interval leaves the monodromy matrix.
 module orbit_collocation
    use kinds, only: wp
+   use text, only: to_text
+   use errors, only: error_type, raise, numerics_error
    use lapack, only: dgesv
    use ode_model, only: ode_model_type
    implicit none (type, external)
@@ -18,6 +20,10 @@ module orbit_collocation
    real(wp), parameter :: weight(points, points) = reshape([(88 - 7*s6)/360, (296 + 169*s6)/1800, (16 - s6)/36, &
       & (296 - 169*s6)/1800, (88 + 7*s6)/360, (16 + s6)/36, (-2 + 3*s6)/225, (-2 - 3*s6)/225, 1/9.0_wp], &
       & [points, points])
+
+   !> The derivatives at the end of an interval are taken this part of the way to the point before: at a kink, on the
+   !> interval's side of it. To the same order the rates are still those at the end.
+   real(wp), parameter :: inward = 1e-5_wp
 
    type :: orbit_type
       !> Ends of the intervals, s, (0:intervals).
@@ -35,6 +41,7 @@ module orbit_collocation
    contains
       procedure :: intervals
       procedure :: state_at
+      procedure :: values_at_ends
       procedure :: change_mesh
    end type orbit_type
 
@@ -66,7 +73,7 @@ contains
       real(wp), intent(out) :: y(:)
       real(wp) :: nodes(0:points), x, factor
       integer :: k, i, j
-      k = max(1, min(self%intervals(), count(self%time < t)))
+      k = interval_of(self%time, t)
       x = (t - self%time(k - 1))/(self%time(k) - self%time(k - 1))
       nodes = [0.0_wp, place]
       y = 0
@@ -84,6 +91,31 @@ contains
          end if
       end do
    end subroutine state_at
+
+   !> Number of the interval with the time t.
+   pure integer function interval_of(time, t) result(k)
+      real(wp), intent(in) :: time(0:), t
+      integer :: above, middle
+      k = 1
+      above = ubound(time, 1) + 1
+      do while (above - k > 1)
+         middle = (k + above)/2
+         if (time(middle - 1) < t) then
+            k = middle
+         else
+            above = middle
+         end if
+      end do
+   end function interval_of
+
+   !> A state at the start and at the ends of the intervals.
+   pure function values_at_ends(self, state) result(values)
+      class(orbit_type), intent(in) :: self
+      integer, intent(in) :: state
+      real(wp) :: values(0:self%intervals())
+      values(0) = self%start(state)
+      values(1:) = self%at(state, points, :)
+   end function values_at_ends
 
    !> Puts the same motion on intervals that end at other times, s; the first and the last stay.
    pure subroutine change_mesh(self, time)
@@ -103,19 +135,19 @@ contains
       self%correction = huge(self%correction)
    end subroutine change_mesh
 
-   !> One round of Newton's method; of a correction longer than `longest`, over the scales, only a part is made. `ok` is
-   !> false where the model refuses a state, and says why, or where the equations are singular: then the orbit is as it
-   !> was.
-   subroutine newton_round(model, orbit, longest, ok)
+   !> One round of Newton's method; of a correction longer than `longest`, over the scales, only a part is made. A
+   !> numerics error where the model refuses a state or the equations have no solution: then the orbit is as it was.
+   subroutine newton_round(model, orbit, longest, error)
       class(ode_model_type), intent(inout) :: model
       type(orbit_type), intent(inout) :: orbit
       real(wp), intent(in) :: longest
-      logical, intent(out) :: ok
+      type(error_type), allocatable, intent(out) :: error
       !> Corrections of the points of each interval: by a change of the state at its start, and without one.
       real(wp), allocatable :: by_start(:, :, :), corrections(:, :)
       type(parts_type) :: parts
       real(wp) :: product(model%n, model%n + 1), closing(model%n, 1), change(model%n), share
       integer :: k, i, n
+      logical :: ok
       n = model%n
       parts = new_parts(model)
       allocate (by_start(points*n, n + 1, orbit%intervals()), corrections(points*n, orbit%intervals()))
@@ -125,8 +157,8 @@ contains
       end do
       orbit%residual = 0
       do k = 1, orbit%intervals()
-         call eliminate(model, orbit, parts, k, by_start(:, :, k), ok)
-         if (.not. ok) return
+         call eliminate(model, orbit, parts, k, by_start(:, :, k), error)
+         if (allocated(error)) return
          associate (last => by_start((points - 1)*n + 1:, :, k))
             product = matmul(last(:, :n), product)
             product(:, n + 1) = product(:, n + 1) + last(:, n + 1)
@@ -137,7 +169,10 @@ contains
          orbit%residual = max(orbit%residual, maxval(abs(gap)))
          call close_period(orbit%monodromy, product(:, n + 1) + gap, closing, ok)
       end associate
-      if (.not. ok) return
+      if (.not. (ok .and. all(abs(product) <= huge(1.0_wp)) .and. all(abs(closing) <= huge(1.0_wp)))) then
+         call raise(error, numerics_error, 'Newton''s equations have no solution')
+         return
+      end if
       change = closing(:, 1)
       orbit%correction = maxval(abs(change))
       do k = 1, orbit%intervals()
@@ -156,25 +191,28 @@ contains
    !> Solves the linear equations of interval k for the corrections of its points, over the scales: columns 1 to n by a
    !> change of the state at its start, the last without one. The equations of the displacements, x' = v, are satisfied
    !> by x_i = x_0 + h sum_j a_ij v_j, which leaves a system on the other states alone.
-   subroutine eliminate(model, orbit, parts, k, by_start, ok)
+   subroutine eliminate(model, orbit, parts, k, by_start, error)
       class(ode_model_type), intent(inout) :: model
       type(orbit_type), intent(inout) :: orbit
       type(parts_type), intent(in) :: parts
       integer, intent(in) :: k
       real(wp), intent(out) :: by_start(:, :)
-      logical, intent(out) :: ok
+      type(error_type), allocatable, intent(out) :: error
       real(wp) :: jacobian(model%n, model%n, points), gap(model%n, points), per_rate(size(parts%x))
       real(wp) :: matrix(points*size(parts%u), points*size(parts%u)), b(points*size(parts%u), model%n + 1)
       integer :: pivots(points*size(parts%u)), info, i, j, m
       m = size(parts%u)
       associate (x => parts%x, h => orbit%time(k) - orbit%time(k - 1))
-         call linearize(model, orbit, k, jacobian, gap, ok)
-         if (.not. ok) return
+         call linearize(model, orbit, k, jacobian, gap, error)
+         if (allocated(error)) return
          per_rate = h*orbit%scale(parts%v)/orbit%scale(x)
          call assemble(parts, per_rate, jacobian, gap, matrix, b)
          call dgesv(points*m, model%n + 1, matrix, points*m, pivots, b, points*m, info)
-         ok = info == 0
-         if (.not. ok) return
+         if (info /= 0) then
+            call raise(error, numerics_error, 'Newton''s equations have no solution at t = ' &
+               & //to_text(orbit%time(k))//' s')
+            return
+         end if
          do i = 1, points
             associate (o => (i - 1)*model%n)
                by_start(o + parts%u, :) = b((i - 1)*m + 1:i*m, :)
@@ -194,20 +232,28 @@ contains
 
    !> At the points of interval k: the derivatives of the rates, over the scales and times the interval, and how far the
    !> equations are from being satisfied.
-   subroutine linearize(model, orbit, k, jacobian, gap, ok)
+   subroutine linearize(model, orbit, k, jacobian, gap, error)
       class(ode_model_type), intent(inout) :: model
       type(orbit_type), intent(inout) :: orbit
       integer, intent(in) :: k
       real(wp), intent(out) :: jacobian(:, :, :), gap(:, :)
-      logical, intent(out) :: ok
-      real(wp) :: rate(model%n, points), before(model%n), h
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: rate(model%n, points), before(model%n), inside(model%n), h
       integer :: i, l
+      logical :: ok
       h = orbit%time(k) - orbit%time(k - 1)
       before = orbit%start
       if (k > 1) before = orbit%at(:, points, k - 1)
       do i = 1, points
-         call model%tangent(orbit%time(k - 1) + place(i)*h, orbit%at(:, i, k), rate(:, i), jacobian(:, :, i), ok)
-         if (.not. ok) return
+         inside = orbit%at(:, i, k)
+         if (i == points) inside = inside + inward*(orbit%at(:, points - 1, k) - inside)
+         call model%tangent(orbit%time(k - 1) + place(i)*h, inside, rate(:, i), jacobian(:, :, i), ok)
+         if (.not. ok) then
+            call raise(error, numerics_error, 'at t = '//to_text(orbit%time(k - 1) + place(i)*h)//' s of the period: ' &
+               & //model%refusal)
+            return
+         end if
+         rate(:, i) = rate(:, i) + matmul(jacobian(:, :, i), orbit%at(:, i, k) - inside)
          do l = 1, model%n
             jacobian(:, l, i) = h*orbit%scale(l)*jacobian(:, l, i)/orbit%scale
          end do

@@ -1,15 +1,18 @@
 !> The task 'periodic': the orbit that the motion repeats, its stability, and its samples over one period.
 module periodic_task
-   use kinds, only: wp, i8, pi
+   use kinds, only: wp, i8
    use text, only: to_text, fixed_text
-   use errors, only: error_type, numerics_error, stopped
-   use marching, only: march_options, sample_plan
+   use errors, only: error_type, raise, stopped, numerics_error
+   use marching, only: sample_plan
+   use march_results, only: put_asperities
+   use floquet_multipliers, only: are_stable, loss_of_stability
    use periodic_orbit, only: periodic_orbit_type, orbit_options, find_periodic_orbit
    use periodic_results, only: put_periodic
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use march_start, only: make_start
-   use march_task, only: record_march, tolerances
+   use march_task, only: tolerances, write_spectra
+   use recorder, only: recorder_type, begin_recording
    implicit none (type, external)
    private
    public :: run_periodic
@@ -20,43 +23,69 @@ contains
       type(case_run_type), intent(inout), target :: run
       type(error_type), allocatable, intent(out) :: error
       type(periodic_orbit_type) :: found
-      type(sample_plan) :: plan
-      type(march_options) :: options
       real(wp), allocatable :: y(:)
       ! it takes no longer than reading what there is
       run%resumed = .false.
       call make_start(run, y, error)
       if (allocated(error)) return
-      associate (p => run%scene%periodic, output => run%scene%output)
-         options = tolerances(run, y)
-         call find_periodic_orbit(run%model, options%integrator_options, orbit_options(p%revolutions, p%tolerance, &
+      associate (p => run%scene%periodic)
+         call find_periodic_orbit(run%model, tolerances(run, y), orbit_options(p%revolutions, p%tolerance, &
             & p%max_iterations), y, found, error, stop_requested)
+         run%counts = found%march
+         run%counts%rhs_evaluations = run%counts%rhs_evaluations + found%evaluations
+         run%counts%jacobian_evaluations = run%counts%jacobian_evaluations + found%evaluations
          if (allocated(error)) then
             if (error%status == stopped) error%message = stop_reason()//' while the periodic orbit was sought'
             return
          end if
          call put_periodic(run%file%file, found, p%revolutions)
          if (.not. run%quiet) call print_orbit(found, p%revolutions)
-         plan = sample_plan(0.0_wp, found%period/(p%revolutions*output%samples_per_revolution), &
-            & 1 + int(p%revolutions, i8)*output%samples_per_revolution, 0_i8)
-         call run%file%begin_series('time')
-         y = found%orbit%start
-         call record_march(run, y, 0.0_wp, found%period, plan, error)
       end associate
+      call record_orbit(run, found, error)
    end subroutine run_periodic
+
+   !> Samples of the orbit over its period, their spectra and the asperities' contact.
+   subroutine record_orbit(run, found, error)
+      type(case_run_type), intent(inout), target :: run
+      type(periodic_orbit_type), intent(in) :: found
+      type(error_type), allocatable, intent(out) :: error
+      type(recorder_type) :: observer
+      type(sample_plan) :: plan
+      real(wp) :: y(run%model%n), none(run%model%n), t
+      integer(i8) :: k
+      logical :: ok
+      none = 0
+      plan%count = 1 + int(run%scene%periodic%revolutions, i8)*run%scene%output%samples_per_revolution
+      plan%interval = found%period/(plan%count - 1)
+      call run%file%begin_series('time')
+      call begin_recording(observer, run, 0.0_wp)
+      do k = 0, plan%count - 1
+         t = min(plan%time(k), found%period)
+         call found%orbit%state_at(t, y)
+         call run%model%evaluate(t, y, .false., ok)
+         if (.not. ok) then
+            call raise(error, numerics_error, 'at t = '//to_text(t)//' s of the periodic orbit: '//run%model%refusal)
+            return
+         end if
+         call observer%sample(t, y, run%model%output(none), error)
+         if (allocated(error)) return
+      end do
+      call write_spectra(run%scene, plan%interval, run%file)
+      call put_asperities(run%file, plan%interval, norm2(run%model%point%load))
+   end subroutine record_orbit
 
    !> Period, stability and effort.
    subroutine print_orbit(found, revolutions)
       type(periodic_orbit_type), intent(in) :: found
       integer, intent(in) :: revolutions
       character(len=:), allocatable :: what
-      what = 'unstable: '//found%loss()
-      if (found%is_stable()) what = 'stable'
+      what = 'unstable: '//loss_of_stability(found%multipliers)
+      if (are_stable(found%multipliers)) what = 'stable'
       associate (leading => found%multipliers(1))
          print '(a)', 'periodic orbit: period '//fixed_text(1e3_wp*found%period, 4)//' ms ('//to_text(revolutions) &
-            & //merge(' revolution), ', ' revolutions),', revolutions == 1)//what//'; leading multiplier ' &
-            & //fixed_text(leading%re, 6)//merge(' + ', ' - ', leading%im >= 0)//fixed_text(abs(leading%im), 6) &
-            & //' i, modulus '//fixed_text(abs(leading), 6)
+            & //trim(merge(' revolution), ', ' revolutions),', revolutions == 1))//' '//what &
+            & //'; leading multiplier '//fixed_text(leading%re, 6)//merge(' + ', ' - ', leading%im >= 0) &
+            & //fixed_text(abs(leading%im), 6)//' i, modulus '//fixed_text(abs(leading), 6)
       end associate
       print '(a)', '  '//to_text(found%iterations)//' iterations on '//to_text(found%orbit%intervals()) &
          & //' intervals, after '//to_text(found%marched)//' periods of a march'

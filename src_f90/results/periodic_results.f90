@@ -3,6 +3,7 @@ module periodic_results
    use kinds, only: wp, i8
    use hdf5_file, only: hdf5_type
    use periodic_orbit, only: periodic_orbit_type
+   use floquet_multipliers, only: are_stable
    implicit none (type, external)
    private
    public :: put_periodic
@@ -24,11 +25,11 @@ contains
          call file%put_count('periodic/iterations', int(found%iterations, i8), 'iterations of Newton''s method')
          call file%put_count('periodic/intervals', int(found%orbit%intervals(), i8), 'intervals of the collocation')
          call file%put_count('periodic/evaluations', found%evaluations, &
-            & 'evaluations of the equations and their derivatives in these iterations')
+            & 'evaluations of the equations with their derivatives in all iterations')
          call file%put_count('periodic/marched_periods', int(found%marched, i8), 'periods of the march before them')
          call file%put_list('periodic/multiplier_real', values%re, '1', 'multiplier, real part', 'multiplier')
          call file%put_list('periodic/multiplier_imag', values%im, '1', 'multiplier, imaginary part', 'multiplier')
-         call file%put_count('periodic/stable', merge(1_i8, 0_i8, found%is_stable()), &
+         call file%put_count('periodic/stable', merge(1_i8, 0_i8, are_stable(found%multipliers)), &
             & '1 where all multipliers are inside the unit circle')
       end associate
    end subroutine put_periodic

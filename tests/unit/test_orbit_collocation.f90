@@ -10,11 +10,14 @@ module orbit_problems
    !> x'' + 2 d x' + x = cos t, and z' = -k (z - x).
    type, extends(ode_model_type) :: linear_problem
       real(wp) :: damping = 0.1_wp, stiffness = 1e4_wp
+      !> Whether x and x' are said to be a displacement and its rate.
+      logical :: paired = .true.
    contains
       procedure :: rhs => linear_rhs
       procedure :: linearize => no_preparation
       procedure :: jacobian_times => linear_times
       procedure :: solve => no_solution
+      procedure :: pairs => linear_pairs
    end type linear_problem
 
    !> x'' - mu (1 - x^2) x' + x = 0.
@@ -51,6 +54,13 @@ contains
       real(wp), intent(out) :: jv(:)
       jv = [v(2), -v(1) - 2*self%damping*v(2), -self%stiffness*(v(3) - v(1))]
    end subroutine linear_times
+
+   pure subroutine linear_pairs(self, x, v)
+      class(linear_problem), intent(in) :: self
+      integer, allocatable, intent(out) :: x(:), v(:)
+      x = pack([1], self%paired)
+      v = pack([2], self%paired)
+   end subroutine linear_pairs
 
    subroutine no_solution(self, gamma, b, ok)
       class(linear_problem), intent(inout) :: self
@@ -98,12 +108,16 @@ program test_orbit_collocation
    use kinds, only: wp, pi
    use ode_model, only: ode_model_type
    use orbit_collocation, only: orbit_type, newton_round, points, place
-   use periodic_orbit, only: set_multipliers
+   use errors, only: error_type
+   use floquet_multipliers, only: set_multipliers
    use orbit_problems, only: linear_problem, van_der_pol
-   use check, only: runs, expect, expect_close, report
+   use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
 
-   if (runs('linear')) call linear()
+   if (runs('linear')) then
+      call linear(.false.)
+      call linear(.true.)
+   end if
    if (runs('order')) call order()
    if (runs('state_at')) call state_at()
    if (runs('limit_cycle')) call limit_cycle()
@@ -123,22 +137,26 @@ contains
       orbit%scale = 1
    end function at_rest
 
-   !> x = sin(t)/(2 d) and z = x - x'/k + ..., for d = 0.1. One round solves what is linear. Of the multipliers, exp(2 pi (-d +- i sqrt(1 - d^2))) and exp(-2 pi k) = 0, the largest
-   !> have the modulus exp(-0.2 pi). Radau's error with 40 intervals is of (2 pi/40)^5/7200 = 1e-8.
-   subroutine linear()
+   !> x = sin(t)/(2 d) and z = x - x'/k + ..., for d = 0.1. One round solves what is linear. Of the multipliers,
+   !> exp(2 pi (-d +- i sqrt(1 - d^2))) and exp(-2 pi k) = 0, the largest have the modulus exp(-0.2 pi). Radau's error
+   !> with 40 intervals is of (2 pi/40)^5/7200 = 1e-8. It is the same whether the displacement follows from its rate.
+   subroutine linear(paired)
+      logical, intent(in) :: paired
       type(linear_problem) :: problem
       type(orbit_type) :: orbit
+      type(error_type), allocatable :: error
       complex(wp), allocatable :: values(:)
       complex(wp) :: expected
       logical :: ok
       problem%n = 3
+      problem%paired = paired
       orbit = at_rest(3, 40, 2*pi)
-      call newton_round(problem, orbit, huge(1.0_wp), ok)
-      call expect(ok, 'a round')
+      call newton_round(problem, orbit, huge(1.0_wp), error)
+      call expect_no_error(error, 'a round')
       call expect_close(orbit%start(1), 0.0_wp, 1e-6_wp, 'x at the start')
       call expect_close(orbit%start(2), 5.0_wp, 1e-6_wp, 'its velocity')
       call expect_close(orbit%start(3), -5/problem%stiffness, 1e-6_wp, 'the stiff state')
-      call newton_round(problem, orbit, huge(1.0_wp), ok)
+      call newton_round(problem, orbit, huge(1.0_wp), error)
       call expect_close(orbit%correction, 0.0_wp, 1e-9_wp, 'the second round has nothing to correct')
       call expect_close(orbit%residual, 0.0_wp, 1e-9_wp, 'and its equations are satisfied')
       call set_multipliers(orbit%monodromy, values, ok)
@@ -164,11 +182,12 @@ contains
       integer, intent(in) :: n
       type(linear_problem) :: problem
       type(orbit_type) :: orbit
+      type(error_type), allocatable :: error
       complex(wp), allocatable :: values(:)
       logical :: ok
       problem%n = 3
       orbit = at_rest(3, n, 2*pi)
-      call newton_round(problem, orbit, huge(1.0_wp), ok)
+      call newton_round(problem, orbit, huge(1.0_wp), error)
       call set_multipliers(orbit%monodromy, values, ok)
       modulus = abs(values(1))
    end function modulus
@@ -212,6 +231,7 @@ contains
    subroutine limit_cycle()
       type(van_der_pol) :: problem
       type(orbit_type) :: orbit
+      type(error_type), allocatable :: error
       complex(wp), allocatable :: values(:)
       complex(wp) :: expected
       real(wp), parameter :: period = 6.6632868593_wp
@@ -221,8 +241,8 @@ contains
       orbit = at_rest(2, 80, period)
       orbit%start = [0.1_wp, -0.1_wp]
       do round = 1, 6
-         call newton_round(problem, orbit, huge(1.0_wp), ok)
-         call expect(ok, 'a round')
+         call newton_round(problem, orbit, huge(1.0_wp), error)
+         call expect_no_error(error, 'a round')
       end do
       call expect_close(maxval(abs(orbit%start)), 0.0_wp, 1e-12_wp, 'the rest is found')
       call set_multipliers(orbit%monodromy, values, ok)

@@ -1,0 +1,105 @@
+!> A march that brings a periodic orbit near: period after period, and the last one as intervals of a collocation.
+module orbit_march
+   use kinds, only: wp, i8
+   use text, only: to_text
+   use errors, only: error_type, raise, add_context, numerics_error, stopped
+   use marching, only: march_options
+   use cvode_integrator, only: integrator_type
+   use damped_newton, only: asked_to_stop, asked
+   use orbit_collocation, only: orbit_type, points, place
+   implicit none (type, external)
+   private
+   public :: march_period
+
+   !> A step of the march: its end, s, and the states at the points of Radau in it.
+   type :: step_type
+      real(wp) :: end = 0
+      real(wp), allocatable :: at(:, :)
+   end type step_type
+
+   !> Steps between two questions whether to stop.
+   integer(i8), parameter :: steps_between_questions = 64
+
+contains
+
+   !> Marches over period number `period` = 0, 1, .., in whose first step the integrator stands; its steps become the
+   !> intervals of the orbit. An error says why, where and when the march ended.
+   subroutine march_period(integrator, options, values, period, length, orbit, error, give_up)
+      type(integrator_type), intent(inout) :: integrator
+      type(march_options), intent(in) :: options
+      !> Number of states and outputs of the model; number of the period.
+      integer, intent(in) :: values, period
+      !> s.
+      real(wp), intent(in) :: length
+      type(orbit_type), intent(inout) :: orbit
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      type(step_type), allocatable :: steps(:), longer(:)
+      real(wp) :: all_values(values), t, before
+      integer :: n, i
+      call integrator%interpolate(period*length, all_values)
+      orbit%start = all_values(:size(orbit%start))
+      allocate (steps(64))
+      n = 0
+      before = 0
+      do
+         t = min(length, integrator%time() - period*length)
+         if (t > before) then
+            if (n == size(steps)) then
+               allocate (longer(2*n))
+               longer(:n) = steps
+               call move_alloc(longer, steps)
+            end if
+            n = n + 1
+            steps(n)%end = t
+            allocate (steps(n)%at(size(orbit%start), points))
+            do i = 1, points
+               call integrator%interpolate(period*length + before + place(i)*(t - before), all_values)
+               steps(n)%at(:, i) = all_values(:size(orbit%start))
+            end do
+            before = t
+         end if
+         if (t >= length) exit
+         call do_step(integrator, options, error, give_up)
+         if (allocated(error)) return
+      end do
+      call make_orbit(steps(:n), orbit)
+   end subroutine march_period
+
+   !> A step, unless there were too many or `give_up` says so.
+   subroutine do_step(integrator, options, error, give_up)
+      type(integrator_type), intent(inout) :: integrator
+      type(march_options), intent(in) :: options
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      logical :: stops
+      associate (counts => integrator%counts())
+         stops = .false.
+         if (mod(counts%steps, steps_between_questions) == 0) stops = asked(give_up)
+         if (stops) then
+            call raise(error, stopped, 'asked to stop')
+         else if (counts%steps >= options%max_steps) then
+            call raise(error, numerics_error, 'too many steps (integration%max_steps)')
+         else
+            call integrator%step(error)
+         end if
+         call add_context(error, 'the march stopped at t = '//to_text(integrator%time())//' s, after ' &
+            & //to_text(counts%steps)//' steps')
+      end associate
+   end subroutine do_step
+
+   !> The motion of these steps on a mesh of their ends.
+   pure subroutine make_orbit(steps, orbit)
+      type(step_type), intent(in) :: steps(:)
+      type(orbit_type), intent(inout) :: orbit
+      integer :: k
+      if (allocated(orbit%time)) deallocate (orbit%time, orbit%at)
+      allocate (orbit%time(0:size(steps)), orbit%at(size(orbit%start), points, size(steps)))
+      orbit%time(0) = 0
+      orbit%time(1:) = steps%end
+      do k = 1, size(steps)
+         orbit%at(:, :, k) = steps(k)%at
+      end do
+      orbit%correction = huge(orbit%correction)
+   end subroutine make_orbit
+end module orbit_march
