@@ -17,7 +17,7 @@ module march_task
    use recorder, only: recorder_type, begin_recording
    implicit none (type, external)
    private
-   public :: run_march, tolerances, write_spectra
+   public :: run_march, continue_from_checkpoint, tolerances, write_spectra
 
    !> Steps after which the derivatives are taken anew without friction: the motion is smooth, the steps are long.
    integer, parameter :: smooth_derivatives_age = 2

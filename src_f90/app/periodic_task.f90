@@ -11,7 +11,7 @@ module periodic_task
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use march_start, only: make_start
-   use march_task, only: tolerances, write_spectra
+   use march_task, only: continue_from_checkpoint, tolerances, write_spectra
    use recorder, only: recorder_type, begin_recording
    implicit none (type, external)
    private
@@ -24,9 +24,12 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(periodic_orbit_type) :: found
       real(wp), allocatable :: y(:)
-      ! it takes no longer than reading what there is
-      run%resumed = .false.
-      call make_start(run, y, error)
+      real(wp) :: t
+      if (run%resumed) then
+         call continue_from_checkpoint(run, t, y, error)
+      else
+         call make_start(run, y, error)
+      end if
       if (allocated(error)) return
       associate (p => run%scene%periodic)
          call find_periodic_orbit(run%model, tolerances(run, y), orbit_options(p%revolutions, p%tolerance, &
@@ -35,7 +38,7 @@ contains
          run%counts%rhs_evaluations = run%counts%rhs_evaluations + found%evaluations
          run%counts%jacobian_evaluations = run%counts%jacobian_evaluations + found%evaluations
          if (allocated(error)) then
-            if (error%status == stopped) error%message = stop_reason()//' while the periodic orbit was sought'
+            if (error%status == stopped) call stop_here(run, found, error)
             return
          end if
          call put_periodic(run%file%file, found, p%revolutions)
@@ -43,6 +46,17 @@ contains
       end associate
       call record_orbit(run, found, error)
    end subroutine run_periodic
+
+   !> A checkpoint where a signal asks for the end: the state to which the march or Newton's method had come.
+   subroutine stop_here(run, found, error)
+      type(case_run_type), intent(inout) :: run
+      type(periodic_orbit_type), intent(in) :: found
+      type(error_type), allocatable, intent(inout) :: error
+      type(error_type), allocatable :: file_error
+      error%message = stop_reason()//' while the periodic orbit was sought'
+      call run%file%checkpoint(0.0_wp, found%orbit%start, run%statistics(), stopped, error%message, file_error)
+      if (allocated(file_error)) call move_alloc(file_error, error)
+   end subroutine stop_here
 
    !> Samples of the orbit over its period, their spectra and the asperities' contact.
    subroutine record_orbit(run, found, error)
