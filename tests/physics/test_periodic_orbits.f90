@@ -1,0 +1,191 @@
+!> Periodic orbits of bearings and their multipliers: against an independent program, against the eigenvalues of a rest,
+!> against a march over the period, and by their order of convergence.
+program test_periodic_orbits
+   use kinds, only: wp
+   use text, only: to_text
+   use errors, only: error_type
+   use scene, only: scene_type
+   use marching, only: march_options
+   use cvode_integrator, only: integrator_type
+   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equilibrium, only: equilibrium_type, find_equilibrium
+   use force_balance, only: force_derivatives, masses
+   use small_vibrations, only: eigenvalues
+   use orbit_collocation, only: orbit_type, newton_round
+   use kink_mesh, only: follow_kinks
+   use floquet_multipliers, only: set_multipliers, are_stable
+   use periodic_orbit, only: periodic_orbit_type, orbit_options, find_periodic_orbit
+   use check, only: runs, expect, expect_close, expect_no_error, report
+   implicit none (type, external)
+
+   if (runs('published')) call published()
+   if (runs('vanishing')) then
+      call vanishing('tilting_radial')
+      call vanishing('tilting_only')
+      call vanishing('fixed')
+   end if
+   if (runs('order')) then
+      call order('none', 1e-3_wp, 12.0_wp, 1e-8_wp)
+      call order('lugre', 1e-3_wp, 6.0_wp, 1e-7_wp)
+      call order('bengisu_akay', 1e-5_wp, 3.0_wp, 3e-6_wp)
+   end if
+   if (runs('returns')) then
+      call returns('none')
+      call returns('lugre')
+      call returns('bengisu_akay')
+   end if
+   call report()
+
+contains
+
+   !> The paper's bearing with converged films that do not rupture.
+   type(scene_type) function paper(motion, friction) result(scene)
+      character(len=*), intent(in) :: motion, friction
+      scene = scene_type()
+      scene%about%task = 'periodic'
+      scene%pads%motion = motion
+      scene%friction%model = friction
+      scene%film%cavitation = 'none'
+      scene%film%solver = 'fine'
+   end function paper
+
+   !> The orbit that the motion from the equilibrium leads to.
+   subroutine find(scene, tolerance, model, found)
+      type(scene_type), intent(in) :: scene
+      real(wp), intent(in) :: tolerance
+      type(bearing_model), intent(out), target :: model
+      type(periodic_orbit_type), intent(out) :: found
+      type(equilibrium_type) :: static
+      type(march_options) :: options
+      type(error_type), allocatable :: error
+      model = new_bearing_model(scene)
+      call find_equilibrium(model, static, error)
+      if (.not. allocated(error)) then
+         options%relative_tolerance = tolerance
+         options%absolute_tolerance = tolerance*model%scale
+         call find_periodic_orbit(model, options, orbit_options(), &
+            & model%at_rest(static%journal, static%tilt, static%penetration), found, error)
+      end if
+      call expect_no_error(error, 'the orbit is found')
+      if (allocated(error)) call expect(.false., error%message)
+   end subroutine find
+
+   !> Values of an independent program: to the digits given.
+   subroutine published()
+      type(bearing_model) :: model
+      type(periodic_orbit_type) :: found
+      real(wp), allocatable :: y(:)
+      real(wp) :: low(2), high(2)
+      integer :: k
+      call find(paper('tilting_radial', 'none'), 1e-7_wp, model, found)
+      call expect_close(found%orbit%start(1), -59.8566e-6_wp, 1e-10_wp, 'y at phase 0')
+      call expect_close(found%orbit%start(2), -5.7793e-6_wp, 1e-10_wp, 'z at phase 0')
+      low = huge(low)
+      high = -huge(high)
+      allocate (y(model%n))
+      do k = 0, 5000
+         call found%orbit%state_at(k*found%period/5000, y)
+         low = min(low, y(:2))
+         high = max(high, y(:2))
+      end do
+      call expect_close(low(1), -62.2580e-6_wp, 1e-10_wp, 'lowest y')
+      call expect_close(high(1), -46.8219e-6_wp, 1e-10_wp, 'highest y')
+      call expect_close(low(2), -7.5039e-6_wp, 1e-10_wp, 'lowest z')
+      call expect_close(high(2), 7.9767e-6_wp, 1e-10_wp, 'highest z')
+      call expect_close(found%multipliers(1)%re, -0.098853_wp, 2e-6_wp, 'leading multiplier')
+      call expect_close(abs(found%multipliers(1)%im), 0.283186_wp, 2e-6_wp, 'its imaginary part')
+      call expect(are_stable(found%multipliers), 'it is stable')
+   end subroutine published
+
+   !> Without unbalance the orbit is the equilibrium, and its multipliers are exp(lambda T) of the eigenvalues there.
+   !> Those above 1e-3: the fast ones die within a step, of which the collocation leaves another small number. Its error
+   !> is of (2 pi/24)^5/7200 = 2e-7 for what turns with the shaft.
+   subroutine vanishing(motion)
+      character(len=*), intent(in) :: motion
+      type(scene_type) :: scene
+      type(bearing_model) :: model
+      type(periodic_orbit_type) :: found
+      complex(wp), allocatable :: values(:), expected(:)
+      real(wp), allocatable, dimension(:, :) :: stiffness, damping
+      integer :: k, n
+      logical :: ok
+      scene = paper(motion, 'none')
+      scene%rotor%unbalance = 0
+      call find(scene, 1e-6_wp, model, found)
+      n = model%layout%n_positions()
+      allocate (stiffness(n, n), damping(n, n), values(2*n))
+      call model%evaluate(0.0_wp, found%orbit%start, .true., ok)
+      call force_derivatives(model, stiffness, damping)
+      call eigenvalues(masses(model), stiffness, damping, values, ok)
+      expected = exp(values*found%period)
+      call expect(count(abs(expected) > 1e-3_wp) >= 2, 'some do not die at once, '//motion)
+      do k = 1, 2*n
+         if (abs(expected(k)) > 1e-3_wp) call expect_close(minval(abs(found%multipliers - expected(k))), 0.0_wp, &
+            & 2e-6_wp, 'exp(lambda T), '//motion)
+      end do
+   end subroutine vanishing
+
+   !> Intervals of half the length leave an error of the multipliers that is 2^5 times smaller, or, where the motion is
+   !> stiff, something between 2^3 (the order of the states inside an interval) and this; measured: 23, 6.5 and 4, and
+   !> later 10 and 13 with friction. With kinks beside the ends of intervals it would not fall below 1e-5.
+   subroutine order(friction, tolerance, factor, limit)
+      character(len=*), intent(in) :: friction
+      !> Of the march; factor by which the error falls; what is left of it.
+      real(wp), intent(in) :: tolerance, factor, limit
+      type(scene_type) :: scene
+      type(bearing_model) :: model
+      type(periodic_orbit_type) :: found
+      complex(wp), allocatable :: coarse(:), middle(:), fine(:)
+      real(wp) :: errors(2)
+      scene = paper('tilting_radial', friction)
+      call find(scene, tolerance, model, found)
+      coarse = found%multipliers
+      middle = refined(model, found%orbit)
+      fine = refined(model, found%orbit)
+      errors = [abs(coarse(1)%re - middle(1)%re), abs(middle(1)%re - fine(1)%re)]
+      call expect(errors(2) < min(errors(1)/factor, limit), 'the error falls from '//to_text(errors(1)) &
+         & //' to '//to_text(errors(2))//', '//friction)
+   end subroutine order
+
+   !> Halves the intervals of an orbit, closes it anew and gives its multipliers.
+   function refined(model, orbit) result(values)
+      type(bearing_model), intent(inout) :: model
+      type(orbit_type), intent(inout) :: orbit
+      complex(wp), allocatable :: values(:)
+      type(error_type), allocatable :: error
+      real(wp) :: mesh(0:2*orbit%intervals())
+      integer :: round
+      logical :: ok
+      mesh(0::2) = orbit%time
+      mesh(1::2) = 0.5_wp*(orbit%time(:orbit%intervals() - 1) + orbit%time(1:))
+      call orbit%change_mesh(mesh)
+      do round = 1, 12
+         call follow_kinks(model, orbit)
+         call newton_round(model, orbit, 0.5_wp, error)
+         call expect_no_error(error, 'a round')
+         if (orbit%correction < 1e-10_wp) exit
+      end do
+      call expect(orbit%correction < 1e-9_wp, 'it converges to '//to_text(orbit%correction))
+      call set_multipliers(orbit%monodromy, values, ok)
+   end function refined
+
+   !> A march over the period returns to the start: what it errs by in some thousand steps of 1e-8.
+   subroutine returns(friction)
+      character(len=*), intent(in) :: friction
+      type(bearing_model), target :: model
+      type(periodic_orbit_type) :: found
+      type(march_options) :: options
+      type(integrator_type) :: integrator
+      type(error_type), allocatable :: error
+      call find(paper('tilting_radial', friction), 1e-6_wp, model, found)
+      options%relative_tolerance = 1e-8_wp
+      options%absolute_tolerance = 1e-8_wp*model%scale
+      call integrator%start(model, options, 0.0_wp, found%orbit%start, found%period, error)
+      do while (.not. allocated(error) .and. integrator%time() < found%period)
+         call integrator%step(error)
+      end do
+      call expect_no_error(error, 'the march ends well')
+      call expect_close(maxval(abs(integrator%state() - found%orbit%start)/model%scale), 0.0_wp, 3e-6_wp, &
+         & 'it returns, '//friction)
+   end subroutine returns
+end program test_periodic_orbits
