@@ -19,7 +19,7 @@ module film_losses
    use following_volumes, only: new_following_film
    use modal_film, only: modal_film_type, converged_film
    use sommerfeld_nodes, only: span
-   use volume_flows, only: volume_flow_type, flows_of_volumes
+   use volume_flows, only: volume_flow_type, flows_of_volumes, finer
    implicit none (type, external)
    private
    public :: film_losses_type, film_loss, new_film_losses
@@ -27,7 +27,7 @@ module film_losses
    !> Error of forces by modes over themselves.
    real(wp), parameter :: tolerance = 1e-5_wp
 
-   !> Rows of volumes that are enough.
+   !> Rows of volumes that are enough; a film on half as many serves to extrapolate.
    integer, parameter :: enough_rows = 12
 
    type :: film_loss
@@ -182,39 +182,53 @@ contains
       type(film_response), intent(in) :: modal
       type(driven_film), intent(inout) :: driven
       type(film_loss), intent(inout) :: loss
+      type(volume_flow_type) :: whole(2), ruptured(2)
       real(wp) :: c
+      integer :: k, status
+      do k = 1, 2
+         call by_volumes(self, self%rows*k/2, motion, speed, whole(k), ruptured(k), status)
+         loss%status = max(loss%status, status)
+      end do
+      c = share_of_modes(self%gap%cavitation_pressure, modal)
+      associate (w => finer(whole(1), whole(2)), r => finer(ruptured(1), ruptured(2)))
+         driven%force = r%force + c*(driven%force - w%force)
+         driven%inlet = r%inlet + c*(driven%inlet - w%inlet)
+         driven%void = r%void
+         loss%couette = loss%couette - r%lacking
+         loss%outlet = r%outlet + c*(loss%outlet - w%outlet)
+         loss%side = r%side + c*(loss%side - w%side)
+         loss%unfed = r%unfed
+      end associate
+   end subroutine add_rupture
+
+   !> The film on volumes that follow it, without and with rupture.
+   subroutine by_volumes(self, rows, motion, speed, whole, ruptured, status)
+      class(film_losses_type), intent(in) :: self
+      integer, intent(in) :: rows
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      type(volume_flow_type), intent(out) :: whole, ruptured
+      integer, intent(out) :: status
       type(direct_film_type) :: volumes
       type(film_grid_type) :: grid
       type(film_response) :: response
       type(film_counters) :: counters
-      type(volume_flow_type) :: whole, ruptured
       real(wp), allocatable :: pressure(:, :), film(:, :)
-      logical, allocatable :: filled(:, :)
-      c = share_of_modes(self%gap%cavitation_pressure, modal)
       associate (surface => speed*self%gap%journal_radius)
-         volumes = new_following_film(self%gap, motion, speed, self%rows)
+         volumes = new_following_film(self%gap, motion, speed, rows)
          call volumes%evaluate(motion, speed, .false., .false., counters, response)
          call volumes%cells(grid, pressure, film)
-         filled = film > 0
-         whole = flows_of_volumes(grid, surface, pressure, filled)
+         whole = flows_of_volumes(grid, surface, pressure, film > 0)
          if (self%reynolds) then
             call volumes%evaluate(motion, speed, .true., .false., counters, response)
             call volumes%cells(grid, pressure, film)
-            filled = film > 0
+            ruptured = flows_of_volumes(grid, surface, pressure, film > 0)
          else
-            filled = pressure > 0
+            ruptured = flows_of_volumes(grid, surface, pressure, pressure > 0)
          end if
-         ruptured = flows_of_volumes(grid, surface, pressure, filled)
       end associate
-      driven%force = ruptured%force + c*(driven%force - whole%force)
-      driven%inlet = ruptured%inlet + c*(driven%inlet - whole%inlet)
-      driven%void = ruptured%void
-      loss%status = response%status
-      loss%couette = loss%couette - ruptured%lacking
-      loss%outlet = ruptured%outlet + c*(loss%outlet - whole%outlet)
-      loss%side = ruptured%side + c*(loss%side - whole%side)
-      loss%unfed = ruptured%unfed
-   end subroutine add_rupture
+      status = response%status
+   end subroutine by_volumes
 
    !> Flow in at the leading edge, heat of the pressure flow, and the pressure's resistance to rotation.
    pure subroutine set_heat(self, motion, speed, driven, loss)

@@ -62,6 +62,9 @@ def test_parameters_and_results_are_those_of_the_members(study, copy):
             )
             assert study.min_film_thickness[k] == run.values("min_film_thickness", last).min()
             assert study.steps[k] == run["statistics/steps"]
+            assert study.equilibrium_power_loss[k] == run["equilibrium/total_power_loss"]
+            assert study.sommerfeld_number[k] == run["equilibrium/sommerfeld_number"]
+            np.testing.assert_array_equal(study.pad_equilibrium_side_flow[k], run["equilibrium/side_flow"])
             points = tiltpad.poincare(run)
             kept = study.poincare_y[k][np.isfinite(study.poincare_y[k])]
             np.testing.assert_array_equal(kept, points["journal_y"])

@@ -8,7 +8,7 @@ module volume_flows
    use film_grid, only: film_grid_type
    implicit none (type, external)
    private
-   public :: volume_flow_type, flows_of_volumes
+   public :: volume_flow_type, flows_of_volumes, finer
 
    type :: volume_flow_type
       !> m^3/s: what pressure drives in at the leading edge, less than 0 where it drives oil out; out at the trailing
@@ -40,6 +40,18 @@ contains
          call add_row(grid, surface_speed, k, pressure, filled, flow)
       end do
    end function flows_of_volumes
+
+   !> What two grids, the second twice as fine, tell of one that is infinitely fine.
+   pure type(volume_flow_type) function finer(coarse, fine)
+      type(volume_flow_type), intent(in) :: coarse, fine
+      finer%inlet = (4*fine%inlet - coarse%inlet)/3
+      finer%outlet = (4*fine%outlet - coarse%outlet)/3
+      finer%side = (4*fine%side - coarse%side)/3
+      finer%unfed = (4*fine%unfed - coarse%unfed)/3
+      finer%lacking = (4*fine%lacking - coarse%lacking)/3
+      finer%force = (4*fine%force - coarse%force)/3
+      finer%void = (4*fine%void - coarse%void)/3
+   end function finer
 
    !> Adds a row of cells, from the leading edge downstream.
    pure subroutine add_row(grid, surface_speed, k, pressure, filled, flow)
