@@ -64,8 +64,7 @@ contains
          cells = merge(f%circumferential_cells, enough_cells(gaps), f%circumferential_cells > 0)
          modes = merge(f%axial_modes, enough_modes(gaps), f%axial_modes > 0)
          ! what the input sets stays the same for every film
-         if (f%circumferential_cells == 0 .and. f%axial_modes == 0) error = merge(loose_error, usual_error, &
-            & f%solver == 'loose')
+         if (f%circumferential_cells + f%axial_modes == 0) error = merge(loose_error, usual_error, f%solver == 'loose')
          if (f%solver == 'fine') error = fine_error
          volumes = merge(sor_volumes, rupture_volumes, f%solver == 'sor')
          if (f%solver == 'fine' .and. .not. all(has_tables(gaps))) volumes = fine_volumes
