@@ -66,7 +66,8 @@ contains
       do while (.not. allocated(error))
          call give_samples(integrator, model, plan, t_end, next, observer, error)
          if (allocated(error) .or. observer%satisfied .or. t >= t_end) exit
-         if (observer%wants_state()) call observer%take_state(t, integrator%state(), earlier + integrator%counts(), error)
+         if (observer%wants_state()) call observer%take_state(t, integrator%state(), earlier + integrator%counts(), &
+            & error)
          if (allocated(error)) exit
          if (counts%steps >= options%max_steps) then
             call raise(error, numerics_error, 'the march gave up at t = '//to_text(t)//' s, after ' &

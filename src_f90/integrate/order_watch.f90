@@ -24,8 +24,8 @@ module order_watch
       real(wp) :: time = 0
       !> Whether low orders are in force.
       logical :: low = .false.
-      !> How far the window before the trial went, s; windows with low orders, or in a row with short steps, and how many
-      !> of these lead to a trial.
+      !> How far the window before the trial went, s; windows with low orders, or in a row with short steps, and how
+      !> many of these lead to a trial.
       real(wp), private :: span = 0
       integer, private :: windows = 0, wait = first_wait
    contains

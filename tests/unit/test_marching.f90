@@ -236,7 +236,7 @@ contains
       integer(i8) :: with_all, with_low, none
       call vibrate(0.0045_wp, 0.0_wp, with_all)
       call vibrate(0.0045_wp, 0.05_wp, with_low)
-      call expect(4*with_low < with_all, 'low orders go further: '//to_text(with_low)//' steps, not '//to_text(with_all))
+      call expect(4*with_low < with_all, 'they go further: '//to_text(with_low)//' steps, not '//to_text(with_all))
       call vibrate(1.0_wp, 0.0_wp, none)
       call vibrate(1.0_wp, 1.0_wp, with_low)
       call expect(with_low < 1.3_wp*none, 'a trial in vain: '//to_text(with_low)//' steps, not '//to_text(none))
