@@ -128,11 +128,11 @@ def too_many(dice: Random, spot: Spot):
         return None
     kind = dice.randrange(4)
     if kind == 0:
-        spot.item.values = [spot.one] * dice.choice((25, 1001))
+        spot.item.values = [spot.one] * dice.choice((variable.most + 1, 1001))
     elif kind == 1:
-        spot.item.values = [dice.choice((b"25*", b"999999*")) + spot.one]
+        spot.item.values = [dice.choice((b"%d*" % (variable.most + 1), b"999999*")) + spot.one]
     elif kind == 2:
-        spot.item.target += dice.choice((b"(25)", b"(9999)"))
+        spot.item.target += dice.choice((b"(%d)" % (variable.most + 1), b"(9999)"))
     elif len(variable.default) == 2 and not variable.per_pad:
         spot.item.values = [spot.one]
     else:

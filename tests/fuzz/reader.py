@@ -5,7 +5,7 @@ import re
 from dataclasses import dataclass, field
 
 from harness import Case
-from reference import MOST_PADS, Variable
+from reference import Variable
 
 MOST_ITEMS = 1000
 MOST_TEXT = 1000
@@ -242,7 +242,7 @@ def words(variable: Variable, assignments: list[Assignment]) -> tuple[bytes]:
 def numbers(variable: Variable, assignments: list[Assignment], pads: int) -> tuple[float, ...]:
     """The values of a variable of numbers."""
     size = pads if variable.per_pad else len(variable.default)
-    most = MOST_PADS if variable.fixes_pads else size
+    most = variable.most if variable.fixes_pads else size
     values = list(variable.default) if variable.fixes_pads else list(variable.default[:1] * size)
     if not variable.per_pad:
         values = list(variable.default)

@@ -20,7 +20,9 @@ class Variable:
     high: float = 0.0
     whole: bool = False
     per_pad: bool = False
+    #: Whether a list sets its own length, up to `most`: that of the pivots is the number of pads.
     fixes_pads: bool = False
+    most: int = MOST_PADS
 
     @property
     def key(self) -> str:
@@ -47,6 +49,7 @@ def _variable(group: str, name: str, default: str, allowed: str, meaning: str) -
         choices = () if allowed == "any text" else tuple(allowed.split())
         return Variable(group, name, (default[1:-1].encode(),), choices)
     numbers = tuple(None if word == "-" else float(word) for word in default.split(","))
+    longest = re.search(r"1 to (\d+) of them", meaning)
     low, _, high = allowed.removeprefix("whole, ").partition(" to ")
     return Variable(
         group,
@@ -57,4 +60,5 @@ def _variable(group: str, name: str, default: str, allowed: str, meaning: str) -
         whole=allowed.startswith("whole"),
         per_pad=group == "pads" or name.startswith("pad_"),
         fixes_pads="of them" in meaning,
+        most=int(longest[1]) if longest else MOST_PADS,
     )

@@ -39,7 +39,10 @@ START = (
     *("start%from", "start%file", "start%journal", "start%journal_velocity", "start%pad_tilt"),
     *("start%pad_tilt_rate", "start%pad_penetration", "start%pad_penetration_rate"),
 )
-SPECIAL = {key for group in (*TOGETHER, ALONE, INSTEAD, START) for key in group}
+#: Groups that belong to the task of their name; what other tasks have that these do not.
+OF_TASK = ("coefficients", "periodic")
+OF_MARCH = ("operation%final_speed_rpm", "output%start_time", "integration%stop_when_periodic")
+SPECIAL = {"case%task", *(key for group in (*TOGETHER, ALONE, INSTEAD, START) for key in group)}
 #: Circumferential times squared axial cells of all pads.
 MOST_IN_BLOCKS = 2e8
 TITLE = "abc ABC 0123  ''\"\"/!&=,*()%;:\t\\#$\u00e4\u20ac\U0001d70b"
@@ -50,7 +53,7 @@ def draw(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
     found: dict[str, tuple] = {}
     few = dice.choice((0.0, 0.02, 0.02, 0.05, 0.05, 0.1, 0.2, 1.0))
     for key, variable in variables.items():
-        if key not in SPECIAL and variable.group != "pads" and dice.random() < few:
+        if key not in SPECIAL and variable.group not in ("pads", *OF_TASK) and dice.random() < few:
             found[key] = anything(dice, variable)
     for group, together in zip(TOGETHER, (operation, bearing, pressures, pivot, friction), strict=True):
         if dice.random() < few:
@@ -70,7 +73,25 @@ def draw(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
         found.update(start(dice, variables))
     if dice.random() < few:
         follow(dice, found)
+    if dice.random() < few:
+        set_task(dice, variables, found)
     return found
+
+
+def set_task(dice: Random, variables: dict[str, Variable], found: dict[str, tuple]) -> None:
+    """A task, with what belongs to it and without what does not."""
+    task = dice.choice(("march", "equilibrium", *OF_TASK))
+    found["case%task"] = (task.encode(),)
+    if task not in OF_TASK:
+        return
+    for key in (*OF_MARCH, *(START if task == "coefficients" else ())):
+        found.pop(key, None)
+    for key, variable in variables.items():
+        if variable.group == task and dice.random() < 0.5:
+            found[key] = anything(dice, variable)
+    # above the speed, or none
+    if "coefficients%threshold_up_to_rpm" in found:
+        found["coefficients%threshold_up_to_rpm"] = (0.0,)
 
 
 def start(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:

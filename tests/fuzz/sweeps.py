@@ -35,8 +35,9 @@ def draw(dice: Random, variables: dict[str, Variable]) -> tuple[Group, int]:
 
 def sweepable(variables: dict[str, Variable]) -> list[Variable]:
     """Variables of one value that fit whatever the others are."""
-    return [v for key, v in variables.items() if key not in scenes.SPECIAL and v.group != "pads"
-            and key != "case%title" and len(v.default) == 1]  # fmt: skip
+    apart = ("pads", *scenes.OF_TASK)
+    return [v for key, v in variables.items() if key not in (*scenes.SPECIAL, "case%title")
+            and v.group not in apart and len(v.default) == 1]  # fmt: skip
 
 
 def target(dice: Random, variable: Variable) -> bytes:
