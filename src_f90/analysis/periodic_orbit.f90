@@ -41,7 +41,7 @@ module periodic_orbit
    end type periodic_orbit_type
 
    !> Newton's method is tried once the state changes by less than this over a period, over the scales, or after so many
-   !> periods, and again when the march has doubled.
+   !> periods. Where it fails, it is tried again when the march has doubled.
    real(wp), parameter :: near = 1e-3_wp
    integer, parameter :: first_try = 12, last_try = 96
    !> Tolerance of the march over what is asked for: on its steps the collocation is that much more accurate.
@@ -86,7 +86,7 @@ contains
          found%march = integrator%counts()
          if (allocated(error)) exit
          found%marched = found%marched + 1
-         if (change_in_period(found%orbit) > near .and. found%marched < next_try) cycle
+         if (found%marched < next_try .and. (found%evaluations > 0 .or. change_in_period(found%orbit) > near)) cycle
          next_try = 2*found%marched
          call close_orbit(model, options, found, error, give_up)
          if (.not. allocated(error)) return

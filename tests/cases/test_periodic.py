@@ -1,0 +1,206 @@
+"""Whole runs of the task periodic: the file, agreement with marches, refusals, failures, signals, sweeps."""
+
+import signal
+import subprocess
+import time
+
+import h5py
+import numpy as np
+import pytest
+
+LUGRE = "&friction model='lugre' / &output samples_per_revolution=90 /\n"
+PERIODIC = "case%task='periodic'"
+#: A long search: an accurate mesh over many revolutions.
+SLOW = ("friction%model='bengisu_akay'", "periodic%revolutions=20", "integration%relative_tolerance=1e-9")
+#: A journal in fixed pads above its threshold: the orbit is left by a whirl that doubles once a revolution.
+WHIRL = """&pads motion='fixed', pivot_angle_deg=-90,90, arc_deg=160 /
+&bearing journal_radius=50e-3, assembled_clearance=100e-6, preload=0, axial_length=50e-3, viscosity=0.02 /
+&rotor mass=300, balance_grade=2.5 /
+&operation speed_rpm=7500, duration=0.06 /
+&film cavitation='none' /
+&output samples_per_revolution=60 /
+"""
+
+
+def options(overrides):
+    return [word for each in overrides for word in ("--set", each)]
+
+
+@pytest.fixture
+def run(tiltpad, tmp_path):
+    """run(case, overrides, status): the outcome of a case in tmp_path/case.nml."""
+
+    def make(case, *overrides, status=0, name="case", more=()):
+        (tmp_path / f"{name}.nml").write_text(case)
+        done = tiltpad(f"{name}.nml", *more, *options(overrides), cwd=tmp_path)
+        assert done.returncode == status, done.stderr
+        return done
+
+    return make
+
+
+def test_the_file(run, tmp_path):
+    """One period of samples whose last is the first, and the group."""
+    done = run(LUGRE, PERIODIC)
+    assert "periodic orbit: period 9.2308 ms (1 revolution), stable" in done.stdout
+    with h5py.File(tmp_path / "case.h5") as file:
+        assert file.attrs["complete"] == 1
+        group = file["periodic"]
+        period = group["period"][()]
+        assert period == pytest.approx(60 / 6500, rel=1e-12)
+        assert len(file["time"]) == 91
+        assert file["time"][-1] == pytest.approx(period, rel=1e-12)
+        for name in ("journal_y", "pad_tilt_rate", "bristle_deflection", "contact_force", "max_pressure"):
+            series = file[name][:]
+            np.testing.assert_allclose(series[-1], series[0], atol=1e-7 * np.ptp(series), err_msg=name)
+        assert file["spectrum/revolutions"][()] == 1
+        assert group["residual"][()] < 1e-6
+        assert group["stable"][()] == 1
+        real, imag = group["multiplier_real"][:], group["multiplier_imag"][:]
+        assert len(real) == len(file["multiplier"]) == 14
+        modulus = np.hypot(real, imag)
+        assert (np.diff(modulus) < 1e-12).all()
+        # 1e-3: the films' tables; without them test_periodic_orbits is as close as 1e-6
+        assert (real[0], abs(imag[0])) == pytest.approx((-0.0504, 0.2970), abs=1e-3)
+        assert group["evaluations"][()] == 3 * group["intervals"][()] * group["iterations"][()]
+        assert file["statistics/rhs_evaluations"][()] > group["evaluations"][()]
+
+
+@pytest.mark.parametrize("friction", ["none", "lugre", "bengisu_akay"])
+def test_a_march_ends_on_it(run, tmp_path, friction):
+    """After twenty revolutions less than 1e-5 of the start is left: what remains are the tolerances, 1e-5 of the
+    clearance in each of the states, which friction makes some times larger.
+    """
+    run(LUGRE, PERIODIC, f"friction%model='{friction}'")
+    run(LUGRE, f"friction%model='{friction}'", "operation%duration=0.19", name="march")
+    with h5py.File(tmp_path / "case.h5") as orbit, h5py.File(tmp_path / "march.h5") as march:
+        for name in ("journal_y", "journal_z"):
+            one, other = orbit[name][:-1], march[name][20 * 90 : 21 * 90][: len(orbit[name]) - 1]
+            both = min(len(one), len(other))
+            assert both > 40
+            assert np.abs(one[:both] - other[:both]).max() < 2e-8, name
+
+
+def test_a_march_leaves_an_unstable_orbit_as_its_multipliers_say(run, tmp_path):
+    """From the orbit, disturbed by 1 nm: once a revolution its distance is multiplied by a matrix, whose eigenvalues
+    these are, up to 1e-2 of the orbit (the square of which is left out).
+    """
+    done = run(WHIRL, PERIODIC, "integration%relative_tolerance=1e-7")
+    assert "unstable: a second frequency grows" in done.stdout
+    start = ("start%from='file'", "start%file='case.h5'", "start%journal=1e-9,0")
+    run(WHIRL, *start, "integration%relative_tolerance=1e-9", name="march")
+    with h5py.File(tmp_path / "case.h5") as orbit, h5py.File(tmp_path / "march.h5") as march:
+        assert orbit["periodic/stable"][()] == 0
+        leading = orbit["periodic/multiplier_real"][0] + 1j * abs(orbit["periodic/multiplier_imag"][0])
+        assert abs(leading) > 2
+        away = np.array([march[name][60:361:60] - orbit[name][0] for name in ("journal_y", "journal_z")])
+        values = np.linalg.eigvals(away[:, 1:] @ np.linalg.pinv(away[:, :-1]))
+        found = values[np.argmax(values.imag)]
+        assert abs(found - leading) < 0.01 * abs(leading)
+
+
+def test_two_revolutions_square_the_multipliers(run, tmp_path):
+    run(LUGRE, PERIODIC, name="one")
+    run(LUGRE, PERIODIC, "periodic%revolutions=2", name="two")
+    with h5py.File(tmp_path / "one.h5") as one, h5py.File(tmp_path / "two.h5") as two:
+        assert len(two["time"]) == 181
+        np.testing.assert_allclose(two["journal_y"][90:], one["journal_y"][:], atol=1e-10)
+        modulus = [np.hypot(*(each[f"periodic/multiplier_{part}"][0] for part in ("real", "imag"))) for each in (one, two)]
+        assert modulus[1] == pytest.approx(modulus[0] ** 2, rel=1e-3)
+
+
+def test_fixed_pads(run, tmp_path):
+    run(LUGRE, PERIODIC, "pads%motion='fixed'", "friction%model='none'")
+    with h5py.File(tmp_path / "case.h5") as file:
+        assert len(file["multiplier"]) == 4
+        assert "pad_tilt" not in file
+
+
+@pytest.mark.parametrize(
+    ("overrides", "names"),
+    [
+        ((PERIODIC, "operation%final_speed_rpm=7000"), ("operation%final_speed_rpm", "7000", "periodic")),
+        ((PERIODIC, "output%start_time=0.1"), ("output%start_time",)),
+        ((PERIODIC, "integration%stop_when_periodic=1e-3"), ("integration%stop_when_periodic",)),
+        (("periodic%revolutions=2",), ("periodic%revolutions", "case%task")),
+        (("periodic%tolerance=1e-6",), ("periodic%tolerance", "case%task")),
+        (("periodic%max_iterations=3",), ("periodic%max_iterations", "case%task")),
+        ((PERIODIC, "periodic%revolutions=0"), ("periodic%revolutions", "1 to")),
+        ((PERIODIC, "periodic%tolerance=0"), ("periodic%tolerance", "1e-12 to")),
+        ((PERIODIC, "periodic%max_iterations=0"), ("periodic%max_iterations", "1 to")),
+    ],
+)
+def test_what_is_refused(run, tmp_path, overrides, names):
+    done = run(LUGRE, *overrides, status=1)
+    assert done.stderr.count("\n") == 1
+    for name in names:
+        assert name in done.stderr
+    assert not (tmp_path / "case.h5").exists()
+
+
+def test_no_convergence(run, tmp_path):
+    """The file has the equilibrium and says why there is nothing else."""
+    done = run(LUGRE, PERIODIC, "periodic%max_iterations=1", status=2)
+    said = ("no periodic orbit was found", "periods", "after 1 iterations", "periodic%max_iterations")
+    for words in (*said, "correction of", "case.h5"):
+        assert words in done.stderr, words
+    with h5py.File(tmp_path / "case.h5") as file:
+        assert (file.attrs["complete"], file.attrs["exit_status"]) == (0, 2)
+        assert "no periodic orbit" in file.attrs["reason"]
+        assert "equilibrium" in file
+        assert "periodic" not in file
+        assert file["statistics/steps"][()] > 0
+
+
+def test_a_march_that_ends(run):
+    """Where, when and why."""
+    done = run(LUGRE, PERIODIC, "rotor%unbalance=1", "asperity%model='none'", status=2)
+    for words in ("no periodic orbit was found", "the march stopped at t =", "pad"):
+        assert words in done.stderr, words
+    assert "integration%max_steps" in run(LUGRE, PERIODIC, "integration%max_steps=50", status=2, name="few").stderr
+
+
+def test_a_signal_and_going_on(program, tiltpad, tmp_path):
+    (tmp_path / "case.nml").write_text(LUGRE)
+    words = [program, "case.nml", "-q", *options((PERIODIC, *SLOW))]
+    with subprocess.Popen(words, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as process:
+        time.sleep(0.5)
+        process.send_signal(signal.SIGTERM)
+        said = process.communicate(timeout=60)[1]
+    assert process.returncode == 4, said
+    assert said.endswith("signal 15 while the periodic orbit was sought; tiltpad --resume case.h5 goes on\n")
+    with h5py.File(tmp_path / "case.h5") as file:
+        assert (file.attrs["complete"], file.attrs["exit_status"]) == (0, 4)
+
+
+def test_a_stopped_search_goes_on_to_the_same_orbit(program, tiltpad, run, tmp_path):
+    overrides = (PERIODIC, "integration%relative_tolerance=1e-8", "friction%model='bengisu_akay'")
+    run(LUGRE, *overrides, name="whole")
+    with subprocess.Popen(
+        [program, "whole.nml", "-q", "-o", "part.h5", *options(overrides)], cwd=tmp_path, stderr=subprocess.PIPE
+    ) as process:
+        time.sleep(0.15)
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=60)
+    if process.returncode == 0:
+        pytest.skip("it was faster than the signal")
+    assert process.returncode == 4
+    if (tmp_path / "part.h5").exists():
+        done = tiltpad("--resume", "part.h5", "-q", cwd=tmp_path)
+        assert (done.returncode, done.stderr) == (0, "")
+        with h5py.File(tmp_path / "whole.h5") as whole, h5py.File(tmp_path / "part.h5") as part:
+            assert part.attrs["complete"] == 1
+            np.testing.assert_allclose(part["journal_y"][:], whole["journal_y"][:], atol=1e-10)
+
+
+def test_a_sweep(tiltpad, tmp_path):
+    (tmp_path / "case.nml").write_text(LUGRE)
+    sweep = (PERIODIC, "sweep%operation%speed_rpm=3000,6500")
+    done = tiltpad("case.nml", "-q", *options(sweep), cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    periods = []
+    for number in (1, 2):
+        with h5py.File(tmp_path / f"case/000{number}.h5") as file:
+            assert file.attrs["complete"] == 1
+            periods.append(file["periodic/period"][()])
+    assert periods == pytest.approx([0.02, 60 / 6500])
