@@ -29,6 +29,7 @@ RUNS = {
     "grade6.3": (LUGRE, ("rotor%balance_grade=6.3", 'case%title=""')),
     "runup": (f"{PAPER}/runup_lugre.nml", ()),
     "four_pads": ("input/examples/four_pads.nml", ()),
+    "periodic": (LUGRE, ("case%task=periodic",)),
     "five_pads": ("input/examples/five_pads.nml", ()),
 }
 #: Studies: name, which is that of the folder, case, and what is swept.
@@ -68,6 +69,7 @@ PICTURES = (
     ("equilibrium", "lugre", "", "the equilibrium at which the motion starts"),
     ("size", "grade1 grade2.5 grade6.3", "", "the orbit grows with the balance grade"),
     ("waveform", "lugre", "--last 3", "the tilt of the pads follows the journal, with pauses"),
+    ("multipliers", "periodic", "", "the orbit is stable: all multipliers lie in the unit circle"),
     ("spectrum", "lugre", "", "friction causes odd and even orders"),
     ("poincare", "four_pads", "--pad 3", "an upper pad flutters at half the shaft speed"),
     ("hysteresis", "lugre bengisu", "", "the friction work of a revolution"),

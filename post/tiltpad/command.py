@@ -44,6 +44,7 @@ PLOTS = {
     "size": "peak-to-peak of the journal: of one run, over a variable that differs between runs, or speed",
     "poincare": "journal and one pad, once per revolution (last 50 revolutions, pad 1)",
     "waveform": "journal, tilt and tilt rate over the last revolutions (5)",
+    "multipliers": "Floquet multipliers of a periodic orbit and the unit circle",
     "spectrum": "amplitudes of the journal, one-sided and full, at constant speed (from the file)",
     "hysteresis": "friction moment over pad tilt, one panel per pad (last revolution)",
     "friction": "friction coefficient over sliding velocity, one panel per pad (last revolution)",

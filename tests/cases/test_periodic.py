@@ -105,7 +105,10 @@ def test_two_revolutions_square_the_multipliers(run, tmp_path):
     with h5py.File(tmp_path / "one.h5") as one, h5py.File(tmp_path / "two.h5") as two:
         assert len(two["time"]) == 181
         np.testing.assert_allclose(two["journal_y"][90:], one["journal_y"][:], atol=1e-10)
-        modulus = [np.hypot(*(each[f"periodic/multiplier_{part}"][0] for part in ("real", "imag"))) for each in (one, two)]
+        modulus = [
+            np.hypot(*(each[f"periodic/multiplier_{part}"][0] for part in ("real", "imag")))
+            for each in (one, two)
+        ]
         assert modulus[1] == pytest.approx(modulus[0] ** 2, rel=1e-3)
 
 
@@ -157,7 +160,10 @@ def test_a_march_that_ends(run):
     done = run(LUGRE, PERIODIC, "rotor%unbalance=1", "asperity%model='none'", status=2)
     for words in ("no periodic orbit was found", "the march stopped at t =", "pad"):
         assert words in done.stderr, words
-    assert "integration%max_steps" in run(LUGRE, PERIODIC, "integration%max_steps=50", status=2, name="few").stderr
+    assert (
+        "integration%max_steps"
+        in run(LUGRE, PERIODIC, "integration%max_steps=50", status=2, name="few").stderr
+    )
 
 
 def test_a_signal_and_going_on(program, tiltpad, tmp_path):
@@ -177,7 +183,9 @@ def test_a_stopped_search_goes_on_to_the_same_orbit(program, tiltpad, run, tmp_p
     overrides = (PERIODIC, "integration%relative_tolerance=1e-8", "friction%model='bengisu_akay'")
     run(LUGRE, *overrides, name="whole")
     with subprocess.Popen(
-        [program, "whole.nml", "-q", "-o", "part.h5", *options(overrides)], cwd=tmp_path, stderr=subprocess.PIPE
+        [program, "whole.nml", "-q", "-o", "part.h5", *options(overrides)],
+        cwd=tmp_path,
+        stderr=subprocess.PIPE,
     ) as process:
         time.sleep(0.15)
         process.send_signal(signal.SIGTERM)

@@ -27,6 +27,7 @@ SCENES = {
     "runup": "&operation speed_rpm=1500, final_speed_rpm=6500, duration=0.1 / &friction model='lugre' /",
     "fixed": "&operation duration=0.06 / &pads motion='fixed' /",
     "equilibrium": "&case task='equilibrium' /",
+    "periodic": "&case task='periodic' / &friction model='lugre' /",
     # offset pivots and a load beside the vertical: no symmetry
     "offset": "&case title='Offset', task='coefficients' / &coefficients frequency_ratio=0.5, 1, 2 / "
     "&pads pivot_angle_deg=-54, 18, 90, 162, 234, arc_deg=60, pivot_ratio=0.6 / "

@@ -75,6 +75,13 @@ SPECTRUM = {
     "spectrum/full_frequency": (("spectrum/full_frequency",), "Hz"),
     "spectrum/journal_full": (("spectrum/full_frequency",), "m"),
 }
+PERIODIC = {
+    "multiplier": (("multiplier",), "1"),
+    "periodic/multiplier_real": (("multiplier",), "1"),
+    "periodic/multiplier_imag": (("multiplier",), "1"),
+    "periodic/period": ((), "s"),
+    "periodic/residual": ((), "1"),
+}
 COUNTS = ["steps", "rhs_evaluations", "jacobian_evaluations", "error_test_failures", "convergence_failures"]
 COUNTS += ["film_modal", "film_volumes", "film_passes"]
 
@@ -83,14 +90,15 @@ BRISTLE = {"bristle_deflection"}
 TILTING = {"pad_tilt", "pad_tilt_rate", "contact_force", "friction_moment", "spectrum/pad_tilt"}
 TILTING |= {"equilibrium/pad_tilt", "equilibrium/contact_force"}
 ABSENT = {
-    "lugre": set(),
-    "bengisu": BRISTLE,
-    "none": BRISTLE,
-    "tilting": RADIAL,
-    "four": set(),
-    "fixed": RADIAL | BRISTLE | TILTING,
-    "runup": set(SPECTRUM),
-    "equilibrium": set(SERIES) | set(SPECTRUM) | set(ASPERITIES),
+    "lugre": set(PERIODIC),
+    "bengisu": BRISTLE | set(PERIODIC),
+    "none": BRISTLE | set(PERIODIC),
+    "tilting": RADIAL | set(PERIODIC),
+    "four": set(PERIODIC),
+    "fixed": RADIAL | BRISTLE | TILTING | set(PERIODIC),
+    "runup": set(SPECTRUM) | set(PERIODIC),
+    "equilibrium": set(SERIES) | set(SPECTRUM) | set(ASPERITIES) | set(PERIODIC),
+    "periodic": set(),
 }
 
 
@@ -106,13 +114,13 @@ def file(result, scene):
 
 
 def test_every_dataset_is_there_and_no_other_scene_s(file, scene):
-    everything = SERIES | CONSTANT | EQUILIBRIUM | SPECTRUM | ASPERITIES
+    everything = SERIES | CONSTANT | EQUILIBRIUM | SPECTRUM | ASPERITIES | PERIODIC
     there = {name for name in everything if name in file}
     assert there == set(everything) - ABSENT[scene]
 
 
 def test_dimensions_units_and_meaning(file, scene):
-    expected = SERIES | CONSTANT | EQUILIBRIUM | SPECTRUM | ASPERITIES
+    expected = SERIES | CONSTANT | EQUILIBRIUM | SPECTRUM | ASPERITIES | PERIODIC
     for name in set(expected) - ABSENT[scene]:
         dimensions, units = expected[name]
         dataset = file[name]
@@ -142,7 +150,7 @@ def test_attributes(file, scene):
     assert attributes["complete"] == 1
     assert attributes["program"] == "tiltpad"
     assert attributes["title"] == ("Steady, it's LuGre" if scene == "lugre" else "")
-    assert attributes["task"] == ("equilibrium" if scene == "equilibrium" else "march")
+    assert attributes["task"] == (scene if scene in ("equilibrium", "periodic") else "march")
     assert attributes["input"].startswith("&case\n")
     grows = file["equilibrium/eigenvalue_real"][()] > 0
     assert attributes["equilibrium_stability"] == ("fluttering" if grows else "stable")

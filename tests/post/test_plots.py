@@ -19,7 +19,9 @@ pytestmark = pytest.mark.usefixtures("closed_figures")
 
 #: Plots by the runs that they need; the others have tests of their own.
 PLOTS = [
-    plot for plot in command.PLOTS if plot not in ("equilibrium", "pressure", "study", *command.VIBRATIONS)
+    plot
+    for plot in command.PLOTS
+    if plot not in ("equilibrium", "multipliers", "pressure", "study", *command.VIBRATIONS)
 ]
 STEADY = [plot for plot in PLOTS if plot not in ("orders", "waterfall")]
 RUNUP = [plot for plot in PLOTS if plot != "spectrum"]
@@ -50,6 +52,19 @@ def test_an_orbit_has_equal_axes_and_y_up(run):
     assert ax.get_ylabel() == "journal $y$ (µm)"
     rest = ax.get_lines()[1].get_xydata()[0]
     np.testing.assert_allclose(rest, 1e6 * np.array([case.journal_z[0], case.journal_y[0]]))
+
+
+def test_multipliers_stand_around_the_unit_circle(run):
+    case = run("periodic")
+    ax = tiltpad.figures.multipliers([case]).axes[0]
+    points = ax.get_lines()[0].get_xydata()
+    np.testing.assert_array_equal(points[:, 0], case["periodic/multiplier_real"])
+    np.testing.assert_array_equal(points[:, 1], case["periodic/multiplier_imag"])
+    assert ax.patches[0].get_radius() == 1
+    assert ax.get_aspect() == 1
+    assert min(ax.get_xlim()[1], ax.get_ylim()[1]) > 1
+    with pytest.raises(tiltpad.NotInRunError):
+        tiltpad.figures.multipliers([run("lugre")])
 
 
 def test_the_orbit_turns_as_the_arrow_of_rotation_does(run):

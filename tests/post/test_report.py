@@ -83,6 +83,7 @@ FRICTION = ["hysteresis", "friction", "sticking"]
         ("four", STEADY + FRICTION),
         ("runup", ["orbit", "waveform", "runup", "size", "poincare", *FRICTION]),
         ("equilibrium", ["equilibrium"]),
+        ("periodic", [*STEADY, *FRICTION, "multipliers"]),
     ],
 )
 def test_the_page_has_what_the_run_has(page, scene, pictures):
@@ -96,6 +97,15 @@ def test_the_page_has_what_the_run_has(page, scene, pictures):
     assert ("Spectrum" in outline.headings) == (scene not in ("runup", "equilibrium"))
     assert ("friction work per revolution" in outline.rows) == ("friction" in pictures)
     assert "equilibrium y" in outline.rows
+
+
+def test_a_periodic_orbit_is_said_to_be_stable(page, run):
+    text = page("periodic")
+    rows = Outline(text).rows
+    assert "The periodic orbit is stable" in text
+    assert rows["period of the orbit"] == ["9.231", "ms"]
+    leading = run("periodic")["periodic/multiplier_real"][0]
+    assert float(rows["leading multiplier, real part"][0]) == pytest.approx(leading, rel=1e-3)
 
 
 def test_its_numbers_are_those_of_the_run(page, run):

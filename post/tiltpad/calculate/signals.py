@@ -170,3 +170,8 @@ def envelope(run: Run, name: str, spans: int = 800) -> tuple[np.ndarray, np.ndar
         found.append((ends(run, "time", part).mean(), values.min(axis=0), values.max(axis=0)))
     time, low, high = (np.array(each) for each in zip(*found, strict=True))
     return time, low, high
+
+
+def multipliers(run: Run) -> np.ndarray:
+    """Floquet multipliers of a periodic orbit, complex, (multiplier,), that of largest modulus first."""
+    return run["periodic/multiplier_real"] + 1j * run["periodic/multiplier_imag"]

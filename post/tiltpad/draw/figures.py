@@ -11,6 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle
 
 from tiltpad.calculate import differences, pivots, signals
 from tiltpad.draw import diagrams, plots
@@ -80,6 +81,20 @@ def equilibrium(runs: Sequence[Run], last: float | None = None, pad: int | None 
     ax = plots.clearance(max(runs, key=lambda run: run.clearance), fig.subplots(), marks=len(runs) == 1)
     for i, run in enumerate(runs):
         plots.equilibrium(run, ax, color=f"C{i}")
+    legend(fig, runs, [])
+    return fig
+
+
+@of_several
+def multipliers(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
+    """Floquet multipliers of periodic orbits, in and around the unit circle."""
+    fig = plt.figure(figsize=(COLUMN, 3.4))
+    ax = fig.subplots()
+    ax.add_patch(Circle((0, 0), 1, fill=False, linewidth=0.8, color="0.3"))
+    for i, run in enumerate(runs):
+        plots.multipliers(run, ax, color=f"C{i}")
+    reach = 1.1 * max(1.0, *(float(abs(signals.multipliers(run)).max()) for run in runs))
+    ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
     legend(fig, runs, [])
     return fig
 
@@ -341,7 +356,7 @@ def study(
 FIGURES = {
     each.__name__: each
     for each in (
-        *(orbit, equilibrium, size, poincare, waveform, spectrum),
+        *(orbit, equilibrium, size, poincare, waveform, multipliers, spectrum),
         *(hysteresis, friction, sticking, runup, orders, waterfall, pressure),
         *(coefficients, stability, campbell),
     )

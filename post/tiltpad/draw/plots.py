@@ -86,6 +86,15 @@ def equilibrium(run: Run, ax: Axes, **line: Any) -> Axes:
 
 
 @on_axes
+def multipliers(run: Run, ax: Axes, **line: Any) -> Axes:
+    """Floquet multipliers of a periodic orbit in the complex plane: inside the unit circle it is stable."""
+    values = signals.multipliers(run)
+    ax.plot(values.real, values.imag, **{"linestyle": "", "marker": "o", "markersize": 4} | line)
+    ax.set(xlabel=SHOWN["multiplier_real"].label, ylabel=SHOWN["multiplier_imag"].label, aspect="equal")
+    return ax
+
+
+@on_axes
 def clearance(run: Run, ax: Axes, marks: bool = True) -> Axes:
     """Clearance circle of radius c_r, pads around it (outlines only, not to scale), sense of rotation.
 

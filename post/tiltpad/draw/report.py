@@ -27,6 +27,7 @@ PICTURES = {
     "orbit": "Journal in its clearance circle and enlarged, last revolution.",
     "equilibrium": "Equilibrium of the journal in its clearance circle.",
     "waveform": "The last revolutions.",
+    "multipliers": "Floquet multipliers: inside the circle, the orbit is stable.",
     "spectrum": "Amplitudes of the journal: one-sided, and full with backward and forward whirl.",
     "runup": "The whole run; many revolutions are drawn as the band that they fill.",
     "size": "Peak to peak of the journal over the speed.",
@@ -50,6 +51,7 @@ def report(run: Run) -> str:
         f"<h1>{escape(title)}</h1>",
         f"<p class=origin>{escape(origin(run))}</p>",
         incomplete(run),
+        orbit_stability(run),
         pad_remarks(run),
         section("Key figures", key_figures(run)),
         section("Pads", pad_figures(run)),
@@ -75,6 +77,15 @@ def origin(run: Run) -> str:
 
 def incomplete(run: Run) -> str:
     return "" if run.complete else f"<p class=warning>Incomplete run{escape(run.end())}.</p>"
+
+
+def orbit_stability(run: Run) -> str:
+    """Whether a periodic orbit is stable; a warning where it is not."""
+    if "periodic" not in run:
+        return ""
+    if run["periodic/stable"]:
+        return "<p>The periodic orbit is stable: small disturbances die out.</p>"
+    return "<p class=warning>The periodic orbit is unstable: small disturbances grow, and no motion stays on it.</p>"
 
 
 def pad_remarks(run: Run) -> str:

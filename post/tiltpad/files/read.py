@@ -29,6 +29,11 @@ MODES = {
     **dict.fromkeys(("shape_real", "shape_imag"), ("pivot", "mode", "position_row")),
     "threshold_rpm": ("pivot",),
 }
+#: Single numbers of the group periodic.
+PERIODIC = (
+    *("period", "revolutions", "residual", "iterations", "intervals", "evaluations", "marched_periods"),
+    "stable",
+)
 #: Dimensions of the known datasets; those of a later program are read as they are.
 DIMENSIONS = {
     **dict.fromkeys(
@@ -75,7 +80,9 @@ DIMENSIONS = {
     **dict.fromkeys(("spectrum/revolutions", "checkpoint/time"), ()),
     **{f"coefficients/{name}": dimensions for name, dimensions in COEFFICIENTS.items()},
     **{f"modes/{name}": dimensions for name, dimensions in MODES.items()},
-    **{name: (name,) for name in (*LABELS, "frequency_ratio", "mode")},
+    **dict.fromkeys((f"periodic/{name}" for name in PERIODIC), ()),
+    **dict.fromkeys(("periodic/multiplier_real", "periodic/multiplier_imag"), ("multiplier",)),
+    **{name: (name,) for name in (*LABELS, "frequency_ratio", "mode", "multiplier")},
 }
 #: What only pads that tilt have.
 OF_TILTING = ("pad_tilt", "contact_force", "friction_moment")
