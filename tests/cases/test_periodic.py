@@ -68,8 +68,8 @@ def test_the_file(run, tmp_path):
 
 @pytest.mark.parametrize("friction", ["none", "lugre", "bengisu_akay"])
 def test_a_march_ends_on_it(run, tmp_path, friction):
-    """After twenty revolutions less than 1e-5 of the start is left: what remains are the tolerances, 1e-5 of the
-    clearance in each of the states, which friction makes some times larger.
+    """After twenty revolutions less than 1e-5 of the start is left: what remains are the tolerances, 1e-5 of
+    the clearance in each of the states, which friction makes some times larger.
     """
     run(LUGRE, PERIODIC, f"friction%model='{friction}'")
     run(LUGRE, f"friction%model='{friction}'", "operation%duration=0.19", name="march")
@@ -82,8 +82,8 @@ def test_a_march_ends_on_it(run, tmp_path, friction):
 
 
 def test_a_march_leaves_an_unstable_orbit_as_its_multipliers_say(run, tmp_path):
-    """From the orbit, disturbed by 1 nm: once a revolution its distance is multiplied by a matrix, whose eigenvalues
-    these are, up to 1e-2 of the orbit (the square of which is left out).
+    """From the orbit, disturbed by 1 nm: once a revolution its distance is multiplied by a matrix, whose
+    eigenvalues these are, up to 1e-2 of the orbit (the square of which is left out).
     """
     done = run(WHIRL, PERIODIC, "integration%relative_tolerance=1e-7")
     assert "unstable: a second frequency grows" in done.stdout

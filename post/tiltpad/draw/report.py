@@ -85,7 +85,7 @@ def orbit_stability(run: Run) -> str:
         return ""
     if run["periodic/stable"]:
         return "<p>The periodic orbit is stable: small disturbances die out.</p>"
-    return "<p class=warning>The periodic orbit is unstable: small disturbances grow, and no motion stays on it.</p>"
+    return "<p class=warning>The periodic orbit is unstable: no motion stays on it.</p>"
 
 
 def pad_remarks(run: Run) -> str:
