@@ -128,8 +128,8 @@ contains
    !> Intervals of a quarter of the length leave an error of the multipliers that is 4^5 times smaller, or, where the
    !> motion is stiff, something between 4^3 (the order of the states inside an interval) and this; measured are 1400,
    !> and 100 with LuGre. With Bengisu-Akay, whose kinks lie close together, both meshes are within 3e-7, which is its
-   !> limit alone (factor 0). With kinks beside the ends of intervals the first mesh would err by 1e-5 and more. The error
-   !> is the difference to intervals of an eighth.
+   !> limit alone (factor 0). With kinks beside the ends of intervals the first mesh would err by 1e-5 and more. The
+   !> error is the difference to intervals of an eighth.
    subroutine order(friction, tolerance, factor, limit)
       character(len=*), intent(in) :: friction
       !> Of the march; factor by which the error falls; what is left of it.
@@ -146,8 +146,8 @@ contains
       fine = refined(model, found%orbit)
       finest = refined(model, found%orbit)
       errors = [abs(coarse(1)%re - finest(1)%re), abs(fine(1)%re - finest(1)%re)]
-      call expect(all(errors < [5e-6_wp, limit]) .and. factor*errors(2) < errors(1), 'the error falls from '//to_text(errors(1)) &
-         & //' to '//to_text(errors(2))//', '//friction)
+      call expect(all(errors < [5e-6_wp, limit]) .and. factor*errors(2) < errors(1), 'the error falls from ' &
+         & //to_text(errors(1))//' to '//to_text(errors(2))//', '//friction)
    end subroutine order
 
    !> Halves the intervals of an orbit, closes it anew and gives its multipliers.
