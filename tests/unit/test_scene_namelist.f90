@@ -97,7 +97,7 @@ program test_scene_namelist
    use kinds, only: wp, i8
    use text, only: to_text
    use errors, only: error_type, input_error
-   use scene, only: scene_type
+   use scene, only: scene_type, periodic_type
    use scene_fields, only: visit_scene
    use assignments, only: namelist_type
    use case_text, only: parse_case
@@ -248,6 +248,8 @@ contains
       scene%rotor%static_load = [1.0_wp/3, -1e7_wp/7]
       scene%about%title = 'a/b ! it''s "quoted" & more, x = 1  '
       call visit_scene(scene, shake)
+      ! it is not this scene's task
+      scene%periodic = periodic_type()
       call scene_from_text(scene_text(scene), 'scene', back, error)
       call expect_no_error(error, 'the text of a scene is accepted')
       call visit_scene(scene, before)
