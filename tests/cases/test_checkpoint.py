@@ -29,6 +29,8 @@ SCENES = {
     "sor": "--set film%solver='sor' --set operation%duration=0.02",
     "late": "--set output%start_time=0.4",
 }
+#: One that is still running when a signal comes.
+LONG = "--set operation%duration=3"
 KILLS = 100
 
 
@@ -47,7 +49,9 @@ def whole(tiltpad, tmp_path_factory):
     def path(scene):
         output = folder / f"{scene}.h5"
         if not output.exists():
-            done = tiltpad("case.nml", "-q", "-o", output, *SCENES[scene].split(), cwd=folder)
+            done = tiltpad(
+                "case.nml", "-q", "-o", output, *(SCENES | {"long": LONG})[scene].split(), cwd=folder
+            )
             assert done.returncode == 0, done.stderr
         return output
 
@@ -122,20 +126,20 @@ def check_joined(path, reference, resumes=None):
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGUSR1, signal.SIGINT])
 def test_a_signal_leaves_a_checkpoint(program, tiltpad, case, whole, number):
-    process = start(program, case, "case.nml", "--set", "output%checkpoint_seconds=0")
+    process = start(program, case, "case.nml", *LONG.split(), "--set", "output%checkpoint_seconds=0")
     time.sleep(0.05)
     process.send_signal(number)
     error = one_error(process, 4)
     assert f"signal {int(number)}" in error
     assert "tiltpad --resume case.h5" in error
     assert sorted(path.name for path in case.iterdir()) == ["case.h5", "case.nml"]
-    check_checkpoint(case / "case.h5", whole("lugre"))
+    check_checkpoint(case / "case.h5", whole("long"))
     with h5py.File(case / "case.h5") as file:
         assert file.attrs["exit_status"] == 4
         assert file.attrs["ended"]
         assert str(int(number)) in file.attrs["reason"]
     assert tiltpad("--resume", "case.h5", cwd=case).returncode == 0
-    check_joined(case / "case.h5", whole("lugre"), resumes=1)
+    check_joined(case / "case.h5", whole("long"), resumes=1)
     assert sorted(path.name for path in case.iterdir()) == ["case.h5", "case.nml"]
 
 
