@@ -7,6 +7,7 @@ VERSION := 0.1.0
 # FC, FFLAGS           compiler and its optimisation flags
 # PREFIX               where make install puts things
 # SUNDIALS_PREFIX, HDF5_PREFIX, FFTW_PREFIX   libraries of a cluster; nothing is installed then
+# ROSS=no              make test leaves out what needs ROSS, a gigabyte of Python packages
 # LAPACK               how to link LAPACK; ARCHIVES=no: shared libraries only (src_f90/libraries.sh)
 MODE   ?= release
 PREFIX ?= /usr/local
@@ -156,7 +157,7 @@ vpath %.f90 $(sort $(dir $(sources) $(tests) $(film_bench) $(fuzz_input) $(globa
 
 VENV := build/venv
 venv_python := $(VENV)/bin/python
-ROSS := build/venv-ross
+ross := build/venv-ross
 
 .PHONY: help run build deps python wrap python_library wheel test test-slurm test-debian13 stress fuzz bench paper \
         test-programs lint format docs install clean
@@ -189,7 +190,7 @@ run: build python
 	@for plot in orbit spectrum hysteresis; do \
 	   $(VENV)/bin/tiltpad-plot $$plot build/run/steady_lugre.h5 -o build/run/$$plot.png || exit 1; done
 
-test: build python build/deps-test $(ROSS)/ready $(B)/stress/global_search
+test: build python build/deps-test $(if $(filter no,$(ROSS)),,$(ross)/ready) $(B)/stress/global_search
 	@$(MAKE) --no-print-directory MODE=debug test-programs build/debug/fuzz/fuzz_input
 	@TILTPAD=$(abspath $(B)/bin/tiltpad) ONLY='$(ONLY)' tests/run_all $(VENV)/bin/python \
 	   $(patsubst %.f90,build/debug/tests/%,$(notdir $(tests)))
@@ -219,7 +220,7 @@ fuzz: python
 	   --minutes $(MINUTES) --seed $(SEED) --report docs/fuzzing.md
 
 # PARTS='films pads' runs these alone and takes the others from their last run
-bench: build python $(VENV)/ready-bench $(ROSS)/ready $(B)/bench/film_bench
+bench: build python $(VENV)/ready-bench $(ross)/ready $(B)/bench/film_bench
 	PYTHONPATH=post $(venv_python) tests/bench/bench.py $(B)/bin/tiltpad $(if $(PARTS),--only $(PARTS))
 
 # counterparts of the paper's figures, and its claims checked
@@ -330,9 +331,9 @@ $(VENV)/ready-bench: tests/bench/requirements.txt $(VENV)/ready
 
 # ROSS, in an environment of its own. It asks for a later Python than it needs; what it uses is installed as usual.
 # Where it cannot be installed, its tests are skipped.
-$(ROSS)/ready: tests/post/ross_requirements.txt | build/deps-checked
-	@($(PYTHON) -m venv $(ROSS) && $(ROSS)/bin/python -m pip install -q --disable-pip-version-check -r $< && \
-	   $(ROSS)/bin/python -m pip install -q --disable-pip-version-check --no-deps --ignore-requires-python \
+$(ross)/ready: tests/post/ross_requirements.txt | build/deps-checked
+	@($(PYTHON) -m venv $(ross) && $(ross)/bin/python -m pip install -q --disable-pip-version-check -r $< && \
+	   $(ross)/bin/python -m pip install -q --disable-pip-version-check --no-deps --ignore-requires-python \
 	   ross-rotordynamics==3.1.0 && touch $@) || echo 'no ROSS: its tests are skipped'
 
 # ---- build -------------------------------------------------------------------------------------

@@ -1,9 +1,10 @@
 """What ROSS makes of a bearing that tiltpad wrote; test_ross.py runs it in ROSS's own environment.
 
 Reads JSON from standard input: bearing (file), points (pairs of whirl frequency and speed, rad/s), mass (kg),
-unbalance (kg m), phase (rad, from x), speeds (rad/s); its last line is JSON with stiffness and damping at the
-points, and the synchronous motion of the journal along x and y, real and imaginary parts. The rotor is a mass
-in the middle of a stiff shaft without weight, which two such bearings carry; each bears half of it.
+unbalance (kg m), phase (rad, from x), speeds (rad/s). The line of its output that begins with { is JSON with
+stiffness and damping at the points, and the synchronous motion of the journal along x and y, real and
+imaginary parts. The rotor is a mass in the middle of a stiff shaft without weight, which two such bearings
+carry; each bears half of it.
 """
 
 import json

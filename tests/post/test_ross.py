@@ -28,7 +28,9 @@ def ross(root):
             [python, root / PROGRAM], input=json.dumps(asked), text=True, capture_output=True, timeout=300
         )
         assert done.returncode == 0, done.stderr
-        return {name: np.array(values) for name, values in json.loads(done.stdout.splitlines()[-1]).items()}
+        # libraries of ROSS may print lines of their own, even at their end
+        said = next(line for line in done.stdout.splitlines() if line.startswith("{"))
+        return {name: np.array(values) for name, values in json.loads(said).items()}
 
     return answer
 
