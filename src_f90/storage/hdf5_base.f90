@@ -10,7 +10,7 @@ module hdf5_base
       & h5ldelete_f, h5lmove_f, h5t_native_integer
    use c_strings, only: fortran_text
    use processes, only: set_environment
-   use system_errors, only: write_refusal
+   use system_errors, only: write_refusal, forget_missing
    implicit none (type, external)
    private
    public :: hdf5_base_type, start_hdf5
@@ -112,8 +112,12 @@ contains
       character(len=*), intent(in) :: path
       logical, intent(in) :: writing
       integer :: status
+      logical :: exists
       call self%begin()
       call h5fopen_f(path, merge(h5f_acc_rdwr_f, h5f_acc_rdonly_f, writing), self%id, status)
+      ! where it could not write HDF5 looks for other files, too
+      inquire (file=path, exist=exists)
+      if (status < 0 .and. exists) call forget_missing()
       call self%check(status, 'open the file')
       if (status < 0) self%id = -1
    end subroutine open_file

@@ -38,6 +38,12 @@ int tiltpad_writing_refused(void)
    }
 }
 
+/* What is missing is no reason: a library looks for other files, too. */
+void tiltpad_forget_missing(void)
+{
+   if (errno == ENOENT) errno = 0;
+}
+
 /* ---- files ------------------------------------------------------------------------------------- */
 
 int tiltpad_is_regular(const char *path)

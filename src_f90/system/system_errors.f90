@@ -5,7 +5,7 @@ module system_errors
    use text, only: lower_case
    implicit none (type, external)
    private
-   public :: system_reason, write_refusal
+   public :: system_reason, write_refusal, forget_missing
 
    interface
       type(c_ptr) function c_reason() bind(c, name='tiltpad_reason')
@@ -15,6 +15,10 @@ module system_errors
       integer(c_int) function c_writing_refused() bind(c, name='tiltpad_writing_refused')
          import :: c_int
       end function c_writing_refused
+
+      !> What went wrong last was not that something is missing.
+      subroutine forget_missing() bind(c, name='tiltpad_forget_missing')
+      end subroutine forget_missing
    end interface
 
 contains

@@ -293,7 +293,9 @@ def test_a_quota(tiltpad, case, loaded, kilobytes):
     """Whatever is written when it is reached, the last checkpoint stays, and the run goes on from it."""
     environment = loaded(QUOTA, QUOTA=str(int(1000 * kilobytes)))
     done = tiltpad("case.nml", "-q", *LONG, cwd=case, env=environment)
-    refused(done, "cannot write", "case.h5", "disk quota exceeded")
+    refused(done, "cannot write", "case.h5")
+    # HDF5 1.14 writes in opening, and does not keep the reason for which that fails
+    assert done.stderr.endswith((": disk quota exceeded\n", "could not open the file\n")), done.stderr
     whole_and_going_on(tiltpad, case, (case / "case.h5").exists())
     assert (case / "case.h5").exists() or kilobytes < 4000
 
