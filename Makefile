@@ -168,7 +168,7 @@ help:
 	@echo 'make run      installs missing packages, builds, runs input/paper/steady_lugre.nml, draws it into build/run'
 	@echo 'make test     installs missing packages, builds, runs every test; ONLY=sweep: only tests with sweep in their name'
 	@echo 'make test-slurm   tries the job scripts of input/slurm on a real Slurm of one node, two minutes (as root)'
-	@echo 'make test-debian13   tries make run, make test and the wheel on an empty Debian 13, ten minutes (as root);'
+	@echo 'make test-debian13   tries make run, make test and the wheel on an empty Debian 13, twelve minutes (as root);'
 	@echo '                     make test-debian-sid: on another release'
 	@echo 'make stress   runs random scenes, some minutes; writes docs/stability.md (SCENES=300 SEED=1)'
 	@echo 'make fuzz     tries random cases and arguments, right and wrong; writes docs/fuzzing.md (MINUTES=5 SEED=1)'

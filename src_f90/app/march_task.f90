@@ -35,7 +35,9 @@ contains
    subroutine run_march(run, error)
       type(case_run_type), intent(inout), target :: run
       type(error_type), allocatable, intent(out) :: error
+      type(recorder_type) :: observer
       type(sample_plan) :: plan
+      type(integrator_counts_type) :: counts
       real(wp), allocatable :: y(:)
       real(wp) :: t
       if (run%resumed) then
@@ -48,21 +50,9 @@ contains
       call run%file%begin_series('time')
       plan = planned(run)
       if (run%resumed) call check_samples(run, plan, t, error)
-      if (.not. allocated(error)) call record_march(run, y, t, run%scene%operation%duration, plan, error)
-   end subroutine run_march
-
-   !> Marches from state y at time t to t_end, s, and writes samples, their spectra and the asperities' contact; the
-   !> file has its series.
-   subroutine record_march(run, y, t, t_end, plan, error)
-      type(case_run_type), intent(inout), target :: run
-      real(wp), intent(inout) :: y(:)
-      real(wp), intent(in) :: t, t_end
-      type(sample_plan), intent(in) :: plan
-      type(error_type), allocatable, intent(out) :: error
-      type(recorder_type) :: observer
-      type(integrator_counts_type) :: counts
+      if (allocated(error)) return
       call begin_recording(observer, run, t)
-      call march(run%model, tolerances(run, y), t, t_end, plan, y, observer, counts, error)
+      call march(run%model, tolerances(run, y), t, run%scene%operation%duration, plan, y, observer, counts, error)
       run%counts = counts
       call observer%progress%clear()
       if (.not. allocated(error)) call write_spectra(run%scene, plan%interval, run%file)
@@ -70,7 +60,7 @@ contains
          if (error%status /= numerics_error) return
       end if
       call put_asperities(run%file, plan%interval, norm2(run%model%point%load))
-   end subroutine record_march
+   end subroutine run_march
 
    !> State and time, s, of the checkpoint in the file.
    subroutine continue_from_checkpoint(run, t, y, error)
