@@ -507,7 +507,9 @@ def test_a_deleted_folder(program, case):
     shutil.rmtree(case / "run", ignore_errors=True)
     shutil.rmtree(case / "run", ignore_errors=True)
     error = one_error(process, 3)
-    assert "no such file or directory" in error or "its lock is gone" in error
+    # Which of the three is missed first depends on what the run does in that moment.
+    reasons = ("no such file or directory", "its lock is gone", "was removed or replaced by something else")
+    assert any(reason in error for reason in reasons)
 
 
 def test_a_limit_on_file_size(program, case):
