@@ -68,6 +68,7 @@ contains
             motion = pad%motion(pad%frame(journal, pads(i)), journal, pads(i))
             call bearing%asperities%evaluate(pad%gap, pad%directions, motion, speed, asperity)
             if (asperity%touches) motion%position = asperity%film_position
+            call self%films(i)%set_viscosity(pad%gap%viscosity)
             call self%films(i)%find(motion, speed, film)
             losses(i) = of_pad(pad, speed, film, asperity)
          end associate

@@ -70,6 +70,7 @@ module tilting_pad_bearing
       procedure :: films_rupture
       procedure :: films_converge
       procedure :: set_rupture
+      procedure :: set_viscosity
       procedure :: set_accuracy
       procedure, private :: evaluate_films
       procedure, private :: set_loads
@@ -316,6 +317,14 @@ contains
       logical, intent(in) :: allowed
       call self%film%set_rupture(allowed)
    end subroutine set_rupture
+
+   !> Gives the oil on every pad another viscosity, Pa s.
+   subroutine set_viscosity(self, viscosity)
+      class(tilting_pad_bearing_type), intent(inout) :: self
+      real(wp), intent(in) :: viscosity(:)
+      self%pads%gap%viscosity = viscosity
+      call self%film%set_viscosity(viscosity)
+   end subroutine set_viscosity
 
    !> Makes iterative film solutions at least so close, with as many sweeps as this at least.
    subroutine set_accuracy(self, tolerance, max_sweeps)

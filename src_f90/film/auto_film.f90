@@ -38,6 +38,7 @@ module auto_film
    contains
       procedure :: ruptures
       procedure :: set_rupture
+      procedure :: set_viscosity
       procedure :: evaluate
       procedure :: field
       procedure :: fine_field
@@ -79,6 +80,14 @@ contains
       self%projects = self%made_to_project .and. allowed
       call self%modal%set_rupture(allowed)
    end subroutine set_rupture
+
+   pure subroutine set_viscosity(self, viscosity)
+      class(auto_film_type), intent(inout) :: self
+      real(wp), intent(in) :: viscosity(:)
+      self%gaps%viscosity = viscosity
+      call self%modal%set_viscosity(viscosity)
+      if (allocated(self%direct)) self%direct%grid%gap%viscosity = viscosity
+   end subroutine set_viscosity
 
    subroutine evaluate(self, motion, speed, want_derivatives, response, chosen)
       class(auto_film_type), intent(inout) :: self

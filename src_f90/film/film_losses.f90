@@ -54,6 +54,7 @@ module film_losses
       !> Of the volumes of a ruptured film.
       integer :: rows
    contains
+      procedure :: set_viscosity
       procedure :: find
       procedure, private :: whole_film
       procedure, private :: add_rupture
@@ -91,6 +92,16 @@ contains
       edge%trailing_angle = gap%leading_angle
       self%trailing = converged_film(edge, .false., tolerance)
    end function new_film_losses
+
+   !> Gives the oil another viscosity, Pa s.
+   pure subroutine set_viscosity(self, viscosity)
+      class(film_losses_type), intent(inout) :: self
+      real(wp), intent(in) :: viscosity
+      self%gap%viscosity = viscosity
+      call self%whole%set_viscosity([viscosity])
+      call self%leading%set_viscosity([viscosity])
+      call self%trailing%set_viscosity([viscosity])
+   end subroutine set_viscosity
 
    !> Loss and flows at a motion and a journal speed, rad/s. Where the film is closed only the status is set.
    subroutine find(self, motion, speed, loss)

@@ -51,6 +51,7 @@ module film_solver
       procedure(evaluate_field), deferred :: field
       procedure(can_rupture), deferred :: ruptures
       procedure(choose_rupture), deferred :: set_rupture
+      procedure(change_viscosity), deferred :: set_viscosity
       procedure :: set_accuracy
       procedure :: take_pressures
    end type film_solver_type
@@ -81,6 +82,13 @@ module film_solver
          class(film_solver_type), intent(inout) :: self
          logical, intent(in) :: allowed
       end subroutine choose_rupture
+
+      !> Gives the oil in every pad's film another viscosity, Pa s.
+      pure subroutine change_viscosity(self, viscosity)
+         import :: film_solver_type, wp
+         class(film_solver_type), intent(inout) :: self
+         real(wp), intent(in) :: viscosity(:)
+      end subroutine change_viscosity
 
       !> Pressure of every pad's film, Pa, (axial position, angle, pad), at a motion each that leaves the film open,
       !> and a journal speed, rad/s.

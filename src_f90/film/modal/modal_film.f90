@@ -42,6 +42,7 @@ module modal_film
    contains
       procedure :: ruptures
       procedure :: set_rupture
+      procedure :: set_viscosity
       procedure :: evaluate => evaluate_all
       procedure :: field => field_all
       procedure :: supply_flows
@@ -94,6 +95,16 @@ contains
          end do
       end do
    end subroutine set_rupture
+
+   pure subroutine set_viscosity(self, viscosity)
+      class(modal_film_type), intent(inout) :: self
+      real(wp), intent(in) :: viscosity(:)
+      integer :: i
+      do i = 1, size(viscosity)
+         self%gaps(i)%viscosity = viscosity(i)
+         self%pads(:, i)%gap%viscosity = viscosity(i)
+      end do
+   end subroutine set_viscosity
 
    subroutine evaluate_all(self, motion, speed, want_derivatives, response, chosen)
       class(modal_film_type), intent(inout) :: self

@@ -17,6 +17,7 @@ module middle_frame
       !> mu R^4/c^3, N s/m; R_J/(2 R).
       real(wp) :: unit_force, half_speed
    contains
+      procedure :: set_viscosity
       procedure :: motion
       procedure :: force
       procedure :: derivatives
@@ -45,9 +46,16 @@ contains
       frame%cosine = directions%middle(2)
       frame%edge_sine = pad%sine/gap%machined_clearance
       frame%edge_cosine = pad%cosine/gap%machined_clearance
-      frame%unit_force = gap%viscosity*gap%pad_radius()**4/gap%machined_clearance**3
       frame%half_speed = gap%journal_radius/(2*gap%pad_radius())
+      call frame%set_viscosity(gap)
    end function new_middle_frame
+
+   !> Takes the viscosity of the oil from the gap.
+   pure subroutine set_viscosity(self, gap)
+      class(middle_frame_type), intent(inout) :: self
+      type(pad_gap_type), intent(in) :: gap
+      self%unit_force = gap%viscosity*gap%pad_radius()**4/gap%machined_clearance**3
+   end subroutine set_viscosity
 
    !> The motion of the journal, seen from the middle, at a journal speed, rad/s.
    pure type(middle_motion) function motion(self, seen, speed)

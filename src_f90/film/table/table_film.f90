@@ -39,6 +39,7 @@ module table_film
    contains
       procedure :: ruptures
       procedure :: set_rupture
+      procedure :: set_viscosity
       procedure :: set_accuracy
       procedure :: evaluate
       procedure :: take_pressures
@@ -115,6 +116,16 @@ contains
          call self%single(i)%set_rupture(allowed)
       end do
    end subroutine set_rupture
+
+   pure subroutine set_viscosity(self, viscosity)
+      class(table_film_type), intent(inout) :: self
+      real(wp), intent(in) :: viscosity(:)
+      integer :: i
+      do i = 1, size(viscosity)
+         call self%pads(i)%set_viscosity(viscosity(i))
+         call self%single(i)%set_viscosity(viscosity(i:i))
+      end do
+   end subroutine set_viscosity
 
    !> From here on every film is solved: who asks for more accuracy, as the search for rest, goes far and stays nowhere.
    subroutine set_accuracy(self, tolerance, max_sweeps)

@@ -40,6 +40,7 @@ module table_pad
       real(wp), private :: unit_pressure
       integer, private :: whole_cell = 0, rupture_cell = 0
    contains
+      procedure :: set_viscosity
       procedure :: look_up
       procedure :: look_up_pressures
       procedure, private :: set_drive
@@ -72,8 +73,17 @@ contains
       pad%ambient_force = -gap%pad_radius()*gap%ambient_pressure*gap%axial_length &
          & *[pad%directions%trailing(2) - pad%directions%leading(2), &
          & pad%directions%leading(1) - pad%directions%trailing(1)]
-      pad%unit_pressure = gap%viscosity*gap%pad_radius()**2/gap%machined_clearance**3
+      call pad%set_viscosity(gap%viscosity)
    end function new_table_pad
+
+   !> Gives the oil another viscosity, Pa s: the tables stay.
+   pure subroutine set_viscosity(self, viscosity)
+      class(table_pad_type), intent(inout) :: self
+      real(wp), intent(in) :: viscosity
+      self%gap%viscosity = viscosity
+      call self%frame%set_viscosity(self%gap)
+      self%unit_pressure = viscosity*self%square/self%gap%machined_clearance**3
+   end subroutine set_viscosity
 
    !> Force and its derivatives of an open film; `found` is false where the tables do not have it.
    subroutine look_up(self, tables, motion, speed, may_rupture, want_derivatives, response)

@@ -25,7 +25,7 @@ module direct_film
    !> One pad's film.
    type :: direct_film_type
       private
-      type(film_grid_type) :: grid
+      type(film_grid_type), public :: grid
       type(grid_modes_type) :: basis
       !> Cells that belong to the film: 1, the others 0 (row, column).
       real(wp), allocatable :: film(:, :)

@@ -57,6 +57,7 @@ module sor_film
    contains
       procedure :: ruptures
       procedure :: set_rupture
+      procedure :: set_viscosity
       procedure :: evaluate => evaluate_all
       procedure :: field => field_all
       !> One pad only.
@@ -123,6 +124,12 @@ contains
       logical, intent(in) :: allowed
       self%cavitation = merge(self%options%cavitation, cavitation_none, allowed)
    end subroutine set_rupture
+
+   pure subroutine set_viscosity(self, viscosity)
+      class(sor_film_type), intent(inout) :: self
+      real(wp), intent(in) :: viscosity(:)
+      self%pads%grid%gap%viscosity = viscosity
+   end subroutine set_viscosity
 
    subroutine evaluate_all(self, motion, speed, want_derivatives, response, chosen)
       class(sor_film_type), intent(inout) :: self
