@@ -1,9 +1,9 @@
 """What ROSS makes of a bearing that tiltpad wrote; test_ross.py runs it in ROSS's own environment.
 
-Reads JSON from standard input: bearing (file), points (pairs of whirl frequency and speed, rad/s), mass (kg),
-unbalance (kg m), phase (rad, from x), speeds (rad/s). The line of its output that begins with { is JSON with
-stiffness and damping at the points, and the synchronous motion of the journal along x and y, real and
-imaginary parts. The rotor is a mass in the middle of a stiff shaft without weight, which two such bearings
+Each line of standard input is a question in JSON: bearing (file), points (pairs of whirl frequency and speed,
+rad/s), mass (kg), unbalance (kg m), phase (rad, from x), speeds (rad/s). A line of its output that begins with {
+answers one in JSON: stiffness and damping at the points, and the synchronous motion of the journal along x and y,
+real and imaginary parts. One process answers all, as ROSS takes seconds to start. The rotor is a mass in the middle of a stiff shaft without weight, which two such bearings
 carry; each bears half of it.
 """
 
@@ -22,7 +22,12 @@ LENGTH, DIAMETER = 0.1, 1.0
 
 
 def main() -> None:
-    asked = json.load(sys.stdin)
+    for line in sys.stdin:
+        print(json.dumps(answer(json.loads(line))), flush=True)
+
+
+def answer(asked: dict) -> dict:
+    """The answer to a question."""
     bearing = ross.BearingElement.load(asked["bearing"])
     found = {
         name: [matrix(frequency, speed)[:2, :2].tolist() for frequency, speed in asked["points"]]
@@ -30,7 +35,7 @@ def main() -> None:
     }
     if asked["speeds"]:
         found |= response(bearing, asked)
-    print(json.dumps(found))
+    return found
 
 
 def response(bearing: ross.BearingElement, asked: dict) -> dict:

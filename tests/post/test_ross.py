@@ -22,17 +22,19 @@ def ross(root):
     if not (root / "build/venv-ross/ready").exists():
         pytest.skip("ROSS is not installed")
 
+    process = subprocess.Popen(
+        [python, root / PROGRAM], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+    )
+
     def answer(**asked) -> dict[str, np.ndarray]:
-        asked = {"points": [], "speeds": []} | asked
-        done = subprocess.run(
-            [python, root / PROGRAM], input=json.dumps(asked), text=True, capture_output=True, timeout=300
-        )
-        assert done.returncode == 0, done.stderr
-        # libraries of ROSS may print lines of their own, even at their end
-        said = next(line for line in done.stdout.splitlines() if line.startswith("{"))
+        print(json.dumps({"points": [], "speeds": []} | asked), file=process.stdin, flush=True)
+        # libraries of ROSS may print lines of their own
+        said = next((line for line in process.stdout if line.startswith("{")), None)
+        assert said, "ROSS ended without an answer"
         return {name: np.array(values) for name, values in json.loads(said).items()}
 
-    return answer
+    yield answer
+    process.communicate()
 
 
 @pytest.fixture(scope="module")
