@@ -52,6 +52,16 @@ STUDIES = {
         ),
     ),
     "upper": ("input/examples/four_pads.nml", ("sweep%operation%speed_rpm=2000:9250:250",)),
+    "soft": (
+        f"{PAPER}/steady_tr.nml",
+        (
+            "case%task=periodic",
+            'case%title=""',
+            "pivot%law=hertz",
+            "sweep%pivot%radius_difference=1e-4,1e-3",
+            "sweep%operation%speed_rpm=1500:9000:250",
+        ),
+    ),
     "whirl": (
         "input/examples/five_pads.nml",
         (
@@ -79,6 +89,7 @@ PICTURES = (
     ("orders", "runup", "", "amplitude and phase of the orders over speed"),
     ("waterfall", "runup", "", "all orders over speed"),
     ("pressure", "lugre", "--time 1.9", "the film of the loaded pads"),
+    ("response", "soft", "", "pivots that are soft give the rotor a critical speed"),
     ("coefficients", "whirl", "", "stiffness and damping over speed, at two whirl frequencies"),
     ("stability", "whirl", "--pivot stuck", "the modes with pivots that stick"),
     ("campbell", "whirl", "", "frequencies of the modes, free pivots"),

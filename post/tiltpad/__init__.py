@@ -42,6 +42,7 @@ from tiltpad.calculate.pivots import (
     stick_velocity,
     sticking,
 )
+from tiltpad.calculate.response import Peak, Response, response
 from tiltpad.calculate.ross import to_ross
 from tiltpad.calculate.signals import (
     envelope,
@@ -73,7 +74,9 @@ __all__ = [
     "MissingProgramError",
     "Modes",
     "NotInRunError",
+    "Peak",
     "Pressure",
+    "Response",
     "Run",
     "RunError",
     "Study",
@@ -104,6 +107,7 @@ __all__ = [
     "pressure",
     "read",
     "read_study",
+    "response",
     "revolutions",
     "run",
     "sliding_velocity",

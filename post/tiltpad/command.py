@@ -25,16 +25,18 @@ COEFFICIENTS, TABLES = "coefficients", ("csv", "toml")
 STUDY = "study"
 #: Plots of coefficients and modes: of results, and of studies.
 VIBRATIONS = ("coefficients", "stability", "campbell")
+#: Plots of results and of studies.
+OF_EITHER = (*VIBRATIONS, "response")
 #: Options of some plots alone.
 OWN_OPTIONS = {
     "time": ("pressure",),
     **dict.fromkeys(("show", "kind"), (STUDY,)),
-    **dict.fromkeys(("over", "where"), (STUDY, *VIBRATIONS)),
+    **dict.fromkeys(("over", "where"), (STUDY, *OF_EITHER)),
     "pivot": (STUDY, *VIBRATIONS),
 }
 #: Plots without the options --last and --pad.
-WITHOUT_LAST = ("equilibrium", "runup", "orders", "waterfall", "pressure", STUDY, *VIBRATIONS)
-WITHOUT_PAD = VIBRATIONS
+WITHOUT_LAST = ("equilibrium", "runup", "orders", "waterfall", "pressure", STUDY, *OF_EITHER)
+WITHOUT_PAD = OF_EITHER
 #: Exit status, as the program's own.
 INPUT_ERROR, FILE_ERROR = 1, 3
 
@@ -53,6 +55,7 @@ PLOTS = {
     "orders": "amplitude and phase of the first orders over the speed of a run-up (--pad: also of its tilt)",
     "waterfall": "amplitudes over speed and order of a run-up (of the journal; --pad: of its tilt)",
     "pressure": "film pressure over the unrolled pads at one instant (--time; default: at the equilibrium)",
+    "response": "first harmonic of the journal, critical speeds, amplification: of studies and run-ups",
     "coefficients": "stiffness and damping over speed, of one result over whirl frequency (also .csv, .toml)",
     "stability": "damping ratio and logarithmic decrement of the modes, of studies and results",
     "campbell": "frequencies of the modes over the speed, of studies",
@@ -152,16 +155,16 @@ def draw(options: argparse.Namespace, output: Path) -> None:
     from tiltpad.draw import figures, plots
 
     with ExitStack() as stack:
-        vibrations = options.plot in VIBRATIONS
-        runs = [
-            stack.enter_context(read_either(path) if vibrations else read(path)) for path in options.files
-        ]
+        either = options.plot in OF_EITHER
+        runs = [stack.enter_context(read_either(path) if either else read(path)) for path in options.files]
         stack.enter_context(mpl.style.context(plots.STYLE))
         if options.pad is not None:
             figures.shown_pads(runs, options.pad)
         more = {"time": options.time} if options.plot == "pressure" else {}
-        if vibrations:
-            more = {"pivot": options.pivot, "over": options.over, "where": kept(options)}
+        if either:
+            more = {"over": options.over, "where": kept(options)}
+        if options.plot in VIBRATIONS:
+            more["pivot"] = options.pivot
         figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **more)
         stack.callback(plots.plt.close, figure)
         figure.savefig(output, format=form)

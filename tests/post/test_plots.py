@@ -21,7 +21,7 @@ pytestmark = pytest.mark.usefixtures("closed_figures")
 PLOTS = [
     plot
     for plot in command.PLOTS
-    if plot not in ("equilibrium", "multipliers", "pressure", "study", *command.VIBRATIONS)
+    if plot not in ("equilibrium", "multipliers", "pressure", "study", *command.OF_EITHER)
 ]
 STEADY = [plot for plot in PLOTS if plot not in ("orders", "waterfall")]
 RUNUP = [plot for plot in PLOTS if plot != "spectrum"]

@@ -108,6 +108,16 @@ def waveform(run: Run, name: str, last: float = 5) -> tuple[np.ndarray, np.ndarr
     return run.values("time", part), run.values(name, part)
 
 
+def first_harmonic(run: Run, name: str, part: slice) -> complex:
+    """First harmonic of a dataset in the samples `part`, whole revolutions: amplitude times exp(i phase).
+
+    The dataset is the real part of it times exp(i shaft angle), its mean, and other harmonics.
+    """
+    angle = run.values("shaft_angle", part)
+    turning = run.values(name, part) * np.exp(-1j * angle)
+    return complex(np.sum(np.diff(angle) * (turning[1:] + turning[:-1])) / np.ptp(angle))
+
+
 def at_angle(angle: np.ndarray, values: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """Values, (time,) or (time, pad), where the rising `angle` (time,) has the `wanted` values (n,).
 

@@ -175,6 +175,9 @@ def motion(run: Run, part: slice) -> dict[str, Any]:
         raise NotInRunError(f"{run.path}: no revolution in this run")
     y, z = (run.values(name, part) for name in ("journal_y", "journal_z"))
     tilting = "pad_tilt" in run
+    # a periodic orbit of several revolutions is taken as a whole
+    whole = slice(run.samples) if run.task == "periodic" else part
+    first = {name: signals.first_harmonic(run, name, whole) for name in ("journal_y", "journal_z")}
     film, peak = run.values("min_film_thickness", part), run.values("max_pressure", part)
     return {
         "speed": float(run.values("speed", -1)),
@@ -183,6 +186,8 @@ def motion(run: Run, part: slice) -> dict[str, Any]:
         "orbit_size": max(np.ptp(y), np.ptp(z)),
         "mean_y": y.mean(),
         "mean_z": z.mean(),
+        **{f"{name}_amplitude": abs(each) for name, each in first.items()},
+        **{f"{name}_phase": np.angle(each) for name, each in first.items()},
         "min_film_thickness": film.min(),
         "max_pressure": peak.max(),
         **({"pad_tilt_size": np.ptp(run.values("pad_tilt", part), axis=0)} if tilting else {}),

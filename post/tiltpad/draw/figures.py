@@ -15,6 +15,7 @@ from matplotlib.patches import Circle
 
 from tiltpad.calculate import differences, pivots, signals
 from tiltpad.draw import diagrams, plots
+from tiltpad.draw.branches import response
 from tiltpad.draw.layout import (
     COLUMN,
     PAGE,
@@ -358,6 +359,6 @@ FIGURES = {
     for each in (
         *(orbit, equilibrium, size, poincare, waveform, multipliers, spectrum),
         *(hysteresis, friction, sticking, runup, orders, waterfall, pressure),
-        *(coefficients, stability, campbell),
+        *(coefficients, stability, campbell, response),
     )
 }

@@ -33,6 +33,7 @@ PICTURES = {
     "size": "Peak to peak of the journal over the speed.",
     "orders": "Amplitude of the first orders over the speed, and the phase of the first.",
     "waterfall": "Amplitudes over speed and order.",
+    "response": "First harmonic of the journal over the speed: critical speeds and amplification factors.",
     "hysteresis": "Friction moment over tilt: the area is the work dissipated in the last revolution.",
     "friction": "Friction coefficient over sliding velocity, last revolution.",
     "sticking": "Tilt rate, bold where the pivot sticks, over the last two revolutions.",

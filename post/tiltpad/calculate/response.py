@@ -1,0 +1,183 @@
+"""The journal's response to unbalance over the speed: first harmonic, critical speeds, amplification.
+
+A critical speed, its amplification factor and the separation that it needs are those of API RP 684 (2nd
+edition, 2005) and API 617 (7th edition, 2002, 2.6.2).
+"""
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tiltpad.calculate.selection import default_over, distinct, needs, selected
+from tiltpad.calculate.signals import at_angle, steady
+from tiltpad.calculate.spectra import order_track
+from tiltpad.files.archive import NotInRunError
+from tiltpad.files.read import Run, needs_run
+from tiltpad.files.study import Study
+
+#: Directions of the journal, in the order of the columns.
+DIRECTIONS = ("y", "z")
+#: The parameter over which peaks are critical speeds.
+SPEED = "speed_rpm"
+#: Amplitude at half the power.
+HALF_POWER = np.sqrt(0.5)
+#: Points between two of a curve at which it is looked at.
+BETWEEN = 20
+#: Below this amplification factor a critical speed is damped so well that it needs no separation.
+DAMPED = 2.5
+
+
+class Peak(NamedTuple):
+    """A peak of the response over the speed; its fields:
+
+        direction        y or z
+        speed_rpm        critical speed
+        amplitude        there, m
+        below_rpm        speeds below and above it at which the amplitude is 0.707 of that; nan where the
+        above_rpm        curve ends before
+
+    `margin_below` and `margin_above` are the least distances of the critical speed that API 617 asks for, in
+    percent of the lowest operating speed where the critical speed is below the operating speeds, and of the
+    highest where it is above them.
+    """
+
+    direction: str
+    speed_rpm: float
+    amplitude: float
+    below_rpm: float
+    above_rpm: float
+
+    @property
+    def amplification_factor(self) -> float:
+        """Critical speed over the width of the peak at half power; nan where the curve ends before."""
+        return self.speed_rpm / (self.above_rpm - self.below_rpm)
+
+    @property
+    def margin_below(self) -> float:
+        return float(np.minimum(self.excess, 16))
+
+    @property
+    def margin_above(self) -> float:
+        return float(np.minimum(self.excess + 10, 26)) if self.excess != 0 else 0.0
+
+    @property
+    def excess(self) -> float:
+        """What the margins have in common, 17 (1 - 1/(AF - 1.5)) percent; 0 where none is asked for."""
+        factor = self.amplification_factor
+        return 0.0 if factor < DAMPED else 17 * (1 - 1 / (factor - 1.5))
+
+
+class Response(NamedTuple):
+    """First harmonic of the journal along a curve; its fields:
+
+        parameter    name of what changes: speed_rpm
+        values       of it, (n,), in the unit of the input
+        amplitude    m, (n, 2): of y and z
+        phase        rad, (n, 2): the motion is amplitude * cos(shaft angle + phase), without jumps of 2 pi
+        peaks        critical speeds, those of y first; none over another parameter than the speed
+
+    Members of a study that have no motion are nan.
+    """
+
+    parameter: str
+    values: np.ndarray
+    amplitude: np.ndarray
+    phase: np.ndarray
+    peaks: list[Peak]
+
+
+def response(
+    source: Run | Study, where: Mapping[str, Any] | None = None, over: str | None = None
+) -> Response:
+    """Response of a study over the speed, of a run-up, or of a branch of periodic orbits.
+
+    The members of a study are marches, or periodic orbits; `where` keeps those with these values of
+    parameters, `over` is a parameter in place of the speed. Peaks are looked for on a cubic through the
+    points; one from which the curve climbs higher before it falls to half power is part of another.
+    """
+    if not isinstance(source, Study):
+        needs_run(source)
+    if isinstance(source, Study):
+        parameter, values, amplitude, phase = of_study(source, where or {}, over)
+    elif where or over:
+        raise ValueError(f"{source.path}: where, over: for a study, this is one run")
+    else:
+        parameter, values, amplitude, phase = of_runup(source)
+    there = np.isfinite(amplitude).all(axis=1)
+    phase[there] = np.unwrap(phase[there], axis=0)
+    peaks = []
+    if parameter == SPEED and there.sum() > 2:
+        way = values[there]
+        for direction, each in zip(DIRECTIONS, amplitude[there].T, strict=True):
+            peaks += peaks_of(direction, way, values[there], each)
+    return Response(parameter, values, amplitude, phase, peaks)
+
+
+def of_study(
+    study: Study, where: Mapping[str, Any], over: str | None
+) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
+    """Parameter, its rising values, amplitudes and phases of the members of a study."""
+    chosen = selected(study, where)
+    several = [name for name in study.parameters if len(distinct(study[name][chosen])) > 1]
+    over = over or (SPEED if SPEED in several else default_over(study, several, chosen))
+    needs(over, study.parameters, "over", "a parameter")
+    if others := [name for name in several if name != over]:
+        raise ValueError(f"{study.path}: members differ in {', '.join(others)}, too: choose by where")
+    place = np.flatnonzero(chosen)
+    place = place[np.argsort(study[over][place], kind="stable")]
+    return over, study[over][place], *harmonics(study, place)
+
+
+def harmonics(source: Run | Study, place: np.ndarray | slice) -> tuple[np.ndarray, np.ndarray]:
+    """Amplitudes and phases of y and z, (n, 2) each."""
+    amplitude, phase = (
+        np.column_stack([source[f"journal_{each}_{what}"][place] for each in DIRECTIONS])
+        for what in ("amplitude", "phase")
+    )
+    return amplitude, phase
+
+
+def of_runup(run: Run) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
+    """Parameter, speeds, amplitudes and phases along a run-up or run-down."""
+    if steady(run):
+        raise NotInRunError(
+            f"{run.path}: no response in this run: its speed stays the same; a study over the speed, a "
+            "run-up or a branch is needed"
+        )
+    tracks = [order_track(run, f"journal_{each}") for each in DIRECTIONS]
+    order = np.argsort(tracks[0][0], kind="stable")
+    amplitude, phase = (np.column_stack([track[k] for track in tracks])[order] for k in (1, 2))
+    return SPEED, tracks[0][0][order] * 30 / np.pi, amplitude, phase
+
+
+def peaks_of(direction: str, way: np.ndarray, speed: np.ndarray, amplitude: np.ndarray) -> list[Peak]:
+    """The peaks of a curve, (n,) each; `way` rises along it."""
+    steps = np.arange(BETWEEN * (len(way) - 1) + 1) / BETWEEN
+    dense = np.interp(steps, np.arange(len(way)), way)
+    speed, amplitude = (at_angle(way, each, dense) for each in (speed, amplitude))
+    found = []
+    tops = np.flatnonzero((amplitude[1:-1] > amplitude[:-2]) & (amplitude[1:-1] >= amplitude[2:])) + 1
+    for top in tops:
+        sides = (slice(top, None, -1), slice(top, None))
+        edges = [half_power(speed[side], amplitude[side]) for side in sides]
+        if None not in edges:
+            low, high = sorted(edges)
+            found.append(Peak(direction, *map(float, (speed[top], amplitude[top], low, high))))
+    return found
+
+
+def half_power(speed: np.ndarray, amplitude: np.ndarray) -> float | None:
+    """Speed at which the amplitude has fallen from its first value to half power.
+
+    nan where the curve ends before, None where it climbs above its first value before.
+    """
+    limit = HALF_POWER * amplitude[0]
+    higher, lower = (np.append(np.flatnonzero(each), len(amplitude))[0]
+                     for each in (amplitude > amplitude[0], amplitude < limit))  # fmt: skip
+    if higher < lower:
+        return None
+    if lower == len(amplitude):
+        return np.nan
+    share = (amplitude[lower - 1] - limit) / (amplitude[lower - 1] - amplitude[lower])
+    return float(speed[lower - 1] + share * (speed[lower] - speed[lower - 1]))
