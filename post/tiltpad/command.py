@@ -14,7 +14,7 @@ from tiltpad.calculate.selection import ArgumentError
 from tiltpad.calculate.tables import write_coefficients
 from tiltpad.collect.collect import MemberWarning
 from tiltpad.collect.collect import collect as collected
-from tiltpad.files.archive import NotInRunError, RunError
+from tiltpad.files.archive import NotInRunError, RunError, meant
 from tiltpad.files.read import IncompleteRunWarning, read
 from tiltpad.files.study import read_either, read_study
 
@@ -262,7 +262,7 @@ def collect_parser() -> Parser:
 
 
 def plot_parser() -> Parser:
-    plots = "\n".join(f"  {name:<12}{meaning}" for name, meaning in PLOTS.items())
+    plots = "\n".join(f"  {name:<14}{meaning}" for name, meaning in PLOTS.items())
     parser = Parser(
         prog="tiltpad-plot",
         usage="tiltpad-plot PLOT FILE... [options]",
@@ -270,7 +270,7 @@ def plot_parser() -> Parser:
         epilog="exit status: 0 done; 1 usage, or no such data in the run; 3 a file cannot be read or written",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("plot", choices=PLOTS, metavar="PLOT", help=" | ".join(PLOTS))
+    parser.add_argument("plot", type=plot_name, metavar="PLOT", help="one of the plots above")
     parser.add_argument("files", nargs="+", metavar="FILE", help="result files (.h5)")
     parser.add_argument(
         "-o",
@@ -302,6 +302,16 @@ def plot_parser() -> Parser:
         help="takes only the members with this value; may be repeated",
     )
     return parser
+
+
+def plot_name(text: str) -> str:
+    if text in PLOTS:
+        return text
+    if Path(text).exists():
+        raise argparse.ArgumentTypeError(
+            f"{text}: a file, where the plot's name belongs: tiltpad-plot PLOT {text}"
+        )
+    raise argparse.ArgumentTypeError(f"{text}: no plot{meant(text, PLOTS)}: {', '.join(PLOTS)}")
 
 
 def assignment(text: str) -> tuple[str, str]:

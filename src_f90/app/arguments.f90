@@ -1,13 +1,17 @@
 !> The words of the command line.
 module arguments
-   use text, only: shortened, to_text
+   use text, only: shortened, to_text, lower_case
+   use variable_names, only: meant_variable
    use errors, only: error_type, raise, input_error
+   use similar_words, only: did_you_mean
    implicit none (type, external)
    private
    public :: arguments_type, read_arguments, print_help
 
    !> Longest override, and how many there may be.
    integer, parameter :: longest = 4096, most = 1000
+   character(len=*), parameter :: options = '--output --overwrite --resume --set --check --jobs --member --count ' &
+      & //'--quiet --reference --version --help'
 
    type :: arguments_type
       !> 'run', 'check', 'count', 'help', 'version' or 'reference'.
@@ -65,7 +69,10 @@ contains
             if (len(word) == 0) then
                call raise(error, input_error, 'an empty argument; see tiltpad --help')
             else if (word(1:1) == '-') then
-               call raise(error, input_error, 'unknown option '//word//'; see tiltpad --help')
+               call raise(error, input_error, 'unknown option '//word//meant_option(word)//'; see tiltpad --help')
+            else if (is_assignment(word)) then
+               call raise(error, input_error, word//': a value is given by --set group%name=value'//meant_variable &
+                  & ('', lower_case(word(:index(word, '=') - 1))))
             else if (given%case_file /= '') then
                call raise(error, input_error, 'one case at a time: '//given%case_file//' and '//word//' given')
             else
@@ -134,6 +141,27 @@ contains
       end if
    end subroutine check_arguments
 
+   !> What an unknown option may stand for: another one, or "--option value" where "--option=value" is given.
+   function meant_option(word) result(text)
+      character(len=*), intent(in) :: word
+      character(len=:), allocatable :: text
+      integer :: equals
+      equals = index(word, '=')
+      text = did_you_mean(word, options)
+      if (equals == 0) return
+      if (index(' '//options//' ', ' '//word(:equals - 1)//' ') > 0) then
+         text = ' (did you mean '//word(:equals - 1)//' '//word(equals + 1:)//'?)'
+      end if
+   end function meant_option
+
+   !> True for "group%name=value" or "name=value" that is no file.
+   logical function is_assignment(word)
+      character(len=*), intent(in) :: word
+      logical :: exists
+      inquire (file=word, exist=exists)
+      is_assignment = index(word, '=') > 1 .and. .not. exists
+   end function is_assignment
+
    !> The value of an option that takes a whole number from 1.
    subroutine read_whole(option, value, number, error)
       character(len=*), intent(in) :: option, value
@@ -160,6 +188,7 @@ contains
          & 'Simulates the tilting pad journal bearing of a namelist case and writes an HDF5 result file.', &
          & 'A case with a group &sweep describes many runs, its members; each member writes its own file.', &
          & '', &
+         & 'options:', &
          & '  --output FILE           names the result file; default: the case''s name with .h5, in this folder', &
          & '                          (for a sweep: names the folder of the files 0001.h5, ...; default: the', &
          & '                          case''s name)', &

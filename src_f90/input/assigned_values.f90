@@ -3,10 +3,11 @@
 module assigned_values
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use text, only: to_text, lower_case, is_utf8
+   use text, only: to_text, lower_case, shortened, is_utf8
    use errors, only: error_type, raise, input_error
+   use similar_words, only: did_you_mean
    use number_syntax, only: is_special, read_number
-   use assignments, only: assignment_type, token_type, assignment_text
+   use assignments, only: assignment_type, token_type, assignment_text, sweep_group
    use field_visitor, only: field_type
    implicit none (type, external)
    private
@@ -26,9 +27,10 @@ contains
       word = a%values(1)%text
       if (field%choices /= '') word = lower_case(trim(adjustl(word)))
       if (size(a%values) > 1 .or. a%subscript > 0) then
-         call refuse_values(a, 'takes one text', error)
+         call refuse_values(a, 'takes one text'//several_runs(a), error)
       else if (field%choices /= '' .and. .not. is_choice(word, field%choices)) then
-         call refuse_values(a, 'must be one of '''//quoted_list(field%choices)//'''', error)
+         call refuse_values(a, 'must be one of '''//quoted_list(field%choices)//'''' &
+            & //did_you_mean(word, field%choices), error)
       else if (field%choices == '' .and. .not. a%values(1)%quoted) then
          call refuse_values(a, 'text must stand in quotes', error)
       else if (len(word) > longest_text) then
@@ -53,7 +55,11 @@ contains
          call read_real(a, a%values(i), field, x, repeat, error)
          if (allocated(error)) return
          if (max(1, a%subscript) - 1 + size(values) + repeat > most) then
-            call refuse_values(a, 'at most '//to_text(most)//' values', error)
+            if (most == 1 .and. size(a%values) > 1) then
+               call refuse_values(a, 'takes one value'//several_runs(a), error)
+            else
+               call refuse_values(a, 'at most '//to_text(most)//' values', error)
+            end if
             return
          end if
          values = [values, spread(x, 1, repeat)]
@@ -87,7 +93,9 @@ contains
          return
       end if
       call read_number(digits, x, ok)
-      if (.not. repeat_ok .or. token%quoted .or. .not. ok) then
+      if (index(token%text, ':') > 0 .and. .not. token%quoted) then
+         call refuse_values(a, 'must be a number, '//field%range_text()//several_runs(a), error)
+      else if (.not. repeat_ok .or. token%quoted .or. .not. ok) then
          call refuse_values(a, 'must be a number, '//field%range_text(), error)
       else if (.not. ieee_is_finite(x)) then
          call refuse_values(a, 'must be finite, '//field%range_text(), error)
@@ -95,6 +103,13 @@ contains
          call refuse_values(a, 'must be '//field%range_text(), error)
       end if
    end subroutine read_real
+
+   !> How to write what has several values or a range, where one value is expected: a run for each of them.
+   pure function several_runs(a) result(text)
+      type(assignment_type), intent(in) :: a
+      character(len=:), allocatable :: text
+      text = '; for one run of each value: '//sweep_group//'%'//shortened(assignment_text(a))
+   end function several_runs
 
    !> "case.nml line 3: rotor%mass = -1: must be ...".
    subroutine refuse_values(a, reason, error)

@@ -42,18 +42,36 @@ contains
          & iostat=status, iomsg=message)
       if (status == 0) then
          inquire (unit=unit, size=length)
-         if (length > longest_file) then
+         if (starts_as_result(unit, length)) then
+            call raise(error, input_error, file//': a result (an HDF5 file), where a case belongs; tiltpad-plot ' &
+               & //'draws it, tiltpad --resume '//file//' continues it')
+            close (unit)
+            return
+         else if (length > longest_file) then
             call raise(error, input_error, file//': '//to_text(length)//' bytes; an input file has at most ' &
                & //to_text(longest_file))
             close (unit)
             return
          end if
          allocate (character(len=max(length, 0_i8)) :: text)
-         if (length > 0) read (unit, iostat=status, iomsg=message) text
+         if (length > 0) read (unit, pos=1, iostat=status, iomsg=message) text
          close (unit)
       end if
       if (status /= 0) call raise(error, input_error, file//': cannot be read: '//trim(message))
    end subroutine read_text
+
+   !> True for an HDF5 file, by its first bytes.
+   logical function starts_as_result(unit, length)
+      integer, intent(in) :: unit
+      integer(i8), intent(in) :: length
+      character(len=*), parameter :: signature = char(137)//'HDF'
+      character(len=len(signature)) :: first
+      integer :: status
+      starts_as_result = .false.
+      if (length < len(signature)) return
+      read (unit, pos=1, iostat=status) first
+      if (status == 0) starts_as_result = first == signature
+   end function starts_as_result
 
    !> The assignments of a case's text, with the overrides ("group%name=value"); `file` is for messages.
    subroutine parse_case(text, file, overrides, parsed, error)

@@ -4,6 +4,7 @@ module namelist_text
    use errors, only: error_type, raise, input_error
    use assignments, only: namelist_type, assignment_type, token_type, put_assignment, undoes, sweep_group
    use text_scanner, only: scanner, control_character, newline
+   use variable_names, only: meant_variable
    implicit none (type, external)
    private
    public :: parse_namelist, parse_override
@@ -43,8 +44,8 @@ contains
             group%origin = scan%origin()
             group%name = scan%word()
             if (group%name == '') group%name = scan%peek()
-            call raise(error, input_error, group%origin//': '''//shortened(group%name)//''' stands outside a group;' &
-               & //' expected &name')
+            call raise(error, input_error, group%origin//': '''//shortened(group%name)//''' stands outside a group' &
+               & //meant_variable('', lower_case(group%name))//'; expected &group ... /')
             return
          end if
          scan%at = scan%at + 1
@@ -94,7 +95,8 @@ contains
       end if
       if (percent > 1) group%group = lower_case(trim(adjustl(text(:percent - 1))))
       if (percent <= 1 .or. index(text, '=') < percent) then
-         call raise(error, input_error, group%origin//': expected group%name=value')
+         call raise(error, input_error, group%origin//': expected group%name=value' &
+            & //meant_variable('', lower_case(trim(adjustl(text(:index(text//'=', '=') - 1))))))
          return
       end if
       if (len(group%group) > longest_name) then

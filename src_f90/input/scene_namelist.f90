@@ -10,6 +10,7 @@ module scene_namelist
    use scene_fields, only: visit_scene
    use assignments, only: namelist_type, assignment_type, sweep_group
    use assigned_values, only: read_word, read_reals, refuse_values
+   use variable_names, only: group_names, names_in, meant_variable, meant_group
    use namelist_text, only: parse_namelist
    implicit none (type, external)
    private
@@ -20,9 +21,11 @@ module scene_namelist
       type(namelist_type) :: namelist
       !> Assignments to a known variable, and groups that are known.
       logical, allocatable :: used(:), known_group(:)
-      !> The group just visited, the groups and its variables so far, for messages.
-      character(len=:), allocatable :: this_group, groups, variables
+      !> The group just visited.
+      character(len=:), allocatable :: this_group
       integer :: pad_count = 0
+      !> The assignment of the error, where its variable is unknown.
+      integer :: unknown = 0
       type(error_type), allocatable :: error
    contains
       procedure :: group => visit_group
@@ -77,11 +80,16 @@ contains
       allocate (reader%used(size(parsed%assignments)), source=.false.)
       allocate (reader%known_group(size(parsed%groups)), source=.false.)
       reader%this_group = ''
-      reader%groups = ''
       scene = scene_type()
       call leave_out(scene)
       call visit_scene(scene, reader)
       call reader%group('', '')
+      if (reader%unknown > 0) then
+         associate (a => parsed%assignments(reader%unknown))
+            call raise(reader%error, input_error, a%origin//': unknown variable '//a%group//'%'//a%name &
+               & //meant_variable(a%group, a%name)//'; known:'//names_in(a%group))
+         end associate
+      end if
       do i = 1, size(parsed%groups)
          if (.not. reader%known_group(i)) call reader%refuse_unknown_group(parsed%groups(i), '&')
       end do
@@ -97,8 +105,6 @@ contains
       integer :: i
       call self%check_unused()
       self%this_group = name
-      self%variables = ''
-      self%groups = self%groups//' '//name
       do i = 1, size(self%namelist%groups)
          if (self%namelist%groups(i)%group == name) self%known_group(i) = .true.
       end do
@@ -112,8 +118,9 @@ contains
          if (allocated(self%error)) return
          associate (a => self%namelist%assignments(i))
             if (a%group /= self%this_group .or. self%used(i)) cycle
-            call raise(self%error, input_error, a%origin//': unknown variable '//a%group//'%'//a%name//'; known:' &
-               & //self%variables)
+            ! in words after this walk along the variables, as proposals need another
+            self%unknown = i
+            call raise(self%error, input_error, '')
          end associate
       end do
    end subroutine check_unused
@@ -124,8 +131,8 @@ contains
       type(assignment_type), intent(in) :: found
       character(len=*), intent(in) :: prefix
       if (allocated(self%error)) return
-      call raise(self%error, input_error, found%origin//': unknown group '//prefix//found%group//'; known:' &
-         & //self%groups)
+      call raise(self%error, input_error, found%origin//': unknown group '//prefix//found%group &
+         & //meant_group(found%group)//'; known:'//group_names())
    end subroutine refuse_unknown_group
 
    !> The assignments to a variable of this group, in their order; none after an error.
@@ -134,7 +141,6 @@ contains
       type(field_type), intent(in) :: field
       type(assignment_type), allocatable, intent(out) :: found(:)
       integer :: i
-      self%variables = self%variables//' '//field%name
       allocate (found(0))
       if (allocated(self%error)) return
       do i = 1, size(self%used)

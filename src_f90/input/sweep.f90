@@ -9,6 +9,7 @@ module sweep
    use swept_values, only: swept_values_type, read_swept_values
    use case_text, only: read_text, parse_case
    use scene_fields, only: title_variable
+   use variable_names, only: meant_variable
    use scene_namelist, only: scene_from_namelist, fill_scene
    use namelist_writer, only: scene_text
    use checked_case, only: marked_text, derived_text
@@ -120,7 +121,7 @@ contains
       name = given%name(percent + 1:)
       if (percent <= 1 .or. name == '' .or. index(name, '%') > 0) then
          call raise(error, input_error, given%origin//': unknown variable '//given%group//'%'//given%name &
-            & //'; expected order or group%name = values')
+            & //meant_variable('', name)//'; expected order or group%name = values')
          return
       end if
       new%target = given

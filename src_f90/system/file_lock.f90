@@ -108,7 +108,7 @@ contains
       do
          call self%attempt(found, holder)
          if (found == failed) then
-            call raise(error, system_error, 'cannot write '//path//': no lock file beside it: '//system_reason())
+            call raise(error, system_error, 'cannot write '//path//': '//no_lock_reason(path))
          else if (found == foreign) then
             call raise(error, system_error, 'cannot write '//path//': '//self%path &
                & //' is no lock file of tiltpad; remove or rename it')
@@ -140,9 +140,21 @@ contains
       if (.not. self%write_beat()) then
          call delete_file(self%path)
          call close_lock(self)
-         call raise(error, system_error, 'cannot write '//path//': no lock file beside it: '//system_reason())
+         call raise(error, system_error, 'cannot write '//path//': '//no_lock_reason(path))
       end if
    end subroutine acquire
+
+   !> Why a lock file could not be made or written just now.
+   function no_lock_reason(path) result(reason)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: reason, folder
+      logical :: exists
+      reason = 'its lock file, '//path//'.lock, cannot be made: '//system_reason()
+      folder = path(:index(path, '/', back=.true.))
+      if (folder == '') return
+      inquire (file=folder//'.', exist=exists)
+      if (.not. exists) reason = 'there is no folder '//folder
+   end function no_lock_reason
 
    !> Seconds for which the holder's beats are watched.
    integer function patience_with(self, found, holder) result(patience)

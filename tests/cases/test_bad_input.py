@@ -65,7 +65,7 @@ VALUES = [
     ("rotor", "mass=2000kg", "number"),
     ("rotor", "mass='2000'", "number"),
     ("rotor", "mass=heavy", "number"),
-    ("rotor", "mass=1,2", "at most 1"),
+    ("rotor", "mass=1,2", "takes one value"),
     ("rotor", "mass=2*3", "at most 1"),
     ("rotor", "mass=0*3", "number"),
     ("rotor", "mass=3*", "number"),
@@ -267,7 +267,7 @@ def test_binary_file(tiltpad, tmp_path):
 
 def test_result_file_for_a_case(tiltpad, tmp_path):
     (tmp_path / "other.h5").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(64))
-    refused(tiltpad, tmp_path, "other.h5", names=["other.h5", "not a text file"])
+    refused(tiltpad, tmp_path, "other.h5", names=["other.h5: a result (an HDF5 file), where a case belongs"])
 
 
 @pytest.mark.parametrize(
@@ -329,7 +329,7 @@ def test_output_in_no_directory(tiltpad, case):
         *SHORT,
         "--output",
         "none/run.h5",
-        names=["none/run.h5", "directory"],
+        names=["cannot write none/run.h5: there is no folder none/"],
         status=3,
     )
 
@@ -507,6 +507,27 @@ LINES = {
     "option with a newline": (["--one\ntwo"], ["--one"]),
     "option with an escape code": (["--\x1b[31mred"], ["unknown option"]),
     "case with a newline": (["no\nsuch.nml"], ["such.nml"]),
+    "option like another": (["case.nml", "--ouput", "x.h5"], ["(did you mean --output?)"]),
+    "option with equals sign": (["case.nml", "--output=x.h5"], ["(did you mean --output x.h5?)"]),
+    "value without --set": (
+        ["case.nml", "speed_rpm=3000"],
+        ["--set group%name", "(did you mean operation%sp"],
+    ),
+    "value without group": (["case.nml", "--set", "speed_rpm=1"], ["(did you mean operation%speed_rpm?)"]),
+    "value in another group": (
+        ["case.nml", "--set", "operation%mass=1"],
+        ["(did you mean rotor%mass or pads%"],
+    ),
+    "range without sweep": (
+        ["case.nml", "--set", "operation%speed_rpm=1:3:1"],
+        ["sweep%operation%speed_rpm = 1:3:1"],
+    ),
+    "values without sweep": (
+        ["case.nml", "--set", "rotor%mass=1,2"],
+        ["takes one value", "sweep%rotor%mass = 1, 2"],
+    ),
+    "word like another": (["case.nml", "--set", "friction%model=lugree"], ["(did you mean lugre?)"]),
+    "group like another": (["case.nml", "--set", "rotors%mass=1"], ["(did you mean rotor?)"]),
 }
 
 

@@ -142,7 +142,7 @@ def test_a_model_without_the_result_keeps_its_place_in_the_legend(study):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"show": "pad_max_pressure"}, "show: pad_max_pressure is not a result of this study"),
+        ({"show": "pad_max_pressure"}, "show: pad_max_pressure has a value for each pad: choose one by pad"),
         ({"show": "orbit_y", "pad": 1}, "show: orbit_y is not a result of a pad of this study"),
         ({"show": "pad_tilt_size", "pad": 3}, "pad 3: must be 1 to 2, the pads of this study"),
         ({"show": "poincare_y", "kind": "bifurcation", "pad": 1}, "not Poincare points of a pad"),
@@ -167,6 +167,8 @@ def test_values_that_are_kept(study):
     ax = diagrams.diagram(study("both"), where={"model": "lugre"})
     (line,) = ax.get_lines()
     np.testing.assert_allclose(line.get_ydata(), 1e6 * study("both").orbit_size[3:])
+    for spelled in ("LuGre", "LUGRE"):
+        assert diagrams.selected(study("both"), {"model": spelled}).sum() == 3
     figure = figures.study(study("grid"), where={"speed_rpm": "6.5e3"})
     assert figure.get_suptitle() == "speed_rpm = 6.5e3"
     np.testing.assert_array_equal(figure.axes[0].get_lines()[0].get_xdata(), UNBALANCES)
@@ -193,7 +195,14 @@ def test_values_spread_in_ratio(values, evenly):
     ("name", "options", "message"),
     [
         ("speed", ["--show", "nix"], "--show: nix is not a result of this study: "),
-        ("speed", ["--show", "pad_tilt_size"], "--show: pad_tilt_size is not a result"),
+        (
+            "speed",
+            ["--show", "pad_tilt_size"],
+            "has a value for each pad: choose one by --pad",
+        ),
+        ("speed", ["--show", "orbitsize"], "is not a result of this study (did you mean orbit_size?): "),
+        ("speed", ["--show", "poincare_y", "--as", "lines"], "poincare_y is once a revolution: --as bifurc"),
+        ("text", ["--where", "model=none2"], "no member with model = none2: there are none, lugre"),
         ("speed", ["--over", "nix"], "--over: nix is not a parameter of this study: speed_rpm"),
         (
             "speed",

@@ -385,13 +385,21 @@ def test_the_installed_command_needs_no_display(result, tmp_path):
         (["hysteresis", "none"], 1, "no friction in this run: friction model is 'none'"),
         (["spectrum", "runup"], 1, "no spectrum in this run: the speed changes"),
         (["waveform", "equilibrium"], 1, "its task is 'equilibrium', nothing was marched in time"),
-        (["picture", "none"], 1, "invalid choice: 'picture'"),
+        (["map", "none"], 1, "map: no plot: orbit, "),
+        (["orbits", "none"], 1, "orbits: no plot (did you mean orbit?): "),
+        (
+            ["text.h5", "orbit"],
+            1,
+            "a file, where the plot's name belongs: tiltpad-plot PLOT text.h5",
+        ),
+        (["orbit", "case.nml"], 3, "case.nml: not an HDF5 file; a case: tiltpad runs it"),
         (["orbit"], 1, "the following arguments are required: FILE"),
     ],
 )
 def test_errors_are_one_line_and_a_status(result, tmp_path, monkeypatch, capsys, arguments, status, message):
     monkeypatch.chdir(tmp_path)
     Path("text.h5").write_text("no result\n")
+    Path("case.nml").write_text("! a case\n&case /\n")
     scenes = ("none", "runup", "equilibrium")
     given = [str(result(each)) if each in scenes else each for each in arguments]
     try:
@@ -404,7 +412,7 @@ def test_errors_are_one_line_and_a_status(result, tmp_path, monkeypatch, capsys,
     assert said.err.startswith("tiltpad-plot: error: ")
     assert said.err.count("\n") == 1
     assert message in said.err
-    assert [path.name for path in tmp_path.iterdir()] == ["text.h5"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["case.nml", "text.h5"]
 
 
 def test_an_incomplete_run_is_drawn_with_a_warning(changed, tmp_path, capsys):

@@ -72,6 +72,7 @@ def test_a_closed_file_can_be_overwritten(run):
         ("runup", "spectrum/journal_y", "no spectrum in this run: the speed changes"),
         ("equilibrium", "journal_y", "no journal_y in this run: its task is 'equilibrium'"),
         ("lugre", "journal_x", "no journal_x in this run: there are asperities, asperity_force, "),
+        ("lugre", "contact_forces", "time (did you mean contact_force?)"),
     ],
 )
 def test_a_dataset_that_the_scene_lacks(run, result, scene, name, reason):

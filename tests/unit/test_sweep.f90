@@ -274,7 +274,8 @@ contains
       call expect_refused('&sweep order = ''outer'', rotor%mass = 1/', '''product'', ''zip''')
       call expect_refused('&sweep order = ''zip'', ''zip'', rotor%mass = 1/', '''product'', ''zip''')
       call expect_refused('&sweep order(1) = ''zip'', rotor%mass = 1/', '''product'', ''zip''')
-      call expect_refused('&sweep mass = 1/', 'unknown variable sweep%mass; expected order or group%name')
+      call expect_refused('&sweep mass = 1/', &
+         & 'unknown variable sweep%mass (did you mean rotor%mass or pads%mass?); expected order or group%name')
       call expect_refused('&sweep rotor% = 1/', 'expected order or group%name')
       call expect_refused('&sweep %mass = 1/', 'expected order or group%name')
       call expect_refused('&sweep rotor%mass%x = 1/', 'expected order or group%name')

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from tiltpad.calculate.differences import WORDS
+from tiltpad.files.archive import meant
 from tiltpad.files.study import Study
 
 
@@ -40,9 +41,9 @@ def selected(study: Study, where: Mapping[str, Any]) -> np.ndarray:
             except ValueError:
                 here = np.zeros(len(values), dtype=bool)
         else:
-            here = values == value
+            here = np.array([spelled(value) in (spelled(each), spelled(written(each))) for each in values])
         if not here.any():
-            there = ", ".join(written(each) for each in distinct(values))
+            there = ", ".join(each if isinstance(each, str) else f"{each:g}" for each in distinct(values))
             raise ValueError(f"{study.path}: no member with {name} = {value}: there are {there}")
         chosen &= here
     if not chosen.any():
@@ -75,8 +76,13 @@ def written(value: Any) -> str:
     return WORDS.get(value, value.replace("_", " ")) if isinstance(value, str) else f"{value:g}"
 
 
+def spelled(text: str) -> str:
+    """A word as the input has it: "Bengisu-Akay" is bengisu_akay."""
+    return text.strip().lower().replace(" ", "_").replace("-", "_")
+
+
 def needs(name: str, allowed: Sequence[str], option: str, what: str) -> None:
     """Raises ValueError for a name that is not allowed."""
     if name not in allowed:
-        text = f"{{{option}}}: {{name}} is not {what} of this study: {{there}}"
-        raise ArgumentError(text, name=name, there=", ".join(allowed))
+        text = f"{{{option}}}: {{name}} is not {what} of this study{{meant}}: {{there}}"
+        raise ArgumentError(text, name=name, meant=meant(name, allowed), there=", ".join(allowed))

@@ -198,6 +198,11 @@ def result(study: Study, name: str, revolutions: bool, pad: int | None) -> Resul
         raise ValueError(f"{study.path}: no Poincare points in this study: no member has them")
     shape = tuple(study.item(each).shape[0] for each in scales)
     what = f"{'Poincare points' if revolutions else 'a result'}{' of a pad' if pad is not None else ''}"
+    has = QUANTITIES[name].dimensions if name in results and name in QUANTITIES else ()
+    if "pad" in has and pad is None:
+        raise ArgumentError("{show}: {own} has a value for each pad: choose one by {pad}", own=name)
+    if "revolution" in has and not revolutions:
+        raise ArgumentError("{show}: {own} is once a revolution: {kind} bifurcation", own=name)
     needs(name, [each for each in results if study.item(each).shape == shape], "show", what)
     values, shown = study[name], SHOWN.get(POINTS.get(name, name.removeprefix("pad_")))
     if shown is None:

@@ -8,8 +8,9 @@ behalf: links, external storage, virtual datasets and filters of others are refu
 import math
 import os
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from difflib import get_close_matches
 from typing import Any, Self
 
 import h5py
@@ -175,7 +176,8 @@ class Archive:
 
     def without(self, name: str) -> str:
         """The message for a dataset that is missing."""
-        return f"{self.path}: no {shown(name)} in this file: there are {', '.join(self.names())}"
+        there = self.names()
+        return f"{self.path}: no {shown(name)} in this file{meant(name, there)}: there are {', '.join(there)}"
 
     def check_whole(self) -> None:
         """Refuses a file whose parts do not fit together; each kind of file has its own checks."""
@@ -268,14 +270,16 @@ def opened(path: str) -> h5py.File:
     if not os.path.exists(path):
         raise RunError(f"{path}: no such file")
     if os.path.isdir(path):
-        raise RunError(f"{path}: is a folder, not a result file")
+        raise RunError(
+            f"{path}: is a folder, not a result file; tiltpad-collect makes a study of its results"
+        )
     if not os.path.isfile(path):
         raise RunError(f"{path}: a device or pipe, not an ordinary file")
     if not os.access(path, os.R_OK):
         raise RunError(f"{path}: no permission to read it")
     try:
         if not h5py.is_hdf5(path):
-            raise RunError(f"{path}: not an HDF5 file")
+            raise RunError(f"{path}: not an HDF5 file{'; a case: tiltpad runs it' if is_case(path) else ''}")
         if heaps.endless(path):
             raise damaged(path, "attributes", "an object without length in their heap")
         return h5py.File(path, "r")
@@ -284,6 +288,19 @@ def opened(path: str) -> h5py.File:
         raise RunError(f"{path}: cannot be opened, damaged or still being written ({told})") from error
     except (ValueError, RuntimeError, MemoryError) as error:
         raise damaged(path, "it", error) from error
+
+
+def is_case(path: str) -> bool:
+    """True for a file that starts as a namelist does, with a group or a comment."""
+    with open(path, "rb") as file:
+        return file.read(200).lstrip()[:1] in (b"&", b"!")
+
+
+def meant(word: str, known: Iterable[str]) -> str:
+    """What a wrong word may stand for, as words for the end of a clause: " (did you mean orbit?)"."""
+    among = list(known)
+    found = get_close_matches(word, among, 1) or [each for each in among if word and word in each]
+    return f" (did you mean {' or '.join(found)}?)" if 0 < len(found) <= 3 else ""
 
 
 def check_origin(path: str, attributes: dict[str, Any]) -> None:

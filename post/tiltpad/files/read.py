@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from tiltpad.files import namelist
-from tiltpad.files.archive import Archive, NotInRunError, RunError, damaged, plain, reading, shown
+from tiltpad.files.archive import Archive, NotInRunError, RunError, damaged, meant, plain, reading, shown
 
 #: Datasets over which the others are drawn and integrated; they must be finite.
 AXES = ("time", "shaft_angle", "speed", "pivot_angle")
@@ -207,7 +207,9 @@ class Run(Archive):
     def check_whole(self) -> None:
         """Refuses a study, and a file whose input has another number of pads than its datasets."""
         if self.attributes["task"] == "study":
-            raise StudyError(f"{self.path}: a study, not the result of one run: see tiltpad.read_study")
+            raise StudyError(
+                f"{self.path}: a study, not the result of one run: see tiltpad-plot study, or read_study"
+            )
         if "complete" not in self.attributes:
             raise damaged(self.path, "attribute 'complete'", "it is missing")
         if "pad" in self and (there := self.length("pad")) != self.pads:
@@ -262,7 +264,7 @@ class Run(Archive):
             return "the speed changes"
         if name == "spectrum":
             return "less than one revolution was sampled, or the run is incomplete"
-        return f"there are {', '.join(self.names())}"
+        return f"there are {', '.join(self.names())}{meant(name, self.names())}"
 
 
 def needs_run(given: object) -> None:
