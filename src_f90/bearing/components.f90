@@ -27,7 +27,7 @@ module components
    !> The films of 'fine', which is no word of the input: for what is linearised at a single state. Errors of whole
    !> films and of ruptured ones up to an arc, rad, beyond which rupture takes so much more of the film that the error
    !> is divided by the fourth power of the arc; volumes where no table knows the film.
-   real(wp), parameter :: fine_error = 1e-6_wp, fine_ruptured_error = 4e-5_wp, fine_arc = 80*degree
+   real(wp), parameter :: fine_error = 1e-6_wp, fine_ruptured_error = 5e-6_wp, fine_arc = 134*degree
    integer, parameter :: fine_volumes(2) = [160, 16]
    !> Error of those of 'loose', which is no word of the input either: for ways that are long and of which only the end
    !> counts.

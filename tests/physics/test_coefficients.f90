@@ -208,11 +208,11 @@ contains
       end do
    end subroutine agree
 
-   !> With the defaults the coefficients are those of films that are four times as close at least, to 1e-6 where
-   !> they are whole and to 2e-3 where they rupture.
+   !> With the defaults the coefficients are those of films that are twice as close at least, to 1e-6 where
+   !> they are whole and to 1e-3 where they rupture.
    subroutine refinement()
       call against_refined(whole(6500.0_wp), 'whole', 1e-6_wp)
-      call against_refined(ruptured(), 'ruptured', 2e-3_wp)
+      call against_refined(ruptured(), 'ruptured', 1e-3_wp)
    end subroutine refinement
 
    subroutine against_refined(scene, what, tolerance)
