@@ -5,7 +5,7 @@
 module errors
    implicit none (type, external)
    private
-   public :: error_type, raise, add_context
+   public :: error_type, raise, require, add_context
    public :: input_error, numerics_error, system_error, stopped
 
    !> What is wrong, and the exit status that belongs to it.
@@ -26,6 +26,14 @@ contains
       character(len=*), intent(in) :: message
       error = error_type(status, message)
    end subroutine raise
+
+   !> Keeps the first requirement that an input does not meet.
+   pure subroutine require(met, message, error)
+      logical, intent(in) :: met
+      character(len=*), intent(in) :: message
+      type(error_type), allocatable, intent(inout) :: error
+      if (.not. met .and. .not. allocated(error)) call raise(error, input_error, message)
+   end subroutine require
 
    !> Puts "context: " in front of the message of a set error; does nothing to an unset one.
    pure subroutine add_context(error, context)

@@ -5,6 +5,7 @@ module checked_case
    use errors, only: error_type
    use scene, only: scene_type
    use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
+   use oil_properties, only: viscosity, kinematic_points
    use scene_completion, only: complete_scene
    use scene_fields, only: pads_variable
    use assignments, only: namelist_type
@@ -17,6 +18,8 @@ module checked_case
    character(len=*), parameter :: newline = achar(10)
    !> Column of the marks.
    integer, parameter :: column = 46
+   !> Temperatures of warm oil, C.
+   real(wp), parameter :: warm(3) = [60.0_wp, 80.0_wp, 100.0_wp]
 
 contains
 
@@ -99,8 +102,24 @@ contains
       call say('specific load', specific_load(scene), 'Pa, W/(L D)')
       if (load(scene) > 0) call say('Sommerfeld number', sommerfeld_number(scene), &
          & 'mu N L D/W (R_J/c_r)^2, N in 1/s at the start')
+      if (scene%oil%law /= 'constant') call say_oil()
       if (preload_note(scene) /= '') text = text//'! '//preload_note(scene)//newline
    contains
+      !> The oil's viscosity where it comes in and where it is warm.
+      subroutine say_oil()
+         integer :: i
+         associate (oil => scene%oil, points => kinematic_points(scene%oil))
+            call say('viscosity', viscosity(oil, oil%supply_temperature), 'Pa s at oil%supply_temperature = ' &
+               & //to_text(oil%supply_temperature)//' C')
+            do i = 1, size(warm)
+               call say('viscosity', viscosity(oil, warm(i)), 'Pa s at '//to_text(warm(i))//' C')
+            end do
+            do i = 1, merge(2, 0, oil%grade > 0)
+               call say('kinematic', points(i), 'm^2/s at '//to_text(oil%at_temperature(i))//' C')
+            end do
+         end associate
+      end subroutine say_oil
+
       subroutine say(name, value, meaning)
          character(len=*), intent(in) :: name, meaning
          real(wp), intent(in) :: value

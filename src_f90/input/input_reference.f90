@@ -77,10 +77,14 @@ contains
       type(field_type), intent(in) :: field
       character(len=:), allocatable :: list
       integer :: i
-      list = '-'
-      if (is_set(values(1))) list = to_text(values(1))
-      do i = 2, size(values)
-         list = list//', '//to_text(values(i))
+      list = ''
+      do i = 1, size(values)
+         if (i > 1) list = list//', '
+         if (is_set(values(i))) then
+            list = list//to_text(values(i))
+         else
+            list = list//'-'
+         end if
       end do
       call self%row(field, list, field%range_text())
    end subroutine write_numbers

@@ -57,6 +57,7 @@ contains
       character(len=:), allocatable, intent(inout) :: value
       type(field_type), intent(in) :: field
       type(token_type) :: token
+      if (value == '' .and. field%choices /= '') return
       token%text = value
       token%quoted = .true.
       call self%line(field%name, value_text(token))

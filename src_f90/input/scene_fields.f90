@@ -3,9 +3,10 @@
 module scene_fields
    use kinds, only: wp
    use field_visitor, only: visitor_type, field, choice
-   use scene, only: scene_type, case_type, rotor_type, operation_type, bearing_type, oil_type, pads_type, &
-      & pivot_type, friction_type, asperity_type, start_type, film_type, integration_type, output_type, &
-      & coefficients_type, periodic_type, most_ratios, mass_range, inertia_range, centre_range
+   use scene, only: scene_type, case_type, rotor_type, operation_type, bearing_type, oil_type, thermal_type, &
+      & pads_type, pivot_type, friction_type, asperity_type, start_type, film_type, integration_type, output_type, &
+      & coefficients_type, periodic_type, most_ratios, mass_range, inertia_range, centre_range, temperature_range, &
+      & viscosity_range
    implicit none (type, external)
    private
    public :: visit_scene, title_variable, checkpoint_variable, pads_variable
@@ -28,6 +29,7 @@ contains
       call visit_operation(scene%operation, v)
       call visit_bearing(scene%bearing, v)
       call visit_oil(scene%oil, v)
+      call visit_thermal(scene%thermal, v)
       call visit_pads(scene%pads, v)
       call visit_pivot(scene%pivot, v)
       call visit_friction(scene%friction, v)
@@ -87,7 +89,8 @@ contains
       call v%number(bearing%preload, field('preload', -1.0_wp, 0.999_wp, '1', &
          & 'instead of machined_clearance: preload m of the pads, c_m = c_r/(1 - m)'))
       call v%number(bearing%axial_length, field('axial_length', 1e-5_wp, 100.0_wp, 'm', 'pad length L along the shaft'))
-      call v%number(bearing%viscosity, field('viscosity', 1e-6_wp, 10.0_wp, 'Pa s', 'dynamic viscosity of the oil'))
+      call v%number(bearing%viscosity, field('viscosity', viscosity_range(1), viscosity_range(2), 'Pa s', &
+         & 'dynamic viscosity of the oil where oil%law is constant'))
       call v%number(bearing%supply_pressure, field('supply_pressure', -1e9_wp, 1e9_wp, 'Pa', &
          & 'pressure at the leading edges'))
       call v%number(bearing%ambient_pressure, field('ambient_pressure', -1e9_wp, 1e9_wp, 'Pa', &
@@ -99,10 +102,55 @@ contains
    subroutine visit_oil(oil, v)
       type(oil_type), intent(inout) :: oil
       class(visitor_type), intent(inout) :: v
-      call v%group('oil', 'What heats the oil by how much; its viscosity stands in bearing')
-      call v%number(oil%density, field('density', 1.0_wp, 1e5_wp, 'kg/m^3', 'density'))
+      real(wp), parameter :: low = temperature_range(1), high = temperature_range(2)
+      call v%group('oil', 'Viscosity over temperature, and what heats the oil by how much; *Oil* above says which ' &
+         & //'viscosity holds')
+      call v%word(oil%law, choice('law', 'constant exponential walther', &
+         & 'constant: bearing%viscosity; exponential, walther: over the temperature; if left out, the law whose ' &
+         & //'numbers are given'))
+      call v%whole(oil%grade, field('grade', 0.0_wp, 3200.0_wp, '1', &
+         & 'walther: ISO viscosity grade, 10 15 22 32 46 68 100 150 220 320 460 680 1000 1500 2200 3200, with ' &
+         & //'viscosity index 100; 0: kinematic_viscosity is given instead'))
+      call v%numbers(oil%kinematic_viscosity, field('kinematic_viscosity', 5e-7_wp, 1.0_wp, 'm^2/s', &
+         & 'walther: kinematic viscosities at at_temperature'))
+      call v%numbers(oil%at_temperature, field('at_temperature', low, high, 'C', &
+         & 'walther: the lower and the higher temperature of kinematic_viscosity'))
+      call v%number(oil%density_at_15, field('density_at_15', 1.0_wp, 1e5_wp, 'kg/m^3', &
+         & 'walther: density at 15 C, which makes the kinematic viscosity a dynamic one; density if left out'))
+      call v%number(oil%density_slope, field('density_slope', -10.0_wp, 0.0_wp, 'kg/(m^3 K)', &
+         & 'walther: change of this density with the temperature'))
+      call v%number(oil%reference_viscosity, field('reference_viscosity', viscosity_range(1), viscosity_range(2), &
+         & 'Pa s', 'exponential: dynamic viscosity at reference_temperature'))
+      call v%number(oil%reference_temperature, field('reference_temperature', low, high, 'C', &
+         & 'exponential: its temperature'))
+      call v%number(oil%temperature_exponent, field('temperature_exponent', 0.0_wp, 1.0_wp, '1/K', &
+         & 'exponential: beta of mu_ref exp(-beta (T - T_ref))'))
+      call v%number(oil%density, field('density', 1.0_wp, 1e5_wp, 'kg/m^3', 'density of the heat balance, constant'))
       call v%number(oil%specific_heat, field('specific_heat', 1.0_wp, 1e6_wp, 'J/(kg K)', 'specific heat'))
+      call v%number(oil%conductivity, field('conductivity', 0.0_wp, 1e3_wp, 'W/(m K)', 'thermal conductivity'))
+      call v%number(oil%supply_temperature, field('supply_temperature', low, high, 'C', &
+         & 'temperature of the fresh oil; of all oil where there is no heat balance'))
+      call v%number(oil%carry_over, field('carry_over', 0.0_wp, 1.0_wp, '1', &
+         & 'part of the oil leaving a pad that enters the next one'))
+      call v%number(oil%widest_gap_deg, field('widest_gap_deg', 0.0_wp, 360.0_wp, 'deg', &
+         & 'widest gap between two pads that oil is carried across; beyond it a pad draws fresh oil'))
+      call v%number(oil%wall_exchange, field('wall_exchange', 0.0_wp, 1e3_wp, '1', &
+         & 'Nusselt number of the exchange of heat between film and shaft; 0: none'))
+      call v%number(oil%shaft_temperature, field('shaft_temperature', low, high, 'C', &
+         & 'temperature of the shaft; if left out, that at which it takes no heat on the whole'))
+      call v%number(oil%groove_volume, field('groove_volume', 0.0_wp, 1.0_wp, 'm^3', &
+         & 'oil between two pads, for thermal%march = groove'))
    end subroutine visit_oil
+
+   subroutine visit_thermal(thermal, v)
+      type(thermal_type), intent(inout) :: thermal
+      class(visitor_type), intent(inout) :: v
+      call v%group('thermal', 'Heat balance of the oil')
+      call v%word(thermal%model, choice('model', 'none pad', &
+         & 'none: all oil has supply_temperature; pad: a temperature and a viscosity for each pad'))
+      call v%word(thermal%march, choice('march', 'frozen groove', &
+         & 'in a march; frozen: temperatures of the equilibrium; groove: the oil between the pads warms and cools'))
+   end subroutine visit_thermal
 
    subroutine visit_pads(pads, v)
       type(pads_type), intent(inout) :: pads

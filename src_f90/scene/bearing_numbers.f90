@@ -2,6 +2,7 @@
 module bearing_numbers
    use kinds, only: wp
    use scene, only: scene_type
+   use oil_properties, only: reference_viscosity
    use operating_point, only: operating_point_type
    implicit none (type, external)
    private
@@ -44,10 +45,11 @@ contains
       end associate
    end function specific_load
 
-   !> S = mu N L D/W (R_J/c_r)^2 with the speed N at the start in revolutions a second; there must be a load.
+   !> S = mu N L D/W (R_J/c_r)^2 with the speed N at the start in revolutions a second; there must be a load. Warm oil
+   !> has the viscosity of the supply here.
    pure real(wp) function sommerfeld_number(scene)
       type(scene_type), intent(in) :: scene
-      sommerfeld_number = scene%bearing%viscosity*scene%operation%speed_rpm/60/specific_load(scene) &
+      sommerfeld_number = reference_viscosity(scene)*scene%operation%speed_rpm/60/specific_load(scene) &
          & /clearance_ratio(scene)**2
    end function sommerfeld_number
 

@@ -4,8 +4,10 @@ module scene
    use kinds, only: wp, rpm
    implicit none (type, external)
    private
-   public :: scene_type, max_pads, unset, is_set, mass_range, inertia_range, centre_range
-   public :: case_type, rotor_type, operation_type, bearing_type, oil_type, pads_type, pivot_type, friction_type
+   public :: scene_type, max_pads, unset, is_set, mass_range, inertia_range, centre_range, temperature_range
+   public :: viscosity_range
+   public :: case_type, rotor_type, operation_type, bearing_type, oil_type, thermal_type, pads_type, pivot_type
+   public :: friction_type
    public :: asperity_type, start_type, film_type, coefficients_type, most_ratios
    public :: periodic_type, integration_type, output_type
 
@@ -18,6 +20,8 @@ module scene
    !> What the input allows of the pads, kg, kg m^2 and m: their masses may follow from other variables.
    real(wp), parameter :: mass_range(2) = [1e-9_wp, 1e9_wp], inertia_range(2) = [1e-15_wp, 1e12_wp]
    real(wp), parameter :: centre_range(2) = [-100.0_wp, 100.0_wp]
+   !> What it allows of temperatures, C, and of the oil's viscosity, Pa s.
+   real(wp), parameter :: temperature_range(2) = [-100.0_wp, 500.0_wp], viscosity_range(2) = [1e-6_wp, 10.0_wp]
 
    type :: case_type
       character(len=:), allocatable :: title
@@ -45,15 +49,40 @@ module scene
       real(wp) :: assembled_clearance = 80e-6_wp, axial_length = 100e-3_wp
       !> 1 - assembled over machined clearance where it is given instead of the latter; unset in a complete scene.
       real(wp) :: preload = unset
+      !> Of the oil, where its law is 'constant'; else unset in a complete scene.
       real(wp) :: viscosity = 19e-3_wp
       real(wp) :: supply_pressure = 0, ambient_pressure = 0, cavitation_pressure = 0
    end type bearing_type
 
-   !> Beside its viscosity: for the heat balance.
+   !> The oil; temperatures in C.
    type :: oil_type
-      !> kg/m^3; J/(kg K).
-      real(wp) :: density = 860, specific_heat = 1950
+      !> 'constant', 'exponential' or 'walther'.
+      character(len=:), allocatable :: law
+      !> Walther: an ISO viscosity grade, or 0 and the kinematic viscosities at two temperatures, m^2/s; density at
+      !> 15 C, kg/m^3 (unset: `density`), and its slope, kg/(m^3 K), which make them dynamic ones.
+      integer :: grade = 0
+      real(wp) :: kinematic_viscosity(2) = unset, at_temperature(2) = [40.0_wp, 100.0_wp]
+      real(wp) :: density_at_15 = unset, density_slope = 0
+      !> Exponential: Pa s at a temperature; 1/K.
+      real(wp) :: reference_viscosity = unset, reference_temperature = 40, temperature_exponent = unset
+      !> Of the heat balance: kg/m^3, J/(kg K), W/(m K).
+      real(wp) :: density = 860, specific_heat = 1950, conductivity = 0.13_wp
+      real(wp) :: supply_temperature = 40
+      !> Part of a pad's outflow that enters the next pad, where the gap between them is not wider than this.
+      real(wp) :: carry_over = 0.8_wp, widest_gap_deg = 60
+      !> Nusselt number of the exchange with the shaft; its temperature (unset: it takes no net heat).
+      real(wp) :: wall_exchange = 3, shaft_temperature = unset
+      !> Oil between two pads, m^3.
+      real(wp) :: groove_volume = 0
    end type oil_type
+
+   !> The heat balance.
+   type :: thermal_type
+      !> 'none' or 'pad': a temperature for each pad.
+      character(len=:), allocatable :: model
+      !> In a march: 'frozen' at the equilibrium, or 'groove': the oil between the pads as a state of each.
+      character(len=:), allocatable :: march
+   end type thermal_type
 
    !> One value a pad.
    type :: pads_type
@@ -160,6 +189,7 @@ module scene
       type(operation_type) :: operation
       type(bearing_type) :: bearing
       type(oil_type) :: oil
+      type(thermal_type) :: thermal
       type(pads_type) :: pads
       type(pivot_type) :: pivot
       type(friction_type) :: friction
@@ -191,6 +221,9 @@ contains
       type(scene_type) :: scene
       scene%about%title = ''
       scene%about%task = 'march'
+      scene%oil%law = 'constant'
+      scene%thermal%model = 'none'
+      scene%thermal%march = 'frozen'
       scene%pads%pivot_angle_deg = [-45.0_wp, 225.0_wp]
       scene%pads%arc_deg = [69.3_wp, 69.3_wp]
       scene%pads%pivot_ratio = [0.5_wp, 0.5_wp]

@@ -2,7 +2,7 @@
 module scene_checks
    use kinds, only: wp, degree
    use text, only: to_text
-   use errors, only: error_type, raise, input_error
+   use errors, only: error_type, require
    use scene, only: scene_type, periodic_type
    implicit none (type, external)
    private
@@ -21,6 +21,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       call check_film(scene, error)
       call check_bearing(scene, error)
+      call check_thermal(scene, error)
       call check_integration(scene, error)
       call check_rotor(scene, error)
       call check_friction(scene, error)
@@ -31,14 +32,6 @@ contains
       call check_coefficients(scene, error)
       call check_periodic(scene, error)
    end subroutine check_scene
-
-   !> Keeps the first unmet requirement.
-   subroutine require(met, message, error)
-      logical, intent(in) :: met
-      character(len=*), intent(in) :: message
-      type(error_type), allocatable, intent(inout) :: error
-      if (.not. met .and. .not. allocated(error)) call raise(error, input_error, message)
-   end subroutine require
 
    subroutine check_film(scene, error)
       type(scene_type), intent(in) :: scene
@@ -82,6 +75,20 @@ contains
             & //to_text(b%supply_pressure)//' and bearing%ambient_pressure = '//to_text(b%ambient_pressure), error)
       end associate
    end subroutine check_bearing
+
+   subroutine check_thermal(scene, error)
+      type(scene_type), intent(in) :: scene
+      type(error_type), allocatable, intent(inout) :: error
+      associate (t => scene%thermal, oil => scene%oil)
+         call require(t%model == 'pad' .or. t%march == 'frozen', 'thermal%march = '''//t%march//''': has no effect ' &
+            & //'but with thermal%model = ''pad''', error)
+         call require(t%model == 'none' .or. oil%law /= 'constant', 'thermal%model = '''//t%model//''': needs an oil ' &
+            & //'whose viscosity depends on its temperature: oil%grade, oil%kinematic_viscosity, or ' &
+            & //'oil%reference_viscosity and oil%temperature_exponent', error)
+         call require(t%march == 'frozen' .or. oil%groove_volume > 0, 'oil%groove_volume = 0: must be > 0 for ' &
+            & //'thermal%march = ''groove''', error)
+      end associate
+   end subroutine check_thermal
 
    subroutine check_integration(scene, error)
       type(scene_type), intent(in) :: scene

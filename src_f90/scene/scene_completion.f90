@@ -1,10 +1,11 @@
-!> What a case may leave out, because it follows from other variables: final speed, machined clearance, and mass,
-!> inertia and centre of gravity of the pads.
+!> What a case may leave out, because it follows from other variables: final speed, machined clearance, law of the oil,
+!> and mass, inertia and centre of gravity of the pads.
 module scene_completion
    use kinds, only: wp, degree
    use text, only: to_text
    use errors, only: error_type, raise, input_error
    use scene, only: scene_type, unset, is_set, mass_range, inertia_range, centre_range
+   use oil_completion, only: complete_oil
    use annular_sector, only: annular_sector_type, new_annular_sector
    implicit none (type, external)
    private
@@ -20,6 +21,8 @@ contains
       type(scene_type), intent(inout) :: scene
       scene%operation%final_speed_rpm = -1
       scene%bearing%machined_clearance = unset
+      scene%bearing%viscosity = unset
+      scene%oil%law = ''
       associate (pads => scene%pads)
          pads%mass(:) = unset
          pads%inertia(:) = unset
@@ -35,6 +38,7 @@ contains
       integer :: i
       call scene%set_final_speed()
       call set_clearance(scene, error)
+      if (.not. allocated(error)) call complete_oil(scene, error)
       do i = 1, scene%pad_count()
          if (allocated(error)) return
          call set_pad(scene, i, error)

@@ -205,6 +205,7 @@ def complete(found: dict[str, tuple | None], given: dict[str, list], variables: 
         raise Refused("preload and machined clearance")
     if preload is not None:
         found["bearing%machined_clearance"] = (found["bearing%assembled_clearance"][0] / (1 - preload),)
+    complete_oil(found, given)
     bodies = [each for key in (*BODY, "pads%density", "pads%thickness") for each in given.get(key, ())]
     if any(value != variables[key].default[0] for key in SIZE for value in found[key]):
         # no closed forms here; pads may also have values given in part
@@ -213,6 +214,47 @@ def complete(found: dict[str, tuple | None], given: dict[str, list], variables: 
     if any(keys <= given.keys() for keys in surplus) and not any(map(subscript, bodies)):
         raise Refused("density or thickness without use")
     found.update(dict.fromkeys(("bearing%preload", "pads%density", "pads%thickness"), ()))
+    # what is left out has no line
+    found.update({key: () for key, values in found.items() if values and set(values) == {None}})
+
+
+#: ISO viscosity grades.
+GRADES = (10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000, 1500, 2200, 3200)
+#: The numbers that tell which law of the viscosity is meant; a grade of 0 is none.
+OF_LAW = {
+    b"walther": ("oil%grade", "oil%kinematic_viscosity"),
+    b"exponential": ("oil%reference_viscosity", "oil%temperature_exponent"),
+    b"constant": ("bearing%viscosity",),
+}
+
+
+def complete_oil(found: dict[str, tuple | None], given: dict[str, list]) -> None:
+    """The law of the viscosity, and whether it has its numbers alone."""
+
+    def there(key: str) -> bool:
+        return key in given and (key != "oil%grade" or found[key] != (0.0,))
+
+    if "oil%law" not in given:
+        found["oil%law"] = (
+            next(law for law in OF_LAW if law == b"constant" or any(map(there, OF_LAW[law]))),
+        )
+    (law,) = found["oil%law"]
+    if any(there(key) for other in OF_LAW if other != law for key in OF_LAW[other]):
+        raise Refused("numbers of another law")
+    if law == b"constant":
+        return
+    found["bearing%viscosity"] = ()
+    (grade,), points, at = (
+        found[f"oil%{name}"] for name in ("grade", "kinematic_viscosity", "at_temperature")
+    )
+    if law == b"exponential":
+        if not all(map(there, OF_LAW[law])):
+            raise Refused("a law without its numbers")
+    elif grade:
+        if grade not in GRADES or points != (None, None) or at != (40, 100):
+            raise Refused("no grade alone")
+    elif None in points or at[0] >= at[1] or points[0] < points[1]:
+        raise Refused("no points of falling viscosity")
 
 
 def subscript(assignment: Assignment) -> int:

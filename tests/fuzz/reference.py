@@ -48,7 +48,7 @@ def _variable(group: str, name: str, default: str, allowed: str, meaning: str) -
     if default.startswith("'"):
         choices = () if allowed == "any text" else tuple(allowed.split())
         return Variable(group, name, (default[1:-1].encode(),), choices)
-    numbers = tuple(None if word == "-" else float(word) for word in default.split(","))
+    numbers = tuple(None if word.strip() == "-" else float(word) for word in default.split(","))
     longest = re.search(r"1 to (\d+) of them", meaning)
     low, _, high = allowed.removeprefix("whole, ").partition(" to ")
     return Variable(

@@ -39,10 +39,21 @@ START = (
     *("start%from", "start%file", "start%journal", "start%journal_velocity", "start%pad_tilt"),
     *("start%pad_tilt_rate", "start%pad_penetration", "start%pad_penetration_rate"),
 )
+#: The oil's law, what it needs, and the heat balance.
+OIL = (
+    *("oil%law", "oil%grade", "oil%kinematic_viscosity", "oil%at_temperature", "oil%density_at_15"),
+    *(
+        "oil%density_slope",
+        "oil%reference_viscosity",
+        "oil%reference_temperature",
+        "oil%temperature_exponent",
+    ),
+    *("oil%supply_temperature", "oil%density", "thermal%model", "thermal%march"),
+)
 #: Groups that belong to the task of their name; what other tasks have that these do not.
 OF_TASK = ("coefficients", "periodic")
 OF_MARCH = ("operation%final_speed_rpm", "output%start_time", "integration%stop_when_periodic")
-SPECIAL = {"case%task", *(key for group in (*TOGETHER, ALONE, INSTEAD, START) for key in group)}
+SPECIAL = {"case%task", *(key for group in (*TOGETHER, ALONE, INSTEAD, START, OIL) for key in group)}
 #: Circumferential times squared axial cells of all pads.
 MOST_IN_BLOCKS = 2e8
 TITLE = "abc ABC 0123  ''\"\"/!&=,*()%;:\t\\#$\u00e4\u20ac\U0001d70b"
@@ -74,6 +85,8 @@ def draw(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
     if dice.random() < few:
         follow(dice, found)
     if dice.random() < few:
+        found.update(oil(dice, found))
+    if dice.random() < few:
         set_task(dice, variables, found)
     return found
 
@@ -99,6 +112,31 @@ def start(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
     origin = dice.choice(variables["start%from"].choices).encode()
     moved = {key: anything(dice, variables[key]) for key in ("start%journal", "start%journal_velocity")}
     return moved | {"start%from": (origin,), "start%file": (b"other.h5" if origin == b"file" else b"",)}
+
+
+def oil(dice: Random, found: dict[str, tuple]) -> dict[str, tuple]:
+    """An oil whose viscosity depends on its temperature; its law is given or meant by its numbers."""
+    found.pop("bearing%viscosity", None)
+    law = dice.choice((b"walther", b"exponential"))
+    if law == b"exponential":
+        new = {
+            "oil%reference_viscosity": (log_between(dice, 1e-3, 1),),
+            "oil%reference_temperature": (dice.uniform(20, 60),),
+            "oil%temperature_exponent": (dice.choice((0.0, dice.uniform(0, 0.05))),),
+        }
+    elif dice.random() < 0.5:
+        new = {"oil%grade": (float(dice.choice((10, 32, 46, 220))),)}
+    else:
+        new = {"oil%kinematic_viscosity": (log_between(dice, 1e-5, 1e-3), log_between(dice, 1e-6, 1e-5))}
+        new["oil%at_temperature"] = dice.uniform(20, 50), dice.uniform(60, 120)
+        new["oil%density_at_15"] = (dice.uniform(800, 1000),)
+        new["oil%density_slope"] = (dice.uniform(-1, 0),)
+    new["oil%supply_temperature"] = (dice.uniform(20, 80),)
+    if dice.random() < 0.5:
+        new["oil%law"] = (law,)
+    if dice.random() < 0.5:
+        new["thermal%model"] = (b"pad",)
+    return new
 
 
 def follow(dice: Random, found: dict[str, tuple]) -> None:

@@ -1,0 +1,185 @@
+!> Laws of the oil's viscosity, its grades, which law a case means, and what is refused.
+program test_oil_properties
+   use kinds, only: wp
+   use errors, only: error_type, input_error
+   use scene, only: scene_type, oil_type, temperature_range, is_set
+   use scene_namelist, only: scene_from_text
+   use namelist_writer, only: scene_text
+   use oil_properties, only: viscosity, viscosity_slope, density, reference_viscosity, kinematic_points, grades
+   use bearing_numbers, only: sommerfeld_number
+   use tilting_pad, only: tilting_pad_type
+   use components, only: new_pads
+   use checked_case, only: derived_text
+   use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
+   implicit none (type, external)
+
+   character(len=*), parameter :: measured = '&oil kinematic_viscosity = 46e-6, 6.8e-6, density_at_15 = 870,' &
+      & //' density_slope = -0.64 /', fillon = '&oil reference_viscosity = 0.0277, temperature_exponent = 0.0341 /'
+
+   if (runs('walther')) call walther()
+   if (runs('exponential')) call exponential()
+   if (runs('slopes')) call slopes()
+   if (runs('far_away')) call far_away()
+   if (runs('index_of_grades')) call index_of_grades()
+   if (runs('which_viscosity')) call which_viscosity()
+   if (runs('text_and_back')) call text_and_back()
+   if (runs('refused')) call refused()
+   call report()
+
+contains
+
+   type(scene_type) function scene_of(text) result(scene)
+      character(len=*), intent(in) :: text
+      type(error_type), allocatable :: error
+      call scene_from_text(text, 'case.nml', scene, error)
+      call expect_no_error(error, 'accepted: '//text)
+   end function scene_of
+
+   !> An oil of 46 and 6.8 mm^2/s at 40 and 100 C: its two points, and the values of an independent program.
+   subroutine walther()
+      type(scene_type) :: s
+      s = scene_of(measured)
+      call expect_close(viscosity(s%oil, 40.0_wp), 46e-6_wp*854, 1e-12_wp, 'the first point')
+      call expect_close(viscosity(s%oil, 100.0_wp), 6.8e-6_wp*815.6_wp, 1e-12_wp, 'the second point')
+      call expect_close(viscosity(s%oil, 60.0_wp), 17.348e-3_wp, 0.5e-6_wp, 'at 60 C')
+      call expect_close(viscosity(s%oil, 80.0_wp), 9.197e-3_wp, 0.5e-6_wp, 'at 80 C')
+      call expect_close(density(s%oil, 15.0_wp), 870.0_wp, 0.0_wp, 'its own density')
+      s = scene_of('&oil kinematic_viscosity = 46e-6, 6.8e-6, density = 900 /')
+      call expect_close(density(s%oil, 80.0_wp), 900.0_wp, 0.0_wp, 'or that of the heat balance')
+   end subroutine walther
+
+   subroutine exponential()
+      type(scene_type) :: s
+      s = scene_of(fillon)
+      call expect_close(viscosity(s%oil, 40.0_wp), 0.0277_wp, 0.0_wp, 'at the reference')
+      call expect_close(viscosity(s%oil, 60.0_wp), 0.0277_wp*exp(-0.682_wp), 1e-16_wp, '20 K above')
+   end subroutine exponential
+
+   !> Against central differences, whose error is of the third derivative: 1/6 (beta step)**2 of the slope.
+   subroutine slopes()
+      type(scene_type) :: s
+      real(wp), parameter :: step = 1e-2_wp
+      integer :: i, k
+      do k = 1, 2
+         if (k == 1) s = scene_of(measured)
+         if (k == 2) s = scene_of(fillon)
+         do i = 0, 12
+            associate (t => 10.0_wp*i, slope => viscosity_slope(s%oil, 10.0_wp*i))
+               call expect_close((viscosity(s%oil, t + step) - viscosity(s%oil, t - step))/(2*step)/slope, 1.0_wp, &
+                  & 1e-6_wp, 'slope')
+            end associate
+         end do
+      end do
+   end subroutine slopes
+
+   !> A search may try any temperature: the viscosity stays a positive number, and stands still there.
+   subroutine far_away()
+      type(scene_type) :: s
+      integer :: k
+      do k = 1, 3
+         if (k == 1) s = scene_of(measured)
+         if (k == 2) s = scene_of(fillon)
+         if (k == 3) s = scene_of('&oil kinematic_viscosity = 1e-2, 5e-7, at_temperature = 40, 41,' &
+            & //' supply_temperature = 41 /')
+         call expect(all(viscosity(s%oil, [-1e9_wp, -273.15_wp, -100.0_wp, 500.0_wp, 1e9_wp]) > 0), 'positive')
+         call expect(viscosity(s%oil, -1e9_wp) < huge(1.0_wp), 'finite')
+         call expect_close(viscosity(s%oil, 1e9_wp), viscosity(s%oil, temperature_range(2)), 0.0_wp, 'held above')
+         call expect_close(viscosity_slope(s%oil, -300.0_wp), 0.0_wp, 0.0_wp, 'without slope')
+         call expect(viscosity_slope(s%oil, -99.0_wp) <= 0, 'and thickens no oil that is warmed')
+      end do
+   end subroutine far_away
+
+   !> Viscosity index 100: the viscosity at 40 C is H = d Y^2 + e Y + f of that at 100 C, Y (ASTM D2270, table X2.1).
+   !> The table has five digits of Y, and H rises by at most twice the relative change of Y.
+   subroutine index_of_grades()
+      real(wp), parameter :: table(4, 16) = reshape([2.0_wp, 0.84155_wp, 1.5521_wp, -0.077_wp, &
+         & 3.8_wp, 0.78571_wp, 1.7929_wp, -0.183_wp, 4.4_wp, 0.82143_wp, 1.5679_wp, 0.119_wp, &
+         & 5.0_wp, 0.04985_wp, 9.1613_wp, -18.557_wp, 6.4_wp, 0.22619_wp, 7.7369_wp, -16.656_wp, &
+         & 7.0_wp, 0.79762_wp, -0.7321_wp, 14.610_wp, 7.7_wp, 0.05794_wp, 10.5156_wp, -28.240_wp, &
+         & 9.0_wp, 0.26665_wp, 6.7015_wp, -10.810_wp, 12.0_wp, 0.20073_wp, 8.4658_wp, -22.490_wp, &
+         & 15.0_wp, 0.28889_wp, 5.9741_wp, -4.930_wp, 18.0_wp, 0.24504_wp, 7.4160_wp, -16.730_wp, &
+         & 22.0_wp, 0.20323_wp, 9.1267_wp, -34.230_wp, 28.0_wp, 0.18411_wp, 10.1015_wp, -46.750_wp, &
+         & 40.0_wp, 0.17029_wp, 11.4866_wp, -80.620_wp, &
+         & 55.0_wp, 0.17130_wp, 11.3680_wp, -76.940_wp, 70.0_wp, 0.16841_wp, 11.8493_wp, -96.947_wp], [4, 16])
+      type(oil_type) :: oil
+      integer :: i
+      do i = 1, size(grades)
+         oil%grade = grades(i)
+         associate (points => 1e6_wp*kinematic_points(oil))
+            call expect_close(points(1), real(grades(i), wp), 1e-12_wp*grades(i), 'the middle of the grade')
+            associate (row => table(:, count(table(1, :) <= points(2))))
+               call expect_close((row(2)*points(2) + row(3))*points(2) + row(4), points(1), 1e-4_wp*points(1), &
+                  & 'viscosity index 100')
+            end associate
+         end associate
+      end do
+   end subroutine index_of_grades
+
+   !> The law that the numbers of a case belong to, and the viscosity that its films and its Sommerfeld number have.
+   subroutine which_viscosity()
+      type(scene_type) :: s
+      s = scene_of('&case /')
+      call expect(s%oil%law == 'constant' .and. s%thermal%model == 'none', 'no law')
+      call expect_films(s, 19e-3_wp)
+      s = scene_of('&bearing viscosity = 0.03 / &oil supply_temperature = 70 /')
+      call expect_films(s, 0.03_wp)
+      s = scene_of('&oil grade = 46, supply_temperature = 50 /')
+      call expect(s%oil%law == 'walther' .and. .not. is_set(s%bearing%viscosity), 'a grade')
+      call expect_films(s, viscosity(s%oil, 50.0_wp))
+      call expect(index(derived_text(s), 'Pa s at oil%supply_temperature = 50 C') > 0, 'that --check prints')
+      s = scene_of('&oil reference_viscosity = 0.03, temperature_exponent = 0.03, supply_temperature = 60 /')
+      call expect(s%oil%law == 'exponential', 'a reference')
+      call expect_films(s, 0.03_wp*exp(-0.6_wp))
+   end subroutine which_viscosity
+
+   subroutine expect_films(s, mu)
+      type(scene_type), intent(in) :: s
+      real(wp), intent(in) :: mu
+      type(tilting_pad_type) :: pads(2)
+      pads = new_pads(s)
+      call expect_close(reference_viscosity(s), mu, 1e-15_wp, 'viscosity')
+      call expect_close(pads(2)%gap%viscosity, mu, 1e-15_wp, 'of the films')
+      call expect_close(sommerfeld_number(s)/sommerfeld_number(scene_type()), mu/19e-3_wp, 1e-13_wp, &
+         & 'Sommerfeld number')
+   end subroutine expect_films
+
+   !> The resolved case is the same case.
+   subroutine text_and_back()
+      type(scene_type) :: s
+      character(len=:), allocatable :: text
+      s = scene_of('&oil grade = 32, shaft_temperature = 55 / &thermal model = pad /')
+      text = scene_text(s)
+      s = scene_of(text)
+      call expect(scene_text(s) == text, 'a grade')
+      call expect(index(text, 'grade = 32') > 0 .and. index(text, '  viscosity') == 0, 'no bearing%viscosity')
+   end subroutine text_and_back
+
+   subroutine refused()
+      call expect_refused('grade = 47', 'oil%grade = 47: must be one of the ISO viscosity grades 10, 15, 22')
+      call expect_refused('grade = 46, kinematic_viscosity(2) = 6e-6', 'oil%kinematic_viscosity = 6e-6 is given too')
+      call expect_refused('grade = 46, at_temperature = 40, 90', 'oil%at_temperature = 40, 90: a grade')
+      call expect_refused('grade = 46, temperature_exponent = 0.03', 'oil%temperature_exponent = 0.03: belongs to')
+      call expect_refused('grade = 46, law = constant', 'oil%grade = 46: belongs to oil%law = ''walther''')
+      call expect_refused('grade = 46 / &bearing viscosity = 0.02', 'bearing%viscosity = 0.02: belongs to')
+      call expect_refused('law = walther', 'needs oil%grade, or two values of oil%kinematic_viscosity')
+      call expect_refused('kinematic_viscosity(1) = 46e-6', 'needs oil%grade, or two values')
+      call expect_refused('kinematic_viscosity = 6e-6, 46e-6', 'must not rise with the temperature')
+      call expect_refused('kinematic_viscosity = 46e-6, 6e-6, at_temperature = 100, 40', 'above the first')
+      call expect_refused('grade = 46, density_slope = -2', 'the density must be above 0 up to 500 C')
+      call expect_refused('reference_viscosity = 0.03', 'needs oil%reference_viscosity and oil%temperature_exponent')
+      call expect_refused('reference_viscosity = 0.03, temperature_exponent = -0.01', 'must be 0 to 1')
+      call expect_refused('supply_temperature = -274', 'oil%supply_temperature = -274: must be -100 to 500')
+      call expect_refused('grade = 220, supply_temperature = -20', 'Pa s; must be 1e-6 to 10')
+      call expect_refused('/ &thermal model = pad', 'thermal%model = ''pad'': needs an oil whose viscosity depends')
+      call expect_refused('/ &thermal march = groove', 'has no effect but with thermal%model = ''pad''')
+      call expect_refused('grade = 46 / &thermal model = pad, march = groove', 'oil%groove_volume = 0: must be > 0')
+   end subroutine refused
+
+   subroutine expect_refused(oil, words)
+      character(len=*), intent(in) :: oil, words
+      type(scene_type) :: scene
+      type(error_type), allocatable :: error
+      call scene_from_text('&oil '//oil//' /', 'case.nml', scene, error)
+      call expect_error(error, input_error, words, 'refused: '//oil)
+   end subroutine expect_refused
+end program test_oil_properties
