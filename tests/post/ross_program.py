@@ -1,10 +1,11 @@
 """What ROSS makes of a bearing that tiltpad wrote; test_ross.py runs it in ROSS's own environment.
 
-Each line of standard input is a question in JSON: bearing (file), points (pairs of whirl frequency and speed,
-rad/s), mass (kg), unbalance (kg m), phase (rad, from x), speeds (rad/s). A line of its output that begins with {
-answers one in JSON: stiffness and damping at the points, and the synchronous motion of the journal along x and y,
-real and imaginary parts. One process answers all, as ROSS takes seconds to start. The rotor is a mass in the middle of a stiff shaft without weight, which two such bearings
-carry; each bears half of it.
+Each line of standard input is a question in JSON: bearing (file), points (pairs of whirl frequency and
+speed, rad/s), mass (kg), unbalance (kg m), phase (rad, from x), speeds (rad/s). A line of its output that
+begins with { answers one in JSON: stiffness and damping at the points, and the synchronous motion of the
+journal along x and y, real and imaginary parts. One process answers all, as ROSS takes seconds to start.
+The rotor is a mass in the middle of a stiff shaft without weight, which two such bearings carry; each bears
+half of it.
 """
 
 import json

@@ -22,9 +22,8 @@ def ross(root):
     if not (root / "build/venv-ross/ready").exists():
         pytest.skip("ROSS is not installed")
 
-    process = subprocess.Popen(
-        [python, root / PROGRAM], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
-    )
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+    process = subprocess.Popen([python, root / PROGRAM], text=True, **pipes)
 
     def answer(**asked) -> dict[str, np.ndarray]:
         print(json.dumps({"points": [], "speeds": []} | asked), file=process.stdin, flush=True)
