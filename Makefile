@@ -5,7 +5,7 @@ VERSION := 0.1.0
 # ---- what can be set ---------------------------------------------------------------------------
 # MODE=release|debug   debug: bounds, floating-point traps, all warnings (others are set by make python, wheel, fuzz)
 # FC, FFLAGS           compiler and its optimisation flags
-# PREFIX               where make install puts things
+# PREFIX               where make install puts things; PLOTS=no: only the program, without Python
 # SUNDIALS_PREFIX, HDF5_PREFIX, FFTW_PREFIX   libraries of a cluster; nothing is installed then
 # ROSS=no              make test leaves out what needs ROSS, a gigabyte of Python packages
 # LAPACK               how to link LAPACK; ARCHIVES=no: shared libraries only (src_f90/libraries.sh)
@@ -160,7 +160,7 @@ venv_python := $(VENV)/bin/python
 ross := build/venv-ross
 
 .PHONY: help run build deps python wrap python_library wheel test test-slurm test-debian13 stress fuzz bench paper \
-        test-programs lint format docs install clean
+        test-programs lint format docs install install-plots uninstall clean
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -180,7 +180,8 @@ help:
 	@echo 'make wheel    packs build/wheel/tiltpad-*.whl: program, plots, library, for any Linux of this age or later'
 	@echo 'make lint     checks the style of Fortran and Python and the order of the floors; make format corrects some of it'
 	@echo 'make docs     writes the generated pages of docs (inputs, api, gallery, verification) and docs/images'
-	@echo 'make install  copies the program into PREFIX/bin    (PREFIX=$(PREFIX))'
+	@echo 'make install  puts program, plot commands, manual pages and completion into PREFIX ($(PREFIX)); PLOTS=no: no Python'
+	@echo 'make uninstall  removes them again'
 	@echo 'make clean    removes build/'
 
 # ---- the two commands --------------------------------------------------------------------------
@@ -419,10 +420,32 @@ docs: run
 	$(venv_python) docs/cells.py build/run/steady_lugre.h5 docs/images/cells.png
 	$(venv_python) docs/verify.py $(B)/bin/tiltpad > build/verification.md && mv build/verification.md docs/
 
-# on a cluster only the program: it needs no Python
-install: build
-	install -d '$(DESTDIR)$(PREFIX)/bin'
-	install -m 755 $(B)/bin/tiltpad '$(DESTDIR)$(PREFIX)/bin/tiltpad'
+# Program, manual pages, completion for bash, and the plot commands with an environment of their own, PREFIX/lib/tiltpad.
+# PLOTS=no leaves these out, as on a cluster: the program needs no Python.
+plot_commands := $(if $(filter no,$(PLOTS)),,tiltpad-plot tiltpad-report tiltpad-collect)
+destination := $(DESTDIR)$(PREFIX)
+completions := $(destination)/share/bash-completion/completions
+install: build $(if $(plot_commands),python)
+	install -d '$(destination)/bin' '$(destination)/share/man/man1' '$(completions)'
+	install -m 755 $(B)/bin/tiltpad '$(destination)/bin/tiltpad'
+	install -m 644 share/tiltpad.bash '$(completions)/tiltpad'
+	@$(if $(plot_commands),$(MAKE) --no-print-directory install-plots)
+	@for command in tiltpad $(plot_commands); do \
+	   PATH=$(abspath $(B)/bin):$(abspath $(VENV)/bin):$$PATH $$command --help | awk -f share/man_page.awk -v name=$$command \
+	      >'$(destination)/share/man/man1/'$$command.1 || exit 1; done
+
+install-plots:
+	$(PYTHON) -m venv '$(destination)/lib/tiltpad'
+	rm -rf build/install && cp -r post build/install
+	'$(destination)/lib/tiltpad/bin/python' -m pip install -q --disable-pip-version-check ./build/install
+	@for command in $(plot_commands); do \
+	   sed -i '1s|^#!$(DESTDIR)|#!|' '$(destination)/lib/tiltpad/bin/'$$command; \
+	   ln -sf ../lib/tiltpad/bin/$$command '$(destination)/bin/'$$command; ln -sf tiltpad '$(completions)/'$$command; done
+
+uninstall:
+	rm -rf '$(destination)/lib/tiltpad'
+	rm -f $(foreach command,tiltpad tiltpad-plot tiltpad-report tiltpad-collect,'$(destination)/bin/$(command)' \
+	   '$(completions)/$(command)' '$(destination)/share/man/man1/$(command).1')
 
 clean:
 	rm -rf build post/tiltpad/_library.*
