@@ -5,7 +5,8 @@ module bearing_coefficients
    use equations_of_motion, only: bearing_model
    use damped_newton, only: asked_to_stop, asked
    use small_vibrations, only: stability_at
-   use static_model, only: equilibrium_type, describe, come_to_rest
+   use static_model, only: equilibrium_type, describe
+   use warm_oil, only: come_to_warm_rest
    use linear_bearing, only: linear_bearing_type, linearize
    use vibration_modes, only: vibration_modes_type, find_modes
    use stability_threshold, only: find_thresholds
@@ -36,7 +37,8 @@ contains
       procedure(asked_to_stop), optional :: give_up
       logical :: ok
       y = model%at_rest(found%journal, found%tilt, found%penetration)
-      call come_to_rest(model, y, found%residual, error, give_up)
+      call model%bearing%set_viscosity(found%viscosity)
+      call come_to_warm_rest(model, y, found%residual, error, give_up)
       if (allocated(error)) return
       call describe(model, y, found)
       call stability_at(model, y, found%stability, ok)

@@ -13,6 +13,7 @@ module equilibrium
    use pad_rest, only: find_rests
    use motion_to_rest, only: march_to_rest
    use static_model, only: equilibrium_type, describe, make_static, make_quick, start, starts
+   use warm_oil, only: has_warm_oil, guess_oil, guesses, come_to_warm_rest
    use equilibrium_refusal, only: search_traces, refusal
    implicit none (type, external)
    private
@@ -27,9 +28,43 @@ module equilibrium
 
 contains
 
-   !> The equilibrium of a model under its load at its initial speed, stable or fluttering; an error where none is
-   !> found, or, of status `stopped`, where `give_up`, asked between evaluations of the films, says so.
+   !> The equilibrium of a model under its load at its initial speed, stable or fluttering, with the temperatures of
+   !> warm oil; an error where none is found, or, of status `stopped`, where `give_up`, asked between evaluations of the
+   !> films, says so.
    subroutine find_equilibrium(model, found, error, give_up)
+      type(bearing_model), intent(in) :: model
+      type(equilibrium_type), intent(out) :: found
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      type(bearing_model) :: warm, static
+      type(search_traces) :: traces
+      real(wp), allocatable :: y(:)
+      integer :: guess
+      if (.not. has_warm_oil(model)) then
+         call find_isothermal(model, found, error, give_up)
+         return
+      end if
+      warm = model
+      do guess = 1, guesses
+         call guess_oil(warm, guess)
+         call find_isothermal(warm, found, error, give_up)
+         if (.not. allocated(error)) then
+            call make_static(warm, warm%point%rupture, static)
+            y = static%at_rest(found%journal, found%tilt, found%penetration)
+            call come_to_warm_rest(static, y, found%residual, error, give_up)
+         end if
+         if (allocated(error)) then
+            if (error%status == stopped) return
+            if (guess < guesses) deallocate (error)
+         else if (is_usable(static, y, found, traces)) then
+            return
+         end if
+      end do
+      if (.not. allocated(error)) call raise(error, numerics_error, refusal(model, traces))
+   end subroutine find_equilibrium
+
+   !> The equilibrium with the viscosities that the model has.
+   subroutine find_isothermal(model, found, error, give_up)
       type(bearing_model), intent(in) :: model
       type(equilibrium_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
@@ -57,7 +92,7 @@ contains
       else if (.not. allocated(found%tilt)) then
          call raise(error, numerics_error, refusal(model, traces))
       end if
-   end subroutine find_equilibrium
+   end subroutine find_isothermal
 
    !> From the best start along the load; with films that rupture also from the equilibrium of films that are kept
    !> whole: on the way a pad may lose its film and with it all stiffness.
@@ -130,7 +165,7 @@ contains
       integer :: method, k
       logical :: ok
       if (allocated(found%tilt)) deallocate (found%tilt)
-      call make_quick(static%scene, static%point%rupture, quick)
+      call make_quick(static%scene, static%bearing%pads%gap%viscosity, static%point%rupture, quick)
       do method = by_pads, by_motion
          do k = 1, starts
             if (asked(give_up)) return

@@ -28,7 +28,7 @@ contains
       logical :: at_rest(model%layout%pads), ok
       integer :: k
       call make_static(model, model%point%rupture, static)
-      call make_quick(model%scene, model%point%rupture, quick)
+      call make_quick(model%scene, model%bearing%pads%gap%viscosity, model%point%rupture, quick)
       do k = 1, starts
          y = start(quick, k)
          call eliminate_pads(quick, y, at_rest, ok, give_up)

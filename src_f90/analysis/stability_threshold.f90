@@ -7,7 +7,7 @@ module stability_threshold
    use operating_point, only: operating_point_type
    use equations_of_motion, only: bearing_model
    use damped_newton, only: asked_to_stop, asked
-   use static_model, only: come_to_rest
+   use warm_oil, only: come_to_warm_rest
    use linear_bearing, only: linear_bearing_type, linearize
    use vibration_modes, only: find_growths
    implicit none (type, external)
@@ -90,7 +90,7 @@ contains
       call model%set_point(point)
       place%rpm = rpm
       place%y = y
-      call come_to_rest(model, place%y, residual, error)
+      call come_to_warm_rest(model, place%y, residual, error)
       ok = .not. allocated(error)
       if (ok) call linearize(model, place%y, bearings, ok)
       if (.not. ok) return

@@ -6,8 +6,10 @@ module static_figures
    use bearing_numbers, only: eccentricity_ratio, attitude_angle
    use kinematics, only: journal_motion, pad_state
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
+   use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance
    use equations_of_motion, only: bearing_model
    use static_model, only: equilibrium_type
+   use warm_oil, only: has_warm_oil
    implicit none (type, external)
    private
    public :: static_figures_type, find_static_figures
@@ -21,6 +23,8 @@ module static_figures
       !> alone, and where fresh oil replaces only what leaves at the sides. All heat stays in the oil.
       real(wp), allocatable :: temperature_rise(:)
       real(wp) :: rise_fresh = 0, rise_side = 0
+      !> Of warm oil; by these losses and flows.
+      type(oil_temperatures_type), allocatable :: oil
    end type static_figures_type
 
 contains
@@ -31,6 +35,8 @@ contains
       type(equilibrium_type), intent(in) :: static
       type(static_figures_type), intent(out) :: figures
       type(bearing_losses_type) :: losses
+      type(heat_balance_type) :: balance
+      logical :: balanced
       integer :: i
       figures%eccentricity_ratio = eccentricity_ratio(model%scene, static%journal)
       figures%attitude_angle = attitude_angle(model%scene, static%journal)
@@ -44,6 +50,11 @@ contains
          figures%rise_fresh = rise(sum(pads%power()), heat*sum(pads%inlet))
          figures%rise_side = rise(sum(pads%power()), heat*sum(pads%side))
       end associate
+      if (.not. has_warm_oil(model)) return
+      balance = new_heat_balance(model%scene)
+      allocate (figures%oil)
+      call balance%temperatures(figures%pads, static%viscosity, model%point%speed(0.0_wp), figures%oil, balanced)
+      if (.not. balanced) deallocate (figures%oil)
    end subroutine find_static_figures
 
    !> Rise of temperature, K, by a power, W, in a flow of heat capacity, W/K; no number where there is no flow.

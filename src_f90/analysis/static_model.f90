@@ -20,6 +20,8 @@ module static_model
       real(wp), allocatable :: tilt(:), penetration(:), contact_force(:)
       !> Per pad minimum film thickness, m, and maximum pressure, Pa.
       real(wp), allocatable :: min_film_thickness(:), max_pressure(:)
+      !> Of the oil on every pad, Pa s.
+      real(wp), allocatable :: viscosity(:)
       !> Largest unbalanced force over the load.
       real(wp) :: residual = huge(1.0_wp)
       type(stability_type) :: stability
@@ -52,14 +54,17 @@ contains
    end subroutine make_static
 
    !> A static model of a scene with films solved loosely: quick, and nearly the scene's.
-   subroutine make_quick(scene, rupture, quick)
+   subroutine make_quick(scene, viscosity, rupture, quick)
       type(scene_type), intent(in) :: scene
+      !> Of the oil on every pad, Pa s.
+      real(wp), intent(in) :: viscosity(:)
       logical, intent(in) :: rupture
       type(bearing_model), intent(out) :: quick
       type(scene_type) :: changed
       changed = scene
       changed%film%solver = 'loose'
       call make_static(new_bearing_model(changed), rupture, quick)
+      call quick%bearing%set_viscosity(viscosity)
    end subroutine make_quick
 
    !> The same with films that are converged, where the scene leaves their solver to the program.
@@ -138,5 +143,6 @@ contains
       found%contact_force = samples%contact_force
       found%min_film_thickness = samples%min_film_thickness
       found%max_pressure = samples%max_pressure
+      found%viscosity = model%bearing%pads%gap%viscosity
    end subroutine describe
 end module static_model

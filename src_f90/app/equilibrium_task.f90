@@ -57,11 +57,12 @@ contains
       if (error%status == stopped) error%message = stop_reason()//nothing_computed
    end subroutine seek_equilibrium
 
-   !> Writes an equilibrium with its losses and flows.
+   !> Writes an equilibrium with its losses and flows, and gives the films of the run its viscosities.
    subroutine note_equilibrium(run, static)
       type(case_run_type), intent(inout) :: run
       type(equilibrium_type), intent(in) :: static
       type(static_figures_type) :: figures
+      call run%model%bearing%set_viscosity(static%viscosity)
       call put_equilibrium(run%file%file, static, run%scene%tilting(), run%scene%tilting_radial())
       call find_static_figures(run%model, static, figures)
       call put_figures(run%file%file, run%scene, figures)

@@ -1,0 +1,191 @@
+!> Rest with warm oil: the bearing comes to rest with some viscosities, a heat balance of its losses and flows there
+!> gives others, until they agree. Broyden's method finds them.
+module warm_oil
+   use kinds, only: wp
+   use text, only: to_text
+   use errors, only: error_type, raise, numerics_error
+   use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
+   use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance
+   use oil_properties, only: viscosity
+   use equations_of_motion, only: bearing_model
+   use damped_newton, only: asked_to_stop, asked
+   use static_model, only: come_to_rest, start
+   implicit none (type, external)
+   private
+   public :: has_warm_oil, guess_oil, guesses, come_to_warm_rest
+
+   !> Mineral oils boil and crack from about here on, C.
+   real(wp), parameter :: boiling = 300
+   !> Highest temperature that is named, C: no law of viscosity goes further.
+   real(wp), parameter :: beyond = 500
+   !> Difference of the logarithms of viscosities and of those that the balance wants, at the end; what leaps of
+   !> ruptured films may leave.
+   real(wp), parameter :: agreement = 1e-9_wp, largest_leap = 1e-4_wp
+   !> Largest change of such a logarithm in a round, and least that is worth a try; most rounds.
+   real(wp), parameter :: longest_step = 1, shortest_step = 1e-2_wp
+   integer, parameter :: most_rounds = 60
+   !> Warming that is guessed where nothing better is known, K.
+   real(wp), parameter :: some_warming = 20
+   !> Guesses of viscosities; the start of a search at which the first is made.
+   integer, parameter :: guesses = 3, middle_start = 3
+
+contains
+
+   !> True where the oil of a model has temperatures.
+   pure logical function has_warm_oil(model)
+      type(bearing_model), intent(in) :: model
+      has_warm_oil = model%scene%thermal%model /= 'none'
+   end function has_warm_oil
+
+   !> Gives the oil viscosities to search with: those that it would have at one of the starts of a search; those of some
+   !> warming; those of cold oil.
+   subroutine guess_oil(model, guess)
+      type(bearing_model), intent(inout) :: model
+      integer, intent(in) :: guess
+      type(bearing_losses_type) :: finder
+      type(heat_balance_type) :: balance
+      type(pad_loss) :: losses(model%layout%pads)
+      real(wp), dimension(size(losses)) :: wanted, balanced, now
+      logical :: ok
+      associate (oil => model%scene%oil)
+         wanted = viscosity(oil, oil%supply_temperature + (guesses - guess)*some_warming)
+      end associate
+      if (guess == 1) then
+         finder = new_bearing_losses(model%scene)
+         balance = new_heat_balance(model%scene)
+         call find_losses(model, finder, start(model, middle_start), losses)
+         now = model%bearing%pads%gap%viscosity
+         call balance%viscosities(losses, now, model%point%speed(0.0_wp), balanced, ok)
+         if (ok) wanted = balanced
+      end if
+      call model%bearing%set_viscosity(wanted)
+   end subroutine guess_oil
+
+   subroutine find_losses(model, finder, y, losses)
+      type(bearing_model), intent(in) :: model
+      type(bearing_losses_type), intent(inout) :: finder
+      real(wp), intent(in) :: y(:)
+      type(pad_loss), intent(out) :: losses(:)
+      call finder%find(model%bearing, model%rotor%journal(y(:model%rotor%states)), model%layout%pad_states(y), &
+         & model%point%speed(0.0_wp), losses)
+   end subroutine find_losses
+
+   !> Brings a state that is nearly at rest to rest, as come_to_rest does, and the oil, where it is warm, to the
+   !> temperatures of this rest: the model then has its viscosities.
+   subroutine come_to_warm_rest(model, y, residual, error, give_up)
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(inout) :: y(:)
+      real(wp), intent(out) :: residual
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      type(bearing_losses_type) :: finder
+      type(heat_balance_type) :: balance
+      type(pad_loss) :: losses(model%layout%pads)
+      real(wp), dimension(size(losses)) :: now, wanted, lack, last, step
+      real(wp) :: inverse(size(losses), size(losses))
+      integer :: round
+      logical :: ok
+      if (.not. has_warm_oil(model)) then
+         call come_to_rest(model, y, residual, error, give_up)
+         return
+      end if
+      finder = new_bearing_losses(model%scene)
+      balance = new_heat_balance(model%scene)
+      step = 0
+      do round = 1, most_rounds
+         call follow(model, y, step, residual, error, give_up)
+         if (allocated(error)) return
+         call find_losses(model, finder, y, losses)
+         now = model%bearing%pads%gap%viscosity
+         call balance%viscosities(losses, now, model%point%speed(0.0_wp), wanted, ok)
+         if (.not. ok) exit
+         lack = log(wanted/now)
+         if (maxval(abs(lack)) <= agreement) exit
+         call improve(round, lack, last, step, inverse)
+         last = lack
+         step = matmul(inverse, lack)
+         step = step*min(1.0_wp, longest_step/maxval(abs(step)))
+      end do
+      call judge(model, balance, losses, ok, maxval(abs(lack)), error)
+   end subroutine come_to_warm_rest
+
+   !> Brings a state at rest to rest again after a step of the logarithms of the viscosities, or after the longest part
+   !> of it that Newton's method can follow.
+   subroutine follow(model, y, step, residual, error, give_up)
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(inout) :: y(:), step(:)
+      real(wp), intent(out) :: residual
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      real(wp) :: trial(size(y)), before(size(step))
+      before = model%bearing%pads%gap%viscosity
+      call model%bearing%set_viscosity(before*exp(step))
+      do
+         trial = y
+         call come_to_rest(model, trial, residual, error, give_up)
+         if (.not. allocated(error)) exit
+         if (asked(give_up) .or. .not. maxval(abs(step)) > shortest_step) return
+         step = step/4
+         call model%bearing%set_viscosity(before*exp(step))
+      end do
+      y = trial
+   end subroutine follow
+
+   !> Refuses a rest without a balance of heat, or at which oil boils.
+   subroutine judge(model, balance, losses, solved, lack, error)
+      type(bearing_model), intent(in) :: model
+      type(heat_balance_type), intent(in) :: balance
+      type(pad_loss), intent(in) :: losses(:)
+      !> Whether the last balance had a solution, and how far its viscosities were from those of the films.
+      logical, intent(in) :: solved
+      real(wp), intent(in) :: lack
+      type(error_type), allocatable, intent(inout) :: error
+      type(oil_temperatures_type) :: oil
+      integer :: hottest
+      logical :: ok
+      ok = solved
+      if (ok) call balance%temperatures(losses, model%bearing%pads%gap%viscosity, model%point%speed(0.0_wp), oil, ok)
+      if (.not. ok) then
+         call raise(error, numerics_error, 'the oil has no heat balance: neither its flow nor the shaft carries the ' &
+            & //'heat of the films off; it needs fresh oil (oil%carry_over below 1) or exchange with the shaft ' &
+            & //'(oil%wall_exchange)')
+         return
+      end if
+      hottest = maxloc(oil%outlet, dim=1)
+      if (oil%outlet(hottest) > boiling) then
+         call raise(error, numerics_error, 'the oil would leave pad '//to_text(hottest)//' at ' &
+            & //to_text(nint(min(oil%outlet(hottest), beyond)))//' C or more, above '//to_text(nint(boiling)) &
+            & //' C, where mineral oil boils: film and asperities make more heat than its flow carries off; try ' &
+            & //'cooler or more oil, less load or more clearance')
+      else if (.not. lack <= largest_leap) then
+         call raise(error, numerics_error, 'the temperatures of the oil do not settle: after ' &
+            & //to_text(most_rounds)//' rounds its viscosity still changes by '//to_text(100*lack)//' %')
+      end if
+   end subroutine judge
+
+   !> The inverse Jacobian of Broyden's method after a step that has changed what lacks. In the first round, after a
+   !> step for the worse, and where it would turn against what lacks, it is that of a fixed point: viscosities that
+   !> would run away from their balance are none to look for.
+   pure subroutine improve(round, lack, last, step, inverse)
+      integer, intent(in) :: round
+      real(wp), intent(in) :: lack(:), last(:), step(:)
+      real(wp), intent(inout) :: inverse(:, :)
+      real(wp) :: answer(size(lack)), along
+      integer :: i
+      if (round > 1) then
+         if (norm2(lack) < 2*norm2(last)) then
+            answer = -matmul(inverse, lack - last)
+            along = dot_product(step, answer)
+            if (abs(along) > 1e-3_wp*norm2(step)*norm2(answer)) then
+               inverse = inverse + spread((step - answer)/along, 2, size(lack)) &
+                  & *spread(matmul(step, inverse), 1, size(lack))
+               if (dot_product(lack, matmul(inverse, lack)) > 0) return
+            end if
+         end if
+      end if
+      inverse = 0
+      do i = 1, size(lack)
+         inverse(i, i) = 1
+      end do
+   end subroutine improve
+end module warm_oil

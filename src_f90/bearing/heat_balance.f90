@@ -1,0 +1,222 @@
+!> Temperatures of the oil, one a pad, from the heat that its film makes and the oil that flows through it: carried over
+!> from pad to pad, and exchanged with the shaft (docs/theory.md, *Warm oil*).
+!>
+!> Along a film of conductance H to the shaft, through which a flow of heat capacity m passes, N = H/m, with
+!> f = (1 - exp(-N))/N and g = (1 - f)/N,
+!>    T_mean = f T_in + (1 - f) T_J + g Phi/m,   T_out = exp(-N) T_in + (1 - exp(-N)) T_J + f Phi/m.
+!> All temperatures are therefore linear in the heat Phi of the films.
+module heat_balance
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp
+   use lapack, only: dgesv
+   use scene, only: scene_type, oil_type, is_set
+   use oil_properties, only: viscosity, viscosity_slope
+   use bearing_losses, only: pad_loss
+   implicit none (type, external)
+   private
+   public :: heat_balance_type, oil_temperatures_type, new_heat_balance
+
+   !> Of the oil, C.
+   type :: oil_temperatures_type
+      !> Of every pad's film: where it begins, mean over the film, where it ends, and the highest in the pad's surface.
+      real(wp), allocatable :: inlet(:), mean(:), outlet(:), maximum(:)
+      !> Of the shaft, and of all oil that leaves the bearing.
+      real(wp) :: shaft = 0, drain = 0
+   end type oil_temperatures_type
+
+   type :: heat_balance_type
+      private
+      type(oil_type) :: oil
+      !> Of each pad the one upstream, at the next larger angle; which share of the oil that leaves it may come across.
+      integer, allocatable :: upstream(:)
+      real(wp), allocatable :: carry_over(:)
+      !> m.
+      real(wp) :: journal_radius
+   contains
+      procedure :: temperatures
+      procedure :: viscosities
+      procedure, private :: network
+   end type heat_balance_type
+
+   !> Pads and shaft as what the heat of the films warms; one element a pad.
+   type :: heat_network
+      !> Heat capacity of the flow through the film, W/K; share of the inflow that comes from upstream; exp(-N), f, g.
+      real(wp), allocatable :: capacity(:), hot(:), left(:), f(:), g(:)
+      !> Temperatures where the film begins and, last, of the shaft: without heat, C, and by each pad's, K/W.
+      real(wp), allocatable :: cold(:), per_watt(:, :)
+      logical :: solved = .false.
+   end type heat_network
+
+   !> Least heat capacity of a flow, W/K: oil that stands gives its heat to the shaft.
+   real(wp), parameter :: least_capacity = 1e-9_wp
+   !> Relative change of the viscosities at which they have settled; most rounds of Newton's method.
+   real(wp), parameter :: settled = 1e-13_wp
+   integer, parameter :: most_rounds = 200
+
+contains
+
+   !> For the bearing and the oil of a scene.
+   pure type(heat_balance_type) function new_heat_balance(scene) result(self)
+      type(scene_type), intent(in) :: scene
+      real(wp) :: turn, nearest, gap
+      integer :: i, k
+      self%oil = scene%oil
+      self%journal_radius = scene%bearing%journal_radius
+      allocate (self%upstream(scene%pad_count()), source=0)
+      allocate (self%carry_over(scene%pad_count()), source=0.0_wp)
+      associate (p => scene%pads)
+         do i = 1, size(self%upstream)
+            nearest = huge(nearest)
+            do k = 1, size(self%upstream)
+               turn = modulo(p%pivot_angle_deg(k) - p%pivot_angle_deg(i), 360.0_wp)
+               ! a pad alone is upstream of itself
+               if (k == i) turn = 360
+               if (turn >= nearest) cycle
+               nearest = turn
+               self%upstream(i) = k
+            end do
+            associate (up => self%upstream(i))
+               gap = nearest - p%pivot_ratio(i)*p%arc_deg(i) - (1 - p%pivot_ratio(up))*p%arc_deg(up)
+            end associate
+            if (gap <= scene%oil%widest_gap_deg) self%carry_over(i) = scene%oil%carry_over
+         end do
+      end associate
+   end function new_heat_balance
+
+   !> The temperatures with these losses and flows, of films with these viscosities, Pa s, at a speed, rad/s. `ok` is
+   !> false where neither flow nor shaft carries the heat off.
+   subroutine temperatures(self, losses, films, speed, found, ok)
+      class(heat_balance_type), intent(in) :: self
+      type(pad_loss), intent(in) :: losses(:)
+      real(wp), intent(in) :: films(:), speed
+      type(oil_temperatures_type), intent(out) :: found
+      logical, intent(out) :: ok
+      type(heat_network) :: net
+      real(wp) :: fresh
+      integer :: n
+      n = size(losses)
+      call self%network(losses, films, speed, net)
+      ok = net%solved
+      if (.not. ok) return
+      associate (heat => losses%power(), inlet => losses%inlet, outlet => losses%outlet)
+         associate (all => net%cold + matmul(net%per_watt, heat))
+            found%inlet = all(:n)
+            found%shaft = all(n + 1)
+         end associate
+         found%mean = net%f*found%inlet + (1 - net%f)*found%shaft + net%g*heat/net%capacity
+         found%outlet = net%left*found%inlet + (1 - net%left)*found%shaft + net%f*heat/net%capacity
+         found%maximum = found%outlet + max(found%outlet - found%shaft, 0.0_wp)/2
+         ! oil that leaves at the sides is warmed half of the way; what leaves at the outlets is not all carried over
+         fresh = sum((1 - net%hot)*inlet)
+         found%drain = self%oil%supply_temperature
+         if (fresh > 0) found%drain = (sum((inlet - outlet)*(found%inlet + found%outlet)/2 + outlet*found%outlet) &
+            & - sum(net%hot*inlet*found%outlet(self%upstream)))/fresh
+      end associate
+   end subroutine temperatures
+
+   !> The viscosities, Pa s, that the films would take where journal and pads are: those of the mean temperatures, if
+   !> the heat of the films, made with the viscosities `films`, follows them. `ok` is false where neither flow nor shaft
+   !> carries the heat off.
+   subroutine viscosities(self, losses, films, speed, wanted, ok)
+      class(heat_balance_type), intent(in) :: self
+      type(pad_loss), intent(in) :: losses(:)
+      real(wp), intent(in) :: films(:), speed
+      real(wp), intent(out) :: wanted(:)
+      logical, intent(out) :: ok
+      type(heat_network) :: net
+      real(wp), dimension(size(losses)) :: base, mean, slope, step
+      real(wp), dimension(size(losses), size(losses)) :: by_heat, matrix
+      integer :: i, round, pivots(size(losses)), info
+      call self%network(losses, films, speed, net)
+      ok = net%solved
+      if (.not. ok) return
+      associate (n => size(losses), per_viscosity => (losses%couette + losses%pressure)/films)
+         do i = 1, n
+            by_heat(i, :) = net%f(i)*net%per_watt(i, :) + (1 - net%f(i))*net%per_watt(n + 1, :)
+            by_heat(i, i) = by_heat(i, i) + net%g(i)/net%capacity(i)
+         end do
+         base = net%f*net%cold(:n) + (1 - net%f)*net%cold(n + 1) + matmul(by_heat, losses%boundary)
+         ! from the cold side, on which Newton's method stays: the heat falls ever less as the oil becomes warm
+         mean = base
+         do round = 1, most_rounds
+            wanted = viscosity(self%oil, mean)
+            slope = viscosity_slope(self%oil, mean)
+            step = base + matmul(by_heat, per_viscosity*wanted) - mean
+            matrix = -by_heat*spread(per_viscosity*slope, 1, n)
+            do i = 1, n
+               matrix(i, i) = matrix(i, i) + 1
+            end do
+            call dgesv(n, 1, matrix, n, pivots, step, n, info)
+            ok = info == 0 .and. all(ieee_is_finite(step))
+            if (.not. ok) return
+            mean = max(mean + step, base)
+            if (maxval(abs(slope/wanted*step)) <= settled) exit
+         end do
+         wanted = viscosity(self%oil, mean)
+      end associate
+   end subroutine viscosities
+
+   !> The network of pads and shaft, solved.
+   subroutine network(self, losses, films, speed, net)
+      class(heat_balance_type), intent(in) :: self
+      type(pad_loss), intent(in) :: losses(:)
+      real(wp), intent(in) :: films(:), speed
+      type(heat_network), intent(out) :: net
+      real(wp) :: matrix(size(losses) + 1, size(losses) + 1), right(size(losses) + 1, 0:size(losses))
+      real(wp) :: part(size(losses))
+      integer :: i, last, pivots(size(losses) + 1), info
+      if (.not. all(ieee_is_finite(losses%power()) .and. ieee_is_finite(losses%inlet + losses%outlet))) return
+      last = size(losses) + 1
+      allocate (net%left, net%f, net%g, mold=part)
+      associate (oil => self%oil, up => self%upstream)
+         ! the integral of dA/h over what oil fills
+         part = losses%couette/(films*(speed*self%journal_radius)**2)
+         net%capacity = max(least_capacity, oil%density*oil%specific_heat*(losses%inlet + losses%outlet)/2)
+         call film_shares(oil%wall_exchange*oil%conductivity*part/net%capacity, net%left, net%f, net%g)
+         net%hot = 0*part
+         where (losses%inlet > 0) net%hot = min(max(0.0_wp, self%carry_over*losses(up)%outlet)/losses%inlet, 1.0_wp)
+         matrix = 0
+         right = 0
+         do i = 1, last - 1
+            associate (k => up(i), hot => net%hot(i))
+               matrix(i, i) = 1
+               matrix(i, k) = matrix(i, k) - hot*net%left(k)
+               matrix(i, last) = -hot*(1 - net%left(k))
+               right(i, 0) = (1 - hot)*oil%supply_temperature
+               right(i, k) = hot*net%f(k)/net%capacity(k)
+            end associate
+         end do
+         matrix(last, last) = 1
+         if (is_set(oil%shaft_temperature)) then
+            right(last, 0) = oil%shaft_temperature
+         else if (.not. any(part > 0)) then
+            right(last, 0) = oil%supply_temperature
+         else
+            ! no net heat; where nothing is exchanged, the limit of little
+            associate (share => part*net%f/sum(part*net%f))
+               matrix(last, :last - 1) = -share
+               right(last, 1:) = share/net%f*net%g/net%capacity
+            end associate
+         end if
+      end associate
+      call dgesv(last, last, matrix, last, pivots, right, last, info)
+      net%solved = info == 0 .and. all(ieee_is_finite(right))
+      net%cold = right(:, 0)
+      net%per_watt = right(:, 1:)
+   end subroutine network
+
+   !> exp(-N), f and g.
+   elemental subroutine film_shares(n, left, f, g)
+      real(wp), intent(in) :: n
+      real(wp), intent(out) :: left, f, g
+      if (n < 1e-2_wp) then
+         left = 1 - n*(1 - n/2*(1 - n/3*(1 - n/4*(1 - n/5))))
+         f = 1 - n/2*(1 - n/3*(1 - n/4*(1 - n/5*(1 - n/6))))
+         g = (1 - n/3*(1 - n/4*(1 - n/5*(1 - n/6*(1 - n/7)))))/2
+      else
+         left = exp(-min(n, 700.0_wp))
+         f = (1 - left)/n
+         g = (1 - f)/n
+      end if
+   end subroutine film_shares
+end module heat_balance

@@ -1,0 +1,210 @@
+!> Equilibria with warm oil: the values of an independent program, the isothermal limit, sums, symmetry, and refusals.
+program test_warm_oil
+   use kinds, only: wp, degree
+   use errors, only: error_type, numerics_error
+   use scene, only: scene_type
+   use scene_namelist, only: scene_from_text
+   use oil_properties, only: viscosity
+   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equilibrium, only: equilibrium_type, find_equilibrium
+   use static_model, only: make_fine
+   use static_figures, only: static_figures_type, find_static_figures
+   use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
+   use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
+   implicit none (type, external)
+
+   !> Oil of grade 46 with the density of its viscosity.
+   character(len=*), parameter :: vg46 = '&oil kinematic_viscosity = 46e-6, 6.8e-6, density_at_15 = 870,' &
+      & //' density_slope = -0.64, specific_heat = 1951.8/ &thermal model = ''pad''/'
+   !> The bearing of Fillon, Bligoud and Frene (1992) with its oil.
+   character(len=*), parameter :: fillon = '&rotor mass = 1019.36799/ &bearing journal_radius = 50e-3,' &
+      & //' axial_length = 70e-3, machined_clearance = 148e-6, assembled_clearance = 78.4e-6/' &
+      & //'&pads motion = ''tilting_only'', pivot_angle_deg = -45, 225, 45, 135, arc_deg = 75,' &
+      & //' pivot_distance = 20e-3, thickness = 20e-3, density = 7850/ &oil reference_viscosity = 0.0277,' &
+      & //' temperature_exponent = 0.0341, specific_heat = 1951.8, conductivity = 0.149, carry_over = 1/ &thermal model = ''pad''/'
+
+   if (runs('published')) call published()
+   if (runs('cross_stiffness')) call cross_stiffness()
+   if (runs('balance')) call balance()
+   if (runs('isothermal')) call isothermal()
+   if (runs('capacity')) call capacity()
+   if (runs('rotation')) call rotation()
+   if (runs('threshold')) call threshold()
+   if (runs('boiling')) call boiling()
+   call report()
+
+contains
+
+   !> The scene of a namelist.
+   type(scene_type) function scene_of(text) result(scene)
+      character(len=*), intent(in) :: text
+      type(error_type), allocatable :: error
+      call scene_from_text(text, 'test', scene, error)
+      call expect_no_error(error, text)
+   end function scene_of
+
+   !> The equilibrium of a scene, its figures, and its model, which has the viscosities.
+   subroutine solve(scene, static, figures, model)
+      type(scene_type), intent(in) :: scene
+      type(equilibrium_type), intent(out) :: static
+      type(static_figures_type), intent(out) :: figures
+      type(bearing_model), intent(out) :: model
+      type(error_type), allocatable :: error
+      model = new_bearing_model(scene)
+      call find_equilibrium(model, static, error)
+      call expect_no_error(error, 'equilibrium')
+      if (allocated(error)) return
+      call model%bearing%set_viscosity(static%viscosity)
+      call find_static_figures(model, static, figures)
+   end subroutine solve
+
+   !> Its coefficients at the synchronous frequency.
+   subroutine coefficients(model, static, found)
+      type(bearing_model), intent(in) :: model
+      type(equilibrium_type), intent(inout) :: static
+      type(bearing_coefficients_type), intent(out) :: found
+      type(bearing_model) :: fine
+      type(error_type), allocatable :: error
+      real(wp), allocatable :: y(:)
+      call make_fine(model, fine)
+      call settle(fine, static, y, error)
+      if (.not. allocated(error)) call find_coefficients(fine, y, found, error)
+      call expect_no_error(error, 'coefficients')
+   end subroutine coefficients
+
+   !> The independent program's values at 4000 rpm to five digits; it takes other pads (their weight and inertia are not
+   !> published) and coarser films that rupture.
+   subroutine published()
+      type(equilibrium_type) :: static
+      type(static_figures_type) :: figures
+      type(bearing_model) :: model
+      type(bearing_coefficients_type) :: found
+      real(wp), parameter :: outlet(4) = [64.20_wp, 65.45_wp, 51.67_wp, 50.06_wp]
+      call solve(scene_of('&operation speed_rpm = 4000/'//fillon), static, figures, model)
+      call expect_close(static%journal(1), -55.686e-6_wp, 0.04e-6_wp, 'y')
+      call expect(all(abs(figures%oil%outlet - outlet) < 0.025_wp), 'outlets')
+      call expect_close(figures%oil%shaft, 57.26_wp, 0.02_wp, 'shaft')
+      call expect_close(maxval(figures%oil%maximum), 69.6_wp, 0.06_wp, 'maximum')
+      call coefficients(model, static, found)
+      call expect_close(found%stiffness(1, 1, 1, 1), 351.30e6_wp, 0.2e6_wp, 'K_yy')
+      call expect_close(found%damping(1, 1, 1, 1), 0.61687e6_wp, 0.0015e6_wp, 'C_yy')
+   end subroutine published
+
+   !> The paper's bearing at 6500 rpm: one pad runs in oil that the other has warmed, and cross stiffness appears.
+   subroutine cross_stiffness()
+      type(equilibrium_type) :: static
+      type(static_figures_type) :: figures
+      type(bearing_model) :: model
+      type(bearing_coefficients_type) :: found
+      call solve(scene_of('&pads motion = ''tilting_only''/ &film cavitation = ''none''/'//vg46), static, figures, &
+         & model)
+      call expect(all(abs(static%viscosity - [23e-3_wp, 13.4e-3_wp]) < [0.5e-3_wp, 0.05e-3_wp]), 'viscosities')
+      call expect_close(static%journal(2), -7e-6_wp, 0.5e-6_wp, 'z')
+      call coefficients(model, static, found)
+      call expect_close(found%stiffness(1, 2, 1, 1), 61e6_wp, 1e6_wp, 'K_yz')
+      call expect_close(found%stiffness(2, 1, 1, 1), 61e6_wp, 1e6_wp, 'K_zy')
+   end subroutine cross_stiffness
+
+   !> The oil's viscosities are those of its temperatures; all heat leaves with it.
+   subroutine balance()
+      type(scene_type) :: scene
+      type(equilibrium_type) :: static
+      type(static_figures_type) :: figures
+      type(bearing_model) :: model
+      real(wp) :: fresh
+      integer :: i
+      integer, parameter :: upstream(4) = [3, 1, 4, 2]
+      scene = scene_of('&operation speed_rpm = 3000/ &pads pivot_angle_deg = -45, 225, 45, 135/'//vg46)
+      call solve(scene, static, figures, model)
+      call expect(all(abs(viscosity(scene%oil, figures%oil%mean)/static%viscosity - 1) < 1e-8_wp), 'viscosities')
+      fresh = 0
+      do i = 1, 4
+         associate (pads => figures%pads)
+            fresh = fresh + max(0.0_wp, pads(i)%inlet - 0.8_wp*pads(upstream(i))%outlet)
+         end associate
+      end do
+      associate (heat => sum(figures%pads%power()))
+         call expect_close(scene%oil%density*scene%oil%specific_heat*fresh*(figures%oil%drain &
+            & - scene%oil%supply_temperature), heat, 1e-8_wp*heat, 'heat')
+      end associate
+   end subroutine balance
+
+   !> Oil whose viscosity does not fall: bit for bit the equilibrium without temperatures.
+   subroutine isothermal()
+      type(scene_type) :: scene
+      type(equilibrium_type) :: warm, cold
+      type(static_figures_type) :: figures, of_cold
+      type(bearing_model) :: model
+      scene = scene_of('&pads pivot_angle_deg = -45, 225, 45, 135/ &oil reference_viscosity = 0.0277,' &
+         & //' temperature_exponent = 0/ &thermal model = ''pad''/')
+      call solve(scene, warm, figures, model)
+      scene%thermal%model = 'none'
+      call solve(scene, cold, of_cold, model)
+      call expect(.not. any(abs([warm%journal - cold%journal, warm%tilt - cold%tilt, &
+         & warm%penetration - cold%penetration, warm%viscosity - cold%viscosity]) > 0), 'state')
+      call expect(.not. any(abs(figures%pads%power() - of_cold%pads%power()) > 0), 'losses')
+      call expect(allocated(figures%oil) .and. .not. allocated(of_cold%oil), 'temperatures of warm oil alone')
+   end subroutine isothermal
+
+   !> Density and specific heat count as their product; oil that takes much heat stays cold.
+   subroutine capacity()
+      type(scene_type) :: scene
+      type(equilibrium_type) :: static, other
+      type(static_figures_type) :: figures
+      type(bearing_model) :: model
+      scene = scene_of('&film cavitation = ''none''/'//vg46)
+      call solve(scene, static, figures, model)
+      scene%oil%density = scene%oil%density/4
+      scene%oil%specific_heat = scene%oil%specific_heat*4
+      call solve(scene, other, figures, model)
+      call expect(all(abs(other%journal - static%journal) < 1e-12_wp), 'journal')
+      scene%oil%specific_heat = 1e12_wp
+      call solve(scene, other, figures, model)
+      call expect(all(abs(figures%oil%maximum - scene%oil%supply_temperature) < 1e-4_wp), 'cold')
+   end subroutine capacity
+
+   !> A bearing that is turned with its load has the same temperatures.
+   subroutine rotation()
+      type(scene_type) :: scene
+      type(equilibrium_type) :: static, turned
+      type(static_figures_type) :: figures, others
+      type(bearing_model) :: model
+      scene = scene_of('&rotor gravity = 0/ &film cavitation = ''none''/'//vg46)
+      scene%rotor%static_load = [-20e3_wp, 0.0_wp]
+      call solve(scene, static, figures, model)
+      ! by 50 degrees from +z towards +y
+      scene%pads%pivot_angle_deg = scene%pads%pivot_angle_deg + 50
+      scene%rotor%static_load = 20e3_wp*[-cos(50*degree), sin(50*degree)]
+      call solve(scene, turned, others, model)
+      call expect(all(abs(others%oil%outlet - figures%oil%outlet) < 1e-6_wp), 'outlets')
+      call expect(all(abs(turned%tilt - static%tilt) < 1e-10_wp), 'tilts')
+   end subroutine rotation
+
+   !> The speed at which a light rotor loses its stability is one at which its own equilibrium has no growth.
+   subroutine threshold()
+      type(scene_type) :: scene
+      type(equilibrium_type) :: static
+      type(static_figures_type) :: figures
+      type(bearing_model) :: model
+      type(bearing_coefficients_type) :: found
+      scene = scene_of('&case task = ''coefficients''/ &rotor mass = 200/ &operation speed_rpm = 13000/' &
+         & //'&film cavitation = ''none''/ &coefficients threshold_up_to_rpm = 20000/'//vg46)
+      call solve(scene, static, figures, model)
+      call coefficients(model, static, found)
+      scene%operation%speed_rpm = found%thresholds(1)
+      scene%operation%final_speed_rpm = found%thresholds(1)
+      call solve(scene, static, figures, model)
+      call expect_close(static%stability%eigenvalue%re, 0.0_wp, 1e-4_wp*abs(static%stability%eigenvalue), 'growth')
+   end subroutine threshold
+
+   !> A film that makes more heat than its oil carries off.
+   subroutine boiling()
+      type(bearing_model) :: model
+      type(equilibrium_type) :: static
+      type(error_type), allocatable :: error
+      model = new_bearing_model(scene_of('&operation speed_rpm = 150/ &rotor mass = 5000/ &pads motion =' &
+         & //' ''tilting_only''/ &oil grade = 10/ &thermal model = ''pad''/'))
+      call find_equilibrium(model, static, error)
+      call expect_error(error, numerics_error, 'above 300 C, where mineral oil boils', 'refused')
+   end subroutine boiling
+end program test_warm_oil
