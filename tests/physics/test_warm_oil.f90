@@ -21,7 +21,8 @@ program test_warm_oil
       & //' axial_length = 70e-3, machined_clearance = 148e-6, assembled_clearance = 78.4e-6/' &
       & //'&pads motion = ''tilting_only'', pivot_angle_deg = -45, 225, 45, 135, arc_deg = 75,' &
       & //' pivot_distance = 20e-3, thickness = 20e-3, density = 7850/ &oil reference_viscosity = 0.0277,' &
-      & //' temperature_exponent = 0.0341, specific_heat = 1951.8, conductivity = 0.149, carry_over = 1/ &thermal model = ''pad''/'
+      & //' temperature_exponent = 0.0341, specific_heat = 1951.8, conductivity = 0.149, carry_over = 1/' &
+      & //'&thermal model = ''pad''/'
 
    if (runs('published')) call published()
    if (runs('cross_stiffness')) call cross_stiffness()
