@@ -31,6 +31,7 @@ RUNS = {
     "four_pads": ("input/examples/four_pads.nml", ()),
     "periodic": (LUGRE, ("case%task=periodic",)),
     "five_pads": ("input/examples/five_pads.nml", ()),
+    "warm": ("input/examples/warm_five_pads.nml", ()),
 }
 #: Studies: name, which is that of the folder, case, and what is swept.
 STUDIES = {
@@ -62,6 +63,7 @@ STUDIES = {
             "sweep%operation%speed_rpm=1500:9000:250",
         ),
     ),
+    "warm_speeds": ("input/examples/warm_five_pads.nml", ("sweep%operation%speed_rpm=500:9000:500",)),
     "whirl": (
         "input/examples/five_pads.nml",
         (
@@ -93,6 +95,8 @@ PICTURES = (
     ("coefficients", "whirl", "", "stiffness and damping over speed, at two whirl frequencies"),
     ("stability", "whirl", "--pivot stuck", "the modes with pivots that stick"),
     ("campbell", "whirl", "", "frequencies of the modes, free pivots"),
+    ("temperatures", "warm", "", "temperatures of the pads, and where their heat goes"),
+    ("temperatures", "warm_speeds", "", "temperatures and viscosities over speed, with VG 46"),
     ("study", "laws", "--show friction_work", "friction work over speed"),
     ("study", "map", "", "a map over two parameters"),
     ("study", "upper", "--show poincare_tilt --pad 3", "the motion of an upper pad bifurcates"),

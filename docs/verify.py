@@ -8,6 +8,7 @@ import tempfile
 
 import tiltpad
 import verify_coefficients
+import verify_warm
 from tiltpad.calculate.deviations import SIGNALS
 from verify_runs import row, run
 
@@ -94,6 +95,41 @@ Pad 1 of the paper's bearing on rigid pivots at 6500 rpm, without rupture, again
 | | here | reference | error |
 |---|---|---|---|
 {losses}
+
+## Warm oil
+
+Viscosity, mPa s, of an oil of 46 and 6.8 mm2/s at 40 and 100 C, 870 kg/m3 at 15 C and 0.64 less a kelvin, by
+Walther's law:
+
+| | here | reference | error |
+|---|---|---|---|
+{walther}
+
+Bearings with a temperature for each pad, against an independent program with the same balances. The first is that of
+Fillon, Bligoud and Frene (ASME Journal of Tribology 114, 1992): four pads, D = 100 mm, L = 70 mm, 10 kN between pads,
+preload 0.47, VG 32 at 40 C, all oil carried over. The second is that of the paper with VG 46 at 40 C at 6500 rpm, whose
+references have two or three digits.
+
+| | here | reference | error |
+|---|---|---|---|
+{warm_bearings}
+
+Their maximum temperatures of the pads, C, as measured (read from a figure, within 1 K), by the authors' model with
+conduction and deformation, by an independent program with temperatures along and across the films, by one with a
+temperature for each pad, and here:
+
+| rpm | measured | TEHD | along and across | a pad | here | here - measured |
+|---|---|---|---|---|---|---|
+{measured}
+
+![Maximum temperature over the speed](images/fillon.png)
+
+The heat of whole bearings, W: made in the films, in the oil that leaves, given to the shaft, and what is missing over
+what is made.
+
+| bearing | made | to the oil | to the shaft | missing |
+|---|---|---|---|---|
+{heat}
 """  # noqa: E501
 
 # Converged equilibria: motion, rpm: y, z um, tilts mrad, minimum film thickness um, y by ROSS um.
@@ -163,7 +199,7 @@ def main(program):
     with tempfile.TemporaryDirectory() as folder:
         tables = {
             f.__name__: "\n".join(f(program, folder))
-            for f in (equilibria, lugre, settings, *verify_coefficients.TABLES)
+            for f in (equilibria, lugre, settings, *verify_coefficients.TABLES, *verify_warm.TABLES)
         }
     print(PAGE.format(tight=", ".join(f"`{each}`" for each in TIGHT), **tables), end="")
 

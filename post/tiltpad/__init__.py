@@ -15,6 +15,7 @@ from typing import Any
 
 from tiltpad.calculate.coefficients import Coefficients, coefficients
 from tiltpad.calculate.deviations import deviations
+from tiltpad.calculate.heat import HeatBalance, heat_balance
 from tiltpad.calculate.library import (
     Contact,
     LibraryError,
@@ -66,6 +67,7 @@ __all__ = [
     "Coefficients",
     "Collected",
     "Contact",
+    "HeatBalance",
     "IncompleteRunWarning",
     "LibraryError",
     "Losses",
@@ -94,6 +96,7 @@ __all__ = [
     "friction_work",
     "full",
     "full_spectrum",
+    "heat_balance",
     "hysteresis",
     "last_revolutions",
     "loop_area",

@@ -26,7 +26,7 @@ STUDY = "study"
 #: Plots of coefficients and modes: of results, and of studies.
 VIBRATIONS = ("coefficients", "stability", "campbell")
 #: Plots of results and of studies.
-OF_EITHER = (*VIBRATIONS, "response")
+OF_EITHER = (*VIBRATIONS, "response", "temperatures")
 #: Options of some plots alone.
 OWN_OPTIONS = {
     "time": ("pressure",),
@@ -36,7 +36,7 @@ OWN_OPTIONS = {
 }
 #: Plots without the options --last and --pad.
 WITHOUT_LAST = ("equilibrium", "runup", "orders", "waterfall", "pressure", STUDY, *OF_EITHER)
-WITHOUT_PAD = OF_EITHER
+WITHOUT_PAD = (*VIBRATIONS, "response")
 #: Exit status, as the program's own.
 INPUT_ERROR, FILE_ERROR = 1, 3
 
@@ -56,6 +56,7 @@ PLOTS = {
     "waterfall": "amplitudes over speed and order of a run-up (of the journal; --pad: of its tilt)",
     "pressure": "film pressure over the unrolled pads at one instant (--time; default: at the equilibrium)",
     "response": "first harmonic of the journal, critical speeds, amplification: of studies and run-ups",
+    "temperatures": "temperatures and viscosity of the pads, of studies; with their heat balance of results",
     "coefficients": "stiffness and damping over speed, of one result over whirl frequency (also .csv, .toml)",
     "stability": "damping ratio and logarithmic decrement of the modes, of studies and results",
     "campbell": "frequencies of the modes over the speed, of studies",
@@ -158,7 +159,7 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         either = options.plot in OF_EITHER
         runs = [stack.enter_context(read_either(path) if either else read(path)) for path in options.files]
         stack.enter_context(mpl.style.context(plots.STYLE))
-        if options.pad is not None:
+        if options.pad is not None and not either:
             figures.shown_pads(runs, options.pad)
         more = {"time": options.time} if options.plot == "pressure" else {}
         if either:

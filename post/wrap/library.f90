@@ -24,10 +24,12 @@ module tiltpad_library
 contains
 
    !> Pressure of every pad's film, and what the program samples of it, in one state of the bearing.
-   subroutine film_pressure(text, name, time, journal, tilt, penetration, along, across, phi, z, pressure, force, &
-      & max_pressure, min_film_thickness, status, message, pads, n, m)
+   subroutine film_pressure(text, name, viscosity, time, journal, tilt, penetration, along, across, phi, z, pressure, &
+      & force, max_pressure, min_film_thickness, status, message, pads, n, m)
       integer(c_int), intent(in) :: pads, n, m
       character(len=*), intent(in) :: text, name
+      !> Of the oil on each pad, Pa s; 0: that of the case.
+      real(c_double), intent(in) :: viscosity(pads)
       !> s, of which the speed follows; y, z of the journal, m, and their rates, m/s.
       real(c_double), intent(in) :: time, journal(4)
       !> Tilt, rad, and penetration, m (tilting-only: no matter), each with its rate.
@@ -60,6 +62,7 @@ contains
          ! one state is not worth a table
          if (scene%film%solver == 'auto') scene%film%solver = 'direct'
          model = new_bearing_model(scene)
+         if (all(viscosity > 0)) call model%bearing%set_viscosity(viscosity)
          y = model%state(journal_motion(journal(:2), journal(3:4)), &
             & [(pad_state(tilt(1, i), tilt(2, i), penetration(1, i), penetration(2, i)), i=1, pads)])
          call model%evaluate(time, y, .false., ok)
@@ -83,11 +86,11 @@ contains
    end subroutine film_pressure
 
    !> Loads, losses and flows of all pads in n states of the bearing.
-   subroutine power_losses(text, name, time, journal, tilt, penetration, losses, status, message, pads, n)
+   subroutine power_losses(text, name, viscosity, time, journal, tilt, penetration, losses, status, message, pads, n)
       integer(c_int), intent(in) :: pads, n
       character(len=*), intent(in) :: text, name
       !> As in film_pressure, state by state.
-      real(c_double), intent(in) :: time(n), journal(4, n), tilt(2, pads, n), penetration(2, pads, n)
+      real(c_double), intent(in) :: viscosity(pads), time(n), journal(4, n), tilt(2, pads, n), penetration(2, pads, n)
       !> Load, N; Couette, pressure and boundary loss, W; drag on the journal and on the pad, N m; inlet, outlet and
       !> side flow, m^3/s. No numbers where a film is closed.
       real(c_double), intent(out) :: losses(9, pads, n)
@@ -105,6 +108,7 @@ contains
          ! no film of the model is solved
          if (scene%film%solver == 'auto') scene%film%solver = 'direct'
          model = new_bearing_model(scene)
+         if (all(viscosity > 0)) call model%bearing%set_viscosity(viscosity)
          finder = new_bearing_losses(scene)
          do k = 1, n
             call finder%find(model%bearing, journal_motion(journal(:2, k), journal(3:4, k)), &

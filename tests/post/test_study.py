@@ -301,5 +301,5 @@ def test_units_are_those_of_the_input_reference(tiltpad):
     assert len(said) > 40
     for name, default, unit in said:
         if not default.startswith("`"):
-            unit = {"1": ""}.get(unit.strip(), unit.strip()).replace("^2", "²").replace("^3", "³")
+            unit = {"1": "", "C": "°C"}.get(unit.strip(), unit.strip()).replace("^2", "²").replace("^3", "³")
             assert units.named(name)[1] == unit, name

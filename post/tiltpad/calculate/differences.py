@@ -68,6 +68,8 @@ def described(name: str, value: Any) -> str:
     if value is None:
         return f"no {text}"
     if isinstance(value, str):
-        return WORDS.get(value, value) if text == "model" else value.replace("_", " ")
+        if name == "friction%model":
+            return WORDS.get(value, value)
+        return f"{name.partition('%')[0]} {value}" if text == "model" else value.replace("_", " ")
     numbers = value if isinstance(value, tuple) else (value,)
     return f"{text} = {', '.join(f'{number:g}' for number in numbers)} {unit}".rstrip()

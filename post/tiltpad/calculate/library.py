@@ -121,6 +121,7 @@ def pressure(
     phi, z, field, force, max_pressure, min_film_thickness = called(
         "film_pressure",
         run,
+        viscosity(run),
         0.0 if at is None else at,
         journal,
         *pads,
@@ -148,9 +149,15 @@ def losses(run: Run, last: float = 1) -> Losses:
         return np.moveaxis(values, 1, -1)
 
     states = motion("pad_tilt"), motion("pad_penetration")
-    (found,) = called("power_losses", run, time, np.array(journal), *states)
+    (found,) = called("power_losses", run, viscosity(run), time, np.array(journal), *states)
     load, couette, pressure, boundary, *others = np.moveaxis(found, -1, 1)
     return Losses(time, load, couette + pressure + boundary, couette, pressure, boundary, *others)
+
+
+def viscosity(run: Run) -> np.ndarray:
+    """Viscosity of the oil on each pad at the equilibrium, Pa s, (pad,); 0 where it is that of the input."""
+    warm = "equilibrium/viscosity"
+    return run[warm] if warm in run else np.zeros(run.pads)
 
 
 def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple[np.ndarray, np.ndarray]]:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tiltpad.calculate import behaviour, pivots, signals, spectra
+from tiltpad.calculate.heat import heat_balance
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 
@@ -140,6 +141,8 @@ JOURNAL = [
         "temperature_rise",
         lambda run: run["equilibrium/temperature_rise_side"],
     ),
+    ("shaft temperature", "temperature", lambda run: run["equilibrium/shaft_temperature"]),
+    ("drain temperature", "temperature", lambda run: run["equilibrium/drain_temperature"]),
 ]
 
 PADS = [
@@ -176,6 +179,13 @@ PADS = [
         "temperature_rise",
         lambda run: run["equilibrium/temperature_rise"],
     ),
+    ("inlet temperature", "temperature", lambda run: run["equilibrium/inlet_temperature"]),
+    ("mean temperature of the film", "temperature", lambda run: run["equilibrium/mean_temperature"]),
+    ("outlet temperature", "temperature", lambda run: run["equilibrium/outlet_temperature"]),
+    ("maximum temperature of the pad", "temperature", lambda run: run["equilibrium/maximum_temperature"]),
+    ("viscosity of the film", "viscosity", lambda run: run["equilibrium/viscosity"]),
+    ("heat to the oil", "power_loss", lambda run: heat_balance(run).to_oil),
+    ("heat to the shaft", "power_loss", lambda run: heat_balance(run).to_shaft),
 ]
 
 

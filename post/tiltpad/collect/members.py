@@ -139,6 +139,8 @@ def place(attributes: dict[str, Any]) -> tuple[int | None, int | None, dict[str,
 def at_rest(run: Run) -> dict[str, Any]:
     """The equilibrium."""
     known = {name: run[f"equilibrium/{own}"] for name, own in FIGURES.items() if f"equilibrium/{own}" in run}
+    if (hottest := "equilibrium/maximum_temperature") in run:
+        known["equilibrium_maximum_temperature"] = run[hottest].max()
     return known | {
         "equilibrium_y": float(run["equilibrium/journal_y"]),
         "equilibrium_z": float(run["equilibrium/journal_z"]),

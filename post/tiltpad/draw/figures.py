@@ -36,6 +36,7 @@ from tiltpad.draw.layout import (
     width,
 )
 from tiltpad.draw.vibrations import campbell, coefficients, stability
+from tiltpad.draw.warm import temperatures
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN
@@ -359,6 +360,6 @@ FIGURES = {
     for each in (
         *(orbit, equilibrium, size, poincare, waveform, multipliers, spectrum),
         *(hysteresis, friction, sticking, runup, orders, waterfall, pressure),
-        *(coefficients, stability, campbell, response),
+        *(coefficients, stability, campbell, response, temperatures),
     )
 }

@@ -39,6 +39,7 @@ PICTURES = {
     "sticking": "Tilt rate, bold where the pivot sticks, over the last two revolutions.",
     "poincare": "States once a revolution, on the path of the last revolutions.",
     "pressure": "Film pressure over the unrolled pads at the equilibrium.",
+    "temperatures": "Temperatures of the pads, and where the heat of their films goes.",
     "coefficients": "Stiffness and damping over the whirl frequency.",
     "stability": "Damping ratio and logarithmic decrement of the modes over their frequency.",
     "campbell": "Frequencies of the modes over the speed.",

@@ -29,6 +29,12 @@ MODES = {
     **dict.fromkeys(("shape_real", "shape_imag"), ("pivot", "mode", "position_row")),
     "threshold_rpm": ("pivot",),
 }
+#: Dimensions of what a heat balance adds to the group equilibrium.
+WARM = {
+    **dict.fromkeys(("inlet_temperature", "mean_temperature", "outlet_temperature"), ("pad",)),
+    **dict.fromkeys(("maximum_temperature", "viscosity"), ("pad",)),
+    **dict.fromkeys(("shaft_temperature", "drain_temperature"), ()),
+}
 #: Single numbers of the group periodic.
 PERIODIC = (
     *("period", "revolutions", "residual", "iterations", "intervals", "evaluations", "marched_periods"),
@@ -71,6 +77,7 @@ DIMENSIONS = {
         ),
         ("pad",),
     ),
+    **{f"equilibrium/{name}": dimensions for name, dimensions in WARM.items()},
     **dict.fromkeys(
         ("spectrum/frequency", "spectrum/order", "spectrum/journal_y", "spectrum/journal_z"),
         ("spectrum/frequency",),
@@ -250,6 +257,9 @@ class Run(Archive):
             return f"pad motion is '{motion}'"
         if motion == "fixed" and any(each in name for each in OF_TILTING):
             return "pad motion is 'fixed'"
+        thermal = self.input.get("thermal", {}).get("model", "none")
+        if name.removeprefix("equilibrium/") in WARM and thermal == "none":
+            return "it has no heat balance (thermal%model = 'none')"
         if name.startswith("equilibrium") and (start := self.input.get("start", {}).get("from")):
             return f"it did not start at one (start%from = '{start}')"
         if name in ("coefficients", "modes"):

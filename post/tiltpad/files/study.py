@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tiltpad.files.archive import Archive, RunError, damaged, plain, reading
-from tiltpad.files.read import COEFFICIENTS, MODES, Run, StudyError, read
+from tiltpad.files.read import COEFFICIENTS, MODES, WARM, Run, StudyError, read
 
 #: Dimensions of the arrays.
 MEMBER, PADS, PIVOTS = ("member",), ("member", "pad"), ("member", "pivot")
@@ -85,6 +85,14 @@ QUANTITIES = {
     "pad_equilibrium_power_loss": Quantity(PADS, "W", "power loss at the equilibrium"),
     "pad_equilibrium_inlet_flow": Quantity(PADS, "m^3/s", "flow in at the leading edge at the equilibrium"),
     "pad_equilibrium_side_flow": Quantity(PADS, "m^3/s", "flow out at both sides at the equilibrium"),
+    "pad_equilibrium_inlet_temperature": Quantity(PADS, "degC", "temperature at the leading edge"),
+    "pad_equilibrium_mean_temperature": Quantity(PADS, "degC", "mean temperature of the film"),
+    "pad_equilibrium_outlet_temperature": Quantity(PADS, "degC", "temperature at the trailing edge"),
+    "pad_equilibrium_maximum_temperature": Quantity(PADS, "degC", "maximum temperature of the pad"),
+    "pad_equilibrium_viscosity": Quantity(PADS, "Pa s", "viscosity of the film"),
+    "equilibrium_maximum_temperature": Quantity(MEMBER, "degC", "maximum temperature of all pads"),
+    "equilibrium_shaft_temperature": Quantity(MEMBER, "degC", "temperature of the shaft"),
+    "equilibrium_drain_temperature": Quantity(MEMBER, "degC", "temperature of the oil that leaves"),
     "poincare_y": Quantity(("member", "revolution"), "m", "journal y once a revolution"),
     "poincare_z": Quantity(("member", "revolution"), "m", "journal z once a revolution"),
     "poincare_tilt": Quantity(("member", "revolution", "pad"), "rad", "tilt once a revolution"),
@@ -102,6 +110,7 @@ FIGURES = {
         )
     },
     **{f"equilibrium_{name}": f"total_{name}" for name in ("power_loss", "inlet_flow", "side_flow")},
+    **{f"{'pad_' if each else ''}equilibrium_{name}": name for name, each in WARM.items()},
     **{f"pad_equilibrium_{name}": name for name in ("load", "power_loss", "inlet_flow", "side_flow")},
 }
 #: States that Poincare points are kept of.

@@ -78,6 +78,20 @@ SHOWN = {
     "equilibrium_side_flow": Shown("side flow at equilibrium", 6e4, "l/min"),
     "equilibrium_temperature_rise_fresh": Shown("warming of the oil, all of it fresh", 1, "K"),
     "equilibrium_temperature_rise_side": Shown("warming of the oil, the sides' replaced", 1, "K"),
+    "temperature": Shown("temperature", 1, "°C"),
+    "viscosity": Shown("viscosity", 1e3, "mPa s"),
+    **{
+        f"equilibrium_{name}": Shown(f"{text} at equilibrium", 1, "°C")
+        for name, text in (
+            ("inlet_temperature", "inlet temperature"),
+            ("mean_temperature", "mean temperature"),
+            ("outlet_temperature", "outlet temperature"),
+            ("maximum_temperature", "maximum temperature"),
+            ("shaft_temperature", "shaft temperature"),
+            ("drain_temperature", "drain temperature"),
+        )
+    },
+    "equilibrium_viscosity": Shown("viscosity at equilibrium", 1e3, "mPa s"),
     "period": Shown("period", 1e3, "ms"),
     "multiplier_real": Shown("multiplier, real part", 1, ""),
     "multiplier_imag": Shown("multiplier, imaginary part", 1, ""),
@@ -95,6 +109,10 @@ UNITS = {
     **{"specific_heat": "J/(kg K)", "cross_stiffness": "N/m"},
     **{"mass": "kg", "unbalance": "kg m", "inertia": "kg m²", "characteristic_load": "N", "static_load": "N"},
     **{"balance_grade": "mm/s", "gravity": "m/s²", "viscosity": "Pa s"},
+    **dict.fromkeys(("supply_temperature", "shaft_temperature", "reference_temperature"), "°C"),
+    **{"at_temperature": "°C", "temperature_exponent": "1/K", "reference_viscosity": "Pa s"},
+    **{"kinematic_viscosity": "m²/s", "density_at_15": "kg/m³", "density_slope": "kg/(m³ K)"},
+    **{"conductivity": "W/(m K)", "groove_volume": "m³"},
     **dict.fromkeys(("duration", "start_time", "max_step", "checkpoint_seconds"), "s"),
     **dict.fromkeys(("supply_pressure", "ambient_pressure", "cavitation_pressure"), "Pa"),
     **dict.fromkeys(("young_modulus", "elastic_modulus"), "Pa"),

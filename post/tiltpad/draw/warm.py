@@ -1,0 +1,150 @@
+"""Pictures of warm oil: temperatures and viscosity of the pads, and where the heat goes.
+
+Studies are drawn over a parameter, single results as their pads.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tiltpad.calculate.heat import heat_balance
+from tiltpad.calculate.selection import selected
+from tiltpad.draw.diagrams import mark_failed
+from tiltpad.draw.layout import COLUMN, PAGE, heading, labels, of_several, plain, shown_pads, stacked
+from tiltpad.draw.vibrations import axis_label, parts, title
+from tiltpad.files.archive import NotInRunError
+from tiltpad.files.read import Run
+from tiltpad.files.study import Study
+from tiltpad.files.units import SHOWN
+
+#: Temperatures of a pad: how they are drawn beside each other, and along a line.
+PLACES = {"inlet": "<", "mean": "o", "outlet": ">", "maximum": "^"}
+#: Temperatures of the bearing.
+SHAFT = {"color": "0.3", "linestyle": "--", "label": "shaft"}
+DRAIN = {"color": "0.3", "linestyle": ":", "label": "drain"}
+SUPPLY = {"color": "0.3", "linestyle": "-", "linewidth": 0.8, "label": "supply"}
+
+
+@of_several
+def temperatures(
+    runs: Sequence[Run | Study],
+    last: float | None = None,
+    pad: int | None = None,
+    over: str | None = None,
+    where: Mapping[str, Any] | None = None,
+) -> Figure:
+    """Temperatures and viscosities over a parameter of studies; of results also the pads' heat balances."""
+    if all(isinstance(each, Run) for each in runs):
+        return of_results(runs, pad)
+    found = parts(runs, None, over, where)
+    if len(found) > 1:
+        names = "; ".join(one.text for one in found)
+        raise ValueError(f"a picture of temperatures has a line for each pad: choose by where: {names}")
+    (one,) = found
+    fig, panels = stacked(["temperature", "viscosity"])
+    fig.set_figheight(4.2)
+    pads = over_parameter(one.source, one.where, one.over, pad, panels["temperature"], panels["viscosity"])
+    for name, ax in panels.items():
+        ax.set_ylabel(SHOWN[name].label)
+    panels["viscosity"].set(xlabel=axis_label(runs, over, where), ylim=(0, None))
+    entries = [(f"pad {k}", {"color": f"C{i}"}) for i, k in enumerate(pads)]
+    entries += [("maximum", {"color": "0.3"}), ("mean", {"color": "0.3", "linestyle": "-."})]
+    heading(fig, [*entries, *((each["label"], without_label(each)) for each in (SHAFT, DRAIN))], title(runs))
+    return fig
+
+
+def over_parameter(
+    study: Study, where: Mapping[str, Any], over: str, pad: int | None, upper: Axes, lower: Axes
+) -> list[int]:
+    """Draws temperatures and viscosities of the members over a parameter; gives the pads."""
+    if "pad_equilibrium_mean_temperature" not in study:
+        raise NotInRunError(f"{study.path}: no temperatures in this study: thermal%model is 'none'")
+    place = study[over]
+    order = np.flatnonzero(selected(study, where) & np.isfinite(place))
+    order = order[np.argsort(place[order], kind="stable")]
+    x = place[order]
+    mean, maximum, viscosity = (
+        study[f"pad_equilibrium_{name}"][order]
+        for name in ("mean_temperature", "maximum_temperature", "viscosity")
+    )
+    pads = list(range(1, mean.shape[1] + 1))
+    if pad is not None and pad not in pads:
+        raise ValueError(f"{study.path}: no pad {pad}: 1 to {len(pads)}")
+    pads = pads if pad is None else [pad]
+    dots = {"marker": "o", "markersize": 3} if len(x) < 30 else {}
+    for i, k in enumerate(pads):
+        upper.plot(x, maximum[:, k - 1], color=f"C{i}", **dots)
+        upper.plot(x, mean[:, k - 1], "-.", color=f"C{i}", linewidth=1)
+        lower.plot(x, SHOWN["viscosity"].factor * viscosity[:, k - 1], color=f"C{i}", **dots)
+    upper.plot(x, study.equilibrium_shaft_temperature[order], **SHAFT)
+    upper.plot(x, study.equilibrium_drain_temperature[order], **DRAIN)
+    for ax in (upper, lower):
+        mark_failed(ax, x[np.isnan(mean).all(axis=1)], None)
+    return pads
+
+
+def of_results(runs: Sequence[Run], pad: int | None) -> Figure:
+    """For each result its temperatures, viscosities and the heat of its pads, in a row."""
+    pads = shown_pads(runs, pad)
+    fig = plt.figure(figsize=(PAGE, 0.6 + 2.4 * len(runs)))
+    rows = fig.subplots(len(runs), 2, squeeze=False)
+    names = labels(runs) if len(runs) > 1 else [""]
+    for (left, right), run, name in zip(rows, runs, names, strict=True):
+        temperatures_of_pads(run, left, pads)
+        heat_of_pads(run, right, pads)
+        left.set_title(plain(name, int(15 * COLUMN)))
+        for ax in (left, right):
+            ax.set_xticks(range(len(pads)), [f"pad {k}" for k in pads])
+            ax.grid(visible=False, axis="x")
+    handles, texts = rows[0, 0].get_legend_handles_labels()
+    more = rows[0, 1].get_legend_handles_labels()
+    fig.legend(
+        [*handles, *more[0]],
+        [*texts, *more[1]],
+        loc="outside upper center",
+        ncols=5,
+        title=title(runs) or None,
+    )
+    return fig
+
+
+def temperatures_of_pads(run: Run, ax: Axes, pads: Sequence[int]) -> Axes:
+    """Temperatures of each pad beside those of supply, shaft and drain; the viscosity as text."""
+    columns = [k - 1 for k in pads]
+    for i, (name, marker) in enumerate(PLACES.items()):
+        values = run[f"equilibrium/{name}_temperature"][columns]
+        ax.plot(np.arange(len(pads)), values, marker, color=f"C{i}", label=name, linestyle="")
+    viscosity = SHOWN["viscosity"].factor * run["equilibrium/viscosity"][columns]
+    for i, value in enumerate(viscosity):
+        top = run["equilibrium/maximum_temperature"][columns[i]]
+        text = f"{value:.3g} {SHOWN['viscosity'].unit}"
+        ax.annotate(text, (i, top), (0, 6), textcoords="offset points", ha="center", fontsize="small")
+    ax.axhline(run.input["oil"]["supply_temperature"], **SUPPLY)
+    ax.axhline(float(run["equilibrium/shaft_temperature"]), **SHAFT)
+    ax.axhline(float(run["equilibrium/drain_temperature"]), **DRAIN)
+    ax.margins(x=0.2, y=0.15)
+    ax.set_ylabel(SHOWN["temperature"].label)
+    return ax
+
+
+def heat_of_pads(run: Run, ax: Axes, pads: Sequence[int]) -> Axes:
+    """For each pad the heat made in its film, and beside it where it goes."""
+    columns, place = [k - 1 for k in pads], np.arange(len(pads))
+    shown, found = SHOWN["power_loss"], heat_balance(run)
+    made = shown.factor * found.made[columns]
+    to_oil, to_shaft = (shown.factor * each[columns] for each in (found.to_oil, found.to_shaft))
+    ax.bar(place - 0.2, made, 0.38, color="C0", label="heat made")
+    ax.bar(place + 0.2, to_oil, 0.38, color="C2", label="to the oil")
+    # a shaft that warms the film is drawn below zero
+    ax.bar(place + 0.2, to_shaft, 0.38, np.where(to_shaft > 0, to_oil, 0), color="C4", label="to the shaft")
+    ax.axhline(0, color="0.3", linewidth=0.8)
+    ax.set_ylabel(f"heat ({shown.unit})")
+    return ax
+
+
+def without_label(look: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in look.items() if key != "label"}
