@@ -9,7 +9,7 @@ module periodic_orbit
    use cvode_integrator, only: integrator_type
    use equations_of_motion, only: bearing_model
    use damped_newton, only: asked_to_stop, asked
-   use orbit_collocation, only: orbit_type, newton_round, points
+   use orbit_collocation, only: orbit_type, newton_round, points, place
    use orbit_march, only: march_period
    use kink_mesh, only: follow_kinks
    use floquet_multipliers, only: set_multipliers
@@ -67,6 +67,7 @@ contains
       procedure(asked_to_stop), optional :: give_up
       type(integrator_type) :: integrator
       type(march_options) :: mesh
+      type(orbit_type) :: before
       real(wp) :: factor
       integer :: next_try
       found%period = options%revolutions*2*pi/model%point%speed(0.0_wp)
@@ -81,6 +82,7 @@ contains
       call integrator%start(model, mesh, 0.0_wp, y, last_try*found%period, error)
       next_try = first_try
       do while (.not. allocated(error))
+         before = found%orbit
          call march_period(integrator, mesh, model%n + model%outputs, found%marched, found%period, found%orbit, error, &
             & give_up)
          found%march = integrator%counts()
@@ -88,6 +90,7 @@ contains
          found%marched = found%marched + 1
          if (found%marched < next_try .and. (found%evaluations > 0 .or. change_in_period(found%orbit) > near)) cycle
          next_try = 2*found%marched
+         if (change_in_period(found%orbit) > near) call average(found%orbit, before)
          call close_orbit(model, options, found, error, give_up)
          if (.not. allocated(error)) return
          if (error%status == numerics_error .and. next_try <= last_try) deallocate (error)
@@ -100,6 +103,22 @@ contains
       type(orbit_type), intent(in) :: orbit
       change = maxval(abs(orbit%at(:, points, orbit%intervals()) - orbit%start)/orbit%scale)
    end function change_in_period
+
+   !> Puts an orbit half way to that of the period before: a motion that alternates between two does so about an unstable
+   !> orbit of one period.
+   pure subroutine average(orbit, before)
+      type(orbit_type), intent(inout) :: orbit
+      type(orbit_type), intent(in) :: before
+      real(wp) :: y(size(orbit%start))
+      integer :: k, i
+      do k = 1, orbit%intervals()
+         do i = 1, points
+            call before%state_at(orbit%time(k - 1) + place(i)*(orbit%time(k) - orbit%time(k - 1)), y)
+            orbit%at(:, i, k) = 0.5_wp*(orbit%at(:, i, k) + y)
+         end do
+      end do
+      orbit%start = 0.5_wp*(orbit%start + before%start)
+   end subroutine average
 
    !> Newton's method on the collocation of an orbit. Before each round ends of intervals go to the kinks of friction on
    !> the orbit as it is.

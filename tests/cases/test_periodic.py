@@ -112,6 +112,16 @@ def test_two_revolutions_square_the_multipliers(run, tmp_path):
         assert modulus[1] == pytest.approx(modulus[0] ** 2, rel=1e-3)
 
 
+def test_an_orbit_that_the_march_has_left_for_the_doubled_one(run, tmp_path):
+    """Upper pads flutter at half the shaft speed: only the mean of two periods is near the orbit of one."""
+    four = "&pads pivot_angle_deg=-45,225,45,135 /\n&friction model='lugre' /\n&film cavitation='gumbel' /\n"
+    run(four, PERIODIC, "operation%speed_rpm=8000", "output%samples_per_revolution=20")
+    with h5py.File(tmp_path / "case.h5") as file:
+        assert file["periodic/multiplier_imag"][0] == 0
+        assert file["periodic/multiplier_real"][0] < -2
+        assert file["periodic/residual"][()] < 1e-6
+
+
 def test_fixed_pads(run, tmp_path):
     run(LUGRE, PERIODIC, "pads%motion='fixed'", "friction%model='none'")
     with h5py.File(tmp_path / "case.h5") as file:
