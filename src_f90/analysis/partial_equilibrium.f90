@@ -5,9 +5,10 @@ module partial_equilibrium
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error, stopped
    use equations_of_motion, only: bearing_model
-   use damped_newton, only: follow_motion, asked_to_stop, asked, newtons
+   use damped_newton, only: asked_to_stop, asked
    use pad_elimination, only: eliminate_pads
    use static_model, only: equilibrium_type, describe, make_static, make_quick, start, starts
+   use warm_oil, only: has_warm_oil, guess_oil, come_to_warm_rest
    implicit none (type, external)
    private
    public :: find_partial_equilibrium
@@ -28,7 +29,8 @@ contains
       logical :: at_rest(model%layout%pads), ok
       integer :: k
       call make_static(model, model%point%rupture, static)
-      call make_quick(model%scene, model%bearing%pads%gap%viscosity, model%point%rupture, quick)
+      if (has_warm_oil(model)) call guess_oil(static, 1)
+      call make_quick(model%scene, static%bearing%pads%gap%viscosity, model%point%rupture, quick)
       do k = 1, starts
          y = start(quick, k)
          call eliminate_pads(quick, y, at_rest, ok, give_up)
@@ -38,7 +40,7 @@ contains
          end if
          if (.not. ok) cycle
          held = .not. at_rest
-         call follow_motion(static, y, found%residual, error, give_up, held, newtons)
+         call come_to_warm_rest(static, y, found%residual, error, give_up, held)
          if (.not. allocated(error)) then
             call describe(static, y, found)
             return

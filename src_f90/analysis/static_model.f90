@@ -79,14 +79,16 @@ contains
 
    !> Brings a state that is nearly at rest to rest by Newton's method. Volumes of ruptured films make their force leap
    !> by less than its error; where the rest lies in a leap, y ends beside it.
-   subroutine come_to_rest(model, y, residual, error, give_up)
+   subroutine come_to_rest(model, y, residual, error, give_up, held)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       real(wp), intent(out) :: residual
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
+      !> Pads that are held where they are.
+      logical, intent(in), optional :: held(:)
       logical :: ok
-      call follow_motion(model, y, residual, error, give_up, first_step=newtons)
+      call follow_motion(model, y, residual, error, give_up, held, newtons)
       if (.not. allocated(error) .or. residual > largest_leap) return
       call model%evaluate(0.0_wp, y, .false., ok)
       if (ok) deallocate (error)

@@ -72,12 +72,14 @@ contains
 
    !> Brings a state that is nearly at rest to rest, as come_to_rest does, and the oil, where it is warm, to the
    !> temperatures of this rest: the model then has its viscosities.
-   subroutine come_to_warm_rest(model, y, residual, error, give_up)
+   subroutine come_to_warm_rest(model, y, residual, error, give_up, held)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       real(wp), intent(out) :: residual
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
+      !> Pads that are held where they are.
+      logical, intent(in), optional :: held(:)
       type(bearing_losses_type) :: finder
       type(heat_balance_type) :: balance
       type(pad_loss) :: losses(model%layout%pads)
@@ -86,14 +88,14 @@ contains
       integer :: round
       logical :: ok
       if (.not. has_warm_oil(model)) then
-         call come_to_rest(model, y, residual, error, give_up)
+         call come_to_rest(model, y, residual, error, give_up, held)
          return
       end if
       finder = new_bearing_losses(model%scene)
       balance = new_heat_balance(model%scene)
       step = 0
       do round = 1, most_rounds
-         call follow(model, y, step, residual, error, give_up)
+         call follow(model, y, step, residual, error, give_up, held)
          if (allocated(error)) return
          call find_losses(model, finder, y, losses)
          now = model%bearing%pads%gap%viscosity
@@ -111,18 +113,19 @@ contains
 
    !> Brings a state at rest to rest again after a step of the logarithms of the viscosities, or after the longest part
    !> of it that Newton's method can follow.
-   subroutine follow(model, y, step, residual, error, give_up)
+   subroutine follow(model, y, step, residual, error, give_up, held)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:), step(:)
       real(wp), intent(out) :: residual
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
+      logical, intent(in), optional :: held(:)
       real(wp) :: trial(size(y)), before(size(step))
       before = model%bearing%pads%gap%viscosity
       call model%bearing%set_viscosity(before*exp(step))
       do
          trial = y
-         call come_to_rest(model, trial, residual, error, give_up)
+         call come_to_rest(model, trial, residual, error, give_up, held)
          if (.not. allocated(error)) exit
          if (asked(give_up) .or. .not. maxval(abs(step)) > shortest_step) return
          step = step/4

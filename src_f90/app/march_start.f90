@@ -5,8 +5,9 @@ module march_start
    use errors, only: error_type, raise, add_context, input_error, numerics_error, stopped
    use files, only: real_path
    use kinematics, only: journal_motion, pad_state
-   use equilibrium, only: equilibrium_type
+   use equilibrium, only: equilibrium_type, find_equilibrium
    use partial_equilibrium, only: find_partial_equilibrium
+   use warm_oil, only: has_warm_oil
    use last_state, only: read_last_state
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
@@ -14,7 +15,7 @@ module march_start
    use run_summary, only: print_start
    implicit none (type, external)
    private
-   public :: make_start
+   public :: make_start, take_oil
 
 contains
 
@@ -35,6 +36,7 @@ contains
          else
             allocate (pads(model%layout%pads))
             if (from == 'file') call start_from_file(run, journal, pads, error)
+            if (from /= 'partial' .and. .not. allocated(error)) call take_oil(run, error)
             if (from == 'partial') call start_partially(run, journal, pads, error)
             if (.not. allocated(error)) call create_file(run, error)
             if (allocated(error)) return
@@ -51,6 +53,27 @@ contains
       run%computed = .true.
       if (.not. run%quiet) call print_start(run%scene, journal%position, pads%tilt)
    end subroutine make_start
+
+   !> Gives warm oil the viscosities of the equilibrium, which it keeps in a march that starts elsewhere or goes on from
+   !> a checkpoint.
+   subroutine take_oil(run, error)
+      type(case_run_type), intent(inout) :: run
+      type(error_type), allocatable, intent(inout) :: error
+      type(equilibrium_type) :: static
+      logical, allocatable :: held(:)
+      if (.not. has_warm_oil(run%model)) return
+      if (run%scene%start%from == 'partial') then
+         call find_partial_equilibrium(run%model, static, held, error, stop_requested)
+      else
+         call find_equilibrium(run%model, static, error, stop_requested)
+      end if
+      if (allocated(error)) then
+         if (error%status == stopped) error%message = stop_reason()//nothing_computed
+         call add_context(error, 'the oil takes the temperatures of the equilibrium')
+      else
+         call run%model%bearing%set_viscosity(static%viscosity)
+      end if
+   end subroutine take_oil
 
    !> The last state of another result.
    subroutine start_from_file(run, journal, pads, error)
@@ -71,7 +94,7 @@ contains
 
    !> Journal and loaded pads in equilibrium, and pads without rest position held at zero tilt on their pivots.
    subroutine start_partially(run, journal, pads, error)
-      type(case_run_type), intent(in) :: run
+      type(case_run_type), intent(inout) :: run
       type(journal_motion), intent(inout) :: journal
       type(pad_state), intent(inout) :: pads(:)
       type(error_type), allocatable, intent(out) :: error
@@ -86,6 +109,7 @@ contains
       journal%position = static%journal
       pads%tilt = static%tilt
       pads%penetration = static%penetration
+      call run%model%bearing%set_viscosity(static%viscosity)
       do i = 1, size(held)
          if (held(i) .and. .not. run%quiet) print '(a)', 'pad '//to_text(i)//' has no rest position: it starts ' &
             & //'without tilt on its pivot'

@@ -13,7 +13,7 @@ module march_task
    use static_model, only: make_static
    use small_vibrations, only: has_light_modes
    use case_run, only: case_run_type
-   use march_start, only: make_start
+   use march_start, only: make_start, take_oil
    use recorder, only: recorder_type, begin_recording
    implicit none (type, external)
    private
@@ -71,6 +71,7 @@ contains
       allocate (y(run%model%n))
       run%earlier = run%statistics()
       call run%file%resume(t, y, run%earlier, error)
+      if (.not. allocated(error)) call take_oil(run, error)
       if (allocated(error)) return
       run%computed = .true.
       if (.not. run%quiet) print '(a)', 'going on from t = '//to_text(t)//' s'

@@ -28,6 +28,7 @@ SCENES = {
     "--set operation%duration=0.2",
     "sor": "--set film%solver='sor' --set operation%duration=0.02",
     "late": "--set output%start_time=0.4",
+    "warm": "--set oil%grade=46 --set thermal%model='pad' --set operation%duration=0.3",
 }
 #: One that is still running when a signal comes.
 LONG = "--set operation%duration=3"

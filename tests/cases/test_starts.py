@@ -56,6 +56,21 @@ def test_each_start_leads_to_the_orbit(run, start):
         assert np.abs(one - two).max() < 2e-3 * size, name
 
 
+WARM = ("oil%grade=46", "thermal%model='pad'")
+
+
+@pytest.mark.parametrize("start", ["partial", "centred"])
+def test_warm_oil_keeps_the_temperatures_of_the_equilibrium(run, start):
+    """Wherever a march starts; and they are those of the march: one film is thicker than the other."""
+    whole, other = run("warm", *WARM), run(f"warm_{start}", *WARM, *STARTS[start])
+    for name, size in SIZES.items():
+        one, two = (np.sort(file[name][-360:], axis=0) for file in (whole, other))
+        assert np.abs(one - two).max() < 2e-3 * size, name
+    rest = whole["equilibrium/journal_z"][()]
+    assert rest < -5e-6
+    assert abs(whole["journal_z"][-360:].mean() - rest) < 1e-6
+
+
 def test_equilibrium_is_the_default(run):
     whole, same = run("whole"), run("same", "start%from='equilibrium'")
     assert whole.attrs["input"] == same.attrs["input"]
