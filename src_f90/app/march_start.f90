@@ -67,11 +67,12 @@ contains
       else
          call find_equilibrium(run%model, static, error, stop_requested)
       end if
-      if (allocated(error)) then
-         if (error%status == stopped) error%message = stop_reason()//nothing_computed
-         call add_context(error, 'the oil takes the temperatures of the equilibrium')
-      else
+      if (.not. allocated(error)) then
          call run%model%bearing%set_viscosity(static%viscosity)
+      else if (error%status == stopped) then
+         error%message = stop_reason()//' while the temperatures of the oil were sought'
+      else
+         call add_context(error, 'the oil takes the temperatures of the equilibrium')
       end if
    end subroutine take_oil
 
