@@ -104,8 +104,8 @@ contains
       change = maxval(abs(orbit%at(:, points, orbit%intervals()) - orbit%start)/orbit%scale)
    end function change_in_period
 
-   !> Puts an orbit half way to that of the period before: a motion that alternates between two does so about an unstable
-   !> orbit of one period.
+   !> Puts an orbit half way to that of the period before: a motion that alternates between two does so about an
+   !> unstable orbit of one period.
    pure subroutine average(orbit, before)
       type(orbit_type), intent(inout) :: orbit
       type(orbit_type), intent(in) :: before
