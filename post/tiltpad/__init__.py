@@ -62,6 +62,7 @@ from tiltpad.files.namelist import write_case
 from tiltpad.files.read import IncompleteRunWarning, Run, of_run, read
 from tiltpad.files.study import Study, read_study
 from tiltpad.running import MissingProgramError, run
+from tiltpad.up_and_down import brute_force
 
 __all__ = [
     "Coefficients",
@@ -83,6 +84,7 @@ __all__ = [
     "RunError",
     "Study",
     "bristle_rate",
+    "brute_force",
     "coefficients",
     "collect",
     "contact",

@@ -93,7 +93,7 @@ def test_a_small_orbit_is_that_of_the_coefficients(study):
         turning = own.frequency[0]
         dynamic = own.stiffness[0] + 1j * turning * own.damping[0] - turning**2 * mass * np.eye(2)
         linear = np.linalg.solve(dynamic, 1e-4 * turning**2 * np.array([1, -1j]))
-        orbit = found.amplitude[k] * np.exp(1j * found.phase[k])
+        orbit = found.amplitude[k] * np.exp(-1j * found.phase[k])
         # the unbalance moves the journal by some 1e-3 of the clearance: what is not linear is of this order
         np.testing.assert_allclose(orbit, linear, rtol=5e-3)
 

@@ -167,3 +167,31 @@ def test_a_study_as_csv(result, tmp_path):
         place = head.split(",").index("orbit_y")
         assert [float(row.split(",")[place]) for row in rows] == list(study.orbit_y)
         assert study.to_xarray().orbit_y.dims == ("member",)
+
+
+def test_brute_force_goes_up_and_down_from_the_end_of_each_march(tmp_path):
+    lengths = {"settle": 1, "revolutions": 3, "output": {"samples_per_revolution": 20}}
+    study = tiltpad.brute_force(None, "operation%speed_rpm", [6000, 5000], tmp_path / "up", **lengths)
+    with study:
+        assert study.parameters == ["speed_rpm", "direction"]
+        np.testing.assert_array_equal(study.speed_rpm, [5000, 6000, 6000, 5000])
+        assert list(study.direction) == ["upwards", "upwards", "downwards", "downwards"]
+        assert study.poincare_y.shape == (4, 4)
+    ends = []
+    for number in range(1, 5):
+        with tiltpad.read(tmp_path / f"up/{number:04d}.h5") as run:
+            assert run.time[0] == pytest.approx(60 / run.input["operation"]["speed_rpm"])
+            assert (number > 1) == run.input["start"]["from"].startswith("file")
+            if number > 1:
+                assert Path(run.input["start"]["file"]).name == f"{number - 1:04d}.h5"
+            ends.append(run.journal_y[-1])
+    # at the same speed it goes on as if it had not stopped
+    case = {
+        "operation": {"speed_rpm": 6000, "duration": 4 * 60 / 6000},
+        "output": {"samples_per_revolution": 20},
+    }
+    start = {"from": "file", "file": str(tmp_path / "up/0002.h5")}
+    with tiltpad.run(case, start=start) as run:
+        assert run.journal_y[-1] == pytest.approx(ends[2], abs=1e-9)
+    with pytest.raises(ValueError, match="it needs values"):
+        tiltpad.brute_force(None, "rotor%unbalance", [])

@@ -74,7 +74,8 @@ class Response(NamedTuple):
         parameter    name of what changes: speed_rpm
         values       of it, (n,), in the unit of the input
         amplitude    m, (n, 2): of y and z
-        phase        rad, (n, 2): the motion is amplitude * cos(shaft angle + phase), without jumps of 2 pi
+        phase        rad, (n, 2), by which it comes after the unbalance: it is
+                     amplitude * cos(shaft angle - phase); without jumps of 2 pi
         peaks        critical speeds, those of y first; none over another parameter than the speed
 
     Members of a study that have no motion are nan.
@@ -148,7 +149,7 @@ def of_runup(run: Run) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
     tracks = [order_track(run, f"journal_{each}") for each in DIRECTIONS]
     order = np.argsort(tracks[0][0], kind="stable")
     amplitude, phase = (np.column_stack([track[k] for track in tracks])[order] for k in (1, 2))
-    return SPEED, tracks[0][0][order] * 30 / np.pi, amplitude, phase
+    return SPEED, tracks[0][0][order] * 30 / np.pi, amplitude, -phase
 
 
 def peaks_of(direction: str, way: np.ndarray, speed: np.ndarray, amplitude: np.ndarray) -> list[Peak]:

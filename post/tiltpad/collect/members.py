@@ -189,7 +189,7 @@ def motion(run: Run, part: slice) -> dict[str, Any]:
         "mean_y": y.mean(),
         "mean_z": z.mean(),
         **{f"{name}_amplitude": abs(each) for name, each in first.items()},
-        **{f"{name}_phase": np.angle(each) for name, each in first.items()},
+        **{f"{name}_phase": -np.angle(each) for name, each in first.items()},
         "min_film_thickness": film.min(),
         "max_pressure": peak.max(),
         **({"pad_tilt_size": np.ptp(run.values("pad_tilt", part), axis=0)} if tilting else {}),

@@ -50,7 +50,7 @@ def response(
             entries.append((f"{one.text}, {words}" if one.text else words, line))
     text, unit = units.named(own.parameter)
     panels["amplitude"].set(ylabel=f"{size.text}, order 1 ({size.unit})", ylim=(0, None))
-    panels["phase"].set(ylabel="phase, order 1 (deg)", xlabel=units.Shown(text, 1, unit).label)
+    panels["phase"].set(ylabel="phase lag, order 1 (deg)", xlabel=units.Shown(text, 1, unit).label)
     heading(fig, entries, title(runs))
     return fig
 
