@@ -6,7 +6,7 @@ import sys
 import types
 
 import tiltpad
-from tiltpad import behaviour, diagrams, figures, plots, report, summary
+from tiltpad import bearing, behaviour, diagrams, figures, plots, report, study_report, summary
 from tiltpad.files import read
 
 HEAD = """# Python package
@@ -30,7 +30,10 @@ HEAD = """# Python package
 
 
 #: Functions of the plots that are no plots.
-HELPERS = "on_axes", "draw_amplitude", "direction_arrow", "polar", "marks_equilibrium", "pad_marks"
+HELPERS = (
+    *("on_axes", "draw_amplitude", "direction_arrow", "polar", "marks_equilibrium", "pad_marks"),
+    *("all_tilt", "label_films", "mark_orders"),
+)
 
 
 def main() -> None:
@@ -63,6 +66,8 @@ def main() -> None:
         [summary.journal, summary.pads, summary.peaks, summary.Figure, summary.Peak],
     )
     section("tiltpad.report", report, [report.report])
+    section("tiltpad.study_report", study_report, [study_report.study_report])
+    section("tiltpad.bearing", bearing, [bearing.bearing, bearing.movie])
 
 
 def own_functions(module: types.ModuleType, *helpers: str) -> list[types.FunctionType]:

@@ -16,7 +16,7 @@ DOCS = Path(__file__).resolve().parent
 HEAD = """# Gallery
 
 `make docs` writes this page. The command below each picture draws it, from the runs at the end of the page.
-Most plots accept several files, `--last N` revolutions and `--pad K`; all write PNG, PDF or SVG.
+Most plots accept several files, `--last N` revolutions and `--pad K`; all but movies write PNG, PDF or SVG.
 """
 LUGRE, PAPER = "input/paper/steady_lugre.nml", "input/paper"
 #: Runs: name, case and what is changed in it.
@@ -88,9 +88,13 @@ PICTURES = (
     ("friction", "lugre bengisu", "--pad 1", "a loop with LuGre, the Stribeck curve with Bengisu-Akay"),
     ("sticking", "bengisu", "", "the time in which the pivots stick"),
     ("runup", "runup", "", "a run-up from 1500 to 6500 rpm"),
-    ("orders", "runup", "", "amplitude and phase of the orders over speed"),
-    ("waterfall", "runup", "", "all orders over speed"),
+    ("orders", "runup", "", "amplitude and phase of the orders over speed, with the peak"),
+    ("waterfall", "runup", "", "frequencies over speed"),
     ("pressure", "lugre", "--time 1.9", "the film of the loaded pads"),
+    ("pressure", "five_pads", "", "one scale for all pads: the upper ones carry next to nothing"),
+    ("film", "five_pads", "", "thickness and pressure around the bearing"),
+    ("bearing", "five_pads", "", "pads, angles, load and sense of rotation, at the equilibrium"),
+    ("movie", "five_pads", "--last 4", "the unloaded top pad flutters at half the shaft speed"),
     ("response", "soft", "", "pivots that are soft give the rotor a critical speed"),
     ("coefficients", "whirl", "", "stiffness and damping over speed, at two whirl frequencies"),
     ("stability", "whirl", "--pivot stuck", "the modes with pivots that stick"),
@@ -126,7 +130,8 @@ def draw(plot: str, runs: str, options: str, number: int, folder: Path) -> str:
     """Draws a picture; gives the section of the page that shows it."""
     files = [f"{name}.h5" for name in runs.split()]
     words = [plot, *files, *options.split()]
-    picture = DOCS / f"images/gallery_{plot}{number or ''}.png"
+    suffix = command.MOVIES[0] if plot == command.MOVIE else command.FORMATS[0]
+    picture = DOCS / f"images/gallery_{plot}{number or ''}.{suffix}"
     command_line = [Path(sys.executable).with_name("tiltpad-plot"), *words, "-o", picture]
     subprocess.run(command_line, check=True, cwd=folder)
     return f"![{plot}](images/{picture.name})\n\n    tiltpad-plot {' '.join(words)}\n"

@@ -133,7 +133,7 @@ __version__: str
 
 #: Modules with a name of their own here, and the floors that they are on.
 MODULES = {
-    **dict.fromkeys(("diagrams", "figures", "plots", "report"), "draw"),
+    **dict.fromkeys(("bearing", "diagrams", "figures", "plots", "report", "study_report"), "draw"),
     **dict.fromkeys(("behaviour", "summary"), "calculate"),
     "units": "files",
 }

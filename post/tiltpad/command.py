@@ -1,6 +1,7 @@
 """The commands tiltpad-plot, tiltpad-report and tiltpad-collect."""
 
 import argparse
+import errno
 import os
 import sys
 import warnings
@@ -16,27 +17,36 @@ from tiltpad.collect.collect import MemberWarning
 from tiltpad.collect.collect import collect as collected
 from tiltpad.files.archive import NotInRunError, RunError, meant
 from tiltpad.files.read import IncompleteRunWarning, read
-from tiltpad.files.study import read_either, read_study
+from tiltpad.files.study import Study, read_either, read_study
+from tiltpad.running import resolved
 
 FORMATS = ("png", "pdf", "svg")
 #: Formats of tables, which the plot of coefficients can be, too.
 COEFFICIENTS, TABLES = "coefficients", ("csv", "toml")
-#: The plot of a study.
-STUDY = "study"
+#: The plot of a study; those of the bearing itself, of a case or a result, and of its motion.
+STUDY, BEARING, MOVIE = "study", "bearing", "movie"
+#: Formats of a movie.
+MOVIES = ("gif", "mp4")
 #: Plots of coefficients and modes: of results, and of studies.
 VIBRATIONS = ("coefficients", "stability", "campbell")
 #: Plots of results and of studies.
 OF_EITHER = (*VIBRATIONS, "response", "temperatures")
 #: Options of some plots alone.
 OWN_OPTIONS = {
-    "time": ("pressure",),
+    "time": ("pressure", "film"),
+    "orders": ("spectrum", "waterfall"),
+    "scale": ("orders",),
+    **dict.fromkeys(("by", "decades"), ("waterfall",)),
     **dict.fromkeys(("show", "kind"), (STUDY,)),
     **dict.fromkeys(("over", "where"), (STUDY, *OF_EITHER)),
     "pivot": (STUDY, *VIBRATIONS),
 }
 #: Plots without the options --last and --pad.
-WITHOUT_LAST = ("equilibrium", "runup", "orders", "waterfall", "pressure", STUDY, *OF_EITHER)
-WITHOUT_PAD = (*VIBRATIONS, "response")
+WITHOUT_LAST = (
+    *("equilibrium", "runup", "orders", "waterfall", "pressure", "film", BEARING, STUDY),
+    *OF_EITHER,
+)
+WITHOUT_PAD = (BEARING, MOVIE, *VIBRATIONS, "response")
 #: Exit status, as the program's own.
 INPUT_ERROR, FILE_ERROR = 1, 3
 
@@ -53,10 +63,13 @@ PLOTS = {
     "sticking": "tilt rate, with a bold line where the pivot sticks, one panel per pad (last 2 revolutions)",
     "runup": "journal, tilt and minimum film thickness over the whole run, with the speed",
     "orders": "amplitude and phase of the first orders over the speed of a run-up (--pad: also of its tilt)",
-    "waterfall": "amplitudes over speed and order of a run-up (of the journal; --pad: of its tilt)",
+    "waterfall": "amplitudes over speed and frequency of a run-up (of the journal; --pad: of its tilt)",
     "pressure": "film pressure over the unrolled pads at one instant (--time; default: at the equilibrium)",
     "response": "first harmonic of the journal, critical speeds, amplification: of studies and run-ups",
     "temperatures": "temperatures and viscosity of the pads, of studies; with their heat balance of results",
+    "film": "thickness and pressure of the films around the bearing at one instant (likewise)",
+    "bearing": "the bearing of a case (.nml) or result: pads, pivots, angles, load, sense of rotation",
+    "movie": "journal and pads in motion, as .gif or .mp4 (last 2 revolutions)",
     "coefficients": "stiffness and damping over speed, of one result over whirl frequency (also .csv, .toml)",
     "stability": "damping ratio and logarithmic decrement of the modes, of studies and results",
     "campbell": "frequencies of the modes over the speed, of studies",
@@ -74,7 +87,8 @@ class Parser(argparse.ArgumentParser):
 def main(arguments: Sequence[str] | None = None) -> int:
     """tiltpad-plot: draws what the command line asks for; gives the exit status."""
     options = plot_parser().parse_args(arguments)
-    output = Path(options.output or f"{Path(options.files[0]).stem}-{options.plot}.png")
+    suffix = MOVIES[0] if options.plot == MOVIE else FORMATS[0]
+    output = Path(options.output or f"{Path(options.files[0]).stem}-{options.plot}.{suffix}")
     return finished("tiltpad-plot", output, lambda: draw(options, output))
 
 
@@ -137,7 +151,8 @@ def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
 
 def draw(options: argparse.Namespace, output: Path) -> None:
     """Reads the runs, draws them and writes the picture."""
-    form = needs_suffix(output, FORMATS + (TABLES if options.plot == COEFFICIENTS else ()))
+    tables = TABLES if options.plot == COEFFICIENTS else ()
+    form = needs_suffix(output, MOVIES if options.plot == MOVIE else FORMATS + tables)
     for name, allowed in OWN_OPTIONS.items():
         if getattr(options, name) is not None and options.plot not in allowed:
             option = {"kind": "as"}.get(name, name)
@@ -150,8 +165,9 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         write_table(options, output)
         return
     mpl = matplotlib_for_files()
-    if options.plot == STUDY:
-        draw_study(options, output, form)
+    alone = {STUDY: draw_study, BEARING: draw_bearing, MOVIE: draw_movie}
+    if options.plot in alone:
+        alone[options.plot](options, output, form)
         return
     from tiltpad.draw import figures, plots
 
@@ -161,11 +177,10 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         stack.enter_context(mpl.style.context(plots.STYLE))
         if options.pad is not None and not either:
             figures.shown_pads(runs, options.pad)
-        more = {"time": options.time} if options.plot == "pressure" else {}
+        own = (name for name, plots_with in OWN_OPTIONS.items() if options.plot in plots_with)
+        more = {name: getattr(options, name) for name in own if getattr(options, name) is not None}
         if either:
-            more = {"over": options.over, "where": kept(options)}
-        if options.plot in VIBRATIONS:
-            more["pivot"] = options.pivot
+            more |= {"where": kept(options)}
         figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **more)
         stack.callback(plots.plt.close, figure)
         figure.savefig(output, format=form)
@@ -177,6 +192,33 @@ def write_table(options: argparse.Namespace, output: Path) -> None:
         raise ValueError(f"{output}: a table is of one file, and over all its parameters")
     with read_either(options.files[0]) as source:
         write_coefficients(source, output, pivot=options.pivot, where=kept(options) or None)
+
+
+def draw_bearing(options: argparse.Namespace, output: Path, form: str) -> None:
+    """Draws the bearing of a case or a result."""
+    from tiltpad.draw import bearing, plots
+
+    path = one_file(options)
+    with ExitStack() as stack:
+        stack.enter_context(plots.plt.style.context(plots.STYLE))
+        case = resolved(path) if path.suffix == ".nml" else stack.enter_context(read(path))
+        figure = bearing.bearing(case)
+        stack.callback(plots.plt.close, figure)
+        figure.savefig(output, format=form)
+
+
+def draw_movie(options: argparse.Namespace, output: Path, form: str) -> None:
+    """Reads a run and writes its movie."""
+    from tiltpad.draw import bearing
+
+    with read(one_file(options)) as run:
+        bearing.movie(run, output, options.last)
+
+
+def one_file(options: argparse.Namespace) -> Path:
+    if len(options.files) > 1:
+        raise ValueError(f"{options.plot}: one file")
+    return Path(options.files[0])
 
 
 def draw_study(options: argparse.Namespace, output: Path, form: str) -> None:
@@ -207,14 +249,17 @@ def write_report(path: str, output: Path) -> None:
     needs_suffix(output, ("html", "htm"))
     matplotlib_for_files()
     from tiltpad.draw.report import report
+    from tiltpad.draw.study_report import study_report
 
-    with read(path) as run:
-        page = report(run)
+    with read_either(path) as found:
+        page = study_report(found) if isinstance(found, Study) else report(found)
     output.write_text(page, encoding="utf-8")
 
 
 def needs_suffix(output: Path, allowed: Sequence[str]) -> str:
-    """The suffix of a file's name in small letters; ValueError if it is not allowed."""
+    """The suffix of a file's name in small letters, if it is allowed and the folder is there."""
+    if not output.parent.is_dir():
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(output))
     suffix = output.suffix.lower().removeprefix(".")
     if suffix not in allowed:
         *others, last = (f".{each}" for each in allowed)
@@ -238,10 +283,10 @@ def complain(command: str, message: object, status: int) -> int:
 def report_parser() -> Parser:
     parser = Parser(
         prog="tiltpad-report",
-        description="Writes one HTML page about a result file of tiltpad: key figures, pictures, input.",
+        description="Writes one HTML page about a result or study of tiltpad: key figures, pictures, input.",
         epilog="exit status: 0 done; 1 usage; 3 a file cannot be read or written",
     )
-    parser.add_argument("file", metavar="FILE", help="result file (.h5)")
+    parser.add_argument("file", metavar="FILE", help="result file or study (.h5)")
     parser.add_argument(
         "-o", "--output", metavar="HTML", help="default: FILE's name with .html, in this folder"
     )
@@ -277,17 +322,25 @@ def plot_parser() -> Parser:
         "-o",
         "--output",
         metavar="PICTURE",
-        help=".png, .pdf or .svg; default: FILE's name with -PLOT.png, in this folder",
+        help=".png, .pdf or .svg (movie: .gif or .mp4); default: FILE's name with -PLOT.png, in this folder",
     )
     parser.add_argument(
         "--last", type=positive, metavar="N", help="shows the last N shaft revolutions of the run"
     )
     parser.add_argument("--pad", type=int, metavar="K", help="shows this pad only (1, 2, ...)")
     parser.add_argument(
-        "--time", type=float, metavar="T", help="time of the pressure in s; the nearest sample is taken"
+        "--time", type=float, metavar="T", help="time of the film in s; the nearest sample is taken"
     )
     parser.add_argument(
         "--pivot", metavar="NAME", help="coefficients and modes of pivots free, stuck or locked"
+    )
+    parser.add_argument(
+        "--orders", type=positive, metavar="N", help="spectrum, waterfall: up to N times the shaft speed"
+    )
+    parser.add_argument("--scale", choices=("linear", "log"), help="orders: of the amplitudes (linear)")
+    parser.add_argument("--by", choices=("frequency", "order"), help="waterfall: vertical axis (frequency)")
+    parser.add_argument(
+        "--decades", type=positive, metavar="N", help="waterfall: how far down the colours reach (3)"
     )
     study = parser.add_argument_group("options for studies")
     study.add_argument(

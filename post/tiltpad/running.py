@@ -1,6 +1,7 @@
 """Running the program: a case in, its result out."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -20,6 +21,9 @@ from tiltpad.files.study import Study, read_study
 PROGRAM = "tiltpad"
 #: Exit status of the program where case or command are wrong, and where there may be a result.
 INPUT_ERROR, NUMERICS, STOPPED = 1, 2, 4
+
+#: A line of what --check prints, and what it remarks on the variable.
+REMARK = re.compile(r"^((?:'[^']*'|[^'!\n])*?)\s*!.*$", re.MULTILINE)
 
 Groups = Mapping[str, Mapping[str, Any]]
 
@@ -89,6 +93,16 @@ def started(
     if not target.is_dir():
         return read(target)
     return read_study(collect(target, target / "study.h5").output)
+
+
+def resolved(case: str | os.PathLike) -> dict[str, dict[str, Any]]:
+    """The groups of a case with every default, as run.input; the program only checks the case."""
+    done = subprocess.run([program(), "--check", os.fspath(case)], capture_output=True, text=True)
+    if done.returncode == INPUT_ERROR:
+        raise ValueError(done.stderr.strip().removeprefix("tiltpad: error: "))
+    if done.returncode:
+        raise RunError(done.stderr.strip() or f"the program ended with status {done.returncode}")
+    return namelist.resolved(REMARK.sub(r"\1", done.stdout))
 
 
 def program() -> str:

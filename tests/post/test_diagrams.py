@@ -60,13 +60,17 @@ def grown(members, speeds, unbalances):
 def test_a_line_over_a_parameter(study):
     case = study("speed")
     ax = diagrams.diagram(case)
-    line, crosses = ax.get_lines()
+    line, mark = ax.get_lines()
     np.testing.assert_array_equal(line.get_xdata(), SPEEDS)
     np.testing.assert_allclose(line.get_ydata(), 1e6 * case.orbit_size)
     assert np.isnan(line.get_ydata()[1])
-    np.testing.assert_array_equal(crosses.get_xdata(), [4000])
+    assert mark.get_xdata() == [4000, 4000]
+    assert mark.get_ydata() == [0, 1]
+    assert mark.get_linestyle() != "None"
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("speed (rpm)", "orbit, peak to peak (µm)")
     assert [text.get_text() for text in ax.get_legend().get_texts()] == ["not done (1)"]
+    said = figures.study(case).get_supxlabel().replace("\n", " ")
+    assert said == "member 2 (speed_rpm = 4000) failed in its numerics: no equilibrium found"
 
 
 def test_axes_that_are_given_are_used_and_returned(study):
@@ -217,7 +221,7 @@ def test_values_spread_in_ratio(values, evenly):
         ("speed", ["--where", "speed_rpm=4000", "--as", "map"], "a map needs two parameters"),
         ("speed", ["--where", "speed_rpm"], "speed_rpm: must be PARAMETER=VALUE"),
         ("speed", ["--as", "pie"], "invalid choice: 'pie'"),
-        ("speed", ["--time", "1"], "--time: for the plot pressure, not for study"),
+        ("speed", ["--time", "1"], "--time: for the plots pressure, film, not for study"),
     ],
 )
 def test_what_cannot_be_drawn_is_said_in_a_line(study, tmp_path, capsys, name, options, message):

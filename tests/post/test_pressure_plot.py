@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import tiltpad
 from tiltpad import command, figures
+from tiltpad.calculate import geometry
 
 pytestmark = pytest.mark.usefixtures("closed_figures")
 
@@ -44,11 +45,39 @@ def test_a_film_without_pressure_is_drawn(changed):
 def test_a_panel_a_pad(run):
     runs = [run("four"), run("gumbel"), run("lugre")]
     titles = [ax.get_title() for ax in figures.pressure(runs[:1], time=0.01).axes if ax.get_title()]
-    assert titles == [f"pad {k}" for k in (1, 2, 3, 4)]
+    highest = 1e-6 * tiltpad.pressure(runs[0], 0.01).pressure.max(axis=(1, 2))
+    assert [title.split(": at most ")[0] for title in titles] == [f"pad {k}" for k in (1, 2, 3, 4)]
+    shown = [float(title.split()[-2]) for title in titles]
+    np.testing.assert_allclose(shown, highest, rtol=6e-3)
     titles = [ax.get_title() for ax in figures.pressure(runs[:2], pad=3).axes if ax.get_title()]
-    assert titles == ["pad 3: LuGre, reynolds", "pad 3: no friction, gumbel"]
+    assert [title.splitlines()[0] for title in titles] == ["LuGre, reynolds", "no friction, gumbel"]
     title = figures.pressure(runs[2:], time=0.01).get_suptitle()
     assert title == "Steady, it's LuGre at 0.01 s"
+
+
+def test_all_pads_have_one_scale(run):
+    fig = figures.pressure([run("four")])
+    panels = [ax.collections[0] for ax in fig.axes if ax.get_title()]
+    assert len({tuple(each.levels) for each in panels}) == 1
+    assert len(fig.axes) == len(panels) + 1
+
+
+def test_films_around_the_bearing(run):
+    """The thickness follows from the states alone, and has the minimum that the library has."""
+    for scene, time in (("four", 0.01), ("offset", None), ("fixed", 0.03)):
+        case = run(scene)
+        found = geometry.surfaces(case.input, geometry.at_time(case, time), 4001)
+        least = tiltpad.pressure(case, time).min_film_thickness
+        # a minimum between two points is too high by c_m step^2/8
+        np.testing.assert_allclose(found.thickness.min(axis=1), least, rtol=1e-6)
+    upper, lower = figures.film([run("four")], time=0.01).axes
+    assert len(upper.get_lines()) == len(lower.get_lines()) == 4
+    np.testing.assert_allclose(
+        upper.get_lines()[0].get_xdata()[[0, -1]], [-45 - 34.65, -45 + 34.65], atol=0.2
+    )
+    assert lower.get_lines()[0].get_ydata().max() == pytest.approx(
+        1e-6 * tiltpad.pressure(run("four"), 0.01).max_pressure[0], rel=5e-3
+    )
 
 
 def test_the_command_draws_it(result, tmp_path, monkeypatch):
@@ -65,7 +94,7 @@ def test_the_command_draws_it(result, tmp_path, monkeypatch):
         (["pressure", "none", "--time", "soon"], "argument --time: invalid float value: 'soon'"),
         (["pressure", "none", "--pad", "3"], "no pad 3 in this run: pads are 1 to 2"),
         (["pressure", "equilibrium", "--time", "0"], "nothing was marched in time"),
-        (["orbit", "none", "--time", "0.01"], "--time: for the plot pressure, not for orbit"),
+        (["orbit", "none", "--time", "0.01"], "--time: for the plots pressure, film, not for orbit"),
     ],
 )
 def test_errors_are_one_line(result, tmp_path, monkeypatch, capsys, arguments, message):

@@ -3,7 +3,7 @@
 Everything is in SI units; `last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ...
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from tiltpad.files.read import Run
 
 #: Samples that are read at once where a whole run is read.
 BLOCK = 1 << 16
+#: Revolutions in which a motion of about half the order shows its whole extent.
+COVER = 3
 #: States of the motion, as far as the scene has them.
 STATES = (
     *("journal_y", "journal_z", "journal_vy", "journal_vz", "pad_tilt", "pad_tilt_rate"),
@@ -168,18 +170,65 @@ def envelope(run: Run, name: str, spans: int = 800) -> tuple[np.ndarray, np.ndar
     """Time (k,), s, and minimum and maximum of a dataset, (k,) or (k, pad), in each of k spans.
 
     The spans turn the shaft by equal angles of at least one revolution, so that the band is that of the
-    vibration; there are at most `spans` of them. The run is read a span at a time.
+    vibration; there are at most `spans` of them. Of spans that are shorter than COVER revolutions the
+    extremes are those of their neighbours, too: a motion of half the order would make a sawtooth. The run is
+    read a span at a time.
     """
+    found = []
+    for part in spans_of(run, spans):
+        values = run.values(name, part)
+        found.append((ends(run, "time", part).mean(), values.min(axis=0), values.max(axis=0)))
+    time, low, high = (np.array(each) for each in zip(*found, strict=True))
+    beside = round(COVER / (turned(run) / len(time))) // 2
+    around = [slice(max(0, k - beside), k + beside + 1) for k in range(len(time))]
+    return time, *(
+        np.array([pick(each[near], axis=0) for near in around])
+        for pick, each in ((np.min, low), (np.max, high))
+    )
+
+
+def swing(run: Run, name: str, spans: int = 400) -> tuple[np.ndarray, np.ndarray]:
+    """Speed (k,), rad/s, and peak to peak of a dataset, (k,) or (k, pad), in each of k spans of a run-up.
+
+    The drift of the mean is not in it: of every sample the mean over a revolution around it is taken off.
+    The spans turn the shaft by equal angles of COVER revolutions or more, or by one in a short run.
+    """
+    needs_revolutions(run, "orbit over the speed", 2)
+    first, final = ends(run, "shaft_angle")
+    count = max(1, min(spans, int((final - first) / (2 * np.pi * COVER)), int(turned(run)) - 1))
+    borders = np.linspace(first + np.pi, final - np.pi, max(count, 2) + 1)
+    outer = edges(run, borders - np.pi) - 1, edges(run, borders + np.pi) + 1
+    found = []
+    for low, high, start, end in zip(outer[0][:-1], outer[1][1:], borders[:-1], borders[1:], strict=True):
+        part = slice(max(0, low), high)
+        angle, values = run.values("shaft_angle", part), run.values(name, part)
+        moving = values - revolution_mean(angle, values)
+        inside = moving[(angle >= start) & (angle <= end)]
+        speed = np.interp((start + end) / 2, angle, run.values("speed", part))
+        found.append((speed, np.ptp(inside, axis=0)))
+    speed, size = (np.array(each) for each in zip(*found, strict=True))
+    return speed, size
+
+
+def revolution_mean(angle: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """The mean of values, (time,) or (time, pad), over a revolution of the shaft around every sample.
+
+    Nearer than half a revolution to an end it is that of the first or last whole revolution.
+    """
+    area = np.zeros_like(values)
+    area[1:] = np.cumsum((np.diff(angle) * (values[1:] + values[:-1]).T / 2).T, axis=0)
+    middle = np.clip(angle, angle[0] + np.pi, max(angle[0] + np.pi, angle[-1] - np.pi))
+    before, after = (at_angle(angle, area, np.clip(middle + d, *angle[[0, -1]])) for d in (-np.pi, np.pi))
+    return (after - before) / (2 * np.pi)
+
+
+def spans_of(run: Run, spans: int) -> Iterator[slice]:
+    """Samples of at most so many spans, which turn the shaft by equal angles of at least a revolution."""
     last_revolutions(run)
     first, final = ends(run, "shaft_angle")
     count = max(1, min(spans, int((final - first) / (2 * np.pi) + 1e-9)))
     starts = edges(run, np.linspace(first, final, count + 1)[:-1])
-    found = []
-    for part in (slice(*each) for each in zip(starts, [*starts[1:], run.samples], strict=True)):
-        values = run.values(name, part)
-        found.append((ends(run, "time", part).mean(), values.min(axis=0), values.max(axis=0)))
-    time, low, high = (np.array(each) for each in zip(*found, strict=True))
-    return time, low, high
+    return (slice(*each) for each in zip(starts, [*starts[1:], run.samples], strict=True))
 
 
 def multipliers(run: Run) -> np.ndarray:

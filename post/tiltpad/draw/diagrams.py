@@ -4,6 +4,8 @@ They are drawn from the arrays of the study alone. Members that failed are marke
 """
 
 from collections.abc import Mapping, Sequence
+from textwrap import fill
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -36,9 +38,13 @@ LINES_UP_TO = 6
 Result = tuple[np.ndarray, Shown]
 #: An axis is logarithmic if its values rise by equal factors, over this ratio at least.
 LOG_FROM = 9.9
+#: Characters on a line of the vertical axis' label.
+LABEL = 38
 #: With so many values along the axis points are small.
 DENSE = 60
+#: A member that was not done: in a cell of a map, and over an axis.
 FAILED = {"linestyle": "", "marker": "x", "color": "0.4", "markersize": 5, "zorder": 4}
+NOT_DONE = {"linestyle": (0, (1, 2)), "color": "0.5", "linewidth": 1.2, "zorder": 0.5}
 
 
 @on_axes
@@ -87,7 +93,7 @@ def of_pivot(study: Study, name: str, pivot: str | None) -> Result:
 
 
 def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str], chosen: np.ndarray) -> Axes:
-    """A line for every combination of the other parameters; a cross at the bottom where a member failed."""
+    """A line for every combination of the other parameters; a dotted line across where a member failed."""
     values, shown = show
     at, place = axis(study, over, ax, "x")
     groups = grouped(study, others, chosen)
@@ -101,7 +107,7 @@ def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
             line["linestyle"] = ""  # there are no values between texts
         ax.plot(place[order], np.where(whole, shown.factor * values[order], np.nan), **line)
         mark_failed(ax, place[order][~whole], color if len(groups) > 1 else None)
-    ax.set(xlabel=at.label, ylabel=shown.label)
+    ax.set(xlabel=at.label, ylabel=fill(shown.label, LABEL))
     explain(study, ax, others, chosen)
     return ax
 
@@ -145,7 +151,7 @@ def field(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
     ax.figure.colorbar(image, ax=ax, label=shown.label)
     ax.grid(visible=False)
     ax.set(xlabel=at.label, ylabel=beside.label)
-    explain(study, ax, (), chosen)
+    explain(study, ax, (), chosen, FAILED)
     return ax
 
 
@@ -170,7 +176,7 @@ def bifurcation(
         }
         ax.plot(x.ravel(), points.ravel(), label=text, **dots)
         mark_failed(ax, place[part][~study.done[part]], color if len(groups) > 1 else None)
-    ax.set(xlabel=at.label, ylabel=f"{shown.label} once a revolution")
+    ax.set(xlabel=at.label, ylabel=fill(f"{shown.label} once a revolution", LABEL))
     explain(study, ax, others, chosen)
     return ax
 
@@ -269,17 +275,19 @@ def too_many(groups: Sequence[tuple[str, np.ndarray]], others: Sequence[str]) ->
 
 
 def mark_failed(ax: Axes, place: np.ndarray, color: int | None) -> None:
-    """Crosses at the bottom of the axes."""
-    style = FAILED if color is None else FAILED | {"color": f"C{color}"}
-    if len(place):
-        ax.plot(place, np.full(len(place), 0.02), transform=ax.get_xaxis_transform(), **style)
+    """Lines across the axes, which no one takes for points."""
+    style = NOT_DONE if color is None else NOT_DONE | {"color": f"C{color}"}
+    for at in place[np.isfinite(place)]:
+        ax.axvline(at, **style)
 
 
-def explain(study: Study, ax: Axes, others: Sequence[str], chosen: np.ndarray) -> None:
+def explain(
+    study: Study, ax: Axes, others: Sequence[str], chosen: np.ndarray, mark: Mapping[str, Any] = NOT_DONE
+) -> None:
     """The legend above the axes: the meaning of the lines, and the number of members that were not done."""
     handles, texts = ax.get_legend_handles_labels() if others else ([], [])
     if failed := int((~study.done[chosen]).sum()):
-        handles = [*handles, plt.Line2D([], [], **FAILED)]
+        handles = [*handles, plt.Line2D([], [], **mark)]
         texts = [*texts, f"not done ({failed})"]
     if handles:
         columns = max(1, 45 // (max(map(len, texts)) + 6))

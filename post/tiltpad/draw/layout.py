@@ -6,9 +6,12 @@ from functools import wraps
 from pathlib import Path
 from typing import Any
 
+import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize, to_hex
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import ConnectionPatch, Rectangle
@@ -19,7 +22,18 @@ from tiltpad.files.study import Study
 
 COLUMN, PAGE = 3.35, 6.9  # widths in a paper, inches
 LONGEST_LABEL = 90  # characters
-DASHES = ("-", "--", ":", "-.")
+#: Dashes of the parts of runs; no bearing of practice has more pads.
+DASHES = (
+    *("-", "--", ":", "-.", (0, (7, 1.5, 1, 1.5, 1, 1.5)), (0, (9, 3)), (0, (1, 4))),
+    *((0, (3, 1, 1, 1, 1, 1, 1, 1)), (0, (12, 2, 3, 2))),
+)
+#: More runs or parts than this have colours along a scale.
+FEW = 7
+SCALE = "viridis"
+#: An axis reaches over this share of its largest number at least: what does not move is a flat line.
+SHORTEST_AXIS = 2e-4
+#: A file has so many remarks under a picture; the report has all.
+MOST_REMARKS = 3
 
 
 def of_several(draw: Callable[..., Figure]) -> Callable[..., Figure]:
@@ -33,9 +47,43 @@ def of_several(draw: Callable[..., Figure]) -> Callable[..., Figure]:
         for each in several:
             if not isinstance(each, Study):
                 needs_run(each)
-        return draw(several, *arguments, **options)
+        fig = draw(several, *arguments, **options)
+        for each in several:
+            remark_unfinished(fig, each, Path(each.path).stem if len(several) > 1 else "")
+        spread(fig)
+        return fig
 
     return drawn
+
+
+def remark_unfinished(fig: Figure, source: Run | Study, name: str = "") -> None:
+    """Says below the picture that a run did not come to its end, or which members of a study, and why."""
+    if isinstance(source, Run):
+        said = [] if source.complete else [f"incomplete{source.end()}"]
+    else:
+        said = [str(each) for each in source.failures()]
+    for text in said[:MOST_REMARKS]:
+        remark(fig, f"{name}: {text}" if name else text, "C1")
+    if len(said) > MOST_REMARKS:
+        remark(fig, f"and {len(said) - MOST_REMARKS} more; the report of the study has all", "C1")
+
+
+def remark(fig: Figure, text: str, color: str = "0.3") -> None:
+    """A line below the picture, under those that are there."""
+    before, added = fig.get_supxlabel(), plain(text, int(1.25 * width(fig)))
+    look = {"x": 0.01, "ha": "left", "fontsize": "x-small", "color": color}
+    fig.supxlabel("\n".join(line for line in (before, added) if line), **look)
+    fig.set_figheight(fig.get_figheight() + 0.1 * len(added.splitlines()))
+
+
+def spread(fig: Figure) -> None:
+    """Lets no linear axis be so short that its ticks would need an offset."""
+    for ax in fig.axes:
+        for axis, limits in ((ax.xaxis, ax.set_xlim), (ax.yaxis, ax.set_ylim)):
+            low, high = axis.get_view_interval()
+            least = SHORTEST_AXIS * max(abs(low), abs(high))
+            if axis.get_scale() == "linear" and abs(high - low) < least:
+                limits((low + high - least) / 2, (low + high + least) / 2)
 
 
 def labels(runs: Sequence[Run | Study]) -> list[str]:
@@ -49,11 +97,31 @@ def labels(runs: Sequence[Run | Study]) -> list[str]:
     return [run.path for run in runs]
 
 
+def colors(runs: Sequence[Run]) -> list[str]:
+    """A colour for each run; of many runs along a scale, over the number in which they differ."""
+    if len(runs) <= FEW:
+        return [f"C{i}" for i in range(len(runs))]
+    scale = number_scale(runs)
+    values = scale[1] if scale else list(range(len(runs)))
+    norm = Normalize(min(values), max(values))
+    return [to_hex(mpl.colormaps[SCALE](0.93 * norm(value))) for value in values]
+
+
+def number_scale(runs: Sequence[Run]) -> tuple[str, list[float]] | None:
+    """Label and values of the number in which many runs differ, if it is one."""
+    return differences.varied([run.input for run in runs]) if len(runs) > FEW else None
+
+
+def part_color(part: int, parts: int = FEW) -> str:
+    """A colour for a part of a run; of many parts along a scale."""
+    return f"C{part}" if parts <= FEW else to_hex(mpl.colormaps[SCALE](0.93 * part / (parts - 1)))
+
+
 def look(run: int, part: int | None, runs: Sequence[Run]) -> dict[str, Any]:
     """Colour and dashes of a line: colours are for the parts (y, z; pads) of one run, or for several runs."""
     if len(runs) == 1:
-        return {"color": "0.2" if part is None else f"C{part}"}
-    return {"color": f"C{run}", "linestyle": DASHES[(part or 0) % len(DASHES)]}
+        return {"color": "0.2" if part is None else part_color(part, max(FEW, runs[0].pads))}
+    return {"color": colors(runs)[run], "linestyle": DASHES[(part or 0) % len(DASHES)]}
 
 
 def parts(texts: Sequence[str], runs: Sequence[Run]) -> list[tuple[str, dict[str, Any]]]:
@@ -63,11 +131,23 @@ def parts(texts: Sequence[str], runs: Sequence[Run]) -> list[tuple[str, dict[str
 
 
 def legend(fig: Figure, runs: Sequence[Run], marks: Sequence[tuple[str, dict[str, Any]]]) -> None:
-    """Above the panels: the runs (for one run its title), and the meaning of lines and marks."""
+    """Above the panels: the runs (for one run its title), and the meaning of lines and marks.
+
+    Many runs that differ in one number have a scale of its values.
+    """
+    if scale := number_scale(runs):
+        label, values = scale
+        bar = ScalarMappable(Normalize(min(values), max(values) + 0.07 * np.ptp(values)), SCALE)
+        fig.colorbar(bar, ax=fig.axes, label=label, aspect=40, fraction=0.05).ax.set_ylim(
+            min(values), max(values)
+        )
+        heading(fig, marks, "")
+        return
     names = labels(runs) if len(runs) > 1 else [runs[0].title]
     names = [plain(name, width(fig)) for name in names]
     if len(runs) > 1:
-        heading(fig, [*((name, {"color": f"C{i}"}) for i, name in enumerate(names)), *marks], "")
+        own = [{"color": color} for color in colors(runs)]
+        heading(fig, [*zip(names, own, strict=True), *marks], "")
     else:
         heading(fig, marks, names[0])
 
@@ -96,17 +176,24 @@ def width(fig: Figure) -> int:
 
 
 def shown_pads(runs: Sequence[Run], pad: int | None) -> list[int]:
-    """The given pad, or all pads that every run has."""
+    """The given pad, which every run must have, or all pads that any of them has."""
     if pad is None:
-        return list(range(1, min(run.pads for run in runs) + 1))
+        return list(range(1, max(run.pads for run in runs) + 1))
     for run in runs:
         signals.pad_column(run, pad)
     return [pad]
 
 
-def drawn(name: str, pads: Sequence[int]) -> Iterable[tuple[int | None, int | None]]:
-    """Number of the part and pad of every line of a dataset; (None, None) for the journal."""
-    return [(None, None)] if name.startswith("journal") else enumerate(pads)
+def drawn(run: Run, name: str, pads: Sequence[int]) -> Iterable[tuple[int | None, int | None]]:
+    """Number of the part and pad of every line of a dataset of a run; (None, None) for the journal."""
+    if name.startswith("journal"):
+        return [(None, None)]
+    return [(k, pad) for k, pad in enumerate(pads) if pad <= run.pads]
+
+
+def with_pad(runs: Sequence[Run], pad: int) -> Iterable[tuple[int, Run]]:
+    """The runs that have a pad, with their numbers."""
+    return [(i, run) for i, run in enumerate(runs) if pad <= run.pads]
 
 
 def stacked(names: Sequence[Hashable]) -> tuple[Figure, dict[Hashable, Axes]]:

@@ -4,7 +4,7 @@ Every function takes the axes to draw on, or makes a figure in the package's own
 axes. Further keywords go to the line, so that runs can be laid over each other.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
 from inspect import signature
 from typing import Any
@@ -32,6 +32,8 @@ ORBIT, PHASE, RISE = ("journal_z", "journal_y"), ("pad_tilt", "pad_tilt_rate"), 
 FILM = ("min_film_thickness", "max_pressure")
 #: Revolutions of the path that is drawn under a Poincare section.
 PATH = 4
+#: Fewest and most revolutions of a window of a waterfall; more make sharper bands.
+WINDOW = 8, 32
 #: Line of a pivot that sticks.
 STUCK = {"linewidth": 3, "linestyle": "-", "solid_capstyle": "butt"}
 
@@ -170,15 +172,16 @@ def poincare(
 
 @on_axes
 def orbit_size(run: Run, ax: Axes, name: str = "journal_y", last: float = 1, **line: Any) -> Axes:
-    """Peak-to-peak of journal_y or journal_z over the speed; a run at constant speed is a point."""
+    """Peak-to-peak of journal_y or journal_z over the speed; a run at constant speed is a point.
+
+    The drift of the mean in a run-up is not in it.
+    """
     shown, speed = SHOWN["size"], SHOWN["speed"]
     if signals.steady(run):
         at, size = run.values("speed", slice(-1, None)), np.ptp(signals.waveform(run, name, last)[1])
         line |= {"marker": "o", "markersize": 3}
     else:
-        time, low, high = signals.envelope(run, name)
-        start, end = signals.ends(run, "time")
-        at, size = np.interp(time, (start, end), signals.ends(run, "speed")), high - low
+        at, size = signals.swing(run, name)
     ax.plot(speed.factor * at, shown.factor * size, **line)
     ax.set(xlabel=speed.label, ylabel=shown.label)
     return ax
@@ -214,12 +217,20 @@ def full_spectrum(run: Run, ax: Axes, orders: float = 5, last: float | None = No
 
 @on_axes
 def order_track(
-    run: Run, ax: Axes, name: str = "journal_y", order: float = 1, pad: int | None = None, **line: Any
+    run: Run,
+    ax: Axes,
+    name: str = "journal_y",
+    order: float = 1,
+    pad: int | None = None,
+    scale: str = "linear",
+    **line: Any,
 ) -> Axes:
-    """Amplitude of one order of a dataset over the speed of a run-up, on a logarithmic axis."""
+    """Amplitude of one order of a dataset over the speed of a run-up, on a linear or log `scale`."""
     speed, amplitude, _ = spectra.order_track(run, name, order, pad)
-    ax.semilogy(SHOWN["speed"].factor * speed, SHOWN[name].factor * amplitude, **line)
-    ax.set(xlabel=SHOWN["speed"].label, ylabel=SHOWN[name].label)
+    ax.plot(SHOWN["speed"].factor * speed, SHOWN[name].factor * amplitude, **line)
+    ax.set(xlabel=SHOWN["speed"].label, ylabel=SHOWN[name].label, yscale=scale)
+    if scale == "linear":
+        ax.set_ylim(bottom=0)
     return ax
 
 
@@ -227,7 +238,10 @@ def order_track(
 def order_phase(
     run: Run, ax: Axes, name: str = "journal_y", order: float = 1, pad: int | None = None, **line: Any
 ) -> Axes:
-    """Phase of one order of a dataset relative to the shaft angle, over the speed of a run-up."""
+    """Phase of one order of a dataset over the speed of a run-up, counted from the unbalance.
+
+    It is 0 where the dataset has its maximum when the unbalance points along +y, negative where later.
+    """
     speed, _, phase = spectra.order_track(run, name, order, pad)
     ax.plot(SHOWN["speed"].factor * speed, np.degrees(np.unwrap(phase)), **line)
     ax.set(xlabel=SHOWN["speed"].label, ylabel="phase (deg)")
@@ -236,28 +250,55 @@ def order_phase(
 
 @on_axes
 def waterfall(
-    run: Run, ax: Axes, name: str = "journal_y", pad: int | None = None, orders: float = 5, **mesh: Any
+    run: Run,
+    ax: Axes,
+    name: str = "journal_y",
+    pad: int | None = None,
+    orders: float = 5,
+    by: str = "frequency",
+    decades: float = 3,
+    **mesh: Any,
 ) -> Axes:
-    """Amplitudes of a dataset over the speed of a run-up and the order, four decades of colours."""
-    speed, order, amplitude = spectra.waterfall(run, name, pad, orders)
+    """Amplitudes of a dataset over the speed of a run-up and the frequency, or `by` order, up to an order.
+
+    The colours reach down by so many decades. Lines mark the orders on an axis of frequencies.
+    """
+    revolutions = int(np.clip(signals.turned(run) / 20, *WINDOW))
+    speed, order, amplitude = spectra.waterfall(run, name, pad, orders, revolutions)
     shown = SHOWN[name]
     # without the mean, which the Hann window spreads over the next orders: it would hide the motion
     moving = order >= 2 * order[1]
-    table = shown.factor * amplitude[:, moving].T
+    order, table = order[moving], shown.factor * amplitude[:, moving].T
     peak = max(table.max(), 1e-12)
+    x, y = np.meshgrid(SHOWN["speed"].factor * speed, order)
+    hertz = by == "frequency"
+    if hertz:
+        y = y * x / 60
     colours = {
-        "norm": LogNorm(1e-4 * peak, peak),
+        "norm": LogNorm(10**-decades * peak, peak),
         "shading": "gouraud",
         "cmap": "viridis",
         "rasterized": True,
     }
-    image = ax.pcolormesh(
-        SHOWN["speed"].factor * speed, order[moving], np.maximum(table, 1e-4 * peak), **colours | mesh
-    )
+    image = ax.pcolormesh(x, y, np.maximum(table, 10**-decades * peak), **colours | mesh)
     ax.figure.colorbar(image, ax=ax, label=shown.label)
-    ax.set(xlabel=SHOWN["speed"].label, ylabel="order", ylim=(order[moving][0], order[-1]))
+    ax.set(xlabel=SHOWN["speed"].label, ylabel=SHOWN["frequency"].label if hertz else "order")
+    ax.set(xlim=(x.min(), x.max()), ylim=(0 if hertz else order[0], y.max()))
     ax.grid(visible=False)
+    ax.set_facecolor(image.cmap(0.0))
+    if hertz:
+        mark_orders(ax, x[0], orders)
     return ax
+
+
+def mark_orders(ax: Axes, speed: np.ndarray, orders: float) -> None:
+    """Thin lines of half the speed and its multiples over a speed in rpm, with their names at the right."""
+    ends = np.array([speed.min(), speed.max()])
+    for order in (0.5, *range(1, int(orders) + 1)):
+        ax.plot(ends, order * ends / 60, color="white", linewidth=0.4, linestyle=":", alpha=0.7)
+        note = {"color": "white", "fontsize": "xx-small", "ha": "right", "va": "bottom"}
+        ax.annotate(f"{order:g}×", (ends[1], order * ends[1] / 60), (-2, -1.5 if order < 1 else -6),
+                    textcoords="offset points", **note)  # fmt: skip
 
 
 @on_axes
@@ -330,18 +371,27 @@ def history(run: Run, ax: Axes, name: str = "journal_y", pad: int | None = None,
 
 
 @on_axes
-def pressure(run: Run, ax: Axes, time: float | None = None, pad: int = 1, **contours: Any) -> Axes:
-    """Film pressure over an unrolled pad, with its colour bar, at the sample next to `time`, s.
+def pressure(
+    run: Run,
+    ax: Axes,
+    time: float | None = None,
+    pad: int = 1,
+    film: library.Pressure | None = None,
+    **contours: Any,
+) -> Axes:
+    """Film pressure over an unrolled pad at the sample next to `time`, s, with its colour bar.
 
     Without `time` it is that of the equilibrium. The surface of the journal moves from right to left, from
-    the leading to the trailing edge.
+    the leading to the trailing edge. A `film` that is known already is not calculated again; with `levels`
+    there is no colour bar, as several pads share them.
     """
-    column, film, shown = signals.pad_column(run, pad), library.pressure(run, time), SHOWN["pressure"]
+    column, film, shown = signals.pad_column(run, pad), film or library.pressure(run, time), SHOWN["pressure"]
     field = shown.factor * film.pressure[column].T
     levels = MaxNLocator(12).tick_values(field.min(), max(field.max(), field.min() + 1e-6))
     x, y = SHOWN["phi"].factor * film.phi[column], SHOWN["axial"].factor * film.z
     filled = ax.contourf(x, y, field, **{"levels": levels, **contours})
-    ax.figure.colorbar(filled, ax=ax, label=shown.label)
+    if "levels" not in contours:
+        ax.figure.colorbar(filled, ax=ax, label=shown.label)
     for x, edge in ((0.025, "trailing edge"), (0.975, "leading edge")):
         note = {"rotation": 90, "ha": "center", "va": "center", "fontsize": "x-small", "color": "white"}
         ax.text(x, 0.5, edge, transform=ax.transAxes, **note)
@@ -360,6 +410,18 @@ def mark_contact(ax: Axes, x: np.ndarray, force: np.ndarray) -> None:
     ax.text(0.01, 0.08, "asperities touch", **note)
 
 
+def all_tilt(runs: Sequence[Run]) -> bool:
+    """False where a run has fixed pads."""
+    return all(run.input["pads"]["motion"] != "fixed" for run in runs)
+
+
+def label_films(panels: Mapping[str, Axes]) -> None:
+    """Labels in two lines, as long as a panel is high."""
+    for name, text in zip(FILM, ("minimum film\nthickness", "maximum\npressure"), strict=True):
+        if name in panels:
+            panels[name].set_ylabel(f"{text} ({SHOWN[name].unit})")
+
+
 def polar(radius: float, degrees: float) -> tuple[float, float]:
     """Coordinates in the picture of a point at an angle from +z towards +y."""
     return radius * np.cos(np.radians(degrees)), radius * np.sin(np.radians(degrees))
@@ -374,6 +436,7 @@ def draw_amplitude(
     ax: Axes, frequency: np.ndarray, amplitude: np.ndarray, span: tuple[float, float], line: dict[str, Any]
 ) -> None:
     """Amplitudes within `span` on a logarithmic axis, six decades at most, without frequency 0."""
+    line = {"linewidth": 0.6} | line
     inside = (frequency >= span[0]) & (frequency <= span[1])
     x, y = frequency[inside], np.where(frequency == 0, np.nan, SHOWN["amplitude"].factor * amplitude)[inside]
     ax.semilogy(x, y, **line)

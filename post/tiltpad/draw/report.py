@@ -1,26 +1,23 @@
-"""A page about a run.
+"""A page about a run."""
 
-It is one file, without scripts and links.
-"""
-
-import base64
-import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from html import escape
-from importlib.resources import files
 from pathlib import Path
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 from tiltpad.calculate import behaviour, signals, summary
 from tiltpad.calculate.coefficients import coefficients
 from tiltpad.calculate.library import MissingLibraryError
 from tiltpad.calculate.modes import modes
-from tiltpad.draw import figures, plots
+from tiltpad.calculate.response import response
+from tiltpad.draw import figures
+from tiltpad.draw.bearing import bearing
+from tiltpad.draw.branches import in_words as critical
+from tiltpad.draw.page import page, paragraph, picture, row, section, table
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
-from tiltpad.files.units import SHOWN
+from tiltpad.files.units import SHOWN, digits, in_words
 
 #: Pictures and their captions; those that a run cannot have are left out.
 PICTURES = {
@@ -32,14 +29,15 @@ PICTURES = {
     "runup": "The whole run; many revolutions are drawn as the band that they fill.",
     "size": "Peak to peak of the journal over the speed.",
     "orders": "Amplitude of the first orders over the speed, and the phase of the first.",
-    "waterfall": "Amplitudes over speed and order.",
+    "waterfall": "Amplitudes over speed and frequency.",
     "response": "First harmonic of the journal over the speed: critical speeds and amplification factors.",
     "hysteresis": "Friction moment over tilt: the area is the work dissipated in the last revolution.",
     "friction": "Friction coefficient over sliding velocity, last revolution.",
     "sticking": "Tilt rate, bold where the pivot sticks, over the last two revolutions.",
-    "poincare": "States once a revolution, on the path of the last revolutions.",
+    "poincare": "Journal and the pad that moves most, once a revolution, on the path of the last ones.",
     "pressure": "Film pressure over the unrolled pads at the equilibrium.",
     "temperatures": "Temperatures of the pads, and where the heat of their films goes.",
+    "film": "Thickness and pressure of the films around the bearing at the equilibrium.",
     "coefficients": "Stiffness and damping over the whirl frequency.",
     "stability": "Damping ratio and logarithmic decrement of the modes over their frequency.",
     "campbell": "Frequencies of the modes over the speed.",
@@ -50,11 +48,10 @@ def report(run: Run) -> str:
     """The page as text; tables and pictures that the run cannot have are left out."""
     title = run.title or Path(run.path).stem
     parts = [
-        f"<h1>{escape(title)}</h1>",
         f"<p class=origin>{escape(origin(run))}</p>",
         incomplete(run),
         orbit_stability(run),
-        pad_remarks(run),
+        remarks(run),
         section("Key figures", key_figures(run)),
         section("Pads", pad_figures(run)),
         section("Spectrum", spectrum_peaks(run)),
@@ -64,10 +61,7 @@ def report(run: Run) -> str:
         section("Input", f"<pre>{escape(run.attributes['input'].strip())}</pre>"),
         section("Cost", statistics(run)),
     ]
-    style = files("tiltpad.draw").joinpath("report.css").read_text(encoding="utf-8")
-    head = f'<meta charset="utf-8"><title>{escape(title)}</title><style>{style}</style>'
-    page = "\n".join(part for part in parts if part)
-    return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head>\n<body>\n{page}\n</body></html>\n'
+    return page(title, parts)
 
 
 def origin(run: Run) -> str:
@@ -78,7 +72,7 @@ def origin(run: Run) -> str:
 
 
 def incomplete(run: Run) -> str:
-    return "" if run.complete else f"<p class=warning>Incomplete run{escape(run.end())}.</p>"
+    return "" if run.complete else paragraph(f"Incomplete run{run.end()}.", warning=True)
 
 
 def orbit_stability(run: Run) -> str:
@@ -86,52 +80,43 @@ def orbit_stability(run: Run) -> str:
     if "periodic" not in run:
         return ""
     if run["periodic/stable"]:
-        return "<p>The periodic orbit is stable: small disturbances die out.</p>"
-    return "<p class=warning>The periodic orbit is unstable: no motion stays on it.</p>"
+        return paragraph("The periodic orbit is stable: small disturbances die out.")
+    return paragraph("The periodic orbit is unstable: no motion stays on it.", warning=True)
 
 
-def pad_remarks(run: Run) -> str:
-    """What the pads do that loaded ones do not; a warning where one rubs."""
+def remarks(run: Run) -> str:
+    """Whirl, unloaded, lifted, fluttering and rubbing pads, and the peaks of a run-up, in words."""
     try:
         found = behaviour.of_pads(run)
+        said = paragraph(behaviour.whirl(run).words())
     except NotInRunError:
         return ""
-    classes = {True: " class=warning", False: ""}
-    return "".join(
-        f"<p{classes[each.rubbing > 0]}>{escape(each.words())}</p>" for each in found if each.words()
-    )
+    said += "".join(paragraph(each.words(), warning=each.rubbing > 0) for each in found)
+    return said + paragraph(peaks(run))
 
 
-def section(title: str, content: str) -> str:
-    return f"<section><h2>{title}</h2>{content}</section>" if content else ""
-
-
-def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table whose first column is text and whose others are numbers."""
-    lines = ["<tr>" + "".join(f"<th>{escape(each)}</th>" for each in head) + "</tr>"]
-    lines += ["<tr>" + "".join(f"<td>{escape(each)}</td>" for each in row) + "</tr>" for row in rows]
-    return f"<table>{''.join(lines)}</table>" if len(lines) > 1 else ""
-
-
-def number(value: float, quantity: str) -> str:
-    """A value in its unit for pictures, four digits."""
-    value = SHOWN[quantity].factor * float(value)
-    if value == 0:
-        return "0"
-    return f"{value:.0f}" if abs(value) >= 1000 else f"{value:#.4g}".rstrip(".")
+def peaks(run: Run) -> str:
+    """The peaks of the first order in a run-up, in words."""
+    try:
+        found = response(run).peaks
+    except NotInRunError:
+        return ""
+    words = [f"{each.direction} {in_words('size', [each.amplitude])} at {critical(each)}" for each in found]
+    speeds = " to ".join(f"{SHOWN['speed'].factor * each:.0f}" for each in signals.ends(run, "speed"))
+    if not words:
+        return f"No critical speed between {speeds} rpm."
+    return f"Peaks of the first order, {speeds} rpm (AF: amplification factor): {'; '.join(words)}."
 
 
 def key_figures(run: Run) -> str:
-    rows = [(text, number(value, q), SHOWN[q].unit) for text, q, value in summary.journal(run)]
+    rows = [row(text, quantity, [value]) for text, quantity, value in summary.journal(run)]
     return table(("journal and film", "value", "unit"), rows)
 
 
 def pad_figures(run: Run) -> str:
     head = ("pad", *(f"{pad}" for pad in range(1, run.pads + 1)), "unit")
     angles = ("pivot angle", *(f"{angle:g}" for angle in np.round(np.degrees(run.pivot_angle), 6)), "deg")
-    rows = [
-        (text, *(number(each, q) for each in values), SHOWN[q].unit) for text, q, values in summary.pads(run)
-    ]
+    rows = [row(text, quantity, values) for text, quantity, values in summary.pads(run)]
     note = (
         f"Last revolution; friction and sticking over the last {summary.LAST}; lifting, rubbing and dominant "
         f"order over the last {behaviour.LAST}; or over all if there are fewer."
@@ -150,8 +135,8 @@ def spectrum_peaks(run: Run) -> str:
         (
             f"{each.order:.3g}",
             f"{each.frequency:.5g}",
-            number(each.y, "amplitude"),
-            number(each.z, "amplitude"),
+            digits(SHOWN["amplitude"].factor * each.y),
+            digits(SHOWN["amplitude"].factor * each.z),
         )
         for each in found
     ]
@@ -168,7 +153,7 @@ def coefficient_table(run: Run) -> str:
         found = coefficients(run, pivot)
         for ratio, *both in zip(found.frequency_ratio, found.stiffness, found.damping, strict=True):
             named = zip(("stiffness", "damping"), both, strict=True)
-            values = [number(each, name) for name, matrix in named for each in matrix.ravel()]
+            values = [digits(SHOWN[name].factor * each) for name, matrix in named for each in matrix.ravel()]
             rows.append((f"{pivot}, {ratio:g}", *values))
     heads = [
         f"{letter} {element} ({SHOWN[name].unit})"
@@ -188,7 +173,12 @@ def mode_table(run: Run) -> str:
         found = modes(run, pivot)
         own = zip(found.frequency, found.damping_ratio, found.log_decrement, strict=True)
         rows += [
-            (f"{pivot}", f"{hertz:.5g}", number(ratio, "damping_ratio"), number(decrement, "log_decrement"))
+            (
+                f"{pivot}",
+                f"{hertz:.5g}",
+                digits(SHOWN["damping_ratio"].factor * ratio),
+                digits(SHOWN["log_decrement"].factor * decrement),
+            )
             for hertz, ratio, decrement in own
             if np.isfinite(hertz)
         ]
@@ -200,27 +190,22 @@ def mode_table(run: Run) -> str:
 
 def pictures(run: Run) -> Iterable[str]:
     """The pictures that this run can have, with their captions."""
+    yield picture("bearing", "The bearing, with clearances enlarged.", lambda: bearing(run))
     for name, caption in PICTURES.items():
         if (name == "size" and signals.steady(run)) or (name == "equilibrium" and run.samples):
             continue
+        pad = liveliest(run) if name == "poincare" else None
         try:
-            yield f"<figure>{image(run, name)}<figcaption>{escape(caption)}</figcaption></figure>"
+            yield picture(name, caption, lambda name=name, pad=pad: figures.FIGURES[name]([run], None, pad))
         except (NotInRunError, MissingLibraryError):
             continue
 
 
-def image(run: Run, name: str) -> str:
-    """A picture inside the page, without the run's title."""
-    with plt.style.context(plots.STYLE):
-        figure = figures.FIGURES[name]([run])
-        try:
-            stream = io.BytesIO()
-            figure.savefig(stream, format="svg", metadata={"Date": None})
-        finally:
-            plt.close(figure)
-    data = base64.b64encode(stream.getvalue()).decode("ascii")
-    inches = figure.get_figwidth()
-    return f'<img alt="{name}" style="width: {inches}in" src="data:image/svg+xml;base64,{data}">'
+def liveliest(run: Run) -> int | None:
+    """The pad whose tilt moves most in the last revolutions."""
+    if "pad_tilt" not in run or run.samples < 2:
+        return None
+    return 1 + int(np.argmax(np.ptp(signals.waveform(run, "pad_tilt")[1], axis=0)))
 
 
 def statistics(run: Run) -> str:

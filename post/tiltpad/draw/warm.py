@@ -94,11 +94,12 @@ def of_results(runs: Sequence[Run], pad: int | None) -> Figure:
     rows = fig.subplots(len(runs), 2, squeeze=False)
     names = labels(runs) if len(runs) > 1 else [""]
     for (left, right), run, name in zip(rows, runs, names, strict=True):
-        temperatures_of_pads(run, left, pads)
-        heat_of_pads(run, right, pads)
+        own = [k for k in pads if k <= run.pads]
+        temperatures_of_pads(run, left, own)
+        heat_of_pads(run, right, own)
         left.set_title(plain(name, int(15 * COLUMN)))
         for ax in (left, right):
-            ax.set_xticks(range(len(pads)), [f"pad {k}" for k in pads])
+            ax.set_xticks(range(len(own)), [f"pad {k}" for k in own])
             ax.grid(visible=False, axis="x")
     handles, texts = rows[0, 0].get_legend_handles_labels()
     more = rows[0, 1].get_legend_handles_labels()

@@ -20,10 +20,11 @@ LARGEST = 1e30
 ONE_NUMBER = (
     *("operation%speed_rpm", "operation%final_speed_rpm", "operation%duration"),
     *("bearing%journal_radius", "bearing%machined_clearance", "bearing%assembled_clearance"),
+    *("bearing%axial_length", "rotor%mass", "rotor%gravity"),
     *("pivot%socket_radius", "pivot%radius_difference"),
     *("friction%stribeck_velocity", "friction%decay", "friction%critical_velocity"),
 )
-NUMBERS = ("pads%pivot_angle_deg", "pads%arc_deg", "pads%pivot_ratio")
+NUMBERS = ("pads%pivot_angle_deg", "pads%arc_deg", "pads%pivot_ratio", "pads%pivot_distance")
 TEXTS = ("friction%model", "pads%motion")
 
 

@@ -237,12 +237,13 @@ class Run(Archive):
         return values
 
     def end(self) -> str:
-        """The time at which an incomplete run ended, as words for the end of a sentence."""
+        """Where an incomplete run ended, and the recorded reason, as words for the end of a sentence."""
+        reason = f"{self.attributes.get('reason', '')}"
+        why = f"{': ' if reason else ''}{reason}"
         if not self.samples:
-            reason = f"{self.attributes.get('reason', '')}"
-            return f" without samples in time{': ' if reason else ''}{reason}"
+            return f" without samples in time{why}"
         duration = self.input["operation"]["duration"]
-        return f", ended at {self.values('time', -1):g} s of {duration:g} s"
+        return f", ended at {self.values('time', -1):g} s of {duration:g} s{why}"
 
     def without(self, name: str) -> str:
         """The message for a dataset that is missing."""

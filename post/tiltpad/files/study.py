@@ -117,6 +117,26 @@ FIGURES = {
 POINTS = {"poincare_y": "journal_y", "poincare_z": "journal_z", "poincare_tilt": "pad_tilt"}
 
 
+class Failure(NamedTuple):
+    """A member that was not done: its number, its values of the parameters, how and why it ended."""
+
+    member: int
+    values: dict[str, Any]
+    how: str
+    reason: str
+
+    def __str__(self) -> str:
+        own = ", ".join(
+            f"{k} = {v if isinstance(v, str) else format(v, 'g')}" for k, v in self.values.items()
+        )
+        why = f": {self.reason}" if self.reason else ""
+        return f"member {self.member}{f' ({own})' if own else ''} {self.how}{why}"
+
+
+#: How a member ended, by its status.
+ENDS = {2: "failed in its numerics", 3: "failed at a file", 4: "was stopped", -1: "has not ended"}
+
+
 def read_study(path: str | os.PathLike) -> "Study":
     """Opens a study, the file that tiltpad-collect writes. Raises RunError."""
     return Study(path)
@@ -175,6 +195,19 @@ class Study(Archive):
     def done(self) -> np.ndarray:
         """True for the members that were done, (member,)."""
         return self.status == 0
+
+    def failures(self) -> list[Failure]:
+        """The members that were not done, with their recorded reasons."""
+        reasons = self.reason if "reason" in self else np.full(len(self.done), "", dtype=object)
+        return [
+            Failure(
+                int(self.member[k]),
+                {name: self[name][k] for name in self.parameters},
+                ENDS.get(self.status[k], "cannot be read"),
+                reasons[k],
+            )
+            for k in np.flatnonzero(~self.done)
+        ]
 
     def check_whole(self) -> None:
         """Refuses the result of one run, and a study without its parameters."""

@@ -104,6 +104,14 @@ SHOWN = {
     "axial": Shown("axial position", 1e3, "mm"),
 }
 
+#: A thousandth of a unit, for values that are small in it.
+THOUSANDTH = {
+    **{"kN": "N", "N": "mN", "N m": "mN m", "mN m": "µN m", "mJ": "µJ", "µJ": "nJ", "nJ": "pJ"},
+    **{"kW": "W", "W": "mW", "mW": "µW", "µW": "nW", "MPa": "kPa", "kPa": "Pa", "µm": "nm", "nm": "pm"},
+    **{"mrad": "µrad", "µrad": "nrad", "mrad/s": "µrad/s", "mm/s": "µm/s", "µm/s": "nm/s"},
+    **{"MN/m": "kN/m", "kN/m": "N/m", "kN s/m": "N s/m"},
+}
+
 #: Units of the input variables by name. Others are pure numbers, or their names end in _rpm or _deg.
 UNITS = {
     **{"specific_heat": "J/(kg K)", "cross_stiffness": "N/m"},
@@ -141,3 +149,37 @@ def shown(text: str, unit: str, values: Sequence[float] | np.ndarray) -> Shown:
     if unit == "m" and np.nanmax(np.abs(values), initial=0) < 1e-3:
         return Shown(text, 1e6, "µm")
     return Shown(text, 1, "" if unit == "1" else unit)
+
+
+def fitted(quantity: str, values: Sequence[float] | np.ndarray) -> Shown:
+    """A quantity in its unit, or in a smaller one where the largest of the values is below 0.01 in it."""
+    own = SHOWN[quantity]
+    largest = np.nanmax(np.abs(values), initial=0)
+    while 0 < own.factor * largest < 0.01 and own.unit in THOUSANDTH:
+        own = Shown(own.text, 1e3 * own.factor, THOUSANDTH[own.unit])
+    return own
+
+
+def digits(value: float, count: int = 4) -> str:
+    """A number with so many digits, without an exponent unless it is very small (9.86×10⁻⁶)."""
+    if value == 0 or not np.isfinite(value):
+        return "0" if value == 0 else "–"
+    if abs(value) >= 10 ** (count - 1):
+        return f"{value:.0f}"
+    if abs(value) < 1e-4:
+        mantissa, exponent = f"{value:.2e}".split("e")
+        return f"{mantissa}×10{str(int(exponent)).translate(RAISED)}"
+    return f"{value:#.{count}g}".rstrip(".")
+
+
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def in_words(quantity: str, values: Sequence[float] | np.ndarray) -> str:
+    """Values with their unit: "2.38, 2.99 mJ"; of many values the lowest and the highest."""
+    shown = fitted(quantity, values)
+    numbers = [digits(shown.factor * each, 3) for each in values]
+    if len(values) > 4 and np.isfinite(values).any():
+        ends = np.nanmin(values), np.nanmax(values)
+        numbers = [" to ".join(digits(shown.factor * each, 3) for each in ends)]
+    return f"{', '.join(numbers)} {shown.unit}"

@@ -1,0 +1,90 @@
+"""Where pads and journal are in a bearing, and the film between them.
+
+Lengths are in m, angles in rad, counted from +z towards +y; the shaft turns from +y to +z, towards smaller
+angles. A `case` is the resolved input: groups of variables, as run.input.
+"""
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tiltpad.calculate import library
+from tiltpad.files.archive import NotInRunError
+from tiltpad.files.read import Run
+
+Case = Mapping[str, Mapping[str, Any]]
+
+
+class State(NamedTuple):
+    """Journal (y, z), and tilts and penetrations of the pads, (pad,), at a time, s (None: at rest)."""
+
+    time: float | None
+    journal: np.ndarray
+    tilt: np.ndarray
+    penetration: np.ndarray
+
+
+class Surfaces(NamedTuple):
+    """The surfaces of the pads; its fields:
+
+    angle        of points on the surface, from the centre of the bearing, (pad, phi)
+    thickness    film thickness there, (pad, phi)
+    pivot        angles of the pivots, (pad,)
+    """
+
+    angle: np.ndarray
+    thickness: np.ndarray
+    pivot: np.ndarray
+
+
+def of_pads(case: Case, name: str) -> np.ndarray:
+    """A variable of the pads, (pad,)."""
+    return np.atleast_1d(np.asarray(case["pads"][name], dtype=float))
+
+
+def centred(case: Case) -> State:
+    """The journal in the middle of the bearing, pads without tilt and penetration."""
+    none = np.zeros(len(of_pads(case, "pivot_angle_deg")))
+    return State(None, np.zeros(2), none, none)
+
+
+def at_rest(run: Run) -> State:
+    """The equilibrium of a run, or its last sample where it has none."""
+    try:
+        return at_time(run, None)
+    except NotInRunError:
+        return at_time(run, float(run.values("time", -1))) if run.samples else centred(run.input)
+
+
+def at_time(run: Run, time: float | None) -> State:
+    """The sample next to `time`, s; None: the equilibrium."""
+    at, journal, (tilt, penetration) = library.state(run, time)
+    return State(at, journal[:2], tilt[0], penetration[0])
+
+
+def samples(run: Run, part: slice) -> list[State]:
+    """The states of the samples `part`."""
+    times = run.values("time", part)
+    none = np.zeros((len(times), run.pads))
+    tilt, penetration = (
+        run.values(name, part) if name in run else none for name in ("pad_tilt", "pad_penetration")
+    )
+    journal = np.column_stack([run.values(name, part) for name in ("journal_y", "journal_z")])
+    return [State(*each) for each in zip(times.tolist(), journal, tilt, penetration, strict=True)]
+
+
+def surfaces(case: Case, state: State, points: int = 91) -> Surfaces:
+    """The surfaces of the pads from the trailing to the leading edge, and the film on them."""
+    bearing, pivot = case["bearing"], np.radians(of_pads(case, "pivot_angle_deg"))
+    arc, ratio = np.radians(of_pads(case, "arc_deg")), of_pads(case, "pivot_ratio")
+    machined, back = bearing["machined_clearance"], of_pads(case, "pivot_distance")
+    phi = np.linspace(-(1 - ratio) * arc, ratio * arc, points).T
+    # the journal from the pivot, in the pad's own directions (docs/theory.md)
+    own, reach = pivot - state.tilt, bearing["journal_radius"] + back + state.penetration
+    y = state.journal[0] - (reach + bearing["assembled_clearance"]) * np.sin(pivot)
+    z = state.journal[1] - (reach + bearing["assembled_clearance"]) * np.cos(pivot)
+    along = y * np.cos(own) - z * np.sin(own)
+    outward = y * np.sin(own) + z * np.cos(own) + bearing["journal_radius"] + machined + back
+    thickness = machined - along[:, None] * np.sin(phi) - outward[:, None] * np.cos(phi)
+    return Surfaces(own[:, None] + phi, thickness, pivot)

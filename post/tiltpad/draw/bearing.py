@@ -1,0 +1,219 @@
+"""A picture of the bearing itself, and a film of its motion: clearances are enlarged.
+
+The journal is drawn with radius 1; distances from it, films and its own displacement, are as much larger as
+makes the assembled clearance CLEARANCE.
+"""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Arc, Circle, FancyArrowPatch, Polygon
+
+from tiltpad.calculate import geometry, signals
+from tiltpad.calculate.geometry import Case, State
+from tiltpad.draw.layout import PAGE, plain, width
+from tiltpad.draw.plots import STYLE, polar
+from tiltpad.files.read import Run, needs_run
+from tiltpad.files.units import SHOWN, digits
+
+#: Assembled clearance and thickness of the pads in the picture, over the journal's radius.
+CLEARANCE, BACK = 0.16, 0.22
+#: Frames of a movie in a second, and in a revolution of the shaft.
+RATE, FRAMES = 25, 50
+NOTE = {"fontsize": "small", "color": "0.2", "ha": "center", "va": "center"}
+
+
+def bearing(case: Run | Case) -> Figure:
+    """Pads, pivots, load, sense of rotation and angles of a case or result, with enlarged clearances.
+
+    A result shows the journal and the tilt of the pads at its equilibrium, or its last sample.
+    """
+    run = case if isinstance(case, Run) else None
+    groups = case.input if isinstance(case, Run) else case
+    state = geometry.at_rest(run) if run else geometry.centred(groups)
+    fig = plt.figure(figsize=(PAGE, 4.4))
+    ax, beside = fig.subplots(1, 2, width_ratios=(1.45, 1))
+    Scene(ax, groups, state)
+    mark_angles(ax, groups)
+    mark_rotation(ax)
+    mark_load(ax, groups)
+    beside.axis("off")
+    beside.text(0, 1, figures_of(groups, state), va="top", fontsize="small", linespacing=1.5)
+    fig.suptitle(plain(str(groups["case"].get("title", "")), width(fig)))
+    return fig
+
+
+class Scene:
+    """Journal and pads on axes, which can be moved."""
+
+    def __init__(self, ax: Axes, case: Case, state: State):
+        self.case, self.scale = case, CLEARANCE / case["bearing"]["assembled_clearance"]
+        fixed = case["pads"]["motion"] == "fixed"
+        count = len(geometry.of_pads(case, "pivot_angle_deg"))
+        look = {"closed": True, "facecolor": "0.82", "edgecolor": "0.25", "linewidth": 0.8}
+        self.pads = [ax.add_patch(Polygon(np.zeros((3, 2)), **look)) for _ in range(count)]
+        pivots = {"radius": 0.045, "facecolor": "0.25", "linewidth": 0}
+        self.pivots = [ax.add_patch(Circle((0, 0), **pivots)) for _ in range(0 if fixed else count)]
+        self.journal = ax.add_patch(Circle((0, 0), 1, facecolor="#dbe9f6", edgecolor="C0", zorder=2))
+        (self.centre,) = ax.plot([], [], "+", color="C0", zorder=3)
+        self.numbers = [ax.text(0, 0, f"{k + 1}", **NOTE, zorder=3) for k in range(count)]
+        ax.plot(0, 0, ".", color="0.4", markersize=3, zorder=3)
+        reach = 1.32 + CLEARANCE + BACK
+        ax.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")
+        ax.axis("off")
+        self.move(state)
+
+    def move(self, state: State) -> None:
+        """Puts journal and pads where they are in a state."""
+        found = geometry.surfaces(self.case, state)
+        middle = self.scale * state.journal[::-1]
+        self.journal.center = middle
+        self.centre.set_data(*np.reshape(middle, (2, 1)))
+        for k, pad in enumerate(self.pads):
+            direction = np.column_stack([np.cos(found.angle[k]), np.sin(found.angle[k])])
+            inner = middle + (1 + self.scale * found.thickness[k][:, None]) * direction
+            outer = inner + BACK * direction
+            pad.set_xy(np.concatenate([inner, outer[::-1]]))
+            self.numbers[k].set_position(polar(1 + CLEARANCE + BACK / 2, np.degrees(found.angle[k].mean())))
+        for k, pivot in enumerate(self.pivots):
+            away = 1 + CLEARANCE + BACK + 0.045 + self.scale * state.penetration[k]
+            pivot.center = polar(away, np.degrees(found.pivot[k]))
+
+
+def mark_angles(ax: Axes, case: Case) -> None:
+    """The axes, the angle of every pivot, and how angles are counted."""
+    edge = 1.05 + CLEARANCE + BACK
+    axis = {"arrowstyle": "-|>", "color": "0.45", "linewidth": 0.7}
+    for end, name in (((0.45, 0), "$z$"), ((0, 0.45), "$y$")):
+        ax.annotate("", end, (0, 0), arrowprops=axis, zorder=3)
+        ax.text(*(1.2 * np.array(end)), name, **NOTE, zorder=3)
+    for angle in geometry.of_pads(case, "pivot_angle_deg"):
+        ends = np.array([polar(edge, angle), polar(edge + 0.08, angle)]).T
+        ax.plot(*ends, color="0.25", linewidth=0.8)
+        ax.text(*polar(edge + 0.2, angle), f"{angle:g}°", **NOTE)
+    ax.add_patch(Arc((0, 0), 0.56, 0.56, theta1=0, theta2=55, color="0.45", linewidth=0.7, zorder=3))
+    ax.annotate("", polar(0.28, 62), polar(0.28, 52), arrowprops=axis, zorder=3)
+    ax.text(*polar(0.43, 38), "angles", **NOTE | {"fontsize": "x-small"}, zorder=3)
+    theta, arc = (geometry.of_pads(case, name)[0] for name in ("pivot_angle_deg", "arc_deg"))
+    ratio = geometry.of_pads(case, "pivot_ratio")[0]
+    for end, name in ((ratio * arc, "leading"), (-(1 - ratio) * arc, "trailing")):
+        place = polar(1 + CLEARANCE + 0.5 * BACK, theta + end)
+        out = polar(1.0 + CLEARANCE + 1.9 * BACK, theta + 0.8 * end)
+        line = {"arrowstyle": "-", "color": "0.45", "linewidth": 0.5}
+        ax.annotate(name, place, out, arrowprops=line, **NOTE | {"fontsize": "x-small"})
+
+
+def mark_rotation(ax: Axes) -> None:
+    """From +y towards +z: clockwise."""
+    turn = {"connectionstyle": "arc3,rad=-0.3", "arrowstyle": "-|>", "mutation_scale": 11, "color": "C0"}
+    ax.add_patch(FancyArrowPatch(polar(0.82, 128), polar(0.82, 92), **turn, zorder=3))
+    ax.text(*polar(0.62, 125), "rotation", **NOTE | {"color": "C0"}, zorder=3)
+
+
+def mark_load(ax: Axes, case: Case) -> None:
+    """An arrow of the force on the journal: weight and static load."""
+    force = load(case)
+    if (size := float(np.hypot(*force))) == 0:
+        return
+    way = force[::-1] / size
+    arrow = {"arrowstyle": "-|>", "color": "C1", "linewidth": 1.4, "mutation_scale": 12}
+    ax.annotate("", 0.8 * way, 0.25 * way, arrowprops=arrow, zorder=3)
+    # beside the arrow, on the side away from the words of rotation
+    side = 0.24 * np.array([-way[1], way[0]]) * (-1 if way[0] > 0.7 else 1)
+    ax.text(*(0.52 * way + side), f"load\n{digits(1e-3 * size, 3)} kN", **NOTE | {"color": "C1"}, zorder=3)
+
+
+def load(case: Case) -> np.ndarray:
+    """The force on the journal (y, z), N: weight and static load."""
+    rotor = case["rotor"]
+    extra = np.asarray(rotor.get("static_load", (0, 0)), float)
+    return extra - np.array([rotor["mass"] * rotor["gravity"], 0.0])
+
+
+def figures_of(case: Case, state: State) -> str:
+    """Sizes of the bearing, a line each, and what the picture enlarges."""
+    own, pads = case["bearing"], case["pads"]
+    first, last = (case["operation"][name] for name in ("speed_rpm", "final_speed_rpm"))
+    assembled, machined = own["assembled_clearance"], own["machined_clearance"]
+    fixed = pads["motion"] == "fixed"
+    arc, ratio = (f"{'/'.join(f'{each:g}' for each in np.unique(geometry.of_pads(case, name)))}"
+                  for name in ("arc_deg", "pivot_ratio"))  # fmt: skip
+    # the surface is where 1 + CLEARANCE is, not 1 + the true ratio
+    times = CLEARANCE * own["journal_radius"] / assembled
+    where = "the journal in the middle, pads without tilt"
+    if state.time is not None or state.journal.any():
+        where = "the equilibrium" if state.time is None else f"{state.time:g} s"
+    lines = [
+        f"{len(geometry.of_pads(case, 'arc_deg'))} pads, {pads['motion'].replace('_', ', ')}, arc {arc}°",
+        f"{'anchored' if fixed else 'pivot'} at {ratio} of the arc from the leading edge",
+        f"speed {first:g} rpm" if first == last else f"speed {first:g} to {last:g} rpm",
+        f"journal radius {1e3 * own['journal_radius']:g} mm, length {1e3 * own['axial_length']:g} mm",
+        f"assembled clearance $c_r$ = {digits(1e6 * assembled)} µm",
+        f"machined clearance $c_m$ = {digits(1e6 * machined)} µm",
+        f"preload $1 - c_r/c_m$ = {digits(1 - assembled / machined, 3)}",
+        "",
+        f"Clearances are {times:.0f} times larger than the journal",
+        f"has them. Shown: {where}.",
+        "",
+        "The shaft turns clockwise, from $+y$ to $+z$.",
+        "Angles count the other way, from $+z$ to $+y$:",
+        "oil enters a pad at its larger angle (leading edge).",
+    ]
+    return "\n".join(lines)
+
+
+def movie(run: Run, path: str | Path, last: float | None = None) -> None:
+    """Writes an animation of journal and pads over the last revolutions (2), .gif or .mp4.
+
+    An MP4 needs the program ffmpeg. A frame turns the shaft by 1/FRAMES of a revolution.
+    """
+    needs_run(run)
+    path = Path(path)
+    if path.suffix.lower() == ".mp4" and not FFMpegWriter.isAvailable():
+        raise ValueError(f"{path}: an MP4 needs the program ffmpeg, which is not here: take a name with .gif")
+    writer = (FFMpegWriter if path.suffix.lower() == ".mp4" else PillowWriter)(fps=RATE)
+    with plt.style.context(STYLE):
+        fig, frame, states = moving(run, last or 2)
+        fig.draw_without_rendering()
+        fig.set_layout_engine("none")  # it would lay out every frame
+        try:
+            FuncAnimation(fig, frame, frames=len(states), blit=False).save(path, writer=writer, dpi=110)
+        finally:
+            plt.close(fig)
+
+
+def moving(run: Run, last: float) -> tuple[Figure, Any, Sequence[State]]:
+    """The picture of a movie, the function that draws a frame of it by its number, and the states."""
+    part = signals.last_revolutions(run, last)
+    turns = signals.turned(run, part)
+    every = max(1, round((part.stop - part.start - 1) / max(1.0, turns * FRAMES)))
+    whole = geometry.samples(run, part)
+    states = whole[:-1:every]
+    fig = plt.figure(figsize=(PAGE, 3.7))
+    left, right = fig.subplots(1, 2, width_ratios=(1.15, 1))
+    scene = Scene(left, run.input, states[0])
+    mark_rotation(left)
+    y, z = SHOWN["journal_y"].factor * np.array([state.journal for state in whole]).T
+    right.plot(z, y, color="0.75", linewidth=0.8)
+    (trail,) = right.plot([], [], color="C0")
+    (dot,) = right.plot([], [], "o", color="C0", markersize=4)
+    right.set(xlabel=SHOWN["journal_z"].label, ylabel=SHOWN["journal_y"].label, aspect="equal")
+    right.set(box_aspect=1, adjustable="datalim")
+    right.margins(0.1)
+    fig.suptitle(plain(run.title or Path(run.path).stem, width(fig)))
+    clock = right.set_title("")
+
+    def frame(number: int) -> None:
+        scene.move(states[number])
+        passed = slice(0, number * every + 1)
+        trail.set_data(z[passed], y[passed])
+        dot.set_data(z[number * every : number * every + 1], y[number * every : number * every + 1])
+        clock.set_text(f"{states[number].time:.4f} s")
+
+    return fig, frame, states

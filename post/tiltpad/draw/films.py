@@ -1,0 +1,109 @@
+"""Pictures of the films at one instant: pressure over the unrolled pads, thickness and pressure around."""
+
+from collections.abc import Sequence
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from tiltpad.calculate import geometry, library
+from tiltpad.draw import plots
+from tiltpad.draw.layout import (
+    COLUMN,
+    DASHES,
+    PAGE,
+    labels,
+    legend,
+    look,
+    of_several,
+    plain,
+    shown_pads,
+    width,
+)
+from tiltpad.files.read import Run
+from tiltpad.files.units import SHOWN, digits
+
+
+@of_several
+def pressure(
+    runs: Sequence[Run], last: float | None = None, pad: int | None = None, time: float | None = None
+) -> Figure:
+    """Film pressure over the unrolled pads, a panel each, at one instant (None: at the equilibrium).
+
+    All have one scale of colours; the highest pressure of each pad is a number above it.
+    """
+    pads = shown_pads(runs, pad)
+    columns = min(2, len(pads))
+    rows = -(-len(pads) // columns) * len(runs)
+    fig = plt.figure(figsize=(COLUMN if columns == 1 else PAGE, 0.3 + 2.3 * rows))
+    panels = fig.subplots(rows, columns, squeeze=False).reshape(len(runs), -1)
+    films = [library.pressure(run, time) for run in runs]
+    fields = [SHOWN["pressure"].factor * film.pressure[np.array(own) - 1]
+              for run, film in zip(runs, films, strict=True)
+              if (own := [k for k in pads if k <= run.pads])]  # fmt: skip
+    low, high = min(each.min() for each in fields), max(each.max() for each in fields)
+    levels = MaxNLocator(12).tick_values(low, max(high, low + 1e-6))
+    used = []
+    for run, film, name, axes in zip(runs, films, labels(runs), panels, strict=True):
+        for ax, k in zip(axes, pads, strict=False):
+            if k > run.pads:
+                ax.remove()
+                continue
+            plots.pressure(run, ax, time, k, film, levels=levels)
+            peak = SHOWN["pressure"].factor * film.pressure[k - 1].max()
+            own = f"pad {k}: at most {digits(peak, 3)} {SHOWN['pressure'].unit}"
+            ax.set_title(own if len(runs) == 1 else f"{name}\n{own}")
+            used.append(ax)
+        for ax in axes[len(pads) :]:
+            ax.remove()
+    for ax in used:
+        # labels of inner axes repeat those of the outer ones
+        ax.label_outer() if len(runs) == 1 and len(pads) % columns == 0 else None
+    fig.colorbar(
+        used[0].collections[0], ax=used, label=SHOWN["pressure"].label, aspect=14 * rows, fraction=0.06
+    )
+    fig.suptitle(plain(instant(runs, time), width(fig)))
+    return fig
+
+
+@of_several
+def film(
+    runs: Sequence[Run], last: float | None = None, pad: int | None = None, time: float | None = None
+) -> Figure:
+    """Thickness and pressure of the films around the bearing at one instant (None: at the equilibrium).
+
+    The pressure is that in the middle of the width.
+    """
+    pads = shown_pads(runs, pad)
+    fig = plt.figure(figsize=(PAGE, 3.8))
+    upper, lower = fig.subplots(2, 1, sharex=True)
+    for i, run in enumerate(runs):
+        found = geometry.surfaces(run.input, geometry.at_time(run, time))
+        around = library.pressure(run, time, along=found.angle.shape[1], across=np.zeros(1))
+        for k in (k for k in pads if k <= run.pads):
+            line = look(i, 0, runs) | {"linestyle": DASHES[0]}
+            x = np.degrees(found.angle[k - 1])
+            upper.plot(x, SHOWN["min_film_thickness"].factor * found.thickness[k - 1], **line)
+            lower.plot(x, SHOWN["pressure"].factor * around.pressure[k - 1, :, 0], **line)
+    for k in (k for k in pads if k <= runs[0].pads):
+        place = {"xycoords": ("data", "axes fraction"), "ha": "center", "fontsize": "small", "color": "0.3"}
+        upper.annotate(f"pad {k}", (geometry.of_pads(runs[0].input, "pivot_angle_deg")[k - 1], 1.03), **place)
+    upper.set(ylabel="film thickness (µm)")
+    upper.set_ylim(bottom=0)
+    lower.set(
+        xlabel="angle from $+z$ towards $+y$ (deg); the surface of the journal moves to the left",
+        ylabel="pressure in the\nmiddle (MPa)",
+    )
+    lower.xaxis.set_major_locator(plt.MultipleLocator(30))
+    if len(runs) > 1:
+        legend(fig, runs, [])
+    else:
+        fig.suptitle(plain(instant(runs, time), width(fig)))
+    return fig
+
+
+def instant(runs: Sequence[Run], time: float | None) -> str:
+    """The title: of one run its own, and the time."""
+    title = runs[0].title if len(runs) == 1 else ""
+    return f"{title} at {'the equilibrium' if time is None else f'{time:g} s'}".lstrip()

@@ -1,0 +1,63 @@
+"""Parts of the pages that tiltpad-report writes: one file each, without scripts and links."""
+
+import base64
+import io
+from collections.abc import Callable, Iterable, Sequence
+from html import escape
+from importlib.resources import files
+
+import matplotlib.pyplot as plt
+from matplotlib.figure import Figure
+
+from tiltpad.draw import plots
+from tiltpad.files.units import digits, fitted
+
+
+def page(title: str, parts: Iterable[str]) -> str:
+    """The whole page; empty parts are left out."""
+    style = files("tiltpad.draw").joinpath("report.css").read_text(encoding="utf-8")
+    narrow = '<meta name="viewport" content="width=device-width, initial-scale=1">'
+    head = f'<meta charset="utf-8">{narrow}<title>{escape(title)}</title><style>{style}</style>'
+    body = "\n".join(part for part in (f"<h1>{escape(title)}</h1>", *parts) if part)
+    return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head>\n<body>\n{body}\n</body></html>\n'
+
+
+def section(title: str, content: str) -> str:
+    return f"<section><h2>{title}</h2>{content}</section>" if content else ""
+
+
+def paragraph(text: str, warning: bool = False) -> str:
+    """A paragraph, or nothing for an empty text."""
+    return f"<p{' class=warning' if warning else ''}>{escape(text)}</p>" if text else ""
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table whose first column is text and whose others are numbers."""
+    lines = ["<tr>" + "".join(f"<th>{escape(each)}</th>" for each in head) + "</tr>"]
+    lines += ["<tr>" + "".join(f"<td>{escape(each)}</td>" for each in row) + "</tr>" for row in rows]
+    return f"<div class=wide><table>{''.join(lines)}</table></div>" if len(lines) > 1 else ""
+
+
+def row(text: str, quantity: str, values: Sequence[float]) -> tuple[str, ...]:
+    """Numbers of a quantity between their name and their unit, which suits the largest of them."""
+    shown = fitted(quantity, values)
+    return (text, *(digits(shown.factor * float(each)) for each in values), shown.unit)
+
+
+def picture(name: str, caption: str, draw: Callable[[], Figure], remarks: bool = True) -> str:
+    """A picture inside the page, with its caption; without remarks that stand in the page already."""
+    with plt.style.context(plots.STYLE):
+        figure = draw()
+        try:
+            figure.suptitle("")
+            if not remarks and figure.get_supxlabel():
+                figure.set_figheight(figure.get_figheight() - 0.1 * len(figure.get_supxlabel().splitlines()))
+                figure.supxlabel("")
+            stream = io.BytesIO()
+            figure.savefig(stream, format="svg", metadata={"Date": None})
+        finally:
+            plt.close(figure)
+    data = base64.b64encode(stream.getvalue()).decode("ascii")
+    look = f'alt="{name}" style="width: {figure.get_figwidth()}in"'
+    image = f'<img {look} src="data:image/svg+xml;base64,{data}">'
+    return f"<figure>{image}<figcaption>{escape(caption)}</figcaption></figure>"

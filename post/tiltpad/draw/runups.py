@@ -1,0 +1,193 @@
+"""Pictures of run-ups: the whole run, orders, waterfall, and the size of the orbit over speed or a number."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tiltpad.calculate import differences, signals, spectra
+from tiltpad.calculate.response import Peak, peaks_of
+from tiltpad.draw import plots
+from tiltpad.draw.branches import in_words as critical
+from tiltpad.draw.layout import (
+    COLUMN,
+    DASHES,
+    PAGE,
+    drawn,
+    heading,
+    labels,
+    legend,
+    look,
+    of_several,
+    parts,
+    plain,
+    remark,
+    shown_pads,
+    stacked,
+    top_axis,
+)
+from tiltpad.files.read import Run
+from tiltpad.files.units import SHOWN, in_words
+
+#: Orders whose amplitudes are drawn.
+ORDERS = (1, 2, 3)
+#: What the phase of an order is counted from.
+PHASE = (
+    "Phase of order 1: 0 where the journal is farthest along the axis when the unbalance points along +y; "
+    "negative: later. Forward whirl has z a quarter turn behind y."
+)
+
+
+def highest(speed: np.ndarray, values: np.ndarray) -> Peak | None:
+    """The highest peak of values, (n,), over the speed, (n,), rad/s; None where they only rise or fall."""
+    order = np.argsort(speed)
+    speed, values = SHOWN["speed"].factor * speed[order], values[order]
+    found = peaks_of("", speed, speed, values) if len(speed) > 2 else []
+    return max(found, key=lambda peak: peak.amplitude, default=None)
+
+
+def mark_peak(ax: Axes, speed: np.ndarray, values: np.ndarray, quantity: str, color: str) -> str:
+    """Draws a ring around the highest peak; gives its height, speed and amplification factor in words."""
+    peak = highest(speed, values)
+    if peak is None:
+        return "no peak inside the range of the speed"
+    ring = {"marker": "o", "markersize": 4, "markerfacecolor": "none", "linestyle": ""}
+    ax.plot(peak.speed_rpm, SHOWN[quantity].factor * peak.amplitude, color=color, **ring)
+    return f"peak {in_words(quantity, [peak.amplitude])} at {critical(peak)}"
+
+
+@of_several
+def runup(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
+    """Journal, tilt (unless pads are fixed) and film over the whole run, with the speed where it changes.
+
+    Marks along the bottom say where asperities touch the journal.
+    """
+    pads = shown_pads(runs, pad)
+    tilts = ["pad_tilt"] if plots.all_tilt(runs) else []
+    fig, panels = stacked(["journal_y", "journal_z", *tilts, "min_film_thickness"])
+    for i, run in enumerate(runs):
+        for name, ax in panels.items():
+            for k, p in drawn(run, name, pads):
+                plots.history(run, ax, name, pad=p, **look(i, k, runs))
+    ends = {(*signals.ends(run, "time"), *signals.ends(run, "speed")) for run in runs}
+    plots.label_films(panels)
+    for ax in panels.values():
+        ax.set_xlim(min(end[0] for end in ends), max(end[1] for end in ends))
+    if len(ends) == 1:
+        start, stop, first, final = ends.pop()
+        if first != final:
+            speed = SHOWN["speed"].factor * np.array([first, final])
+            top_axis(panels["journal_y"], np.array([start, stop]), speed, SHOWN["speed"].label)
+    legend(fig, runs, parts([f"pad {p}" for p in pads], runs))
+    return fig
+
+
+@of_several
+def orders(
+    runs: Sequence[Run], last: float | None = None, pad: int | None = None, scale: str = "linear"
+) -> Figure:
+    """Amplitudes of the first three orders over the speed of run-ups, with the peak and phase of the first.
+
+    `scale` of the amplitudes is linear or log.
+    """
+    names = [("journal_y", None), ("journal_z", None), *([("pad_tilt", pad)] if pad else [])]
+    fig, panels = stacked([*names, "phase"])
+    for i, run in enumerate(runs):
+        for k, order in enumerate(ORDERS):
+            for name, column in names:
+                plots.order_track(run, panels[name, column], name, order, column, scale, **look(i, k, runs))
+        for k, (name, column) in enumerate(names[:2]):
+            own = look(i, 0, runs) | {"linestyle": DASHES[k]}
+            plots.order_phase(run, panels["phase"], name, 1, column, **own)
+    for name, column in names:
+        ax = panels[name, column]
+        tracks = [spectra.order_track(run, name, 1, column)[:2] for run in runs]
+        words = [mark_peak(ax, *track, name, look(i, 0, runs)["color"]) for i, track in enumerate(tracks)]
+        if len(runs) <= 2:
+            ax.set_title("; ".join(words), fontsize="x-small", loc="right")
+        ax.set_ylabel(SHOWN[name].label + (f", pad {column}" if column else ""))
+    panels["phase"].set_ylabel("phase, order 1\n(deg)")
+    dashed = [(f"phase of ${axis}$", {"color": "0.3", "linestyle": DASHES[k]}) for k, axis in enumerate("yz")]
+    legend(fig, runs, [*parts([f"order {order}" for order in ORDERS], runs), *dashed])
+    remark(fig, PHASE)
+    return fig
+
+
+@of_several
+def waterfall(
+    runs: Sequence[Run],
+    last: float | None = None,
+    pad: int | None = None,
+    orders: float | None = None,
+    by: str = "frequency",
+    decades: float = 3,
+) -> Figure:
+    """Amplitudes over speed and frequency of run-ups: a column of y and z each (with a pad: its tilt).
+
+    `by` is frequency or order, `orders` the highest order, `decades` how far down the colours reach.
+    """
+    names = ["pad_tilt"] if pad else ["journal_y", "journal_z"]
+    fig = plt.figure(figsize=(COLUMN if len(runs) == 1 else PAGE, 0.5 + 2.1 * len(names)))
+    panels = fig.subplots(len(names), len(runs), squeeze=False, sharex=len(runs) == 1)
+    for column, run, label in zip(panels.T, runs, labels(runs), strict=True):
+        for ax, name in zip(column, names, strict=True):
+            plots.waterfall(run, ax, name, pad, orders or 5, by, decades)
+        if len(runs) > 1:
+            column[0].set_title(label, wrap=True)
+    if len(runs) == 1:
+        legend(fig, runs, [])
+        for ax in panels[:-1, 0]:
+            ax.xaxis.label.set_visible(False)
+    return fig
+
+
+@of_several
+def size(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
+    """Peak-to-peak of y and z of the journal.
+
+    They are drawn over the speed if a run is a run-up (without the drift of the mean), over a number of the
+    input if runs differ in it alone, and otherwise as bars.
+    """
+    fig = plt.figure(figsize=(COLUMN, 2.6))
+    ax = fig.subplots()
+    coordinates = ("journal_y", "journal_z")
+    if not all(signals.steady(run) for run in runs):
+        found = []
+        for i, run in enumerate(runs):
+            for k, name in enumerate(coordinates):
+                plots.orbit_size(run, ax, name, last or 1, **look(i, k, runs))
+                if not signals.steady(run):
+                    color = look(i, k, runs)["color"]
+                    found.append(mark_peak(ax, *signals.swing(run, name), "size", color))
+        ax.set_ylim(bottom=0)
+        for axis, each in zip("yz", found if len(runs) == 1 else (), strict=False):
+            remark(fig, f"{axis}: {each}")
+        legend(fig, runs, parts(["$y$", "$z$"], runs))
+        return fig
+    sizes = SHOWN["size"].factor * np.array([signals.orbit_size(run, last or 1) for run in runs]).T
+    dashes = ["-", "-"]
+    varied = differences.varied([run.input for run in runs])
+    if varied:
+        label, values = varied
+        order = np.argsort(values)
+        dashes = ["-", "--"]
+        for each, own in zip(sizes, dashes, strict=True):
+            ax.plot(np.array(values)[order], each[order], own, marker="o", markersize=3)
+        ax.set(xlabel=label, ylabel=SHOWN["size"].label, ylim=(0, 1.1 * sizes.max()))
+    else:
+        place = np.arange(len(runs))
+        names = labels(runs) if len(runs) > 1 else [runs[0].title or Path(runs[0].path).stem]
+        for k, each in enumerate(sizes):
+            ax.barh(place + 0.4 * k, each, 0.38)
+        few = slice(None, None, 1 + len(runs) // 40)  # names of all would lie on each other
+        ax.set_yticks(place[few] + 0.2, [plain(name, 24) for name in names[few]])
+        ax.grid(visible=False, axis="y")
+        ax.invert_yaxis()
+        ax.set(xlabel=SHOWN["size"].label)
+        fig.set_figheight(1.2 + min(0.4 * len(runs), 9))
+    entries = [{"color": f"C{k}", "linestyle": each} for k, each in enumerate(dashes)]
+    heading(fig, [*zip(("$y$", "$z$"), entries, strict=True)], "")
+    return fig

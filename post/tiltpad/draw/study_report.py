@@ -1,0 +1,113 @@
+"""A page about a study: its members, those that failed, and curves of its key results."""
+
+from collections.abc import Iterator
+from html import escape
+from pathlib import Path
+
+import numpy as np
+
+from tiltpad.calculate.selection import distinct, written
+from tiltpad.draw import figures
+from tiltpad.draw.page import page, paragraph, picture, section, table
+from tiltpad.files.archive import NotInRunError
+from tiltpad.files.study import Study
+from tiltpad.files.units import SHOWN, digits
+
+#: Results of the table and of the curves, those that the study has.
+KEYS = (
+    *("orbit_size", "min_film_thickness", "max_pressure", "friction_work", "stick_fraction"),
+    *("equilibrium_eccentricity_ratio", "equilibrium_min_film_thickness", "equilibrium_max_pressure"),
+    *("equilibrium_power_loss", "least_damping_ratio", "threshold_rpm"),
+)
+#: Columns of the table, and its rows.
+COLUMNS, ROWS = 6, 300
+#: Pictures of whole studies, and their captions.
+PICTURES = {
+    "response": "First harmonic of the journal: critical speeds and amplification factors.",
+    "coefficients": "Stiffness and damping.",
+    "stability": "Damping of the modes.",
+    "campbell": "Frequencies of the modes over the speed.",
+    "temperatures": "Temperatures and viscosity of the pads.",
+}
+
+
+def study_report(study: Study) -> str:
+    """The page as text."""
+    title = study.title or Path(study.path).stem
+    by = study.attributes
+    origin = f"{Path(study.path).name}: {by['program']} {by['version']}, {by['created']}"
+    parts = [
+        f"<p class=origin>{escape(origin)}</p>",
+        summary(study),
+        section("Members that were not done", failures(study)),
+        section("Curves", "".join(curves(study))),
+        section("Members", members(study)),
+        section("Input of the first member", f"<pre>{escape(by.get('input', '').strip())}</pre>"),
+    ]
+    return page(title, parts)
+
+
+def summary(study: Study) -> str:
+    """How many members there are and were done, and what they differ in."""
+    count, done = len(study.done), int(study.done.sum())
+    missing = study.attributes.get("missing", "")
+    text = f"{count} members, {done} of them done."
+    for name in study.parameters:
+        values = distinct(study[name])
+        if values:
+            several = f"{written(values[0])} to {written(values[-1])}, {len(values)} values"
+            own = several if len(values) > 4 else ", ".join(map(written, values))
+            text += f" {study.about(name, 'long_name') or name}: {own}."
+    lost = paragraph(f"Members without a file: {missing}.", warning=True) if missing else ""
+    return paragraph(text) + lost
+
+
+def failures(study: Study) -> str:
+    """A row for each member that was not done, with the recorded reason."""
+    rows = [
+        (f"{each.member}", *(written(value) for value in each.values.values()), each.how, each.reason)
+        for each in study.failures()[:ROWS]
+    ]
+    return table(("member", *study.parameters, "end", "reason"), rows)
+
+
+def members(study: Study) -> str:
+    """Parameters and key results of every member."""
+    keys = [name for name in KEYS if name in study and np.isfinite(values(study, name)).any()][:COLUMNS]
+    shown = [SHOWN[name] for name in keys]
+    columns = [values(study, name) for name in keys]
+    rows = [
+        (
+            f"{study.member[k]}",
+            *(written(study[name][k]) for name in study.parameters),
+            "yes" if study.done[k] else "no",
+            *(digits(own.factor * column[k]) for own, column in zip(shown, columns, strict=True)),
+        )
+        for k in range(min(len(study.done), ROWS))
+    ]
+    rest = len(study.done) - ROWS
+    return table(("member", *study.parameters, "done", *(each.label for each in shown)), rows) + paragraph(
+        f"and {rest} more, in the file." if rest > 0 else ""
+    )
+
+
+def values(study: Study, name: str) -> np.ndarray:
+    """A result of each member; of pivots, of the first ones."""
+    found = study[name]
+    return found if found.ndim == 1 else found[:, 0]
+
+
+def curves(study: Study) -> Iterator[str]:
+    """The key results over the parameters, and the pictures that only some studies have."""
+    for name in KEYS:
+        if name in study and study.parameters and np.isfinite(values(study, name)).any():
+            try:
+                yield picture(name, f"{SHOWN[name].text.replace('$', '')}.".capitalize(),
+                              lambda name=name: figures.study(study, name), remarks=False)  # fmt: skip
+            except ValueError:
+                continue
+    for name, caption in PICTURES.items():
+        try:
+            yield picture(name, caption, lambda name=name: figures.FIGURES[name]([study]), remarks=False)
+        except (ValueError, NotInRunError):
+            continue
