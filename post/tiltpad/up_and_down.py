@@ -1,4 +1,4 @@
-"""A bifurcation diagram by brute force: marches up and down a parameter, each from the end of the one before."""
+"""A bifurcation diagram by brute force: marches up and down a parameter, each from the last one's end."""
 
 import os
 import shutil
