@@ -63,7 +63,7 @@ STUDIES = {
             "sweep%operation%speed_rpm=1500:9000:250",
         ),
     ),
-    "warm_speeds": ("input/examples/warm_five_pads.nml", ("sweep%operation%speed_rpm=500:9000:500",)),
+    "warm_speeds": ("input/examples/warm_five_pads.nml", ("sweep%operation%speed_rpm=250:5250:250",)),
     "whirl": (
         "input/examples/five_pads.nml",
         (

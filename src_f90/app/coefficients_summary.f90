@@ -19,6 +19,7 @@ contains
       type(bearing_coefficients_type), intent(in) :: found
       type(scene_type), intent(in) :: scene
       integer :: i, k
+      if (scene%thermal%model /= 'none') print '(a)', 'stiffness and damping at the viscosities of this equilibrium:'
       associate (ratios => scene%coefficients%frequency_ratio)
          do i = 1, size(found%bearings)
             print '(a)', 'pivots '//trim(found%bearings(i)%pivot)//':'

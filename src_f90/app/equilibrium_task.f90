@@ -5,10 +5,10 @@ module equilibrium_task
    use equilibrium, only: equilibrium_type, find_equilibrium
    use namelist_writer, only: scene_text
    use static_figures, only: static_figures_type, find_static_figures
-   use equilibrium_results, only: put_equilibrium, put_figures
+   use equilibrium_results, only: put_equilibrium, put_figures, put_temperatures
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
-   use run_summary, only: print_equilibrium, print_figures
+   use run_summary, only: print_equilibrium, print_figures, print_temperatures
    implicit none (type, external)
    private
    public :: run_equilibrium, create_file, start_at_equilibrium, seek_equilibrium, note_equilibrium, nothing_computed
@@ -66,9 +66,11 @@ contains
       call put_equilibrium(run%file%file, static, run%scene%tilting(), run%scene%tilting_radial())
       call find_static_figures(run%model, static, figures)
       call put_figures(run%file%file, run%scene, figures)
+      if (allocated(figures%oil)) call put_temperatures(run%file%file, figures%oil, static%viscosity)
       run%computed = .true.
       if (run%quiet) return
       call print_equilibrium(static, run%scene)
       call print_figures(run%scene, figures)
+      if (allocated(figures%oil)) call print_temperatures(figures%oil, static%viscosity)
    end subroutine note_equilibrium
 end module equilibrium_task

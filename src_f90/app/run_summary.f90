@@ -4,7 +4,8 @@ module run_summary
    use text, only: to_text, fixed_text
    use loops, only: loop_area
    use scene, only: scene_type
-   use checked_case, only: preload_note
+   use checked_case, only: preload_note, warm_note
+   use heat_balance, only: oil_temperatures_type
    use bearing_numbers, only: load, specific_load, sommerfeld_number
    use equilibrium, only: equilibrium_type
    use static_figures, only: static_figures_type
@@ -12,7 +13,8 @@ module run_summary
    use run_statistics, only: run_statistics_type
    implicit none (type, external)
    private
-   public :: print_notes, print_start, print_equilibrium, print_figures, print_march, print_cost
+   public :: print_notes, print_start, print_equilibrium, print_figures, print_temperatures
+   public :: print_march, print_cost
 
 contains
 
@@ -20,6 +22,7 @@ contains
    subroutine print_notes(scene)
       type(scene_type), intent(in) :: scene
       if (preload_note(scene) /= '') print '(a)', preload_note(scene)
+      if (warm_note(scene) /= '') print '(a)', warm_note(scene)
    end subroutine print_notes
 
    !> Where a march starts that does not start at the equilibrium itself; journal, m, tilts, rad.
@@ -81,6 +84,20 @@ contains
             & //' K (fresh at every pad) to '//fixed_text(figures%rise_side, 1)//' K (fresh for the sides alone)'
       end associate
    end subroutine print_figures
+
+   !> Temperatures of warm oil, C, and the viscosity of each pad's film, Pa s.
+   subroutine print_temperatures(oil, viscosity)
+      type(oil_temperatures_type), intent(in) :: oil
+      real(wp), intent(in) :: viscosity(:)
+      integer :: i
+      do i = 1, size(viscosity)
+         print '(a)', '  pad '//to_text(i)//': oil comes in at '//fixed_text(oil%inlet(i), 1)//' C, leaves at ' &
+            & //fixed_text(oil%outlet(i), 1)//' C, mean '//fixed_text(oil%mean(i), 1)//' C, ' &
+            & //fixed_text(1e3_wp*viscosity(i), 2)//' mPa s, pad at most '//fixed_text(oil%maximum(i), 1)//' C'
+      end do
+      print '(a)', '  all pads: oil drains at '//fixed_text(oil%drain, 1)//' C, shaft at '//fixed_text(oil%shaft, 1) &
+         & //' C'
+   end subroutine print_temperatures
 
    !> Key figures of the last revolution (or of what there is).
    subroutine print_march(file, scene)

@@ -1,7 +1,7 @@
 !> What --check prints: the resolved case, where each value comes from, and what follows from the values.
 module checked_case
    use kinds, only: wp
-   use text, only: to_text
+   use text, only: to_text, fixed_text
    use errors, only: error_type
    use scene, only: scene_type
    use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
@@ -13,11 +13,13 @@ module checked_case
    use namelist_writer, only: scene_text
    implicit none (type, external)
    private
-   public :: marked_text, derived_text, preload_note
+   public :: marked_text, derived_text, preload_note, warm_note
 
    character(len=*), parameter :: newline = achar(10)
    !> Column of the marks.
    integer, parameter :: column = 46
+   !> Surface speed, m/s, up to which a temperature for each pad is close to those along and across the films.
+   real(wp), parameter :: compared_up_to = 35
    !> Temperatures of warm oil, C.
    real(wp), parameter :: warm(3) = [60.0_wp, 80.0_wp, 100.0_wp]
 
@@ -104,6 +106,7 @@ contains
          & 'mu N L D/W (R_J/c_r)^2, N in 1/s at the start')
       if (scene%oil%law /= 'constant') call say_oil()
       if (preload_note(scene) /= '') text = text//'! '//preload_note(scene)//newline
+      if (warm_note(scene) /= '') text = text//'! '//warm_note(scene)//newline
    contains
       !> The oil's viscosity where it comes in and where it is warm.
       subroutine say_oil()
@@ -137,4 +140,16 @@ contains
       if (preload(scene) < 0) note = 'note: negative preload '//to_text(preload(scene))//': the bore of the pads is ' &
          & //'tighter than the clearance at the pivots; such a pad touches the journal at its edges first'
    end function preload_note
+
+   !> A word on a surface speed at which a temperature for each pad was not compared with more; else empty.
+   function warm_note(scene) result(note)
+      type(scene_type), intent(in) :: scene
+      character(len=:), allocatable :: note
+      real(wp) :: surface
+      note = ''
+      surface = scene%highest_speed()*scene%bearing%journal_radius
+      if (scene%thermal%model /= 'none' .and. surface > compared_up_to) note = 'note: surface speed ' &
+         & //fixed_text(surface, 1)//' m/s: above '//to_text(compared_up_to)//' m/s a temperature for each pad shows ' &
+         & //'trends, and stiffness may be off by more than 10 % (docs/warm_oil.md)'
+   end function warm_note
 end module checked_case

@@ -3,12 +3,13 @@ module equilibrium_results
    use kinds, only: wp
    use hdf5_file, only: hdf5_type
    use scene, only: scene_type
+   use heat_balance, only: oil_temperatures_type
    use bearing_numbers, only: load, specific_load, sommerfeld_number
    use equilibrium, only: equilibrium_type
    use static_figures, only: static_figures_type
    implicit none (type, external)
    private
-   public :: put_equilibrium, put_figures
+   public :: put_equilibrium, put_figures, put_temperatures
 
 contains
 
@@ -87,4 +88,25 @@ contains
          call file%put_list('equilibrium/'//name, values, units, long_name, 'pad')
       end subroutine list
    end subroutine put_figures
+
+   !> Writes the temperatures of warm oil, C, and the viscosity of each pad's film, Pa s.
+   subroutine put_temperatures(file, oil, viscosity)
+      type(hdf5_type), intent(inout) :: file
+      type(oil_temperatures_type), intent(in) :: oil
+      real(wp), intent(in) :: viscosity(:)
+      call temperature('inlet', oil%inlet, 'temperature of the oil at the leading edge')
+      call temperature('mean', oil%mean, 'mean temperature of the film')
+      call temperature('outlet', oil%outlet, 'temperature of the oil at the trailing edge')
+      call temperature('maximum', oil%maximum, 'maximum temperature of the pad')
+      call file%put_list('equilibrium/viscosity', viscosity, 'Pa s', 'viscosity of the film', 'pad')
+      call file%put_real('equilibrium/shaft_temperature', oil%shaft, 'degC', 'temperature of the shaft')
+      call file%put_real('equilibrium/drain_temperature', oil%drain, 'degC', &
+         & 'temperature of the oil that leaves the bearing')
+   contains
+      subroutine temperature(name, values, long_name)
+         character(len=*), intent(in) :: name, long_name
+         real(wp), intent(in) :: values(:)
+         call file%put_list('equilibrium/'//name//'_temperature', values, 'degC', long_name, 'pad')
+      end subroutine temperature
+   end subroutine put_temperatures
 end module equilibrium_results

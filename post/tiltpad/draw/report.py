@@ -161,6 +161,8 @@ def coefficient_table(run: Run) -> str:
         for element in ("yy", "yz", "zy", "zz")
     ]
     note = "The frequency is that of the whirl over the shaft's; y is up, the shaft turns from +y to +z."
+    if "equilibrium/viscosity" in run:
+        note += " The viscosities are those of the equilibrium."
     return table(("pivots, frequency", *heads), rows) + f"<p>{note}</p>"
 
 

@@ -97,9 +97,11 @@ def of_results(runs: Sequence[Run], pad: int | None) -> Figure:
         own = [k for k in pads if k <= run.pads]
         temperatures_of_pads(run, left, own)
         heat_of_pads(run, right, own)
+        viscosity = SHOWN["viscosity"].factor * run["equilibrium/viscosity"]
+        right.set_xlabel(f"viscosity below each pad ({SHOWN['viscosity'].unit})")
         left.set_title(plain(name, int(15 * COLUMN)))
         for ax in (left, right):
-            ax.set_xticks(range(len(own)), [f"pad {k}" for k in own])
+            ax.set_xticks(range(len(own)), [f"pad {k}\n{viscosity[k - 1]:#.3g}" for k in own])
             ax.grid(visible=False, axis="x")
     handles, texts = rows[0, 0].get_legend_handles_labels()
     more = rows[0, 1].get_legend_handles_labels()
@@ -114,16 +116,11 @@ def of_results(runs: Sequence[Run], pad: int | None) -> Figure:
 
 
 def temperatures_of_pads(run: Run, ax: Axes, pads: Sequence[int]) -> Axes:
-    """Temperatures of each pad beside those of supply, shaft and drain; the viscosity as text."""
+    """Temperatures of each pad beside those of supply, shaft and drain."""
     columns = [k - 1 for k in pads]
     for i, (name, marker) in enumerate(PLACES.items()):
         values = run[f"equilibrium/{name}_temperature"][columns]
         ax.plot(np.arange(len(pads)), values, marker, color=f"C{i}", label=name, linestyle="")
-    viscosity = SHOWN["viscosity"].factor * run["equilibrium/viscosity"][columns]
-    for i, value in enumerate(viscosity):
-        top = run["equilibrium/maximum_temperature"][columns[i]]
-        text = f"{value:.3g} {SHOWN['viscosity'].unit}"
-        ax.annotate(text, (i, top), (0, 6), textcoords="offset points", ha="center", fontsize="small")
     ax.axhline(run.input["oil"]["supply_temperature"], **SUPPLY)
     ax.axhline(float(run["equilibrium/shaft_temperature"]), **SHAFT)
     ax.axhline(float(run["equilibrium/drain_temperature"]), **DRAIN)
