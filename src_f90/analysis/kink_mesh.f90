@@ -3,7 +3,7 @@
 module kink_mesh
    use kinds, only: wp
    use equations_of_motion, only: bearing_model
-   use orbit_collocation, only: orbit_type
+   use orbit_polynomials, only: orbit_type
    implicit none (type, external)
    private
    public :: follow_kinks

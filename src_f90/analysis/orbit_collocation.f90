@@ -8,15 +8,14 @@ module orbit_collocation
    use errors, only: error_type, raise, numerics_error
    use lapack, only: dgesv
    use ode_model, only: ode_model_type
+   use orbit_polynomials, only: orbit_type, points, place
    implicit none (type, external)
    private
-   public :: orbit_type, newton_round, points, place
+   public :: newton_round
+   public :: orbit_equations_type, parameter_shift_type, condense, closing_equations, move_orbit, collocated_state
 
-   !> Points of an interval.
-   integer, parameter :: points = 3
    real(wp), parameter :: s6 = sqrt(6.0_wp)
-   !> Where the points stand in an interval, and the integrals of their polynomials up to each.
-   real(wp), parameter :: place(points) = [(4 - s6)/10, (4 + s6)/10, 1.0_wp]
+   !> The integrals of the points' polynomials up to each point.
    real(wp), parameter :: weight(points, points) = reshape([(88 - 7*s6)/360, (296 + 169*s6)/1800, (16 - s6)/36, &
       & (296 - 169*s6)/1800, (88 + 7*s6)/360, (16 + s6)/36, (-2 + 3*s6)/225, (-2 - 3*s6)/225, 1/9.0_wp], &
       & [points, points])
@@ -25,25 +24,22 @@ module orbit_collocation
    !> interval's side of it. To the same order the rates are still those at the end.
    real(wp), parameter :: inward = 1e-5_wp
 
-   type :: orbit_type
-      !> Ends of the intervals, s, (0:intervals).
-      real(wp), allocatable :: time(:)
-      !> State at the start of the period; states at the points, (state, point, interval): the last point of an interval
-      !> is its end.
-      real(wp), allocatable :: start(:), at(:, :, :)
-      !> Natural size of each state.
-      real(wp), allocatable :: scale(:)
-      !> What the state at the start's change does to the state a period later, over the scales: it has the multipliers
-      !> as eigenvalues.
-      real(wp), allocatable :: monodromy(:, :)
-      !> Newton's last correction, over the scales, and how far the equations were from being satisfied before it.
-      real(wp) :: correction = huge(1.0_wp), residual = huge(1.0_wp)
-   contains
-      procedure :: intervals
-      procedure :: state_at
-      procedure :: values_at_ends
-      procedure :: change_mesh
-   end type orbit_type
+   !> The equations linearised on an orbit and eliminated inside of its intervals, all over the scales.
+   type :: orbit_equations_type
+      private
+      !> How the points of each interval follow, (state of a point, column, interval), and the end of the period:
+      !> columns 1 to n a change of the state at the start of interval or period, n + 1 what the equations lack, n + 2
+      !> (where it is asked for) a change of the parameter by 1.
+      real(wp), allocatable :: at_points(:, :, :), at_end(:, :)
+   end type orbit_equations_type
+
+   !> What the equations are for another value of the parameter.
+   type :: parameter_shift_type
+      !> By how much it is larger; then the rates at the points' `collocated_state`, (state, point, interval), times the
+      !> period over that at the present value.
+      real(wp) :: amount = 0
+      real(wp), allocatable :: rates(:, :, :)
+   end type parameter_shift_type
 
    !> Where displacements x and their rates v, x' = v, stand among the states, all states u but the displacements, and
    !> where the rates stand among these.
@@ -61,80 +57,6 @@ contains
       parts%v_in_u = [(findloc(parts%u, parts%v(i), dim=1), i=1, size(parts%v))]
    end function new_parts
 
-   pure integer function intervals(self)
-      class(orbit_type), intent(in) :: self
-      intervals = size(self%at, 3)
-   end function intervals
-
-   !> The state y at a time of the period, s.
-   pure subroutine state_at(self, t, y)
-      class(orbit_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(out) :: y(:)
-      real(wp) :: nodes(0:points), x, factor
-      integer :: k, i, j
-      k = interval_of(self%time, t)
-      x = (t - self%time(k - 1))/(self%time(k) - self%time(k - 1))
-      nodes = [0.0_wp, place]
-      y = 0
-      do i = 0, points
-         factor = 1
-         do j = 0, points
-            if (j /= i) factor = factor*(x - nodes(j))/(nodes(i) - nodes(j))
-         end do
-         if (i > 0) then
-            y = y + factor*self%at(:, i, k)
-         else if (k > 1) then
-            y = y + factor*self%at(:, points, k - 1)
-         else
-            y = y + factor*self%start
-         end if
-      end do
-   end subroutine state_at
-
-   !> Number of the interval with the time t.
-   pure integer function interval_of(time, t) result(k)
-      real(wp), intent(in) :: time(0:), t
-      integer :: above, middle
-      k = 1
-      above = ubound(time, 1) + 1
-      do while (above - k > 1)
-         middle = (k + above)/2
-         if (time(middle - 1) < t) then
-            k = middle
-         else
-            above = middle
-         end if
-      end do
-   end function interval_of
-
-   !> A state at the start and at the ends of the intervals.
-   pure function values_at_ends(self, state) result(values)
-      class(orbit_type), intent(in) :: self
-      integer, intent(in) :: state
-      real(wp) :: values(0:self%intervals())
-      values(0) = self%start(state)
-      values(1:) = self%at(state, points, :)
-   end function values_at_ends
-
-   !> Puts the same motion on intervals that end at other times, s; the first and the last stay.
-   pure subroutine change_mesh(self, time)
-      class(orbit_type), intent(inout) :: self
-      real(wp), intent(in) :: time(0:)
-      real(wp), allocatable :: at(:, :, :)
-      integer :: k, i
-      allocate (at(size(self%start), points, ubound(time, 1)))
-      do k = 1, ubound(time, 1)
-         do i = 1, points
-            call self%state_at(time(k - 1) + place(i)*(time(k) - time(k - 1)), at(:, i, k))
-         end do
-      end do
-      deallocate (self%time)
-      allocate (self%time(0:ubound(time, 1)), source=time)
-      call move_alloc(at, self%at)
-      self%correction = huge(self%correction)
-   end subroutine change_mesh
-
    !> One round of Newton's method; of a correction longer than `longest`, over the scales, only a part is made. A
    !> numerics error where the model refuses a state or the equations have no solution: then the orbit is as it was.
    subroutine newton_round(model, orbit, longest, error)
@@ -142,72 +64,133 @@ contains
       type(orbit_type), intent(inout) :: orbit
       real(wp), intent(in) :: longest
       type(error_type), allocatable, intent(out) :: error
-      !> Corrections of the points of each interval: by a change of the state at its start, and without one.
-      real(wp), allocatable :: by_start(:, :, :), corrections(:, :)
-      type(parts_type) :: parts
-      real(wp) :: product(model%n, model%n + 1), closing(model%n, 1), change(model%n), share
-      integer :: k, i, n
-      logical :: ok
-      n = model%n
-      parts = new_parts(model)
-      allocate (by_start(points*n, n + 1, orbit%intervals()), corrections(points*n, orbit%intervals()))
-      product = 0
-      do i = 1, n
-         product(i, i) = 1
-      end do
-      orbit%residual = 0
-      do k = 1, orbit%intervals()
-         call eliminate(model, orbit, parts, k, by_start(:, :, k), error)
-         if (allocated(error)) return
-         associate (last => by_start((points - 1)*n + 1:, :, k))
-            product = matmul(last(:, :n), product)
-            product(:, n + 1) = product(:, n + 1) + last(:, n + 1)
-         end associate
-      end do
-      orbit%monodromy = product(:, :n)
-      associate (gap => (orbit%at(:, points, orbit%intervals()) - orbit%start)/orbit%scale)
-         orbit%residual = max(orbit%residual, maxval(abs(gap)))
-         call close_period(orbit%monodromy, product(:, n + 1) + gap, closing, ok)
-      end associate
-      if (.not. (ok .and. all(abs(product) <= huge(1.0_wp)) .and. all(abs(closing) <= huge(1.0_wp)))) then
+      type(orbit_equations_type) :: equations
+      real(wp) :: matrix(model%n, model%n), change(model%n)
+      integer :: pivots(model%n), info
+      call condense(model, orbit, equations, error)
+      if (allocated(error)) return
+      call closing_equations(orbit, equations, matrix, change)
+      call dgesv(model%n, 1, matrix, model%n, pivots, change, model%n, info)
+      if (info /= 0 .or. .not. all(abs(change) <= huge(change))) then
          call raise(error, numerics_error, 'Newton''s equations have no solution')
          return
       end if
-      change = closing(:, 1)
-      orbit%correction = maxval(abs(change))
-      do k = 1, orbit%intervals()
-         call follow(by_start(:, :, k), change, corrections(:, k))
+      call move_orbit(orbit, equations, change, .true., longest)
+   end subroutine newton_round
+
+   !> Linearises the equations on an orbit and eliminates the points inside of the intervals: sets the orbit's monodromy
+   !> matrix and residual. A numerics error where the model refuses a state or an interval's equations have no solution.
+   subroutine condense(model, orbit, equations, error, shift)
+      class(ode_model_type), intent(inout) :: model
+      type(orbit_type), intent(inout) :: orbit
+      type(orbit_equations_type), intent(out) :: equations
+      type(error_type), allocatable, intent(out) :: error
+      !> Where the derivatives over the parameter are wanted.
+      type(parameter_shift_type), intent(in), optional :: shift
+      type(parts_type) :: parts
+      integer :: k, i, n, columns
+      n = model%n
+      columns = n + merge(2, 1, present(shift))
+      parts = new_parts(model)
+      allocate (equations%at_points(points*n, columns, orbit%intervals()))
+      allocate (equations%at_end(n, columns), source=0.0_wp)
+      do i = 1, n
+         equations%at_end(i, i) = 1
       end do
-      orbit%correction = max(orbit%correction, maxval(abs(corrections)))
+      orbit%residual = 0
+      orbit%refused = .false.
+      do k = 1, orbit%intervals()
+         call eliminate(model, orbit, parts, k, equations%at_points(:, :, k), error, shift)
+         if (allocated(error)) return
+         associate (last => equations%at_points((points - 1)*n + 1:, :, k), at_end => equations%at_end)
+            at_end = matmul(last(:, :n), at_end)
+            at_end(:, n + 1:) = at_end(:, n + 1:) + last(:, n + 1:)
+         end associate
+      end do
+      if (.not. all(abs(equations%at_end) <= huge(1.0_wp))) then
+         call raise(error, numerics_error, 'Newton''s equations have no solution')
+         return
+      end if
+      orbit%monodromy = equations%at_end(:, :n)
+      orbit%residual = max(orbit%residual, maxval(abs(gap_of(orbit))))
+   end subroutine condense
+
+   !> By how much the end misses the start, over the scales.
+   pure function gap_of(orbit) result(gap)
+      type(orbit_type), intent(in) :: orbit
+      real(wp) :: gap(size(orbit%start))
+      gap = (orbit%at(:, points, orbit%intervals()) - orbit%start)/orbit%scale
+   end function gap_of
+
+   !> matrix x = b for the change x of the start, and (a matrix of n + 1 columns) of the parameter, that closes the
+   !> orbit: (1 - M) x = gap.
+   subroutine closing_equations(orbit, equations, matrix, b)
+      type(orbit_type), intent(in) :: orbit
+      type(orbit_equations_type), intent(in) :: equations
+      real(wp), intent(out) :: matrix(:, :), b(:)
+      integer :: i, n
+      n = size(b)
+      matrix(:, :n) = -equations%at_end(:, :n)
+      do i = 1, n
+         matrix(i, i) = matrix(i, i) + 1
+      end do
+      if (size(matrix, 2) > n) matrix(:, n + 1) = -equations%at_end(:, n + 2)
+      b = equations%at_end(:, n + 1) + gap_of(orbit)
+   end subroutine closing_equations
+
+   !> Moves an orbit by a change of its start and (an element more) of the parameter, over the scales; where it
+   !> `closes`, also by what the equations lack. Of a correction longer than `longest` only a part is made.
+   subroutine move_orbit(orbit, equations, change, closes, longest)
+      type(orbit_type), intent(inout) :: orbit
+      type(orbit_equations_type), intent(in) :: equations
+      real(wp), intent(in) :: change(:)
+      logical, intent(in) :: closes
+      real(wp), intent(in) :: longest
+      real(wp) :: corrections(points*size(orbit%start), orbit%intervals()), at_start(size(orbit%start)), share
+      integer :: k, i, n
+      n = size(orbit%start)
+      at_start = change(:n)
+      do k = 1, orbit%intervals()
+         associate (at_points => equations%at_points(:, :, k))
+            corrections(:, k) = matmul(at_points(:, :n), at_start)
+            if (closes) corrections(:, k) = corrections(:, k) + at_points(:, n + 1)
+            if (size(change) > n) corrections(:, k) = corrections(:, k) + change(n + 1)*at_points(:, n + 2)
+            at_start = corrections((points - 1)*n + 1:, k)
+         end associate
+      end do
+      orbit%correction = max(maxval(abs(change(:n))), maxval(abs(corrections)))
       share = longest/max(longest, orbit%correction)
-      orbit%start = orbit%start + share*orbit%scale*closing(:, 1)
+      orbit%start = orbit%start + share*orbit%scale*change(:n)
       do k = 1, orbit%intervals()
          do i = 1, points
             orbit%at(:, i, k) = orbit%at(:, i, k) + share*orbit%scale*corrections((i - 1)*n + 1:i*n, k)
          end do
       end do
-   end subroutine newton_round
+   end subroutine move_orbit
 
-   !> Solves the linear equations of interval k for the corrections of its points, over the scales: columns 1 to n by a
-   !> change of the state at its start, the last without one. The equations of the displacements, x' = v, are satisfied
-   !> by x_i = x_0 + h sum_j a_ij v_j, which leaves a system on the other states alone.
-   subroutine eliminate(model, orbit, parts, k, by_start, error)
+   !> Solves the linear equations of interval k for the corrections of its points, over the scales, by column. The
+   !> equations of the displacements, x' = v, are satisfied by x_i = x_0 + h sum_j a_ij v_j, which leaves a system on
+   !> the other states alone.
+   subroutine eliminate(model, orbit, parts, k, at_points, error, shift)
       class(ode_model_type), intent(inout) :: model
       type(orbit_type), intent(inout) :: orbit
       type(parts_type), intent(in) :: parts
       integer, intent(in) :: k
-      real(wp), intent(out) :: by_start(:, :)
+      real(wp), intent(out) :: at_points(:, :)
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: jacobian(model%n, model%n, points), gap(model%n, points), per_rate(size(parts%x))
-      real(wp) :: matrix(points*size(parts%u), points*size(parts%u)), b(points*size(parts%u), model%n + 1)
-      integer :: pivots(points*size(parts%u)), info, i, j, m
+      type(parameter_shift_type), intent(in), optional :: shift
+      real(wp) :: jacobian(model%n, model%n, points), gap(model%n, size(at_points, 2) - model%n, points)
+      real(wp) :: matrix(points*size(parts%u), points*size(parts%u)), b(points*size(parts%u), size(at_points, 2))
+      real(wp) :: per_rate(size(parts%x))
+      integer :: pivots(points*size(parts%u)), info, i, j, m, columns
       m = size(parts%u)
+      columns = size(at_points, 2)
       associate (x => parts%x, h => orbit%time(k) - orbit%time(k - 1))
-         call linearize(model, orbit, k, jacobian, gap, error)
+         call linearize(model, orbit, k, jacobian, gap, error, shift)
          if (allocated(error)) return
          per_rate = h*orbit%scale(parts%v)/orbit%scale(x)
          call assemble(parts, per_rate, jacobian, gap, matrix, b)
-         call dgesv(points*m, model%n + 1, matrix, points*m, pivots, b, points*m, info)
+         call dgesv(points*m, columns, matrix, points*m, pivots, b, points*m, info)
          if (info /= 0) then
             call raise(error, numerics_error, 'Newton''s equations have no solution at t = ' &
                & //to_text(orbit%time(k))//' s')
@@ -215,15 +198,15 @@ contains
          end if
          do i = 1, points
             associate (o => (i - 1)*model%n)
-               by_start(o + parts%u, :) = b((i - 1)*m + 1:i*m, :)
-               by_start(o + x, :) = 0
-               by_start(o + x, model%n + 1) = gap(x, i)
+               at_points(o + parts%u, :) = b((i - 1)*m + 1:i*m, :)
+               at_points(o + x, :) = 0
+               at_points(o + x, model%n + 1:) = gap(x, :, i)
                do j = 1, size(x)
-                  by_start(o + x(j), x(j)) = 1
+                  at_points(o + x(j), x(j)) = 1
                end do
                do j = 1, points
-                  by_start(o + x, :) = by_start(o + x, :) + weight(i, j) &
-                     & *spread(per_rate, 2, model%n + 1)*b((j - 1)*m + parts%v_in_u, :)
+                  at_points(o + x, :) = at_points(o + x, :) + weight(i, j) &
+                     & *spread(per_rate, 2, columns)*b((j - 1)*m + parts%v_in_u, :)
                end do
             end associate
          end do
@@ -231,47 +214,61 @@ contains
    end subroutine eliminate
 
    !> At the points of interval k: the derivatives of the rates, over the scales and times the interval, and how far the
-   !> equations are from being satisfied.
-   subroutine linearize(model, orbit, k, jacobian, gap, error)
+   !> equations are from being satisfied, (state, 1, point); (state, 2, point) is what the parameter adds to that.
+   subroutine linearize(model, orbit, k, jacobian, gap, error, shift)
       class(ode_model_type), intent(inout) :: model
       type(orbit_type), intent(inout) :: orbit
       integer, intent(in) :: k
-      real(wp), intent(out) :: jacobian(:, :, :), gap(:, :)
+      real(wp), intent(out) :: jacobian(:, :, :), gap(:, :, :)
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: rate(model%n, points), before(model%n), inside(model%n), h
+      type(parameter_shift_type), intent(in), optional :: shift
+      real(wp), dimension(model%n, points) :: rate, over_parameter
+      real(wp) :: before(model%n), inside(model%n), h
       integer :: i, l
       logical :: ok
       h = orbit%time(k) - orbit%time(k - 1)
       before = orbit%start
       if (k > 1) before = orbit%at(:, points, k - 1)
       do i = 1, points
-         inside = orbit%at(:, i, k)
-         if (i == points) inside = inside + inward*(orbit%at(:, points - 1, k) - inside)
+         inside = collocated_state(orbit, k, i)
          call model%tangent(orbit%time(k - 1) + place(i)*h, inside, rate(:, i), jacobian(:, :, i), ok)
          if (.not. ok) then
+            orbit%refused = .true.
             call raise(error, numerics_error, 'at t = '//to_text(orbit%time(k - 1) + place(i)*h)//' s of the period: ' &
                & //model%refusal)
             return
          end if
+         if (present(shift)) over_parameter(:, i) = (shift%rates(:, i, k) - rate(:, i))/shift%amount
          rate(:, i) = rate(:, i) + matmul(jacobian(:, :, i), orbit%at(:, i, k) - inside)
          do l = 1, model%n
             jacobian(:, l, i) = h*orbit%scale(l)*jacobian(:, l, i)/orbit%scale
          end do
       end do
       do i = 1, points
-         gap(:, i) = (before - orbit%at(:, i, k) + h*matmul(rate, weight(i, :)))/orbit%scale
+         gap(:, 1, i) = (before - orbit%at(:, i, k) + h*matmul(rate, weight(i, :)))/orbit%scale
+         if (present(shift)) gap(:, 2, i) = h*matmul(over_parameter, weight(i, :))/orbit%scale
       end do
-      orbit%residual = max(orbit%residual, maxval(abs(gap)))
+      orbit%residual = max(orbit%residual, maxval(abs(gap(:, 1, :))))
    end subroutine linearize
+
+   !> The state at which the equations of a point of interval k are taken.
+   pure function collocated_state(orbit, k, point) result(y)
+      type(orbit_type), intent(in) :: orbit
+      integer, intent(in) :: k, point
+      real(wp) :: y(size(orbit%start))
+      y = orbit%at(:, point, k)
+      if (point == points) y = y + inward*(orbit%at(:, points - 1, k) - y)
+   end function collocated_state
 
    !> The linear system of an interval on what is no displacement.
    pure subroutine assemble(parts, per_rate, jacobian, gap, matrix, b)
       type(parts_type), intent(in) :: parts
-      real(wp), intent(in) :: per_rate(:), jacobian(:, :, :), gap(:, :)
+      real(wp), intent(in) :: per_rate(:), jacobian(:, :, :), gap(:, :, :)
       real(wp), intent(out) :: matrix(:, :), b(:, :)
       real(wp) :: over_x(size(parts%u), size(parts%x)), over_v(size(parts%u), size(parts%x))
-      integer :: i, j, l, m
+      integer :: i, j, l, m, n
       m = size(parts%u)
+      n = size(jacobian, 1)
       matrix = 0
       b = 0
       do j = 1, points
@@ -286,46 +283,16 @@ contains
                      & - weight(i, j)*weight(j, l)*over_v
                end do
                rows(:, parts%x) = rows(:, parts%x) + weight(i, j)*over_x
-               rows(:, size(rows, 2)) = rows(:, size(rows, 2)) + weight(i, j)*matmul(over_x, gap(parts%x, j))
+               rows(:, n + 1:) = rows(:, n + 1:) + weight(i, j)*matmul(over_x, gap(parts%x, :, j))
             end associate
          end do
       end do
       do i = 1, points
-         associate (last => size(b, 2))
-            b((i - 1)*m + 1:i*m, last) = b((i - 1)*m + 1:i*m, last) + gap(parts%u, i)
-         end associate
+         b((i - 1)*m + 1:i*m, n + 1:) = b((i - 1)*m + 1:i*m, n + 1:) + gap(parts%u, :, i)
          do l = 1, m
             b((i - 1)*m + l, parts%u(l)) = b((i - 1)*m + l, parts%u(l)) + 1
             matrix((i - 1)*m + l, (i - 1)*m + l) = matrix((i - 1)*m + l, (i - 1)*m + l) + 1
          end do
       end do
    end subroutine assemble
-
-   !> (1 - M) x = b: the change of the start that closes the orbit.
-   subroutine close_period(monodromy, b, x, ok)
-      real(wp), intent(in) :: monodromy(:, :), b(:)
-      real(wp), intent(out) :: x(:, :)
-      logical, intent(out) :: ok
-      real(wp) :: matrix(size(b), size(b))
-      integer :: pivots(size(b)), info, i
-      matrix = -monodromy
-      do i = 1, size(b)
-         matrix(i, i) = matrix(i, i) + 1
-      end do
-      x(:, 1) = b
-      call dgesv(size(b), 1, matrix, size(b), pivots, x, size(b), info)
-      ok = info == 0
-   end subroutine close_period
-
-   !> The corrections of an interval's points for the change of the state at its start, over the scales; `change`
-   !> becomes that at its end.
-   pure subroutine follow(by_start, change, corrections)
-      real(wp), intent(in) :: by_start(:, :)
-      real(wp), intent(inout) :: change(:)
-      real(wp), intent(out) :: corrections(:)
-      associate (n => size(change))
-         corrections = matmul(by_start(:, :n), change) + by_start(:, n + 1)
-         change = corrections((points - 1)*n + 1:)
-      end associate
-   end subroutine follow
 end module orbit_collocation

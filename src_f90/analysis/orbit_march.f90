@@ -6,10 +6,10 @@ module orbit_march
    use marching, only: march_options
    use cvode_integrator, only: integrator_type
    use damped_newton, only: asked_to_stop, asked
-   use orbit_collocation, only: orbit_type, points, place
+   use orbit_polynomials, only: orbit_type, points, place
    implicit none (type, external)
    private
-   public :: march_period
+   public :: march_period, mesh_options
 
    !> A step of the march: its end, s, and the states at the points of Radau in it.
    type :: step_type
@@ -17,10 +17,28 @@ module orbit_march
       real(wp), allocatable :: at(:, :)
    end type step_type
 
+   !> Tolerance of the march over what is asked for: on its steps the collocation is that much more accurate.
+   !> Not so where the march would become too coarse to start from.
+   real(wp), parameter :: looser = 10, loosest = 1e-4_wp
+   !> Fewest steps of the march, and so intervals, in a revolution: a motion that hardly moves would take few.
+   real(wp), parameter :: fewest = 24
    !> Steps between two questions whether to stop.
    integer(i8), parameter :: steps_between_questions = 64
 
 contains
+
+   !> How to march for a mesh, where a march would be so, and a revolution takes this time, s.
+   pure type(march_options) function mesh_options(march, revolution) result(options)
+      type(march_options), intent(in) :: march
+      real(wp), intent(in) :: revolution
+      real(wp) :: factor
+      options = march
+      factor = max(1.0_wp, min(looser, loosest/march%relative_tolerance))
+      options%relative_tolerance = factor*march%relative_tolerance
+      options%absolute_tolerance = factor*march%absolute_tolerance
+      options%max_step = revolution/fewest
+      if (march%max_step > 0) options%max_step = min(options%max_step, march%max_step)
+   end function mesh_options
 
    !> Marches over period number `period` = 0, 1, .., in whose first step the integrator stands; its steps become the
    !> intervals of the orbit. An error says why, where and when the march ended.

@@ -9,8 +9,9 @@ module periodic_orbit
    use cvode_integrator, only: integrator_type
    use equations_of_motion, only: bearing_model
    use damped_newton, only: asked_to_stop, asked
-   use orbit_collocation, only: orbit_type, newton_round, points, place
-   use orbit_march, only: march_period
+   use orbit_polynomials, only: orbit_type, points, place
+   use orbit_collocation, only: newton_round
+   use orbit_march, only: march_period, mesh_options
    use kink_mesh, only: follow_kinks
    use floquet_multipliers, only: set_multipliers
    implicit none (type, external)
@@ -44,11 +45,6 @@ module periodic_orbit
    !> periods. Where it fails, it is tried again when the march has doubled.
    real(wp), parameter :: near = 1e-3_wp
    integer, parameter :: first_try = 12, last_try = 96
-   !> Tolerance of the march over what is asked for: on its steps the collocation is that much more accurate.
-   !> Not so where the march would become too coarse to start from.
-   real(wp), parameter :: looser = 10, loosest = 1e-4_wp
-   !> Fewest steps of the march, and so intervals, in a revolution: a motion that hardly moves would take few.
-   real(wp), parameter :: fewest = 24
    !> Largest correction that is made, over the scales.
    real(wp), parameter :: longest = 0.5_wp
 
@@ -68,17 +64,11 @@ contains
       type(integrator_type) :: integrator
       type(march_options) :: mesh
       type(orbit_type) :: before
-      real(wp) :: factor
       integer :: next_try
       found%period = options%revolutions*2*pi/model%point%speed(0.0_wp)
       found%orbit%start = y
       found%orbit%scale = model%scale
-      mesh = march
-      factor = max(1.0_wp, min(looser, loosest/march%relative_tolerance))
-      mesh%relative_tolerance = factor*march%relative_tolerance
-      mesh%absolute_tolerance = factor*march%absolute_tolerance
-      mesh%max_step = found%period/(fewest*options%revolutions)
-      if (march%max_step > 0) mesh%max_step = min(mesh%max_step, march%max_step)
+      mesh = mesh_options(march, found%period/options%revolutions)
       call integrator%start(model, mesh, 0.0_wp, y, last_try*found%period, error)
       next_try = first_try
       do while (.not. allocated(error))

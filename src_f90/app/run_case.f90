@@ -10,6 +10,7 @@ module run_case
    use equilibrium_task, only: run_equilibrium
    use coefficients_task, only: run_coefficients
    use periodic_task, only: run_periodic
+   use branch_task, only: run_branch
    use march_task, only: run_march
    use run_summary, only: print_notes, print_march, print_cost
    use pad_remarks, only: print_pad_remarks
@@ -48,6 +49,8 @@ contains
          call run_coefficients(run, error)
       case ('periodic')
          call run_periodic(run, error)
+      case ('branch')
+         call run_branch(run, error)
       case ('march')
          call run_march(run, error)
       case default
@@ -113,8 +116,10 @@ contains
       type(error_type), allocatable :: file_error
       if (.not. allocated(error)) then
          if (.not. run%quiet .and. run%file%samples() > 0) then
-            call print_march(run%file, run%scene)
-            call print_pad_remarks(run%file, run%scene)
+            if (run%scene%about%task /= 'branch') then
+               call print_march(run%file, run%scene)
+               call print_pad_remarks(run%file, run%scene)
+            end if
             call print_cost(run%statistics())
          end if
          call run%file%finish(run%reached, run%statistics(), 0, '', file_error)

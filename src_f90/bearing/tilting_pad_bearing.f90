@@ -6,13 +6,14 @@ module tilting_pad_bearing
    use text, only: to_text
    use scene, only: scene_type
    use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_not_converged
-   use asperity_contact, only: asperity_contact_type, asperity_load
+   use asperity_contact, only: asperity_load
    use contact_table, only: contact_table_type
-   use friction, only: friction_law, no_friction
+   use friction, only: no_friction
    use kinematics, only: journal_motion, pad_state, pad_frame, columns
    use tilting_pad, only: tilting_pad_type, pad_loads, pad_derivatives
    use pad_admission, only: admitted, why_not
-   use components, only: make_film, make_contact, make_friction, new_asperities, new_pads
+   use components, only: make_film, make_contact
+   use bearing_parts, only: bearing_parts_type
    implicit none (type, external)
    private
    public :: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
@@ -30,33 +31,27 @@ module tilting_pad_bearing
       real(wp) :: asperity_force = 0
    end type pad_sample
 
-   type :: tilting_pad_bearing_type
-      type(tilting_pad_type), allocatable :: pads(:)
+   type, extends(bearing_parts_type) :: tilting_pad_bearing_type
       !> The loads of each pad in the state evaluated last; their derivatives where they were taken last.
       type(pad_loads), allocatable :: loads(:)
       type(pad_derivatives), allocatable :: derivatives(:)
       !> Contact of each pad with the journal in the state evaluated last.
       type(asperity_load), allocatable :: asperity(:)
-      !> Of each pad rates of tilt rate and penetration rate per moment and force, (2, 2, pad).
-      real(wp), allocatable :: per_mass(:, :, :)
-      class(friction_law), allocatable :: friction
       !> False: the pivots slide freely, whatever the law.
       logical :: rubs = .true.
       class(film_solver_type), allocatable, private :: film
       type(contact_table_type), private :: contact
-      type(asperity_contact_type) :: asperities
-      !> Assembled clearance, m.
-      real(wp), private :: clearance
+      !> Speed of the state evaluated last, rad/s.
+      real(wp), private :: speed = 0
       !> Of the state evaluated last.
       type(pad_frame), allocatable, private :: frame(:)
       type(film_motion), allocatable, private :: motion(:)
       !> Motions at which the films are taken: those of the journal, but where it touches a pad.
       type(film_motion), allocatable, private :: film_motion(:)
       type(film_response), allocatable, private :: response(:)
-      !> rad/s.
-      real(wp), private :: speed = 0
       integer(i8), private :: evaluations = 0
    contains
+      procedure :: adopt
       procedure :: evaluate
       procedure :: output
       procedure :: sampled
@@ -88,21 +83,33 @@ contains
    function new_tilting_pad_bearing(scene) result(bearing)
       type(scene_type), intent(in) :: scene
       type(tilting_pad_bearing_type) :: bearing
-      integer :: i, n
-      n = scene%pad_count()
-      bearing%pads = new_pads(scene)
-      allocate (bearing%per_mass(2, 2, n))
-      do i = 1, n
-         bearing%per_mass(:, :, i) = bearing%pads(i)%inverse_masses()
-      end do
-      bearing%clearance = scene%bearing%assembled_clearance
-      call make_friction(scene, bearing%friction)
+      call bearing%set_parts(scene)
       call make_film(scene, bearing%film)
       call make_contact(scene, bearing%contact)
-      bearing%asperities = new_asperities(scene)
-      allocate (bearing%loads(n), bearing%derivatives(n))
-      allocate (bearing%frame(n), bearing%motion(n), bearing%asperity(n), bearing%film_motion(n), bearing%response(n))
+      associate (n => scene%pad_count())
+         allocate (bearing%loads(n), bearing%derivatives(n), bearing%frame(n), bearing%motion(n), &
+            & bearing%asperity(n), bearing%film_motion(n), bearing%response(n))
+      end associate
    end function new_tilting_pad_bearing
+
+   !> Makes the bearing that of another scene, with the same pads but for numbers. Films and contact, which take time to
+   !> make, stay where they are the same.
+   subroutine adopt(self, scene, pivots_differ)
+      class(tilting_pad_bearing_type), intent(inout) :: self
+      type(scene_type), intent(in) :: scene
+      logical, intent(in) :: pivots_differ
+      class(film_solver_type), allocatable :: film
+      type(tilting_pad_type) :: before(size(self%pads))
+      before = self%pads
+      call self%set_parts(scene)
+      call self%film%set_viscosity(self%pads%gap%viscosity)
+      if (any(before%gap%differs(self%pads%gap))) then
+         call make_film(scene, film)
+         call film%take_over(self%film)
+         call move_alloc(film, self%film)
+      end if
+      if (pivots_differ) call make_contact(scene, self%contact)
+   end subroutine adopt
 
    !> Sets the loads in a state, the speed in rad/s, and their derivatives where they are wanted. Refuses a state whose
    !> film is closed or did not converge, or whose pad has turned over: then `refusal` says why. Loads of pads that are

@@ -54,6 +54,7 @@ module film_solver
       procedure(change_viscosity), deferred :: set_viscosity
       procedure :: set_accuracy
       procedure :: take_pressures
+      procedure, non_overridable :: take_over
    end type film_solver_type
 
    abstract interface
@@ -121,4 +122,14 @@ contains
       real(wp), intent(in) :: speed
       type(film_response), intent(inout) :: response(:)
    end subroutine take_pressures
+
+   !> Goes on in the place of another solver of the same kind, for films that differ in numbers.
+   subroutine take_over(self, other)
+      class(film_solver_type), intent(inout) :: self
+      class(film_solver_type), intent(in) :: other
+      self%counters = other%counters
+      self%tolerance = other%tolerance
+      self%max_sweeps = other%max_sweeps
+      call self%set_rupture(other%ruptures())
+   end subroutine take_over
 end module film_solver

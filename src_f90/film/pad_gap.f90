@@ -20,6 +20,7 @@ module pad_gap
       !> Pressure at the leading edge, at the other edges, and where the film ruptures, Pa.
       real(wp) :: supply_pressure, ambient_pressure, cavitation_pressure
    contains
+      procedure :: differs
       procedure :: pad_radius
       procedure :: arc
       procedure :: thickness
@@ -34,6 +35,19 @@ module pad_gap
    end type pad_directions
 
 contains
+
+   !> True where two gaps are not the same, whatever oil is in them.
+   elemental logical function differs(self, other)
+      class(pad_gap_type), intent(in) :: self, other
+      differs = any(abs(numbers(self) - numbers(other)) > 0)
+   contains
+      pure function numbers(gap)
+         class(pad_gap_type), intent(in) :: gap
+         real(wp) :: numbers(8)
+         numbers = [gap%journal_radius, gap%machined_clearance, gap%axial_length, gap%leading_angle, &
+            & gap%trailing_angle, gap%supply_pressure, gap%ambient_pressure, gap%cavitation_pressure]
+      end function numbers
+   end function differs
 
    !> R = R_J + c_m, m.
    pure function pad_radius(self)

@@ -59,7 +59,8 @@ contains
       type(token_type) :: token
       if (value == '' .and. field%choices /= '') return
       token%text = value
-      token%quoted = .true.
+      ! a logical value is a word that needs no quotes
+      token%quoted = field%choices /= '.true. .false.'
       call self%line(field%name, value_text(token))
    end subroutine write_word
 

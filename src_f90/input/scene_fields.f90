@@ -5,8 +5,8 @@ module scene_fields
    use field_visitor, only: visitor_type, field, choice
    use scene, only: scene_type, case_type, rotor_type, operation_type, bearing_type, oil_type, thermal_type, &
       & pads_type, pivot_type, friction_type, asperity_type, start_type, film_type, integration_type, output_type, &
-      & coefficients_type, periodic_type, most_ratios, mass_range, inertia_range, centre_range, temperature_range, &
-      & viscosity_range
+      & mass_range, inertia_range, centre_range, temperature_range, viscosity_range
+   use task_fields, only: visit_coefficients, visit_periodic, visit_branch
    implicit none (type, external)
    private
    public :: visit_scene, title_variable, checkpoint_variable, pads_variable
@@ -40,6 +40,7 @@ contains
       call visit_output(scene%output, v)
       call visit_coefficients(scene%coefficients, v)
       call visit_periodic(scene%periodic, v)
+      call visit_branch(scene%branch, v)
    end subroutine visit_scene
 
    subroutine visit_case(case, v)
@@ -47,9 +48,11 @@ contains
       class(visitor_type), intent(inout) :: v
       call v%group('case', 'Title and task of the run')
       call v%word(case%title, choice('title', '', 'free text, which the result file contains'))
-      call v%word(case%task, choice('task', 'march equilibrium coefficients periodic', &
+      call v%word(case%task, choice('task', 'march equilibrium coefficients periodic branch', &
          & 'march: motion over time; equilibrium: only the static equilibrium; coefficients: the same, with ' &
-         & //'stiffness, damping and stability there; periodic: the orbit that the motion repeats, and its stability'))
+         & //'stiffness, damping and stability there; periodic: the orbit that the motion repeats, and its ' &
+         & //'stability; branch: equilibria or such orbits over a number of the input, and where their stability ' &
+         & //'changes'))
    end subroutine visit_case
 
    subroutine visit_rotor(rotor, v)
@@ -320,28 +323,4 @@ contains
       call v%number(output%checkpoint_seconds, field('checkpoint_seconds', 0.0_wp, 1e9_wp, 's', &
          & 'wall time between checkpoints, from which --resume continues; 0: only when a signal stops the run'))
    end subroutine visit_output
-
-   subroutine visit_coefficients(coefficients, v)
-      type(coefficients_type), intent(inout) :: coefficients
-      class(visitor_type), intent(inout) :: v
-      call v%group('coefficients', 'Stiffness, damping and stability, for the task coefficients')
-      call v%list(coefficients%frequency_ratio, most_ratios, field('frequency_ratio', 0.0_wp, 1e6_wp, '1', &
-         & 'whirl frequencies over the speed of the shaft, of the coefficients of the journal'))
-      call v%number(coefficients%threshold_up_to_rpm, field('threshold_up_to_rpm', 0.0_wp, 1e6_wp, 'rpm', &
-         & '> 0: the speed at which stability is lost is sought from speed_rpm up to this one'))
-      call v%number(coefficients%cross_stiffness, field('cross_stiffness', -1e15_wp, 1e15_wp, 'N/m', &
-         & 'Q: cross stiffness at the journal beside the bearing''s, for the modes; > 0 drives forward whirl'))
-   end subroutine visit_coefficients
-
-   subroutine visit_periodic(periodic, v)
-      type(periodic_type), intent(inout) :: periodic
-      class(visitor_type), intent(inout) :: v
-      call v%group('periodic', 'A periodic orbit and its stability, for the task periodic')
-      call v%whole(periodic%revolutions, field('revolutions', 1.0_wp, 1000.0_wp, '1', &
-         & 'revolutions of the shaft in a period'))
-      call v%number(periodic%tolerance, field('tolerance', 1e-12_wp, 1e-2_wp, '1', &
-         & 'last correction of Newton''s method, over the natural size of each state'))
-      call v%whole(periodic%max_iterations, field('max_iterations', 1.0_wp, 1e6_wp, '1', &
-         & 'maximum number of iterations of Newton''s method; more is a failure'))
-   end subroutine visit_periodic
 end module scene_fields

@@ -8,6 +8,7 @@ module scene_namelist
    use scene_completion, only: leave_out, complete_scene
    use field_visitor, only: visitor_type, field_type
    use scene_fields, only: visit_scene
+   use scene_parameter, only: check_branch_parameter
    use assignments, only: namelist_type, assignment_type, sweep_group
    use assigned_values, only: read_word, read_reals, refuse_values
    use variable_names, only: group_names, names_in, meant_variable, meant_group
@@ -66,6 +67,7 @@ contains
       if (allocated(error)) return
       call complete_scene(scene, error)
       if (.not. allocated(error)) call check_scene(scene, error)
+      if (.not. allocated(error)) call check_branch_parameter(scene, error)
       call add_context(error, parsed%file)
    end subroutine scene_from_namelist
 

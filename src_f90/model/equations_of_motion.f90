@@ -45,6 +45,7 @@ module equations_of_motion
       procedure :: pairs
       procedure :: evaluate
       procedure :: set_point
+      procedure :: adopt
       procedure :: state
       procedure :: at_rest
       procedure :: positions
@@ -86,6 +87,25 @@ contains
       self%bearing%rubs = point%friction
       self%point = point
    end subroutine set_point
+
+   !> Makes the model that of another scene, which differs in numbers alone and not in that of the pads. Tables, films
+   !> and natural sizes stay as far as they can; so do the effects that do not act.
+   subroutine adopt(self, scene)
+      class(bearing_model), intent(inout) :: self
+      type(scene_type), intent(in) :: scene
+      type(operating_point_type) :: point
+      associate (a => self%scene%pivot, b => scene%pivot)
+         call self%bearing%adopt(scene, any(abs([a%socket_radius - b%socket_radius, &
+            & a%radius_difference - b%radius_difference, a%penetration_factor - b%penetration_factor, &
+            & a%young_modulus - b%young_modulus, a%poisson_ratio - b%poisson_ratio]) > 0))
+      end associate
+      self%scene = scene
+      self%rotor%mass = scene%rotor%mass
+      point = operating_point_type(scene)
+      if (.not. self%point%friction) point = point%static()
+      point%rupture = self%point%rupture
+      call self%set_point(point)
+   end subroutine adopt
 
    !> Natural size of each state: clearance; clearance over pad length; the penetration under the load;
    !> the deflection at which bristles yield; rates: times the highest speed, but the tilt rate not above

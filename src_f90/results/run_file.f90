@@ -55,17 +55,17 @@ contains
    subroutine resume(self, t, state, statistics, error)
       class(run_file_type), intent(inout) :: self
       real(wp), intent(out) :: t
-      !> Of the size that the scene has.
-      real(wp), intent(out) :: state(:)
+      !> Of the size that the scene has, or not allocated: then it gets that of the file.
+      real(wp), allocatable, intent(inout) :: state(:)
       !> The list of figures, which get the values in the file.
       type(run_statistics_type), intent(inout) :: statistics
       type(error_type), allocatable, intent(out) :: error
       t = 0
-      state = 0
       call self%reopen(error)
       if (.not. allocated(error)) then
          call upgrade(self%file)
          t = self%file%get_real('checkpoint/time')
+         if (.not. allocated(state)) allocate (state(self%file%list_size('checkpoint/state')))
          call self%file%get_list('checkpoint/state', state)
          call statistics%read(self%file)
          call self%provenance%resume(self%file, t)
@@ -96,7 +96,9 @@ contains
       character(len=*), intent(in) :: reason
       type(error_type), allocatable, intent(out) :: error
       associate (file => self%file)
-         if (.not. file%has('checkpoint')) call file%make_group('checkpoint')
+         ! its state may have another size than the last
+         call file%delete('checkpoint')
+         call file%make_group('checkpoint')
          call file%put_real('checkpoint/time', t, 's', 'time from which the run can go on')
          call file%put_list('checkpoint/state', y, '1', 'state of the march at that time', '')
          call statistics%write(file)

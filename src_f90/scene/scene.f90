@@ -9,7 +9,7 @@ module scene
    public :: case_type, rotor_type, operation_type, bearing_type, oil_type, thermal_type, pads_type, pivot_type
    public :: friction_type
    public :: asperity_type, start_type, film_type, coefficients_type, most_ratios
-   public :: periodic_type, integration_type, output_type
+   public :: periodic_type, branch_type, integration_type, output_type
 
    !> Most pads of a bearing.
    integer, parameter :: max_pads = 24
@@ -25,7 +25,7 @@ module scene
 
    type :: case_type
       character(len=:), allocatable :: title
-      !> 'equilibrium', 'coefficients', 'periodic' or 'march'.
+      !> 'equilibrium', 'coefficients', 'periodic', 'branch' or 'march'.
       character(len=:), allocatable :: task
    end type case_type
 
@@ -182,6 +182,20 @@ module scene
       integer :: max_iterations = 30
    end type periodic_type
 
+   type :: branch_type
+      !> 'periodic' or 'equilibrium'.
+      character(len=:), allocatable :: of
+      !> Name of the number of the input that changes, 'group%name' or 'group%name(element)'.
+      character(len=:), allocatable :: parameter
+      !> Its value at the end; its first change; its largest change in a step, 0: ten times the first. Unset where they
+      !> are left out.
+      real(wp) :: last = unset, step = unset, max_step = 0
+      !> Most points of a branch.
+      integer :: max_points = 500
+      !> '.true.': the branch of double period is followed where one begins.
+      character(len=:), allocatable :: switch
+   end type branch_type
+
    type :: scene_type
       !> The namelist group &case.
       type(case_type) :: about
@@ -200,9 +214,11 @@ module scene
       type(output_type) :: output
       type(coefficients_type) :: coefficients
       type(periodic_type) :: periodic
+      type(branch_type) :: branch
    contains
       procedure :: pad_count
       procedure :: moves
+      procedure :: seeks_orbits
       procedure :: tilting
       procedure :: tilting_radial
       procedure :: highest_speed
@@ -247,6 +263,9 @@ contains
       scene%film%solver = 'auto'
       scene%film%cavitation = 'reynolds'
       scene%coefficients%frequency_ratio = [1.0_wp]
+      scene%branch%of = 'periodic'
+      scene%branch%parameter = ''
+      scene%branch%switch = '.true.'
       call scene%set_final_speed()
    end function new_scene
 
@@ -265,8 +284,14 @@ contains
    !> Whether the task integrates the motion.
    pure logical function moves(self)
       class(scene_type), intent(in) :: self
-      moves = self%about%task == 'march' .or. self%about%task == 'periodic'
+      moves = self%about%task == 'march' .or. self%seeks_orbits()
    end function moves
+
+   !> Whether the task seeks periodic orbits.
+   pure logical function seeks_orbits(self)
+      class(scene_type), intent(in) :: self
+      seeks_orbits = self%about%task == 'periodic' .or. self%about%task == 'branch' .and. self%branch%of == 'periodic'
+   end function seeks_orbits
 
    pure integer function pad_count(self)
       class(scene_type), intent(in) :: self

@@ -3,7 +3,8 @@ module scene_checks
    use kinds, only: wp, degree
    use text, only: to_text
    use errors, only: error_type, require
-   use scene, only: scene_type, periodic_type
+   use scene, only: scene_type
+   use task_checks, only: check_tasks
    implicit none (type, external)
    private
    public :: check_scene
@@ -29,8 +30,7 @@ contains
       call check_start(scene, error)
       call check_output(scene, error)
       call check_pads(scene, error)
-      call check_coefficients(scene, error)
-      call check_periodic(scene, error)
+      call check_tasks(scene, error)
    end subroutine check_scene
 
    subroutine check_film(scene, error)
@@ -183,64 +183,6 @@ contains
          end do
       end associate
    end subroutine check_pads
-
-   !> The group coefficients belongs to its task, and to no other; the groups of a march do not.
-   subroutine check_coefficients(scene, error)
-      type(scene_type), intent(in) :: scene
-      type(error_type), allocatable, intent(inout) :: error
-      character(len=*), parameter :: only = ': has no effect but with case%task = ''coefficients'''
-      character(len=*), parameter :: without = ': has no effect with case%task = ''coefficients'''
-      associate (c => scene%coefficients, o => scene%operation)
-         if (scene%about%task /= 'coefficients') then
-            call require(size(c%frequency_ratio) == 1 .and. .not. any(abs(c%frequency_ratio - 1) > 0), &
-               & 'coefficients%frequency_ratio = '//to_text(c%frequency_ratio(1))//only, error)
-            call require(.not. abs(c%threshold_up_to_rpm) > 0, 'coefficients%threshold_up_to_rpm = ' &
-               & //to_text(c%threshold_up_to_rpm)//only, error)
-            call require(.not. abs(c%cross_stiffness) > 0, 'coefficients%cross_stiffness = ' &
-               & //to_text(c%cross_stiffness)//only, error)
-            return
-         end if
-         call require(.not. abs(o%final_speed_rpm - o%speed_rpm) > 0, 'operation%final_speed_rpm = ' &
-            & //to_text(o%final_speed_rpm)//': must be operation%speed_rpm = '//to_text(o%speed_rpm) &
-            & //' with case%task = ''coefficients''; a sweep varies the speed', error)
-         call require(.not. c%threshold_up_to_rpm > 0 .or. c%threshold_up_to_rpm > o%speed_rpm, &
-            & 'coefficients%threshold_up_to_rpm = '//to_text(c%threshold_up_to_rpm) &
-            & //': must be 0 or above operation%speed_rpm = '//to_text(o%speed_rpm)//', where the search starts', error)
-         call require(scene%start%from == 'equilibrium', 'start%from = '''//scene%start%from//''''//without, error)
-         associate (s => scene%start)
-            call require(.not. any(abs([s%journal, s%journal_velocity, s%pad_tilt, s%pad_tilt_rate, &
-               & s%pad_penetration, s%pad_penetration_rate]) > 0), 'start%journal = '//to_text(s%journal(1)) &
-               & //', ...: a disturbance'//without, error)
-         end associate
-      end associate
-   end subroutine check_coefficients
-
-   !> The group periodic belongs to its task, which needs a constant speed and takes its samples over the period.
-   subroutine check_periodic(scene, error)
-      type(scene_type), intent(in) :: scene
-      type(error_type), allocatable, intent(inout) :: error
-      type(periodic_type), parameter :: default = periodic_type()
-      character(len=*), parameter :: only = ': has no effect but with case%task = ''periodic'''
-      character(len=*), parameter :: without = ': has no effect with case%task = ''periodic'''
-      associate (p => scene%periodic, o => scene%operation)
-         if (scene%about%task /= 'periodic') then
-            call require(p%revolutions == default%revolutions, 'periodic%revolutions = '//to_text(p%revolutions) &
-               & //only, error)
-            call require(.not. abs(p%tolerance - default%tolerance) > 0, 'periodic%tolerance = ' &
-               & //to_text(p%tolerance)//only, error)
-            call require(p%max_iterations == default%max_iterations, 'periodic%max_iterations = ' &
-               & //to_text(p%max_iterations)//only, error)
-            return
-         end if
-         call require(.not. abs(o%final_speed_rpm - o%speed_rpm) > 0, 'operation%final_speed_rpm = ' &
-            & //to_text(o%final_speed_rpm)//': must be operation%speed_rpm = '//to_text(o%speed_rpm) &
-            & //' with case%task = ''periodic''', error)
-         call require(.not. scene%output%start_time > 0, 'output%start_time = '//to_text(scene%output%start_time) &
-            & //without, error)
-         call require(.not. scene%integration%stop_when_periodic > 0, 'integration%stop_when_periodic = ' &
-            & //to_text(scene%integration%stop_when_periodic)//without, error)
-      end associate
-   end subroutine check_periodic
 
    !> A pad reaches from theta - theta_2 to theta + theta_1; the next one must start after that.
    subroutine require_room(scene, i, error)

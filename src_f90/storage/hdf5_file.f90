@@ -33,6 +33,7 @@ module hdf5_file
       procedure :: get_count
       procedure :: get_real
       procedure :: get_list
+      procedure :: list_size
       !> For hdf5_series: opens a dataset; refuses numbers of another kind; describes a dataset.
       procedure :: open_dataset
       procedure :: expect_type
@@ -42,6 +43,9 @@ module hdf5_file
       procedure, private :: read_all
       procedure, private :: write_reals
    end type hdf5_type
+
+   !> Numbers in a list; only a damaged file says more.
+   integer(hsize_t), parameter :: largest_list = 100000000
 
 contains
 
@@ -231,6 +235,27 @@ contains
       values = 0
       call self%read_all(path, h5t_native_double, size(values), c_loc(values))
    end subroutine get_list
+
+   !> Numbers in a dataset; 0, and a failure, where there is none.
+   integer function list_size(self, path)
+      class(hdf5_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      integer(hid_t) :: dataset, space
+      integer(hsize_t) :: points
+      integer :: status
+      list_size = 0
+      if (.not. self%has(path)) call self%check_read(-1, 'find '//path)
+      if (allocated(self%failure)) return
+      call self%open_dataset(path, dataset, status)
+      if (status < 0) return
+      call h5dget_space_f(dataset, space, status)
+      call h5sget_simple_extent_npoints_f(space, points, status)
+      if (status >= 0 .and. points > largest_list) status = -1
+      call self%check_read(status, 'find the size of '//path)
+      if (.not. allocated(self%failure)) list_size = int(points)
+      call h5sclose_f(space, status)
+      call h5dclose_f(dataset, status)
+   end function list_size
 
    !> Reads a dataset of n numbers; a failure where it has another size.
    subroutine read_all(self, path, kind, n, buffer)

@@ -11,7 +11,8 @@ program test_periodic_orbits
    use equilibrium, only: equilibrium_type, find_equilibrium
    use force_balance, only: force_derivatives, masses
    use small_vibrations, only: eigenvalues
-   use orbit_collocation, only: orbit_type, newton_round
+   use orbit_polynomials, only: orbit_type
+   use orbit_collocation, only: newton_round
    use kink_mesh, only: follow_kinks
    use floquet_multipliers, only: set_multipliers, are_stable
    use periodic_orbit, only: periodic_orbit_type, orbit_options, find_periodic_orbit

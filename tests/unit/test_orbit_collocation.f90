@@ -107,7 +107,8 @@ end module orbit_problems
 program test_orbit_collocation
    use kinds, only: wp, pi
    use ode_model, only: ode_model_type
-   use orbit_collocation, only: orbit_type, newton_round, points, place
+   use orbit_polynomials, only: orbit_type, points, place
+   use orbit_collocation, only: newton_round
    use errors, only: error_type
    use floquet_multipliers, only: set_multipliers
    use orbit_problems, only: linear_problem, van_der_pol

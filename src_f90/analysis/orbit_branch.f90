@@ -1,0 +1,288 @@
+!> Periodic orbits as a problem of continuation: the unknowns are the states at the start of the period, and the
+!> collocation follows them.
+module orbit_branch
+   use kinds, only: wp, i8
+   use errors, only: error_type
+   use lapack, only: dgesv
+   use continuation, only: branch_problem_type, branch_point_type, return_to
+   use orbit_polynomials, only: orbit_type, points, place
+   use orbit_collocation, only: orbit_equations_type, parameter_shift_type, condense, closing_equations, move_orbit, &
+      & collocated_state
+   use parametric_ode, only: parametric_ode_type
+   use floquet_multipliers, only: set_multipliers
+   implicit none (type, external)
+   private
+   public :: orbit_problem_type, begin_orbits, double_period
+
+   type, extends(branch_problem_type) :: orbit_problem_type
+      type(orbit_type) :: orbit
+      !> Periods of what drives the model in that of the orbit.
+      integer :: turns = 1
+      !> Evaluations of the rates with their derivatives, and without.
+      integer(i8) :: tangents = 0, evaluations = 0
+      class(parametric_ode_type), pointer, private :: ode => null()
+      type(orbit_equations_type), private :: equations
+      !> Ends of intervals from which each point's mesh is made, as parts of the period; and how far the first orbit on
+      !> them was from satisfying the rates in the middle of the intervals, < 0: not known yet.
+      real(wp), allocatable, private :: mesh(:)
+      real(wp), private :: first_defect = -1
+   contains
+      procedure :: linearize
+      procedure :: move
+      procedure :: predict
+      procedure :: spectrum
+      procedure :: kind
+      procedure :: get_place
+      procedure :: go_to
+      procedure :: period
+      procedure, private :: set_shift
+      procedure, private :: defect
+   end type orbit_problem_type
+
+   !> The difference of the parameter for a derivative over it, over its size. The rates are known to some 1e-10 of
+   !> themselves at worst (films that are solved by iteration), so that the quotient is to 1e-5, as is its own error. It
+   !> moves the solution by nothing, and delays Newton's method by as little.
+   real(wp), parameter :: difference = 1e-5_wp
+   !> A mesh is left for a new one where the defect has grown by this.
+   real(wp), parameter :: largest_growth = 4
+   !> Where in an interval the defect is looked at: far from its points.
+   real(wp), parameter :: between = 0.4_wp
+
+contains
+
+   !> A problem that stands at an orbit, of so many periods of its forcing, of an ODE at a value of the parameter.
+   subroutine begin_orbits(problem, ode, orbit, turns, parameter, unit)
+      type(orbit_problem_type), intent(out) :: problem
+      class(parametric_ode_type), intent(in), target :: ode
+      type(orbit_type), intent(in) :: orbit
+      integer, intent(in) :: turns
+      !> Its natural change.
+      real(wp), intent(in) :: parameter, unit
+      integer, allocatable :: x(:), v(:)
+      integer :: i
+      problem%n = size(orbit%start)
+      ! rates and what else a stiff motion has may leap where hardly anything moves
+      allocate (problem%weight(problem%n), source=0.0_wp)
+      call ode%model%pairs(x, v)
+      if (size(x) == 0) x = [(i, i=1, problem%n)]
+      problem%weight(x) = 1.0_wp/size(x)
+      problem%ode => ode
+      problem%orbit = orbit
+      problem%turns = turns
+      problem%parameter = parameter
+      problem%unit = unit
+      problem%mesh = orbit%time/orbit%time(orbit%intervals())
+   end subroutine begin_orbits
+
+   !> Period of the orbit, s.
+   pure real(wp) function period(self)
+      class(orbit_problem_type), intent(in) :: self
+      period = self%turns*self%ode%period()
+   end function period
+
+   subroutine linearize(self, matrix, b, error)
+      class(orbit_problem_type), intent(inout) :: self
+      real(wp), intent(out) :: matrix(:, :), b(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(parameter_shift_type) :: shift
+      matrix = 0
+      b = 0
+      call self%ode%set(self%parameter, error)
+      self%refused = allocated(error)
+      if (self%refused) return
+      call set_period(self%orbit, self%period())
+      call self%ode%follow_kinks(self%orbit)
+      call self%set_shift(shift, error)
+      self%refused = allocated(error)
+      if (self%refused) return
+      call condense(self%ode%model, self%orbit, self%equations, error, shift)
+      self%tangents = self%tangents + points*self%orbit%intervals()
+      self%refused = self%orbit%refused
+      if (.not. allocated(error)) call closing_equations(self%orbit, self%equations, matrix, b)
+   end subroutine linearize
+
+   !> The same phases at another period, s.
+   pure subroutine set_period(orbit, period)
+      type(orbit_type), intent(inout) :: orbit
+      real(wp), intent(in) :: period
+      associate (last => orbit%time(orbit%intervals()))
+         if (abs(last - period) > 0) orbit%time = orbit%time*(period/last)
+      end associate
+   end subroutine set_period
+
+   !> The rates for another value of the parameter, at the same phases; the model is then as before.
+   subroutine set_shift(self, shift, error)
+      class(orbit_problem_type), intent(inout) :: self
+      type(parameter_shift_type), intent(out) :: shift
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: stretch, t, before, change
+      integer :: k, i
+      logical :: ok
+      change = difference*max(self%unit, abs(self%parameter))
+      shift%amount = change/self%unit
+      before = self%period()
+      ! a value that is not allowed serves as well: what is wrong with it shows at the value itself
+      call self%ode%set(self%parameter + change, error)
+      if (allocated(error)) deallocate (error)
+      stretch = self%period()/before
+      allocate (shift%rates(self%n, points, self%orbit%intervals()))
+      associate (time => self%orbit%time)
+         do k = 1, self%orbit%intervals()
+            do i = 1, points
+               t = stretch*(time(k - 1) + place(i)*(time(k) - time(k - 1)))
+               call self%ode%model%rhs(t, collocated_state(self%orbit, k, i), shift%rates(:, i, k), ok)
+               if (.not. ok) shift%rates(:, i, k) = 0
+            end do
+         end do
+      end associate
+      shift%rates = stretch*shift%rates
+      self%evaluations = self%evaluations + size(shift%rates(1, :, :))
+      call self%ode%set(self%parameter, error)
+   end subroutine set_shift
+
+   subroutine move(self, change, closes, correction)
+      class(orbit_problem_type), intent(inout) :: self
+      real(wp), intent(in) :: change(:)
+      logical, intent(in) :: closes
+      real(wp), intent(out) :: correction
+      call move_orbit(self%orbit, self%equations, change, closes, huge(1.0_wp))
+      self%parameter = self%parameter + self%unit*change(self%n + 1)
+      correction = max(self%orbit%correction, abs(change(self%n + 1)))
+   end subroutine move
+
+   !> Each point starts from the same mesh, to which kinks have been added on the way; from a new one where the orbit
+   !> has changed so much that it fits the old one less.
+   subroutine predict(self, change)
+      class(orbit_problem_type), intent(inout) :: self
+      real(wp), intent(in) :: change(:)
+      real(wp), allocatable :: mesh(:)
+      real(wp) :: ignored, now
+      logical :: ages
+      now = self%defect()
+      if (self%first_defect < 0) self%first_defect = now
+      ages = now > largest_growth*self%first_defect
+      call self%move(change, .false., ignored)
+      if (ages) then
+         call self%ode%new_mesh(self%orbit, mesh)
+         if (allocated(mesh)) call move_alloc(mesh, self%mesh)
+         self%first_defect = -1
+      end if
+      call self%orbit%change_mesh(self%mesh*self%orbit%time(self%orbit%intervals()))
+   end subroutine predict
+
+   !> The largest defect of the rates between the points of an interval, times its length, over the scales.
+   real(wp) function defect(self)
+      class(orbit_problem_type), intent(inout) :: self
+      real(wp), dimension(self%n) :: y, rates, slope
+      real(wp) :: t
+      integer :: k
+      logical :: ok
+      defect = 0
+      associate (orbit => self%orbit)
+         do k = 1, orbit%intervals()
+            associate (h => orbit%time(k) - orbit%time(k - 1))
+               t = orbit%time(k - 1) + between*h
+               call orbit%state_at(t, y, slope)
+               call self%ode%model%rhs(t, y, rates, ok)
+               if (ok) defect = max(defect, maxval(abs(h*(slope - rates)/orbit%scale)))
+            end associate
+         end do
+         self%evaluations = self%evaluations + orbit%intervals()
+      end associate
+   end function defect
+
+   !> The multipliers, and how far their moduli are beyond 1.
+   subroutine spectrum(self, values, growth, ok)
+      class(orbit_problem_type), intent(inout) :: self
+      complex(wp), allocatable, intent(out) :: values(:)
+      real(wp), allocatable, intent(out) :: growth(:)
+      logical, intent(out) :: ok
+      call set_multipliers(self%orbit%monodromy, values, ok)
+      if (ok) growth = abs(values) - 1
+   end subroutine spectrum
+
+   pure function kind(self, value)
+      class(orbit_problem_type), intent(in) :: self
+      complex(wp), intent(in) :: value
+      character(len=:), allocatable :: kind
+      if (abs(value%im) > 0) then
+         kind = 'neimark_sacker'
+      else if (value%re < 0) then
+         kind = 'flip'
+      else
+         kind = 'fold'
+      end if
+   end function kind
+
+   !> Turns, parameter, first defect, sizes of both meshes, and the meshes, start and points.
+   pure subroutine get_place(self, place)
+      class(orbit_problem_type), intent(in) :: self
+      real(wp), allocatable, intent(out) :: place(:)
+      associate (orbit => self%orbit)
+         place = [real(self%turns, wp), self%parameter, self%first_defect, real(size(self%mesh), wp), &
+            & real(orbit%intervals(), wp), self%mesh, orbit%time, orbit%start, orbit%at]
+      end associate
+   end subroutine get_place
+
+   subroutine go_to(self, place)
+      class(orbit_problem_type), intent(inout) :: self
+      real(wp), intent(in) :: place(:)
+      integer :: ends, intervals, o
+      self%turns = nint(place(1))
+      self%parameter = place(2)
+      self%first_defect = place(3)
+      ends = nint(place(4))
+      intervals = nint(place(5))
+      o = 5
+      self%mesh = place(o + 1:o + ends)
+      o = o + ends
+      associate (orbit => self%orbit)
+         deallocate (orbit%time)
+         allocate (orbit%time(0:intervals), source=place(o + 1:o + intervals + 1))
+         o = o + intervals + 1
+         orbit%start = place(o + 1:o + self%n)
+         o = o + self%n
+         orbit%at = reshape(place(o + 1:), [self%n, points, intervals])
+      end associate
+   end subroutine go_to
+
+   !> From a flip of a problem: the point of the branch of double period there, on which the problem stands then. Its
+   !> tangent is the disturbance that comes back with the opposite sign after a period.
+   subroutine double_period(problem, flip, point, ok)
+      type(orbit_problem_type), intent(inout) :: problem
+      type(branch_point_type), intent(in) :: flip
+      type(branch_point_type), intent(out) :: point
+      logical, intent(out) :: ok
+      real(wp), allocatable :: time(:), at(:, :, :)
+      real(wp) :: direction(problem%n), matrix(problem%n, problem%n)
+      integer :: pivots(problem%n), info, i, n
+      call return_to(problem, flip)
+      direction = 1
+      do i = 1, 3
+         matrix = problem%orbit%monodromy
+         do n = 1, problem%n
+            matrix(n, n) = matrix(n, n) + 1
+         end do
+         call dgesv(problem%n, 1, matrix, problem%n, pivots, direction, problem%n, info)
+         ok = info == 0
+         if (.not. ok) return
+         direction = direction/sqrt(sum(problem%weight*direction**2))
+      end do
+      n = problem%orbit%intervals()
+      allocate (time(0:2*n), at(problem%n, points, 2*n))
+      time(:n) = problem%orbit%time
+      time(n:) = time(n) + problem%orbit%time
+      at(:, :, :n) = problem%orbit%at
+      at(:, :, n + 1:) = problem%orbit%at
+      call move_alloc(time, problem%orbit%time)
+      call move_alloc(at, problem%orbit%at)
+      problem%mesh = 0.5_wp*[problem%mesh, 1 + problem%mesh(2:)]
+      problem%turns = 2*problem%turns
+      call problem%get_place(point%place)
+      allocate (point%change(problem%n + 1), source=0.0_wp)
+      point%tangent = [direction, 0.0_wp]
+      point%parameter = flip%parameter
+      call return_to(problem, point)
+      call problem%spectrum(point%values, point%growth, ok)
+   end subroutine double_period
+end module orbit_branch

@@ -1,0 +1,51 @@
+!> What a branch of periodic orbits needs to know of an ODE with a parameter, beside its rates: the model at a value of
+!> it, the period that drives it, and what its solver knows of meshes.
+module parametric_ode
+   use kinds, only: wp
+   use errors, only: error_type
+   use ode_model, only: ode_model_type
+   use orbit_polynomials, only: orbit_type
+   implicit none (type, external)
+   private
+   public :: parametric_ode_type
+
+   type, abstract :: parametric_ode_type
+      class(ode_model_type), pointer :: model => null()
+   contains
+      procedure(set_value), deferred :: set
+      procedure(forcing_period), deferred :: period
+      procedure :: follow_kinks
+      procedure :: new_mesh
+   end type parametric_ode_type
+
+   abstract interface
+      !> Makes the model that of a value of the parameter; an error says why there can be none.
+      subroutine set_value(self, parameter, error)
+         import :: parametric_ode_type, error_type, wp
+         class(parametric_ode_type), intent(inout) :: self
+         real(wp), intent(in) :: parameter
+         type(error_type), allocatable, intent(out) :: error
+      end subroutine set_value
+
+      !> Period of what drives the model as it is set, s.
+      pure real(wp) function forcing_period(self)
+         import :: parametric_ode_type, wp
+         class(parametric_ode_type), intent(in) :: self
+      end function forcing_period
+   end interface
+
+contains
+
+   !> Puts ends of intervals where the rates have a kink on an orbit.
+   subroutine follow_kinks(self, orbit)
+      class(parametric_ode_type), intent(in) :: self
+      type(orbit_type), intent(inout) :: orbit
+   end subroutine follow_kinks
+
+   !> A mesh for an orbit near this one, as parts of its period, 0 to 1; not allocated where there is no better one.
+   subroutine new_mesh(self, orbit, mesh)
+      class(parametric_ode_type), intent(inout) :: self
+      type(orbit_type), intent(in) :: orbit
+      real(wp), allocatable, intent(out) :: mesh(:)
+   end subroutine new_mesh
+end module parametric_ode

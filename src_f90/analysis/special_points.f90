@@ -1,0 +1,164 @@
+!> Where a branch changes its stability or turns: between two points of it the value that crosses is followed until the
+!> parameter is known closely.
+module special_points
+   use kinds, only: wp
+   use errors, only: error_type, stopped
+   use damped_newton, only: asked_to_stop
+   use continuation, only: branch_problem_type, branch_point_type, branch_options, correct, return_to
+   implicit none (type, external)
+   private
+   public :: special_point_type, find_special_points, kinds_of_points, kind_length
+
+   !> Length of the names of kinds, and all names.
+   integer, parameter :: kind_length = 14
+   character(len=kind_length), parameter :: kinds_of_points(*) = [character(len=kind_length) :: 'fold', 'flip', &
+      & 'neimark_sacker', 'hopf', 'branch_point']
+
+   type :: special_point_type
+      character(len=kind_length) :: kind = ''
+      type(branch_point_type) :: point
+      !> The value that crosses, whether it does so towards the unstable side.
+      complex(wp) :: value = 0
+      logical :: destabilises = .false.
+   end type special_point_type
+
+   !> The bracket of the parameter, over itself, at the end; that of the way along the branch, over the step; most cuts.
+   real(wp), parameter :: accuracy = 1e-7_wp, closeness = 1e-6_wp
+   integer, parameter :: most_cuts = 40
+   !> Most special points between two points.
+   integer, parameter :: most_points = 4
+
+   !> A place between two points: how far along the tangent of the first, and there the growth that crosses, or the
+   !> tangent's component along the parameter.
+   type :: bracket_type
+      real(wp) :: along = 0, value = 0
+   end type bracket_type
+
+contains
+
+   !> The special points between a point and the next, at which the problem stands before and after, in their order.
+   !> What cannot be located is left out; an error only of status `stopped`, where `give_up` says so.
+   subroutine find_special_points(problem, options, here, next, found, error, give_up)
+      class(branch_problem_type), intent(inout) :: problem
+      type(branch_options), intent(in) :: options
+      type(branch_point_type), intent(in) :: here, next
+      type(special_point_type), allocatable, intent(out) :: found(:)
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      type(special_point_type) :: one
+      integer :: first, last, k
+      logical :: ok, turns, moved
+      allocate (found(0))
+      turns = parameter_part(here)*parameter_part(next) < 0
+      first = unstable(here)
+      last = unstable(next)
+      moved = .false.
+      ! each value that crosses is one of the order of growths
+      k = first
+      do while (k /= last .and. size(found) < most_points)
+         call locate(problem, options, here, next, max(k, k + sign(1, last - first)), one, ok, error, give_up)
+         moved = .true.
+         if (allocated(error)) return
+         if (ok) then
+            one%destabilises = last > first
+            one%kind = problem%kind(one%value)
+            if (one%kind == 'fold' .and. .not. turns) one%kind = 'branch_point'
+            call put(one, found)
+         end if
+         k = k + sign(merge(2, 1, abs(one%value%im) > 0 .and. ok), last - first)
+         if ((last - first)*(last - k) < 0) exit
+      end do
+      if (turns .and. .not. any(found%kind == 'fold')) then
+         call locate(problem, options, here, next, 0, one, ok, error, give_up)
+         moved = .true.
+         if (allocated(error)) return
+         one%kind = 'fold'
+         if (ok) call put(one, found)
+      end if
+      if (moved) call return_to(problem, next)
+   end subroutine find_special_points
+
+   !> Adds a point where it belongs along the branch.
+   subroutine put(one, found)
+      type(special_point_type), intent(in) :: one
+      type(special_point_type), allocatable, intent(inout) :: found(:)
+      type(special_point_type), allocatable :: longer(:)
+      integer :: before, k
+      before = count([(found(k)%point%along <= one%point%along, k=1, size(found))])
+      allocate (longer(size(found) + 1))
+      do k = 1, size(longer)
+         if (k <= before) longer(k) = found(k)
+         if (k == before + 1) longer(k) = one
+         if (k > before + 1) longer(k) = found(k - 1)
+      end do
+      call move_alloc(longer, found)
+   end subroutine put
+
+   pure integer function unstable(point)
+      type(branch_point_type), intent(in) :: point
+      unstable = count(point%growth > 0)
+   end function unstable
+
+   pure real(wp) function parameter_part(point)
+      type(branch_point_type), intent(in) :: point
+      parameter_part = point%tangent(size(point%tangent))
+   end function parameter_part
+
+   !> Where the k-th growth (0: the tangent's component along the parameter) is zero between two points: by false
+   !> position, whose end that stays counts half (Illinois). `ok` is false where Newton's method fails on the way.
+   subroutine locate(problem, options, here, next, k, found, ok, error, give_up)
+      class(branch_problem_type), intent(inout) :: problem
+      type(branch_options), intent(in) :: options
+      type(branch_point_type), intent(in) :: here, next
+      integer, intent(in) :: k
+      type(special_point_type), intent(out) :: found
+      logical, intent(out) :: ok
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      type(bracket_type) :: a, b, middle
+      type(branch_point_type) :: point
+      real(wp) :: ignored, width
+      integer :: cut
+      a = bracket_type(0.0_wp, watched(here, k))
+      b = bracket_type(next%along, watched(next, k))
+      call return_to(problem, next)
+      point = next
+      do cut = 1, most_cuts
+         middle%along = (a%along*b%value - b%along*a%value)/(b%value - a%value)
+         associate (tangent => point%tangent/problem%dot(here%tangent, point%tangent))
+            call problem%move((middle%along - point%along)*tangent, .false., ignored)
+         end associate
+         call correct(problem, here%tangent, options, point, error, give_up)
+         ok = .not. allocated(error)
+         if (.not. ok) then
+            if (error%status /= stopped) deallocate (error)
+            return
+         end if
+         point%along = middle%along
+         middle%value = watched(point, k)
+         if (middle%value*b%value < 0) then
+            a = b
+         else
+            a%value = 0.5_wp*a%value
+         end if
+         b = middle
+         width = abs(b%along - a%along)
+         if (abs(b%value) <= 0) exit
+         if (width <= closeness*next%along .and. width*problem%unit*abs(parameter_part(point)) &
+            & <= accuracy*abs(point%parameter)) exit
+      end do
+      point%arc_length = here%arc_length + point%along
+      found%point = point
+      found%value = point%values(max(1, k))
+   end subroutine locate
+
+   pure real(wp) function watched(point, k)
+      type(branch_point_type), intent(in) :: point
+      integer, intent(in) :: k
+      if (k == 0) then
+         watched = parameter_part(point)
+      else
+         watched = point%growth(k)
+      end if
+   end function watched
+end module special_points

@@ -1,0 +1,181 @@
+!> Where the branches of a run start: what the case asks for, the first orbit or equilibrium, or those of a checkpoint.
+module branch_start
+   use kinds, only: wp
+   use errors, only: error_type, raise, add_context, system_error, stopped
+   use text, only: to_text
+   use scene_parameter, only: scene_parameter_type, find_parameter
+   use equations_of_motion, only: bearing_model
+   use static_model, only: make_fine
+   use equilibrium, only: equilibrium_type
+   use bearing_coefficients, only: settle
+   use periodic_orbit, only: periodic_orbit_type, orbit_options, find_periodic_orbit
+   use orbit_polynomials, only: orbit_type, points
+   use continuation, only: branch_options, return_to
+   use varied_bearing, only: varied_bearing_type, bearing_orbits_type
+   use orbit_branch, only: orbit_problem_type, begin_orbits
+   use equilibrium_branch, only: equilibrium_problem_type, begin_equilibria
+   use stop_signals, only: stop_requested, stop_reason
+   use case_run, only: case_run_type
+   use equilibrium_task, only: seek_equilibrium, note_equilibrium
+   use march_start, only: make_start
+   use march_task, only: tolerances
+   use branch_course, only: branch_course_type
+   implicit none (type, external)
+   private
+   public :: branches_type, prepare, find_first, go_on
+
+   !> The branches of a run: what is followed, and how far it has come.
+   type :: branches_type
+      type(scene_parameter_type) :: parameter
+      type(branch_options) :: options
+      !> Value of the case, and the size of the way from there.
+      real(wp) :: first = 0, way = 0
+      logical :: of_orbits = .true.
+      type(orbit_problem_type) :: orbits
+      type(equilibrium_problem_type) :: equilibria
+      type(bearing_orbits_type) :: ode
+      !> Of equilibria, with converged films.
+      type(bearing_model) :: fine
+      type(branch_course_type) :: course
+      !> Clock of the last checkpoint, s.
+      real(wp) :: last_checkpoint = 0
+   end type branches_type
+
+   !> The largest step over the first, where the case leaves it open.
+   real(wp), parameter :: usual_growth = 10
+
+contains
+
+   !> What follows from the case.
+   subroutine prepare(run, b, error)
+      type(case_run_type), intent(inout), target :: run
+      type(branches_type), intent(inout) :: b
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: nowhere(:)
+      associate (given => run%scene%branch)
+         call find_parameter(run%scene, given%parameter, b%parameter, error)
+         if (allocated(error)) return
+         b%first = b%parameter%value(run%scene)
+         b%way = abs(given%last - b%first)
+         b%of_orbits = given%of == 'periodic'
+         b%options%low = min(given%last, b%first)
+         b%options%high = max(given%last, b%first)
+         b%options%first_step = abs(given%step)/b%way
+         b%options%max_step = given%max_step/b%way
+         if (.not. given%max_step > 0) b%options%max_step = usual_growth*b%options%first_step
+         if (.not. b%of_orbits) return
+         b%options%tolerance = run%scene%periodic%tolerance
+         b%ode%bearing%model => run%model
+         b%ode%bearing%parameter = b%parameter
+         b%ode%model => run%model
+         ! for meshes alone, wherever the branch leads
+         allocate (nowhere(run%model%n), source=0.0_wp)
+         b%ode%march = tolerances(run, nowhere)
+         b%ode%march%lowers_orders = .false.
+      end associate
+      b%last_checkpoint = run%started
+   end subroutine prepare
+
+   !> Creates the file and finds the first orbit or equilibrium.
+   subroutine find_first(run, b, error)
+      type(case_run_type), intent(inout), target :: run
+      type(branches_type), intent(inout), target :: b
+      type(error_type), allocatable, intent(out) :: error
+      if (b%of_orbits) then
+         call first_orbit(run, b, error)
+      else
+         call first_equilibrium(run, b, error)
+      end if
+      allocate (b%course%special(0), b%course%flips(0))
+      b%course%length = b%options%first_step
+      if (.not. allocated(error)) return
+      if (error%status /= stopped) return
+      ! nothing to go on from
+      run%computed = .false.
+      error%message = stop_reason()//' before the first point of the branch; nothing was written'
+   end subroutine find_first
+
+   !> The orbit that the motion from the start of the case leads to.
+   subroutine first_orbit(run, b, error)
+      type(case_run_type), intent(inout), target :: run
+      type(branches_type), intent(inout), target :: b
+      type(error_type), allocatable, intent(out) :: error
+      type(periodic_orbit_type) :: found
+      real(wp), allocatable :: y(:)
+      call make_start(run, y, error)
+      if (allocated(error)) return
+      associate (p => run%scene%periodic)
+         call find_periodic_orbit(run%model, tolerances(run, y), orbit_options(p%revolutions, p%tolerance, &
+            & p%max_iterations), y, found, error, stop_requested)
+         run%counts = found%march
+         run%counts%rhs_evaluations = run%counts%rhs_evaluations + found%evaluations
+         run%counts%jacobian_evaluations = run%counts%jacobian_evaluations + found%evaluations
+         if (.not. allocated(error)) call begin_orbits(b%orbits, b%ode, found%orbit, p%revolutions, b%first, b%way)
+      end associate
+   end subroutine first_orbit
+
+   !> The equilibrium of the case, with converged films.
+   subroutine first_equilibrium(run, b, error)
+      type(case_run_type), intent(inout) :: run
+      type(branches_type), intent(inout), target :: b
+      type(error_type), allocatable, intent(out) :: error
+      type(equilibrium_type) :: static
+      real(wp), allocatable :: y(:)
+      call seek_equilibrium(run, static, error)
+      if (allocated(error)) return
+      call make_fine(run%model, b%fine)
+      call settle(b%fine, static, y, error, stop_requested)
+      call add_context(error, 'with converged films')
+      if (allocated(error)) return
+      call note_equilibrium(run, static)
+      call begin_static(b, y)
+   end subroutine first_equilibrium
+
+   subroutine begin_static(b, y)
+      type(branches_type), intent(inout), target :: b
+      real(wp), intent(in) :: y(:)
+      type(varied_bearing_type) :: bearing
+      bearing%model => b%fine
+      bearing%parameter = b%parameter
+      call begin_equilibria(b%equilibria, bearing, y, b%first, b%way)
+   end subroutine begin_static
+
+   !> Takes the branches up where a checkpoint has left them.
+   subroutine go_on(run, b, error)
+      type(case_run_type), intent(inout) :: run
+      type(branches_type), intent(inout), target :: b
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: numbers(:), at_rest(:)
+      type(orbit_type) :: orbit
+      real(wp) :: ignored
+      logical :: ok
+      run%earlier = run%statistics()
+      call run%file%resume(ignored, numbers, run%earlier, error)
+      if (allocated(error)) return
+      run%computed = .true.
+      allocate (at_rest(run%model%n), source=0.0_wp)
+      if (b%of_orbits) then
+         allocate (orbit%time(0:1), orbit%at(run%model%n, points, 1), source=0.0_wp)
+         orbit%time(1) = 1
+         orbit%start = at_rest
+         orbit%scale = run%model%scale
+         call begin_orbits(b%orbits, b%ode, orbit, 1, b%first, b%way)
+      else
+         call make_fine(run%model, b%fine)
+         call begin_static(b, at_rest)
+      end if
+      call b%course%unpack_from(numbers, ok)
+      if (.not. ok) then
+         call raise(error, system_error, run%path//': damaged: its checkpoint is none of a branch')
+         return
+      end if
+      if (b%of_orbits) then
+         call return_to(b%orbits, b%course%here)
+      else
+         call return_to(b%equilibria, b%course%here)
+      end if
+      if (.not. run%quiet) print '(a)', 'going on behind '//run%scene%branch%parameter//' = ' &
+         & //to_text(b%course%here%parameter)//', point '//to_text(b%course%points)//' of branch ' &
+         & //to_text(b%course%branch)
+   end subroutine go_on
+end module branch_start

@@ -1,0 +1,66 @@
+!> What a run prints of its branches: special points as they are found, and at the end all of it.
+module branch_summary
+   use kinds, only: wp
+   use text, only: to_text, fixed_text
+   use special_points, only: special_point_type
+   use hdf5_file, only: hdf5_type
+   use run_file, only: run_file_type
+   implicit none (type, external)
+   private
+   public :: print_special_point, print_branch, branch_end
+
+contains
+
+   !> A special point, found between two points.
+   subroutine print_special_point(special, parameter)
+      type(special_point_type), intent(in) :: special
+      character(len=*), intent(in) :: parameter
+      associate (value => special%value)
+         print '(a)', '  '//trim(special%kind)//' at '//parameter//' = '//precise(special%point%parameter)//', ' &
+            & //fixed_text(value%re, 4)//merge(' + ', ' - ', value%im >= 0)//fixed_text(abs(value%im), 4)//' i'
+      end associate
+   end subroutine print_special_point
+
+   !> Ten significant digits.
+   function precise(x) result(digits)
+      real(wp), intent(in) :: x
+      character(len=:), allocatable :: digits
+      character(len=24) :: buffer
+      write (buffer, '(g0.10)') x
+      digits = trim(buffer)
+   end function precise
+
+   !> Notes in the file where and why a branch ended.
+   subroutine branch_end(file, branch, parameter, value, reason)
+      type(hdf5_type), intent(inout) :: file
+      integer, intent(in) :: branch
+      character(len=*), intent(in) :: parameter, reason
+      real(wp), intent(in) :: value
+      character(len=:), allocatable :: before
+      call file%get_text('branch_ends', before)
+      if (before /= '') before = before//achar(10)
+      call file%put_text('branch_ends', before//'branch '//to_text(branch)//' ends at '//parameter//' = ' &
+         & //precise(value)//': '//reason)
+   end subroutine branch_end
+
+   !> All branches: points, those that are stable, and their ends.
+   subroutine print_branch(file, parameter)
+      type(run_file_type), intent(inout) :: file
+      character(len=*), intent(in) :: parameter
+      real(wp), allocatable, dimension(:, :) :: branch, stable, value
+      character(len=:), allocatable :: ends
+      integer :: k
+      call file%last_samples('branch', int(file%samples()), branch)
+      call file%last_samples('stable', int(file%samples()), stable)
+      call file%last_samples('parameter', int(file%samples()), value)
+      do k = 1, nint(maxval(branch))
+         associate (own => nint(branch(1, :)) == k)
+            print '(a)', 'branch '//to_text(k)//': '//to_text(count(own))//' points, '//parameter//' from ' &
+               & //precise(minval(value(1, :), mask=own))//' to '//precise(maxval(value(1, :), mask=own))//', ' &
+               & //to_text(count(own .and. stable(1, :) > 0))//' of them stable'
+         end associate
+      end do
+      call file%file%get_text('branch_ends', ends)
+      print '(a)', ends
+   end subroutine print_branch
+end module branch_summary

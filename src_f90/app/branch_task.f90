@@ -1,0 +1,264 @@
+!> The task 'branch': equilibria or periodic orbits over a number of the input, with the points where their stability
+!> changes, and the branches of double period that begin there.
+module branch_task
+   use kinds, only: wp
+   use text, only: to_text
+   use errors, only: error_type, raise, add_context, stopped
+   use clock, only: wall_clock
+   use orbit_polynomials, only: orbit_type
+   use continuation, only: branch_problem_type, branch_point_type, start_branch, advance, return_to
+   use special_points, only: special_point_type, find_special_points
+   use orbit_branch, only: double_period
+   use orbit_figures, only: orbit_figures_type, find_orbit_figures, figures_at_rest
+   use branch_results, only: branch_orbit_type, begin_branches, add_point, put_special_points, noted
+   use provenance, only: running
+   use stop_signals, only: stop_requested, stop_reason
+   use case_run, only: case_run_type
+   use branch_start, only: branches_type, prepare, find_first, go_on
+   use branch_summary, only: print_special_point, print_branch, branch_end
+   implicit none (type, external)
+   private
+   public :: run_branch
+
+   !> First step of a branch of double period over that of the first: it starts across the parameter.
+   real(wp), parameter :: across = 0.3_wp
+
+contains
+
+   subroutine run_branch(run, error)
+      type(case_run_type), intent(inout), target :: run
+      type(error_type), allocatable, intent(out) :: error
+      type(branches_type), target :: b
+      class(branch_problem_type), pointer :: problem
+      logical :: more
+      call prepare(run, b, error)
+      problem => b%equilibria
+      if (b%of_orbits) problem => b%orbits
+      if (.not. allocated(error)) then
+         if (run%resumed) then
+            call go_on(run, b, error)
+            if (.not. allocated(error)) call open_series(run, b)
+         else
+            call begin(run, b, problem, error)
+         end if
+      end if
+      if (allocated(error)) return
+      more = .true.
+      do while (more)
+         call follow(run, b, problem, error)
+         if (allocated(error)) exit
+         call begin_double(run, b, more)
+      end do
+      call put_special_points(run%file%file, b%course%special, b%parameter)
+      run%counts%rhs_evaluations = run%counts%rhs_evaluations + b%orbits%evaluations + b%orbits%tangents
+      run%counts%jacobian_evaluations = run%counts%jacobian_evaluations + b%orbits%tangents
+      if (.not. allocated(error)) then
+         if (.not. run%quiet) call print_branch(run%file, run%scene%branch%parameter)
+      else if (error%status == stopped) then
+         call stop_here(run, b, error)
+      end if
+   end subroutine run_branch
+
+   !> The first point of the first branch.
+   subroutine begin(run, b, problem, error)
+      type(case_run_type), intent(inout), target :: run
+      type(branches_type), intent(inout), target :: b
+      class(branch_problem_type), intent(inout) :: problem
+      type(error_type), allocatable, intent(out) :: error
+      call find_first(run, b, error)
+      if (allocated(error)) return
+      call start_branch(problem, b%options, run%scene%branch%last > b%first, b%course%here, error)
+      call add_context(error, 'the first point of the branch')
+      if (allocated(error)) return
+      call run%file%file%put_text('branch_of', run%scene%branch%of)
+      call run%file%file%put_text('branch_parameter', run%scene%branch%parameter)
+      call run%file%file%put_text('branch_ends', '')
+      call open_series(run, b)
+      call record(run, b, b%course%here, error)
+      b%course%points = 1
+   end subroutine begin
+
+   !> Readies the file for points.
+   subroutine open_series(run, b)
+      type(case_run_type), intent(inout) :: run
+      type(branches_type), intent(in) :: b
+      call begin_branches(run%file, b%parameter, b%of_orbits, run%scene%tilting(), run%scene%pad_count(), &
+         & merge(run%model%n, 2*run%model%layout%n_positions(), b%of_orbits))
+      run%computed = .true.
+   end subroutine open_series
+
+   !> Follows a branch from where it is to its end.
+   subroutine follow(run, b, problem, error)
+      type(case_run_type), intent(inout) :: run
+      type(branches_type), intent(inout) :: b
+      class(branch_problem_type), intent(inout) :: problem
+      type(error_type), allocatable, intent(out) :: error
+      type(branch_point_type) :: next
+      character(len=:), allocatable :: at_end
+      real(wp), allocatable :: split(:)
+      logical :: ends
+      split = half_apart(b%orbits%orbit)
+      associate (course => b%course, most => run%scene%branch%max_points)
+         at_end = ''
+         do while (at_end == '')
+            call advance(problem, b%options, course%here, course%length, next, ends, error, stop_requested)
+            if (allocated(error)) then
+               if (error%status == stopped .or. .not. problem%refused) exit
+               at_end = 'there is nothing beyond: '//error%message
+               deallocate (error)
+               exit
+            end if
+            if (course%branch > 1 .and. course%points > 0) then
+               if (dot_product(split, half_apart(b%orbits%orbit)) < 0) then
+                  at_end = 'it comes back to the branch that it left'
+                  call forget_flips(b, next)
+                  exit
+               end if
+            end if
+            call record_step(run, b, problem, next, error)
+            if (allocated(error)) exit
+            split = half_apart(b%orbits%orbit)
+            if (ends) at_end = trim(merge('the first value', 'the last value ', abs(next%parameter - b%first) <= 0))
+            if (course%points >= most .and. .not. ends) at_end = 'after '//to_text(most)//' points (branch%max_points)'
+            if (at_end == '') call mind_checkpoint(run, b, error)
+            if (allocated(error)) exit
+         end do
+         if (allocated(error)) then
+            if (error%status == stopped) return
+            call add_context(error, 'branch '//to_text(course%branch)//' was lost behind ' &
+               & //run%scene%branch%parameter//' = '//to_text(course%here%parameter)//', its point ' &
+               & //to_text(course%points))
+         else
+            call branch_end(run%file%file, course%branch, run%scene%branch%parameter, course%here%parameter, at_end)
+         end if
+      end associate
+   end subroutine follow
+
+   !> Adds the next point to the file, and the special points before it.
+   subroutine record_step(run, b, problem, next, error)
+      type(case_run_type), intent(inout) :: run
+      type(branches_type), intent(inout) :: b
+      class(branch_problem_type), intent(inout) :: problem
+      type(branch_point_type), intent(in) :: next
+      type(error_type), allocatable, intent(out) :: error
+      type(special_point_type), allocatable :: special(:)
+      integer :: k
+      associate (course => b%course)
+         allocate (special(0))
+         ! where a branch of double period begins a multiplier is 1
+         if (course%points > 0) call find_special_points(problem, b%options, course%here, next, special, error, &
+            & stop_requested)
+         if (allocated(error)) return
+         do k = 1, size(special)
+            call return_to(problem, special(k)%point)
+            call record(run, b, special(k)%point, error)
+            if (allocated(error)) return
+            course%special = [course%special, noted(run%file, course%branch, special(k))]
+            if (.not. run%quiet) call print_special_point(special(k), run%scene%branch%parameter)
+            if (special(k)%kind == 'flip' .and. course%branch == 1 .and. run%scene%branch%switch == '.true.') then
+               course%flips = [course%flips, special(k)%point]
+            end if
+         end do
+         if (size(special) > 0) call return_to(problem, next)
+         course%here = next
+         course%points = course%points + 1
+         call record(run, b, next, error)
+      end associate
+   end subroutine record_step
+
+   !> Adds a point to the file, at which the problem stands.
+   subroutine record(run, b, point, error)
+      type(case_run_type), intent(inout) :: run
+      type(branches_type), intent(inout) :: b
+      type(branch_point_type), intent(in) :: point
+      type(error_type), allocatable, intent(out) :: error
+      type(orbit_figures_type) :: figures
+      associate (tilting => run%scene%tilting(), orbit => b%orbits%orbit)
+         if (b%of_orbits) then
+            call find_orbit_figures(run%model, orbit, b%orbits%turns, run%scene%output%samples_per_revolution, figures)
+            call add_point(run%file, b%course%branch, point, figures, tilting, error, &
+               & branch_orbit_type(b%orbits%turns, orbit%intervals(), b%orbits%period()))
+         else
+            call figures_at_rest(b%fine, b%equilibria%state(), figures)
+            call add_point(run%file, b%course%branch, point, figures, tilting, error)
+         end if
+      end associate
+      call run%file%beat(int(wall_clock() - run%started))
+   end subroutine record
+
+   !> By how much an orbit is elsewhere half a period later, over the scales: by nothing where it is that of half the
+   !> period.
+   pure function half_apart(orbit)
+      type(orbit_type), intent(in) :: orbit
+      real(wp), allocatable :: half_apart(:)
+      real(wp), allocatable :: y(:)
+      half_apart = [real(wp) ::]
+      if (.not. allocated(orbit%start)) return
+      allocate (y(size(orbit%start)))
+      call orbit%state_at(0.5_wp*orbit%time(orbit%intervals()), y)
+      half_apart = (y - orbit%start)/orbit%scale
+   end function half_apart
+
+   !> A branch of double period that ends at another flip need not be followed from there again.
+   subroutine forget_flips(b, next)
+      type(branches_type), intent(inout) :: b
+      type(branch_point_type), intent(in) :: next
+      real(wp) :: step
+      integer :: k
+      associate (course => b%course)
+         step = abs(next%parameter - course%here%parameter)
+         course%flips = pack(course%flips, [(abs(course%flips(k)%parameter - next%parameter) > 2*step, &
+            & k=1, size(course%flips))])
+      end associate
+   end subroutine forget_flips
+
+   !> Goes to the start of the next branch of double period, if there are `more`.
+   subroutine begin_double(run, b, more)
+      type(case_run_type), intent(in) :: run
+      type(branches_type), intent(inout) :: b
+      logical, intent(out) :: more
+      type(branch_point_type) :: flip
+      more = .false.
+      associate (course => b%course)
+         do while (size(course%flips) > 0 .and. .not. more)
+            flip = course%flips(1)
+            course%flips = course%flips(2:)
+            call double_period(b%orbits, flip, course%here, more)
+         end do
+         course%branch = course%branch + merge(1, 0, more)
+         course%points = 0
+         course%length = across*b%options%first_step
+      end associate
+      if (more .and. .not. run%quiet) print '(a)', 'branch '//to_text(b%course%branch)//': double period, from ' &
+         & //run%scene%branch%parameter//' = '//to_text(b%course%here%parameter)
+   end subroutine begin_double
+
+   !> A checkpoint where it is time for one.
+   subroutine mind_checkpoint(run, b, error)
+      type(case_run_type), intent(inout) :: run
+      type(branches_type), intent(inout) :: b
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: started
+      started = wall_clock()
+      associate (pause => run%scene%output%checkpoint_seconds)
+         if (.not. pause > 0 .or. started - b%last_checkpoint < pause) return
+      end associate
+      call put_special_points(run%file%file, b%course%special, b%parameter)
+      call run%file%checkpoint(0.0_wp, b%course%packed(), run%statistics(), running, '', error)
+      b%last_checkpoint = wall_clock()
+      run%checkpoints = run%checkpoints + b%last_checkpoint - started
+   end subroutine mind_checkpoint
+
+   !> The last checkpoint, where a signal asks for the end.
+   subroutine stop_here(run, b, error)
+      type(case_run_type), intent(inout) :: run
+      type(branches_type), intent(in) :: b
+      type(error_type), allocatable, intent(inout) :: error
+      type(error_type), allocatable :: file_error
+      error%message = stop_reason()//' behind '//run%scene%branch%parameter//' = ' &
+         & //to_text(b%course%here%parameter)//', point '//to_text(b%course%points)//' of branch ' &
+         & //to_text(b%course%branch)
+      call run%file%checkpoint(0.0_wp, b%course%packed(), run%statistics(), stopped, error%message, file_error)
+      if (allocated(file_error)) call move_alloc(file_error, error)
+   end subroutine stop_here
+end module branch_task

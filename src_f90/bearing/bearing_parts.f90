@@ -1,0 +1,38 @@
+!> The parts of a bearing that a scene makes at once: pads, friction, asperities. Films and contact take time to make.
+module bearing_parts
+   use kinds, only: wp
+   use scene, only: scene_type
+   use friction, only: friction_law
+   use asperity_contact, only: asperity_contact_type
+   use tilting_pad, only: tilting_pad_type
+   use components, only: make_friction, new_asperities, new_pads
+   implicit none (type, external)
+   private
+   public :: bearing_parts_type
+
+   type :: bearing_parts_type
+      type(tilting_pad_type), allocatable :: pads(:)
+      !> Of each pad rates of tilt rate and penetration rate per moment and force, (2, 2, pad).
+      real(wp), allocatable :: per_mass(:, :, :)
+      class(friction_law), allocatable :: friction
+      type(asperity_contact_type) :: asperities
+      !> Assembled clearance, m.
+      real(wp) :: clearance = 0
+   contains
+      procedure :: set_parts
+   end type bearing_parts_type
+
+contains
+
+   !> Makes them those of a scene.
+   subroutine set_parts(self, scene)
+      class(bearing_parts_type), intent(inout) :: self
+      type(scene_type), intent(in) :: scene
+      integer :: i
+      self%pads = new_pads(scene)
+      self%per_mass = reshape([(self%pads(i)%inverse_masses(), i=1, size(self%pads))], [2, 2, size(self%pads)])
+      self%clearance = scene%bearing%assembled_clearance
+      call make_friction(scene, self%friction)
+      self%asperities = new_asperities(scene)
+   end subroutine set_parts
+end module bearing_parts
