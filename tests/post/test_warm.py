@@ -1,0 +1,157 @@
+"""Warm oil: temperatures in results, studies, pictures and reports, and where the heat goes."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+import tiltpad as package
+from tiltpad import command, figures, summary
+from tiltpad.files.read import WARM
+
+pytestmark = pytest.mark.usefixtures("closed_figures")
+
+#: Three pads, the last of which has no neighbour near; one speed is beyond what is compared.
+CASE = """&operation duration=0.01 /
+&oil grade=46, supply_temperature=45 /
+&thermal model='pad' /
+&pads pivot_angle_deg=-45,225,90, arc_deg=60, motion='tilting_only' /
+"""
+SPEEDS = (2000, 4000, 8000)
+
+
+@pytest.fixture(scope="module")
+def folder(tiltpad, tmp_path_factory):
+    """A march, a sweep of equilibria over the speed, and its study."""
+    folder = tmp_path_factory.mktemp("warm")
+    (folder / "warm.nml").write_text(CASE)
+    sweep = "sweep%operation%speed_rpm=" + ",".join(map(str, SPEEDS))
+    for words in (
+        ("warm.nml", "--set", "operation%speed_rpm=4000"),
+        ("warm.nml", "--quiet", "--set", "case%task=equilibrium", "--set", sweep, "--output", "speeds"),
+    ):
+        done = tiltpad(*words, cwd=folder)
+        assert done.returncode == 0, done.stderr
+        if "--quiet" not in words:
+            (folder / "said").write_text(done.stdout)
+    package.collect(folder / "speeds", folder / "speeds.h5")
+    return folder
+
+
+@pytest.fixture
+def march(folder, opened):
+    return opened(folder / "warm.h5")
+
+
+@pytest.fixture(scope="module")
+def study(folder):
+    with package.read_study(folder / "speeds.h5") as study:
+        yield study
+
+
+def test_names_dimensions_and_units(march):
+    for name, dimensions in WARM.items():
+        full = f"equilibrium/{name}"
+        assert march[full].shape == ((3,) if dimensions else ())
+        assert march.about(full, "units") == ("Pa s" if name == "viscosity" else "degC")
+        assert len(march.about(full, "long_name")) > 3
+
+
+def test_the_oil_warms_and_thins(march):
+    e, oil = march.equilibrium, march.input["oil"]
+    assert (e["inlet_temperature"] > 45).any(), "a neighbour's oil"
+    # the last pad has no pad upstream within the widest gap
+    assert e["inlet_temperature"][2] == 45
+    assert (e["outlet_temperature"] > e["inlet_temperature"]).all()
+    assert (e["maximum_temperature"] >= e["outlet_temperature"]).all()
+    # Walther's law through the points of the grade, by hand
+    points = np.log10(np.log10(np.array([46.0, 6.7617]) + 0.7))
+    place = np.log10(np.array([*oil["at_temperature"]]) + 273.15)
+    slope = np.diff(points)[0] / np.diff(place)[0]
+    line = points[0] + slope * (np.log10(e["mean_temperature"] + 273.15) - place[0])
+    np.testing.assert_allclose(e["viscosity"], 860e-6 * (10**10**line - 0.7), rtol=1e-9)
+
+
+def test_heat_is_conserved(march):
+    """What a film makes goes to oil and shaft; a shaft of its own temperature takes none on the whole."""
+    found, e = package.heat_balance(march), march.equilibrium
+    np.testing.assert_array_equal(found.made, e["power_loss"])
+    assert abs(found.to_shaft.sum()) < 1e-8 * found.made.sum()
+    warmer = e["mean_temperature"] > e["shaft_temperature"]
+    np.testing.assert_array_equal(found.to_shaft > 0, warmer)
+    assert 0 < warmer.sum() < 3
+
+
+def test_films_have_the_viscosities_of_the_equilibrium(march):
+    """Losses and films by the library start the march as its equilibrium says."""
+    e, series = march.equilibrium, package.losses(march, last=10)
+    np.testing.assert_allclose(series.power[0], e["power_loss"], rtol=1e-9)
+    np.testing.assert_allclose(package.pressure(march).max_pressure, e["max_pressure"], rtol=1e-3)
+
+
+def test_the_summary_says_it(folder, march, tiltpad):
+    said, e = (folder / "said").read_text(), march.equilibrium
+    assert f"mean {e['mean_temperature'][1]:.1f} C, {1e3 * e['viscosity'][1]:.2f} mPa s" in said
+    assert f"shaft at {e['shaft_temperature']:.1f} C" in said
+    assert "above 35 m/s" not in said
+    check = tiltpad("--check", folder / "warm.nml", "--set", "operation%speed_rpm=8000").stdout
+    assert "note: surface speed 41.8 m/s: above 35 m/s" in check
+
+
+def test_a_study_has_them(study):
+    assert study.pad_equilibrium_mean_temperature.shape == (3, 3)
+    assert (np.diff(study.equilibrium_maximum_temperature) > 0).all()
+    hottest = study.pad_equilibrium_maximum_temperature.max(axis=1)
+    np.testing.assert_array_equal(study.equilibrium_maximum_temperature, hottest)
+    assert study.about("equilibrium_drain_temperature", "units") == "degC"
+    fig = figures.study(study, show="pad_equilibrium_viscosity", pad=2)
+    assert fig.axes[0].get_ylabel().replace("\n", " ") == "viscosity at equilibrium, pad 2 (mPa s)"
+
+
+def test_a_picture_over_the_speed(study):
+    upper, lower = figures.temperatures([study]).axes
+    np.testing.assert_array_equal(upper.lines[0].get_xdata(), SPEEDS)
+    np.testing.assert_array_equal(upper.lines[2].get_ydata(), study.pad_equilibrium_maximum_temperature[:, 1])
+    np.testing.assert_allclose(lower.lines[2].get_ydata(), 1e3 * study.pad_equilibrium_viscosity[:, 2])
+    plt.close("all")
+    assert len(figures.temperatures([study], pad=2).axes[1].lines) == 1
+    with pytest.raises(ValueError, match="no pad 4: 1 to 3"):
+        figures.temperatures([study], pad=4)
+
+
+def test_a_picture_of_a_result(march):
+    left, right = figures.temperatures([march]).axes
+    drawn = {line.get_label(): line.get_ydata() for line in left.lines}
+    np.testing.assert_array_equal(drawn["outlet"], march["equilibrium/outlet_temperature"])
+    assert drawn["supply"][0] == 45
+    heights = [bar.get_height() for bar in right.patches]
+    np.testing.assert_allclose(np.sum(heights[:3]), np.sum(heights[3:]), rtol=1e-8)
+
+
+def test_key_figures(march):
+    assert "drain temperature" in [each.text for each in summary.journal(march)]
+    rows = {each.text: each.value for each in summary.pads(march)}
+    np.testing.assert_array_equal(rows["viscosity of the film"], march["equilibrium/viscosity"])
+
+
+@pytest.mark.parametrize("scene", ["none", "equilibrium"])
+def test_a_run_without_them_says_why(run, scene):
+    with pytest.raises(package.NotInRunError, match=r"no heat balance \(thermal%model = 'none'\)"):
+        figures.temperatures([run(scene)])
+    assert not [each for each in summary.pads(run(scene)) if each.quantity == "temperature"]
+
+
+def test_a_run_of_an_earlier_program_says_why(changed, opened):
+    def without_groups(file):
+        text = file.attrs["input"]
+        start, end = text.index("&thermal"), text.index("&pads")
+        file.attrs["input"] = text[:start] + text[end:]
+
+    with pytest.raises(package.NotInRunError, match="no heat balance"):
+        package.heat_balance(opened(changed("none", without_groups)))
+
+
+def test_the_command(folder, capsys):
+    assert command.main(["temperatures", f"{folder}/speeds.h5", "--last", "2"]) == 1
+    assert "--last: not for the plot temperatures" in capsys.readouterr().err
+    picture = folder / "picture.svg"
+    assert command.main(["temperatures", f"{folder}/speeds.h5", "--pad", "1", "-o", f"{picture}"]) == 0
+    assert picture.stat().st_size > 1000
