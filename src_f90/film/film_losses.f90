@@ -193,11 +193,13 @@ contains
       type(film_response), intent(in) :: modal
       type(driven_film), intent(inout) :: driven
       type(film_loss), intent(inout) :: loss
+      type(direct_film_type) :: volumes(2)
       type(volume_flow_type) :: whole(2), ruptured(2)
       real(wp) :: c
       integer :: k, status
       do k = 1, 2
-         call by_volumes(self, self%rows*k/2, motion, speed, whole(k), ruptured(k), status)
+         volumes(k) = new_following_film(self%gap, motion, speed, k*(self%rows/2))
+         call by_volumes(self, volumes(:k), motion, speed, whole(k), ruptured(k), status)
          loss%status = max(loss%status, status)
       end do
       c = share_of_modes(self%gap%cavitation_pressure, modal)
@@ -212,27 +214,27 @@ contains
       end associate
    end subroutine add_rupture
 
-   !> The film on volumes that follow it, without and with rupture.
-   subroutine by_volumes(self, rows, motion, speed, whole, ruptured, status)
+   !> The film on the last of these volumes that follow it, without and with rupture; in the film before, if there is
+   !> one, rupture was found already.
+   subroutine by_volumes(self, volumes, motion, speed, whole, ruptured, status)
       class(film_losses_type), intent(in) :: self
-      integer, intent(in) :: rows
+      type(direct_film_type), intent(inout) :: volumes(:)
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
       type(volume_flow_type), intent(out) :: whole, ruptured
       integer, intent(out) :: status
-      type(direct_film_type) :: volumes
       type(film_grid_type) :: grid
       type(film_response) :: response
       type(film_counters) :: counters
       real(wp), allocatable :: pressure(:, :), film(:, :)
-      associate (surface => speed*self%gap%journal_radius)
-         volumes = new_following_film(self%gap, motion, speed, rows)
-         call volumes%evaluate(motion, speed, .false., .false., counters, response)
-         call volumes%cells(grid, pressure, film)
+      associate (surface => speed*self%gap%journal_radius, finest => volumes(size(volumes)))
+         call finest%evaluate(motion, speed, .false., .false., counters, response)
+         call finest%cells(grid, pressure, film)
          whole = flows_of_volumes(grid, surface, pressure, film > 0)
          if (self%reynolds) then
-            call volumes%evaluate(motion, speed, .true., .false., counters, response)
-            call volumes%cells(grid, pressure, film)
+            if (size(volumes) > 1) call finest%start_from(volumes(1))
+            call finest%evaluate(motion, speed, .true., .false., counters, response)
+            call finest%cells(grid, pressure, film)
             ruptured = flows_of_volumes(grid, surface, pressure, film > 0)
          else
             ruptured = flows_of_volumes(grid, surface, pressure, pressure > 0)
