@@ -415,8 +415,10 @@ docs: run
 	@{ cat docs/inputs_head.md; $(B)/bin/tiltpad --reference; } > docs/inputs.md
 	$(venv_python) docs/api.py > build/api.md && mv build/api.md docs/
 	$(venv_python) docs/gallery.py $(B)/bin/tiltpad build/gallery
+	$(venv_python) docs/examples.py $(B)/bin/tiltpad build/examples
 	@mkdir -p docs/images
 	cp build/run/*.png docs/images/
+	$(venv_python) docs/model_picture.py docs/images/model.png
 	$(venv_python) docs/cells.py build/run/steady_lugre.h5 docs/images/cells.png
 	$(venv_python) docs/verify.py $(B)/bin/tiltpad > build/verification.md && mv build/verification.md docs/
 

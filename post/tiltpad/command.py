@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from tiltpad.calculate.library import LibraryError, MissingLibraryError
 from tiltpad.calculate.selection import ArgumentError
@@ -16,7 +16,7 @@ from tiltpad.calculate.tables import write_coefficients
 from tiltpad.collect.collect import MemberWarning
 from tiltpad.collect.collect import collect as collected
 from tiltpad.files.archive import NotInRunError, RunError, meant
-from tiltpad.files.read import IncompleteRunWarning, read
+from tiltpad.files.read import IncompleteRunWarning, Run, read
 from tiltpad.files.study import Study, read_either, read_study
 from tiltpad.running import resolved
 
@@ -80,8 +80,8 @@ PLOTS = {
 class Parser(argparse.ArgumentParser):
     """One line and the program's own exit status for a wrong command line."""
 
-    def error(self, message: str) -> None:
-        self.exit(complain(self.prog, f"{message}; see {self.prog} --help", INPUT_ERROR))
+    def error(self, message: str) -> NoReturn:
+        sys.exit(complain(self.prog, f"{message}; see {self.prog} --help", INPUT_ERROR))
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -173,10 +173,11 @@ def draw(options: argparse.Namespace, output: Path) -> None:
 
     with ExitStack() as stack:
         either = options.plot in OF_EITHER
-        runs = [stack.enter_context(read_either(path) if either else read(path)) for path in options.files]
+        opened: Callable[[str], Run | Study] = read_either if either else read
+        runs = [stack.enter_context(opened(path)) for path in options.files]
         stack.enter_context(mpl.style.context(plots.STYLE))
         if options.pad is not None and not either:
-            figures.shown_pads(runs, options.pad)
+            figures.shown_pads([run for run in runs if isinstance(run, Run)], options.pad)
         own = (name for name, plots_with in OWN_OPTIONS.items() if options.plot in plots_with)
         more = {name: getattr(options, name) for name in own if getattr(options, name) is not None}
         if either:

@@ -1,6 +1,7 @@
 """The API reference is that of this package."""
 
 import inspect
+import re
 import subprocess
 import sys
 
@@ -27,3 +28,25 @@ def test_every_picture_is_a_plot_of_the_command(root):
 
     alone = {command.STUDY, command.BEARING, command.MOVIE}
     assert set(command.PLOTS) - alone == set(figures.FIGURES) == set(report.PICTURES)
+
+
+def test_the_worked_examples(root, program, tmp_path):
+    """Their cases are good, their plots and pictures are there; `make docs` runs them."""
+    from tiltpad import command
+
+    page = (root / "docs/examples.md").read_text()
+    lines = [line for block in re.findall(r"```sh\n(.*?)```", page, re.DOTALL) for line in block.splitlines()]
+    assert len(lines) > 10
+    for line in lines:
+        name, *words = line.split()
+        if name == "tiltpad":
+            checked = [
+                word for word in words if word != "--output" and "/" in word or "%" in word or word == "--set"
+            ]
+            done = subprocess.run([program, "--check", *checked], cwd=root, text=True, capture_output=True)
+            assert (done.returncode, done.stderr) == (0, ""), line
+        elif name == "tiltpad-plot":
+            options = command.plot_parser().parse_args(words)
+            assert options.output.endswith(".csv") or f"](images/{options.output})" in page
+    for picture in re.findall(r"\]\((images/[\w.]+)\)", page):
+        assert (root / "docs" / picture).exists()

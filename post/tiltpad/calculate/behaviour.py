@@ -74,7 +74,7 @@ def of_pads(run: Run, last: float = LAST) -> list[Behaviour]:
     touching = run.values("asperity_force", part) > 0 if rubs else np.zeros((1, run.pads), bool)
     if "pad_tilt" not in run and run.samples:
         return [
-            Behaviour(i + 1, *3 * [np.nan], share, *2 * [np.nan], False)
+            Behaviour(i + 1, np.nan, np.nan, np.nan, share, np.nan, np.nan, False)
             for i, share in enumerate(touching.mean(axis=0))
         ]
     force, tilt = run.values("contact_force", part), run.values("pad_tilt", part)
@@ -91,8 +91,10 @@ def of_pads(run: Run, last: float = LAST) -> list[Behaviour]:
             order, amplitude = dominant(tilt[:, i], turns)
         flutters = bool(amplitude > visible[i] and abs(order - round(order)) > OFF_WHOLE)
         share = load[i] / max(load.sum(), np.finfo(float).tiny)
-        shares = map(float, (load[i], share, (force[:, i] <= 0).mean(), touching[:, i].mean()))
-        found.append(Behaviour(i + 1, *shares, order, amplitude, flutters))
+        lifted, rubbing = float((force[:, i] <= 0).mean()), float(touching[:, i].mean())
+        found.append(
+            Behaviour(i + 1, float(load[i]), float(share), lifted, rubbing, order, amplitude, flutters)
+        )
     return found
 
 

@@ -87,9 +87,10 @@ def coefficients(
 
 def at_frequencies(found: Series, frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Coefficients at whirl frequencies in rad/s, (member, frequency): (member, frequency, row, column)."""
-    matrices = [found.values[name] for name in ("full_stiffness", "full_damping", "full_mass")]
-    each = [condensed(*one, at) for *one, at in zip(*matrices, frequency, strict=True)]
-    return tuple(np.stack(values) for values in zip(*each, strict=True))
+    matrices = (found.values[name] for name in ("full_stiffness", "full_damping", "full_mass"))
+    each = [condensed(k, c, m, at) for k, c, m, at in zip(*matrices, frequency, strict=True)]
+    stiffness, damping = zip(*each, strict=True)
+    return np.stack(stiffness), np.stack(damping)
 
 
 def condensed(

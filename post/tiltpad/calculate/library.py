@@ -146,7 +146,7 @@ def losses(run: Run, last: float = 1) -> Losses:
     def motion(name: str) -> np.ndarray:
         values = [run.values(each, part) if each in run else still for each in (name, f"{name}_rate")]
         # the library counts samples last
-        return np.moveaxis(values, 1, -1)
+        return np.moveaxis(np.array(values), 1, -1)
 
     states = motion("pad_tilt"), motion("pad_penetration")
     (found,) = called("power_losses", run, viscosity(run), time, np.array(journal), *states)

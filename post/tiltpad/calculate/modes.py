@@ -56,13 +56,15 @@ def modes(
     values["shape"] = values["shape_real"] + 1j * values["shape_imag"]
     order = tracked(values["eigenvalue"], values["shape"])
     names = ("eigenvalue", "frequency", "damping_ratio", "log_decrement")
-    own = [np.take_along_axis(values[name], order, axis=1) for name in names]
+    own: list[Any] = [np.take_along_axis(values[name], order, axis=1) for name in names]
     own.append(np.take_along_axis(values["shape"], order[:, :, None], axis=1))
     threshold = values.get("threshold_rpm", np.full(len(found.speed_rpm), np.nan))
     if isinstance(source, Run):
-        own = [each[0] for each in own]
-        return Modes(found.pivot, found.speed_rpm[0], *own, source["position_row"], threshold[0], {})
-    return Modes(found.pivot, found.speed_rpm, *own, source["position_row"], threshold, found.parameters)
+        first = [each[0] for each in (found.speed_rpm, *own)]
+        return Modes._make((found.pivot, *first, source["position_row"], threshold[0], {}))
+    return Modes._make(
+        (found.pivot, found.speed_rpm, *own, source["position_row"], threshold, found.parameters)
+    )
 
 
 def tracked(eigenvalue: np.ndarray, shape: np.ndarray) -> np.ndarray:

@@ -162,8 +162,9 @@ def peaks_of(direction: str, way: np.ndarray, speed: np.ndarray, amplitude: np.n
     for top in tops:
         sides = (slice(top, None, -1), slice(top, None))
         edges = [half_power(speed[side], amplitude[side]) for side in sides]
-        if None not in edges:
-            low, high = sorted(edges)
+        known = [each for each in edges if each is not None]
+        if len(known) == len(edges):
+            low, high = sorted(known)
             found.append(Peak(direction, *map(float, (speed[top], amplitude[top], low, high))))
     return found
 

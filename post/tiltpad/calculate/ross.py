@@ -70,7 +70,7 @@ def to_ross(
 
 def tables(found: Series, whirl: np.ndarray, over: str) -> dict[str, np.ndarray]:
     """ROSS's kxx, ... cyy: (speed,), (frequency,) or (speed, frequency)."""
-    part = {"speed": (slice(None), 0), "frequency": 0, "both": ()}[over]
+    part: Any = {"speed": (slice(None), 0), "frequency": 0, "both": ()}[over]
     return {
         letter + name: sign * values[..., row, column][part]
         for letter, values in zip("kc", at_frequencies(found, whirl), strict=True)

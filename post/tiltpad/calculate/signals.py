@@ -163,7 +163,8 @@ def poincare(
 def edges(run: Run, angles: np.ndarray) -> np.ndarray:
     """For each shaft angle (n,), rad, the first sample at or beyond it, (n,); the file is read in blocks."""
     blocks = (slice(start, start + BLOCK) for start in range(0, run.samples, BLOCK))
-    return sum(np.searchsorted(run.values("shaft_angle", block), angles) for block in blocks)
+    found = [np.searchsorted(run.values("shaft_angle", block), angles) for block in blocks]
+    return np.sum(found, axis=0)
 
 
 def envelope(run: Run, name: str, spans: int = 800) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

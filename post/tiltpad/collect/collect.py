@@ -157,19 +157,16 @@ def check_marks(readable: Sequence[Member]) -> None:
     Members of sweeps of one size have the checksum of all members in common. A sweep that has grown has the
     checksum of the smaller one at its last member.
     """
-    marked = [each for each in readable if each.marks]
-    by_number = {each.number: each for each in marked}
-    whole: dict[int, Member] = {}
-    for each in marked:
-        before, _, of_all = each.marks
-        first = whole.setdefault(each.members, each)
-        earlier, last = by_number.get(each.number - 1), by_number.get(each.members)
-        for other, fits in (
-            (first, first.marks[2] == of_all),
-            (earlier, not earlier or earlier.marks[1] == before),
-            (last, not last or last.marks[1] == of_all),
-        ):
-            if not fits:
+    marked = [(each, each.number or 0, each.members or 0, each.marks) for each in readable if each.marks]
+    marks = {number: (each, own) for each, number, _, own in marked}
+    whole: dict[int, tuple[Member, str]] = {}
+    for each, number, members, (before, _, of_all) in marked:
+        others = [(*whole.setdefault(members, (each, of_all)), of_all)]
+        for beside, expected in ((number - 1, before), (members, of_all)):
+            if beside in marks:
+                others.append((marks[beside][0], marks[beside][1][1], expected))
+        for other, found, expected in others:
+            if found != expected:
                 raise ValueError(
                     f"{other.path} and {each.path}: members of two sweeps; run one of them into another "
                     "folder, or with --overwrite"
@@ -186,10 +183,10 @@ def numbered(members: Sequence[Member]) -> list[Member]:
     if not any(each.members for each in members):
         return [each._replace(number=k) for k, each in enumerate(members, 1)]
     known = {each.number for each in members if each.input}
-    free = max(known) + 1
+    free = max(each.number or 0 for each in members if each.input) + 1
     found = []
     for each in members:
         if not each.input and (each.number is None or each.number in known):
             each, free = each._replace(number=free), free + 1
         found.append(each)
-    return sorted(found, key=lambda each: each.number)
+    return sorted(found, key=lambda each: each.number or 0)

@@ -35,7 +35,7 @@ class Member(NamedTuple):
         members, sweep    members of the whole sweep, and its own swept values by variable
         marks             checksums of the sweep: up to the member before, up to this one, of all; None where
                           they are not known
-        input             resolved namelist, None where the file cannot be read
+        input             resolved namelist, empty where the file cannot be read
         origin            version, title and input text
         values            results by names of tiltpad.files.study, with their dimensions less the member
         labels            values of its dimensions, where they are not counted from 1
@@ -47,13 +47,13 @@ class Member(NamedTuple):
     status: float
     reason: str
     members: int | None = None
-    sweep: dict[str, Any] | None = None
+    sweep: dict[str, Any] = {}
     marks: tuple[str, str, str] | None = None
-    input: dict[str, dict[str, Any]] | None = None
-    origin: dict[str, str] | None = None
-    values: dict[str, Any] | None = None
-    labels: dict[str, Sequence[Any]] | None = None
-    cost: dict[str, float] | None = None
+    input: dict[str, dict[str, Any]] = {}
+    origin: dict[str, str] = {}
+    values: dict[str, Any] = {}
+    labels: dict[str, Sequence[Any]] = {}
+    cost: dict[str, float] = {}
 
 
 def member(path: Path) -> Member:
@@ -85,7 +85,7 @@ def measured(path: Path, run: Run) -> Member:
     if not complete and status == DONE:
         status = UNENDED[0]
     reason = f"{attributes.get('reason', '')}" if status != DONE else ""
-    values = {
+    values: dict[str, Any] = {
         "complete": float(complete),
         "time_reached": float(run.values("time", -1)) if run.samples else 0.0,
     }
@@ -153,7 +153,7 @@ def vibrations(run: Run) -> dict[str, Any]:
     """Coefficients and modes; of a run without equilibrium only the speed."""
     if run.task != "coefficients":
         raise NotInRunError(f"{run.path}: no coefficients in this run")
-    values = {"speed": run.input["operation"]["speed_rpm"] * np.pi / 30}
+    values: dict[str, Any] = {"speed": run.input["operation"]["speed_rpm"] * np.pi / 30}
     with suppress(NotInRunError):
         values |= {
             name: run[f"coefficients/{name}"] for name in run.names("coefficients") if name in QUANTITIES

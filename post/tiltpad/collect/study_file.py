@@ -47,9 +47,7 @@ def fill(file: h5py.File, members: Sequence[Member], missing: Sequence[int], fol
     else:
         own = differing([each.input for each in readable])
         known = {each.path: values for each, values in zip(readable, own, strict=True)}
-    taken = {*MEMBER, *DIMENSIONS, *TEXTS, "members", *QUANTITIES}.union(
-        *(each.cost or {} for each in members)
-    )
+    taken = {*MEMBER, *DIMENSIONS, *TEXTS, "members", *QUANTITIES}.union(*(each.cost for each in members))
     found = parameters([known.get(each.path) for each in members], taken)
     titles = {each.origin["title"] for each in readable}
     file.attrs.update(
@@ -69,11 +67,11 @@ def fill(file: h5py.File, members: Sequence[Member], missing: Sequence[int], fol
     )
     labels = scales(file, members)
     coordinates = " ".join(each.name for each in found)
-    for each in found:
-        put(file, each.name, each.values, MEMBER, each.units, each.long_name)
+    for one in found:
+        put(file, one.name, one.values, MEMBER, one.units, one.long_name)
     paths = [os.path.relpath(each.path.resolve(), folder) for each in members]
-    for name, values in (("reason", [each.reason for each in members]), ("file", paths)):
-        put(file, name, values, MEMBER, "", TEXTS[name], coordinates)
+    for name, texts in (("reason", [each.reason for each in members]), ("file", paths)):
+        put(file, name, texts, MEMBER, "", TEXTS[name], coordinates)
     for name, quantity, values in tables(members, labels):
         put(file, name, values, quantity.dimensions, quantity.units, quantity.long_name, coordinates)
     links = file.create_group("members")
@@ -89,18 +87,18 @@ def scales(file: h5py.File, members: Sequence[Member]) -> dict[str, list[Any]]:
     """
     labels: dict[str, dict[Any, None]] = {name: {} for name in DIMENSIONS}
     for each in members:
-        for name, values in (each.values or {}).items():
+        for name, values in each.values.items():
             for dimension, size in zip(QUANTITIES[name].dimensions[1:], np.shape(values), strict=True):
                 labels[dimension].update(dict.fromkeys(own_labels(each, dimension, size)))
         if each.input:
             labels["pad"].update(dict.fromkeys(range(1, count(each.input["pads"]["pivot_angle_deg"]) + 1)))
     found = {name: in_order(name, list(values)) for name, values in labels.items() if values}
     numbers = [each.number for each in members]
-    for name, values in ({"member": numbers} | found).items():
-        if isinstance(values[0], str):
-            file.create_dataset(name, data=values, dtype=h5py.string_dtype())
+    for name, own in ({"member": numbers} | found).items():
+        if isinstance(own[0], str):
+            file.create_dataset(name, data=own, dtype=h5py.string_dtype())
         else:
-            file[name] = np.array(values)
+            file[name] = np.array(own)
         file[name].make_scale(name)
         meaning = DIMENSIONS.get(name, "number of the member")
         file[name].attrs.update({"units": "1", "long_name": meaning})
@@ -109,7 +107,7 @@ def scales(file: h5py.File, members: Sequence[Member]) -> dict[str, list[Any]]:
 
 def own_labels(one: Member, dimension: str, size: int) -> Sequence[Any]:
     """What a member's values along a dimension belong to; numbers from 1 where it has no labels."""
-    return (one.labels or {}).get(dimension, range(1, size + 1))
+    return one.labels.get(dimension, range(1, size + 1))
 
 
 def in_order(name: str, values: list[Any]) -> list[Any]:
@@ -123,7 +121,7 @@ def tables(
     """Name, meaning and array of every quantity that a member has; nan for members that do not have it."""
     yield "status", QUANTITIES["status"], np.array([each.status for each in members], dtype=float)
     for name, quantity in QUANTITIES.items():
-        having = [each for each in members if name in (each.values or {})]
+        having = [each for each in members if name in each.values]
         if having:
             group = "coefficients" if name in COEFFICIENTS else "modes"
             about = quantity if quantity.units else meaning(having[0].path, f"{group}/{name}")
@@ -132,7 +130,7 @@ def tables(
     measured = [each for each in members if each.cost]
     for name in dict.fromkeys(name for each in measured for name in each.cost):
         first = next(each for each in measured if name in each.cost)
-        values = np.array([(each.cost or {}).get(name, np.nan) for each in members])
+        values = np.array([each.cost.get(name, np.nan) for each in members])
         yield name, meaning(first.path, f"statistics/{name}"), values
 
 
@@ -150,13 +148,14 @@ def placed(
     places = {each: {label: k for k, label in enumerate(labels[each])} for each in dimensions}
     table = np.full((len(members), *map(len, places.values())), np.nan)
     for k, each in enumerate(members):
-        if name in (each.values or {}):
+        if name in each.values:
             values = np.asarray(each.values[name], dtype=float)
             part = [
                 [places[dimension][label] for label in own_labels(each, dimension, size)]
                 for dimension, size in zip(dimensions, values.shape, strict=True)
             ]
-            table[(k, *np.ix_(*part))] = values
+            place: Any = (k, *np.ix_(*part))
+            table[place] = values
     return table
 
 
@@ -174,7 +173,7 @@ def ranges(numbers: Sequence[int]) -> str:
 def put(
     file: h5py.File,
     name: str,
-    values: Sequence[Any],
+    values: Sequence[Any] | np.ndarray,
     dimensions: Sequence[str],
     units: str,
     long_name: str,
@@ -182,8 +181,8 @@ def put(
 ) -> None:
     """A dataset along its dimension scales, with the attributes of the CF conventions."""
     if isinstance(values[0], str):
-        values = np.array([plain(each) for each in values], dtype=h5py.string_dtype())
-    dataset = file.create_dataset(name, data=values)
+        texts = np.array([plain(each) for each in values], dtype=h5py.string_dtype())
+    dataset = file.create_dataset(name, data=texts if isinstance(values[0], str) else values)
     for axis, dimension in enumerate(dimensions):
         dataset.dims[axis].attach_scale(file[dimension])
     attributes = {"units": units, "long_name": long_name, "coordinates": coordinates}

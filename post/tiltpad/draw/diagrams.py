@@ -258,7 +258,7 @@ def grouped(study: Study, others: Sequence[str], chosen: np.ndarray) -> list[tup
     found: dict[tuple, list[int]] = {}
     for k in np.flatnonzero(chosen):
         if all(value == value and value != "" for value in keys[k]):
-            found.setdefault(keys[k], []).append(k)
+            found.setdefault(keys[k], []).append(int(k))
     rank = {name: distinct(study[name]) for name in others}
     keys = sorted(found, key=lambda key: [rank[name].index(v) for name, v in zip(others, key, strict=True)])
     return [(", ".join(map(written, key)), np.array(found[key])) for key in keys]

@@ -4,7 +4,7 @@ import textwrap
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from functools import wraps
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
@@ -20,6 +20,7 @@ from tiltpad.calculate import differences, signals
 from tiltpad.files.read import Run, needs_run
 from tiltpad.files.study import Study
 
+Name = TypeVar("Name", bound=Hashable)
 COLUMN, PAGE = 3.35, 6.9  # widths in a paper, inches
 LONGEST_LABEL = 90  # characters
 #: Dashes of the parts of runs; no bearing of practice has more pads.
@@ -196,7 +197,7 @@ def with_pad(runs: Sequence[Run], pad: int) -> Iterable[tuple[int, Run]]:
     return [(i, run) for i, run in enumerate(runs) if pad <= run.pads]
 
 
-def stacked(names: Sequence[Hashable]) -> tuple[Figure, dict[Hashable, Axes]]:
+def stacked(names: Sequence[Name]) -> tuple[Figure, dict[Name, Axes]]:
     """Panels above each other, one for each dataset, with one horizontal axis."""
     fig = plt.figure(figsize=(COLUMN, 0.6 + 1.2 * len(names)))
     panels = fig.subplots(len(names), 1, sharex=True)

@@ -52,7 +52,7 @@ def on_axes(draw: Callable[..., Axes]) -> Callable[..., Axes]:
 
     parameters = signature(draw).parameters.values()
     optional = [each.replace(default=None) if each.name == "ax" else each for each in parameters]
-    drawn.__signature__ = signature(draw).replace(parameters=optional)
+    vars(drawn)["__signature__"] = signature(draw).replace(parameters=optional)
     return drawn
 
 

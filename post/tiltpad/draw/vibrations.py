@@ -42,14 +42,14 @@ class Part(NamedTuple):
     source    result or study
     pivot     of which pivots
     where     values of the study's parameters
-    over      parameter along the axis; None for a result
+    over      parameter along the axis; empty for a result
     """
 
     text: str
     source: Run | Study
-    pivot: str
+    pivot: str | None
     where: dict[str, Any]
-    over: str | None
+    over: str
 
 
 @of_several
@@ -90,7 +90,7 @@ def coefficient_lines(found: Sequence[Part]) -> Iterator[tuple[str, np.ndarray, 
             yield one.text, own.frequency_ratio, own
             continue
         order = np.argsort(own.parameters[one.over], kind="stable")
-        ratios = range(len(own.frequency_ratio))
+        ratios = list(range(len(own.frequency_ratio)))
         if len(found) > 1 or len(ratios) > MOST:
             ratios = [int(np.argmin(np.abs(own.frequency_ratio - 1)))]
         for k in ratios:
@@ -114,7 +114,7 @@ def stability(
     fig = plt.figure(figsize=(COLUMN, 4.2))
     panels = fig.subplots(2, 1, sharex=True)
     for color, one in enumerate(found):
-        own = modes(one.source, one.pivot, one.where or None, one.over)
+        own = modes(one.source, one.pivot, one.where or None, one.over or None)
         single = isinstance(one.source, Run)
         x = own.frequency if single else own.parameters[one.over]
         for ax, name in zip(panels, ("damping_ratio", "log_decrement"), strict=True):
@@ -160,7 +160,7 @@ def mark_thresholds(panels: Sequence[Axes], own: Modes, color: str) -> None:
 
 def show_from_zero(ax: Axes, bottom: float, top: float) -> None:
     """Lets the axis reach from 0 or the lowest value to the highest, within these; marks what is unstable."""
-    values = np.concatenate([np.asarray(each.get_ydata(), float) for each in ax.get_lines()] or [[]])
+    values = np.concatenate([np.asarray(each.get_ydata(), float) for each in ax.get_lines()] or [np.zeros(0)])
     values = values[np.isfinite(values)]
     low, high = max(np.min(values, initial=0), bottom), np.max(values, initial=0)
     end = 1.05 * high if high < top else top
@@ -210,7 +210,7 @@ def campbell(
     for order, dashes in ((1, "-"), (0.5, "--")):
         ax.plot(ends, order * ends / 60, dashes, color="0.3", linewidth=0.8, zorder=0)
     ax.set(xlim=ends, ylim=(0, top), xlabel=SHOWN["speed"].label, ylabel=SHOWN["frequency"].label)
-    mark = {"linestyle": "", "color": "0.3", "markersize": 4}
+    mark: dict[str, Any] = {"linestyle": "", "color": "0.3", "markersize": 4}
     marks = [
         ("forward", mark | {"marker": "^"}),
         ("backward", mark | {"marker": "v"}),
@@ -260,9 +260,11 @@ def parts(
     found = []
     for source, name in zip(sources, labels(sources) if len(sources) > 1 else [""], strict=True):
         if pivot is not None:
-            pivots = [pivot]
+            pivots: list[str | None] = [pivot]
         else:
-            everyone = [str(each) for each in source["pivot"]] if "pivot" in source else [None]
+            everyone: list[str | None] = (
+                [str(each) for each in source["pivot"]] if "pivot" in source else [None]
+            )
             pivots = everyone if isinstance(source, Run) else everyone[:1]
         for own, (text, kept, along) in product(pivots, groups(source, over, dict(where or {}))):
             words = (name, own if len(pivots) > 1 else "", text)
@@ -274,10 +276,10 @@ def parts(
 
 def groups(
     source: Run | Study, over: str | None, where: dict[str, Any]
-) -> list[tuple[str, dict[str, Any], str | None]]:
+) -> list[tuple[str, dict[str, Any], str]]:
     """Name and values of every combination of the parameters that are not along the axis, and that one."""
     if isinstance(source, Run):
-        return [("", where, None)]
+        return [("", where, "")]
     chosen = selected(source, where)
     several = [name for name in source.parameters if len(distinct(source[name][chosen])) > 1]
     along = axis_of(source, over, where)

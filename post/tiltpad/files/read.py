@@ -281,12 +281,10 @@ class Run(Archive):
 def needs_run(given: object) -> None:
     """Raises TypeError where something else was given than an opened result."""
     if not isinstance(given, Run):
-        file = isinstance(given, str | os.PathLike)
-        raise TypeError(
-            f"a result is needed, and {given!r} is a file: tiltpad.read({os.fspath(given)!r}) opens it"
-            if file
-            else f"a result as tiltpad.read opens it is needed, not {type(given).__name__}"
-        )
+        if isinstance(given, str | os.PathLike):
+            opens = f"tiltpad.read({os.fspath(given)!r}) opens it"
+            raise TypeError(f"a result is needed, and {given!r} is a file: {opens}")
+        raise TypeError(f"a result as tiltpad.read opens it is needed, not {type(given).__name__}")
 
 
 def of_run(function: Callable[..., Any]) -> Callable[..., Any]:
