@@ -68,7 +68,7 @@ def marched(
     overrides: Groups,
 ) -> Study:
     """The study of marches with these numbers of revolutions, without samples and with samples."""
-    own = {group: dict(values) for group, values in overrides.items()}
+    own: dict[str, Any] = {group: dict(values) for group, values in overrides.items()}
     own.setdefault("case", {})["task"] = "equilibrium"
     with run(case, **own) as first:
         speed = first.input["operation"]["speed_rpm"]

@@ -40,8 +40,8 @@ def test_every_command_of_the_tutorial_does_what_it_says(root, program, tmp_path
     for name in re.findall(r"(?<!images/)\b[\w-]+\.(?:h5|png|pdf|svg|nml)\b", text):
         assert (tmp_path / name).exists(), name
     assert (tmp_path / "mine.html").exists()
-    example = (root / "input/examples/five_pads.nml").read_text()
-    assert example.endswith((tmp_path / "five.nml").read_text())
+    for example, own in (("five_pads", "five.nml"), ("offset_preload", "bearing.nml")):
+        assert (root / f"input/examples/{example}.nml").read_text().endswith((tmp_path / own).read_text())
     same = [(tmp_path / name).stat().st_size for name in ("mine.h5", "again.h5")]
     assert same[0] == same[1]
 

@@ -182,10 +182,9 @@ def envelope(run: Run, name: str, spans: int = 800) -> tuple[np.ndarray, np.ndar
     time, low, high = (np.array(each) for each in zip(*found, strict=True))
     beside = round(COVER / (turned(run) / len(time))) // 2
     around = [slice(max(0, k - beside), k + beside + 1) for k in range(len(time))]
-    return time, *(
-        np.array([pick(each[near], axis=0) for near in around])
-        for pick, each in ((np.min, low), (np.max, high))
-    )
+    lowest = np.array([low[near].min(axis=0) for near in around])
+    highest = np.array([high[near].max(axis=0) for near in around])
+    return time, lowest, highest
 
 
 def swing(run: Run, name: str, spans: int = 400) -> tuple[np.ndarray, np.ndarray]:

@@ -52,8 +52,8 @@ def pressure(
                 continue
             plots.pressure(run, ax, time, k, film, levels=levels)
             peak = SHOWN["pressure"].factor * film.pressure[k - 1].max()
-            own = f"pad {k}: at most {digits(peak, 3)} {SHOWN['pressure'].unit}"
-            ax.set_title(own if len(runs) == 1 else f"{name}\n{own}")
+            words = f"pad {k}: at most {digits(peak, 3)} {SHOWN['pressure'].unit}"
+            ax.set_title(words if len(runs) == 1 else f"{name}\n{words}")
             used.append(ax)
         for ax in axes[len(pads) :]:
             ax.remove()

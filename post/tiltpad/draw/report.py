@@ -1,6 +1,7 @@
 """A page about a run."""
 
 from collections.abc import Iterable
+from functools import partial
 from html import escape
 from pathlib import Path
 
@@ -109,14 +110,14 @@ def peaks(run: Run) -> str:
 
 
 def key_figures(run: Run) -> str:
-    rows = [row(text, quantity, [value]) for text, quantity, value in summary.journal(run)]
+    rows = [row(text, quantity, list(np.atleast_1d(value))) for text, quantity, value in summary.journal(run)]
     return table(("journal and film", "value", "unit"), rows)
 
 
 def pad_figures(run: Run) -> str:
     head = ("pad", *(f"{pad}" for pad in range(1, run.pads + 1)), "unit")
     angles = ("pivot angle", *(f"{angle:g}" for angle in np.round(np.degrees(run.pivot_angle), 6)), "deg")
-    rows = [row(text, quantity, values) for text, quantity, values in summary.pads(run)]
+    rows = [row(text, quantity, list(np.atleast_1d(values))) for text, quantity, values in summary.pads(run)]
     note = (
         f"Last revolution; friction and sticking over the last {summary.LAST}; lifting, rubbing and dominant "
         f"order over the last {behaviour.LAST}; or over all if there are fewer."
@@ -198,7 +199,7 @@ def pictures(run: Run) -> Iterable[str]:
             continue
         pad = liveliest(run) if name == "poincare" else None
         try:
-            yield picture(name, caption, lambda name=name, pad=pad: figures.FIGURES[name]([run], None, pad))
+            yield picture(name, caption, partial(figures.FIGURES[name], [run], None, pad))
         except (NotInRunError, MissingLibraryError):
             continue
 

@@ -1,6 +1,7 @@
 """A page about a study: its members, those that failed, and curves of its key results."""
 
 from collections.abc import Iterator
+from functools import partial
 from html import escape
 from pathlib import Path
 
@@ -103,11 +104,11 @@ def curves(study: Study) -> Iterator[str]:
         if name in study and study.parameters and np.isfinite(values(study, name)).any():
             try:
                 yield picture(name, f"{SHOWN[name].text.replace('$', '')}.".capitalize(),
-                              lambda name=name: figures.study(study, name), remarks=False)  # fmt: skip
+                              partial(figures.study, study, name), remarks=False)  # fmt: skip
             except ValueError:
                 continue
     for name, caption in PICTURES.items():
         try:
-            yield picture(name, caption, lambda name=name: figures.FIGURES[name]([study]), remarks=False)
+            yield picture(name, caption, partial(figures.FIGURES[name], [study]), remarks=False)
         except (ValueError, NotInRunError):
             continue

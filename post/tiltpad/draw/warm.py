@@ -4,7 +4,7 @@ Studies are drawn over a parameter, single results as their pads.
 """
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, cast
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -38,8 +38,9 @@ def temperatures(
     where: Mapping[str, Any] | None = None,
 ) -> Figure:
     """Temperatures and viscosities over a parameter of studies; of results also the pads' heat balances."""
-    if all(isinstance(each, Run) for each in runs):
-        return of_results(runs, pad)
+    results = [each for each in runs if isinstance(each, Run)]
+    if len(results) == len(runs):
+        return of_results(results, pad)
     found = parts(runs, None, over, where)
     if len(found) > 1:
         names = "; ".join(one.text for one in found)
@@ -47,7 +48,8 @@ def temperatures(
     (one,) = found
     fig, panels = stacked(["temperature", "viscosity"])
     fig.set_figheight(4.2)
-    pads = over_parameter(one.source, one.where, one.over, pad, panels["temperature"], panels["viscosity"])
+    study = cast(Study, one.source)
+    pads = over_parameter(study, one.where, one.over, pad, panels["temperature"], panels["viscosity"])
     for name, ax in panels.items():
         ax.set_ylabel(SHOWN[name].label)
     panels["viscosity"].set(xlabel=axis_label(runs, over, where), ylim=(0, None))
