@@ -1,6 +1,7 @@
 """The API reference is that of this package."""
 
 import inspect
+import json
 import re
 import subprocess
 import sys
@@ -50,3 +51,29 @@ def test_the_worked_examples(root, program, tmp_path):
             assert options.output.endswith(".csv") or f"](images/{options.output})" in page
     for picture in re.findall(r"\]\((images/[\w.]+)\)", page):
         assert (root / "docs" / picture).exists()
+
+
+def test_the_notebook(root, program, tmp_path, monkeypatch, capsys):
+    """Its cells run one after the other, and print what the texts beside them say."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("TILTPAD", str(program))
+    cells = json.loads((root / "docs/notebook.ipynb").read_text())["cells"]
+    names: dict = {}
+    for cell in cells:
+        if cell["cell_type"] == "code":
+            exec(compile("".join(cell["source"]), cell["id"], "exec"), names)
+            assert not cell["outputs"]
+    assert names["rough"].input["friction"]["model"] == "lugre"
+    small, large = (max(tiltpad.orbit_size(names[each])) for each in ("run", "rough"))
+    assert large > 1.2 * small
+    assert names["tables"]["kyy"].shape == (4,)
+    assert len(capsys.readouterr().out.splitlines()) == 3
+    plots.plt.close("all")
+
+
+def test_the_version_is_the_same_everywhere(root):
+    places = {"Makefile": r"^VERSION := (.*)$", "post/pyproject.toml": r'^version = "(.*)"$'}
+    places["CITATION.cff"] = r"^version: (.*)$"
+    found = {re.search(each, (root / name).read_text(), re.M)[1] for name, each in places.items()}
+    assert len(found) == 1
+    assert f"## {found.pop()}" in (root / "docs/changelog.md").read_text()
