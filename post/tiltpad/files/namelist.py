@@ -13,6 +13,8 @@ ASSIGNMENT = re.compile(r"^&(?P<group>\w+)|^\s+(?P<name>\w+) = (?P<value>.*)$", 
 
 #: The group whose values are those of other variables.
 SWEEP = "sweep"
+#: Truth values as the program writes them.
+TRUTH = {".true.": True, ".false.": False}
 #: The range of no variable reaches beyond it.
 LARGEST = 1e30
 
@@ -59,10 +61,12 @@ def parse(text: str) -> dict[str, dict[str, Any]]:
     return groups
 
 
-def value_of(text: str) -> str | int | float | tuple[int | float, ...]:
-    """A text without its quotes, a number, or a tuple of numbers."""
+def value_of(text: str) -> str | bool | int | float | tuple[int | float, ...]:
+    """A text without its quotes, a truth value, a number, or a tuple of numbers."""
     if text.startswith("'"):
         return text[1:-1].replace("''", "'")
+    if text in TRUTH:
+        return TRUTH[text]
     numbers = tuple(number_of(word) for word in text.split(","))
     return numbers[0] if len(numbers) == 1 else numbers
 
