@@ -106,9 +106,9 @@ def test_a_runup_names_its_peak(made):
     speed, factor = (float(word) for word in words.replace("rpm, AF", "").split()[-2:])
     assert (speed, factor) == (pytest.approx(4040, abs=30), pytest.approx(5, rel=0.05))
     first, second = (line.get_ydata() for line in phase.get_lines())
-    np.testing.assert_allclose(first - second, 90, atol=1)
-    np.testing.assert_allclose(first, np.degrees(-1), atol=1)
-    assert "when the unbalance points along +y" in fig.get_supxlabel().replace("\n", " ")
+    np.testing.assert_allclose(second - first, 90, atol=1)
+    np.testing.assert_allclose(first, np.degrees(1), atol=1)
+    assert "from where the unbalance points along +y" in fig.get_supxlabel().replace("\n", " ")
     assert "y: peak 10." in figures.size([case]).get_supxlabel()
     assert "Peaks of the first order" in tiltpad.report.remarks(case)
 

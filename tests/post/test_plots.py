@@ -207,7 +207,7 @@ def test_orders_of_a_runup(longer):
         np.testing.assert_allclose(line.get_xdata(), speed * 30 / np.pi)
         np.testing.assert_allclose(line.get_ydata(), 1e3 * amplitude)
         ax = tiltpad.plots.order_phase(case)
-        assert ax.get_ylabel() == "phase (deg)"
+        assert ax.get_ylabel() == "phase lag (deg)"
         ax = tiltpad.plots.waterfall(case)
         assert (ax.get_xlabel(), ax.get_ylabel()) == ("speed (rpm)", "frequency (Hz)")
         assert ax.figure.axes[1].get_ylabel() == "journal $y$ (µm)"

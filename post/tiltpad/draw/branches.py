@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from tiltpad.calculate.response import DIRECTIONS, Peak
 from tiltpad.calculate.response import response as response_of
-from tiltpad.draw.layout import DASHES, heading, of_several, stacked
+from tiltpad.draw.layout import DASHES, heading, of_several, part_color, stacked
 from tiltpad.draw.vibrations import parts, title
 from tiltpad.files import units
 from tiltpad.files.read import Run
@@ -36,7 +36,11 @@ def response(
         own = response_of(one.source, one.where or None, one.over)
         dots = {"marker": "o", "markersize": 3} if len(own.values) < 30 else {}
         for k, direction in enumerate(DIRECTIONS):
-            line = {"color": f"C{k}"} if len(found) == 1 else {"color": f"C{color}", "linestyle": DASHES[k]}
+            line = (
+                {"color": f"C{k}"}
+                if len(found) == 1
+                else {"color": part_color(color, len(found)), "linestyle": DASHES[k]}
+            )
             for name, values in (
                 ("amplitude", size.factor * own.amplitude),
                 ("phase", np.degrees(own.phase)),

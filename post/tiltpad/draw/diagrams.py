@@ -21,6 +21,7 @@ from tiltpad.calculate.selection import (
     selected,
     written,
 )
+from tiltpad.draw.layout import part_color
 from tiltpad.draw.plots import on_axes
 from tiltpad.files import units
 from tiltpad.files.study import PIVOTS, POINTS, QUANTITIES, Study
@@ -98,11 +99,12 @@ def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
     at, place = axis(study, over, ax, "x")
     groups = grouped(study, others, chosen)
     too_many(groups, others)
-    for color, (text, part) in enumerate(groups):
+    for number, (text, part) in enumerate(groups):
         order = part[np.argsort(place[part], kind="stable")]
         whole = study.done[order]
         text = text if np.isfinite(values[order][whole]).any() else f"{text}: none"
-        line = {"color": f"C{color}", "marker": "o", "markersize": 3, "label": text}
+        color = part_color(number, len(groups))
+        line = {"color": color, "marker": "o", "markersize": 3, "label": text}
         if not is_number(study, over):
             line["linestyle"] = ""  # there are no values between texts
         ax.plot(place[order], np.where(whole, shown.factor * values[order], np.nan), **line)
@@ -164,15 +166,16 @@ def bifurcation(
     groups = grouped(study, others, chosen)
     too_many(groups, others)
     size = 3 if len(distinct(study[over][chosen])) < DENSE else 1.5
-    for color, (text, part) in enumerate(groups):
+    for number, (text, part) in enumerate(groups):
         points = np.where(study.done[part, None], shown.factor * values[part], np.nan)
         x = np.broadcast_to(place[part, None], points.shape)
+        color = part_color(number, len(groups))
         dots = {
             "linestyle": "",
             "marker": "o",
             "markersize": size,
             "markeredgewidth": 0,
-            "color": f"C{color}",
+            "color": color,
         }
         ax.plot(x.ravel(), points.ravel(), label=text, **dots)
         mark_failed(ax, place[part][~study.done[part]], color if len(groups) > 1 else None)
@@ -274,9 +277,9 @@ def too_many(groups: Sequence[tuple[str, np.ndarray]], others: Sequence[str]) ->
         )
 
 
-def mark_failed(ax: Axes, place: np.ndarray, color: int | None) -> None:
+def mark_failed(ax: Axes, place: np.ndarray, color: str | None) -> None:
     """Lines across the axes, which no one takes for points."""
-    style = NOT_DONE if color is None else NOT_DONE | {"color": f"C{color}"}
+    style = NOT_DONE if color is None else NOT_DONE | {"color": color}
     for at in place[np.isfinite(place)]:
         ax.axvline(at, **style)
 

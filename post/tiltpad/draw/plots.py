@@ -238,13 +238,13 @@ def order_track(
 def order_phase(
     run: Run, ax: Axes, name: str = "journal_y", order: float = 1, pad: int | None = None, **line: Any
 ) -> Axes:
-    """Phase of one order of a dataset over the speed of a run-up, counted from the unbalance.
+    """Phase lag of one order of a dataset over the speed of a run-up, behind the unbalance.
 
-    It is 0 where the dataset has its maximum when the unbalance points along +y, negative where later.
+    It is the angle of the shaft from where the unbalance points along +y to the maximum of the dataset.
     """
     speed, _, phase = spectra.order_track(run, name, order, pad)
-    ax.plot(SHOWN["speed"].factor * speed, np.degrees(np.unwrap(phase)), **line)
-    ax.set(xlabel=SHOWN["speed"].label, ylabel="phase (deg)")
+    ax.plot(SHOWN["speed"].factor * speed, -np.degrees(np.unwrap(phase)), **line)
+    ax.set(xlabel=SHOWN["speed"].label, ylabel="phase lag (deg)")
     return ax
 
 
@@ -407,7 +407,7 @@ def mark_contact(ax: Axes, x: np.ndarray, force: np.ndarray) -> None:
     where = {"transform": ax.get_xaxis_transform(), "color": "red", "marker": "|", "linestyle": ""}
     ax.plot(x[touching], np.full(touching.sum(), 0.03), **where)
     note = {"transform": ax.transAxes, "color": "red", "fontsize": "x-small"}
-    ax.text(0.01, 0.08, "asperities touch", **note)
+    ax.text(0.01, 0.13, "asperities touch", **note)
 
 
 def all_tilt(runs: Sequence[Run]) -> bool:

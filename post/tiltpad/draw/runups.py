@@ -34,10 +34,10 @@ from tiltpad.files.units import SHOWN, in_words
 
 #: Orders whose amplitudes are drawn.
 ORDERS = (1, 2, 3)
-#: What the phase of an order is counted from.
+#: From where the phase is counted.
 PHASE = (
-    "Phase of order 1: 0 where the journal is farthest along the axis when the unbalance points along +y; "
-    "negative: later. Forward whirl has z a quarter turn behind y."
+    "Phase lag: the shaft turns by this angle from where the unbalance points along +y to where the journal "
+    "is farthest along the axis. Forward whirl has z a quarter turn behind y."
 )
 
 
@@ -109,7 +109,7 @@ def orders(
         if len(runs) <= 2:
             ax.set_title("; ".join(words), fontsize="x-small", loc="right")
         ax.set_ylabel(SHOWN[name].label + (f", pad {column}" if column else ""))
-    panels["phase"].set_ylabel("phase, order 1\n(deg)")
+    panels["phase"].set_ylabel("phase lag,\norder 1 (deg)")
     dashed = [(f"phase of ${axis}$", {"color": "0.3", "linestyle": DASHES[k]}) for k, axis in enumerate("yz")]
     legend(fig, runs, [*parts([f"order {order}" for order in ORDERS], runs), *dashed])
     remark(fig, PHASE)

@@ -18,7 +18,7 @@ from tiltpad.calculate.coefficients import coefficients as coefficients_of
 from tiltpad.calculate.modes import Modes, forward, modes
 from tiltpad.calculate.selection import default_over, distinct, needs, selected, written
 from tiltpad.draw.diagrams import mark_failed
-from tiltpad.draw.layout import COLUMN, DASHES, PAGE, heading, labels, of_several
+from tiltpad.draw.layout import COLUMN, DASHES, PAGE, heading, labels, of_several, part_color
 from tiltpad.files import units
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
@@ -71,12 +71,14 @@ def coefficients(
                 for dashes, (i, j) in zip(DASHES, elements.values(), strict=False):
                     values = SHOWN[name].factor * getattr(found, name)[..., i, j]
                     dots = {"marker": "o", "markersize": 3} if len(x) < 30 else {}
-                    ax.plot(x, values, dashes, color=f"C{color}", **dots)
-                mark_failed(ax, x[np.isnan(values)], color if len(lines) > 1 else None)
+                    ax.plot(x, values, dashes, color=part_color(color, len(lines)), **dots)
+                mark_failed(
+                    ax, x[np.isnan(values)], part_color(color, len(lines)) if len(lines) > 1 else None
+                )
             ax.set_ylabel(f"{SHOWN[name].text} {', '.join(elements)} ({SHOWN[name].unit})")
     for ax in panels[-1]:
         ax.set_xlabel(axis_label(runs, over, where))
-    texts = [(text, {"color": f"C{k}"}) for k, (text, *_) in enumerate(lines) if text]
+    texts = [(text, {"color": part_color(k, len(lines))}) for k, (text, *_) in enumerate(lines) if text]
     dashed = [("yy or yz", {"color": "0.3"}), ("zz or zy", {"color": "0.3", "linestyle": DASHES[1]})]
     heading(fig, [*texts, *dashed], title(runs))
     return fig
@@ -113,7 +115,8 @@ def stability(
     found = parts(runs, pivot, over, where)
     fig = plt.figure(figsize=(COLUMN, 4.2))
     panels = fig.subplots(2, 1, sharex=True)
-    for color, one in enumerate(found):
+    for number, one in enumerate(found):
+        own_color = part_color(number, len(found))
         own = modes(one.source, one.pivot, one.where or None, one.over or None)
         single = isinstance(one.source, Run)
         x = own.frequency if single else own.parameters[one.over]
@@ -121,7 +124,7 @@ def stability(
             values = SHOWN[name].factor * getattr(own, name)
             for k in range(values.shape[-1]):
                 line = {
-                    "color": f"C{color if len(found) > 1 or single else k}",
+                    "color": own_color if len(found) > 1 or single else part_color(k, values.shape[-1]),
                     "marker": "o",
                     "markersize": 3,
                 }
@@ -131,9 +134,9 @@ def stability(
                     ax.plot(x, values[:, k], **line)
         if not single:
             missing = x[np.isnan(own.frequency).all(axis=1)]
-            mark_failed(panels[1], missing, color if len(found) > 1 else None)
+            mark_failed(panels[1], missing, own_color if len(found) > 1 else None)
         if one.over == "speed_rpm":
-            mark_thresholds(panels, own, f"C{color}" if len(found) > 1 else "0.3")
+            mark_thresholds(panels, own, own_color if len(found) > 1 else "0.3")
     # every unstable mode is in sight in the upper panel
     decrement = 2 * np.pi * DAMPED / np.sqrt(1 - DAMPED**2)
     ends = {"damping_ratio": (-1, DAMPED), "log_decrement": (-decrement, decrement)}
@@ -143,7 +146,11 @@ def stability(
     panels[1].set_xlabel(
         SHOWN["frequency"].label if isinstance(runs[0], Run) else axis_label(runs, over, where)
     )
-    heading(fig, [(one.text, {"color": f"C{k}"}) for k, one in enumerate(found) if one.text], title(runs))
+    heading(
+        fig,
+        [(one.text, {"color": part_color(k, len(found))}) for k, one in enumerate(found) if one.text],
+        title(runs),
+    )
     return fig
 
 
@@ -190,18 +197,19 @@ def campbell(
     fig = plt.figure(figsize=(COLUMN, 3.2))
     ax = fig.subplots()
     top = 0.0
-    for color, one in enumerate(found):
+    for number, one in enumerate(found):
+        own_color = part_color(number, len(found))
         own = modes(one.source, one.pivot, one.where or None)
         own = own._replace(frequency=np.where(own.frequency > 0, own.frequency, np.nan))
         for k in range(own.frequency.shape[1]):
             ax.plot(
                 own.speed_rpm,
                 own.frequency[:, k],
-                color=f"C{color}" if len(found) > 1 else "0.8",
+                color=own_color if len(found) > 1 else "0.8",
                 linewidth=0.8,
                 zorder=1,
             )
-        points = campbell_points(ax, own, f"C{color}" if len(found) > 1 else None)
+        points = campbell_points(ax, own, own_color if len(found) > 1 else None)
         mark_failed(ax, own.speed_rpm[np.isnan(own.frequency).all(axis=1)], None)
         top = max(top, ORDERS * own.speed_rpm.max() / 60)
     if len(found) == 1:
@@ -223,7 +231,10 @@ def campbell(
     ]
     heading(
         fig,
-        [*((one.text, {"color": f"C{k}"}) for k, one in enumerate(found) if one.text), *marks],
+        [
+            *((one.text, {"color": part_color(k, len(found))}) for k, one in enumerate(found) if one.text),
+            *marks,
+        ],
         title(runs),
     )
     return fig

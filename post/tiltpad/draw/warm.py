@@ -14,7 +14,17 @@ from matplotlib.figure import Figure
 from tiltpad.calculate.heat import heat_balance
 from tiltpad.calculate.selection import selected
 from tiltpad.draw.diagrams import mark_failed
-from tiltpad.draw.layout import COLUMN, PAGE, heading, labels, of_several, plain, shown_pads, stacked
+from tiltpad.draw.layout import (
+    COLUMN,
+    PAGE,
+    heading,
+    labels,
+    of_several,
+    part_color,
+    plain,
+    shown_pads,
+    stacked,
+)
 from tiltpad.draw.vibrations import axis_label, parts, title
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
@@ -53,7 +63,7 @@ def temperatures(
     for name, ax in panels.items():
         ax.set_ylabel(SHOWN[name].label)
     panels["viscosity"].set(xlabel=axis_label(runs, over, where), ylim=(0, None))
-    entries = [(f"pad {k}", {"color": f"C{i}"}) for i, k in enumerate(pads)]
+    entries = [(f"pad {k}", {"color": part_color(i, len(pads))}) for i, k in enumerate(pads)]
     entries += [("maximum", {"color": "0.3"}), ("mean", {"color": "0.3", "linestyle": "-."})]
     heading(fig, [*entries, *((each["label"], without_label(each)) for each in (SHAFT, DRAIN))], title(runs))
     return fig
@@ -79,9 +89,9 @@ def over_parameter(
     pads = pads if pad is None else [pad]
     dots = {"marker": "o", "markersize": 3} if len(x) < 30 else {}
     for i, k in enumerate(pads):
-        upper.plot(x, maximum[:, k - 1], color=f"C{i}", **dots)
-        upper.plot(x, mean[:, k - 1], "-.", color=f"C{i}", linewidth=1)
-        lower.plot(x, SHOWN["viscosity"].factor * viscosity[:, k - 1], color=f"C{i}", **dots)
+        upper.plot(x, maximum[:, k - 1], color=part_color(i, len(pads)), **dots)
+        upper.plot(x, mean[:, k - 1], "-.", color=part_color(i, len(pads)), linewidth=1)
+        lower.plot(x, SHOWN["viscosity"].factor * viscosity[:, k - 1], color=part_color(i, len(pads)), **dots)
     upper.plot(x, study.equilibrium_shaft_temperature[order], **SHAFT)
     upper.plot(x, study.equilibrium_drain_temperature[order], **DRAIN)
     for ax in (upper, lower):
