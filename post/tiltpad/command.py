@@ -143,9 +143,9 @@ def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
     except KeyboardInterrupt:
         return complain(command, "stopped", 130)
     except Exception as error:
-        return complain(
-            command, f"please report this error of the program: {type(error).__name__}: {error}", FILE_ERROR
-        )
+        said = " ".join(f"{error}".split())
+        text = f"please report this error of the program: {type(error).__name__}: {said}"
+        return complain(command, text, FILE_ERROR)
     return 0
 
 

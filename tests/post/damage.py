@@ -152,7 +152,7 @@ MARCHED, STUDIED = calculate, calculate_study
 RUN = [
     collected,
     by_command(command.report, ending=".html"),
-    *(by_command(command.main, plot) for plot in command.PLOTS if plot != "study"),
+    *(by_command(command.main, plot) for plot in command.PLOTS if plot not in (command.STUDY, command.MOVIE)),
 ]
 STUDY = [
     by_command(command.main, "study"),

@@ -80,6 +80,11 @@ def refused(capsys, name: str, arguments: list, path: Path) -> str:
     return said
 
 
+def suffix(plot: str = "") -> str:
+    """Of what a command writes; without a plot it is a report."""
+    return {"": "html", command.MOVIE: "gif"}.get(plot, "png")
+
+
 def in_every_entry(capsys, path: Path, kinds: tuple[str, ...] = ("run", "study")) -> None:
     """Every entry refuses the file."""
     if "run" in kinds:
@@ -94,7 +99,7 @@ def in_every_entry(capsys, path: Path, kinds: tuple[str, ...] = ("run", "study")
                 refused(
                     capsys,
                     name,
-                    [*words, path, "-o", path.with_name("a.html" if not words else "a.png")],
+                    [*words, path, "-o", path.with_name(f"a.{suffix(*words)}")],
                     path,
                 )
     status = command.collect([str(path), "-o", str(path.with_name("collected.h5"))])
@@ -246,7 +251,8 @@ def test_pictures_of_values_that_are_none(changed, tmp_path, capsys, scene, valu
                 file[name][...] = value
 
     path = changed(scene, edit)
-    for plot in (plot for plot in command.PLOTS if plot != "study"):
+    # a movie has a hundred pictures
+    for plot in (plot for plot in command.PLOTS if plot not in (command.STUDY, command.MOVIE)):
         status = command.main([plot, str(path), "-o", str(tmp_path / "a.png")])
         said = capsys.readouterr().err
         assert status in (0, 1, 2, 3)

@@ -176,7 +176,7 @@ def test_the_bearing_of_a_case(result, run, tmp_path, monkeypatch, program):
     for angle in (-45, 225, 45, 135):
         away = places[f"{angle}°"]
         assert np.degrees(np.arctan2(*away[::-1])) % 360 == pytest.approx(angle % 360)
-    ahead, behind = (np.arctan2(*places[edge][::-1]) for edge in ("leading", "trailing"))
+    ahead, behind = (np.arctan2(*places[edge][::-1]) for edge in ("leading\nedge", "trailing\nedge"))
     assert ahead > behind
     np.testing.assert_allclose(bearing.load(run("four").input), [-2000 * 9.81, 0])
     (z_tail, y_tail), (z_head, y_head) = next(

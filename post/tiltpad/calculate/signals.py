@@ -167,11 +167,13 @@ def edges(run: Run, angles: np.ndarray) -> np.ndarray:
     return np.sum(found, axis=0)
 
 
-def envelope(run: Run, name: str, spans: int = 800) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def envelope(
+    run: Run, name: str, spans: int = 800, cover: float = COVER
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Time (k,), s, and minimum and maximum of a dataset, (k,) or (k, pad), in each of k spans.
 
     The spans turn the shaft by equal angles of at least one revolution, so that the band is that of the
-    vibration; there are at most `spans` of them. Of spans that are shorter than COVER revolutions the
+    vibration; there are at most `spans` of them. Of spans that are shorter than `cover` revolutions the
     extremes are those of their neighbours, too: a motion of half the order would make a sawtooth. The run is
     read a span at a time.
     """
@@ -180,7 +182,7 @@ def envelope(run: Run, name: str, spans: int = 800) -> tuple[np.ndarray, np.ndar
         values = run.values(name, part)
         found.append((ends(run, "time", part).mean(), values.min(axis=0), values.max(axis=0)))
     time, low, high = (np.array(each) for each in zip(*found, strict=True))
-    beside = round(COVER / (turned(run) / len(time))) // 2
+    beside = round(cover / (turned(run) / len(time))) // 2
     around = [slice(max(0, k - beside), k + beside + 1) for k in range(len(time))]
     lowest = np.array([low[near].min(axis=0) for near in around])
     highest = np.array([high[near].max(axis=0) for near in around])

@@ -26,6 +26,10 @@ from tiltpad.files.units import SHOWN, digits
 CLEARANCE, BACK = 0.16, 0.22
 #: Frames of a movie in a second, and in a revolution of the shaft.
 RATE, FRAMES = 25, 50
+#: Farther from the middle than anything that is seen.
+FAR = 10.0
+#: What pads can do, in words.
+MOTIONS = {"tilting_radial": "tilting, radially elastic", "tilting_only": "tilting", "fixed": "fixed"}
 NOTE = {"fontsize": "small", "color": "0.2", "ha": "center", "va": "center"}
 
 
@@ -39,8 +43,9 @@ def bearing(case: Run | Case) -> Figure:
     state = geometry.at_rest(run) if run else geometry.centred(groups)
     fig = plt.figure(figsize=(PAGE, 4.4))
     ax, beside = fig.subplots(1, 2, width_ratios=(1.45, 1))
-    Scene(ax, groups, state)
+    scene = Scene(ax, groups, state)
     mark_angles(ax, groups)
+    mark_edges(ax, scene)
     mark_rotation(ax)
     mark_load(ax, groups)
     beside.axis("off")
@@ -56,6 +61,7 @@ class Scene:
         self.case, self.scale = case, CLEARANCE / case["bearing"]["assembled_clearance"]
         fixed = case["pads"]["motion"] == "fixed"
         count = len(geometry.of_pads(case, "pivot_angle_deg"))
+        self.middles = [np.zeros((1, 2))] * count
         look = {"closed": True, "facecolor": "0.82", "edgecolor": "0.25", "linewidth": 0.8}
         self.pads = [ax.add_patch(Polygon(np.zeros((3, 2)), **look)) for _ in range(count)]
         pivots = {"radius": 0.045, "facecolor": "0.25", "linewidth": 0}
@@ -80,7 +86,9 @@ class Scene:
             inner = middle + (1 + self.scale * found.thickness[k][:, None]) * direction
             outer = inner + BACK * direction
             pad.set_xy(np.concatenate([inner, outer[::-1]]))
-            self.numbers[k].set_position(polar(1 + CLEARANCE + BACK / 2, np.degrees(found.angle[k].mean())))
+            # a text far away cannot be drawn
+            self.middles[k] = np.clip((inner + outer) / 2, -FAR, FAR)
+            self.numbers[k].set_position(self.middles[k][len(inner) // 2])
         for k, pivot in enumerate(self.pivots):
             away = 1 + CLEARANCE + BACK + 0.045 + self.scale * state.penetration[k]
             pivot.center = polar(away, np.degrees(found.pivot[k]))
@@ -100,20 +108,21 @@ def mark_angles(ax: Axes, case: Case) -> None:
     ax.add_patch(Arc((0, 0), 0.56, 0.56, theta1=0, theta2=55, color="0.45", linewidth=0.7, zorder=3))
     ax.annotate("", polar(0.28, 62), polar(0.28, 52), arrowprops=axis, zorder=3)
     ax.text(*polar(0.43, 38), "angles", **NOTE | {"fontsize": "x-small"}, zorder=3)
-    theta, arc = (geometry.of_pads(case, name)[0] for name in ("pivot_angle_deg", "arc_deg"))
-    ratio = geometry.of_pads(case, "pivot_ratio")[0]
-    for end, name in ((ratio * arc, "leading"), (-(1 - ratio) * arc, "trailing")):
-        place = polar(1 + CLEARANCE + 0.5 * BACK, theta + end)
-        out = polar(1.0 + CLEARANCE + 1.9 * BACK, theta + 0.8 * end)
-        line = {"arrowstyle": "-", "color": "0.45", "linewidth": 0.5}
-        ax.annotate(name, place, out, arrowprops=line, **NOTE | {"fontsize": "x-small"})
+
+
+def mark_edges(ax: Axes, scene: Scene) -> None:
+    """Which edges of the first pad are the leading and the trailing one."""
+    for inside, name in ((scene.middles[0][-5], "leading edge"), (scene.middles[0][4], "trailing edge")):
+        out = 1.32 * inside
+        line = {"arrowstyle": "-", "color": "0.45", "linewidth": 0.5, "relpos": (0.5, 0.5), "shrinkA": 7}
+        ax.annotate(name.replace(" ", "\n"), inside, out, arrowprops=line, **NOTE | {"fontsize": "x-small"})
 
 
 def mark_rotation(ax: Axes) -> None:
     """From +y towards +z: clockwise."""
     turn = {"connectionstyle": "arc3,rad=-0.3", "arrowstyle": "-|>", "mutation_scale": 11, "color": "C0"}
-    ax.add_patch(FancyArrowPatch(polar(0.82, 128), polar(0.82, 92), **turn, zorder=3))
-    ax.text(*polar(0.62, 125), "rotation", **NOTE | {"color": "C0"}, zorder=3)
+    ax.add_patch(FancyArrowPatch(polar(0.7, 140), polar(0.7, 102), **turn, zorder=3))
+    ax.text(*polar(0.47, 132), "rotation", **NOTE | {"color": "C0"}, zorder=3)
 
 
 def mark_load(ax: Axes, case: Case) -> None:
@@ -150,7 +159,7 @@ def figures_of(case: Case, state: State) -> str:
     if state.time is not None or state.journal.any():
         where = "the equilibrium" if state.time is None else f"{state.time:g} s"
     lines = [
-        f"{len(geometry.of_pads(case, 'arc_deg'))} pads, {pads['motion'].replace('_', ', ')}, arc {arc}°",
+        f"{len(geometry.of_pads(case, 'arc_deg'))} pads, {MOTIONS[pads['motion']]}, arc {arc}°",
         f"{'anchored' if fixed else 'pivot'} at {ratio} of the arc from the leading edge",
         f"speed {first:g} rpm" if first == last else f"speed {first:g} to {last:g} rpm",
         f"journal radius {1e3 * own['journal_radius']:g} mm, length {1e3 * own['axial_length']:g} mm",

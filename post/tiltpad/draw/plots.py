@@ -33,7 +33,7 @@ FILM = ("min_film_thickness", "max_pressure")
 #: Revolutions of the path that is drawn under a Poincare section.
 PATH = 4
 #: Fewest and most revolutions of a window of a waterfall; more make sharper bands.
-WINDOW = 8, 32
+WINDOW = 8, 24
 #: Line of a pivot that sticks.
 STUCK = {"linewidth": 3, "linestyle": "-", "solid_capstyle": "butt"}
 
@@ -364,7 +364,7 @@ def history(run: Run, ax: Axes, name: str = "journal_y", pad: int | None = None,
             ax.plot(middle, upper, **{**line, "color": edge.get_color(), "linewidth": 0.6})
             ax.fill_between(middle, lower, upper, facecolor=edge.get_color(), alpha=0.35, linewidth=0)
     if name == "min_film_thickness" and "asperity_force" in run:
-        middle, _, highest = signals.envelope(run, "asperity_force")
+        middle, _, highest = signals.envelope(run, "asperity_force", cover=1)
         mark_contact(ax, middle, highest[column])
     ax.set(xlabel=SHOWN["time"].label, ylabel=shown.label, xlim=signals.ends(run, "time"))
     return ax

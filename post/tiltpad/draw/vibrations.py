@@ -120,14 +120,12 @@ def stability(
         own = modes(one.source, one.pivot, one.where or None, one.over or None)
         single = isinstance(one.source, Run)
         x = own.frequency if single else own.parameters[one.over]
+        alone = not single and len(found) == 1
+        shades = mode_colors(own) if alone else [own_color] * own.damping_ratio.shape[-1]
         for ax, name in zip(panels, ("damping_ratio", "log_decrement"), strict=True):
             values = SHOWN[name].factor * getattr(own, name)
             for k in range(values.shape[-1]):
-                line = {
-                    "color": own_color if len(found) > 1 or single else part_color(k, values.shape[-1]),
-                    "marker": "o",
-                    "markersize": 3,
-                }
+                line = {"color": shades[k], "marker": "o", "markersize": 3}
                 if single:
                     ax.plot(x[k], values[k], **line)
                 else:
@@ -152,6 +150,13 @@ def stability(
         title(runs),
     )
     return fig
+
+
+def mode_colors(own: Modes) -> list[str]:
+    """A colour for each mode of a study; those that are in sight have different ones."""
+    least = np.where(np.isnan(own.damping_ratio), np.inf, own.damping_ratio).min(axis=0)
+    order = np.cumsum(least < DAMPED)
+    return [part_color(max(0, k - 1), max(1, order[-1])) for k in order]
 
 
 def mark_thresholds(panels: Sequence[Axes], own: Modes, color: str) -> None:
