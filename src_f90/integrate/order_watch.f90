@@ -14,7 +14,7 @@ module order_watch
    integer, parameter :: first_wait = 4, patience = 4
    !> Windows of a trial, of which the last one counts: before, vibrations that high orders have raised die away. How
    !> much further it must go for low orders to stay, and for how many windows they do.
-   integer, parameter :: trial = 2, stay = 20
+   integer, parameter :: trial = 4, stay = 20
    real(wp), parameter :: gain = 4
 
    type :: order_watch_type
