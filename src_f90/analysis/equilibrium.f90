@@ -2,17 +2,19 @@
 !>
 !> The first search is Newton's method, damped (damped_newton), from the best of some positions along the load. Where it
 !> fails, or finds an equilibrium that no motion dwells in, a wider one follows from all these positions: by small
-!> problems of the pads (pad_elimination), by Newton's method, by the motion itself (motion_to_rest).
+!> problems of the pads (pad_elimination), by Newton's method, by the motion itself (motion_to_rest); at last, where
+!> films do not rupture, with pads that hold the journal by suction.
 module equilibrium
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error, stopped
    use equations_of_motion, only: bearing_model
-   use damped_newton, only: follow_motion, imbalance, asked_to_stop, asked, newtons
+   use damped_newton, only: follow_motion, imbalance, asked_to_stop, asked, newtons, residual_limit
    use small_vibrations, only: stability_at
    use pad_elimination, only: eliminate_pads
    use pad_rest, only: find_rests
    use motion_to_rest, only: march_to_rest
-   use static_model, only: equilibrium_type, describe, make_static, make_quick, start, starts
+   use static_model, only: equilibrium_type, describe, make_static, make_quick, come_to_rest, start, &
+      & starts, pull_pads
    use warm_oil, only: has_warm_oil, guess_oil, guesses, come_to_warm_rest
    use equilibrium_refusal, only: search_traces, refusal
    implicit none (type, external)
@@ -20,7 +22,7 @@ module equilibrium
    public :: equilibrium_type, find_equilibrium
 
    !> The methods of the wider search, in their order.
-   integer, parameter :: by_pads = 1, by_newton = 2, by_rests = 3, by_motion = 4
+   integer, parameter :: by_pads = 1, by_newton = 2, by_rests = 3, by_motion = 4, by_suction = 5
    !> Iterations from an equilibrium of quick films to that of the model's own.
    integer, parameter :: few = 40
    !> Residual of quick films from which on this is tried.
@@ -166,7 +168,7 @@ contains
       logical :: ok
       if (allocated(found%tilt)) deallocate (found%tilt)
       call make_quick(static%scene, static%bearing%pads%gap%viscosity, static%point%rupture, quick)
-      do method = by_pads, by_motion
+      do method = by_pads, by_suction
          do k = 1, starts
             if (asked(give_up)) return
             y = start(quick, k)
@@ -175,17 +177,28 @@ contains
             ! loose films leap by their error: where they do nothing comes to rest
             call follow_motion(quick, y, candidate%residual, error, give_up, first_step=newtons)
             if (candidate%residual > near) cycle
-            call follow_motion(static, y, candidate%residual, error, give_up, first_step=newtons, most=few)
+            call come_to_rest(static, y, candidate%residual, error, give_up, most=few)
             if (allocated(error)) cycle
             if (.not. is_usable(static, y, candidate, traces)) cycle
-            if (allocated(found%tilt)) then
-               if (candidate%stability%eigenvalue%re >= found%stability%eigenvalue%re) cycle
-            end if
+            if (.not. is_better(candidate, found)) cycle
             found = candidate
-            if (found%stability%name == 'stable') return
+            if (found%stability%name == 'stable' .and. found%residual <= residual_limit) return
          end do
       end do
    end subroutine search_wider
+
+   !> Whether an equilibrium is to be kept instead of another one, which may have no pads: first that which no leap of
+   !> the films disturbs, then that which flutters less.
+   pure logical function is_better(candidate, found)
+      type(equilibrium_type), intent(in) :: candidate, found
+      is_better = .not. allocated(found%tilt)
+      if (is_better) return
+      if (candidate%residual <= residual_limit .neqv. found%residual <= residual_limit) then
+         is_better = candidate%residual <= residual_limit
+      else
+         is_better = candidate%stability%eigenvalue%re < found%stability%eigenvalue%re
+      end if
+   end function is_better
 
    !> Brings y near an equilibrium by one of the methods.
    subroutine approach(model, method, y, traces, ok, give_up)
@@ -215,6 +228,12 @@ contains
       case (by_newton)
          call follow_motion(model, y, residual, error, give_up)
          ok = residual <= near
+      case (by_suction)
+         ok = .not. model%bearing%films_rupture()
+         if (.not. ok) return
+         call pull_pads(model, y)
+         ! every motion leaves such a rest: the steps must be Newton's own
+         call eliminate_pads(model, y, at_rest, ok, give_up, first_step=newtons)
       case default
          call march_to_rest(model, y, ok, give_up)
       end select

@@ -7,12 +7,12 @@ module static_model
    use kinematics, only: journal_motion, pad_frame, pad_state
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
-   use errors, only: error_type
+   use errors, only: error_type, stopped
    use damped_newton, only: follow_motion, asked_to_stop, residual_limit, newtons
    use small_vibrations, only: stability_type
    implicit none (type, external)
    private
-   public :: equilibrium_type, describe, make_static, make_quick, make_fine, come_to_rest, start, starts
+   public :: equilibrium_type, describe, make_static, make_quick, make_fine, come_to_rest, start, starts, pull_pads
 
    type :: equilibrium_type
       !> Journal, m; per pad tilt, rad, penetration, m (0 tilting-only), contact force, N.
@@ -79,7 +79,7 @@ contains
 
    !> Brings a state that is nearly at rest to rest by Newton's method. Volumes of ruptured films make their force leap
    !> by less than its error; where the rest lies in a leap, y ends beside it.
-   subroutine come_to_rest(model, y, residual, error, give_up, held)
+   subroutine come_to_rest(model, y, residual, error, give_up, held, most)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       real(wp), intent(out) :: residual
@@ -87,12 +87,35 @@ contains
       procedure(asked_to_stop), optional :: give_up
       !> Pads that are held where they are.
       logical, intent(in), optional :: held(:)
+      !> Iterations at most, if they are fewer than usual.
+      integer, intent(in), optional :: most
       logical :: ok
-      call follow_motion(model, y, residual, error, give_up, held, newtons)
+      call follow_motion(model, y, residual, error, give_up, held, newtons, most)
       if (.not. allocated(error) .or. residual > largest_leap) return
+      if (error%status == stopped) return
       call model%evaluate(0.0_wp, y, .false., ok)
       if (ok) deallocate (error)
    end subroutine come_to_rest
+
+   !> Moves a start to where films that do not rupture may hold the journal by suction: the journal to the other side,
+   !> the pads tilted so that every film diverges.
+   subroutine pull_pads(model, y)
+      type(bearing_model), intent(in) :: model
+      real(wp), intent(inout) :: y(:)
+      type(journal_motion) :: journal
+      type(pad_state) :: pads(model%layout%pads)
+      type(pad_frame) :: frame
+      integer :: i
+      journal = model%rotor%journal(y(:model%rotor%states))
+      journal%position = -journal%position
+      pads = model%layout%pad_states(y)
+      do i = 1, size(pads)
+         frame = model%bearing%pads(i)%frame(journal, pads(i))
+         pads(i)%tilt = (frame%along - model%scene%bearing%machined_clearance/6) &
+            & /model%bearing%pads(i)%position%centre_distance
+      end do
+      y = model%state(journal, pads)
+   end subroutine pull_pads
 
    !> Start k: the journal at its fraction of the clearance down the load (among fixed pads from the middle of their
    !> bores), pivots carrying a share of it, and pads that tilt tilted so that every film converges.

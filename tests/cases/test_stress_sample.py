@@ -11,9 +11,11 @@ from stress_judge import cause_of, judge, searched  # noqa: E402
 from stress_scenes import draw, text  # noqa: E402
 
 # scenes of seed 1 whose equilibrium the first search misses, by the method that finds it: pads one by one
-# (163, 172, 225), Newton from another start (144), the rest of an unloaded pad (15, 297)
+# (163, 172, 225), Newton from another start (144), the rest of an unloaded pad (15, 297),
+# pads that hold the journal by suction (25)
 HARD = {
     15: "stable",
+    25: "fluttering",
     144: "stable",
     163: "fluttering",
     172: "fluttering",
@@ -26,8 +28,8 @@ REFUSED = (13, 27, 70, 209)
 FIXED = (9, 24, 40, 43, 59)
 
 
-def at_rest(tiltpad, folder, number):
-    scene = draw(1, number)
+def at_rest(tiltpad, folder, number, seed=1):
+    scene = draw(seed, number)
     scene["case"]["task"] = "equilibrium"
     (folder / "scene.nml").write_text(text(scene))
     return tiltpad("scene.nml", "--quiet", cwd=folder, timeout=60)
@@ -40,6 +42,15 @@ def test_found(tiltpad, tmp_path, number):
     with h5py.File(tmp_path / "scene.h5") as file:
         assert file.attrs["equilibrium_stability"] == HARD[number]
         assert file["equilibrium/residual"][()] <= 1e-8
+
+
+def test_rest_in_a_leap(tiltpad, tmp_path):
+    # the film's force leaps, by a part of its error, where this bearing rests
+    run = at_rest(tiltpad, tmp_path, 53, seed=2)
+    assert run.returncode == 0, run.stderr
+    with h5py.File(tmp_path / "scene.h5") as file:
+        assert file.attrs["equilibrium_stability"] == "stable"
+        assert file["equilibrium/residual"][()] <= 1e-6
 
 
 @pytest.mark.parametrize("number", REFUSED)
