@@ -79,10 +79,11 @@ difference of journal position, tilt and penetration at any instant, in units of
 
 The settings set a limit of the error: CVODE keeps the error of one step below sqrt(n) tolerances for n
 states, so after N steps the error of a scene that does not amplify disturbances stays below **N sqrt(n)**
-tolerances. If the error of a scene is above this limit, the test runs the scene once more with the small
-tolerance and a load changed by `relative_tolerance` of itself. If this alone changes the result by a tenth
-of the error or more, the scene is sensitive, and no solver can follow it at this tolerance; otherwise it
-fails.
+tolerances. A bearing may have several equilibria: where the two runs find different ones, both are run
+again from the first. If the error of a scene is above the limit, the test runs the scene once more with the
+small tolerance and a load changed by `relative_tolerance` of itself. If this alone changes the result by a
+tenth of the error or more, the scene is sensitive, and no solver can follow it at this tolerance; otherwise
+it fails.
 
 {verdicts}
 
