@@ -139,6 +139,18 @@ def test_a_run_without_them_says_why(run, scene):
     assert not [each for each in summary.pads(run(scene)) if each.quantity == "temperature"]
 
 
+def test_a_study_without_them_says_why(sweep, tmp_path):
+    package.collect(
+        sweep(tmp_path / "cold", "&case task='equilibrium' /", {"operation%speed_rpm": [3000, 6500]}),
+        tmp_path / "cold.h5",
+    )
+    with (
+        package.read_study(tmp_path / "cold.h5") as study,
+        pytest.raises(package.NotInRunError, match="no temperatures in this study"),
+    ):
+        figures.temperatures([study])
+
+
 def test_a_run_of_an_earlier_program_says_why(changed, opened):
     def without_groups(file):
         text = file.attrs["input"]

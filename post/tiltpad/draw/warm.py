@@ -51,6 +51,9 @@ def temperatures(
     results = [each for each in runs if isinstance(each, Run)]
     if len(results) == len(runs):
         return of_results(results, pad)
+    for each in runs:
+        if isinstance(each, Study) and "pad_equilibrium_mean_temperature" not in each:
+            raise NotInRunError(f"{each.path}: no temperatures in this study: thermal%model is 'none'")
     found = parts(runs, None, over, where)
     if len(found) > 1:
         names = "; ".join(one.text for one in found)
@@ -73,8 +76,6 @@ def over_parameter(
     study: Study, where: Mapping[str, Any], over: str, pad: int | None, upper: Axes, lower: Axes
 ) -> list[int]:
     """Draws temperatures and viscosities of the members over a parameter; gives the pads."""
-    if "pad_equilibrium_mean_temperature" not in study:
-        raise NotInRunError(f"{study.path}: no temperatures in this study: thermal%model is 'none'")
     place = study[over]
     order = np.flatnonzero(selected(study, where) & np.isfinite(place))
     order = order[np.argsort(place[order], kind="stable")]
