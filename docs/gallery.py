@@ -30,6 +30,18 @@ RUNS = {
     "runup": (f"{PAPER}/runup_lugre.nml", ()),
     "four_pads": ("input/examples/four_pads.nml", ()),
     "periodic": (LUGRE, ("case%task=periodic",)),
+    "branch": (
+        LUGRE,
+        (
+            "case%task=branch",
+            'branch%parameter="operation%speed_rpm"',
+            "operation%speed_rpm=2000",
+            "branch%last=12000",
+            "branch%step=100",
+            "branch%max_step=500",
+            'case%title=""',
+        ),
+    ),
     "five_pads": ("input/examples/five_pads.nml", ()),
     "warm": ("input/examples/warm_five_pads.nml", ()),
 }
@@ -95,6 +107,7 @@ PICTURES = (
     ("film", "five_pads", "", "thickness and pressure around the bearing"),
     ("bearing", "five_pads", "", "pads, angles, load and sense of rotation, at the equilibrium"),
     ("movie", "five_pads", "--last 4", "the unloaded top pad flutters at half the shaft speed"),
+    ("branch", "branch", "", "with LuGre friction a second frequency appears at high speed"),
     ("response", "soft", "", "pivots that are soft give the rotor a critical speed"),
     ("coefficients", "whirl", "", "stiffness and damping over speed, at two whirl frequencies"),
     ("stability", "whirl", "--pivot stuck", "the modes with pivots that stick"),

@@ -31,6 +31,8 @@ MOVIES = ("gif", "mp4")
 VIBRATIONS = ("coefficients", "stability", "campbell")
 #: Plots of results and of studies.
 OF_EITHER = (*VIBRATIONS, "response", "temperatures")
+#: The plot of branches, below which studies may lie.
+BRANCH = "branch"
 #: Options of some plots alone.
 OWN_OPTIONS = {
     "time": ("pressure", "film"),
@@ -44,7 +46,7 @@ OWN_OPTIONS = {
 #: Plots without the options --last and --pad.
 WITHOUT_LAST = (
     *("equilibrium", "runup", "orders", "waterfall", "pressure", "film", BEARING, STUDY),
-    *OF_EITHER,
+    *(BRANCH, *OF_EITHER),
 )
 WITHOUT_PAD = (BEARING, MOVIE, *VIBRATIONS, "response")
 #: Exit status, as the program's own.
@@ -56,7 +58,7 @@ PLOTS = {
     "size": "peak-to-peak of the journal: of one run, over a variable that differs between runs, or speed",
     "poincare": "journal and one pad, once per revolution (last 50 revolutions, pad 1)",
     "waveform": "journal, tilt and tilt rate over the last revolutions (5)",
-    "multipliers": "Floquet multipliers of a periodic orbit and the unit circle",
+    "multipliers": "Floquet multipliers of a periodic orbit, or of branches, and the unit circle",
     "spectrum": "amplitudes of the journal, one-sided and full, at constant speed (from the file)",
     "hysteresis": "friction moment over pad tilt, one panel per pad (last revolution)",
     "friction": "friction coefficient over sliding velocity, one panel per pad (last revolution)",
@@ -65,7 +67,8 @@ PLOTS = {
     "orders": "amplitude and phase of the first orders over the speed of a run-up (--pad: also of its tilt)",
     "waterfall": "amplitudes over speed and frequency of a run-up (of the journal; --pad: of its tilt)",
     "pressure": "film pressure over the unrolled pads at one instant (--time; default: at the equilibrium)",
-    "response": "first harmonic of the journal, critical speeds, amplification: of studies and run-ups",
+    "branch": "branches over their parameter, stable or not (--pad: its tilt), over studies of marches",
+    "response": "first harmonic of the journal, critical speeds, amplification: studies, run-ups, branches",
     "temperatures": "temperatures and viscosity of the pads, of studies; with their heat balance of results",
     "film": "thickness and pressure of the films around the bearing at one instant (likewise)",
     "bearing": "the bearing of a case (.nml) or result: pads, pivots, angles, load, sense of rotation",
@@ -172,7 +175,7 @@ def draw(options: argparse.Namespace, output: Path) -> None:
     from tiltpad.draw import figures, plots
 
     with ExitStack() as stack:
-        either = options.plot in OF_EITHER
+        either = options.plot in (BRANCH, *OF_EITHER)
         opened: Callable[[str], Run | Study] = read_either if either else read
         runs = [stack.enter_context(opened(path)) for path in options.files]
         stack.enter_context(mpl.style.context(plots.STYLE))
@@ -180,7 +183,7 @@ def draw(options: argparse.Namespace, output: Path) -> None:
             figures.shown_pads([run for run in runs if isinstance(run, Run)], options.pad)
         own = (name for name, plots_with in OWN_OPTIONS.items() if options.plot in plots_with)
         more = {name: getattr(options, name) for name in own if getattr(options, name) is not None}
-        if either:
+        if options.plot in OF_EITHER:
             more |= {"where": kept(options)}
         figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **more)
         stack.callback(plots.plt.close, figure)

@@ -28,6 +28,8 @@ SCENES = {
     "fixed": "&operation duration=0.06 / &pads motion='fixed' /",
     "equilibrium": "&case task='equilibrium' /",
     "periodic": "&case task='periodic' / &friction model='lugre' /",
+    "branch": "&case task='branch' / &operation speed_rpm=3000 / &output samples_per_revolution=60 / "
+    "&branch parameter='operation%speed_rpm', last=4000, step=50, max_step=80 /",
     # offset pivots and a load beside the vertical: no symmetry
     "offset": "&case title='Offset', task='coefficients' / &coefficients frequency_ratio=0.5, 1, 2 / "
     "&pads pivot_angle_deg=-54, 18, 90, 162, 234, arc_deg=60, pivot_ratio=0.6 / "

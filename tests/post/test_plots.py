@@ -23,7 +23,17 @@ PLOTS = [
     plot
     for plot in command.PLOTS
     if plot
-    not in ("equilibrium", "multipliers", "pressure", "film", "bearing", "movie", "study", *command.OF_EITHER)
+    not in (
+        "equilibrium",
+        "multipliers",
+        "pressure",
+        "film",
+        "bearing",
+        "movie",
+        "study",
+        "branch",
+        *command.OF_EITHER,
+    )
 ]
 STEADY = [plot for plot in PLOTS if plot not in ("orders", "waterfall")]
 RUNUP = [plot for plot in PLOTS if plot != "spectrum"]

@@ -297,7 +297,11 @@ def test_names_of_parameters():
 
 def test_units_are_those_of_the_input_reference(tiltpad):
     """Every number of the input has the unit that the program says."""
-    said = re.findall(r"^\| `(\w+)` \| ([^|]*) \| ([^|]*) \|", tiltpad("--reference").stdout, re.MULTILINE)
+    group, said = "", []
+    for line in tiltpad("--reference").stdout.splitlines():
+        group = line.removeprefix("## &") if line.startswith("## &") else group
+        if row := re.match(r"\| `(\w+)` \| ([^|]*) \| ([^|]*) \|", line):
+            said.append((f"{group}%{row[1]}", row[2], row[3]))
     assert len(said) > 40
     for name, default, unit in said:
         if not default.startswith("`"):

@@ -104,12 +104,15 @@ def response(
     elif where or over:
         raise ValueError(f"{source.path}: where, over: for a study, this is one run")
     else:
-        parameter, values, amplitude, phase = of_runup(source)
+        parameter, values, amplitude, phase = of_branch(source) if source.is_branch else of_runup(source)
     there = np.isfinite(amplitude).all(axis=1)
     phase[there] = np.unwrap(phase[there], axis=0)
     peaks = []
     if parameter == SPEED and there.sum() > 2:
         way = values[there]
+        if isinstance(source, Run) and source.is_branch:
+            # it may turn back: only its length rises all along
+            way = source["arc_length"][source["branch"] == 1]
         for direction, each in zip(DIRECTIONS, amplitude[there].T, strict=True):
             peaks += peaks_of(direction, way, values[there], each)
     return Response(parameter, values, amplitude, phase, peaks)
@@ -137,6 +140,15 @@ def harmonics(source: Run | Study, place: np.ndarray | slice) -> tuple[np.ndarra
         for what in ("amplitude", "phase")
     )
     return amplitude, phase
+
+
+def of_branch(run: Run) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
+    """Parameter, its values, amplitudes and phases along the first branch of periodic orbits."""
+    if "journal_y_amplitude" not in run:
+        raise NotInRunError(f"{run.path}: no response in this run: its branch is one of equilibria")
+    first = run["branch"] == 1
+    name = f"{run.attributes['branch_parameter']}".rpartition("%")[2]
+    return name, run["parameter"][first], *harmonics(run, first)
 
 
 def of_runup(run: Run) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:

@@ -160,6 +160,17 @@ def poincare(
     return {"revolution": whole} | {name: at_angle(angle, run.values(name, part), wanted) for name in names}
 
 
+def extremes(run: Run, name: str, last: float = 50) -> tuple[np.ndarray, np.ndarray]:
+    """Lowest and highest value of a dataset in each of the last revolutions, (n,) or (n, pad) each."""
+    needs_revolutions(run, "whole revolution")
+    part = last_revolutions(run, last)
+    angle = run.values("shaft_angle", part)
+    count = int((angle[-1] - angle[0]) / (2 * np.pi) + 1e-9)
+    starts = np.searchsorted(angle, angle[-1] - 2 * np.pi * np.arange(count, 0, -1) - 1e-9)
+    values = run.values(name, part)
+    return tuple(each.reduceat(values, starts, axis=0) for each in (np.minimum, np.maximum))
+
+
 def edges(run: Run, angles: np.ndarray) -> np.ndarray:
     """For each shaft angle (n,), rad, the first sample at or beyond it, (n,); the file is read in blocks."""
     blocks = (slice(start, start + BLOCK) for start in range(0, run.samples, BLOCK))

@@ -103,6 +103,7 @@ def measured(path: Path, run: Run) -> Member:
         with suppress(NotInRunError):
             points = signals.poincare(run, REVOLUTIONS, states=tuple(POINTS.values()))
             values |= {name: points[state] for name, state in POINTS.items() if state in points}
+            values |= ends_of_revolutions(run, len(points["time"]))
     return Member(
         path,
         number,
@@ -196,6 +197,20 @@ def motion(run: Run, part: slice) -> dict[str, Any]:
         "pad_min_film_thickness": film.min(axis=0),
         "pad_max_pressure": peak.max(axis=0),
     }
+
+
+def ends_of_revolutions(run: Run, count: int) -> dict[str, Any]:
+    """Lowest and highest states of the revolutions that end at the last `count` Poincare points.
+
+    They are nan for the first of these where no whole revolution is before it.
+    """
+    values = {}
+    for state in (each for each in POINTS.values() if each in run):
+        for way, each in zip(("lowest", "highest"), signals.extremes(run, state, count), strict=True):
+            own = np.full((count, *each.shape[1:]), np.nan)
+            own[count - len(each) :] = each
+            values[f"{way}_{state.rpartition('_')[2]}"] = own
+    return values
 
 
 def friction(run: Run, part: slice) -> dict[str, Any]:

@@ -6,17 +6,42 @@ Every function takes results and studies, and returns the figure.
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle
 
+from tiltpad.calculate import branches, signals
 from tiltpad.calculate.response import DIRECTIONS, Peak
 from tiltpad.calculate.response import response as response_of
-from tiltpad.draw.layout import DASHES, heading, of_several, part_color, stacked
+from tiltpad.calculate.selection import needs
+from tiltpad.draw import plots
+from tiltpad.draw.layout import (
+    COLUMN,
+    DASHES,
+    colors,
+    heading,
+    labels,
+    legend,
+    of_several,
+    part_color,
+    shown_pads,
+    stacked,
+)
 from tiltpad.draw.vibrations import parts, title
 from tiltpad.files import units
+from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN
+
+#: Lines of what is unstable, marks of special points, and marches below.
+UNSTABLE = {"linestyle": (0, (4, 2)), "linewidth": 0.9}
+MARK = {"linestyle": "", "marker": "o", "markersize": 4, "markerfacecolor": "white", "zorder": 4}
+MARCHED = {"linestyle": "", "marker": ".", "markersize": 2, "color": "0.65", "zorder": 0}
+#: Multipliers farther away are not shown.
+FARTHEST = 2
 
 
 @of_several
@@ -63,3 +88,105 @@ def in_words(peak: Peak) -> str:
     """Critical speed and amplification factor."""
     factor = peak.amplification_factor
     return f"{peak.speed_rpm:.0f} rpm" + (f", AF {factor:.2f}" if np.isfinite(factor) else "")
+
+
+@of_several
+def branch(runs: Sequence[Run | Study], last: float | None = None, pad: int | None = None) -> Figure:
+    """Highest and lowest values along branches, unstable parts dashed, special points by their letters.
+
+    They are those of the journal, or of its y and, with `pad`, of its tilt. Studies of marches over the same
+    parameter, as tiltpad.brute_force makes them, lie below: highest and lowest values of each revolution.
+    """
+    found = [each for each in runs if isinstance(each, Run)]
+    if not found:
+        raise NotInRunError(f"{runs[0].path}: no branch in this study: its marches are drawn below one")
+    for run in found:
+        branches.needs_branch(run)
+    shown_pads(found, pad)
+    fig, panels = stacked([("journal_y", None), ("pad_tilt", pad) if pad else ("journal_z", None)])
+    fig.set_figheight(4.4)
+    several = len(found) > 1
+    for (name, own), ax in panels.items():
+        for study in (each for each in runs if isinstance(each, Study)):
+            draw_marches(study, ax, found[0], name, own)
+        for k, run in enumerate(found):
+            draw_branches(run, ax, name, own, f"C{k}" if several else None)
+        whose = f", pad {own}" if own else ""
+        ax.set(ylabel=SHOWN[name].label + whose, xlabel=parameter_of(found[0]).label)
+        ax.margins(y=0.1)
+    if several:
+        names = [(text, {"color": f"C{k}"}) for k, text in enumerate(labels(found))]
+    else:
+        numbers = np.unique(found[0]["branch"]).astype(int)
+        names = [(f"branch {each}", {"color": color_of(each)}) for each in numbers if len(numbers) > 1]
+    kinds = dict.fromkeys(each.kind for run in found for each in branches.special_points(run))
+    marks = [("stable", {"color": "0.3"}), ("unstable", {"color": "0.3"} | UNSTABLE)]
+    marks += [(": ".join(branches.KINDS.get(each, (each, ""))), MARK | {"color": "0.3"}) for each in kinds]
+    marks += [("marches", MARCHED | {"markersize": 5})] if len(found) < len(runs) else []
+    heading(fig, [*names, *marks], title(found))
+    return fig
+
+
+def draw_branches(run: Run, ax: Axes, name: str, pad: int | None, color: str | None) -> None:
+    """The highest and lowest values of a dataset along all branches of a run, with the special points."""
+    part = slice(None) if pad is None else (slice(None), pad - 1)
+    parameter, special = run["parameter"], branches.special_points(run)
+    for values in (SHOWN[name].factor * run[f"{name}_{end}"][part] for end in ("max", "min")):
+        for each in branches.stretches(run):
+            line = {"color": color or color_of(each.branch)} | ({} if each.stable else UNSTABLE)
+            ax.plot(parameter[each.points], values[each.points], **line)
+        for each in special:
+            at = (each.parameter, values[each.point])
+            ax.plot(*at, **MARK | {"color": color or color_of(each.branch)})
+            ax.annotate(
+                each.letters, at, xytext=(0, 4), textcoords="offset points", ha="center", size="x-small"
+            )
+
+
+def draw_marches(study: Study, ax: Axes, run: Run, name: str, pad: int | None) -> None:
+    """Highest and lowest values of each revolution of the marches of a study."""
+    variable = f"{run.attributes['branch_parameter']}".rpartition("%")[2].replace("(", "_").rstrip(")")
+    needs(variable, study.parameters, "over", "a parameter")
+    for end in ("lowest", "highest"):
+        values = study[f"{end}_{name.rpartition('_')[2]}"]
+        values = values if pad is None else values[..., pad - 1]
+        places = np.broadcast_to(study[variable][:, None], values.shape)
+        ax.plot(places.ravel(), SHOWN[name].factor * values.ravel(), **MARCHED)
+
+
+def parameter_of(run: Run) -> units.Shown:
+    """The parameter of branches in words, with its unit."""
+    text, unit = units.named(f"{run.attributes['branch_parameter']}".partition("(")[0])
+    return units.Shown(text, 1, unit)
+
+
+def color_of(branch: int) -> str:
+    return f"C{(branch - 1) % 8}"
+
+
+@of_several
+def multipliers(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
+    """Floquet multipliers of periodic orbits, or along branches, in and around the unit circle."""
+    fig = plt.figure(figsize=(COLUMN, 3.4))
+    ax = fig.subplots()
+    ax.add_patch(Circle((0, 0), 1, fill=False, linewidth=0.8, color="0.3"))
+    reach = 1.0
+    for color, run in zip(colors(runs), runs, strict=True):
+        if run.is_branch:
+            values = branches.multipliers(run)
+            parameter = np.broadcast_to(run["parameter"][:, None], values.shape)
+            look = {"c": parameter} if len(runs) == 1 else {"color": color}
+            dots = ax.scatter(values.real, values.imag, s=6, linewidths=0, **look)
+            if len(runs) == 1:
+                fig.colorbar(dots, ax=ax, label=parameter_of(run).label)
+            ax.set(
+                xlabel=SHOWN["multiplier_real"].label, ylabel=SHOWN["multiplier_imag"].label, aspect="equal"
+            )
+        else:
+            plots.multipliers(run, ax, color=color)
+            values = signals.multipliers(run)
+        reach = max(reach, float(np.abs(values).max()))
+    reach = 1.1 * min(reach, FARTHEST)
+    ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
+    legend(fig, runs, [])
+    return fig

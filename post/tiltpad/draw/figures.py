@@ -8,16 +8,14 @@ from collections.abc import Mapping, Sequence
 
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle
 
 from tiltpad.calculate import pivots, signals
 from tiltpad.draw import diagrams, plots
-from tiltpad.draw.branches import response
+from tiltpad.draw.branches import branch, multipliers, response
 from tiltpad.draw.films import film, pressure
 from tiltpad.draw.layout import (
     COLUMN,
     PAGE,
-    colors,
     drawn,
     legend,
     look,
@@ -40,20 +38,6 @@ from tiltpad.draw.warm import temperatures
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN, in_words
-
-
-@of_several
-def multipliers(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
-    """Floquet multipliers of periodic orbits, in and around the unit circle."""
-    fig = plt.figure(figsize=(COLUMN, 3.4))
-    ax = fig.subplots()
-    ax.add_patch(Circle((0, 0), 1, fill=False, linewidth=0.8, color="0.3"))
-    for i, run in enumerate(runs):
-        plots.multipliers(run, ax, color=colors(runs)[i])
-    reach = 1.1 * max(1.0, *(float(abs(signals.multipliers(run)).max()) for run in runs))
-    ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
-    legend(fig, runs, [])
-    return fig
 
 
 @of_several
@@ -201,6 +185,6 @@ FIGURES = {
     for each in (
         *(orbit, equilibrium, size, poincare, waveform, multipliers, spectrum),
         *(hysteresis, friction, sticking, runup, orders, waterfall, pressure, film),
-        *(coefficients, stability, campbell, response, temperatures),
+        *(coefficients, stability, campbell, response, branch, temperatures),
     )
 }

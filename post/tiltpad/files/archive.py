@@ -49,7 +49,16 @@ class Archive:
     """An HDF5 file of tiltpad, open for reading; a dataset is loaded when it is used."""
 
     #: Names that are groups.
-    GROUPS = ("equilibrium", "spectrum", "statistics", "checkpoint", "coefficients", "modes", "members")
+    GROUPS = (
+        "equilibrium",
+        "spectrum",
+        "statistics",
+        "checkpoint",
+        "coefficients",
+        "modes",
+        "members",
+        "special_points",
+    )
     #: Kinds of numpy's types that its datasets may have.
     KINDS = "fiu"
     #: Names that are of no use outside.

@@ -17,6 +17,8 @@ from tiltpad.files.archive import Archive, NotInRunError, RunError, damaged, mea
 AXES = ("time", "shaft_angle", "speed", "pivot_angle")
 #: Dimensions whose values are texts.
 LABELS = ("pivot", "row", "column", "position_row", "position_column")
+#: All arrays of texts.
+TEXTS = (*LABELS, "special_points/kind")
 #: Dimensions of the groups coefficients and modes.
 COEFFICIENTS = {
     **dict.fromkeys(("stiffness", "damping"), ("pivot", "frequency_ratio", "row", "column")),
@@ -34,6 +36,25 @@ WARM = {
     **dict.fromkeys(("inlet_temperature", "mean_temperature", "outlet_temperature"), ("pad",)),
     **dict.fromkeys(("maximum_temperature", "viscosity"), ("pad",)),
     **dict.fromkeys(("shaft_temperature", "drain_temperature"), ()),
+}
+#: Dimensions of what the task branch writes; some names are those of series over the time.
+BRANCH = {
+    **dict.fromkeys(("point", "branch", "parameter", "arc_length", "stable", "iterations"), ("point",)),
+    **dict.fromkeys(("journal_y_max", "journal_y_min", "journal_z_max", "journal_z_min"), ("point",)),
+    **dict.fromkeys(("journal_y_amplitude", "journal_z_amplitude"), ("point",)),
+    **dict.fromkeys(("journal_y_phase", "journal_z_phase"), ("point",)),
+    **dict.fromkeys(("period", "revolutions", "intervals"), ("point",)),
+    **dict.fromkeys(("pad_tilt_max", "pad_tilt_min", "min_film_thickness"), ("point", "pad")),
+    **dict.fromkeys(("multiplier_real", "multiplier_imag"), ("point", "mode")),
+    **dict.fromkeys(("eigenvalue_real", "eigenvalue_imag"), ("point", "mode")),
+    **dict.fromkeys(
+        (
+            *("special_points/point", "special_points/branch", "special_points/parameter"),
+            *("special_points/value_real", "special_points/value_imag"),
+        ),
+        ("special_points/point",),
+    ),
+    "special_points/kind": ("special_points/kind",),
 }
 #: Single numbers of the group periodic.
 PERIODIC = (
@@ -207,6 +228,11 @@ class Run(Archive):
         return namelist.count(self.input["pads"]["pivot_angle_deg"])
 
     @property
+    def is_branch(self) -> bool:
+        """True for branches of equilibria or orbits over a parameter."""
+        return self.attributes["task"] == "branch"
+
+    @property
     def samples(self) -> int:
         """Number of samples in time; 0 for an equilibrium."""
         return self.length("time") if "time" in self else 0
@@ -223,12 +249,14 @@ class Run(Archive):
             raise damaged(self.path, "pad", f"{there} pads, and {self.pads} in the input")
 
     def scales(self, name: str) -> Sequence[str] | None:
-        return () if name.startswith(f"{NUMBERS}/") else DIMENSIONS.get(name)
+        if name.startswith(f"{NUMBERS}/"):
+            return ()
+        return BRANCH[name] if self.is_branch and name in BRANCH else DIMENSIONS.get(name)
 
     def sound(self, name: str, values: Any) -> Any:
-        if (np.asarray(values).dtype.kind == "S") != (name in LABELS):
-            raise ValueError("not an array of texts" if name in LABELS else "not an array of numbers")
-        if name in LABELS:
+        if (np.asarray(values).dtype.kind == "S") != (name in TEXTS):
+            raise ValueError("not an array of texts" if name in TEXTS else "not an array of numbers")
+        if name in TEXTS:
             return np.array([plain(each).rstrip() for each in values])
         if name in AXES and not np.isfinite(values).all():
             raise ValueError("it is not finite")
@@ -241,7 +269,7 @@ class Run(Archive):
         reason = f"{self.attributes.get('reason', '')}"
         why = f"{': ' if reason else ''}{reason}"
         if not self.samples:
-            return f" without samples in time{why}"
+            return why if self.is_branch else f" without samples in time{why}"
         duration = self.input["operation"]["duration"]
         return f", ended at {self.values('time', -1):g} s of {duration:g} s{why}"
 
@@ -266,7 +294,9 @@ class Run(Archive):
         if name in ("coefficients", "modes"):
             failed = f"{self.attributes.get('reason', '')}" or "it did not come to its end"
             return f"its task is '{self.task}'" if self.task != "coefficients" else failed
-        if self.task in ("equilibrium", "coefficients"):
+        if name in BRANCH and not self.is_branch and name not in DIMENSIONS:
+            return f"its task is '{self.task}'"
+        if self.task in ("equilibrium", "coefficients", "branch"):
             return f"its task is '{self.task}', nothing was marched in time"
         if not self.samples:
             return "it ended before its first sample"

@@ -96,6 +96,12 @@ QUANTITIES = {
     "poincare_y": Quantity(("member", "revolution"), "m", "journal y once a revolution"),
     "poincare_z": Quantity(("member", "revolution"), "m", "journal z once a revolution"),
     "poincare_tilt": Quantity(("member", "revolution", "pad"), "rad", "tilt once a revolution"),
+    "lowest_y": Quantity(("member", "revolution"), "m", "lowest journal y in a revolution"),
+    "lowest_z": Quantity(("member", "revolution"), "m", "lowest journal z in a revolution"),
+    "lowest_tilt": Quantity(("member", "revolution", "pad"), "rad", "lowest tilt in a revolution"),
+    "highest_y": Quantity(("member", "revolution"), "m", "highest journal y in a revolution"),
+    "highest_z": Quantity(("member", "revolution"), "m", "highest journal z in a revolution"),
+    "highest_tilt": Quantity(("member", "revolution", "pad"), "rad", "highest tilt in a revolution"),
     **{name: Quantity(("member", *each), "", "") for name, each in (COEFFICIENTS | MODES).items()},
     "least_damping_ratio": Quantity(PIVOTS, "1", "least damping ratio of all modes"),
 }

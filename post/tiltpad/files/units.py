@@ -133,10 +133,14 @@ UNITS = {
     **dict.fromkeys(("critical_velocity", "stribeck_velocity"), "m/s"),
     **{"decay": "s/m", "bristle_stiffness": "1/m", "bristle_damping": "s/m", "viscous_coefficient": "s/m"},
 }
+#: Units of variables whose name another group has with another unit.
+UNITS_BY_GROUP = {"branch%max_step": ""}
 
 
 def named(name: str) -> tuple[str, str]:
     """Text and unit (may be empty) of "group%name"."""
+    if name in UNITS_BY_GROUP:
+        return name.split("%")[-1].replace("_", " "), UNITS_BY_GROUP[name]
     name = name.split("%")[-1]
     for ending in ("deg", "rpm"):
         if name.endswith("_" + ending):

@@ -1,0 +1,89 @@
+"""Branches of equilibria or periodic orbits over a parameter: stable and unstable parts, special points."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tiltpad.files.archive import NotInRunError
+from tiltpad.files.read import Run
+
+#: Kinds of special points: letters in a picture, and words.
+KINDS = {
+    "fold": ("LP", "fold"),
+    "flip": ("PD", "period doubling"),
+    "neimark_sacker": ("NS", "second frequency"),
+    "hopf": ("HB", "Hopf"),
+    "branch_point": ("BP", "branch point"),
+}
+
+
+class Stretch(NamedTuple):
+    """A part of a branch whose stability stays the same: number of the branch, whether stable, its points."""
+
+    branch: int
+    stable: bool
+    points: np.ndarray
+
+
+class SpecialPoint(NamedTuple):
+    """Where a branch turns or its stability changes.
+
+    Its kind, branch, index among the points, value of the parameter, and the multiplier or eigenvalue that
+    crosses (1/s).
+    """
+
+    kind: str
+    branch: int
+    point: int
+    parameter: float
+    value: complex
+
+    @property
+    def letters(self) -> str:
+        return KINDS.get(self.kind, (self.kind, ""))[0]
+
+
+def stretches(run: Run) -> list[Stretch]:
+    """The stable and unstable parts of all branches in their order; neighbours share a point."""
+    needs_branch(run)
+    number, stable = run["branch"], run["stable"] > 0
+    # the last point before a change belongs to neither
+    special = np.zeros(len(number), bool)
+    special[[each.point for each in special_points(run)]] = True
+    found = []
+    for branch in np.unique(number):
+        own = np.flatnonzero(number == branch)
+        is_stable = (stable | special)[own]
+        pieces = is_stable[:-1] & is_stable[1:] & (stable[own][:-1] | stable[own][1:])
+        ends = np.flatnonzero(np.diff(pieces)) + 1
+        for first, after in zip([0, *ends], [*ends, len(pieces)], strict=True):
+            if len(own) > 1:
+                found.append(Stretch(int(branch), bool(pieces[first]), own[first : after + 1]))
+    return found
+
+
+def special_points(run: Run) -> list[SpecialPoint]:
+    """Folds, period doublings, Hopf points, ... in the order of the points."""
+    needs_branch(run)
+    if "special_points" not in run:
+        return []
+    own = run["special_points"]
+    value = own["value_real"] + 1j * own["value_imag"]
+    places = zip(own["kind"], own["branch"], own["point"], own["parameter"], value, strict=True)
+    return [
+        SpecialPoint(str(kind), int(branch), int(point) - 1, float(parameter), complex(each))
+        for kind, branch, point, parameter, each in places
+    ]
+
+
+def multipliers(run: Run) -> np.ndarray:
+    """Floquet multipliers along branches, complex, (point, multiplier), those of largest modulus first."""
+    needs_branch(run)
+    if "multiplier_real" not in run:
+        raise NotInRunError(f"{run.path}: no multipliers in this run: its branch is one of equilibria")
+    return run["multiplier_real"] + 1j * run["multiplier_imag"]
+
+
+def needs_branch(run: Run) -> None:
+    if not run.is_branch:
+        raise NotInRunError(f"{run.path}: no branch in this run: its task is '{run.task}'")

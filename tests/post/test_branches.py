@@ -1,0 +1,105 @@
+"""Branches over a parameter: their parts and pictures, the response along them, marches below."""
+
+import h5py
+import numpy as np
+import pytest
+import tiltpad
+from matplotlib.colors import to_hex
+from tiltpad import command
+from tiltpad.calculate import branches
+from tiltpad.draw import branches as pictures
+
+pytestmark = pytest.mark.usefixtures("closed_figures")
+
+
+@pytest.fixture
+def turned(changed, opened):
+    """A branch of nine points whose fifth is a flip, and a second branch that is unstable but for its end."""
+
+    def edit(file):
+        count = len(file["point"])
+        number = np.where(np.arange(count) < 9, 1, 2)
+        stable = np.where(np.arange(count) < 4, 1, 0)
+        stable[-1] = 1
+        for name, values in (("branch", number), ("stable", stable)):
+            file[name][...] = values
+        own = file.create_group("special_points")
+        for name, value in (("point", 5), ("branch", 1), ("parameter", file["parameter"][4])):
+            own[name] = np.array([value], float)
+        own["value_real"], own["value_imag"] = np.array([-1.0]), np.array([0.0])
+        own["kind"] = np.array([b"flip          "])
+
+    return opened(changed("branch", edit))
+
+
+def test_parts_and_special_points(turned, run):
+    (special,) = branches.special_points(turned)
+    assert (special.kind, special.letters, special.branch, special.point) == ("flip", "PD", 1, 4)
+    assert (special.parameter, special.value) == (turned["parameter"][4], -1)
+    last = len(turned["point"]) - 1
+    parts = branches.stretches(turned)
+    found = [(each.branch, each.stable, each.points[0], each.points[-1]) for each in parts]
+    assert found == [(1, True, 0, 4), (1, False, 4, 8), (2, False, 9, last)]
+    assert branches.multipliers(turned).shape == (last + 1, len(turned["mode"]))
+    with pytest.raises(tiltpad.NotInRunError, match="no branch in this run: its task is 'march'"):
+        branches.stretches(run("none"))
+
+
+def test_what_is_unstable_is_dashed_and_special_points_have_letters(turned):
+    upper, _ = pictures.branch(turned).axes
+    lines = [line for line in upper.get_lines() if len(line.get_xdata()) > 1]
+    assert [line.is_dashed() for line in lines] == [False, True, True] * 2
+    assert len({to_hex(line.get_color()) for line in lines}) == 2
+    np.testing.assert_array_equal(lines[1].get_xdata(), turned["parameter"][4:9])
+    np.testing.assert_allclose(lines[1].get_ydata(), 1e6 * turned["journal_y_max"][4:9])
+    np.testing.assert_allclose(lines[4].get_ydata(), 1e6 * turned["journal_y_min"][4:9])
+    assert [text.get_text() for text in upper.texts] == ["PD", "PD"]
+
+
+def test_the_response_along_a_branch_is_that_of_its_orbits(run):
+    found = tiltpad.response(run("branch"))
+    assert found.parameter == "speed_rpm"
+    case = {"case": {"task": "periodic"}, "operation": {"speed_rpm": 3000}}
+    with tiltpad.run(case, output={"samples_per_revolution": 60}) as orbit:
+        one = tiltpad.calculate.signals.first_harmonic(orbit, "journal_z", slice(orbit.samples))
+    # both are means over the samples of a revolution, one of the orbit itself
+    assert found.amplitude[0, 1] * np.exp(-1j * found.phase[0, 1]) == pytest.approx(one, rel=1e-4)
+
+
+def test_marches_lie_below_their_branch(run, result, tmp_path):
+    lengths = {"settle": 6, "revolutions": 2, "output": {"samples_per_revolution": 60}}
+    speeds = [3000, 4000]
+    study = tiltpad.brute_force(None, "operation%speed_rpm", speeds, tmp_path / "up", **lengths)
+    with study:
+        branch = run("branch")
+        ends = [0, int(np.argmax(branch["parameter"]))]
+        # the motion from the equilibrium has come as near as 1e-3 of the orbit in six revolutions
+        high, low = branch["journal_y_max"][ends], branch["journal_y_min"][ends]
+        np.testing.assert_allclose(study["highest_y"][:2, -1], high, atol=0.01 * (high - low).min())
+        figure = pictures.branch([branch, study], pad=2)
+        grey = figure.axes[1].get_lines()[0]
+        np.testing.assert_allclose(
+            grey.get_ydata(), 1e3 * study["lowest_tilt"][..., 1].ravel(), equal_nan=True
+        )
+        with pytest.raises(tiltpad.NotInRunError, match="no branch in this study"):
+            pictures.branch(study)
+    output = tmp_path / "a.png"
+    files = [str(result("branch")), str(tmp_path / "up/study.h5")]
+    assert command.main(["branch", *files, "-o", str(output)]) == 0
+    assert command.main(["multipliers", files[0], "-o", str(output)]) == 0
+
+
+def test_extremes_of_each_revolution(made):
+    run = made("none", seconds=5.5 * 60 / 6500, interval=60 / 6500 / 40, journal_y=lambda t, angle: angle)
+    low, high = tiltpad.calculate.signals.extremes(run, "journal_y")
+    assert len(low) == 5
+    np.testing.assert_allclose(high - low, 2 * np.pi, rtol=0.05)
+
+
+def test_reports_of_branches(result, tmp_path):
+    output = tmp_path / "page.html"
+    assert command.report([str(result("branch")), "-o", str(output)]) == 0
+    page = output.read_text()
+    assert all(f'alt="{name}"' in page for name in ("branch", "multipliers", "response"))
+    with h5py.File(result("branch")) as file:
+        assert file.attrs["complete"]
