@@ -7,6 +7,7 @@ module march_task
    use integrator_counts, only: integrator_counts_type
    use spectra, only: one_sided_amplitude, full_amplitude
    use scene, only: scene_type
+   use result_size, only: sample_interval, sample_count
    use run_file, only: run_file_type
    use march_results, only: put_spectrum, put_asperities
    use equations_of_motion, only: bearing_model
@@ -105,9 +106,8 @@ contains
       type(case_run_type), intent(in) :: run
       associate (scene => run%scene)
          plan%first = scene%output%start_time
-         plan%interval = 2*pi/(scene%highest_speed()*scene%output%samples_per_revolution)
-         ! a last sample that misses the end by rounding alone is taken
-         plan%count = 1 + floor((scene%operation%duration - plan%first)/plan%interval + 1e-6_wp, i8)
+         plan%interval = sample_interval(scene)
+         plan%count = sample_count(scene)
       end associate
       plan%next = run%file%samples()
    end function planned

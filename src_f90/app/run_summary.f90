@@ -4,6 +4,7 @@ module run_summary
    use text, only: to_text, fixed_text
    use loops, only: loop_area
    use scene, only: scene_type
+   use result_size, only: size_note
    use checked_case, only: preload_note, warm_note
    use heat_balance, only: oil_temperatures_type
    use bearing_numbers, only: load, specific_load, sommerfeld_number
@@ -23,6 +24,7 @@ contains
       type(scene_type), intent(in) :: scene
       if (preload_note(scene) /= '') print '(a)', preload_note(scene)
       if (warm_note(scene) /= '') print '(a)', warm_note(scene)
+      if (size_note(scene, 1) /= '') print '(a)', size_note(scene, 1)
    end subroutine print_notes
 
    !> Where a march starts that does not start at the equilibrium itself; journal, m, tilts, rad.

@@ -5,6 +5,7 @@ program tiltpad
    use text, only: printable, to_text
    use errors, only: error_type, raise, input_error, system_error
    use scene, only: scene_type
+   use result_size, only: size_note
    use sweep, only: sweep_type, member_tag, read_sweep
    use namelist_writer, only: scene_text
    use input_reference, only: reference_text
@@ -187,7 +188,12 @@ contains
       logical, intent(in) :: quiet
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: failures(:)
+      type(scene_type) :: first
       integer :: i
+      call sweep%scene(1, first, error)
+      if (.not. allocated(error) .and. .not. quiet) then
+         if (size_note(first, sweep%members) /= '') print '(a)', size_note(first, sweep%members)
+      end if
       call run_members(sweep, folder, merge(jobs, processors(), jobs > 0), quiet, run_member, failures, error)
       do i = 1, size(failures)
          call complain(failures(i))

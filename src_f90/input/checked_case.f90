@@ -5,6 +5,7 @@ module checked_case
    use errors, only: error_type
    use scene, only: scene_type
    use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
+   use result_size, only: result_bytes, sample_count
    use oil_properties, only: viscosity, kinematic_points
    use scene_completion, only: complete_scene
    use scene_fields, only: pads_variable
@@ -105,6 +106,8 @@ contains
       if (load(scene) > 0) call say('Sommerfeld number', sommerfeld_number(scene), &
          & 'mu N L D/W (R_J/c_r)^2, N in 1/s at the start')
       if (scene%oil%law /= 'constant') call say_oil()
+      if (result_bytes(scene) > 0) call say('result', 0.1_wp*anint(result_bytes(scene)/1e5_wp), &
+         & 'MB, '//to_text(sample_count(scene))//' samples')
       if (preload_note(scene) /= '') text = text//'! '//preload_note(scene)//newline
       if (warm_note(scene) /= '') text = text//'! '//warm_note(scene)//newline
    contains

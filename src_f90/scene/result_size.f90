@@ -1,0 +1,67 @@
+!> How many samples a march takes, and how large its file becomes.
+module result_size
+   use kinds, only: wp, i8, pi
+   use text, only: to_text
+   use scene, only: scene_type
+   implicit none (type, external)
+   private
+   public :: sample_interval, sample_count, result_bytes, bytes_text, size_note
+
+   !> From so many bytes on the size is said before a run.
+   real(wp), parameter :: large = 100e6_wp
+   !> Bytes of a value, and of a file without samples.
+   real(wp), parameter :: of_value = 8, of_frame = 1e5_wp
+
+contains
+
+   !> Time between samples, s.
+   pure real(wp) function sample_interval(scene) result(interval)
+      type(scene_type), intent(in) :: scene
+      interval = 2*pi/(scene%highest_speed()*scene%output%samples_per_revolution)
+   end function sample_interval
+
+   !> Samples of a march that reaches its end; a last one that misses the end by rounding alone is taken.
+   pure integer(i8) function sample_count(scene) result(samples)
+      type(scene_type), intent(in) :: scene
+      samples = 1 + floor((scene%operation%duration - scene%output%start_time)/sample_interval(scene) + 1e-6_wp, i8)
+   end function sample_count
+
+   !> Bytes of the result of a scene; 0 where nothing is marched.
+   pure real(wp) function result_bytes(scene) result(bytes)
+      type(scene_type), intent(in) :: scene
+      integer :: of_pad
+      bytes = 0
+      if (scene%about%task /= 'march') return
+      ! the series that docs/results.md lists
+      of_pad = 4
+      if (scene%tilting()) of_pad = of_pad + 4
+      if (scene%tilting_radial()) of_pad = of_pad + 2
+      if (scene%tilting() .and. scene%friction%model == 'lugre') of_pad = of_pad + 1
+      if (scene%asperity%model /= 'none') of_pad = of_pad + 1
+      bytes = of_frame + of_value*(7 + of_pad*scene%pad_count())*max(0.0_wp, real(sample_count(scene), wp))
+   end function result_bytes
+
+   !> "540 MB".
+   pure function bytes_text(bytes) result(text)
+      real(wp), intent(in) :: bytes
+      character(len=:), allocatable :: text
+      if (bytes < 1e9_wp) then
+         text = to_text(nint(bytes/1e6_wp))//' MB'
+      else
+         text = to_text(0.1_wp*anint(bytes/1e8_wp))//' GB'
+      end if
+   end function bytes_text
+
+   !> A word on so many results of this scene that are large together; else empty.
+   function size_note(scene, results) result(note)
+      type(scene_type), intent(in) :: scene
+      integer, intent(in) :: results
+      character(len=:), allocatable :: note
+      note = ''
+      if (results*result_bytes(scene) < large) return
+      note = 'note: about '//bytes_text(results*result_bytes(scene))//' of results, ' &
+         & //to_text(sample_count(scene))//' samples'
+      if (results > 1) note = note//' in each of '//to_text(results)//' files'
+      note = note//'; a later output%start_time or fewer output%samples_per_revolution make them smaller'
+   end function size_note
+end module result_size
