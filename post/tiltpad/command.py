@@ -226,15 +226,14 @@ def one_file(options: argparse.Namespace) -> Path:
 
 
 def draw_study(options: argparse.Namespace, output: Path, form: str) -> None:
-    """Reads a study, draws it and writes the picture."""
+    """Reads studies, draws them and writes the picture."""
     from tiltpad.draw import figures, plots
 
-    if len(options.files) > 1:
-        raise ValueError("study: one file; tiltpad-collect puts several into one")
-    with read_study(options.files[0]) as study, plots.plt.style.context(plots.STYLE):
+    with ExitStack() as stack, plots.plt.style.context(plots.STYLE):
+        studies = [stack.enter_context(read_study(path)) for path in options.files]
         where = kept(options)
         figure = figures.study(
-            study, options.show, options.over, options.kind, where, options.pad, options.pivot
+            studies, options.show, options.over, options.kind, where, options.pad, options.pivot
         )
         figure.savefig(output, format=form)
         plots.plt.close(figure)

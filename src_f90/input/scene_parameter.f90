@@ -8,6 +8,7 @@ module scene_parameter
    use scene_checks, only: check_scene
    use field_visitor, only: visitor_type, field_type
    use scene_fields, only: visit_scene
+   use variable_names, only: meant_variable
    implicit none (type, external)
    private
    public :: scene_parameter_type, find_parameter, check_branch_parameter
@@ -71,7 +72,8 @@ contains
       copy = scene
       call seek(parameter, copy, found)
       if (.not. found%exists) then
-         call raise(error, input_error, 'there is no such variable')
+         call raise(error, input_error, 'there is no such variable' &
+            & //meant_variable(parameter%group, parameter%variable))
       else if (.not. found%real_number) then
          call raise(error, input_error, 'must be a real number, no text and no whole number')
       else if (index(groups, ' '//parameter%group//' ') == 0 .or. parameter%group == 'operation' &
@@ -246,7 +248,7 @@ contains
       class(seeker), intent(inout) :: self
       real(wp), allocatable, intent(inout) :: values(:)
       type(field_type), intent(in) :: field
-      self%of_pads = self%of_pads .or. self%is_it(field, .true., size(values))
+      if (self%is_it(field, .true., size(values))) self%of_pads = .true.
       call self%numbers(values, field)
    end subroutine visit_per_pad
 

@@ -405,7 +405,7 @@ def test_every_option_of_the_help_is_known(tiltpad, case):
 
 @pytest.mark.parametrize("changes", ["friction%model=lugre", "pads%motion=fixed", "asperity%model=none"])
 def test_the_size_of_a_result_is_known_before(tiltpad, tmp_path, changes):
-    """Up to the spectra, which are small beside the samples of a longer run, and the rest of the last chunk."""
+    """But for the spectra, which are small beside the samples, and the rest of the last chunk."""
     (tmp_path / "case.nml").write_text("&operation duration=0.21 / &output spectrum_revolutions=1 /\n")
     said = check(tiltpad, tmp_path, "case.nml", "--set", changes)
     size = float(re.search(r"^!   result +([\d.]+)  MB, 8191 samples$", said, re.M)[1])

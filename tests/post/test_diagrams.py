@@ -260,3 +260,16 @@ def test_a_study_of_which_nothing_is_left(sweep, tmp_path, capsys):
         command.main(["study", str(tmp_path / "a.h5"), "--show", "status", "-o", str(tmp_path / "a.png")])
         == 0
     )
+
+
+def test_studies_over_each_other(study):
+    """A colour for each, and dashes for the lines within one; different results are refused."""
+    fig = figures.study([study("speed"), study("both")], over="speed_rpm")
+    (ax,) = fig.axes
+    named = [line for line in ax.get_lines() if not line.get_label().startswith("_")]
+    assert [line.get_color() for line in named] == ["C0", "C1", "C1"]
+    assert len({(line.get_color(), line.get_linestyle()) for line in named}) == 3
+    texts = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert texts == ["speed", "both, no friction", "both, LuGre"]
+    with pytest.raises(ValueError, match="choose by show and over"):
+        figures.study([study("speed"), study("grid")])

@@ -5,8 +5,10 @@ Every function takes the runs, the number of revolutions at the end (None: its o
 """
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tiltpad.calculate import pivots, signals
@@ -15,8 +17,10 @@ from tiltpad.draw.branches import branch, multipliers, response
 from tiltpad.draw.films import film, pressure
 from tiltpad.draw.layout import (
     COLUMN,
+    DASHES,
     PAGE,
     drawn,
+    labels,
     legend,
     look,
     of_several,
@@ -163,7 +167,7 @@ def waveform(runs: Sequence[Run], last: float | None = None, pad: int | None = N
 
 
 def study(
-    study: Study,
+    studies: Study | Sequence[Study],
     show: str | None = None,
     over: str | None = None,
     kind: str | None = None,
@@ -171,13 +175,45 @@ def study(
     pad: int | None = None,
     pivot: str | None = None,
 ) -> Figure:
-    """A diagram of a study; the arguments are those of tiltpad.diagrams.diagram."""
+    """A diagram of a study, or the lines of several in one; arguments as for tiltpad.diagrams.diagram."""
+    several = [studies] if isinstance(studies, Study) else list(studies)
     fig = plt.figure(figsize=(COLUMN, 2.6))
-    diagrams.diagram(study, fig.subplots(), show, over, kind, where, pad, pivot)
+    ax = fig.subplots()
+    if len(several) == 1:
+        diagrams.diagram(several[0], ax, show, over, kind, where, pad, pivot)
+    else:
+        over_each_other(several, labels(several), ax, show, over, kind or "lines", where, pad, pivot)
+    titles = {each.title for each in several}
     kept = ", ".join(f"{name} = {value}" for name, value in (where or {}).items())
-    fig.suptitle(plain(", ".join(text for text in (study.title, kept) if text), width(fig)))
-    remark_unfinished(fig, study)
+    title = titles.pop() if len(titles) == 1 else ""
+    fig.suptitle(plain(", ".join(text for text in (title, kept) if text), width(fig)))
+    for each in several:
+        remark_unfinished(fig, each)
     return fig
+
+
+def over_each_other(studies: Sequence[Study], names: Sequence[str], ax: Axes, *arguments: Any) -> None:
+    """Diagrams of studies on the same axes: a colour for each study, dashes for the lines within one."""
+    seen = set()
+    for k, (each, name) in enumerate(zip(studies, names, strict=True)):
+        before = len(ax.get_lines())
+        diagrams.diagram(each, ax, *arguments)
+        seen.add((ax.get_xlabel(), ax.get_ylabel()))
+        if ax.collections or len(seen) > 1:
+            raise diagrams.ArgumentError(
+                "several studies are lines of one result over one parameter: choose by {show} and {over}"
+            )
+        mine = ax.get_lines()[before:]
+        # what failed has no markers
+        for part, line in enumerate(line for line in mine if line.get_marker() == "o"):
+            own = f"{line.get_label()}"
+            line.set_label(name if own.startswith("_") or not own else f"{name}, {own}")
+            if line.get_linestyle() != "None":
+                line.set_linestyle(DASHES[part % len(DASHES)])
+        for line in mine:
+            line.set_color(f"C{k}")
+    handles = [line for line in ax.get_lines() if not f"{line.get_label()}".startswith("_")]
+    ax.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0))
 
 
 FIGURES = {
