@@ -25,7 +25,7 @@ module equilibrium_branch
       procedure :: linearize
       procedure :: move
       procedure :: spectrum
-      procedure :: kind
+      procedure :: kind => kind_of
       procedure :: get_place
       procedure :: go_to
       procedure :: state
@@ -132,12 +132,12 @@ contains
       growth = values%re/self%bearing%model%point%speed(0.0_wp)
    end subroutine spectrum
 
-   pure function kind(self, value)
+   pure function kind_of(self, value) result(kind)
       class(equilibrium_problem_type), intent(in) :: self
       complex(wp), intent(in) :: value
       character(len=:), allocatable :: kind
       kind = trim(merge('hopf', 'fold', abs(value%im) > 0))
-   end function kind
+   end function kind_of
 
    pure subroutine get_place(self, place)
       class(equilibrium_problem_type), intent(in) :: self

@@ -31,7 +31,7 @@ module orbit_branch
       procedure :: move
       procedure :: predict
       procedure :: spectrum
-      procedure :: kind
+      procedure :: kind => kind_of
       procedure :: get_place
       procedure :: go_to
       procedure :: period
@@ -201,7 +201,7 @@ contains
       if (ok) growth = abs(values) - 1
    end subroutine spectrum
 
-   pure function kind(self, value)
+   pure function kind_of(self, value) result(kind)
       class(orbit_problem_type), intent(in) :: self
       complex(wp), intent(in) :: value
       character(len=:), allocatable :: kind
@@ -212,7 +212,7 @@ contains
       else
          kind = 'fold'
       end if
-   end function kind
+   end function kind_of
 
    !> Turns, parameter, first defect, sizes of both meshes, and the meshes, start and points.
    pure subroutine get_place(self, place)

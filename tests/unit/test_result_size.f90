@@ -33,8 +33,8 @@ contains
 
    !> Of a value 8 bytes: 7 of the journal, and of each pad those that its model has.
    subroutine sizes()
-      character(len=*), parameter :: case = '&operation speed_rpm = 6000, duration = 1 / &output samples_per_revolution = ' &
-         & //'1000 / &pads pivot_angle_deg = -90, 0, 90, 180 '
+      character(len=*), parameter :: case = '&operation speed_rpm = 6000, duration = 1 / ' &
+         & //'&output samples_per_revolution = 1000 / &pads pivot_angle_deg = -90, 0, 90, 180 '
       call expect_values(case//'/ &asperity model = ''none'' /', 7 + 4*10)
       call expect_values(case//'/', 7 + 4*11)
       call expect_values(case//'/ &friction model = ''lugre'' /', 7 + 4*12)
