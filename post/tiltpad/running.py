@@ -96,13 +96,23 @@ def started(
 
 
 def resolved(case: str | os.PathLike) -> dict[str, dict[str, Any]]:
-    """The groups of a case with every default, as run.input; the program only checks the case."""
-    done = subprocess.run([program(), "--check", os.fspath(case)], capture_output=True, text=True)
+    """The groups of a case with every default, as run.input; of a sweep those of its first member.
+
+    The program only checks the case.
+    """
+    groups = checked(case)
+    return namelist.resolved(checked(case, "--member", "1") if "\n&sweep" in groups else groups)
+
+
+def checked(case: str | os.PathLike, *options: str) -> str:
+    """What --check prints, without its remarks."""
+    words = [program(), "--check", *options, os.fspath(case)]
+    done = subprocess.run(words, capture_output=True, text=True)
     if done.returncode == INPUT_ERROR:
         raise ValueError(done.stderr.strip().removeprefix("tiltpad: error: "))
     if done.returncode:
         raise RunError(done.stderr.strip() or f"the program ended with status {done.returncode}")
-    return namelist.resolved(REMARK.sub(r"\1", done.stdout))
+    return REMARK.sub(r"\1", done.stdout)
 
 
 def program() -> str:

@@ -160,9 +160,13 @@ def test_ticks_have_no_offsets():
     assert np.ptp(ax.get_ylim()) == pytest.approx(2e-4 * 3.74, rel=1e-3)
 
 
-def test_a_case_as_the_program_completes_it(result, run, monkeypatch, program):
+def test_a_case_as_the_program_completes_it(result, run, tmp_path, monkeypatch, program):
     monkeypatch.setenv("TILTPAD", program)
-    assert resolved(result("offset").with_suffix(".nml")) == run("offset").input
+    case = result("offset").with_suffix(".nml")
+    assert resolved(case) == run("offset").input
+    swept = tmp_path / "swept.nml"
+    swept.write_text(case.read_text() + "&sweep operation%speed_rpm=4000,5000 /\n")
+    assert resolved(swept)["operation"]["speed_rpm"] == 4000
 
 
 def test_the_bearing_of_a_case(result, run, tmp_path, monkeypatch, program):

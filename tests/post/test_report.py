@@ -193,7 +193,7 @@ def test_a_browser_shows_it(page, run, tmp_path, scene):
     copy = tmp_path / "probed.html"
     copy.write_text(page(scene).replace("</body>", PROBE + "</body>"), encoding="utf-8")
     options = ["--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=5000", "--dump-dom"]
-    home = ["--window-size=900,1200", f"--user-data-dir={tmp_path / 'browser'}"]
+    home = ["--window-size=500,1200", f"--user-data-dir={tmp_path / 'browser'}"]
     done = subprocess.run(
         [browser, *options, *home, copy.as_uri()], capture_output=True, text=True, timeout=120, check=True
     )

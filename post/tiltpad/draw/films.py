@@ -95,7 +95,7 @@ def film(
         xlabel="angle from $+z$ towards $+y$ (deg); the surface of the journal moves to the left",
         ylabel="pressure in the\nmiddle (MPa)",
     )
-    lower.xaxis.set_major_locator(plt.MultipleLocator(30))
+    lower.xaxis.set_major_locator(plt.MaxNLocator(12, steps=[1, 1.5, 3, 5, 10]))
     if len(runs) > 1:
         legend(fig, runs, [])
     else:
