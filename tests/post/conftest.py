@@ -9,6 +9,7 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 import pytest
 import tiltpad as package
+from matplotlib.figure import Figure
 
 mpl.use("agg")
 #: The paper's package, post/paper, is not installed.
@@ -42,6 +43,21 @@ def closed_figures():
     """For tests that draw."""
     yield
     plt.close("all")
+
+
+@pytest.fixture
+def quick_pictures(closed_figures, monkeypatch):
+    """For tests that write pictures: with fewer pixels, and without the layout, which takes most of the time.
+
+    test_nothing_is_cut_off lays out every plot.
+    """
+    whole = Figure.savefig
+
+    def savefig(self, *arguments, **options):
+        self.set_layout_engine("none")
+        return whole(self, *arguments, **{"dpi": 160} | options)
+
+    monkeypatch.setattr(Figure, "savefig", savefig)
 
 
 @pytest.fixture(scope="session")

@@ -81,7 +81,7 @@ def test_dominant(beside):
     assert behaviour.dominant(np.ones(100), 10) == (pytest.approx(np.nan, nan_ok=True), 0)
 
 
-def test_report_and_picture(made, opened, tmp_path, closed_figures):
+def test_report_and_picture(made, opened, tmp_path, quick_pictures):
     figures = {text: values for text, _, values in summary.pads(opened(made))}
     assert list(figures["share of the time lifted off its pivot"]) == [0, 0.75, 0, 0]
     assert list(figures["share of the time rubbing"]) == [0, 0, 0, 0.2]

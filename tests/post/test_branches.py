@@ -9,7 +9,7 @@ from tiltpad import command
 from tiltpad.calculate import branches
 from tiltpad.draw import branches as pictures
 
-pytestmark = pytest.mark.usefixtures("closed_figures")
+pytestmark = pytest.mark.usefixtures("quick_pictures")
 
 
 @pytest.fixture

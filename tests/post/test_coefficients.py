@@ -10,7 +10,7 @@ import tiltpad
 import xarray
 from tiltpad import command, figures
 
-pytestmark = pytest.mark.usefixtures("closed_figures")
+pytestmark = pytest.mark.usefixtures("quick_pictures")
 
 SPEEDS, FAILED = [4000, 5000, 6000, 7000, 8000], 2
 PIVOTS = ["free", "stuck", "locked"]

@@ -7,7 +7,7 @@ import pytest
 import tiltpad
 from tiltpad import command, diagrams, figures
 
-pytestmark = pytest.mark.usefixtures("closed_figures")
+pytestmark = pytest.mark.usefixtures("quick_pictures")
 
 SCENE = "&operation duration=0.04 / &output samples_per_revolution=40 /"
 SPEEDS, UNBALANCES = [3000, 4000, 6500], [0.0002, 0.002, 0.02]

@@ -14,7 +14,7 @@ from tiltpad.calculate import signals
 from tiltpad.draw import bearing, layout, orbits
 from tiltpad.running import resolved
 
-pytestmark = pytest.mark.usefixtures("closed_figures")
+pytestmark = pytest.mark.usefixtures("quick_pictures")
 
 
 def with_input(run, **values):

@@ -16,7 +16,7 @@ import tiltpad
 from tiltpad import command
 from tiltpad.draw import layout
 
-pytestmark = pytest.mark.usefixtures("closed_figures")
+pytestmark = pytest.mark.usefixtures("quick_pictures")
 
 #: Plots by the runs that they need; the others have tests of their own.
 PLOTS = [
@@ -315,7 +315,7 @@ def drawn(path: Path) -> float:
     if path.suffix == ".png":
         assert data.startswith(b"\x89PNG\r\n\x1a\n")
         pixels = matplotlib.image.imread(path)[..., :3]
-        assert min(pixels.shape[:2]) > 400
+        assert min(pixels.shape[:2]) > 200
         return float((pixels.min(axis=2) < 0.9).mean())
     if path.suffix == ".pdf":
         assert data.startswith(b"%PDF-")

@@ -7,7 +7,7 @@ import tiltpad
 from tiltpad import command, figures
 from tiltpad.calculate import geometry
 
-pytestmark = pytest.mark.usefixtures("closed_figures")
+pytestmark = pytest.mark.usefixtures("quick_pictures")
 
 
 def test_the_pressure_over_the_unrolled_pad(run):

@@ -13,6 +13,8 @@ import tiltpad
 from matplotlib.figure import Figure
 from tiltpad import command, summary
 
+pytestmark = pytest.mark.usefixtures("quick_pictures")
+
 #: Scenes whose page a browser shows; the pictures of the others are made, but not written.
 SHOWN = ("lugre", "runup", "equilibrium")
 BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")

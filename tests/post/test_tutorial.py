@@ -20,7 +20,9 @@ HERE = {
 SAVED = re.compile(r"Save this text as `([\w.]+)`")
 
 
-def test_every_command_of_the_tutorial_does_what_it_says(root, program, tmp_path, monkeypatch, capsys):
+def test_every_command_of_the_tutorial_does_what_it_says(
+    root, program, tmp_path, monkeypatch, capsys, quick_pictures
+):
     monkeypatch.setenv("TILTPAD", program)
     text = (root / "docs/tutorial.md").read_text()
     folders = [str(Path(program).parent), str(Path(sys.executable).parent), os.environ["PATH"]]

@@ -7,7 +7,7 @@ import tiltpad as package
 from tiltpad import command, figures, summary
 from tiltpad.files.read import WARM
 
-pytestmark = pytest.mark.usefixtures("closed_figures")
+pytestmark = pytest.mark.usefixtures("quick_pictures")
 
 #: Three pads, the last of which has no neighbour near; one speed is beyond what is compared.
 CASE = """&operation duration=0.01 /
