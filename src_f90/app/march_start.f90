@@ -9,6 +9,7 @@ module march_start
    use partial_equilibrium, only: find_partial_equilibrium
    use warm_oil, only: has_warm_oil
    use last_state, only: read_last_state
+   use march_results, only: put_viscosity
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use equilibrium_task, only: create_file, start_at_equilibrium, nothing_computed
@@ -30,6 +31,7 @@ contains
       associate (model => run%model, from => run%scene%start%from)
          if (from == 'equilibrium') then
             call start_at_equilibrium(run, y, error)
+            if (.not. allocated(error)) call note_oil(run)
             if (allocated(error) .or. .not. is_disturbed(run)) return
             journal = model%rotor%journal(y(:model%rotor%states))
             pads = model%layout%pad_states(y)
@@ -40,6 +42,7 @@ contains
             if (from == 'partial') call start_partially(run, journal, pads, error)
             if (.not. allocated(error)) call create_file(run, error)
             if (allocated(error)) return
+            call note_oil(run)
          end if
          call disturb(run, journal, pads)
          y = model%state(journal, pads)
@@ -53,6 +56,12 @@ contains
       run%computed = .true.
       if (.not. run%quiet) call print_start(run%scene, journal%position, pads%tilt)
    end subroutine make_start
+
+   !> Writes the viscosities that warm oil keeps in the march.
+   subroutine note_oil(run)
+      type(case_run_type), intent(inout) :: run
+      if (has_warm_oil(run%model)) call put_viscosity(run%file, run%model%bearing%pads%gap%viscosity)
+   end subroutine note_oil
 
    !> Gives warm oil the viscosities of the equilibrium, which it keeps in a march that starts elsewhere or goes on from
    !> a checkpoint.

@@ -8,7 +8,7 @@ module march_results
    use run_file, only: run_file_type
    implicit none (type, external)
    private
-   public :: add_sample, put_spectrum, put_asperities
+   public :: add_sample, put_spectrum, put_asperities, put_viscosity
 
    !> Values of a sample: of the journal, and of a pad at most.
    integer, parameter :: of_journal = 7, of_pad = 12
@@ -143,6 +143,13 @@ contains
       call file%file%put_list('asperities/contact_time', touches*interval, 's', 'time in which asperities touched', &
          & 'pad')
    end subroutine put_asperities
+
+   !> Writes the viscosity of the oil on each pad, Pa s, which warm oil keeps in a march.
+   subroutine put_viscosity(file, viscosity)
+      type(run_file_type), intent(inout) :: file
+      real(wp), intent(in) :: viscosity(:)
+      call file%file%put_list('viscosity', viscosity, 'Pa s', 'viscosity of the oil on each pad in the march', 'pad')
+   end subroutine put_viscosity
 
    !> Amplitude spectra over the last revolutions of a run at constant speed, rad/s.
    subroutine put_spectrum(file, interval, revolutions, speed, journal_y, journal_z, journal_full, tilt)

@@ -80,6 +80,20 @@ def test_heat_is_conserved(march):
     assert 0 < warmer.sum() < 3
 
 
+@pytest.mark.parametrize("start", ["given", "partial"])
+def test_a_march_that_starts_elsewhere_has_the_same_oil(folder, march, opened, tiltpad, start):
+    case = ("warm.nml", "--set", "operation%speed_rpm=4000", "--set", f"start%from={start}")
+    done = tiltpad(*case, "--quiet", "--output", f"{start}.h5", cwd=folder)
+    assert done.returncode == 0, done.stderr
+    run = opened(folder / f"{start}.h5")
+    assert "equilibrium" not in run
+    np.testing.assert_allclose(run.viscosity, march.viscosity, rtol=1e-6)
+    np.testing.assert_array_equal(march.viscosity, march["equilibrium/viscosity"])
+    # a sample has the error of the march
+    force = np.hypot(run.film_force_tangential[-1], run.film_force_radial[-1])
+    np.testing.assert_allclose(package.losses(run, last=1).load[-1], force, atol=1e-3 * force.max())
+
+
 def test_films_have_the_viscosities_of_the_equilibrium(march):
     """Losses and films by the library start the march as its equilibrium says."""
     e, series = march.equilibrium, package.losses(march, last=10)

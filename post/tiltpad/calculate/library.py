@@ -155,9 +155,9 @@ def losses(run: Run, last: float = 1) -> Losses:
 
 
 def viscosity(run: Run) -> np.ndarray:
-    """Viscosity of the oil on each pad at the equilibrium, Pa s, (pad,); 0 where it is that of the input."""
-    warm = "equilibrium/viscosity"
-    return run[warm] if warm in run else np.zeros(run.pads)
+    """Viscosity of the oil on each pad, Pa s, (pad,); 0 where it is that of the input."""
+    warm = next((name for name in ("viscosity", "equilibrium/viscosity") if name in run), None)
+    return run[warm] if warm else np.zeros(run.pads)
 
 
 def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple[np.ndarray, np.ndarray]]:

@@ -74,7 +74,7 @@ DIMENSIONS = {
         ),
         ("time", "pad"),
     ),
-    **dict.fromkeys(("pad", "pivot_angle"), ("pad",)),
+    **dict.fromkeys(("pad", "pivot_angle", "viscosity"), ("pad",)),
     **dict.fromkeys(("equilibrium/journal_y", "equilibrium/journal_z", "equilibrium/residual"), ()),
     **dict.fromkeys(("equilibrium/eigenvalue_real", "equilibrium/eigenvalue_imag"), ()),
     **dict.fromkeys(
