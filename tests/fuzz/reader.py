@@ -343,7 +343,9 @@ def resolved(text: bytes) -> dict[str, tuple]:
             group = line[1].decode()
         elif line[2]:
             value = line[3]
-            if value[:1] == b"'":
+            if value in (b".true.", b".false."):
+                said = (value,)
+            elif value[:1] == b"'":
                 said = (value[1:-1].replace(b"''", b"'"),)
             else:
                 said = tuple(float(word) for word in value.split(b","))

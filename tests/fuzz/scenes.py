@@ -51,7 +51,9 @@ OIL = (
     *("oil%supply_temperature", "oil%density", "thermal%model", "thermal%march"),
 )
 #: Groups that belong to the task of their name; what other tasks have that these do not.
-OF_TASK = ("coefficients", "periodic")
+DRAWN = ("coefficients", "periodic")
+#: A branch needs a parameter that suits its case; none is drawn.
+OF_TASK = (*DRAWN, "branch")
 OF_MARCH = ("operation%final_speed_rpm", "output%start_time", "integration%stop_when_periodic")
 SPECIAL = {"case%task", *(key for group in (*TOGETHER, ALONE, INSTEAD, START, OIL) for key in group)}
 #: Circumferential times squared axial cells of all pads.
@@ -93,7 +95,7 @@ def draw(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
 
 def set_task(dice: Random, variables: dict[str, Variable], found: dict[str, tuple]) -> None:
     """A task, with what belongs to it and without what does not."""
-    task = dice.choice(("march", "equilibrium", *OF_TASK))
+    task = dice.choice(("march", "equilibrium", *DRAWN))
     found["case%task"] = (task.encode(),)
     if task not in OF_TASK:
         return
