@@ -141,6 +141,7 @@ def test_a_whirl_of_half_the_order_is_named(made):
         ("work", [2.38e-3, 2.99e-3], "2.38, 2.99 mJ"),
         ("work", [9.86e-9, 0], "9.86, 0 nJ"),
         ("work", [1e-3, 2e-3, 4e-3, 3e-3, np.nan], "1.00 to 4.00 mJ"),
+        ("work", [3.5e-9, 2.5e-3], "0.00, 2.50 mJ"),
         ("pressure", [3.9e3], "3.90 kPa"),
         ("share", [0.123], "12.3 %"),
         ("share", [1e-7], "1.00×10⁻⁵ %"),

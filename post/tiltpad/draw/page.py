@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
 from tiltpad.draw import plots
-from tiltpad.files.units import digits, fitted
+from tiltpad.files.units import fitted, numbers
 
 
 def page(title: str, parts: Iterable[str]) -> str:
@@ -41,7 +41,7 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 def row(text: str, quantity: str, values: Sequence[float]) -> tuple[str, ...]:
     """Numbers of a quantity between their name and their unit, which suits the largest of them."""
     shown = fitted(quantity, values)
-    return (text, *(digits(shown.factor * float(each)) for each in values), shown.unit)
+    return (text, *numbers(shown, values), shown.unit)
 
 
 def picture(name: str, caption: str, draw: Callable[[], Figure], remarks: bool = True) -> str:

@@ -179,11 +179,18 @@ def digits(value: float, count: int = 4) -> str:
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
+def numbers(shown: Shown, values: Sequence[float] | np.ndarray, count: int = 4) -> list[str]:
+    """Values in a unit, with so many digits; those that are nothing beside the largest with its decimals."""
+    own = [shown.factor * float(each) for each in values]
+    largest = max((abs(each) for each in own if np.isfinite(each)), default=0.0)
+    places = len(digits(largest, count).partition(".")[2])
+    slight = [0 < abs(each) < 10 ** (1 - count) * largest for each in own]
+    return [f"{v:.{places}f}" if s else digits(v, count) for v, s in zip(own, slight, strict=True)]
+
+
 def in_words(quantity: str, values: Sequence[float] | np.ndarray) -> str:
     """Values with their unit: "2.38, 2.99 mJ"; of many values the lowest and the highest."""
     shown = fitted(quantity, values)
-    numbers = [digits(shown.factor * each, 3) for each in values]
     if len(values) > 4 and np.isfinite(values).any():
-        ends = np.nanmin(values), np.nanmax(values)
-        numbers = [" to ".join(digits(shown.factor * each, 3) for each in ends)]
-    return f"{', '.join(numbers)} {shown.unit}"
+        return f"{' to '.join(numbers(shown, [np.nanmin(values), np.nanmax(values)], 3))} {shown.unit}"
+    return f"{', '.join(numbers(shown, values, 3))} {shown.unit}"
