@@ -12,7 +12,7 @@ module warm_oil
    use static_model, only: come_to_rest, start
    implicit none (type, external)
    private
-   public :: has_warm_oil, guess_oil, guesses, come_to_warm_rest
+   public :: has_warm_oil, guess_oil, guesses, come_to_warm_rest, find_losses
 
    !> Mineral oils boil and crack from about here on, C.
    real(wp), parameter :: boiling = 300
@@ -61,6 +61,7 @@ contains
       call model%bearing%set_viscosity(wanted)
    end subroutine guess_oil
 
+   !> Losses and flows in the state y.
    subroutine find_losses(model, finder, y, losses)
       type(bearing_model), intent(in) :: model
       type(bearing_losses_type), intent(inout) :: finder
@@ -72,7 +73,7 @@ contains
 
    !> Brings a state that is nearly at rest to rest, as come_to_rest does, and the oil, where it is warm, to the
    !> temperatures of this rest: the model then has its viscosities.
-   subroutine come_to_warm_rest(model, y, residual, error, give_up, held)
+   subroutine come_to_warm_rest(model, y, residual, error, give_up, held, kept)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       real(wp), intent(out) :: residual
@@ -80,6 +81,8 @@ contains
       procedure(asked_to_stop), optional :: give_up
       !> Pads that are held where they are.
       logical, intent(in), optional :: held(:)
+      !> Where grooves and shaft keep their temperatures: these.
+      type(oil_temperatures_type), intent(in), optional :: kept
       type(bearing_losses_type) :: finder
       type(heat_balance_type) :: balance
       type(pad_loss) :: losses(model%layout%pads)
@@ -99,7 +102,7 @@ contains
          if (allocated(error)) return
          call find_losses(model, finder, y, losses)
          now = model%bearing%pads%gap%viscosity
-         call balance%viscosities(losses, now, model%point%speed(0.0_wp), wanted, ok)
+         call balance%viscosities(losses, now, model%point%speed(0.0_wp), wanted, ok, kept)
          if (.not. ok) exit
          lack = log(wanted/now)
          if (maxval(abs(lack)) <= agreement) exit
@@ -108,7 +111,7 @@ contains
          step = matmul(inverse, lack)
          step = step*min(1.0_wp, longest_step/maxval(abs(step)))
       end do
-      call judge(model, balance, losses, ok, maxval(abs(lack)), error)
+      call judge(model, balance, losses, ok, maxval(abs(lack)), error, kept)
    end subroutine come_to_warm_rest
 
    !> Brings a state at rest to rest again after a step of the logarithms of the viscosities, or after the longest part
@@ -135,7 +138,7 @@ contains
    end subroutine follow
 
    !> Refuses a rest without a balance of heat, or at which oil boils.
-   subroutine judge(model, balance, losses, solved, lack, error)
+   subroutine judge(model, balance, losses, solved, lack, error, kept)
       type(bearing_model), intent(in) :: model
       type(heat_balance_type), intent(in) :: balance
       type(pad_loss), intent(in) :: losses(:)
@@ -143,11 +146,13 @@ contains
       logical, intent(in) :: solved
       real(wp), intent(in) :: lack
       type(error_type), allocatable, intent(inout) :: error
+      type(oil_temperatures_type), intent(in), optional :: kept
       type(oil_temperatures_type) :: oil
       integer :: hottest
       logical :: ok
       ok = solved
-      if (ok) call balance%temperatures(losses, model%bearing%pads%gap%viscosity, model%point%speed(0.0_wp), oil, ok)
+      if (ok) call balance%temperatures(losses, model%bearing%pads%gap%viscosity, model%point%speed(0.0_wp), oil, ok, &
+         & kept)
       if (.not. ok) then
          call raise(error, numerics_error, 'the oil has no heat balance: neither its flow nor the shaft carries the ' &
             & //'heat of the films off; it needs fresh oil (oil%carry_over below 1) or exchange with the shaft ' &

@@ -9,9 +9,11 @@ module march_start
    use partial_equilibrium, only: find_partial_equilibrium
    use warm_oil, only: has_warm_oil
    use last_state, only: read_last_state
-   use march_results, only: put_viscosity
+   use march_results, only: put_viscosity, put_course
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
+   use viscosity_course, only: viscosity_course_type
+   use groove_course, only: find_groove_course
    use equilibrium_task, only: create_file, start_at_equilibrium, nothing_computed
    use run_summary, only: print_start
    implicit none (type, external)
@@ -31,6 +33,7 @@ contains
       associate (model => run%model, from => run%scene%start%from)
          if (from == 'equilibrium') then
             call start_at_equilibrium(run, y, error)
+            if (.not. allocated(error)) call let_grooves_warm(run, y, error)
             if (.not. allocated(error)) call note_oil(run)
             if (allocated(error) .or. .not. is_disturbed(run)) return
             journal = model%rotor%journal(y(:model%rotor%states))
@@ -57,10 +60,11 @@ contains
       if (.not. run%quiet) call print_start(run%scene, journal%position, pads%tilt)
    end subroutine make_start
 
-   !> Writes the viscosities that warm oil keeps in the march.
+   !> Writes the viscosities of warm oil at the start of the march, and their course where they change.
    subroutine note_oil(run)
       type(case_run_type), intent(inout) :: run
       if (has_warm_oil(run%model)) call put_viscosity(run%file, run%model%bearing%pads%gap%viscosity)
+      if (run%model%oil%runs()) call put_course(run%file, run%model%oil)
    end subroutine note_oil
 
    !> Gives warm oil the viscosities of the equilibrium, which it keeps in a march that starts elsewhere or goes on from
@@ -78,12 +82,25 @@ contains
       end if
       if (.not. allocated(error)) then
          call run%model%bearing%set_viscosity(static%viscosity)
+         call let_grooves_warm(run, run%model%at_rest(static%journal, static%tilt, static%penetration), error)
       else if (error%status == stopped) then
          error%message = stop_reason()//' while the temperatures of the oil were sought'
       else
          call add_context(error, 'the oil takes the temperatures of the equilibrium')
       end if
    end subroutine take_oil
+
+   !> Where the speed changes and the input wants it, the oil takes its course from the equilibrium y on.
+   subroutine let_grooves_warm(run, y, error)
+      type(case_run_type), intent(inout) :: run
+      real(wp), intent(in) :: y(:)
+      type(error_type), allocatable, intent(inout) :: error
+      type(viscosity_course_type) :: course
+      if (run%scene%thermal%march /= 'groove' .or. .not. abs(run%model%point%acceleration) > 0) return
+      call find_groove_course(run%model, y, run%scene%operation%duration, course, error, stop_requested)
+      if (allocated(error)) return
+      run%model%oil = course
+   end subroutine let_grooves_warm
 
    !> The last state of another result.
    subroutine start_from_file(run, journal, pads, error)

@@ -7,7 +7,7 @@
 !> All temperatures are therefore linear in the heat Phi of the films.
 module heat_balance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kinds, only: wp
+   use kinds, only: wp, degree
    use lapack, only: dgesv
    use scene, only: scene_type, oil_type, is_set
    use oil_properties, only: viscosity, viscosity_slope
@@ -32,9 +32,12 @@ module heat_balance
       real(wp), allocatable :: carry_over(:)
       !> m.
       real(wp) :: journal_radius
+      !> Length of each pad's arc, m.
+      real(wp), allocatable :: arc(:)
    contains
       procedure :: temperatures
       procedure :: viscosities
+      procedure :: renewal
       procedure, private :: network
    end type heat_balance_type
 
@@ -49,6 +52,8 @@ module heat_balance
 
    !> Least heat capacity of a flow, W/K: oil that stands gives its heat to the shaft.
    real(wp), parameter :: least_capacity = 1e-9_wp
+   !> Least flow that renews a groove, m^3/s.
+   real(wp), parameter :: least_flow = 1e-12_wp
    !> Relative change of the viscosities at which they have settled; most rounds of Newton's method.
    real(wp), parameter :: settled = 1e-13_wp
    integer, parameter :: most_rounds = 200
@@ -62,6 +67,7 @@ contains
       integer :: i, k
       self%oil = scene%oil
       self%journal_radius = scene%bearing%journal_radius
+      self%arc = scene%pads%arc_deg*degree*scene%bearing%journal_radius
       allocate (self%upstream(scene%pad_count()), source=0)
       allocate (self%carry_over(scene%pad_count()), source=0.0_wp)
       associate (p => scene%pads)
@@ -85,17 +91,19 @@ contains
 
    !> The temperatures with these losses and flows, of films with these viscosities, Pa s, at a speed, rad/s. `ok` is
    !> false where neither flow nor shaft carries the heat off.
-   subroutine temperatures(self, losses, films, speed, found, ok)
+   subroutine temperatures(self, losses, films, speed, found, ok, kept)
       class(heat_balance_type), intent(in) :: self
       type(pad_loss), intent(in) :: losses(:)
       real(wp), intent(in) :: films(:), speed
       type(oil_temperatures_type), intent(out) :: found
       logical, intent(out) :: ok
+      !> Where grooves and shaft keep their temperatures: these.
+      type(oil_temperatures_type), intent(in), optional :: kept
       type(heat_network) :: net
       real(wp) :: fresh
       integer :: n
       n = size(losses)
-      call self%network(losses, films, speed, net)
+      call self%network(losses, films, speed, net, kept)
       ok = net%solved
       if (.not. ok) return
       associate (heat => losses%power(), inlet => losses%inlet, outlet => losses%outlet)
@@ -117,17 +125,18 @@ contains
    !> The viscosities, Pa s, that the films would take where journal and pads are: those of the mean temperatures, if
    !> the heat of the films, made with the viscosities `films`, follows them. `ok` is false where neither flow nor shaft
    !> carries the heat off.
-   subroutine viscosities(self, losses, films, speed, wanted, ok)
+   subroutine viscosities(self, losses, films, speed, wanted, ok, kept)
       class(heat_balance_type), intent(in) :: self
       type(pad_loss), intent(in) :: losses(:)
       real(wp), intent(in) :: films(:), speed
       real(wp), intent(out) :: wanted(:)
       logical, intent(out) :: ok
+      type(oil_temperatures_type), intent(in), optional :: kept
       type(heat_network) :: net
       real(wp), dimension(size(losses)) :: base, mean, slope, step
       real(wp), dimension(size(losses), size(losses)) :: by_heat, matrix
       integer :: i, round, pivots(size(losses)), info
-      call self%network(losses, films, speed, net)
+      call self%network(losses, films, speed, net, kept)
       ok = net%solved
       if (.not. ok) return
       associate (n => size(losses), per_viscosity => (losses%couette + losses%pressure)/films)
@@ -156,12 +165,36 @@ contains
       end associate
    end subroutine viscosities
 
+   !> Temperatures, C, of what enters the groove before each pad, and the time, s, in which it renews the oil of groove
+   !> and, half of it, film: oil passes the film with half the speed of the journal's surface.
+   pure subroutine renewal(self, losses, oil, speed, entering, time_constant)
+      class(heat_balance_type), intent(in) :: self
+      type(pad_loss), intent(in) :: losses(:)
+      type(oil_temperatures_type), intent(in) :: oil
+      real(wp), intent(in) :: speed
+      real(wp), intent(out) :: entering(:), time_constant(:)
+      real(wp) :: hot(size(losses))
+      hot = hot_shares(self, losses)
+      entering = hot*oil%outlet(self%upstream) + (1 - hot)*self%oil%supply_temperature
+      time_constant = self%oil%groove_volume/max(losses%inlet, least_flow) + self%arc/(speed*self%journal_radius)
+   end subroutine renewal
+
+   !> Which share of the inflow comes from upstream.
+   pure function hot_shares(self, losses) result(hot)
+      type(heat_balance_type), intent(in) :: self
+      type(pad_loss), intent(in) :: losses(:)
+      real(wp) :: hot(size(losses))
+      hot = 0
+      where (losses%inlet > 0) hot = min(max(0.0_wp, self%carry_over*losses(self%upstream)%outlet)/losses%inlet, 1.0_wp)
+   end function hot_shares
+
    !> The network of pads and shaft, solved.
-   subroutine network(self, losses, films, speed, net)
+   subroutine network(self, losses, films, speed, net, kept)
       class(heat_balance_type), intent(in) :: self
       type(pad_loss), intent(in) :: losses(:)
       real(wp), intent(in) :: films(:), speed
       type(heat_network), intent(out) :: net
+      type(oil_temperatures_type), intent(in), optional :: kept
       real(wp) :: matrix(size(losses) + 1, size(losses) + 1), right(size(losses) + 1, 0:size(losses))
       real(wp) :: part(size(losses))
       integer :: i, last, pivots(size(losses) + 1), info
@@ -173,8 +206,7 @@ contains
          part = losses%couette/(films*(speed*self%journal_radius)**2)
          net%capacity = max(least_capacity, oil%density*oil%specific_heat*(losses%inlet + losses%outlet)/2)
          call film_shares(oil%wall_exchange*oil%conductivity*part/net%capacity, net%left, net%f, net%g)
-         net%hot = 0*part
-         where (losses%inlet > 0) net%hot = min(max(0.0_wp, self%carry_over*losses(up)%outlet)/losses%inlet, 1.0_wp)
+         net%hot = hot_shares(self, losses)
          matrix = 0
          right = 0
          do i = 1, last - 1
@@ -199,6 +231,14 @@ contains
             end associate
          end if
       end associate
+      if (present(kept)) then
+         matrix = 0
+         do i = 1, last
+            matrix(i, i) = 1
+         end do
+         right = 0
+         right(:, 0) = [kept%inlet, kept%shaft]
+      end if
       call dgesv(last, last, matrix, last, pivots, right, last, info)
       net%solved = info == 0 .and. all(ieee_is_finite(right))
       net%cold = right(:, 0)

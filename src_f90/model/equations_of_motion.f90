@@ -8,6 +8,7 @@ module equations_of_motion
    use tilting_pad_bearing, only: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
    use rigid_journal, only: rigid_journal_type
    use ode_model, only: ode_model_type
+   use viscosity_course, only: viscosity_course_type
    use state_layout, only: state_layout_type, new_state_layout, at_tilt, at_tilt_rate, at_penetration, &
       & at_penetration_rate
    use newton_system, only: newton_system_type, new_newton_system
@@ -31,6 +32,8 @@ module equations_of_motion
       type(state_layout_type) :: layout
       type(rigid_journal_type) :: rotor
       type(tilting_pad_bearing_type) :: bearing
+      !> Of the oil where it warms or cools in a motion.
+      type(viscosity_course_type) :: oil
       !> Natural size of each state.
       real(wp), allocatable :: scale(:)
       type(newton_system_type), private :: newton
@@ -179,6 +182,11 @@ contains
       logical, intent(in) :: want_derivatives
       logical, intent(out) :: ok
       logical, intent(in), optional :: chosen(:)
+      real(wp) :: viscosity(self%layout%pads)
+      if (self%oil%runs()) then
+         call self%oil%at(t, viscosity)
+         call self%bearing%set_viscosity(viscosity)
+      end if
       call self%bearing%evaluate(self%rotor%journal(y(:self%rotor%states)), self%layout%pad_states(y), &
          & self%point%speed(t), want_derivatives, self%refusal, ok, chosen)
    end subroutine evaluate

@@ -4,11 +4,12 @@ module march_results
    use kinds, only: wp, i8, pi
    use errors, only: error_type
    use hdf5_file, only: hdf5_type
+   use viscosity_course, only: viscosity_course_type
    use equations_of_motion, only: model_sample
    use run_file, only: run_file_type
    implicit none (type, external)
    private
-   public :: add_sample, put_spectrum, put_asperities, put_viscosity
+   public :: add_sample, put_spectrum, put_asperities, put_viscosity, put_course
 
    !> Values of a sample: of the journal, and of a pad at most.
    integer, parameter :: of_journal = 7, of_pad = 12
@@ -150,6 +151,22 @@ contains
       real(wp), intent(in) :: viscosity(:)
       call file%file%put_list('viscosity', viscosity, 'Pa s', 'viscosity of the oil on each pad in the march', 'pad')
    end subroutine put_viscosity
+
+   !> Writes the course of these viscosities in a run-up.
+   subroutine put_course(file, course)
+      type(run_file_type), intent(inout) :: file
+      type(viscosity_course_type), intent(in) :: course
+      real(wp), allocatable :: time(:), viscosity(:, :)
+      integer :: k
+      time = [course%time]
+      allocate (viscosity(course%pads(), size(time)))
+      do k = 1, size(time)
+         call course%at(time(k), viscosity(:, k))
+      end do
+      call file%file%make_group('oil')
+      call file%file%put_list('oil/time', time, 's', 'time', 'oil/time')
+      call file%file%put_table('oil/viscosity', viscosity, 'Pa s', 'viscosity of the oil on each pad', 'oil/time pad')
+   end subroutine put_course
 
    !> Amplitude spectra over the last revolutions of a run at constant speed, rad/s.
    subroutine put_spectrum(file, interval, revolutions, speed, journal_y, journal_z, journal_full, tilt)

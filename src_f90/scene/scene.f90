@@ -80,7 +80,7 @@ module scene
    type :: thermal_type
       !> 'none' or 'pad': a temperature for each pad.
       character(len=:), allocatable :: model
-      !> In a march: 'frozen' at the equilibrium, or 'groove': the oil between the pads as a state of each.
+      !> In a march: 'frozen' at the equilibrium, or 'groove': in a run-up the oil between the pads is renewed.
       character(len=:), allocatable :: march
    end type thermal_type
 

@@ -87,6 +87,8 @@ contains
             & //'oil%reference_viscosity and oil%temperature_exponent', error)
          call require(t%march == 'frozen' .or. oil%groove_volume > 0, 'oil%groove_volume = 0: must be > 0 for ' &
             & //'thermal%march = ''groove''', error)
+         call require(t%march == 'frozen' .or. scene%start%from /= 'partial', 'start%from = ''partial'': is not for ' &
+            & //'thermal%march = ''groove'', which begins at the equilibrium', error)
       end associate
    end subroutine check_thermal
 

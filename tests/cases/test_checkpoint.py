@@ -28,6 +28,8 @@ SCENES = {
     "--set operation%duration=0.2",
     "sor": "--set film%solver='sor' --set operation%duration=0.02",
     "late": "--set output%start_time=0.4",
+    "warm_runup": "--set oil%grade=46 --set thermal%model='pad' --set thermal%march='groove' "
+    "--set oil%groove_volume=1e-5 --set operation%final_speed_rpm=5000 --set operation%duration=0.2",
     "warm": "--set oil%grade=46 --set thermal%model='pad' --set operation%duration=0.3",
 }
 #: One that is still running when a signal comes.

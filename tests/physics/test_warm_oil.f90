@@ -10,6 +10,8 @@ program test_warm_oil
    use static_model, only: make_fine
    use static_figures, only: static_figures_type, find_static_figures
    use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
+   use viscosity_course, only: viscosity_course_type
+   use groove_course, only: find_groove_course
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
 
@@ -32,6 +34,7 @@ program test_warm_oil
    if (runs('rotation')) call rotation()
    if (runs('threshold')) call threshold()
    if (runs('boiling')) call boiling()
+   if (runs('run_up')) call run_up()
    call report()
 
 contains
@@ -208,4 +211,47 @@ contains
       call find_equilibrium(model, static, error)
       call expect_error(error, numerics_error, 'above 300 C, where mineral oil boils', 'refused')
    end subroutine boiling
+
+   !> Viscosities at the end of a run-up, on a shaft of 55 C, with so much oil in the grooves, m^3, over a duration, s.
+   function after_run_up(volume, duration) result(viscosities)
+      real(wp), intent(in) :: volume, duration
+      real(wp) :: viscosities(2)
+      type(scene_type) :: scene
+      type(equilibrium_type) :: static
+      type(static_figures_type) :: figures
+      type(bearing_model) :: model
+      type(viscosity_course_type) :: course
+      type(error_type), allocatable :: error
+      scene = scene_of('&operation speed_rpm = 3000, final_speed_rpm = 4000/ &film cavitation = ''none''/'//vg46)
+      scene%oil%shaft_temperature = 55
+      scene%oil%groove_volume = volume
+      scene%operation%duration = duration
+      call solve(scene, static, figures, model)
+      call find_groove_course(model, model%at_rest(static%journal, static%tilt, static%penetration), duration, course, &
+         & error)
+      call expect_no_error(error, 'course')
+      if (.not. allocated(error)) call course%at(duration, viscosities)
+   end function after_run_up
+
+   !> A slow run-up ends at the equilibrium of the last speed, a quick one lags behind it in the groove's time, and oil
+   !> that is never renewed keeps its temperature where it enters the films.
+   subroutine run_up()
+      type(scene_type) :: scene
+      type(equilibrium_type) :: static
+      type(static_figures_type) :: figures
+      type(bearing_model) :: model
+      real(wp) :: slow(2), lag(2), longer(2), never(2)
+      scene = scene_of('&operation speed_rpm = 4000/ &film cavitation = ''none''/'//vg46)
+      scene%oil%shaft_temperature = 55
+      call solve(scene, static, figures, model)
+      slow = after_run_up(1e-5_wp, 1e4_wp)
+      call expect(all(abs(slow/static%viscosity - 1) < 1e-4_wp), 'slow')
+      ! behind the other pad; the first draws fresh oil alone
+      lag = log(after_run_up(1e-5_wp, 20.0_wp)/static%viscosity)
+      longer = log(after_run_up(2e-5_wp, 20.0_wp)/static%viscosity)
+      call expect(abs(lag(1)) < 1e-4_wp .and. lag(2) > 1e-4_wp, 'lag')
+      call expect_close(longer(2)/lag(2), 2.0_wp, 0.05_wp, 'twice the oil, twice the lag')
+      never = after_run_up(1.0_wp, 1e-2_wp)
+      call expect(never(2) > static%viscosity(2)*exp(lag(2)), 'never renewed')
+   end subroutine run_up
 end program test_warm_oil

@@ -1,6 +1,6 @@
 !> Temperatures of the oil from losses and flows: limits, sums, and the way along a film, integrated.
 program test_heat_balance
-   use kinds, only: wp
+   use kinds, only: wp, degree
    use scene, only: scene_type
    use oil_properties, only: viscosity
    use bearing_losses, only: pad_loss
@@ -22,6 +22,8 @@ program test_heat_balance
    if (runs('viscosities')) call viscosities()
    if (runs('no_fresh_oil')) call no_fresh_oil()
    if (runs('standing_oil')) call standing_oil()
+   if (runs('kept')) call kept()
+   if (runs('renewal')) call renewal()
    call report()
 
 contains
@@ -294,4 +296,49 @@ contains
       call expect_close((oil%mean(2) - 50)*conductance(scene, losses(2), films(2)), losses(2)%power(), &
          & 1e-3_wp*losses(2)%power(), 'heat')
    end subroutine standing_oil
+
+   !> Grooves and shaft that keep the temperatures of the balance change nothing; others show in the films.
+   subroutine kept()
+      type(scene_type) :: scene
+      type(heat_balance_type) :: balance
+      type(pad_loss) :: losses(4)
+      type(oil_temperatures_type) :: oil, other
+      real(wp) :: wanted(4), others(4)
+      logical :: ok
+      scene = four_pads()
+      balance = new_heat_balance(scene)
+      losses = some_losses()
+      call balance%viscosities(losses, films, speed, wanted, ok)
+      losses%couette = losses%couette*wanted/films
+      losses%pressure = losses%pressure*wanted/films
+      call balance%temperatures(losses, wanted, speed, oil, ok)
+      call balance%temperatures(losses, wanted, speed, other, ok, oil)
+      call expect(all(abs(other%outlet - oil%outlet) < 1e-9_wp), 'temperatures')
+      call balance%viscosities(losses, wanted, speed, others, ok, oil)
+      call expect(all(abs(others/wanted - 1) < 1e-10_wp), 'viscosities')
+      oil%inlet(3) = oil%inlet(3) + 10
+      call balance%temperatures(losses, wanted, speed, other, ok, oil)
+      call expect(other%mean(3) - oil%mean(3) > 5 .and. all(abs(other%mean([1, 2, 4]) - oil%mean([1, 2, 4])) &
+         & < 1e-9_wp), 'a warm groove warms its own film')
+   end subroutine kept
+
+   !> In balance what enters a groove is what is there; it is renewed in the time of its volume and half the film's.
+   subroutine renewal()
+      type(scene_type) :: scene
+      type(heat_balance_type) :: balance
+      type(pad_loss) :: losses(4)
+      type(oil_temperatures_type) :: oil
+      real(wp) :: entering(4), time_constant(4)
+      logical :: ok
+      scene = four_pads()
+      scene%oil%groove_volume = 3e-5_wp
+      balance = new_heat_balance(scene)
+      losses = some_losses()
+      call balance%temperatures(losses, films, speed, oil, ok)
+      call balance%renewal(losses, oil, speed, entering, time_constant)
+      call expect(all(abs(entering - oil%inlet) < 1e-9_wp), 'what enters')
+      ! a film 2 q/(U L) thick
+      call expect(all(abs(time_constant - (3e-5_wp + 0.5_wp*2*losses%inlet/(speed*scene%bearing%journal_radius) &
+         & *scene%pads%arc_deg*degree*scene%bearing%journal_radius)/losses%inlet) < 1e-10_wp), 'time')
+   end subroutine renewal
 end program test_heat_balance

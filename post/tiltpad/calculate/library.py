@@ -121,7 +121,7 @@ def pressure(
     phi, z, field, force, max_pressure, min_film_thickness = called(
         "film_pressure",
         run,
-        viscosity(run),
+        viscosity(run, at),
         0.0 if at is None else at,
         journal,
         *pads,
@@ -149,13 +149,15 @@ def losses(run: Run, last: float = 1) -> Losses:
         return np.moveaxis(np.array(values), 1, -1)
 
     states = motion("pad_tilt"), motion("pad_penetration")
-    (found,) = called("power_losses", run, viscosity(run), time, np.array(journal), *states)
+    (found,) = called("power_losses", run, viscosity(run, time.mean()), time, np.array(journal), *states)
     load, couette, pressure, boundary, *others = np.moveaxis(found, -1, 1)
     return Losses(time, load, couette + pressure + boundary, couette, pressure, boundary, *others)
 
 
-def viscosity(run: Run) -> np.ndarray:
-    """Viscosity of the oil on each pad, Pa s, (pad,); 0 where it is that of the input."""
+def viscosity(run: Run, time: float | None) -> np.ndarray:
+    """Viscosity of the oil on each pad at a time, s (None: equilibrium), Pa s, (pad,); 0: it is the input's."""
+    if time is not None and "oil/viscosity" in run:
+        return np.exp([np.interp(time, run["oil/time"], pad) for pad in np.log(run["oil/viscosity"].T)])
     warm = next((name for name in ("viscosity", "equilibrium/viscosity") if name in run), None)
     return run[warm] if warm else np.zeros(run.pads)
 

@@ -104,6 +104,8 @@ DIMENSIONS = {
         ("spectrum/frequency",),
     ),
     "spectrum/pad_tilt": ("pad", "spectrum/frequency"),
+    "oil/time": ("oil/time",),
+    "oil/viscosity": ("oil/time", "pad"),
     **dict.fromkeys(("spectrum/full_frequency", "spectrum/journal_full"), ("spectrum/full_frequency",)),
     **dict.fromkeys(("spectrum/revolutions", "checkpoint/time"), ()),
     **{f"coefficients/{name}": dimensions for name, dimensions in COEFFICIENTS.items()},

@@ -1,0 +1,69 @@
+!> Viscosities of the oil on every pad as a course over time: cubics between nodes, smooth across them.
+module viscosity_course
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: viscosity_course_type, new_viscosity_course
+
+   type :: viscosity_course_type
+      !> Nodes, s, (0:n).
+      real(wp), allocatable :: time(:)
+      !> Logarithms of the viscosities, Pa s, there, (pad, 0:n), and their slopes, 1/s.
+      real(wp), allocatable, private :: value(:, :), slope(:, :)
+   contains
+      procedure :: runs
+      procedure :: pads
+      procedure :: at
+   end type viscosity_course_type
+
+contains
+
+   !> The course through viscosities, Pa s, (pad, 0:n), at n + 1 >= 3 times, s.
+   pure type(viscosity_course_type) function new_viscosity_course(time, viscosity) result(course)
+      real(wp), intent(in) :: time(0:), viscosity(:, 0:)
+      real(wp) :: steep(size(viscosity, 1), size(time) - 1), step(size(time) - 1)
+      integer :: k, n
+      n = size(time) - 1
+      allocate (course%time(0:n), course%value(size(viscosity, 1), 0:n), course%slope(size(viscosity, 1), 0:n))
+      course%time(:) = time
+      course%value(:, :) = log(viscosity)
+      step = time(1:) - time(:n - 1)
+      do k = 1, n
+         steep(:, k) = (course%value(:, k) - course%value(:, k - 1))/step(k)
+      end do
+      ! those of parabolas through three nodes
+      do k = 1, n - 1
+         course%slope(:, k) = (step(k + 1)*steep(:, k) + step(k)*steep(:, k + 1))/(step(k) + step(k + 1))
+      end do
+      course%slope(:, 0) = 2*steep(:, 1) - course%slope(:, 1)
+      course%slope(:, n) = 2*steep(:, n) - course%slope(:, n - 1)
+   end function new_viscosity_course
+
+   !> False where there is no course: then viscosities stay.
+   pure logical function runs(self)
+      class(viscosity_course_type), intent(in) :: self
+      runs = allocated(self%time)
+   end function runs
+
+   pure integer function pads(self)
+      class(viscosity_course_type), intent(in) :: self
+      pads = size(self%value, 1)
+   end function pads
+
+   !> The viscosities at a time, s; before and behind the course those at its ends.
+   pure subroutine at(self, time, viscosity)
+      class(viscosity_course_type), intent(in) :: self
+      real(wp), intent(in) :: time
+      real(wp), intent(out) :: viscosity(:)
+      real(wp) :: s, step
+      integer :: k, n
+      n = ubound(self%time, 1)
+      k = min(max(count(self%time <= time), 1), n)
+      step = self%time(k) - self%time(k - 1)
+      s = min(max((time - self%time(k - 1))/step, 0.0_wp), 1.0_wp)
+      associate (a => self%value(:, k - 1), b => self%value(:, k))
+         viscosity = exp(a + s**2*(3 - 2*s)*(b - a) &
+            & + step*s*(1 - s)*((1 - s)*self%slope(:, k - 1) - s*self%slope(:, k)))
+      end associate
+   end subroutine at
+end module viscosity_course
