@@ -153,6 +153,25 @@ def test_a_run_without_them_says_why(run, scene):
     assert not [each for each in summary.pads(run(scene)) if each.quantity == "temperature"]
 
 
+def test_pressures_of_a_run_up_take_the_oil_of_their_time(tiltpad, tmp_path, opened):
+    """The force of the field is that of the march, at whose ends the oil has different viscosities."""
+    (tmp_path / "runup.nml").write_text(
+        "&operation speed_rpm=4000, final_speed_rpm=6000, duration=0.1 /&oil grade=46, groove_volume=1e-6 /\n"
+        "&thermal model='pad', march='groove' / &film cavitation='none' /\n"
+    )
+    done = tiltpad("runup.nml", "-q", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    run = opened(tmp_path / "runup.h5")
+    oil = run["oil/viscosity"]
+    assert oil.shape == (len(run["oil/time"]), 2)
+    np.testing.assert_allclose(oil[0], run["equilibrium/viscosity"], rtol=1e-14)
+    assert np.abs(oil[-1] / oil[0] - 1).max() > 0.01
+    for time in (0.0, 0.06, 0.1):
+        field = package.pressure(run, time, 3, 3)
+        sample = np.abs(run["time"] - field.time).argmin()
+        np.testing.assert_allclose(field.force[:, 1], run["film_force_radial"][sample], rtol=2e-4)
+
+
 def test_a_study_without_them_says_why(sweep, tmp_path):
     package.collect(
         sweep(tmp_path / "cold", "&case task='equilibrium' /", {"operation%speed_rpm": [3000, 6500]}),
