@@ -158,6 +158,7 @@ contains
       type(viscosity_course_type), intent(in) :: course
       real(wp), allocatable :: time(:), viscosity(:, :)
       integer :: k
+      ! counted from 1, in brackets
       time = [course%time]
       allocate (viscosity(course%pads(), size(time)))
       do k = 1, size(time)
