@@ -7,17 +7,18 @@ Writes the pictures, checks.csv and README.md, the page, into the docs folder.
 
 import argparse
 import csv
+import os
 import subprocess
 import time
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 from tiltpad.draw.plots import STYLE
 
-from paper import laws, sticking
+from paper import laws, lost, sticking
 from paper.claims import check
 from paper.figures import FIGURES
 from paper.judging import Checked
@@ -31,7 +32,7 @@ from paper.studies import REUSED, STUDIES
 PICTURES: dict[str, tuple[Callable, str]] = (
     {f"fig{name}": (draw, "paper") for name, draw in (laws.FIGURES | FIGURES).items()}
     | {name: (draw, "paper" if name in REUSED else "studies") for name, draw in STUDIES.items()}
-    | {name: (draw, "studies") for name, draw in sticking.FIGURES.items()}
+    | {name: (draw, "studies") for name, draw in (sticking.FIGURES | lost.FIGURES).items()}
 )
 
 
@@ -82,7 +83,11 @@ def main() -> None:
     options.docs.mkdir(parents=True, exist_ok=True)
     if not options.keep:
         jobs = [(scene, options.folder / name) for name, scenes in FOLDERS.items() for scene in scenes]
-        run_all(options.program, jobs)
+        os.environ["TILTPAD"] = str(options.program)
+        with ThreadPoolExecutor(1) as beside:
+            marches = beside.submit(lost.march_up_and_down, options.folder / "studies")
+            run_all(options.program, jobs)
+            marches.result()
         print(f"{len(jobs)} runs: {time.monotonic() - started:.0f} s", flush=True)
     with ProcessPoolExecutor() as pool:
         drawn = [pool.submit(draw, name, options.folder, options.docs) for name in PICTURES]

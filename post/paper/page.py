@@ -2,12 +2,22 @@
 
 from collections.abc import Sequence
 
-from paper import sticking, studies
+from paper import lost, sticking, studies
 from paper.judging import Checked
 from paper.reasons import WHY
 from paper.runs import Runs
 from paper.sections import CAPTIONS, SECTIONS, Section
-from paper.settings import AGREEMENT, LAST, REFINED, RESOLUTION, RESTS, SHORT, STICK_MASSES, STICK_SPEEDS
+from paper.settings import (
+    AGREEMENT,
+    LAST,
+    LOST_SPEEDS,
+    REFINED,
+    RESOLUTION,
+    RESTS,
+    SHORT,
+    STICK_MASSES,
+    STICK_SPEEDS,
+)
 from paper.tables import digits, table
 
 PAGE = """\
@@ -115,6 +125,32 @@ sides:
 
 Pivot friction thus drives whirl that an analysis with free pivots does not see, and it limits this whirl
 itself. Friction whose bristles are soft, or a pivot that rolls instead of sliding, keeps the rotor stable.
+
+## Where friction makes the bearing lose its synchronous orbit
+
+The task `branch` follows the orbit that repeats every revolution over the speed, from {first} to {last_speed}
+rpm, with LuGre friction and f_d = f_s/2, stable or not. The left picture shows its leading multiplier with
+the unbalance of Table 1: above 1 a disturbance grows with each revolution. The bars of the right picture are
+the speeds at which the orbit is unstable.
+
+![Leading multiplier over speed; unstable speeds over friction coefficient](lost.png)
+
+{lost}
+
+{lost_words} A small unbalance leaves the pads sticking, and the orbit is lost near the threshold of stability
+of pads that stick (above). A larger one makes them slide in each revolution, and keeps its orbit up to higher
+speeds.
+
+## The four-pad bearing: orbits of two revolutions
+
+The upper pads of the four-pad bearing ([input/examples](../../input/README.md)) carry no load and flutter
+near half the shaft speed. The picture shows the branch of its synchronous orbit and one of orbits of two
+revolutions, with marches of 150 revolutions each, up and down the speed and each from the end of the one
+before: grey are the lowest and highest values of their last 50 revolutions.
+
+![Branches of the four-pad bearing over the speed, over marches](doubling.png)
+
+{doubling_words}
 """
 
 #: Introduction to the claims that change with the unbalance.
@@ -155,6 +191,11 @@ def page(checked: Sequence[Checked], paper: Runs, studied: Runs, machine: str) -
         runs=len(STICK_MASSES) * len(STICK_SPEEDS),
         thresholds=sticking.threshold_table(studied),
         whirl_words=sticking.whirl_words(studied),
+        first=LOST_SPEEDS[0],
+        last_speed=LOST_SPEEDS[1],
+        lost=lost.lost_table(studied),
+        lost_words=lost.lost_words(studied),
+        doubling_words=lost.doubling_words(studied),
         grade=digits(studies.equivalent_grade(paper["steady_tr"]), 2),
     )
 

@@ -252,9 +252,59 @@ STICK_SCENES = (
     *(Scene(f"whirl_{speed}", LUGRE, (*WHIRL, f"operation%speed_rpm={speed}")) for speed in WHIRL_SPEEDS),
 )
 
+#: Branches of the synchronous orbit over the speed, rpm: static friction coefficients of LuGre, the dynamic
+#: ones half as large, and unbalances, kg m; that of Table 1 last.
+LOST_COEFFICIENTS = (0.02, 0.05, 0.075, 0.1, 0.15, 0.2, 0.3)
+LOST_UNBALANCES = (0.001, 0.010)
+LOST_SPEEDS = (2000, 14000)
+
+
+def over_speed(first: float, last: float, *, step: float, longest: float) -> tuple[str, ...]:
+    """Overrides of a branch of orbits over the speed."""
+    return (
+        "case%task=branch",
+        'branch%parameter="operation%speed_rpm"',
+        f"operation%speed_rpm={first:g}",
+        f"branch%last={last:g}",
+        f"branch%step={step:g}",
+        f"branch%max_step={longest:g}",
+        "branch%switch=.false.",
+    )
+
+
+def lost_name(unbalance: float, coefficient: float) -> str:
+    return f"lost_{unbalance:g}_{coefficient:g}"
+
+
+#: The four-pad bearing: its synchronous orbit, and that of two revolutions, down from where it is found and
+#: back again; speeds of its marches up and down.
+FOUR = "input/examples/four_pads.nml"
+FOUR_SPEEDS = (4000, 8500)
+DOUBLED = ("periodic%revolutions=2", "branch%max_points=125", 'case%title="two revolutions"')
+LOST_SCENES = (
+    *(
+        Scene(
+            lost_name(unbalance, f),
+            LUGRE,
+            (
+                f"rotor%unbalance={unbalance:g}",
+                *coefficients(f, f / 2),
+                *over_speed(*LOST_SPEEDS, step=100, longest=500),
+            ),
+        )
+        for unbalance in LOST_UNBALANCES
+        for f in LOST_COEFFICIENTS
+    ),
+    Scene("lost_none", FRICTIONLESS, over_speed(*LOST_SPEEDS, step=100, longest=500)),
+    Scene(
+        "four_once", FOUR, (*over_speed(*FOUR_SPEEDS, step=50, longest=250), 'case%title="one revolution"')
+    ),
+    Scene("four_twice", FOUR, (*over_speed(6700, 5000, step=-50, longest=250), *DOUBLED)),
+)
+
 #: The runs of the figures and claims; again with a finer film and by rule (26); and the studies'.
 SCENES = (*PAPER, *FIGURES_7_8, *SLOW, *UPPER_PADS)
-STUDIES = (*MAP, *LAW_SCENES, *RULE_SCENES, *STICK_SCENES)
+STUDIES = (*MAP, *LAW_SCENES, *RULE_SCENES, *STICK_SCENES, *LOST_SCENES)
 #: Folders of the runs, with their scenes.
 FOLDERS = {
     "paper": tuple(map(kept, SCENES)),

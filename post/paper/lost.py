@@ -1,0 +1,187 @@
+"""Beyond the paper: where the synchronous orbit is lost, by branches over the speed; pictures and words."""
+
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import tiltpad
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from tiltpad.calculate import branches
+from tiltpad.draw.branches import branch
+from tiltpad.draw.layout import PAGE
+from tiltpad.files.units import SHOWN
+
+from paper.runs import Runs
+from paper.settings import (
+    FOUR,
+    FOUR_SPEEDS,
+    LOST_COEFFICIENTS,
+    LOST_SPEEDS,
+    LOST_UNBALANCES,
+    ROOT,
+    lost_name,
+)
+from paper.tables import digits, table
+
+RPM = SHOWN["speed"].label
+#: What happens where the orbit is lost or comes back, in a table.
+HAPPENS = {"neimark_sacker": "second frequency", "flip": "period doubles", "fold": "turns back"}
+#: The upper pad of the four-pad bearing that is shown.
+UPPER = 3
+#: Folder of the marches up and down, in that of the studies, and the step of their speed, rpm.
+MARCHES, MARCH_STEP = "marches", 250
+#: A motion is synchronous if the highest tilts of its last revolutions differ by less than this part.
+ALIKE = 0.02
+
+
+def march_up_and_down(folder: Path) -> None:
+    """Marches of the four-pad bearing up and down its speeds, collected into a study."""
+    speeds = range(FOUR_SPEEDS[0], FOUR_SPEEDS[1] + 1, MARCH_STEP)
+    output = {"samples_per_revolution": 60}
+    tiltpad.brute_force(ROOT / FOUR, "operation%speed_rpm", speeds, folder / MARCHES, output=output).close()
+
+
+def lost_figure(runs: Runs) -> Figure:
+    """Leading multiplier over the speed with the unbalance of Table 1; speeds of unstable orbits."""
+    fig, axes = plt.subplots(1, 2, figsize=(PAGE, 3.2))
+    draw_multiplier(axes[0], runs["lost_none"], "0", {"color": "0.3", "linestyle": "--"})
+    for k, f in enumerate(LOST_COEFFICIENTS):
+        run = runs[lost_name(LOST_UNBALANCES[-1], f)]
+        draw_multiplier(
+            axes[0], run, f"{f:g}", {"color": plt.get_cmap("viridis")(k / len(LOST_COEFFICIENTS))}
+        )
+    axes[0].axhline(1, color="0.3", linewidth=0.8)
+    axes[0].set(xlabel=RPM, ylabel="modulus of the leading multiplier", xlim=LOST_SPEEDS, ylim=(0, 1.6))
+    axes[0].legend(title="$f_s$", ncols=2, loc="upper left")
+    for k, unbalance in enumerate(LOST_UNBALANCES):
+        draw_unstable(axes[1], runs, unbalance, f"C{k}", 4e-3 * (2 * k - 1))
+    axes[1].set(xlabel="static friction coefficient $f_s$", ylabel=RPM, xlim=(0, None), ylim=LOST_SPEEDS)
+    axes[1].legend(title="unstable, unbalance", loc="lower right")
+    return fig
+
+
+def draw_multiplier(ax: Axes, run: tiltpad.Run, text: str, line: dict) -> None:
+    leading = np.abs(branches.multipliers(run)[:, 0])
+    ax.plot(run["parameter"], leading, label=text, **{"linewidth": 1.2} | line)
+
+
+def draw_unstable(ax: Axes, runs: Runs, unbalance: float, color: str, beside: float) -> None:
+    """A bar over the speeds at which the orbit is unstable, for each friction coefficient."""
+    label = f"{unbalance:g} kg m"
+    for f in LOST_COEFFICIENTS:
+        for low, high in unstable(runs[lost_name(unbalance, f)]):
+            ax.plot(2 * [f + beside], [low, high], color=color, linewidth=4, alpha=0.8, label=label)
+            label = "_"
+    if label != "_":
+        ax.plot([], [], color=color, linewidth=4, label=f"{label}: nowhere")
+
+
+def unstable(run: tiltpad.Run) -> list[tuple[float, float]]:
+    """Lowest and highest speed of each unstable part of the first branch."""
+    found = [each for each in branches.stretches(run) if not each.stable and each.branch == 1]
+    speeds = [run["parameter"][each.points] for each in found]
+    return [(float(each.min()), float(each.max())) for each in speeds]
+
+
+def lost_table(runs: Runs) -> str:
+    """Where the orbit becomes unstable and stable again, and what happens there."""
+    rows = []
+    for f in LOST_COEFFICIENTS:
+        cells = []
+        for unbalance in LOST_UNBALANCES:
+            run = runs[lost_name(unbalance, f)]
+            cells.append("; ".join(part_words(run, *part) for part in unstable(run)) or "never")
+        rows.append((f"{f:g}", *cells))
+    return table(("f_s", *(f"unbalance {unbalance:g} kg m" for unbalance in LOST_UNBALANCES)), rows)
+
+
+def part_words(run: tiltpad.Run, low: float, high: float) -> str:
+    """Speeds of an unstable part, and what happens at its ends."""
+    kinds = {round(each.parameter, 6): each.kind for each in branches.special_points(run)}
+    ends = []
+    for speed in (low, high):
+        kind = HAPPENS.get(kinds.get(round(speed, 6), ""), "")
+        ends.append(f"{speed:.0f} rpm" + (f" ({kind})" if kind else " (end of the branch)"))
+    return " to ".join(ends)
+
+
+def lost_words(runs: Runs) -> str:
+    """Whether the frictionless orbit is lost, and how the two unbalances differ."""
+    parts = unstable(runs["lost_none"])
+    first, last = LOST_SPEEDS
+    without = (
+        f"Without friction the orbit is stable from {first} to {last} rpm."
+        if not parts
+        else f"Without friction it is unstable {'; '.join(part_words(runs['lost_none'], *p) for p in parts)}."
+    )
+    kept = {u: [f for f in LOST_COEFFICIENTS if not unstable(runs[lost_name(u, f)])] for u in LOST_UNBALANCES}
+    said = [
+        f"With the unbalance of {unbalance:g} kg m it is never lost in this range for f_s = "
+        f"{', '.join(f'{f:g}' for f in own)}."
+        for unbalance, own in kept.items()
+        if own
+    ]
+    return " ".join([without, *said])
+
+
+def doubling_figure(runs: Runs) -> Figure:
+    """Branches of one and of two revolutions of the four-pad bearing, over marches up and down."""
+    with tiltpad.read_study(runs.folder / MARCHES / "study.h5") as study:
+        return branch([runs["four_once"], runs["four_twice"], study], pad=UPPER)
+
+
+def doubling_words(runs: Runs) -> str:
+    """Where the orbits of the four-pad bearing are lost and appear, and what marches find."""
+    once, twice = runs["four_once"], runs["four_twice"]
+    crossed = [
+        f"{each.parameter:.0f} rpm ({HAPPENS.get(each.kind, each.kind)}, "
+        f"multiplier {digits(each.value.real, 4)} +- {digits(abs(each.value.imag), 2)} i)"
+        for each in branches.special_points(once)
+    ]
+    folds = [each.parameter for each in branches.special_points(twice) if each.kind == "fold"]
+    leading = np.abs(branches.multipliers(twice)[:, 0])
+    calm = bool(twice["stable"].any())
+    said = [f"The synchronous orbit loses its stability at {', and again at '.join(crossed)}."]
+    said += [f"Orbits of two revolutions exist from a fold at {folds[0]:.0f} rpm on."] if folds else []
+    said.append(
+        "Part of them is stable."
+        if calm
+        else "None of those followed is stable: at the least the leading multiplier is "
+        f"{digits(leading.min(), 4)} in two revolutions, so that a slow beat of the upper pads remains."
+    )
+    return " ".join([*said, coexisting(runs)])
+
+
+def coexisting(runs: Runs) -> str:
+    """The speeds at which marches upwards are synchronous and those downwards are not, and how fast a flutter
+    grows or dies there.
+    """
+    with tiltpad.read_study(runs.folder / MARCHES / "study.h5") as study:
+        highest = study["highest_tilt"][..., UPPER - 1]
+        alike = np.nanmax(highest, axis=1) - np.nanmin(highest, axis=1) < ALIKE * np.abs(
+            np.nanmean(highest, axis=1)
+        )
+        up = {
+            s for s, w, a in zip(study.speed_rpm, study.direction, alike, strict=True) if w == "upwards" and a
+        }
+        down = {
+            s
+            for s, w, a in zip(study.speed_rpm, study.direction, alike, strict=True)
+            if w == "downwards" and not a
+        }
+    both = sorted(up & down)
+    if not both:
+        return "Marches upwards and downwards find the same motion at every speed."
+    where = f"at {both[0]:.0f} rpm" if len(both) == 1 else f"from {both[0]:.0f} to {both[-1]:.0f} rpm"
+    once = runs["four_once"]
+    leading = np.abs(branches.multipliers(once)[:, 0])
+    pace = np.abs(np.log(np.interp(both, once["parameter"], leading)))
+    return (
+        f"Marches upwards are synchronous {where}, where those downwards flutter. This does not prove that "
+        "both motions last: by the leading multiplier a small flutter takes there "
+        f"{1 / pace.max():.0f} to {1 / pace.min():.0f} revolutions to change by a factor of e."
+    )
+
+
+FIGURES = {"lost": lost_figure, "doubling": doubling_figure}
