@@ -168,7 +168,7 @@ def extremes(run: Run, name: str, last: float = 50) -> tuple[np.ndarray, np.ndar
     count = int((angle[-1] - angle[0]) / (2 * np.pi) + 1e-9)
     starts = np.searchsorted(angle, angle[-1] - 2 * np.pi * np.arange(count, 0, -1) - 1e-9)
     values = run.values(name, part)
-    return tuple(each.reduceat(values, starts, axis=0) for each in (np.minimum, np.maximum))
+    return np.minimum.reduceat(values, starts, axis=0), np.maximum.reduceat(values, starts, axis=0)
 
 
 def edges(run: Run, angles: np.ndarray) -> np.ndarray:

@@ -120,6 +120,7 @@ def branch(runs: Sequence[Run | Study], last: float | None = None, pad: int | No
         numbers = np.unique(found[0]["branch"]).astype(int)
         names = [(f"branch {each}", {"color": color_of(each)}) for each in numbers if len(numbers) > 1]
     kinds = dict.fromkeys(each.kind for run in found for each in branches.special_points(run))
+    marks: list[tuple[str, dict[str, Any]]]
     marks = [("stable", {"color": "0.3"}), ("unstable", {"color": "0.3"} | UNSTABLE)]
     marks += [(": ".join(branches.KINDS.get(each, (each, ""))), MARK | {"color": "0.3"}) for each in kinds]
     marks += [("marches", MARCHED | {"markersize": 5})] if len(found) < len(runs) else []
@@ -135,11 +136,11 @@ def draw_branches(run: Run, ax: Axes, name: str, pad: int | None, color: str | N
         for each in branches.stretches(run):
             line = {"color": color or color_of(each.branch)} | ({} if each.stable else UNSTABLE)
             ax.plot(parameter[each.points], values[each.points], **line)
-        for each in special:
-            at = (each.parameter, values[each.point])
-            ax.plot(*at, **MARK | {"color": color or color_of(each.branch)})
+        for point in special:
+            at = (point.parameter, values[point.point])
+            ax.plot(*at, **MARK | {"color": color or color_of(point.branch)})
             ax.annotate(
-                each.letters, at, xytext=(0, 4), textcoords="offset points", ha="center", size="x-small"
+                point.letters, at, xytext=(0, 4), textcoords="offset points", ha="center", size="x-small"
             )
 
 
