@@ -405,6 +405,7 @@ lint: python
 	$(VENV)/bin/ruff check --config post/pyproject.toml post tests docs
 	$(VENV)/bin/ruff format --check --config post/pyproject.toml post tests docs
 	$(venv_python) tests/floors.py
+	$(venv_python) -m mypy --config-file post/pyproject.toml post/tiltpad
 
 format: python
 	-$(VENV)/bin/fortitude check --fix $(fortran_style) src_f90 post/wrap tests

@@ -177,6 +177,7 @@ def size(runs: Sequence[Run], last: float | None = None, pad: int | None = None)
         for each, own in zip(sizes, dashes, strict=True):
             ax.plot(np.array(values)[order], each[order], own, marker="o", markersize=3)
         ax.set(xlabel=label, ylabel=SHOWN["size"].label, ylim=(0, 1.1 * sizes.max()))
+        ax.locator_params(axis="x", nbins=6)
     else:
         place = np.arange(len(runs))
         names = labels(runs) if len(runs) > 1 else [runs[0].title or Path(runs[0].path).stem]
