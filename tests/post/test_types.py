@@ -35,5 +35,6 @@ def test_mypy_accepts_the_package_and_scripts_that_use_it(root, tmp_path):
         capture_output=True,
     )
     assert done.stderr == ""
-    found = re.findall(r"^(.*):(\d+): error: ", done.stdout, re.MULTILINE)
-    assert found == [(str(wrong), str(k)) for k in range(3, 3 + len(WRONG))], done.stdout
+    # the folder may be that of an earlier test, in which mypy saw the same file
+    found = re.findall(r"^.*?([\w.]+):(\d+): error: ", done.stdout, re.MULTILINE)
+    assert found == [("wrong.py", str(k)) for k in range(3, 3 + len(WRONG))], done.stdout
