@@ -108,7 +108,8 @@ def heat(program, folder):
             warming = found["equilibrium/drain_temperature"] - oil["supply_temperature"]
             away = oil["density"] * oil["specific_heat"] * fresh(found) * warming
         made, shaft = balance.made.sum(), balance.to_shaft.sum()
-        yield row(name, *(f"{round(x, 4) + 0:.4f}" for x in (made, away, shaft)), f"{abs(made - away - shaft) / made:.1e}")
+        parts = (f"{round(x, 4) + 0:.4f}" for x in (made, away, shaft))
+        yield row(name, *parts, f"{abs(made - away - shaft) / made:.1e}")
 
 
 def fresh(found):
