@@ -100,7 +100,7 @@ module continuation
    type :: branch_options
       !> Newton's last correction; most rounds of a step.
       real(wp) :: tolerance = 1e-8_wp
-      integer :: max_iterations = 10
+      integer :: max_iterations = 20
       !> First and longest step along the branch.
       real(wp) :: first_step = 0.01_wp, max_step = 0.1_wp
       !> The parameter stays between these.
@@ -113,8 +113,8 @@ module continuation
    real(wp), parameter :: shortest = 1e-4_wp
    !> Rounds up to which a step may be followed by a longer one, and from which by a shorter one; cosine of the largest
    !> turn of the tangent in a step.
-   integer, parameter :: quick = 3, slow = 6
-   real(wp), parameter :: longer = 1.5_wp, shorter = 0.6_wp, largest_turn = 0.8_wp
+   integer, parameter :: quick = 5, slow = 9
+   real(wp), parameter :: longer = 1.5_wp, shorter = 0.7_wp, largest_turn = 0.8_wp
 
 contains
 
@@ -195,7 +195,8 @@ contains
             if (maxval(abs(b(:, 1))) > longest) call raise(error, numerics_error, 'the correction is ' &
                & //to_text(maxval(abs(b(:, 1))))//' of the natural size of the states')
          end if
-         call add_context(error, 'iteration '//to_text(point%iterations)//' of Newton''s method')
+         if (.not. problem%refused) call add_context(error, 'iteration '//to_text(point%iterations) &
+            & //' of Newton''s method')
          if (allocated(error)) return
          point%change = b(:, 1)
          call problem%move(point%change, .true., point%correction)

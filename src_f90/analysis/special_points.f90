@@ -22,7 +22,8 @@ module special_points
       logical :: destabilises = .false.
    end type special_point_type
 
-   !> The bracket of the parameter, over itself, at the end; that of the way along the branch, over the step; most cuts.
+   !> The bracket of the parameter, over its size or its natural change, at the end; that of the way along the branch,
+   !> over the step; most cuts.
    real(wp), parameter :: accuracy = 1e-7_wp, closeness = 1e-6_wp
    integer, parameter :: most_cuts = 40
    !> Most special points between two points.
@@ -145,7 +146,7 @@ contains
          width = abs(b%along - a%along)
          if (abs(b%value) <= 0) exit
          if (width <= closeness*next%along .and. width*problem%unit*abs(parameter_part(point)) &
-            & <= accuracy*abs(point%parameter)) exit
+            & <= accuracy*max(abs(point%parameter), problem%unit)) exit
       end do
       point%arc_length = here%arc_length + point%along
       found%point = point

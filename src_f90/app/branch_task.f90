@@ -5,10 +5,9 @@ module branch_task
    use text, only: to_text
    use errors, only: error_type, raise, add_context, stopped
    use clock, only: wall_clock
-   use orbit_polynomials, only: orbit_type
    use continuation, only: branch_problem_type, branch_point_type, start_branch, advance, return_to
    use special_points, only: special_point_type, find_special_points
-   use orbit_branch, only: double_period
+   use orbit_branch, only: orbit_problem_type, double_period
    use orbit_figures, only: orbit_figures_type, find_orbit_figures, figures_at_rest
    use branch_results, only: branch_orbit_type, begin_branches, add_point, put_special_points, noted
    use provenance, only: running
@@ -97,7 +96,7 @@ contains
       character(len=:), allocatable :: at_end
       real(wp), allocatable :: split(:)
       logical :: ends
-      split = half_apart(b%orbits%orbit)
+      split = half_apart(b%orbits)
       associate (course => b%course, most => run%scene%branch%max_points)
          at_end = ''
          do while (at_end == '')
@@ -109,7 +108,7 @@ contains
                exit
             end if
             if (course%branch > 1 .and. course%points > 0) then
-               if (dot_product(split, half_apart(b%orbits%orbit)) < 0) then
+               if (dot_product(split, half_apart(b%orbits)) < 0) then
                   at_end = 'it comes back to the branch that it left'
                   call forget_flips(b, next)
                   exit
@@ -117,7 +116,7 @@ contains
             end if
             call record_step(run, b, problem, next, error)
             if (allocated(error)) exit
-            split = half_apart(b%orbits%orbit)
+            split = half_apart(b%orbits)
             if (ends) at_end = trim(merge('the first value', 'the last value ', abs(next%parameter - b%first) <= 0))
             if (course%points >= most .and. .not. ends) at_end = 'after '//to_text(most)//' points (branch%max_points)'
             if (at_end == '') call mind_checkpoint(run, b, error)
@@ -186,17 +185,18 @@ contains
       call run%file%beat(int(wall_clock() - run%started))
    end subroutine record
 
-   !> By how much an orbit is elsewhere half a period later, over the scales: by nothing where it is that of half the
-   !> period.
-   pure function half_apart(orbit)
-      type(orbit_type), intent(in) :: orbit
+   !> By how much an orbit is elsewhere half a period later, in the measure of the branch: by nothing where it is that
+   !> of half the period.
+   pure function half_apart(problem)
+      type(orbit_problem_type), intent(in) :: problem
       real(wp), allocatable :: half_apart(:)
-      real(wp), allocatable :: y(:)
+      real(wp) :: y(problem%n)
       half_apart = [real(wp) ::]
-      if (.not. allocated(orbit%start)) return
-      allocate (y(size(orbit%start)))
-      call orbit%state_at(0.5_wp*orbit%time(orbit%intervals()), y)
-      half_apart = (y - orbit%start)/orbit%scale
+      if (problem%n == 0) return
+      associate (orbit => problem%orbit)
+         call orbit%state_at(0.5_wp*orbit%time(orbit%intervals()), y)
+         half_apart = problem%weight*(y - orbit%start)/orbit%scale
+      end associate
    end function half_apart
 
    !> A branch of double period that ends at another flip need not be followed from there again.
