@@ -1,0 +1,453 @@
+!> Branches of problems that are known: an algebraic fold, orbits that double their period or leave for a torus at a
+!> known value, and Duffing's oscillator, whose folds were found by harmonic balance.
+module branch_problems
+   use kinds, only: wp, pi
+   use errors, only: error_type, raise, input_error
+   use ode_model, only: ode_model_type
+   use continuation, only: branch_problem_type
+   use parametric_ode, only: parametric_ode_type
+   implicit none (type, external)
+   private
+   public :: parabola, turning_frame, duffing, oscillator_orbits
+
+   !> x' = p - x**2 at rest: a fold at p = 0; values of p below `least` are refused.
+   type, extends(branch_problem_type) :: parabola
+      real(wp) :: x = 1, least = -1
+   contains
+      procedure :: linearize => parabola_equations
+      procedure :: move => move_parabola
+      procedure :: spectrum => parabola_spectrum
+      procedure :: kind => parabola_kind
+      procedure :: get_place => parabola_place
+      procedure :: go_to => put_parabola
+   end type parabola
+
+   !> y = R(t/2) w or y = w: half a turn of the frame in the period 2 pi, or none. In the frame w_1' = p w_1 - w_1**3
+   !> and w_2' = -w_2 (half a turn), or w_1 + i w_2 = z with z' = (p + i/sqrt(5)) z - |z|**2 z (none).
+   type, extends(ode_model_type) :: turning_frame
+      real(wp) :: p = 0
+      logical :: turns = .true.
+      real(wp), private :: matrix(2, 2) = 0
+   contains
+      procedure :: rhs => frame_rhs
+      procedure :: linearize => frame_linearize
+      procedure :: jacobian_times => frame_times
+      procedure :: solve => frame_solve
+   end type turning_frame
+
+   !> x'' + 0.1 x' + x + x**3 = 0.2 cos(p t).
+   type, extends(ode_model_type) :: duffing
+      real(wp) :: p = 1
+      real(wp), private :: x = 0
+   contains
+      procedure :: rhs => duffing_rhs
+      procedure :: linearize => duffing_linearize
+      procedure :: jacobian_times => duffing_times
+      procedure :: solve => duffing_solve
+      procedure :: pairs => duffing_pairs
+   end type duffing
+
+   !> Either of them.
+   type, extends(parametric_ode_type) :: oscillator_orbits
+      type(turning_frame), pointer :: frame => null()
+      type(duffing), pointer :: oscillator => null()
+   contains
+      procedure :: set
+      procedure :: period
+   end type oscillator_orbits
+
+   real(wp), parameter :: spin = 1/sqrt(5.0_wp)
+
+contains
+
+   subroutine parabola_equations(self, matrix, b, error)
+      class(parabola), intent(inout) :: self
+      real(wp), intent(out) :: matrix(:, :), b(:)
+      type(error_type), allocatable, intent(out) :: error
+      matrix(1, :) = [-2*self%x, self%unit]
+      b = self%x**2 - self%parameter
+      self%refused = self%parameter < self%least
+      if (self%refused) call raise(error, input_error, 'too small')
+   end subroutine parabola_equations
+
+   subroutine move_parabola(self, change, closes, correction)
+      class(parabola), intent(inout) :: self
+      real(wp), intent(in) :: change(:)
+      logical, intent(in) :: closes
+      real(wp), intent(out) :: correction
+      self%x = self%x + change(1)
+      self%parameter = self%parameter + self%unit*change(2)
+      correction = maxval(abs(change))
+   end subroutine move_parabola
+
+   subroutine parabola_spectrum(self, values, growth, ok)
+      class(parabola), intent(inout) :: self
+      complex(wp), allocatable, intent(out) :: values(:)
+      real(wp), allocatable, intent(out) :: growth(:)
+      logical, intent(out) :: ok
+      growth = [-2*self%x]
+      values = cmplx(growth, 0.0_wp, wp)
+      ok = .true.
+   end subroutine parabola_spectrum
+
+   pure function parabola_kind(self, value) result(kind)
+      class(parabola), intent(in) :: self
+      complex(wp), intent(in) :: value
+      character(len=:), allocatable :: kind
+      kind = 'fold'
+   end function parabola_kind
+
+   pure subroutine parabola_place(self, place)
+      class(parabola), intent(in) :: self
+      real(wp), allocatable, intent(out) :: place(:)
+      place = [self%parameter, self%x]
+   end subroutine parabola_place
+
+   subroutine put_parabola(self, place)
+      class(parabola), intent(inout) :: self
+      real(wp), intent(in) :: place(:)
+      self%parameter = place(1)
+      self%x = place(2)
+   end subroutine put_parabola
+
+   !> Rates and their derivatives in the frame, turned back.
+   pure subroutine frame_field(self, t, y, rates, matrix)
+      class(turning_frame), intent(in) :: self
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: rates(2), matrix(2, 2)
+      real(wp) :: turn(2, 2), w(2), field(2)
+      real(wp), parameter :: half_spin(2, 2) = reshape([0.0_wp, 0.5_wp, -0.5_wp, 0.0_wp], [2, 2])
+      turn = reshape([1, 0, 0, 1], [2, 2])
+      if (self%turns) turn = reshape([cos(t/2), sin(t/2), -sin(t/2), cos(t/2)], [2, 2])
+      w = matmul(transpose(turn), y)
+      if (self%turns) then
+         field = [self%p*w(1) - w(1)**3, -w(2)]
+         matrix = reshape([self%p - 3*w(1)**2, 0.0_wp, 0.0_wp, -1.0_wp], [2, 2])
+         rates = matmul(turn, field) + matmul(half_spin, y)
+         matrix = matmul(turn, matmul(matrix, transpose(turn))) + half_spin
+      else
+         associate (square => w(1)**2 + w(2)**2)
+            rates = [(self%p - square)*w(1) - spin*w(2), (self%p - square)*w(2) + spin*w(1)]
+            matrix = reshape([self%p - square - 2*w(1)**2, spin - 2*w(1)*w(2), -spin - 2*w(1)*w(2), &
+               & self%p - square - 2*w(2)**2], [2, 2])
+         end associate
+      end if
+   end subroutine frame_field
+
+   subroutine frame_rhs(self, t, y, dydt, ok)
+      class(turning_frame), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: dydt(:)
+      logical, intent(out) :: ok
+      real(wp) :: ignored(2, 2)
+      call frame_field(self, t, y, dydt, ignored)
+      ok = .true.
+   end subroutine frame_rhs
+
+   subroutine frame_linearize(self, t, y, ok)
+      class(turning_frame), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      logical, intent(out) :: ok
+      real(wp) :: ignored(2)
+      call frame_field(self, t, y, ignored, self%matrix)
+      ok = .true.
+   end subroutine frame_linearize
+
+   subroutine frame_times(self, v, jv)
+      class(turning_frame), intent(inout) :: self
+      real(wp), intent(in) :: v(:)
+      real(wp), intent(out) :: jv(:)
+      jv = matmul(self%matrix, v)
+   end subroutine frame_times
+
+   subroutine frame_solve(self, gamma, b, ok)
+      class(turning_frame), intent(inout) :: self
+      real(wp), intent(in) :: gamma
+      real(wp), intent(inout) :: b(:)
+      logical, intent(out) :: ok
+      ok = .false.
+   end subroutine frame_solve
+
+   subroutine duffing_rhs(self, t, y, dydt, ok)
+      class(duffing), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: dydt(:)
+      logical, intent(out) :: ok
+      dydt = [y(2), 0.2_wp*cos(self%p*t) - 0.1_wp*y(2) - y(1) - y(1)**3]
+      ok = .true.
+   end subroutine duffing_rhs
+
+   subroutine duffing_linearize(self, t, y, ok)
+      class(duffing), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      logical, intent(out) :: ok
+      self%x = y(1)
+      ok = .true.
+   end subroutine duffing_linearize
+
+   subroutine duffing_times(self, v, jv)
+      class(duffing), intent(inout) :: self
+      real(wp), intent(in) :: v(:)
+      real(wp), intent(out) :: jv(:)
+      jv = [v(2), -(1 + 3*self%x**2)*v(1) - 0.1_wp*v(2)]
+   end subroutine duffing_times
+
+   subroutine duffing_solve(self, gamma, b, ok)
+      class(duffing), intent(inout) :: self
+      real(wp), intent(in) :: gamma
+      real(wp), intent(inout) :: b(:)
+      logical, intent(out) :: ok
+      ok = .false.
+   end subroutine duffing_solve
+
+   pure subroutine duffing_pairs(self, x, v)
+      class(duffing), intent(in) :: self
+      integer, allocatable, intent(out) :: x(:), v(:)
+      x = [1]
+      v = [2]
+   end subroutine duffing_pairs
+
+   subroutine set(self, parameter, error)
+      class(oscillator_orbits), intent(inout) :: self
+      real(wp), intent(in) :: parameter
+      type(error_type), allocatable, intent(out) :: error
+      if (associated(self%frame)) self%frame%p = parameter
+      if (associated(self%oscillator)) self%oscillator%p = parameter
+   end subroutine set
+
+   pure real(wp) function period(self)
+      class(oscillator_orbits), intent(in) :: self
+      period = 2*pi
+      if (associated(self%oscillator)) period = 2*pi/self%oscillator%p
+   end function period
+end module branch_problems
+
+program test_continuation
+   use kinds, only: wp, pi
+   use errors, only: error_type
+   use continuation, only: branch_problem_type, branch_point_type, branch_options, start_branch, advance, return_to
+   use special_points, only: special_point_type, find_special_points
+   use orbit_polynomials, only: orbit_type, points
+   use orbit_branch, only: orbit_problem_type, begin_orbits, double_period
+   use branch_problems, only: parabola, turning_frame, duffing, oscillator_orbits
+   use check, only: runs, expect, expect_close, expect_no_error, report
+   implicit none (type, external)
+
+   if (runs('fold')) call fold()
+   if (runs('refused')) call refused()
+   if (runs('return')) call return()
+   if (runs('flip')) call flip()
+   if (runs('torus')) call torus()
+   if (runs('duffing')) call duffing_folds()
+   call report()
+
+contains
+
+   !> Follows a branch to its end; the special points on the way.
+   subroutine follow(problem, options, here, special, count)
+      class(branch_problem_type), intent(inout) :: problem
+      type(branch_options), intent(in) :: options
+      type(branch_point_type), intent(inout) :: here
+      type(special_point_type), allocatable, intent(out) :: special(:)
+      integer, intent(out) :: count
+      type(special_point_type), allocatable :: found(:)
+      type(branch_point_type) :: next
+      type(error_type), allocatable :: error
+      real(wp) :: length
+      logical :: ends
+      length = options%first_step
+      allocate (special(0))
+      do count = 1, 1000
+         call advance(problem, options, here, length, next, ends, error)
+         call expect_no_error(error, 'a step')
+         if (allocated(error)) return
+         call find_special_points(problem, options, here, next, found, error)
+         special = [special, found]
+         here = next
+         if (ends) return
+      end do
+   end subroutine follow
+
+   !> From p = 1 on x = sqrt(p) through the fold at 0 and back on x = -sqrt(p).
+   subroutine fold()
+      type(parabola) :: problem
+      type(branch_point_type) :: here
+      type(special_point_type), allocatable :: special(:)
+      type(error_type), allocatable :: error
+      type(branch_options) :: options
+      integer :: count
+      problem%n = 1
+      problem%weight = [1.0_wp]
+      problem%parameter = 1
+      options%low = -1
+      options%high = 1
+      options%tolerance = 1e-10_wp
+      call start_branch(problem, options, .false., here, error)
+      call expect_no_error(error, 'the start')
+      call follow(problem, options, here, special, count)
+      call expect_close(here%parameter, 1.0_wp, 0.0_wp, 'the end is at the bound')
+      call expect_close(problem%x, -1.0_wp, 1e-9_wp, 'on the other side')
+      call expect(size(special) == 1, 'one special point')
+      call expect(special(1)%kind == 'fold' .and. special(1)%destabilises, 'a fold, to the unstable side')
+      call expect_close(special(1)%point%parameter, 0.0_wp, 1e-12_wp, 'at 0')
+      ! int_-1^1 sqrt(1 + 4 x**2) dx, of whose arc the tangents cut little
+      call expect_close(here%arc_length, sqrt(5.0_wp) + 0.5_wp*asinh(2.0_wp), 2e-2_wp, 'length of the branch')
+      call expect(here%growth(1) > 0, 'and it ends unstable')
+   end subroutine fold
+
+   !> Where the problem refuses a value the branch comes close to it, and the error says so.
+   subroutine refused()
+      type(parabola) :: problem
+      type(branch_point_type) :: here, next
+      type(error_type), allocatable :: error
+      type(branch_options) :: options
+      real(wp) :: length
+      logical :: ends
+      problem%n = 1
+      problem%weight = [1.0_wp]
+      problem%parameter = 1
+      problem%least = 0.5_wp
+      options%low = -1
+      options%high = 1
+      call start_branch(problem, options, .false., here, error)
+      length = options%first_step
+      do while (.not. allocated(error))
+         call advance(problem, options, here, length, next, ends, error)
+         if (.not. allocated(error)) here = next
+      end do
+      call expect(problem%refused, 'refused')
+      call expect_close(here%parameter, 0.5_wp, 1e-5_wp, 'as close as the shortest step')
+   end subroutine refused
+
+   !> A point is found again to the last bit, and so is what follows it.
+   subroutine return()
+      type(turning_frame), target :: model
+      type(oscillator_orbits), target :: ode
+      type(orbit_problem_type) :: problem
+      type(branch_point_type) :: here, first, second, ignored
+      type(error_type), allocatable :: error
+      type(branch_options) :: options
+      real(wp) :: length
+      logical :: ends
+      call begin_frame(model, ode, .true., problem, options)
+      call start_branch(problem, options, .true., here, error)
+      length = options%first_step
+      call advance(problem, options, here, length, first, ends, error)
+      length = options%first_step
+      call advance(problem, options, first, length, ignored, ends, error)
+      call return_to(problem, here)
+      length = options%first_step
+      call advance(problem, options, here, length, second, ends, error)
+      call expect_no_error(error, 'steps')
+      call expect(.not. any(abs(first%place - second%place) > 0), 'the same place')
+      call expect(.not. any(abs(first%tangent - second%tangent) > 0), 'the same tangent')
+   end subroutine return
+
+   !> Orbits at rest of the model with a frame, from p = -0.5 to 0.5.
+   subroutine begin_frame(model, ode, turns, problem, options)
+      type(turning_frame), intent(inout), target :: model
+      type(oscillator_orbits), intent(inout), target :: ode
+      logical, intent(in) :: turns
+      type(orbit_problem_type), intent(out) :: problem
+      type(branch_options), intent(out) :: options
+      model%n = 2
+      model%turns = turns
+      ode%model => model
+      ode%frame => model
+      call begin_orbits(problem, ode, at_rest(20, 2*pi), 1, -0.5_wp, 1.0_wp)
+      options = branch_options(first_step=0.05_wp, max_step=0.1_wp, low=-0.5_wp, high=0.5_wp)
+   end subroutine begin_frame
+
+   !> An orbit at rest on n intervals of a period.
+   type(orbit_type) function at_rest(n, period) result(orbit)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: period
+      integer :: k
+      allocate (orbit%time(0:n), orbit%at(2, points, n), orbit%start(2), orbit%scale(2))
+      orbit%time = [(period*k/n, k=0, n)]
+      orbit%at = 0
+      orbit%start = 0
+      orbit%scale = 1
+   end function at_rest
+
+   !> The rest at w = 0 has the multipliers -exp(2 pi p) and -exp(-2 pi): a flip at p = 0. The orbits of double period
+   !> are w_1 = +-sqrt(p) with the multipliers exp(-8 pi p) and exp(-4 pi). Radau's error on 20 intervals is of (2
+   !> pi/20/2)^5/7200 = 1e-8.
+   subroutine flip()
+      type(turning_frame), target :: model
+      type(oscillator_orbits), target :: ode
+      type(orbit_problem_type) :: problem
+      type(branch_point_type) :: here
+      type(special_point_type), allocatable :: special(:), others(:)
+      type(error_type), allocatable :: error
+      type(branch_options) :: options
+      integer :: count
+      logical :: ok
+      call begin_frame(model, ode, .true., problem, options)
+      call start_branch(problem, options, .true., here, error)
+      call expect_close(here%values(1)%re, -exp(-pi), 1e-7_wp, 'leading multiplier at the start')
+      call follow(problem, options, here, special, count)
+      call expect_close(here%values(1)%re, -exp(pi), 1e-4_wp, 'leading multiplier at the end')
+      call expect(size(special) == 1, 'one special point')
+      call expect(special(1)%kind == 'flip' .and. special(1)%destabilises, 'a flip')
+      call expect_close(special(1)%point%parameter, 0.0_wp, 1e-7_wp, 'at 0')
+      call double_period(problem, special(1)%point, here, ok)
+      call expect(ok, 'the doubled orbit')
+      call expect_close(here%values(1)%re, 1.0_wp, 1e-5_wp, 'its multiplier there is 1')
+      here%growth(1) = -1
+      call follow(problem, options, here, others, count)
+      call expect(size(others) == 0, 'nothing happens on the branch of double period')
+      call expect_close(here%parameter, 0.5_wp, 0.0_wp, 'it leads up')
+      call expect_close(norm2(problem%orbit%start), sqrt(0.5_wp), 1e-6_wp, 'its size')
+      call expect_close(here%values(1)%re, exp(-4*pi), 1e-6_wp, 'its leading multiplier')
+      call expect_close(problem%period(), 4*pi, 1e-12_wp, 'its period')
+   end subroutine flip
+
+   !> Rest has the multipliers exp(2 pi (p +- i/sqrt(5))): a torus begins at p = 0.
+   subroutine torus()
+      type(turning_frame), target :: model
+      type(oscillator_orbits), target :: ode
+      type(orbit_problem_type) :: problem
+      type(branch_point_type) :: here
+      type(special_point_type), allocatable :: special(:)
+      type(error_type), allocatable :: error
+      type(branch_options) :: options
+      integer :: count
+      call begin_frame(model, ode, .false., problem, options)
+      call start_branch(problem, options, .true., here, error)
+      call follow(problem, options, here, special, count)
+      call expect(size(special) == 1, 'one special point')
+      call expect(special(1)%kind == 'neimark_sacker', 'a second frequency')
+      call expect_close(special(1)%point%parameter, 0.0_wp, 1e-7_wp, 'at 0')
+      call expect_close(special(1)%value%re, cos(2*pi/sqrt(5.0_wp)), 1e-7_wp, 'its multiplier')
+   end subroutine torus
+
+   !> The frequencies of both folds, by harmonic balance with 15 harmonics in Python, the upper one to 1e-7. The
+   !> error of 40 intervals is of (3 omega h)^5/7200 for the third harmonic, h = 2 pi/40/omega: 3e-6, and as much of the
+   !> frequency; with 80 intervals a 32nd of that.
+   subroutine duffing_folds()
+      type(duffing), target :: model
+      type(oscillator_orbits), target :: ode
+      type(orbit_problem_type) :: problem
+      type(branch_point_type) :: here
+      type(special_point_type), allocatable :: special(:)
+      type(error_type), allocatable :: error
+      type(branch_options) :: options
+      real(wp), parameter :: upper = 1.52244802_wp, lower = 1.252014959_wp
+      integer :: count
+      model%n = 2
+      ode%model => model
+      ode%oscillator => model
+      call begin_orbits(problem, ode, at_rest(80, 2*pi/0.6_wp), 1, 0.6_wp, 1.9_wp)
+      options = branch_options(first_step=0.02_wp, max_step=0.05_wp, low=0.6_wp, high=2.5_wp)
+      call start_branch(problem, options, .true., here, error)
+      call expect_no_error(error, 'the start')
+      call follow(problem, options, here, special, count)
+      call expect_close(here%parameter, 2.5_wp, 0.0_wp, 'the branch goes on behind both folds')
+      call expect(size(special) == 2, 'two special points')
+      call expect(all(special%kind == 'fold'), 'folds')
+      call expect_close(special(1)%point%parameter, upper, 1e-6_wp, 'the upper one')
+      call expect_close(special(2)%point%parameter, lower, 1e-6_wp, 'the lower one')
+      call expect(all(here%growth < 0), 'it ends stable')
+   end subroutine duffing_folds
+end program test_continuation
