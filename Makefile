@@ -431,10 +431,10 @@ completions := $(destination)/share/bash-completion/completions
 install: build $(if $(plot_commands),python)
 	install -d '$(destination)/bin' '$(destination)/share/man/man1' '$(completions)'
 	install -m 755 $(B)/bin/tiltpad '$(destination)/bin/tiltpad'
-	install -m 644 share/tiltpad.bash '$(completions)/tiltpad'
+	install -m 644 post/shell/tiltpad.bash '$(completions)/tiltpad'
 	@$(if $(plot_commands),$(MAKE) --no-print-directory install-plots)
 	@for command in tiltpad $(plot_commands); do \
-	   PATH=$(abspath $(B)/bin):$(abspath $(VENV)/bin):$$PATH $$command --help | awk -f share/man_page.awk -v name=$$command \
+	   PATH=$(abspath $(B)/bin):$(abspath $(VENV)/bin):$$PATH $$command --help | awk -f post/shell/man_page.awk -v name=$$command \
 	      >'$(destination)/share/man/man1/'$$command.1 || exit 1; done
 
 install-plots:

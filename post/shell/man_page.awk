@@ -1,4 +1,4 @@
-# A manual page from what a command says of itself.   COMMAND --help | awk -f share/man_page.awk -v name=COMMAND
+# A manual page from what a command says of itself.   COMMAND --help | awk -f post/shell/man_page.awk -v name=COMMAND
 # Headings stand at the margin and end in a colon; an entry is "  NAME  meaning" or "  NAME" and deeper lines below.
 function plain(text) {
    gsub(/\\/, "\\e", text)

@@ -1,6 +1,6 @@
 # Completion for bash of tiltpad, tiltpad-plot, tiltpad-report and tiltpad-collect. It has no list of its own: options
 # and plots come from --help, variables and their words from tiltpad --reference. `make install` installs it; to try it:
-#   . share/tiltpad.bash
+#   . post/shell/tiltpad.bash
 
 # what a command says, asked once in a shell: _tiltpad_said COMMAND OPTION
 declare -A _tiltpad_answers

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 # prints what bash would propose for the line in $LINE
-PROPOSE = """. share/tiltpad.bash
+PROPOSE = """. post/shell/tiltpad.bash
 COMP_WORDS=($LINE) COMP_LINE=$LINE COMP_POINT=${#LINE}
 _tiltpad
 echo "${COMPREPLY[@]}"
@@ -42,7 +42,7 @@ def test_completion(root, program, line, proposed):
 def test_the_manual_page_has_every_option(root, tiltpad):
     said = tiltpad("--help", cwd=root).stdout
     page = subprocess.run(
-        ["awk", "-v", "name=tiltpad", "-f", "share/man_page.awk"],
+        ["awk", "-v", "name=tiltpad", "-f", "post/shell/man_page.awk"],
         input=said,
         cwd=root,
         text=True,
