@@ -106,7 +106,7 @@ PICTURES = (
     ("pressure", "five_pads", "", "one scale for all pads: the upper ones carry next to nothing"),
     ("film", "five_pads", "", "thickness and pressure around the bearing"),
     ("bearing", "five_pads", "", "pads, angles, load and sense of rotation, at the equilibrium"),
-    ("movie", "five_pads", "--last 4", "the unloaded top pad flutters at half the shaft speed"),
+    ("movie", "five_pads", "--last 2", "the unloaded top pad flutters at half the shaft speed"),
     ("branch", "branch", "", "with LuGre friction a second frequency appears at high speed"),
     ("response", "soft", "", "pivots that are soft give the rotor a critical speed"),
     ("coefficients", "whirl", "", "stiffness and damping over speed, at two whirl frequencies"),
