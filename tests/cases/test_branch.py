@@ -7,6 +7,7 @@ import time
 import h5py
 import numpy as np
 import pytest
+from conftest import options
 
 #: Its journal loses its stability at the threshold that the task coefficients finds.
 LIGHT = "&rotor mass=200 /\n&operation speed_rpm=14000 /\n"
@@ -14,23 +15,6 @@ LUGRE = "&friction model='lugre' /\n&operation speed_rpm=3000 /\n&output samples
 SPEED = ("case%task='branch'", "branch%parameter='operation%speed_rpm'")
 EQUILIBRIA = (*SPEED, "branch%of='equilibrium'", "branch%last=16000", "branch%step=200")
 ORBITS = (*SPEED, "branch%last=3300", "branch%step=50", "branch%max_step=100")
-
-
-def options(overrides):
-    return [word for each in overrides for word in ("--set", each)]
-
-
-@pytest.fixture
-def run(tiltpad, tmp_path):
-    """run(case, overrides, status): the outcome of a case in tmp_path/case.nml."""
-
-    def make(case, *overrides, status=0, name="case", more=()):
-        (tmp_path / f"{name}.nml").write_text(case)
-        done = tiltpad(f"{name}.nml", *more, *options(overrides), cwd=tmp_path)
-        assert done.returncode == status, done.stderr
-        return done
-
-    return make
 
 
 def test_equilibria_lose_their_stability_at_the_threshold(run, tmp_path):

@@ -7,6 +7,7 @@ import time
 import h5py
 import numpy as np
 import pytest
+from conftest import options
 
 LUGRE = "&friction model='lugre' / &output samples_per_revolution=90 /\n"
 PERIODIC = "case%task='periodic'"
@@ -20,23 +21,6 @@ WHIRL = """&pads motion='fixed', pivot_angle_deg=-90,90, arc_deg=160 /
 &film cavitation='none' /
 &output samples_per_revolution=60 /
 """
-
-
-def options(overrides):
-    return [word for each in overrides for word in ("--set", each)]
-
-
-@pytest.fixture
-def run(tiltpad, tmp_path):
-    """run(case, overrides, status): the outcome of a case in tmp_path/case.nml."""
-
-    def make(case, *overrides, status=0, name="case", more=()):
-        (tmp_path / f"{name}.nml").write_text(case)
-        done = tiltpad(f"{name}.nml", *more, *options(overrides), cwd=tmp_path)
-        assert done.returncode == status, done.stderr
-        return done
-
-    return make
 
 
 def test_the_file(run, tmp_path):
