@@ -162,7 +162,6 @@ ross := build/venv-ross
 .PHONY: help run build deps python wrap python_library wheel test test-slurm test-debian13 stress fuzz bench paper \
         test-programs lint format docs install install-plots uninstall clean
 .DELETE_ON_ERROR:
-.SECONDARY:
 
 help:
 	@echo 'make run      installs missing packages, builds, runs input/paper/steady_lugre.nml, draws it into build/run'
@@ -210,7 +209,8 @@ test-debian-%: build/deps-debian
 SCENES ?= 300
 SEED   ?= 1
 stress: build python $(B)/stress/global_search
-	$(venv_python) tests/stress/stress.py $(B)/bin/tiltpad --search $(B)/stress/global_search --scenes $(SCENES) --seed $(SEED) --report docs/stability.md
+	PYTHONPATH=post $(venv_python) tests/stress/stress.py $(B)/bin/tiltpad --search $(B)/stress/global_search \
+	   --scenes $(SCENES) --seed $(SEED) --flutter --report docs/stability.md
 
 # MINUTES and SEED choose what is drawn
 MINUTES ?= 5

@@ -108,9 +108,7 @@ def page(results: list[Result], seed: int) -> str:
         seed=seed,
         passed=len(results) - failed,
         failed=failed,
-        command="build/venv/bin/python tests/stress/stress.py build/bin/tiltpad "
-        f"--search build/stress/global_search --scenes {len(results)} --seed {seed} "
-        "--report docs/stability.md",
+        command=f"make stress SCENES={len(results)} SEED={seed}",
         outcomes=outcomes(results),
         models=crossed(results, lambda result: f"{model(result)}, {motion(result)}"),
         counts=crossed(results, pads),

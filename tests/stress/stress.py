@@ -1,7 +1,7 @@
 """Stress test: random scenes over wide ranges of every input; each ends in a result or a named refusal.
 
 usage: stress.py TILTPAD [--scenes N | --only N,N,..] [--seed S] [--fixed] [--jobs J] [--compare SHARE]
-                 [--search PROGRAM] [--keep FOLDER] [--report FILE]
+                 [--search PROGRAM] [--keep FOLDER] [--flutter] [--report FILE]
 
 Scenes that fail are kept as namelists, to be run again. The last line reads "N passed, N failed".
 """
@@ -14,6 +14,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from flutter import flutter
 from report import page
 from stress_judge import Result, judge
 from stress_scenes import Dice, draw, text
@@ -32,6 +33,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--compare", type=float, default=0.5, help="share compared with a finer run")
     parser.add_argument("--keep", type=Path, default=Path("build/stress"), help="folder for scenes that fail")
+    parser.add_argument("--flutter", action="store_true", help="also a fluttering pad over the speed")
     parser.add_argument("--report", type=Path, help="Markdown page to write")
     parser.add_argument("--verbose", action="store_true", help="a line for every scene")
     return parser.parse_args()
@@ -80,6 +82,8 @@ def main() -> int:
             tell(result, options.verbose)
             results.append(result)
     summary = page(results, options.seed)
+    if options.flutter:
+        summary += flutter(options.program, options.jobs)
     if options.report:
         options.report.write_text(summary)
     else:
