@@ -36,7 +36,9 @@ def draw(dice: Random, variables: dict[str, Variable]) -> tuple[Group, int]:
 def sweepable(variables: dict[str, Variable]) -> list[Variable]:
     """Variables of one value that fit whatever the others are."""
     apart = ("pads", *scenes.OF_TASK)
-    return [v for key, v in variables.items() if key not in (*scenes.SPECIAL, "case%title", "bearing%viscosity")
+    # an oil may have another law of its viscosity
+    alone = (*scenes.SPECIAL, "case%title", "bearing%viscosity")
+    return [v for key, v in variables.items() if key not in alone
             and v.group not in apart and len(v.default) == 1]  # fmt: skip
 
 
