@@ -120,6 +120,7 @@ def oil(dice: Random, found: dict[str, tuple]) -> dict[str, tuple]:
     """An oil whose viscosity depends on its temperature; its law is given or meant by its numbers."""
     found.pop("bearing%viscosity", None)
     law = dice.choice((b"walther", b"exponential"))
+    supply = dice.uniform(20, 80)
     if law == b"exponential":
         new = {
             "oil%reference_viscosity": (log_between(dice, 1e-3, 1),),
@@ -131,9 +132,11 @@ def oil(dice: Random, found: dict[str, tuple]) -> dict[str, tuple]:
     else:
         new = {"oil%kinematic_viscosity": (log_between(dice, 1e-5, 1e-3), log_between(dice, 1e-6, 1e-5))}
         new["oil%at_temperature"] = dice.uniform(20, 50), dice.uniform(60, 120)
+        # between the points: a steep line through them leaves the range of viscosities beyond
+        supply = dice.uniform(50, 60)
         new["oil%density_at_15"] = (dice.uniform(800, 1000),)
         new["oil%density_slope"] = (dice.uniform(-1, 0),)
-    new["oil%supply_temperature"] = (dice.uniform(20, 80),)
+    new["oil%supply_temperature"] = (supply,)
     if dice.random() < 0.5:
         new["oil%law"] = (law,)
     if dice.random() < 0.5:
