@@ -102,16 +102,15 @@ contains
          & 40.0_wp, 0.17029_wp, 11.4866_wp, -80.620_wp, &
          & 55.0_wp, 0.17130_wp, 11.3680_wp, -76.940_wp, 70.0_wp, 0.16841_wp, 11.8493_wp, -96.947_wp], [4, 16])
       type(oil_type) :: oil
+      real(wp) :: points(2), row(4)
       integer :: i
       do i = 1, size(grades)
          oil%grade = grades(i)
-         associate (points => 1e6_wp*kinematic_points(oil))
-            call expect_close(points(1), real(grades(i), wp), 1e-12_wp*grades(i), 'the middle of the grade')
-            associate (row => table(:, count(table(1, :) <= points(2))))
-               call expect_close((row(2)*points(2) + row(3))*points(2) + row(4), points(1), 1e-4_wp*points(1), &
-                  & 'viscosity index 100')
-            end associate
-         end associate
+         points = 1e6_wp*kinematic_points(oil)
+         call expect_close(points(1), real(grades(i), wp), 1e-12_wp*grades(i), 'the middle of the grade')
+         row = table(:, count(table(1, :) <= points(2)))
+         call expect_close((row(2)*points(2) + row(3))*points(2) + row(4), points(1), 1e-4_wp*points(1), &
+            & 'viscosity index 100')
       end do
    end subroutine index_of_grades
 
