@@ -7,7 +7,6 @@ module orbit_collocation
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error
    use lapack, only: dgesv
-   use small_system, only: solve_small
    use ode_model, only: ode_model_type
    use orbit_polynomials, only: orbit_type, points, place
    implicit none (type, external)
@@ -183,8 +182,7 @@ contains
       real(wp) :: jacobian(model%n, model%n, points), gap(model%n, size(at_points, 2) - model%n, points)
       real(wp) :: matrix(points*size(parts%u), points*size(parts%u)), b(points*size(parts%u), size(at_points, 2))
       real(wp) :: per_rate(size(parts%x))
-      integer :: i, j, m, columns
-      logical :: ok
+      integer :: pivots(points*size(parts%u)), info, i, j, m, columns
       m = size(parts%u)
       columns = size(at_points, 2)
       associate (x => parts%x, h => orbit%time(k) - orbit%time(k - 1))
@@ -192,8 +190,8 @@ contains
          if (allocated(error)) return
          per_rate = h*orbit%scale(parts%v)/orbit%scale(x)
          call assemble(parts, per_rate, jacobian, gap, matrix, b)
-         call solve_small(matrix, b, ok)
-         if (.not. ok) then
+         call dgesv(points*m, columns, matrix, points*m, pivots, b, points*m, info)
+         if (info /= 0) then
             call raise(error, numerics_error, 'Newton''s equations have no solution at t = ' &
                & //to_text(orbit%time(k))//' s')
             return
