@@ -8,7 +8,7 @@ module branch_start
    use static_model, only: make_fine
    use equilibrium, only: equilibrium_type
    use bearing_coefficients, only: settle
-   use periodic_orbit, only: periodic_orbit_type, orbit_options, find_periodic_orbit
+   use periodic_orbit, only: periodic_orbit_type
    use orbit_polynomials, only: orbit_type, points
    use continuation, only: branch_options, return_to
    use varied_bearing, only: varied_bearing_type, bearing_orbits_type
@@ -19,6 +19,7 @@ module branch_start
    use equilibrium_task, only: seek_equilibrium, note_equilibrium
    use march_start, only: make_start
    use march_task, only: tolerances
+   use periodic_task, only: seek_orbit
    use branch_course, only: branch_course_type
    implicit none (type, external)
    private
@@ -104,14 +105,9 @@ contains
       real(wp), allocatable :: y(:)
       call make_start(run, y, error)
       if (allocated(error)) return
-      associate (p => run%scene%periodic)
-         call find_periodic_orbit(run%model, tolerances(run, y), orbit_options(p%revolutions, p%tolerance, &
-            & p%max_iterations), y, found, error, stop_requested)
-         run%counts = found%march
-         run%counts%rhs_evaluations = run%counts%rhs_evaluations + found%evaluations
-         run%counts%jacobian_evaluations = run%counts%jacobian_evaluations + found%evaluations
-         if (.not. allocated(error)) call begin_orbits(b%orbits, b%ode, found%orbit, p%revolutions, b%first, b%way)
-      end associate
+      call seek_orbit(run, y, found, error)
+      if (.not. allocated(error)) call begin_orbits(b%orbits, b%ode, found%orbit, run%scene%periodic%revolutions, &
+         & b%first, b%way)
    end subroutine first_orbit
 
    !> The equilibrium of the case, with converged films.

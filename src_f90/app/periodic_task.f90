@@ -15,7 +15,7 @@ module periodic_task
    use recorder, only: recorder_type, begin_recording
    implicit none (type, external)
    private
-   public :: run_periodic
+   public :: run_periodic, seek_orbit
 
 contains
 
@@ -31,21 +31,30 @@ contains
          call make_start(run, y, error)
       end if
       if (allocated(error)) return
+      call seek_orbit(run, y, found, error)
+      if (allocated(error)) then
+         if (error%status == stopped) call stop_here(run, found, error)
+         return
+      end if
+      call put_periodic(run%file%file, found, run%scene%periodic%revolutions)
+      if (.not. run%quiet) call print_orbit(found, run%scene%periodic%revolutions)
+      call record_orbit(run, found, error)
+   end subroutine run_periodic
+
+   !> The orbit that the motion from state y leads to, with what it cost.
+   subroutine seek_orbit(run, y, found, error)
+      type(case_run_type), intent(inout), target :: run
+      real(wp), intent(in) :: y(:)
+      type(periodic_orbit_type), intent(out) :: found
+      type(error_type), allocatable, intent(out) :: error
       associate (p => run%scene%periodic)
          call find_periodic_orbit(run%model, tolerances(run, y), orbit_options(p%revolutions, p%tolerance, &
             & p%max_iterations), y, found, error, stop_requested)
-         run%counts = found%march
-         run%counts%rhs_evaluations = run%counts%rhs_evaluations + found%evaluations
-         run%counts%jacobian_evaluations = run%counts%jacobian_evaluations + found%evaluations
-         if (allocated(error)) then
-            if (error%status == stopped) call stop_here(run, found, error)
-            return
-         end if
-         call put_periodic(run%file%file, found, p%revolutions)
-         if (.not. run%quiet) call print_orbit(found, p%revolutions)
       end associate
-      call record_orbit(run, found, error)
-   end subroutine run_periodic
+      run%counts = found%march
+      run%counts%rhs_evaluations = run%counts%rhs_evaluations + found%evaluations
+      run%counts%jacobian_evaluations = run%counts%jacobian_evaluations + found%evaluations
+   end subroutine seek_orbit
 
    !> A checkpoint where a signal asks for the end: the state to which the march or Newton's method had come.
    subroutine stop_here(run, found, error)

@@ -190,9 +190,11 @@ contains
       type(error_type), allocatable :: failures(:)
       type(scene_type) :: first
       integer :: i
-      call sweep%scene(1, first, error)
-      if (.not. allocated(error) .and. .not. quiet) then
-         if (size_note(first, sweep%members) /= '') print '(a)', size_note(first, sweep%members)
+      if (.not. quiet) then
+         call sweep%scene(1, first, error)
+         if (.not. allocated(error)) then
+            if (size_note(first, sweep%members) /= '') print '(a)', size_note(first, sweep%members)
+         end if
       end if
       call run_members(sweep, folder, merge(jobs, processors(), jobs > 0), quiet, run_member, failures, error)
       do i = 1, size(failures)
