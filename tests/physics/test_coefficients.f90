@@ -8,7 +8,7 @@ program test_coefficients
    use scene, only: scene_type
    use equations_of_motion, only: bearing_model, new_bearing_model
    use force_balance, only: forces
-   use scene_namelist, only: scene_from_text
+   use case_scenes, only: scene_of
    use equilibrium, only: equilibrium_type, find_equilibrium
    use static_model, only: make_fine
    use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
@@ -146,16 +146,9 @@ contains
       call against_differences(ruptured(), 'ruptured films', 1e-4_wp, 2e-2_wp)
    end subroutine differences
 
-   type(scene_type) function scene_from(text) result(scene)
-      character(len=*), intent(in) :: text
-      type(error_type), allocatable :: error
-      call scene_from_text(text, 'scene', scene, error)
-      call expect_no_error(error, 'a scene')
-   end function scene_from
-
    !> Four pads without preload: the loaded pads' films rupture at the trailing edges, two pads carry nothing.
    type(scene_type) function ruptured() result(scene)
-      scene = scene_from('&case task = ''coefficients''/ &rotor mass = 1000/ &operation speed_rpm = 3000/ &bearing ' &
+      scene = scene_of('&case task = ''coefficients''/ &rotor mass = 1000/ &operation speed_rpm = 3000/ &bearing ' &
          & //'journal_radius = 50e-3 axial_length = 50e-3 assembled_clearance = 100e-6 machined_clearance = 100e-6 ' &
          & //'viscosity = 20e-3/ &pads pivot_angle_deg = -45, 45, 135, 225 arc_deg = 80/')
    end function ruptured

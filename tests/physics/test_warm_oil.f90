@@ -3,7 +3,7 @@ program test_warm_oil
    use kinds, only: wp, degree
    use errors, only: error_type, numerics_error
    use scene, only: scene_type
-   use scene_namelist, only: scene_from_text
+   use case_scenes, only: scene_of
    use oil_properties, only: viscosity
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
@@ -38,14 +38,6 @@ program test_warm_oil
    call report()
 
 contains
-
-   !> The scene of a namelist.
-   type(scene_type) function scene_of(text) result(scene)
-      character(len=*), intent(in) :: text
-      type(error_type), allocatable :: error
-      call scene_from_text(text, 'test', scene, error)
-      call expect_no_error(error, text)
-   end function scene_of
 
    !> The equilibrium of a scene, its figures, and its model, which has the viscosities.
    subroutine solve(scene, static, figures, model)

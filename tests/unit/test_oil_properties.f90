@@ -1,16 +1,15 @@
 !> Laws of the oil's viscosity, its grades, which law a case means, and what is refused.
 program test_oil_properties
    use kinds, only: wp
-   use errors, only: error_type, input_error
    use scene, only: scene_type, oil_type, temperature_range, is_set
-   use scene_namelist, only: scene_from_text
+   use case_scenes, only: scene_of, expect_refused
    use namelist_writer, only: scene_text
    use oil_properties, only: viscosity, viscosity_slope, density, reference_viscosity, kinematic_points, grades
    use bearing_numbers, only: sommerfeld_number
    use tilting_pad, only: tilting_pad_type
    use components, only: new_pads
    use checked_case, only: derived_text
-   use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
+   use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
    character(len=*), parameter :: measured = '&oil kinematic_viscosity = 46e-6, 6.8e-6, density_at_15 = 870,' &
@@ -27,13 +26,6 @@ program test_oil_properties
    call report()
 
 contains
-
-   type(scene_type) function scene_of(text) result(scene)
-      character(len=*), intent(in) :: text
-      type(error_type), allocatable :: error
-      call scene_from_text(text, 'case.nml', scene, error)
-      call expect_no_error(error, 'accepted: '//text)
-   end function scene_of
 
    !> An oil of 46 and 6.8 mm^2/s at 40 and 100 C: its two points, and the values of an independent program.
    subroutine walther()
@@ -154,31 +146,28 @@ contains
    end subroutine text_and_back
 
    subroutine refused()
-      call expect_refused('grade = 47', 'oil%grade = 47: must be one of the ISO viscosity grades 10, 15, 22')
-      call expect_refused('grade = 46, kinematic_viscosity(2) = 6e-6', 'oil%kinematic_viscosity = 6e-6 is given too')
-      call expect_refused('grade = 46, at_temperature = 40, 90', 'oil%at_temperature = 40, 90: a grade')
-      call expect_refused('grade = 46, temperature_exponent = 0.03', 'oil%temperature_exponent = 0.03: belongs to')
-      call expect_refused('grade = 46, law = constant', 'oil%grade = 46: belongs to oil%law = ''walther''')
-      call expect_refused('grade = 46 / &bearing viscosity = 0.02', 'bearing%viscosity = 0.02: belongs to')
-      call expect_refused('law = walther', 'needs oil%grade, or two values of oil%kinematic_viscosity')
-      call expect_refused('kinematic_viscosity(1) = 46e-6', 'needs oil%grade, or two values')
-      call expect_refused('kinematic_viscosity = 6e-6, 46e-6', 'must not rise with the temperature')
-      call expect_refused('kinematic_viscosity = 46e-6, 6e-6, at_temperature = 100, 40', 'above the first')
-      call expect_refused('grade = 46, density_slope = -2', 'the density must be above 0 up to 500 C')
-      call expect_refused('reference_viscosity = 0.03', 'needs oil%reference_viscosity and oil%temperature_exponent')
-      call expect_refused('reference_viscosity = 0.03, temperature_exponent = -0.01', 'must be 0 to 1')
-      call expect_refused('supply_temperature = -274', 'oil%supply_temperature = -274: must be -100 to 500')
-      call expect_refused('grade = 220, supply_temperature = -20', 'Pa s; must be 1e-6 to 10')
-      call expect_refused('/ &thermal model = pad', 'thermal%model = ''pad'': needs an oil whose viscosity depends')
-      call expect_refused('/ &thermal march = groove', 'has no effect but with thermal%model = ''pad''')
-      call expect_refused('grade = 46 / &thermal model = pad, march = groove', 'oil%groove_volume = 0: must be > 0')
+      call refuse('grade = 47', 'oil%grade = 47: must be one of the ISO viscosity grades 10, 15, 22')
+      call refuse('grade = 46, kinematic_viscosity(2) = 6e-6', 'oil%kinematic_viscosity = 6e-6 is given too')
+      call refuse('grade = 46, at_temperature = 40, 90', 'oil%at_temperature = 40, 90: a grade')
+      call refuse('grade = 46, temperature_exponent = 0.03', 'oil%temperature_exponent = 0.03: belongs to')
+      call refuse('grade = 46, law = constant', 'oil%grade = 46: belongs to oil%law = ''walther''')
+      call refuse('grade = 46 / &bearing viscosity = 0.02', 'bearing%viscosity = 0.02: belongs to')
+      call refuse('law = walther', 'needs oil%grade, or two values of oil%kinematic_viscosity')
+      call refuse('kinematic_viscosity(1) = 46e-6', 'needs oil%grade, or two values')
+      call refuse('kinematic_viscosity = 6e-6, 46e-6', 'must not rise with the temperature')
+      call refuse('kinematic_viscosity = 46e-6, 6e-6, at_temperature = 100, 40', 'above the first')
+      call refuse('grade = 46, density_slope = -2', 'the density must be above 0 up to 500 C')
+      call refuse('reference_viscosity = 0.03', 'needs oil%reference_viscosity and oil%temperature_exponent')
+      call refuse('reference_viscosity = 0.03, temperature_exponent = -0.01', 'must be 0 to 1')
+      call refuse('supply_temperature = -274', 'oil%supply_temperature = -274: must be -100 to 500')
+      call refuse('grade = 220, supply_temperature = -20', 'Pa s; must be 1e-6 to 10')
+      call refuse('/ &thermal model = pad', 'thermal%model = ''pad'': needs an oil whose viscosity depends')
+      call refuse('/ &thermal march = groove', 'has no effect but with thermal%model = ''pad''')
+      call refuse('grade = 46 / &thermal model = pad, march = groove', 'oil%groove_volume = 0: must be > 0')
    end subroutine refused
 
-   subroutine expect_refused(oil, words)
+   subroutine refuse(oil, words)
       character(len=*), intent(in) :: oil, words
-      type(scene_type) :: scene
-      type(error_type), allocatable :: error
-      call scene_from_text('&oil '//oil//' /', 'case.nml', scene, error)
-      call expect_error(error, input_error, words, 'refused: '//oil)
-   end subroutine expect_refused
+      call expect_refused('&oil '//oil//' /', words)
+   end subroutine refuse
 end program test_oil_properties

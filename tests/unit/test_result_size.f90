@@ -2,10 +2,9 @@
 program test_result_size
    use kinds, only: wp
    use scene, only: scene_type
-   use scene_namelist, only: scene_from_text
-   use errors, only: error_type
    use result_size, only: sample_count, result_bytes, bytes_text, size_note
-   use check, only: runs, expect, expect_no_error, report
+   use case_scenes, only: scene_of
+   use check, only: runs, expect, report
    implicit none (type, external)
 
    if (runs('samples')) call samples()
@@ -14,14 +13,6 @@ program test_result_size
    call report()
 
 contains
-
-   function scene_of(text) result(scene)
-      character(len=*), intent(in) :: text
-      type(scene_type) :: scene
-      type(error_type), allocatable :: error
-      call scene_from_text(text, 'case.nml', scene, error)
-      call expect_no_error(error, text)
-   end function scene_of
 
    !> 6000 rpm: a hundred revolutions a second.
    subroutine samples()

@@ -1,13 +1,12 @@
 !> What a case leaves out: machined clearance by preload, the pads' bodies by density and thickness.
 program test_scene_completion
    use kinds, only: wp, degree
-   use errors, only: error_type, input_error
    use scene, only: scene_type, is_set
-   use scene_namelist, only: scene_from_text
+   use case_scenes, only: scene_of, expect_refused
    use annular_sector, only: annular_sector_type, new_annular_sector
    use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
    use checked_case, only: derived_text, preload_note
-   use check, only: runs, expect, expect_close, expect_no_error, expect_error, between, report
+   use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
    integer :: i
@@ -26,21 +25,6 @@ program test_scene_completion
    call report()
 
 contains
-
-   type(scene_type) function scene_of(text) result(scene)
-      character(len=*), intent(in) :: text
-      type(error_type), allocatable :: error
-      call scene_from_text(text, 'case.nml', scene, error)
-      call expect_no_error(error, 'accepted: '//text)
-   end function scene_of
-
-   subroutine expect_refused(text, words)
-      character(len=*), intent(in) :: text, words
-      type(scene_type) :: scene
-      type(error_type), allocatable :: error
-      call scene_from_text(text, 'case.nml', scene, error)
-      call expect_error(error, input_error, words, 'refused: '//text)
-   end subroutine expect_refused
 
    !> The sums over the points in the middle of n x n parts of the sector, whose error falls as 1/n^2: that of two such
    !> sums, extrapolated.

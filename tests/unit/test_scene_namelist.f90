@@ -104,6 +104,7 @@ program test_scene_namelist
    use scene_namelist, only: scene_from_text, scene_from_namelist
    use namelist_writer, only: scene_text
    use scene_probes, only: collector, shaker
+   use case_scenes, only: scene_of, expect_refused
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
 
@@ -127,13 +128,6 @@ program test_scene_namelist
 contains
 
    !> A scene from text that must be good.
-   type(scene_type) function scene_of(text) result(scene)
-      character(len=*), intent(in) :: text
-      type(error_type), allocatable :: error
-      call scene_from_text(text, 'case.nml', scene, error)
-      call expect_no_error(error, 'accepted: '//text)
-   end function scene_of
-
    subroutine expect_list(found, expected, what)
       real(wp), intent(in) :: found(:), expected(:)
       character(len=*), intent(in) :: what
@@ -300,16 +294,6 @@ contains
             & len(back%about%title) == len(scene%about%title), 'title '//trim(titles(k))//' comes back')
       end do
    end subroutine awkward_titles
-
-   !> The message names the place, the variable and the word.
-   subroutine expect_refused(text, words)
-      character(len=*), intent(in) :: text, words
-      type(scene_type) :: scene
-      type(error_type), allocatable :: error
-      call scene_from_text(text, 'case.nml', scene, error)
-      call expect_error(error, input_error, words, 'refused: '//text)
-      if (allocated(error)) call expect(index(error%message, 'case.nml') == 1, 'names the file: '//error%message)
-   end subroutine expect_refused
 
    subroutine refused_values()
       call expect_refused('&roter /', 'unknown group &roter')
