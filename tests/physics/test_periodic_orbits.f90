@@ -28,7 +28,7 @@ program test_periodic_orbits
    if (runs('order')) then
       call order('none', 1e-3_wp, 100.0_wp, 1e-9_wp)
       call order('lugre', 1e-3_wp, 16.0_wp, 1e-7_wp)
-      call order('bengisu_akay', 1e-5_wp, 0.0_wp, 2e-6_wp)
+      call order('bengisu_akay', 3e-6_wp, 0.0_wp, 2e-6_wp)
    end if
    if (runs('returns')) then
       call returns('none')
@@ -128,9 +128,10 @@ contains
 
    !> Intervals of a quarter of the length leave an error of the multipliers that is 4^5 times smaller, or, where the
    !> motion is stiff, something between 4^3 (the order of the states inside an interval) and this; measured are 1400,
-   !> and 100 with LuGre. With Bengisu-Akay, whose kinks lie close together, both meshes are within 3e-7, which is its
-   !> limit alone (factor 0). With kinks beside the ends of intervals the first mesh would err by 1e-5 and more. The
-   !> error is the difference to intervals of an eighth.
+   !> and 100 with LuGre. Bengisu-Akay's kinks lie close together, so that on the mesh of a march of 1e-5 rounding
+   !> alone decides between errors of 1e-7 and 1e-5; a march of 3e-6 leaves 4e-8. Its limits alone count (factor 0).
+   !> With kinks beside the ends of intervals the first mesh would err by 1e-5 and more. The error is the difference to
+   !> intervals of an eighth.
    subroutine order(friction, tolerance, factor, limit)
       character(len=*), intent(in) :: friction
       !> Of the march; factor by which the error falls; what is left of it.
@@ -147,8 +148,7 @@ contains
       fine = refined(model, found%orbit)
       finest = refined(model, found%orbit)
       errors = [abs(coarse(1)%re - finest(1)%re), abs(fine(1)%re - finest(1)%re)]
-      ! with Bengisu-Akay the first mesh, and with it the error, changes by rounding: 1e-7 to 1e-5 were seen
-      call expect(all(errors < [2e-5_wp, limit]) .and. factor*errors(2) < errors(1), 'the error falls from ' &
+      call expect(all(errors < [5e-6_wp, limit]) .and. factor*errors(2) < errors(1), 'the error falls from ' &
          & //to_text(errors(1))//' to '//to_text(errors(2))//', '//friction)
    end subroutine order
 

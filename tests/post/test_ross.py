@@ -22,8 +22,9 @@ def ross(root):
     if not (root / "build/venv-ross/ready").exists():
         pytest.skip("ROSS is not installed")
 
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
-    process = subprocess.Popen([python, root / PROGRAM], text=True, **pipes)
+    process = subprocess.Popen(
+        [python, root / PROGRAM], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
 
     def answer(**asked) -> dict[str, np.ndarray]:
         print(json.dumps({"points": [], "speeds": []} | asked), file=process.stdin, flush=True)
