@@ -7,7 +7,7 @@ module random_films
    use film_solver, only: film_motion, film_response, film_counters
    use pad_gap, only: pad_gap_type
    use modal_film, only: modal_film_type, converged_film
-   use direct_film, only: direct_film_type, new_direct_film
+   use elimination_film, only: elimination_film_type, new_elimination_film
    use unit_pad, only: unit_pad_type, new_unit_pad
    use check, only: between
    implicit none (type, external)
@@ -131,7 +131,7 @@ contains
       integer, intent(in) :: rows
       logical, intent(in) :: ruptures
       type(unit_pad_type) :: pad
-      type(direct_film_type) :: grid
+      type(elimination_film_type) :: grid
       type(film_counters) :: unused
       type(film_response) :: r
       real(wp) :: at(2), between_halves, angles(0:8*rows)
@@ -150,7 +150,7 @@ contains
          angles(half:) = pad%spread_angles(at, between_halves, pad%half_arc, half)
          if (state%supply > 0) angles(half:) = pad%half_arc - (pad%half_arc - between_halves) &
             & *[((real(half - i, wp)/half)**2, i=0, half)]
-         grid = new_direct_film(gap, columns, rows, middle(gap) + angles)
+         grid = new_elimination_film(gap, columns, rows, middle(gap) + angles)
       end associate
       call grid%evaluate(state%motion, shaft_speed, ruptures, .true., unused, r)
       volumes = volumes_type(r%force, r%derivatives, r%max_pressure)

@@ -8,7 +8,7 @@ module components
    use film_solver, only: film_solver_type
    use modal_film, only: new_modal_film
    use film_resolution, only: enough_cells, enough_modes, usual_error
-   use auto_film, only: auto_film_type, new_auto_film
+   use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: new_table_film, has_tables
    use film_losses, only: film_losses_type, new_film_losses
    use sor_film, only: new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
@@ -47,21 +47,14 @@ contains
       type(scene_type), intent(in) :: scene
       class(film_solver_type), allocatable, intent(out) :: film
       type(pad_gap_type) :: gaps(scene%pad_count())
-      type(auto_film_type), allocatable :: single(:)
+      type(direct_film_type), allocatable :: single(:)
       type(sor_options) :: options
       integer :: cavitation, cells, modes, volumes(2), i
       real(wp), allocatable :: error
       real(wp) :: tolerance
       gaps = new_gaps(scene)
       associate (f => scene%film)
-         select case (f%cavitation)
-         case ('none')
-            cavitation = cavitation_none
-         case ('gumbel')
-            cavitation = cavitation_gumbel
-         case default
-            cavitation = cavitation_reynolds
-         end select
+         cavitation = cavitation_of(f%cavitation)
          cells = merge(f%circumferential_cells, enough_cells(gaps), f%circumferential_cells > 0)
          modes = merge(f%axial_modes, enough_modes(gaps), f%axial_modes > 0)
          ! what the input sets stays the same for every film
@@ -83,12 +76,13 @@ contains
          else
             associate (reynolds => cavitation == cavitation_reynolds, gumbel => cavitation == cavitation_gumbel)
                if (f%solver == 'direct' .or. f%solver == 'loose') then
-                  film = new_auto_film(gaps, cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
+                  film = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
                else
                   ! one by one: gfortran never frees the elements of a list of them
                   allocate (single(size(gaps)))
                   do i = 1, size(gaps)
-                     single(i) = new_auto_film(gaps(i:i), cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
+                     single(i) = &
+                        & new_direct_film(gaps(i:i), cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
                   end do
                   ! ruptured films by volumes are dear, by modes they are cheap
                   tolerance = merge(1, 4, gumbel)*scene%integration%relative_tolerance
@@ -103,6 +97,19 @@ contains
          film%max_sweeps = options%max_sweeps
       end associate
    end subroutine make_film
+
+   !> The number by which films know a condition of cavitation.
+   pure integer function cavitation_of(name) result(cavitation)
+      character(*), intent(in) :: name
+      select case (name)
+      case ('none')
+         cavitation = cavitation_none
+      case ('gumbel')
+         cavitation = cavitation_gumbel
+      case default
+         cavitation = cavitation_reynolds
+      end select
+   end function cavitation_of
 
    !> What finds losses and flows of the films of all pads: by converged films, whatever solver the motion takes.
    pure function new_losses(scene) result(losses)

@@ -14,8 +14,8 @@ module film_losses
    use film_solver, only: film_motion, film_response, film_counters, film_ok
    use pad_gap, only: pad_gap_type, pad_directions
    use film_grid, only: film_grid_type
-   use direct_film, only: direct_film_type
-   use auto_film, only: is_ruptured, share_of_modes
+   use elimination_film, only: elimination_film_type
+   use direct_film, only: is_ruptured, share_of_modes
    use following_volumes, only: new_following_film
    use modal_film, only: modal_film_type, converged_film
    use sommerfeld_nodes, only: span
@@ -184,7 +184,7 @@ contains
       wedge_velocity = speed*self%gap%journal_radius/(2*self%gap%pad_radius())*[motion%position(2), -motion%position(1)]
    end function wedge_velocity
 
-   !> Makes the film that of volumes with rupture and, like auto_film, a share c of (modes - volumes without rupture).
+   !> Makes the film that of volumes with rupture and, like direct_film, a share c of (modes - volumes without rupture).
    subroutine add_rupture(self, motion, speed, modal, driven, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
@@ -193,7 +193,7 @@ contains
       type(film_response), intent(in) :: modal
       type(driven_film), intent(inout) :: driven
       type(film_loss), intent(inout) :: loss
-      type(direct_film_type) :: volumes(2)
+      type(elimination_film_type) :: volumes(2)
       type(volume_flow_type) :: whole(2), ruptured(2)
       real(wp) :: c
       integer :: k, status
@@ -218,7 +218,7 @@ contains
    !> one, rupture was found already.
    subroutine by_volumes(self, volumes, motion, speed, whole, ruptured, status)
       class(film_losses_type), intent(in) :: self
-      type(direct_film_type), intent(inout) :: volumes(:)
+      type(elimination_film_type), intent(inout) :: volumes(:)
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
       type(volume_flow_type), intent(out) :: whole, ruptured

@@ -12,7 +12,7 @@ program film_bench
    use film_solver, only: film_solver_type, film_motion, film_response
    use pad_gap, only: pad_gap_type
    use modal_film, only: modal_film_type, new_modal_film
-   use auto_film, only: auto_film_type, new_auto_film
+   use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: table_film_type, new_table_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel, &
       & cavitation_reynolds
@@ -49,7 +49,7 @@ contains
       real(wp), intent(in) :: centre(2)
       integer, intent(in) :: cavitation
       type(modal_film_type) :: modal
-      type(auto_film_type) :: direct
+      type(direct_film_type) :: direct
       type(table_film_type) :: fine
       type(sor_film_type) :: sor
       type(film_motion), dimension(0:round - 1) :: near, far
@@ -59,7 +59,7 @@ contains
       ! a step of two fifths of the circle
       far = path(centre, large, 73)
       if (cavitation == cavitation_reynolds) then
-         direct = new_auto_film(films, 128, 32, 320, 64, .true., .false.)
+         direct = new_direct_film(films, 128, 32, 320, 64, .true., .false.)
          call forces(direct, near, exact)
       else
          modal = new_modal_film(films, 128, 32, cavitation == cavitation_gumbel)
@@ -73,7 +73,7 @@ contains
       n = 12
       do while (n <= 48)
          if (cavitation == cavitation_reynolds) then
-            direct = new_auto_film(films, n, 8, 80*n/24, n/3, .true., .false.)
+            direct = new_direct_film(films, n, 8, 80*n/24, n/3, .true., .false.)
             call measure('direct '//to_text(n), direct, near, exact, condition, state)
          else
             modal = new_modal_film(films, n, 8, cavitation == cavitation_gumbel)
@@ -93,11 +93,11 @@ contains
    type(table_film_type) function new_table(cavitation, tolerance)
       integer, intent(in) :: cavitation
       real(wp), intent(in) :: tolerance
-      type(auto_film_type) :: direct
+      type(direct_film_type) :: direct
       logical :: reynolds, gumbel
       reynolds = cavitation == cavitation_reynolds
       gumbel = cavitation == cavitation_gumbel
-      direct = new_auto_film(films(:1), 24, 8, 80, 8, reynolds, gumbel)
+      direct = new_direct_film(films(:1), 24, 8, 80, 8, reynolds, gumbel)
       new_table = new_table_film(films, spread(direct, 1, pads), reynolds .or. gumbel, gumbel, tolerance)
    end function new_table
 

@@ -11,7 +11,7 @@ program test_film_accuracy
    use film_resolution, only: enough_cells, enough_modes, usual_error
    use modal_film, only: modal_film_type, new_modal_film, converged_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_reynolds
-   use auto_film, only: auto_film_type, new_auto_film
+   use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: table_film_type, new_table_film
    use random_films, only: film_state, random_film, volumes_type, new_volumes, extrapolated, field_points, &
       & shown, shaft_speed
@@ -192,9 +192,9 @@ contains
       type(film_state), intent(in) :: state
       integer, intent(in) :: finer
       logical, intent(in) :: ruptures, clips
-      type(auto_film_type) :: film
+      type(direct_film_type) :: film
       associate (gaps => [state%gap])
-         film = new_auto_film(gaps, enough_cells(gaps), enough_modes(gaps), 80*finer, 8*finer, ruptures, clips, &
+         film = new_direct_film(gaps, enough_cells(gaps), enough_modes(gaps), 80*finer, 8*finer, ruptures, clips, &
             & usual_error)
       end associate
    end function new_direct
@@ -273,7 +273,7 @@ contains
          & 'direct 80 x 8, reynolds', 'sor 60 x 15, reynolds', 'auto, gumbel', 'auto, reynolds']
       type(film_state) :: state
       type(modal_film_type) :: modes
-      type(auto_film_type) :: direct
+      type(direct_film_type) :: direct
       type(sor_film_type) :: sor
       type(table_film_type) :: tables
       real(wp) :: missing(size(names))
@@ -339,7 +339,7 @@ contains
    subroutine reynolds(supplied)
       logical, intent(in) :: supplied
       type(film_state) :: state
-      type(auto_film_type) :: direct
+      type(direct_film_type) :: direct
       type(sor_film_type) :: sor
       type(table_film_type) :: tables
       type(film_response) :: found(1)

@@ -7,8 +7,8 @@ program test_film_rupture
    use pad_gap, only: pad_gap_type
    use modal_film, only: modal_film_type, new_modal_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel
+   use elimination_film, only: elimination_film_type, new_elimination_film
    use direct_film, only: direct_film_type, new_direct_film
-   use auto_film, only: auto_film_type, new_auto_film
    use paper_bearing, only: offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
@@ -227,7 +227,7 @@ contains
    !> clearance the share changes no more than a few times as much as the force, in parts of it.
    subroutine auto_slopes()
       integer, parameter :: columns = 60, rows = 15
-      type(auto_film_type) :: solver
+      type(direct_film_type) :: solver
       type(modal_film_type) :: by_modes
       type(sor_film_type) :: by_cells
       type(film_motion) :: motion
@@ -239,7 +239,7 @@ contains
       largest = 0
       compared = 0
       do trial = 1, 30
-         solver = new_auto_film([pad(mod(trial, 2) == 0)], cells, modes, columns, rows, .true., .false.)
+         solver = new_direct_film([pad(mod(trial, 2) == 0)], cells, modes, columns, rows, .true., .false.)
          by_modes = new_modal_film([pad(mod(trial, 2) == 0)], cells, modes, gumbel=.false.)
          by_cells = new_sor_film([pad(mod(trial, 2) == 0)], sor_options(columns, rows, tolerance=1e-8_wp, &
             & cavitation=cavitation_none))
@@ -296,14 +296,14 @@ contains
       integer, intent(in) :: columns, rows
       integer, parameter :: n = 100
       real(wp), parameter :: d = 2*pi/n
-      type(auto_film_type) :: solver
+      type(direct_film_type) :: solver
       type(film_response) :: before, after
       real(wp) :: left, right, middle, allowed(2)
       character(len=:), allocatable :: what
       integer :: i, k, switches
       logical :: was, is
       allowed = error_of_cells(path, columns, rows)
-      solver = new_auto_film([pad(path%flooded)], cells, modes, columns, rows, .true., .false.)
+      solver = new_direct_film([pad(path%flooded)], cells, modes, columns, rows, .true., .false.)
       switches = 0
       call look(solver, path, 0.0_wp, before, was)
       do i = 1, n
@@ -337,10 +337,10 @@ contains
       real(wp), intent(in) :: angle
       integer, intent(in) :: columns, rows
       real(wp) :: left_out(2)
-      type(direct_film_type) :: by_cells
+      type(elimination_film_type) :: by_cells
       type(film_counters) :: counters
       type(film_response) :: ruptured, whole
-      by_cells = new_direct_film(pad(path%flooded), columns, rows)
+      by_cells = new_elimination_film(pad(path%flooded), columns, rows)
       call by_cells%evaluate(place(path, angle), speed, .true., .true., counters, ruptured)
       call by_cells%evaluate(place(path, angle), speed, .false., .true., counters, whole)
       left_out = matmul(ruptured%derivatives - whole%derivatives, direction(path, angle))
@@ -372,7 +372,7 @@ contains
 
    !> The film at an angle of the path, and whether it counts as ruptured.
    subroutine look(solver, path, angle, r, ruptured)
-      type(auto_film_type), intent(inout) :: solver
+      type(direct_film_type), intent(inout) :: solver
       type(journal_path), intent(in) :: path
       real(wp), intent(in) :: angle
       type(film_response), intent(out) :: r
@@ -398,9 +398,9 @@ contains
    subroutine no_chatter(path)
       type(journal_path), intent(in) :: path
       integer, parameter :: few = 100, many = 1000
-      type(auto_film_type) :: solver
+      type(direct_film_type) :: solver
       real(wp) :: coarse(2, 0:few), fine(2, 0:many), back(2, 0:few), rough_coarse, rough_fine, largest
-      solver = new_auto_film([pad(path%flooded)], cells, modes, 60, 15, .true., .false.)
+      solver = new_direct_film([pad(path%flooded)], cells, modes, 60, 15, .true., .false.)
       call walk(solver, path, 2*pi/few, coarse, rough_coarse)
       call walk(solver, path, -2*pi/few, back, rough_coarse)
       call walk(solver, path, 2*pi/many, fine, rough_fine)
@@ -413,7 +413,7 @@ contains
 
    !> Forces along a path, step by step, and their largest second difference.
    subroutine walk(solver, path, step, forces, roughest)
-      type(auto_film_type), intent(inout) :: solver
+      type(direct_film_type), intent(inout) :: solver
       type(journal_path), intent(in) :: path
       real(wp), intent(in) :: step
       real(wp), intent(out) :: forces(:, 0:), roughest

@@ -10,9 +10,9 @@ program test_film_table
    use pad_gap, only: pad_gap_type
    use film_resolution, only: enough_cells, enough_modes
    use modal_film, only: modal_film_type, new_modal_film
-   use direct_film, only: direct_film_type, new_direct_film
+   use elimination_film, only: elimination_film_type, new_elimination_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_reynolds
-   use auto_film, only: new_auto_film
+   use direct_film, only: new_direct_film
    use table_film, only: table_film_type, new_table_film
    use check, only: runs, expect, between, report
    implicit none (type, external)
@@ -73,7 +73,7 @@ contains
       type(table_film_type) :: film
       type(film_response) :: r(1)
       associate (gaps => [state%gap])
-         film = new_table_film(gaps, [new_auto_film(gaps, enough_cells(gaps), enough_modes(gaps), 80, 8, &
+         film = new_table_film(gaps, [new_direct_film(gaps, enough_cells(gaps), enough_modes(gaps), 80, 8, &
             & condition == reynolds, condition == gumbel, 1e-4_wp)], condition /= none, condition == gumbel, tolerance)
       end associate
       call film%evaluate([state%motion], 0.0_wp, .true., r)
@@ -131,7 +131,7 @@ contains
       integer, intent(in) :: states
       integer, parameter :: columns(3) = [120, 170, 240], rows(3) = [12, 17, 24]
       type(film_state) :: state
-      type(direct_film_type) :: grid
+      type(elimination_film_type) :: grid
       type(film_counters) :: unused
       type(film_response) :: r, found
       real(wp) :: forces(2, 3), doubt, errors(states, size(tolerances))
@@ -139,7 +139,7 @@ contains
       do i = 1, states
          state = random_state()
          do k = 1, 3
-            grid = new_direct_film(state%gap, columns(k), rows(k))
+            grid = new_elimination_film(state%gap, columns(k), rows(k))
             call grid%evaluate(state%motion, 0.0_wp, .true., .false., unused, r)
             forces(:, k) = r%force
          end do

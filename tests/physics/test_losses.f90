@@ -8,7 +8,7 @@ program test_losses
    use film_solver, only: film_motion, film_response, film_counters, film_ok, film_closed
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type
-   use direct_film, only: direct_film_type, new_direct_film
+   use elimination_film, only: elimination_film_type, new_elimination_film
    use film_losses, only: film_losses_type, film_loss, new_film_losses
    use random_films, only: film_state, random_film, shown, shaft_speed
    use equations_of_motion, only: bearing_model, new_bearing_model
@@ -47,14 +47,14 @@ contains
       real(wp), intent(in) :: speed
       integer, intent(in) :: columns, rows
       logical, intent(in) :: ruptures
-      type(direct_film_type) :: film
+      type(elimination_film_type) :: film
       type(film_grid_type) :: grid
       type(film_response) :: response
       type(film_counters) :: unused
       real(wp), allocatable :: p(:, :), cells(:, :)
       real(wp) :: to_flow, width, surface, drop, carried, filled
       integer :: i, k
-      film = new_direct_film(gap, columns, rows)
+      film = new_elimination_film(gap, columns, rows)
       call film%evaluate(motion, speed, ruptures, .false., unused, response)
       call film%cells(grid, p, cells)
       surface = speed*gap%journal_radius

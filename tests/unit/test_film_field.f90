@@ -6,7 +6,7 @@ program test_film_field
    use pad_gap, only: pad_gap_type
    use modal_film, only: modal_film_type, new_modal_film
    use sor_film, only: sor_film_type, new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
-   use auto_film, only: auto_film_type, new_auto_film
+   use direct_film, only: direct_film_type, new_direct_film
    use paper_bearing, only: offset_pad, speed
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
@@ -115,16 +115,17 @@ contains
 
    !> The solver that chooses, from no rupture to an all but empty pad: there the error of the volumes (80 x 8) is left.
    subroutine force_of_auto()
-      type(auto_film_type) :: solver
+      type(direct_film_type) :: solver
       type(film_motion) :: motions(4)
       real(wp), parameter :: tolerances(4) = [1e-5_wp, 1e-3_wp, 1e-2_wp, 2e-2_wp]
       real(wp), allocatable :: p(:, :)
       integer :: i
       motions = [whole, slight, torn, unloaded]
-      solver = new_auto_film([offset_pad()], 24, 8, 80, 8, .true., .false.)
+      solver = new_direct_film([offset_pad()], 24, 8, 80, 8, .true., .false.)
       do i = 1, size(motions)
          p = field_of(solver, motions(i))
-         call expect_close(missing(solver, motions(i)), 0.0_wp, tolerances(i), 'integral of auto, motion '//to_text(i))
+         call expect_close(missing(solver, motions(i)), 0.0_wp, tolerances(i), &
+            & 'integral of direct, motion '//to_text(i))
          call expect(minval(p) >= 0, 'no tension, motion '//to_text(i))
          call expect(any(p <= 0) .eqv. i > 1, 'rupture, motion '//to_text(i))
       end do
@@ -136,7 +137,7 @@ contains
       real(wp), parameter :: tolerances(3) = [2e-3_wp, 1e-2_wp, 3e-2_wp]
       type(modal_film_type) :: modes
       type(sor_film_type) :: volumes
-      type(auto_film_type) :: auto
+      type(direct_film_type) :: direct
       real(wp), allocatable :: p(:, :), q(:, :)
       type(film_motion) :: motions(3)
       integer :: i
@@ -151,13 +152,13 @@ contains
       q = field_of(volumes, whole)
       p(175:, 392:) = q(175:, 392:)
       call expect_close(maxval(abs(p - q)), 0.0_wp, 3e-3_wp*maxval(q), 'modes against over-relaxation, flooded')
-      auto = new_auto_film([offset_pad()], 24, 8, 80, 8, .true., .false.)
+      direct = new_direct_film([offset_pad()], 24, 8, 80, 8, .true., .false.)
       volumes = new_sor_film([offset_pad()], fine(cavitation_reynolds))
       motions = [slight, torn, unloaded]
       do i = 1, size(motions)
-         p = field_of(auto, motions(i))
+         p = field_of(direct, motions(i))
          q = field_of(volumes, motions(i))
-         call expect_close(maxval(abs(p - q)), 0.0_wp, tolerances(i)*maxval(q), 'auto against volumes, ' &
+         call expect_close(maxval(abs(p - q)), 0.0_wp, tolerances(i)*maxval(q), 'direct against volumes, ' &
             & //to_text(i))
       end do
    end subroutine solvers_agree
@@ -171,13 +172,13 @@ contains
    subroutine uniform_pressure()
       type(modal_film_type) :: modes
       type(sor_film_type) :: volumes
-      type(auto_film_type) :: auto
+      type(direct_film_type) :: direct
       modes = new_modal_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
       volumes = new_sor_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], sor_options(24, 8, tolerance=1e-13_wp))
-      auto = new_auto_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], 24, 8, 24, 8, .true., .false.)
+      direct = new_direct_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], 24, 8, 24, 8, .true., .false.)
       call expect_close(unevenness(modes), 0.0_wp, 1e-9_wp, 'uniform pressure, modes')
       call expect_close(unevenness(volumes), 0.0_wp, 1e-9_wp, 'uniform pressure, volumes')
-      call expect_close(unevenness(auto), 0.0_wp, 1e-9_wp, 'uniform pressure, auto')
+      call expect_close(unevenness(direct), 0.0_wp, 1e-9_wp, 'uniform pressure, direct')
    end subroutine uniform_pressure
 
    real(wp) function unevenness(solver)
@@ -217,7 +218,7 @@ contains
 
    !> Every pad at its own motion and angles.
    subroutine pads_apart()
-      type(auto_film_type) :: solver, alone
+      type(direct_film_type) :: solver, alone
       type(pad_gap_type) :: films(2)
       real(wp), allocatable :: p(:, :, :)
       real(wp) :: phi(along, 2)
@@ -227,10 +228,10 @@ contains
       films(2)%trailing_angle = theta_1
       phi(:, 1) = reshape(angles(), [along])
       phi(:, 2) = -phi(along:1:-1, 1)
-      solver = new_auto_film(films, 24, 8, 80, 8, .true., .false.)
+      solver = new_direct_film(films, 24, 8, 80, 8, .true., .false.)
       call solver%field([whole, whole], speed, phi, places(), p)
       call expect(maxval(abs(p(:, :, 1) - p(:, :, 2))) > 0.01_wp*maxval(p), 'two pads, two fields')
-      alone = new_auto_film(films(:1), 24, 8, 80, 8, .true., .false.)
+      alone = new_direct_film(films(:1), 24, 8, 80, 8, .true., .false.)
       call expect_close(maxval(abs(p(:, :, 1) - field_of(alone, whole))), 0.0_wp, 0.0_wp, 'the first pad''s own')
    end subroutine pads_apart
 end program test_film_field

@@ -7,7 +7,7 @@ program test_modal_film
    use modal_film, only: modal_film_type, new_modal_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_gumbel, &
       & cavitation_reynolds
-   use auto_film, only: auto_film_type, new_auto_film
+   use direct_film, only: direct_film_type, new_direct_film
    use paper_bearing, only: offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -213,7 +213,7 @@ contains
    !> by pad.
    subroutine choice()
       type(pad_gap_type) :: films(2)
-      type(auto_film_type) :: auto
+      type(direct_film_type) :: auto
       type(modal_film_type) :: modal
       type(sor_film_type) :: sor
       type(sor_options) :: options
@@ -221,7 +221,7 @@ contains
       type(film_motion) :: motion(2)
       films = offset_pad()
       options = sor_options(24, 6, tolerance=1e-12_wp, cavitation=cavitation_reynolds)
-      auto = new_auto_film(films, 24, 8, options%circumferential_cells, options%axial_cells, .true., .false.)
+      auto = new_direct_film(films, 24, 8, options%circumferential_cells, options%axial_cells, .true., .false.)
       modal = new_modal_film(films, 24, 8, gumbel=.false.)
       sor = new_sor_film(films, options)
       motion = [film_motion([-3e-5_wp, 5e-5_wp], [0.0_wp, 2e-3_wp]), film_motion([5e-6_wp, 5e-5_wp])]

@@ -5,7 +5,7 @@ program test_ruptured_drive
    use film_solver, only: film_motion, film_response, film_counters
    use pad_gap, only: pad_gap_type
    use unit_pad, only: unit_pad_type, new_unit_pad
-   use direct_film, only: direct_film_type, new_direct_film
+   use elimination_film, only: elimination_film_type, new_elimination_film
    use modal_film, only: modal_film_type, new_modal_film
    use ruptured_drive, only: ruptured_drive_type, drive_type, new_ruptured_drive
    use check, only: runs, expect, expect_close, report
@@ -60,7 +60,7 @@ contains
       real(wp), intent(in) :: edges(2), t
       type(ruptured_drive_type) :: solver
       type(drive_type) :: drive
-      type(direct_film_type) :: grid
+      type(elimination_film_type) :: grid
       type(film_counters) :: unused
       type(film_response) :: r
       real(wp) :: forces(2, 3), best(2), before(2), scale, doubt
@@ -69,7 +69,7 @@ contains
       solver = new_ruptured_drive(pad, .false., tolerance)
       drive = solver%at(edges, pad%tangent*(1 - 2*t))
       do k = 1, 3
-         grid = new_direct_film(gap, columns(k), rows(k))
+         grid = new_elimination_film(gap, columns(k), rows(k))
          call grid%evaluate(film_motion(pad%position(edges), w_of(t)), 0.0_wp, .true., .false., unused, r)
          forces(:, k) = r%force
       end do

@@ -7,7 +7,7 @@ program test_table_film
    use pad_gap, only: pad_gap_type
    use film_resolution, only: enough_cells, enough_modes
    use modal_film, only: modal_film_type, new_modal_film
-   use auto_film, only: auto_film_type, new_auto_film
+   use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: table_film_type, new_table_film
    use paper_bearing, only: paper_pad, offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
@@ -53,8 +53,8 @@ contains
    function solver(gap, condition) result(film)
       type(pad_gap_type), intent(in) :: gap
       integer, intent(in) :: condition
-      type(auto_film_type) :: film
-      film = new_auto_film([gap], enough_cells([gap]), enough_modes([gap]), 80, 8, condition == reynolds, &
+      type(direct_film_type) :: film
+      film = new_direct_film([gap], enough_cells([gap]), enough_modes([gap]), 80, 8, condition == reynolds, &
          & condition == gumbel, tolerance)
    end function solver
 
@@ -123,7 +123,7 @@ contains
    subroutine arcs()
       real(wp), parameter :: angles(7) = [5.0_wp, 20.0_wp, 60.0_wp, 120.0_wp, 148.0_wp, 150.0_wp, 175.0_wp]
       type(table_film_type) :: film
-      type(auto_film_type) :: exact
+      type(direct_film_type) :: exact
       type(pad_gap_type) :: gap
       type(film_motion) :: motion
       type(film_response) :: found(1), expected(1)
@@ -134,7 +134,7 @@ contains
          gap%leading_angle = 0.5_wp*angles(k)*degree
          gap%trailing_angle = gap%leading_angle
          film = tables([gap], gumbel)
-         exact = new_auto_film([gap], 384, 64, 80, 8, .false., .true.)
+         exact = new_direct_film([gap], 384, 64, 80, 8, .false., .true.)
          motion%position = clearance*[-0.3_wp, 0.3_wp]
          motion%velocity = clearance*speed*[0.02_wp, -0.1_wp]
          call film%evaluate([motion], speed, .true., found)
@@ -169,7 +169,7 @@ contains
    !> w_1 = 0 exactly, and next to 0 on both sides: the film closes or opens as a whole.
    subroutine straight_squeeze()
       type(table_film_type) :: film
-      type(auto_film_type) :: exact
+      type(direct_film_type) :: exact
       type(film_response) :: found(1), expected(1)
       type(film_motion) :: motion
       real(wp), parameter :: along(5) = [-1e-12_wp, -tiny(1.0_wp), 0.0_wp, tiny(1.0_wp), 1e-12_wp]
@@ -287,7 +287,7 @@ contains
       real(wp), parameter :: around(3, 3) = reshape([3e5_wp, 1e5_wp, 1e5_wp, 1e5_wp, 1e5_wp, 0.0_wp, 1e5_wp, 2e5_wp, &
          & 0.0_wp], [3, 3])
       type(table_film_type) :: film
-      type(auto_film_type) :: exact
+      type(direct_film_type) :: exact
       type(film_response) :: found(1), expected(1)
       type(film_motion) :: motion
       integer :: k, condition
@@ -318,7 +318,7 @@ contains
    !> The same pressure all around and inside, of any size, only presses from outside.
    subroutine ambient()
       type(table_film_type) :: film, dry
-      type(auto_film_type) :: exact, exact_dry
+      type(direct_film_type) :: exact, exact_dry
       type(film_response) :: found(1), without(1), expected(1), expected_without(1)
       type(film_motion) :: motion
       integer :: k
@@ -393,7 +393,7 @@ contains
    !> A journal that touches, beyond and just not: at an edge and between them.
    subroutine closed()
       type(table_film_type) :: film
-      type(auto_film_type) :: exact
+      type(direct_film_type) :: exact
       type(film_response) :: found(1), expected(1)
       type(film_motion) :: motion
       real(wp) :: error
@@ -446,7 +446,7 @@ contains
    !> Who asks for more accuracy gets solved films.
    subroutine set_accuracy()
       type(table_film_type) :: film
-      type(auto_film_type) :: exact
+      type(direct_film_type) :: exact
       type(film_response) :: found(1), expected(1)
       type(film_motion) :: motion
       motion = loaded_motion()

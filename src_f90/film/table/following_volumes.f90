@@ -7,7 +7,7 @@ module following_volumes
    use pad_gap, only: pad_gap_type
    use unit_pad, only: unit_pad_type, new_unit_pad
    use middle_frame, only: middle_motion, middle_frame_type, new_middle_frame
-   use direct_film, only: direct_film_type, new_direct_film
+   use elimination_film, only: elimination_film_type, new_elimination_film
    implicit none (type, external)
    private
    public :: new_following_film
@@ -20,7 +20,7 @@ module following_volumes
 contains
 
    !> Volumes for a film at a motion that leaves it open and a journal speed, rad/s, on so many rows.
-   type(direct_film_type) function new_following_film(gap, motion, speed, rows) result(film)
+   type(elimination_film_type) function new_following_film(gap, motion, speed, rows) result(film)
       type(pad_gap_type), intent(in) :: gap
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
@@ -40,6 +40,6 @@ contains
          angles(:half) = pad%spread_angles(position, -pad%half_arc, zero, half)
          angles(half:) = pad%spread_angles(position, zero, pad%half_arc, half)
       end associate
-      film = new_direct_film(gap, 2*half, rows, 0.5_wp*(gap%leading_angle - gap%trailing_angle) + angles)
+      film = new_elimination_film(gap, 2*half, rows, 0.5_wp*(gap%leading_angle - gap%trailing_angle) + angles)
    end function new_following_film
 end module following_volumes

@@ -11,7 +11,7 @@ module ruptured_drive
    use two_equations, only: solved
    use film_solver, only: film_motion, film_response, film_counters, film_ok
    use unit_pad, only: unit_pad_type, thickness_scale
-   use direct_film, only: direct_film_type, new_direct_film
+   use elimination_film, only: elimination_film_type, new_elimination_film
    use modal_film, only: modal_film_type, converged_film
    implicit none (type, external)
    private
@@ -94,7 +94,7 @@ contains
       class(ruptured_drive_type), intent(in) :: self
       type(film_motion), intent(in) :: motion
       type(drive_type) :: drive, coarse_drive
-      type(direct_film_type) :: coarse, fine, coarse_whole, fine_whole
+      type(elimination_film_type) :: coarse, fine, coarse_whole, fine_whole
       type(film_response) :: ruptured, whole
       type(film_counters) :: unused
       real(wp) :: line(0:self%columns/2), rim
@@ -126,11 +126,11 @@ contains
    end function by_volumes
 
    !> The grid with these angles between its columns, and a part of the rows.
-   type(direct_film_type) function grid(self, line, part)
+   type(elimination_film_type) function grid(self, line, part)
       class(ruptured_drive_type), intent(in) :: self
       real(wp), intent(in) :: line(0:)
       integer, intent(in) :: part
-      grid = new_direct_film(self%pad%gap(0.0_wp), self%columns/part, self%rows/part, line)
+      grid = new_elimination_film(self%pad%gap(0.0_wp), self%columns/part, self%rows/part, line)
    end function grid
 
    !> The drive by axial modes, with Guembel's condition; slopes over the position.

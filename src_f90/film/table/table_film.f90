@@ -7,7 +7,7 @@ module table_film
    use kinds, only: wp
    use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_closed
    use pad_gap, only: pad_gap_type
-   use auto_film, only: auto_film_type
+   use direct_film, only: direct_film_type
    use unit_pad, only: unit_pad_type, new_unit_pad
    use whole_table, only: new_whole_table
    use rupture_table, only: new_rupture_table
@@ -29,7 +29,7 @@ module table_film
       type(table_pad_type), allocatable :: pads(:)
       type(shape_tables), allocatable :: shapes(:)
       !> Of every pad the solver for what is in no table.
-      type(auto_film_type), allocatable :: single(:)
+      type(direct_film_type), allocatable :: single(:)
       !> Whether the solver was made for films that rupture, and whether they may.
       logical :: made_to_rupture, may_rupture
       !> False: every film is solved by `single`.
@@ -55,7 +55,7 @@ contains
    function new_table_film(gaps, single, ruptures, gumbel, tolerance, solves) result(solver)
       type(pad_gap_type), intent(in) :: gaps(:)
       !> Of every pad the solver for what is in no table.
-      type(auto_film_type), intent(in) :: single(:)
+      type(direct_film_type), intent(in) :: single(:)
       logical, intent(in) :: ruptures, gumbel
       real(wp), intent(in) :: tolerance
       logical, intent(in), optional :: solves

@@ -1,4 +1,4 @@
-!> The inner loops of direct_film: chains of single equations by mode of the grid, and small dense blocks one
+!> The inner loops of elimination_film: chains of single equations by mode of the grid, and small dense blocks one
 !> column of cells wide. Modes and rows are filled up to whole vectors.
 module column_sweeps
    use kinds, only: wp

@@ -5,16 +5,16 @@
 !> volumes without rupture), with c = 1 up to a tension of the whole film of a tenth of its maximum pressure,
 !> and 0 where they are the same. So at the onset the force does not jump by the difference of the two
 !> discretisations, a loaded pad keeps the modes' accuracy, and an empty pad is left to the finite volumes alone.
-module auto_film
+module direct_film
    use kinds, only: wp
    use film_solver, only: film_solver_type, film_motion, film_response, film_ok
    use pad_gap, only: pad_gap_type
    use modal_film, only: modal_film_type, new_modal_film
-   use direct_film, only: direct_film_type, new_direct_film
+   use elimination_film, only: elimination_film_type, new_elimination_film
    use following_volumes, only: new_following_film
    implicit none (type, external)
    private
-   public :: auto_film_type, new_auto_film, is_ruptured, share_of_modes
+   public :: direct_film_type, new_direct_film, is_ruptured, share_of_modes
 
    !> How far below the cavitation pressure the whole film may fall, over its maximum pressure, before it
    !> counts as ruptured: the force left out is of the second order in it, below the discretisation error.
@@ -27,12 +27,12 @@ module auto_film
    !> Step of the derivatives of what slight rupture adds, in clearances (times the speed).
    real(wp), parameter :: difference = 1e-6_wp
 
-   type, extends(film_solver_type) :: auto_film_type
+   type, extends(film_solver_type) :: direct_film_type
       private
       type(pad_gap_type), allocatable :: gaps(:)
       real(wp), allocatable :: cavitation_pressure(:), clearance(:)
       type(modal_film_type) :: modal
-      type(direct_film_type), allocatable :: direct(:)
+      type(elimination_film_type), allocatable :: volumes(:)
       !> Whether the elimination looks for rupture: as the solver was made; in force.
       logical :: made_to_project = .true., projects = .true.
    contains
@@ -42,19 +42,19 @@ module auto_film
       procedure :: evaluate
       procedure :: field
       procedure :: fine_field
-   end type auto_film_type
+   end type direct_film_type
 
 contains
 
    !> Both solvers for the same gaps: cells along the arc and modes of the one; cells along the arc and
    !> along half the width of the other. With the condition of Reynolds or Guembel, or none; only the first needs
    !> the other solver. The tolerance is that of the modes (new_modal_film).
-   function new_auto_film(gaps, cells, modes, columns, rows, reynolds, gumbel, tolerance) result(solver)
+   function new_direct_film(gaps, cells, modes, columns, rows, reynolds, gumbel, tolerance) result(solver)
       type(pad_gap_type), intent(in) :: gaps(:)
       integer, intent(in) :: cells, modes, columns, rows
       logical, intent(in) :: reynolds, gumbel
       real(wp), intent(in), optional :: tolerance
-      type(auto_film_type) :: solver
+      type(direct_film_type) :: solver
       integer :: i
       solver%made_to_project = reynolds
       solver%projects = reynolds
@@ -63,34 +63,34 @@ contains
       solver%clearance = gaps%machined_clearance
       solver%modal = new_modal_film(gaps, cells, modes, gumbel, tolerance)
       if (.not. reynolds) return
-      allocate (solver%direct(size(gaps)))
+      allocate (solver%volumes(size(gaps)))
       do i = 1, size(gaps)
-         solver%direct(i) = new_direct_film(gaps(i), columns, rows)
+         solver%volumes(i) = new_elimination_film(gaps(i), columns, rows)
       end do
-   end function new_auto_film
+   end function new_direct_film
 
    pure logical function ruptures(self)
-      class(auto_film_type), intent(in) :: self
+      class(direct_film_type), intent(in) :: self
       ruptures = self%projects .or. self%modal%ruptures()
    end function ruptures
 
    pure subroutine set_rupture(self, allowed)
-      class(auto_film_type), intent(inout) :: self
+      class(direct_film_type), intent(inout) :: self
       logical, intent(in) :: allowed
       self%projects = self%made_to_project .and. allowed
       call self%modal%set_rupture(allowed)
    end subroutine set_rupture
 
    pure subroutine set_viscosity(self, viscosity)
-      class(auto_film_type), intent(inout) :: self
+      class(direct_film_type), intent(inout) :: self
       real(wp), intent(in) :: viscosity(:)
       self%gaps%viscosity = viscosity
       call self%modal%set_viscosity(viscosity)
-      if (allocated(self%direct)) self%direct%grid%gap%viscosity = viscosity
+      if (allocated(self%volumes)) self%volumes%grid%gap%viscosity = viscosity
    end subroutine set_viscosity
 
    subroutine evaluate(self, motion, speed, want_derivatives, response, chosen)
-      class(auto_film_type), intent(inout) :: self
+      class(direct_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
@@ -113,7 +113,7 @@ contains
          self%counters%volumes = self%counters%volumes + 1
          few = .false.
          if (.not. share_of_modes(self%cavitation_pressure(i), response(i)) < 1) then
-            call self%direct(i)%force_of_rupture(motion(i), speed, self%counters, force, few)
+            call self%volumes(i)%force_of_rupture(motion(i), speed, self%counters, force, few)
          end if
          if (few) then
             if (want_derivatives) response(i)%derivatives = response(i)%derivatives &
@@ -130,7 +130,7 @@ contains
    !> Derivatives of what slight rupture adds to a pad's force, by differences: it is solved exactly, and cheaper
    !> four times than its adjoints once. Where a neighbour is not slight any more its derivative is left out.
    function derivatives_of_rupture(self, i, motion, speed, force) result(derivatives)
-      class(auto_film_type), intent(inout) :: self
+      class(direct_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed, force(2)
@@ -142,7 +142,7 @@ contains
       do k = 1, 4
          shift = 0
          shift(k) = step(k)
-         call self%direct(i)%force_of_rupture(film_motion(motion%position + shift(:2), motion%velocity + shift(3:)), &
+         call self%volumes(i)%force_of_rupture(film_motion(motion%position + shift(:2), motion%velocity + shift(3:)), &
             & speed, self%counters, near, few)
          if (few) derivatives(:, k) = (near - force)/step(k)
       end do
@@ -150,7 +150,7 @@ contains
 
    !> A pad's ruptured film by elimination, from that of the modes.
    subroutine change_of_rupture(self, i, motion, speed, want_derivatives, modal, ruptured)
-      class(auto_film_type), intent(inout) :: self
+      class(direct_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
@@ -160,9 +160,9 @@ contains
       type(film_response) :: whole
       real(wp) :: c
       c = share_of_modes(self%cavitation_pressure(i), modal)
-      call self%direct(i)%evaluate(motion, speed, .true., want_derivatives, self%counters, ruptured)
+      call self%volumes(i)%evaluate(motion, speed, .true., want_derivatives, self%counters, ruptured)
       if (ruptured%status /= film_ok .or. .not. c > 0) return
-      call self%direct(i)%evaluate(motion, speed, .false., want_derivatives, self%counters, whole)
+      call self%volumes(i)%evaluate(motion, speed, .false., want_derivatives, self%counters, whole)
       ruptured%force = ruptured%force + c*(modal%force - whole%force)
       ruptured%derivatives = ruptured%derivatives + c*(modal%derivatives - whole%derivatives)
       ruptured%max_pressure = ruptured%max_pressure + c*(modal%max_pressure - whole%max_pressure)
@@ -187,7 +187,7 @@ contains
    end function share_of_modes
 
    subroutine field(self, motion, speed, phi, z, pressure)
-      class(auto_film_type), intent(inout) :: self
+      class(direct_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
       real(wp), intent(in) :: speed, phi(:, :), z(:)
       real(wp), intent(out) :: pressure(:, :, :)
@@ -196,7 +196,7 @@ contains
 
    !> The field, where it ruptures as accurate as the force from tables.
    subroutine fine_field(self, motion, speed, phi, z, pressure)
-      class(auto_film_type), intent(inout) :: self
+      class(direct_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
       real(wp), intent(in) :: speed, phi(:, :), z(:)
       real(wp), intent(out) :: pressure(:, :, :)
@@ -206,12 +206,12 @@ contains
    !> The field. Where the film ruptures, that of volumes that follow it; or as the force: that of the finite volumes
    !> with rupture and, outside the rupture, c times (modes - finite volumes without rupture).
    subroutine rebuild(self, follows, motion, speed, phi, z, pressure)
-      class(auto_film_type), intent(inout) :: self
+      class(direct_film_type), intent(inout) :: self
       logical, intent(in) :: follows
       type(film_motion), intent(in) :: motion(:)
       real(wp), intent(in) :: speed, phi(:, :), z(:)
       real(wp), intent(out) :: pressure(:, :, :)
-      type(direct_film_type) :: film
+      type(elimination_film_type) :: film
       type(film_response) :: response(size(motion))
       real(wp), dimension(size(z), size(phi, 1)) :: ruptured, whole
       real(wp) :: c
@@ -228,12 +228,12 @@ contains
                call film%field(motion(i), speed, .true., phi(:, i), z, pressure(:, :, i))
             else
                c = share_of_modes(lowest, response(i))
-               call self%direct(i)%field(motion(i), speed, .true., phi(:, i), z, ruptured)
-               call self%direct(i)%field(motion(i), speed, .false., phi(:, i), z, whole)
+               call self%volumes(i)%field(motion(i), speed, .true., phi(:, i), z, ruptured)
+               call self%volumes(i)%field(motion(i), speed, .false., phi(:, i), z, whole)
                where (ruptured > lowest) ruptured = max(lowest, ruptured + c*(pressure(:, :, i) - whole))
                pressure(:, :, i) = ruptured
             end if
          end associate
       end do
    end subroutine rebuild
-end module auto_film
+end module direct_film

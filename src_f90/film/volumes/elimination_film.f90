@@ -6,7 +6,7 @@
 !> Which cells are ruptured is found as an active set: cells below the cavitation pressure leave the film,
 !> ruptured cells that would fill come back; for this kind of matrix that ends, after a few rounds from the
 !> set of the last motion (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13, 2002, theorem 3.2).
-module direct_film
+module elimination_film
    use kinds, only: wp
    use film_solver, only: film_motion, film_response, film_counters, film_closed, film_not_converged
    use pad_gap, only: pad_gap_type
@@ -16,14 +16,14 @@ module direct_film
    use column_sweeps, only: factor_chain, solve_chain, finish_chain, weighted, apply, invert
    implicit none (type, external)
    private
-   public :: direct_film_type, new_direct_film
+   public :: elimination_film_type, new_elimination_film
 
    integer, parameter :: max_rounds = 100
    !> Pressure over the maximum below which a cell counts as empty: rounding must not decide.
    real(wp), parameter :: rounding = 1e-12_wp
 
    !> One pad's film.
-   type :: direct_film_type
+   type :: elimination_film_type
       private
       type(film_grid_type), public :: grid
       type(grid_modes_type) :: basis
@@ -42,17 +42,17 @@ module direct_film
       procedure :: cells
       procedure :: start_from
       procedure :: empty_columns
-   end type direct_film_type
+   end type elimination_film_type
 
 contains
 
    !> The film of one pad on a grid of so many cells along the arc and along half the width, the columns equal or
    !> between these angles (film_grid).
-   function new_direct_film(gap, columns, rows, angles) result(self)
+   function new_elimination_film(gap, columns, rows, angles) result(self)
       type(pad_gap_type), intent(in) :: gap
       integer, intent(in) :: columns, rows
       real(wp), intent(in), optional :: angles(0:)
-      type(direct_film_type) :: self
+      type(elimination_film_type) :: self
       integer :: n
       self%grid = new_film_grid(gap, columns, rows, angles)
       self%basis = new_grid_modes(self%grid)
@@ -60,12 +60,12 @@ contains
       allocate (self%film(n, columns), self%pressure(n, columns), self%adjoint(n, columns), source=0.0_wp)
       self%film(:rows, :) = 1
       allocate (self%per_pivot(n, columns), self%block(n, rows, columns), source=0.0_wp)
-   end function new_direct_film
+   end function new_elimination_film
 
    !> The film at a motion and a journal speed, rad/s, with the Reynolds condition or without rupture.
    !> Counts a pad and the eliminations.
    subroutine evaluate(self, motion, speed, ruptures, want_derivatives, counters, response)
-      class(direct_film_type), intent(inout) :: self
+      class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
       logical, intent(in) :: ruptures, want_derivatives
@@ -105,7 +105,7 @@ contains
 
    !> How many columns from the trailing edge on the last film, with the Reynolds condition, has left.
    pure integer function empty_columns(self) result(n)
-      class(direct_film_type), intent(in) :: self
+      class(elimination_film_type), intent(in) :: self
       do n = 0, self%grid%columns - 1
          if (any(self%film(:self%grid%rows, n + 1) > 0)) return
       end do
@@ -113,8 +113,8 @@ contains
 
    !> Lets the next film start from the cells in which that on a grid of half as many columns and rows has ruptured.
    pure subroutine start_from(self, coarse)
-      class(direct_film_type), intent(inout) :: self
-      type(direct_film_type), intent(in) :: coarse
+      class(elimination_film_type), intent(inout) :: self
+      type(elimination_film_type), intent(in) :: coarse
       integer :: i, k
       do i = 1, self%grid%columns
          do k = 1, self%grid%rows
@@ -126,7 +126,7 @@ contains
    !> Pressure, Pa, (axial position, angle), at a motion that leaves the film open and a journal speed, rad/s, with the
    !> Reynolds condition or without rupture.
    subroutine field(self, motion, speed, ruptures, phi, z, pressure)
-      class(direct_film_type), intent(inout) :: self
+      class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
       logical, intent(in) :: ruptures
@@ -144,7 +144,7 @@ contains
 
    !> Grid of the last film, its pressure above that of cavitation, Pa, (row, column), and its cells, the others 0.
    pure subroutine cells(self, grid, pressure, film)
-      class(direct_film_type), intent(in) :: self
+      class(elimination_film_type), intent(in) :: self
       type(film_grid_type), intent(out) :: grid
       real(wp), allocatable, intent(out) :: pressure(:, :), film(:, :)
       grid = self%grid
@@ -156,7 +156,7 @@ contains
    !> Force with the Reynolds condition less force without rupture, N, where only a few cells rupture; else
    !> `few` is false, and `evaluate` has to be asked.
    subroutine force_of_rupture(self, motion, speed, counters, force, few)
-      class(direct_film_type), intent(inout) :: self
+      class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
       type(film_counters), intent(inout) :: counters
@@ -169,7 +169,7 @@ contains
 
    !> Force; minimum and maximum pressure in the middle plane and at the edges.
    pure subroutine sum_up(self, response)
-      type(direct_film_type), intent(in) :: self
+      type(elimination_film_type), intent(in) :: self
       type(film_response), intent(inout) :: response
       real(wp), dimension(self%grid%columns) :: sums, middle
       integer :: i, m
@@ -195,7 +195,7 @@ contains
    !> whose pressure falls below that at its edges does so in a column with a source > 0; so the other whole
    !> columns need no look.
    pure subroutine update_film(self, changed)
-      type(direct_film_type), intent(inout) :: self
+      type(elimination_film_type), intent(inout) :: self
       logical, intent(out) :: changed
       !> Pressure by rows, scaled, with a rim; on a fine grid too much for the stack.
       real(wp), allocatable :: p(:, :)
@@ -240,7 +240,7 @@ contains
 
    !> Turns the columns outside first to last from modes to rows, and all to what is not scaled.
    pure subroutine to_rows(self, x)
-      type(direct_film_type), intent(in) :: self
+      type(elimination_film_type), intent(in) :: self
       real(wp), intent(inout), contiguous :: x(:, :)
       integer :: i
       do i = 1, self%grid%columns
@@ -252,7 +252,7 @@ contains
    !> Pivots and blocks: whole columns from both edges of the pad inwards, mode by mode, then the columns
    !> between, from the first to the last; none of these where the film does not rupture.
    pure subroutine eliminate(self, ruptures)
-      type(direct_film_type), intent(inout) :: self
+      type(elimination_film_type), intent(inout) :: self
       logical, intent(in) :: ruptures
       logical :: touched(self%grid%columns)
       integer :: i, j, m
@@ -300,7 +300,7 @@ contains
 
    !> The matrix with given values by mode, in rows.
    pure function modal_block(self, values) result(block)
-      type(direct_film_type), intent(in) :: self
+      type(elimination_film_type), intent(in) :: self
       real(wp), intent(in) :: values(:)
       real(wp) :: block(self%basis%m, self%grid%rows)
       integer :: j
@@ -312,7 +312,7 @@ contains
    !> The scaled solution, by rows from the first to the last column that rupture touches, by modes outside, for
    !> a load per column in every row of the film, and one more in its edge row.
    pure subroutine solve(self, load, edge_load, x)
-      type(direct_film_type), intent(in) :: self
+      type(elimination_film_type), intent(in) :: self
       real(wp), intent(in) :: load(:), edge_load(:)
       real(wp), intent(inout), contiguous :: x(:, :)
       real(wp) :: next(size(x, 1))
@@ -347,4 +347,4 @@ contains
          end if
       end associate
    end subroutine solve
-end module direct_film
+end module elimination_film

@@ -1,0 +1,172 @@
+!> The film by elimination against over-relaxation of the same equations, its slopes, and its starts.
+program test_elimination_film
+   use kinds, only: wp
+   use text, only: to_text
+   use film_solver, only: film_motion, film_response, film_counters, film_ok, film_closed
+   use pad_gap, only: pad_gap_type
+   use elimination_film, only: elimination_film_type, new_elimination_film
+   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_reynolds
+   use paper_bearing, only: paper_pad, speed, clearance
+   use check, only: runs, expect, expect_close, between, report
+   implicit none (type, external)
+
+   integer, parameter :: grids(2, 3) = reshape([24, 6, 30, 9, 12, 2], [2, 3])
+   integer :: i
+
+   do i = 1, size(grids, 2)
+      if (runs('against_relaxation')) then
+         call against_relaxation(grids(1, i), grids(2, i), .true., [0.0_wp, 0.0_wp, 0.0_wp])
+         call against_relaxation(grids(1, i), grids(2, i), .true., [3e5_wp, 1e5_wp, -1e5_wp])
+         call against_relaxation(grids(1, i), grids(2, i), .false., [3e5_wp, 1e5_wp, 0.0_wp])
+      end if
+   end do
+   if (runs('few_cells')) call few_cells([0.0_wp, 0.0_wp, 0.0_wp], .true.)
+   ! a flooded film breaks away from its edges: few are none there
+   if (runs('few_cells')) call few_cells([1.2e5_wp, 1e5_wp, 9e4_wp], .false.)
+   if (runs('any_start')) call any_start()
+   if (runs('empty_film')) call empty_film()
+   if (runs('closed_film')) call closed_film()
+   call report()
+
+contains
+
+   !> A film that converges or diverges, with squeeze of either sign.
+   type(film_motion) function random_motion()
+      random_motion%position = clearance*[between(-0.5_wp, 0.4_wp), between(0.0_wp, 0.6_wp)]
+      random_motion%velocity = clearance*speed*[between(-0.3_wp, 0.3_wp), between(-0.3_wp, 0.3_wp)]
+   end function random_motion
+
+   !> Over-relaxation stops at a residual of 1e-12 of the source; on these grids the error of its solution is
+   !> at most some 100 times that, and its slopes are solutions of the same kind.
+   subroutine against_relaxation(columns, rows, ruptures, pressures)
+      integer, intent(in) :: columns, rows
+      logical, intent(in) :: ruptures
+      real(wp), intent(in) :: pressures(3)
+      real(wp), parameter :: tolerance = 1e-9_wp
+      integer, parameter :: trials = 40
+      type(pad_gap_type) :: film
+      type(elimination_film_type) :: direct
+      type(sor_film_type) :: sor
+      type(film_counters) :: counters
+      type(film_motion) :: motion
+      type(film_response) :: r, expected
+      real(wp) :: worst, worst_slope, worst_pressure
+      integer :: trial, ruptured, k
+      film = paper_pad(pressures)
+      direct = new_elimination_film(film, columns, rows)
+      sor = new_sor_film([film], sor_options(columns, rows, tolerance=1e-12_wp, max_sweeps=100000, &
+         & cavitation=merge(cavitation_reynolds, cavitation_none, ruptures)))
+      worst = 0
+      worst_slope = 0
+      worst_pressure = 0
+      ruptured = 0
+      do trial = 1, trials
+         motion = random_motion()
+         call direct%evaluate(motion, speed, ruptures, .true., counters, r)
+         call sor%evaluate_pad(1, motion, speed, .true., expected)
+         if (r%status /= film_ok) worst = huge(worst)
+         if (any(sor%pressure_field(1) <= pressures(3))) ruptured = ruptured + 1
+         worst = max(worst, deviation(r%force, expected%force))
+         associate (field => sor%pressure_field(1))
+            worst_pressure = max(worst_pressure, deviation([r%max_pressure], [max(maxval(field(:, 1)), &
+               & maxval(pressures(:2)))]))
+         end associate
+         do k = 1, 4
+            worst_slope = max(worst_slope, deviation(r%derivatives(:, k), expected%derivatives(:, k)))
+         end do
+      end do
+      associate (name => to_text(columns)//' x '//to_text(rows)//merge(' ruptured', ' whole   ', ruptures))
+         call expect(worst < tolerance, name//': force, error '//to_text(worst))
+         call expect(worst_pressure < tolerance, name//': highest pressure, error '//to_text(worst_pressure))
+         call expect(worst_slope < tolerance, name//': slopes, error '//to_text(worst_slope))
+         if (ruptures) call expect(ruptured > trials/4, name//': films do rupture, '//to_text(ruptured))
+      end associate
+   end subroutine against_relaxation
+
+   !> Relative; absolute where nothing is expected.
+   pure real(wp) function deviation(found, expected)
+      real(wp), intent(in) :: found(:), expected(:)
+      deviation = norm2(found - expected)
+      if (norm2(expected) > 0) deviation = deviation/norm2(expected)
+   end function deviation
+
+   !> Where few cells rupture their force by Green's functions is the difference of the films with and without
+   !> rupture; where it says few, no others do.
+   subroutine few_cells(pressures, dry)
+      real(wp), intent(in) :: pressures(3)
+      logical, intent(in) :: dry
+      type(elimination_film_type) :: direct, by_few
+      type(film_counters) :: counters
+      type(film_motion) :: motion
+      type(film_response) :: r, whole
+      real(wp) :: force(2), worst
+      integer :: trial, said, with_rupture
+      logical :: few
+      direct = new_elimination_film(paper_pad(pressures), 60, 15)
+      by_few = new_elimination_film(paper_pad(pressures), 60, 15)
+      said = 0
+      with_rupture = 0
+      worst = 0
+      do trial = 1, 300
+         motion%position = clearance*[between(-0.5_wp, -0.05_wp), between(0.0_wp, 0.6_wp)]
+         motion%velocity = clearance*speed*[between(-0.02_wp, 0.02_wp), between(-0.02_wp, 0.02_wp)]
+         call by_few%force_of_rupture(motion, speed, counters, force, few)
+         if (.not. few) cycle
+         said = said + 1
+         call direct%evaluate(motion, speed, .true., .false., counters, r)
+         call direct%evaluate(motion, speed, .false., .false., counters, whole)
+         if (norm2(r%force - whole%force) > 1e-6_wp*norm2(whole%force)) with_rupture = with_rupture + 1
+         worst = max(worst, norm2(force - (r%force - whole%force))/norm2(whole%force))
+      end do
+      call expect(worst < 1e-10_wp, 'few cells: error '//to_text(worst))
+      call expect(said > 50, 'few cells: often, '//to_text(said))
+      call expect((with_rupture > 20) .eqv. dry, 'few cells: with rupture, '//to_text(with_rupture))
+   end subroutine few_cells
+
+   !> The answer does not depend on the film of the last motion.
+   subroutine any_start()
+      type(elimination_film_type) :: warm, cold
+      type(film_counters) :: counters
+      type(film_motion) :: motion
+      type(film_response) :: r, expected
+      integer :: trial
+      warm = new_elimination_film(paper_pad(), 60, 15)
+      do trial = 1, 50
+         motion = random_motion()
+         cold = new_elimination_film(paper_pad(), 60, 15)
+         call warm%evaluate(motion, speed, .true., .false., counters, r)
+         call cold%evaluate(motion, speed, .true., .false., counters, expected)
+         call expect_close(norm2(r%force - expected%force), 0.0_wp, 1e-12_wp*norm2(expected%force), 'any start')
+         ! without rupture nothing is remembered
+         call warm%evaluate(motion, speed, .false., .false., counters, r)
+      end do
+   end subroutine any_start
+
+   !> A pad that the journal leaves: nothing but rupture, no force, no slopes; and back.
+   subroutine empty_film()
+      type(elimination_film_type) :: direct
+      type(film_counters) :: counters
+      type(film_motion) :: motion
+      type(film_response) :: r, before
+      direct = new_elimination_film(paper_pad(), 24, 6)
+      motion%position = clearance*[-0.2_wp, 0.3_wp]
+      call direct%evaluate(motion, speed, .true., .true., counters, before)
+      motion%velocity = [0.0_wp, -10*clearance*speed]
+      call direct%evaluate(motion, speed, .true., .true., counters, r)
+      call expect(r%status == film_ok .and. all(abs(r%force) <= 0) .and. all(abs(r%derivatives) <= 0), 'nothing left')
+      motion%velocity = 0
+      call direct%evaluate(motion, speed, .true., .true., counters, r)
+      call expect_close(r%force(2), before%force(2), 1e-12_wp*abs(before%force(2)), 'the film comes back')
+      call expect(all(abs(r%derivatives - before%derivatives) <= 1e-10_wp*maxval(abs(before%derivatives))), &
+         & 'so do its slopes')
+   end subroutine empty_film
+
+   subroutine closed_film()
+      type(elimination_film_type) :: direct
+      type(film_counters) :: counters
+      type(film_response) :: r
+      direct = new_elimination_film(paper_pad(), 24, 6)
+      call direct%evaluate(film_motion([0.0_wp, clearance], [0.0_wp, 0.0_wp]), speed, .true., .true., counters, r)
+      call expect(r%status == film_closed, 'a closed film is refused')
+   end subroutine closed_film
+end program test_elimination_film
