@@ -8,6 +8,7 @@ import tempfile
 
 import tiltpad
 import verify_coefficients
+import verify_orbits
 import verify_warm
 from tiltpad.calculate.deviations import SIGNALS
 from verify_runs import row, run
@@ -67,6 +68,18 @@ and Thomsen below; its Sommerfeld number is kept while the speed changes.
 | rotor and bearing | here | reference |
 |---|---|---|
 {thresholds}
+
+## Orbits against marches
+
+Before and behind points where the tasks `branch` finds that stability is lost, an orbit by the task `periodic` with
+its multiplier mu that crosses, and a march (tolerance 1e-10) from beside it. How the march comes back to the orbit or
+leaves it gives the same multiplier: once a period, its changes are multiplied by a matrix, which has this eigenvalue.
+The rates are `ln |mu|/T`, 1/s. The orbits of two revolutions exist on one side of their fold only, two of them at each
+speed; the lower one was found from states that were continued over the root of the speed's distance from the fold.
+
+| scene | rpm | mu | by the march | rate, 1/s | by the march |
+|---|---|---|---|---|---|
+{both_sides}
 
 ## Four tilting pads: Someya's table
 
@@ -153,6 +166,7 @@ LUGRE = {
     "tilt of pad 1, mrad": ("pad_tilt", 1e3, -0.2324, -0.1396),
 }
 SCENES = ("steady_tr", "steady_to", "steady_to_ba", "steady_ba_10_05", "steady_lugre", "steady_lugre5")
+TABLES = (*verify_coefficients.TABLES, *verify_orbits.TABLES, *verify_warm.TABLES)
 TIGHT = (
     "film%table_tolerance=2e-6",
     "integration%relative_tolerance=1e-8",
@@ -197,10 +211,7 @@ def settings(program, folder):
 
 def main(program):
     with tempfile.TemporaryDirectory() as folder:
-        tables = {
-            f.__name__: "\n".join(f(program, folder))
-            for f in (equilibria, lugre, settings, *verify_coefficients.TABLES, *verify_warm.TABLES)
-        }
+        tables = {f.__name__: "\n".join(f(program, folder)) for f in (equilibria, lugre, settings, *TABLES)}
     print(PAGE.format(tight=", ".join(f"`{each}`" for each in TIGHT), **tables), end="")
 
 

@@ -75,12 +75,45 @@ def test_a_march_leaves_an_unstable_orbit_as_its_multipliers_say(run, tmp_path):
     run(WHIRL, *start, "integration%relative_tolerance=1e-9", name="march")
     with h5py.File(tmp_path / "case.h5") as orbit, h5py.File(tmp_path / "march.h5") as march:
         assert orbit["periodic/stable"][()] == 0
-        leading = orbit["periodic/multiplier_real"][0] + 1j * abs(orbit["periodic/multiplier_imag"][0])
+        leading = leading_multiplier(orbit)
         assert abs(leading) > 2
         away = np.array([march[name][60:361:60] - orbit[name][0] for name in ("journal_y", "journal_z")])
-        values = np.linalg.eigvals(away[:, 1:] @ np.linalg.pinv(away[:, :-1]))
-        found = values[np.argmax(values.imag)]
-        assert abs(found - leading) < 0.01 * abs(leading)
+        found = factors(away)
+        assert abs(found[np.argmax(found.imag)] - leading) < 0.01 * abs(leading)
+
+
+@pytest.mark.parametrize(("speed", "kind"), [(9480, "stable"), (9560, "unstable: the period doubles")])
+def test_marches_on_both_sides_of_a_doubling(run, tmp_path, speed, kind):
+    """Before 9514 rpm a march comes back to the orbit by the factor of its leading multiplier, behind it
+    leaves it by this. The second multiplier of 9560 rpm, -0.90, is left of the motion, too; the third is 0.67,
+    so that 20 periods leave 3e-4 of it. Films of two tolerances would differ by 1e-3; here they are alike.
+    """
+    scene = (
+        "friction%static_coefficient=0.15",
+        "friction%dynamic_coefficient=0.075",
+        "film%table_tolerance=1e-5",
+    )
+    scene = (*scene, f"operation%speed_rpm={speed}", "output%samples_per_revolution=3")
+    assert kind in run("&friction model='lugre' /\n", PERIODIC, *scene).stdout
+    start = ("start%from='file'", "start%file='case.h5'", "start%journal=1e-7,0")
+    march = ("integration%relative_tolerance=1e-8", f"operation%duration={40.01 * 60 / speed}")
+    run("&friction model='lugre' /\n", *scene, *start, *march, name="march")
+    with h5py.File(tmp_path / "case.h5") as orbit, h5py.File(tmp_path / "march.h5") as march:
+        leading = leading_multiplier(orbit)
+        changes = np.diff([march[name][60::3] for name in ("journal_y", "journal_z")])
+    found = factors(changes)
+    assert abs(leading) == pytest.approx(0.959 if speed < 9514 else 1.0515, abs=2e-3)
+    assert min(abs(found - leading)) < 1e-3
+
+
+def leading_multiplier(orbit):
+    """Of a pair the one above the axis."""
+    return orbit["periodic/multiplier_real"][0] + 1j * abs(orbit["periodic/multiplier_imag"][0])
+
+
+def factors(series):
+    """The eigenvalues of the matrix by which two series are multiplied from each sample to the next."""
+    return np.linalg.eigvals(series[:, 1:] @ np.linalg.pinv(series[:, :-1]))
 
 
 def test_two_revolutions_square_the_multipliers(run, tmp_path):
