@@ -85,8 +85,8 @@ def test_a_march_leaves_an_unstable_orbit_as_its_multipliers_say(run, tmp_path):
 @pytest.mark.parametrize(("speed", "kind"), [(9480, "stable"), (9560, "unstable: the period doubles")])
 def test_marches_on_both_sides_of_a_doubling(run, tmp_path, speed, kind):
     """Before 9514 rpm a march comes back to the orbit by the factor of its leading multiplier, behind it
-    leaves it by this. The second multiplier of 9560 rpm, -0.90, is left of the motion, too; the third is 0.67,
-    so that 20 periods leave 3e-4 of it. Films of two tolerances would differ by 1e-3; here they are alike.
+    leaves it by this. The second multiplier of 9560 rpm, -0.90, is left of the motion, too; the third is
+    0.67, so that 20 periods leave 3e-4 of it. Both runs have the same tables of films.
     """
     scene = (
         "friction%static_coefficient=0.15",
