@@ -205,6 +205,6 @@ contains
          & '  --version, --help       prints the version, or this help', &
          & '', &
          & 'Exit status: 0 done; 1 usage or input; 2 the numerics failed (results up to this point are kept);', &
-         & '3 file or system; 4 stopped by a signal (SIGTERM, SIGUSR1, SIGINT) after a checkpoint.'
+         & '3 file or system; 4 stopped by a signal (SIGTERM, SIGUSR1, SIGINT, SIGXCPU) after a checkpoint.'
    end subroutine print_help
 end module arguments

@@ -7,8 +7,8 @@ module stop_signals
    public :: catch_signals, ignore_file_limit, stop_requested, stop_reason
 
    interface
-      !> From now on SIGINT, SIGUSR1 and SIGTERM end nothing by themselves but are noted; nor does a reader of what is
-      !> printed end a run by going away.
+      !> From now on SIGINT, SIGUSR1, SIGTERM and SIGXCPU (a limit of CPU time) end nothing by themselves but are
+      !> noted; nor does a reader of what is printed end a run by going away.
       subroutine catch_signals() bind(c, name='tiltpad_catch_signals')
       end subroutine catch_signals
 

@@ -286,6 +286,7 @@ void tiltpad_catch_signals(void)
    signal(SIGINT, note);
    signal(SIGUSR1, note);
    signal(SIGTERM, note);
+   signal(SIGXCPU, note);
    signal(SIGPIPE, SIG_IGN);
    /* whoever starts the program may ignore it; children could not be waited for then */
    signal(SIGCHLD, SIG_DFL);

@@ -127,7 +127,7 @@ def check_joined(path, reference, resumes=None):
         assert max(package.deviations(run, uninterrupted).values()) < 2e-3
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGUSR1, signal.SIGINT])
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGUSR1, signal.SIGINT, signal.SIGXCPU])
 def test_a_signal_leaves_a_checkpoint(program, tiltpad, case, whole, number):
     process = start(program, case, "case.nml", *LONG.split(), "--set", "output%checkpoint_seconds=0")
     time.sleep(0.05)

@@ -7,6 +7,7 @@ import h5py
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "stress"))
+from limited import limited  # noqa: E402
 from stress_judge import cause_of, judge, searched  # noqa: E402
 from stress_scenes import draw, text  # noqa: E402
 
@@ -22,31 +23,33 @@ HARD = {
     225: "fluttering",
     297: "stable",
 }
+# CPU time, s
+LIMIT = 60
 # one pad (13, 27); every rest is divergent (70, 209)
 REFUSED = (13, 27, 70, 209)
 # fixed pads: a part of the arc, all around, four lobes, two grooves, three lobes
 FIXED = (9, 24, 40, 43, 59)
 
 
-def at_rest(tiltpad, folder, number, seed=1):
+def at_rest(program, folder, number, seed=1):
     scene = draw(seed, number)
     scene["case"]["task"] = "equilibrium"
     (folder / "scene.nml").write_text(text(scene))
-    return tiltpad("scene.nml", "--quiet", cwd=folder, timeout=60)
+    return limited([program, "scene.nml", "--quiet"], folder, LIMIT)
 
 
 @pytest.mark.parametrize("number", HARD)
-def test_found(tiltpad, tmp_path, number):
-    run = at_rest(tiltpad, tmp_path, number)
+def test_found(program, tmp_path, number):
+    run = at_rest(program, tmp_path, number)
     assert run.returncode == 0, run.stderr
     with h5py.File(tmp_path / "scene.h5") as file:
         assert file.attrs["equilibrium_stability"] == HARD[number]
         assert file["equilibrium/residual"][()] <= 1e-8
 
 
-def test_rest_in_a_leap(tiltpad, tmp_path):
+def test_rest_in_a_leap(program, tmp_path):
     # the film's force leaps, by a part of its error, where this bearing rests
-    run = at_rest(tiltpad, tmp_path, 53, seed=2)
+    run = at_rest(program, tmp_path, 53, seed=2)
     assert run.returncode == 0, run.stderr
     with h5py.File(tmp_path / "scene.h5") as file:
         assert file.attrs["equilibrium_stability"] == "stable"
@@ -54,13 +57,24 @@ def test_rest_in_a_leap(tiltpad, tmp_path):
 
 
 @pytest.mark.parametrize("number", REFUSED)
-def test_refused(tiltpad, tmp_path, number, program):
-    run = at_rest(tiltpad, tmp_path, number)
+def test_refused(program, tmp_path, number):
+    run = at_rest(program, tmp_path, number)
     assert run.returncode == 2
     assert cause_of(run.stderr)
     found, faults = searched(Path(program).parents[1] / "stress/global_search", tmp_path / "scene.nml")
     assert not faults
     assert found in ("none", "divergent")
+
+
+def test_limit_of_cpu_time(program, tmp_path):
+    """A march that outlasts it stops and keeps its samples; a program that does not listen is killed."""
+    case = "&operation duration=1e4 /\n&output samples_per_revolution=1 /\n"
+    (tmp_path / "long.nml").write_text(case)
+    run = limited([program, "long.nml", "--quiet"], tmp_path, 1)
+    assert run.returncode == 4, run.stderr
+    with h5py.File(tmp_path / "long.h5") as file:
+        assert len(file["time"]) > 1
+    assert limited(["sh", "-c", "while :; do :; done"], tmp_path, 1).hung
 
 
 @pytest.mark.parametrize("number", FIXED)

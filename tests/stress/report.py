@@ -5,9 +5,10 @@ from collections import Counter
 from collections.abc import Callable, Iterable
 
 import numpy as np
-from stress_judge import AT_REST, COMPARED, FINER, Result, cause_of
+from stress_judge import AT_REST, COMPARED, FINER, TIME_BUDGET, Result, cause_of
 
-OUTCOMES = ("done", "step budget", "march stopped", "no equilibrium", "input refused", "crashed", "hung")
+REFUSALS = ("step budget", "time budget", "march stopped", "no equilibrium", "input refused")
+OUTCOMES = ("done", *REFUSALS, "crashed", "hung")
 NUMBER = r"-?\d+(\.\d+)?([eE][+-]?\d+)?"
 
 PAGE = """\
@@ -26,7 +27,8 @@ samples). It also passes if it ends with a refusal of one line that says why, wh
 up to this point are then kept and finite. A refusal for want of an equilibrium fails if a global search
 of its own (`tests/stress/global_search.f90`: slow, and independent of the one in the program) finds one
 that is stable or fluttering. No scene may hang: `integration%max_steps` limits the work, and the tables
-count a scene that reaches this limit separately ("step budget").
+count a scene that reaches this limit separately ("step budget"). A run is asked to stop after
+{budget} s of CPU time, which few take, whose films are dear ("time budget"); one that goes on is hung.
 
 **{passed} passed, {failed} failed.** This command wrote the page:
 
@@ -106,6 +108,7 @@ def page(results: list[Result], seed: int) -> str:
     return PAGE.format(
         count=len(results),
         seed=seed,
+        budget=TIME_BUDGET,
         passed=len(results) - failed,
         failed=failed,
         command=f"make stress SCENES={len(results)} SEED={seed}",
@@ -184,7 +187,7 @@ def causes(results: list[Result]) -> str:
 
 def reasons(results: list[Result]) -> str:
     """Refusals by their words, without numbers."""
-    refused = [result for result in results if result.outcome in OUTCOMES[1:5]]
+    refused = [result for result in results if result.outcome in REFUSALS]
     found = Counter(reason(result.message) for result in refused)
     return table(("reason", "scenes"), found.most_common()) if found else "None."
 
@@ -229,7 +232,7 @@ def most_steps(results: list[Result], count: int = 8) -> str:
     for each in moved[:count]:
         rate = short(each.steps / each.revolutions)
         rows.append((each.number, rate, f"{each.seconds:.1f}", each.outcome, *features(each)))
-    return table(("scene", "steps per revolution", "wall s", "outcome", *FEATURES), rows)
+    return table(("scene", "steps per revolution", "CPU s", "outcome", *FEATURES), rows)
 
 
 FEATURES = ("pads", "friction", "motion", "film")

@@ -1,22 +1,25 @@
 """Stress test: random scenes over wide ranges of every input; each ends in a result or a named refusal.
 
 usage: stress.py TILTPAD [--scenes N | --only N,N,..] [--seed S] [--fixed] [--jobs J] [--compare SHARE]
-                 [--search PROGRAM] [--keep FOLDER] [--flutter] [--report FILE]
+                 [--search PROGRAM] [--keep FOLDER] [--record FILE] [--flutter] [--report FILE]
 
-Scenes that fail are kept as namelists, to be run again. The last line reads "N passed, N failed".
+Scenes that fail are kept as namelists, to be run again. With a record, a long test may be stopped
+at any time: the same command goes on where it ended. The last line reads "N passed, N failed".
 """
 
 import argparse
+import json
 import os
 import shutil
 import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict
 from pathlib import Path
 
 from flutter import flutter
 from report import page
-from stress_judge import Result, judge
+from stress_judge import Comparison, Result, judge
 from stress_scenes import Dice, draw, text
 
 
@@ -33,14 +36,17 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--compare", type=float, default=0.5, help="share compared with a finer run")
     parser.add_argument("--keep", type=Path, default=Path("build/stress"), help="folder for scenes that fail")
+    parser.add_argument("--record", type=Path, help="results so far; what is in it is not run again")
     parser.add_argument("--flutter", action="store_true", help="also a fluttering pad over the speed")
     parser.add_argument("--report", type=Path, help="Markdown page to write")
     parser.add_argument("--verbose", action="store_true", help="a line for every scene")
     return parser.parse_args()
 
 
-def member(options: argparse.Namespace, number: int) -> Result:
-    """Draws, runs and judges one scene in a folder of its own."""
+def member(options: argparse.Namespace, number: int, known: dict[int, Result]) -> Result:
+    """Draws, runs and judges one scene in a folder of its own, if its result is not known."""
+    if number in known:
+        return known[number]
     scene = draw(options.seed, number, options.fixed)
     compare = Dice(f"compare {options.seed}/{number}").chance(options.compare)
     folder = Path(tempfile.mkdtemp(prefix="tiltpad-stress-"))
@@ -51,6 +57,8 @@ def member(options: argparse.Namespace, number: int) -> Result:
         shutil.rmtree(folder)
     if result.faults:
         keep(options, result)
+    if options.record:
+        record(options, result)
     return result
 
 
@@ -59,6 +67,30 @@ def keep(options: argparse.Namespace, result: Result) -> None:
     options.keep.mkdir(parents=True, exist_ok=True)
     words = "".join(f"! {fault}\n" for fault in result.faults)
     (options.keep / f"seed{options.seed}_{result.number}.nml").write_text(words + text(result.scene))
+
+
+def record(options: argparse.Namespace, result: Result) -> None:
+    """Adds a line of JSON to the record; the scene itself is drawn again."""
+    values = {"seed": options.seed, "fixed": options.fixed} | asdict(result)
+    del values["scene"]
+    with options.record.open("a") as file:
+        file.write(json.dumps(values, default=float) + "\n")
+
+
+def recorded(options: argparse.Namespace) -> dict[int, Result]:
+    """The results in the record."""
+    known: dict[int, Result] = {}
+    if not options.record or not options.record.exists():
+        return known
+    for line in options.record.read_text().splitlines():
+        values = json.loads(line)
+        if (values.pop("seed"), values.pop("fixed")) != (options.seed, options.fixed):
+            continue
+        number = values["number"]
+        known[number] = Result(scene=draw(options.seed, number, options.fixed), **values)
+        if values["comparison"]:
+            known[number].comparison = Comparison(**values["comparison"])
+    return known
 
 
 def tell(result: Result, verbose: bool) -> None:
@@ -75,10 +107,10 @@ def tell(result: Result, verbose: bool) -> None:
 def main() -> int:
     options = arguments()
     started = time.monotonic()
-    results = []
+    results, known = [], recorded(options)
     with ThreadPoolExecutor(options.jobs) as pool:
         numbers = options.only or range(options.first, options.first + options.scenes)
-        for result in pool.map(lambda number: member(options, number), numbers):
+        for result in pool.map(lambda number: member(options, number, known), numbers):
             tell(result, options.verbose)
             results.append(result)
     summary = page(results, options.seed)

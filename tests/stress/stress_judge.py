@@ -2,17 +2,18 @@
 
 import copy
 import re
-import subprocess
-import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import h5py
 import numpy as np
+from limited import Ended, limited
 from stress_scenes import Scene, text
 
-#: Seconds after which a run counts as hung; the step budget should end it long before.
-HUNG = 300
+#: CPU time, s, of a run; the step budget ends most of them long before. One that does not stop then is hung.
+TIME_BUDGET = 300
+#: How a run ends that has been asked to stop.
+STOPPED = 4
 #: Steps of a scene that rests in its equilibrium, where there is nothing to compare.
 AT_REST = 20
 #: Revolutions over which two runs of a scene are compared.
@@ -23,7 +24,7 @@ FINER = 100.0
 LEAP = 1e-5
 #: Distance of two starts, in scales of the states, beyond which they are different equilibria.
 APART = 1e-2
-#: Seconds for the global search of a scene; what it finds in them counts.
+#: CPU time, s, for the global search of a scene; what it finds in them counts.
 SEARCHED = 60
 #: What a refusal for want of an equilibrium says of its cause, and how the report calls it.
 CAUSES = {
@@ -68,6 +69,7 @@ class Result:
     steps: int = 0
     revolutions: float = 0.0
     failures: int = 0
+    #: CPU time, s.
     seconds: float = 0.0
     #: Stability of the equilibrium at the start; where there is none, why, and what the global search found.
     stability: str = ""
@@ -76,14 +78,10 @@ class Result:
     comparison: Comparison | None = None
 
 
-def run(program: Path, scene: Scene, folder: Path, name: str) -> subprocess.CompletedProcess | None:
-    """Runs a scene in a folder as NAME.nml; None where it hung."""
+def run(program: Path, scene: Scene, folder: Path, name: str) -> Ended:
+    """Runs a scene in a folder as NAME.nml."""
     (folder / f"{name}.nml").write_text(text(scene))
-    command = [program, f"{name}.nml", "--quiet"]
-    try:
-        return subprocess.run(command, cwd=folder, timeout=HUNG, text=True, capture_output=True)
-    except subprocess.TimeoutExpired:
-        return None
+    return limited([program, f"{name}.nml", "--quiet"], folder, TIME_BUDGET)
 
 
 def judge(
@@ -92,19 +90,18 @@ def judge(
     """Runs a scene and checks how it ended; on request compares it with a finer run, and looks with the
     program of the global search for an equilibrium that was missed."""
     result = Result(number, scene)
-    started = time.monotonic()
     done = run(program, scene, folder, "scene")
-    result.seconds = time.monotonic() - started
-    if done is None:
+    result.seconds = done.seconds
+    if done.hung:
         result.outcome = "hung"
-        result.faults = [f"still running after {HUNG} s"]
+        result.faults = [f"still running after {done.seconds:.0f} s of CPU time"]
         return result
     result.message = done.stderr.strip()
     file = folder / "scene.h5"
     if done.returncode == 0:
         result.outcome = "done"
         result.faults += [f"printed: {said!r}" for said in (done.stdout, done.stderr) if said]
-    elif done.returncode in (1, 2):
+    elif done.returncode in (1, 2, STOPPED):
         result.outcome = outcome_of(done)
         result.faults += refusal_faults(done, file)
         if result.outcome == "no equilibrium":
@@ -139,11 +136,8 @@ def cause_of(message: str) -> str:
 
 def searched(search: Path, case: Path) -> tuple[str, list[str]]:
     """What the global search finds: 'stable', 'fluttering', 'divergent' or 'none'; and the fault in it."""
-    try:
-        done = subprocess.run(
-            [search, case.name], cwd=case.parent, timeout=SEARCHED, text=True, capture_output=True
-        )
-    except subprocess.TimeoutExpired:
+    done = limited([search, case.name], case.parent, SEARCHED)
+    if done.hung:
         return "not ended", []
     if done.returncode != 0:
         return "failed", [f"the global search failed: {done.stderr.strip()[:200]}"]
@@ -152,16 +146,18 @@ def searched(search: Path, case: Path) -> tuple[str, list[str]]:
     return found, [f"refused, but there is an equilibrium: {done.stdout.strip()}"] if usable else []
 
 
-def outcome_of(done: subprocess.CompletedProcess) -> str:
+def outcome_of(done: Ended) -> str:
     """Kind of a refusal."""
     if done.returncode == 1:
         return "input refused"
+    if done.returncode == STOPPED:
+        return "time budget"
     if "no equilibrium found" in done.stderr:
         return "no equilibrium"
     return "step budget" if "integration%max_steps" in done.stderr else "march stopped"
 
 
-def refusal_faults(done: subprocess.CompletedProcess, file: Path) -> list[str]:
+def refusal_faults(done: Ended, file: Path) -> list[str]:
     """A refusal is one line that says why, where and when, and nothing else."""
     said, faults = done.stderr, []
     if done.stdout:
@@ -176,7 +172,7 @@ def refusal_faults(done: subprocess.CompletedProcess, file: Path) -> list[str]:
             faults.append(f"no cause named: {said.strip()}")
         if file.exists():
             faults.append("a result file without an equilibrium")
-    elif done.returncode == 2:
+    elif done.returncode in (2, STOPPED):
         if not re.search(r" t = \S+ s", said):
             faults.append(f"no time named: {said.strip()}")
         if not file.exists():
@@ -328,8 +324,8 @@ def compared(program: Path, scene: Scene, folder: Path) -> Comparison:
         for name, each in (("coarse", short), ("fine", tightened(short))):
             (folder / f"{name}.h5").unlink(missing_ok=True)
             done = run(program, each, folder, name)
-            if done is None or done.returncode != 0:
-                return Comparison("hung" if done is None else f"{name} run refused")
+            if done.returncode != 0:
+                return Comparison("hung" if done.hung else f"{name} run refused")
         if starts_differ(folder / "coarse.h5", folder / "fine.h5", scene):
             short["start"] = start_of(folder / "coarse.h5")
         else:
@@ -342,8 +338,8 @@ def compared(program: Path, scene: Scene, folder: Path) -> Comparison:
     if error <= found.promised:
         return found
     done = run(program, tightened(short, tolerance * load_of(scene)), folder, "disturbed")
-    if done is None or done.returncode != 0:
-        return Comparison("hung" if done is None else "disturbed run refused", error, found.promised)
+    if done.returncode != 0:
+        return Comparison("hung" if done.hung else "disturbed run refused", error, found.promised)
     found.sensitivity = difference(folder / "disturbed.h5", folder / "fine.h5", scene)[0]
     found.outcome = "sensitive" if found.sensitivity > 0.1 * error else "missed"
     return found
