@@ -122,9 +122,11 @@ def test_modes_solve_the_equations_of_motion(run):
 
 def test_a_study_s_modes_are_those_of_its_members_in_another_order(study, run):
     found, own = tiltpad.modes(study, "stuck"), tiltpad.modes(run, "stuck")
-    assert found.frequency.shape == (5, len(own.frequency))
     assert np.isnan(found.frequency[2]).all()
-    np.testing.assert_array_equal(np.sort_complex(found.eigenvalue[1]), np.sort_complex(own.eigenvalue))
+    there = np.isfinite(found.eigenvalue[1])
+    np.testing.assert_array_equal(
+        np.sort_complex(found.eigenvalue[1][there]), np.sort_complex(own.eigenvalue)
+    )
     rotor = np.argsort(found.damping_ratio[0])[:2]
     whole = found.frequency[[0, 1, 3, 4]][:, rotor]
     assert (np.abs(np.diff(whole, axis=0)) < 0.2 * whole[1:]).all()

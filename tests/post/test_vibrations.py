@@ -53,7 +53,7 @@ def test_modes_that_cross_keep_their_places():
     eigenvalue = np.take_along_axis(own, order, axis=1)
     shape = np.take_along_axis(forms, order[:, :, None], axis=1)
     eigenvalue[7], shape[7] = np.nan, np.nan
-    found = np.take_along_axis(eigenvalue, modes.tracked(eigenvalue, shape), axis=1)
+    found = modes.placed(eigenvalue, modes.tracked(eigenvalue, shape))
     there = np.arange(21) != 7
     np.testing.assert_array_equal(found[there], own[there])
     assert np.isnan(found[7]).all()
@@ -62,8 +62,18 @@ def test_modes_that_cross_keep_their_places():
 def test_a_mode_that_is_missing_leaves_the_others_where_they_are():
     eigenvalue = np.array([[1j, 2j, 3j], [1j, 3j, np.nan], [1j, 2j, 3j]])
     shape = np.ones((3, 3, 2), complex)
-    found = np.take_along_axis(eigenvalue, modes.tracked(eigenvalue, shape), axis=1)
+    found = modes.placed(eigenvalue, modes.tracked(eigenvalue, shape))
     np.testing.assert_array_equal(found, [[1j, 2j, 3j], [1j, np.nan, 3j], [1j, 2j, 3j]])
+
+
+def test_a_mode_that_is_like_none_before_has_a_place_of_its_own():
+    """As where a pad is lifted off its pivot: the number of modes is the same, and one is another."""
+    eigenvalue = np.array([[88 + 83j, -10 + 105j], [105 + 79j, -9 + 131j], [-6 + 183j, -5600 + 21650j]])
+    shape = np.array([[[1, 0], [0, 1]], [[1, 0], [0, 1]], [[0, 1], [0.4, 1]]], complex)
+    found = modes.placed(eigenvalue, modes.tracked(eigenvalue, shape))
+    nan = np.nan
+    wanted = [[88 + 83j, -10 + 105j, nan], [105 + 79j, -9 + 131j, nan], [nan, -6 + 183j, -5600 + 21650j]]
+    np.testing.assert_array_equal(found, wanted)
 
 
 @pytest.mark.parametrize(("z", "ahead"), [(-1j, True), (1j, False)])

@@ -9,6 +9,9 @@ from tiltpad.calculate.coefficients import JOURNAL, series
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
 
+#: Modes that are farther apart are different ones: by their eigenvalues (0 to 2) and shapes (0 to 1).
+ANOTHER = 1.0
+
 
 class Modes(NamedTuple):
     """Modes of rotor and pads at the equilibrium; its fields:
@@ -24,7 +27,8 @@ class Modes(NamedTuple):
                          looked for; of a study (member,)
         parameters       of a study: values of its parameters by name, (member,) each
 
-    In a study a mode keeps its place over the speed, and nan stands where a member does not have it.
+    In a study a mode keeps its place over the speed, and nan stands where a member does not have it. Where
+    modes change in a leap, as when a pad is lifted off its pivot, those behind it have places of their own.
     """
 
     pivot: str
@@ -55,9 +59,8 @@ def modes(
     values["eigenvalue"] = values["eigenvalue_real"] + 1j * values["eigenvalue_imag"]
     values["shape"] = values["shape_real"] + 1j * values["shape_imag"]
     order = tracked(values["eigenvalue"], values["shape"])
-    names = ("eigenvalue", "frequency", "damping_ratio", "log_decrement")
-    own: list[Any] = [np.take_along_axis(values[name], order, axis=1) for name in names]
-    own.append(np.take_along_axis(values["shape"], order[:, :, None], axis=1))
+    names = ("eigenvalue", "frequency", "damping_ratio", "log_decrement", "shape")
+    own: list[Any] = [placed(values[name], order) for name in names]
     threshold = values.get("threshold_rpm", np.full(len(found.speed_rpm), np.nan))
     if isinstance(source, Run):
         first = [each[0] for each in (found.speed_rpm, *own)]
@@ -68,27 +71,39 @@ def modes(
 
 
 def tracked(eigenvalue: np.ndarray, shape: np.ndarray) -> np.ndarray:
-    """For each member and place the mode to put there, so that a mode keeps its place: (member, mode).
+    """For each member and place the mode to put there, so that a mode keeps its place: (member, place).
 
-    Each member's modes are paired with those of the last member that has any: the pairs that are closest by
-    eigenvalue and shape first.
+    Each member's modes are paired with the last ones before them: the pairs that are closest by eigenvalue
+    and shape first. A mode that is like none of them begins a new place, as where a pad is lifted off its
+    pivot; -1 stands where a member has no mode for a place.
     """
-    order = np.tile(np.arange(eigenvalue.shape[1]), (len(eigenvalue), 1))
-    last = None
+    members, last, forms = len(eigenvalue), np.zeros(0), np.zeros((0, shape.shape[-1]))
+    places: list[np.ndarray] = []
     for k, (now, form) in enumerate(zip(eigenvalue, shape, strict=True)):
-        if not np.isfinite(now).any():
-            continue
-        if last is not None:
-            order[k] = paired(distance(*last, now, form))
-        last = now[order[k]], form[order[k]]
-    return order
+        there = np.flatnonzero(np.isfinite(now))
+        found = paired(distance(last, forms, now[there], form[there]))
+        new = np.setdiff1d(np.arange(len(there)), found)
+        places += [np.full(members, -1) for _ in new]
+        found = np.concatenate([found, new])
+        here = found >= 0
+        for place in np.flatnonzero(here):
+            places[place][k] = there[found[place]]
+        last, forms = np.append(last, now[there][new]), np.append(forms, form[there][new], axis=0)
+        last[here], forms[here] = now[there][found[here]], form[there][found[here]]
+    return np.array(places, dtype=int).reshape(-1, members).T
+
+
+def placed(values: np.ndarray, order: np.ndarray) -> np.ndarray:
+    """Values, (member, mode, ...), at the places of `order`, (member, place); nan where it is -1."""
+    whole = np.concatenate([values, np.full_like(values[:, :1], np.nan)], axis=1)
+    return np.array([each[at] for each, at in zip(whole, order, strict=True)])
 
 
 def distance(before: np.ndarray, forms: np.ndarray, now: np.ndarray, form: np.ndarray) -> np.ndarray:
-    """How far the modes of two members are apart, (mode before, mode now); inf where one is missing."""
+    """How far the modes of two members are apart, (mode before, mode now)."""
     size = np.maximum(np.abs(before)[:, None], np.abs(now))
     apart = np.abs(before[:, None] - now) / np.where(size > 0, size, 1)
-    return np.where(np.isfinite(apart), apart + 1 - likeness(forms, form), np.inf)
+    return apart + 1 - likeness(forms, form)
 
 
 def likeness(one: np.ndarray, other: np.ndarray) -> np.ndarray:
@@ -99,9 +114,9 @@ def likeness(one: np.ndarray, other: np.ndarray) -> np.ndarray:
 
 
 def paired(apart: np.ndarray) -> np.ndarray:
-    """For each row a column of its own: the closest pair first, then the closest of the others."""
-    apart, found = np.where(np.isfinite(apart), apart, 1e300), np.empty(len(apart), dtype=int)
-    for _ in found:
+    """For each row a column of its own, the closest pair first; -1 for a row that is far from all others."""
+    apart, found = apart.copy(), np.full(len(apart), -1)
+    while apart.size and apart.min() < ANOTHER:
         row, column = np.unravel_index(np.argmin(apart), apart.shape)
         found[row] = column
         apart[row], apart[:, column] = np.inf, np.inf
