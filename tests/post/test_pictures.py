@@ -10,7 +10,7 @@ import pytest
 import tiltpad
 from PIL import Image
 from tiltpad import behaviour, command, figures, units
-from tiltpad.calculate import signals
+from tiltpad.calculate import differences, signals
 from tiltpad.draw import bearing, layout, orbits
 from tiltpad.running import resolved
 
@@ -36,6 +36,20 @@ def test_many_runs_have_colours_along_a_scale(run):
     names = [run("none")] * 9
     assert len(figures.equilibrium(names).legends[0].get_texts()) == 9
     assert len(set(layout.DASHES)) >= 9
+
+
+def test_what_many_runs_differ_in_is_found_once(run, monkeypatch):
+    """Otherwise a picture of 200 runs takes minutes."""
+    calls = []
+    varied = differences.varied
+    monkeypatch.setattr(differences, "varied", lambda inputs: calls.append(len(inputs)) or varied(inputs))
+    figures.equilibrium([with_input(run("none"), rotor={"unbalance": k / 1000}) for k in range(9)])
+    assert calls == [9]
+
+
+def test_a_legend_has_as_many_columns_as_fit():
+    texts = ["Pump bearing 5 pads", "4 pads", *(f"pad {k}" for k in range(1, 6))]
+    assert [layout.columns_of(texts, width) for width in (20, 50, 200)] == [1, 3, 7]
 
 
 def test_runs_of_different_bearings_have_their_own_circles(run):
@@ -108,6 +122,9 @@ def test_a_runup_names_its_peak(made):
     first, second = (line.get_ydata() for line in phase.get_lines())
     np.testing.assert_allclose(second - first, 90, atol=1)
     np.testing.assert_allclose(first, np.degrees(1), atol=1)
+    # a run that moves more comes second, and is drawn whole
+    larger = made("runup", 4, interval=2e-4, journal_y=lambda time, angle: 1e-4 * np.cos(angle))
+    assert figures.orders([case, larger]).axes[0].get_ylim() == (0, pytest.approx(105, rel=1e-3))
     assert "from where the unbalance points along +y" in fig.get_supxlabel().replace("\n", " ")
     assert "y: peak 10." in figures.size([case]).get_supxlabel()
     assert "Peaks of the first order" in tiltpad.report.remarks(case)
@@ -142,6 +159,7 @@ def test_a_whirl_of_half_the_order_is_named(made):
         ("work", [9.86e-9, 0], "9.86, 0 nJ"),
         ("work", [1e-3, 2e-3, 4e-3, 3e-3, np.nan], "1.00 to 4.00 mJ"),
         ("work", [3.5e-9, 2.5e-3], "0.00, 2.50 mJ"),
+        ("work", [-3.5e-9, 2.5e-3], "0.00, 2.50 mJ"),
         ("pressure", [3.9e3], "3.90 kPa"),
         ("share", [0.123], "12.3 %"),
         ("share", [1e-7], "1.00×10⁻⁵ %"),

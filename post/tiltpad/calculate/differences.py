@@ -28,7 +28,8 @@ def varied(inputs: list[dict[str, dict[str, Any]]]) -> tuple[str, list[float]] |
     Lengths below a millimetre are in µm, all others as in the namelist.
     """
     values = [by_variable(each) for each in inputs]
-    names = {name for each in values for name in each if len({other.get(name) for other in values}) > 1}
+    every = {name for each in values for name in each}
+    names = {name for name in every if len({each.get(name) for each in values}) > 1}
     names.discard("operation%final_speed_rpm")
     if len(names) != 1:
         return None

@@ -2,7 +2,7 @@
 
 import textwrap
 from collections.abc import Callable, Hashable, Iterable, Sequence
-from functools import wraps
+from functools import cached_property, wraps
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -28,6 +28,8 @@ DASHES = (
     *("-", "--", ":", "-.", (0, (7, 1.5, 1, 1.5, 1, 1.5)), (0, (9, 3)), (0, (1, 4))),
     *((0, (3, 1, 1, 1, 1, 1, 1, 1)), (0, (12, 2, 3, 2))),
 )
+#: From so many points on a line has no marks.
+DENSE = 60
 #: More runs or parts than this have colours along a scale.
 FEW = 7
 SCALE = "viridis"
@@ -37,12 +39,34 @@ SHORTEST_AXIS = 2e-4
 MOST_REMARKS = 3
 
 
+class Several(list):
+    """The results of a picture, with what is found from all their inputs once."""
+
+    @cached_property
+    def scale(self) -> tuple[str, list[float]] | None:
+        """Label and values of the number in which many results differ, if it is one."""
+        return differences.varied([run.input for run in self]) if len(self) > FEW else None
+
+    @cached_property
+    def colors(self) -> list[str]:
+        """A colour for each result; of many along a scale, over the number in which they differ."""
+        if len(self) <= FEW:
+            return [f"C{i}" for i in range(len(self))]
+        values = self.scale[1] if self.scale else list(range(len(self)))
+        norm = Normalize(min(values), max(values))
+        return [to_hex(mpl.colormaps[SCALE](0.93 * norm(value))) for value in values]
+
+
+def together(runs: Sequence[Run | Study]) -> Several:
+    return runs if isinstance(runs, Several) else Several(runs)
+
+
 def of_several(draw: Callable[..., Figure]) -> Callable[..., Figure]:
     """Lets `draw`, a picture of results, be called with one, and say what is wrong with anything else."""
 
     @wraps(draw)
     def drawn(runs: Run | Study | Sequence[Run | Study], *arguments: Any, **options: Any) -> Figure:
-        several = [runs] if isinstance(runs, Run | Study | str) else list(runs)
+        several = Several([runs] if isinstance(runs, Run | Study | str) else runs)
         if not several:
             raise ValueError("no result to draw")
         for each in several:
@@ -62,7 +86,8 @@ def remark_unfinished(fig: Figure, source: Run | Study, name: str = "") -> None:
     if isinstance(source, Run):
         said = [] if source.complete else [f"incomplete{source.end()}"]
     else:
-        said = [str(each) for each in source.failures()]
+        # where the reason stands comes first, its numbers are in the report
+        said = [textwrap.shorten(str(each), 3 * width(fig), placeholder=" ...") for each in source.failures()]
     for text in said[:MOST_REMARKS]:
         remark(fig, f"{name}: {text}" if name else text, "C1")
     if len(said) > MOST_REMARKS:
@@ -99,18 +124,8 @@ def labels(runs: Sequence[Run | Study]) -> list[str]:
 
 
 def colors(runs: Sequence[Run]) -> list[str]:
-    """A colour for each run; of many runs along a scale, over the number in which they differ."""
-    if len(runs) <= FEW:
-        return [f"C{i}" for i in range(len(runs))]
-    scale = number_scale(runs)
-    values = scale[1] if scale else list(range(len(runs)))
-    norm = Normalize(min(values), max(values))
-    return [to_hex(mpl.colormaps[SCALE](0.93 * norm(value))) for value in values]
-
-
-def number_scale(runs: Sequence[Run]) -> tuple[str, list[float]] | None:
-    """Label and values of the number in which many runs differ, if it is one."""
-    return differences.varied([run.input for run in runs]) if len(runs) > FEW else None
+    """A colour for each run, as Several has them."""
+    return together(runs).colors
 
 
 def part_color(part: int, parts: int = FEW) -> str:
@@ -131,12 +146,17 @@ def parts(texts: Sequence[str], runs: Sequence[Run]) -> list[tuple[str, dict[str
     return [(text, look(0, k, runs) | neutral) for k, text in enumerate(texts) if len(texts) > 1]
 
 
-def legend(fig: Figure, runs: Sequence[Run], marks: Sequence[tuple[str, dict[str, Any]]]) -> None:
+def dots(points: int) -> dict[str, Any]:
+    """Marks of the points of a line, unless they would hide it."""
+    return {"marker": "o", "markersize": 3} if points < DENSE else {}
+
+
+def legend(fig: Figure, runs: Sequence[Run], marks: Sequence[tuple[str, dict[str, Any]]], **own: Any) -> None:
     """Above the panels: the runs (for one run its title), and the meaning of lines and marks.
 
-    Many runs that differ in one number have a scale of its values.
+    Runs are lines, with the look `own`. Many runs that differ in one number have a scale of its values.
     """
-    if scale := number_scale(runs):
+    if scale := together(runs).scale:
         label, values = scale
         bar = ScalarMappable(Normalize(min(values), max(values) + 0.07 * np.ptp(values)), SCALE)
         fig.colorbar(bar, ax=fig.axes, label=label, aspect=40, fraction=0.05).ax.set_ylim(
@@ -147,8 +167,8 @@ def legend(fig: Figure, runs: Sequence[Run], marks: Sequence[tuple[str, dict[str
     names = labels(runs) if len(runs) > 1 else [runs[0].title]
     names = [plain(name, width(fig)) for name in names]
     if len(runs) > 1:
-        own = [{"color": color} for color in colors(runs)]
-        heading(fig, [*zip(names, own, strict=True), *marks], "")
+        looks = [own | {"color": color} for color in colors(runs)]
+        heading(fig, [*zip(names, looks, strict=True), *marks], "")
     else:
         heading(fig, marks, names[0])
 
@@ -159,11 +179,22 @@ def heading(fig: Figure, entries: Sequence[tuple[str, dict[str, Any]]], title: s
         fig.suptitle(title)
         return
     handles = [Line2D([], [], label=text, **style) for text, style in entries]
-    longest = max(len(line) for text, _ in entries for line in text.splitlines())
-    columns = max(1, width(fig) // (longest + 6))
-    fig.legend(handles=handles, title=title or None, loc="outside upper center", ncols=columns)
+    columns = columns_of([text for text, _ in entries], width(fig))
+    # long enough to tell dashes from one another
+    fig.legend(
+        handles=handles, title=title or None, loc="outside upper center", ncols=columns, handlelength=3
+    )
     lines = len(title.splitlines()) + sum(len(text.splitlines()) for text, _ in entries) / columns
     fig.set_figheight(fig.get_figheight() + 0.15 * max(0, lines - 1))
+
+
+def columns_of(texts: Sequence[str], characters: int) -> int:
+    """Number of columns of a legend that is so many characters wide; it is filled column by column."""
+    long = np.array([max(map(len, text.splitlines() or [""])) for text in texts])
+    for columns in range(len(texts), 1, -1):
+        if sum(each.max() + 7 for each in np.array_split(long, columns)) <= characters:
+            return columns
+    return 1
 
 
 def plain(text: str, characters: int) -> str:

@@ -29,6 +29,8 @@ GEOMETRY = {
     "bearing": ("assembled_clearance", "machined_clearance"),
     "pads": ("pivot_angle_deg", "arc_deg", "pivot_ratio"),
 }
+#: An equilibrium, where nothing else is drawn.
+CROSS = {"linestyle": "", "marker": "+", "markersize": 8, "markeredgewidth": 1.5}
 #: More bearings than this share one picture, without their pads.
 MOST_BEARINGS = 4
 
@@ -76,8 +78,8 @@ def equilibrium(runs: Sequence[Run], last: float | None = None, pad: int | None 
     for ax, group in zip(panels, groups, strict=False):
         surroundings(ax, runs, group, len(found) if len(groups) == 1 else 1)
         for i in group:
-            plots.equilibrium(runs[i], ax, color=colors(runs)[i])
-    legend(fig, runs, [])
+            plots.equilibrium(runs[i], ax, color=colors(runs)[i], **CROSS)
+    legend(fig, runs, [], **CROSS)
     if len(groups) < len(found):
         remark(fig, crowded(len(found)))
     return fig

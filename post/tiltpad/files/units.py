@@ -185,7 +185,11 @@ def numbers(shown: Shown, values: Sequence[float] | np.ndarray, count: int = 4) 
     largest = max((abs(each) for each in own if np.isfinite(each)), default=0.0)
     places = len(digits(largest, count).partition(".")[2])
     slight = [0 < abs(each) < 10 ** (1 - count) * largest for each in own]
-    return [f"{v:.{places}f}" if s else digits(v, count) for v, s in zip(own, slight, strict=True)]
+    # + 0 takes the sign from a 0
+    return [
+        f"{round(each, places) + 0:.{places}f}" if few else digits(each, count)
+        for each, few in zip(own, slight, strict=True)
+    ]
 
 
 def in_words(quantity: str, values: Sequence[float] | np.ndarray) -> str:
