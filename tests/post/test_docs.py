@@ -25,10 +25,11 @@ def test_everything_public_is_in_it_and_documented(root):
 
 
 def test_every_picture_is_a_plot_of_the_command(root):
-    from tiltpad import command, report
+    from tiltpad import command
+    from tiltpad.draw import page
 
     alone = {command.STUDY, command.BEARING, command.MOVIE}
-    assert set(command.PLOTS) - alone == set(figures.FIGURES) == set(report.PICTURES)
+    assert set(command.PLOTS) - alone == set(figures.FIGURES) == set(page.PICTURES)
 
 
 def test_the_worked_examples(root, program, tmp_path):

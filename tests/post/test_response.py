@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import tiltpad
-from tiltpad.calculate.response import peaks_of
+from tiltpad.calculate.response import aligned, peaks_of
 from tiltpad.draw import branches
 
 #: A bearing with a resonance in the range: its pivots are soft, so that the film damps little.
@@ -123,3 +123,12 @@ def test_a_runup_has_a_response_and_one_speed_has_none(made, run):
         tiltpad.response(run("lugre"))
     with pytest.raises(TypeError, match=r"tiltpad\.read\('mine.h5'\)"):
         tiltpad.response("mine.h5")
+
+
+@pytest.mark.parametrize(
+    ("phase", "wanted"), [((128, -100), (128, 260)), ((-200, 20), (160, 380)), ((20, -170), (20, 190))]
+)
+def test_the_phase_of_z_is_next_to_that_of_forward_whirl(phase, wanted):
+    """Of many turns that are all the same, pictures show those that can be compared."""
+    found = aligned(np.radians([phase, np.add(phase, 300)]))
+    np.testing.assert_allclose(np.degrees(found), [wanted, np.subtract(wanted, 60)])

@@ -75,7 +75,7 @@ class Response(NamedTuple):
         values       of it, (n,), in the unit of the input
         amplitude    m, (n, 2): of y and z
         phase        rad, (n, 2), by which it comes after the unbalance: it is
-                     amplitude * cos(shaft angle - phase); without jumps of 2 pi
+                     amplitude * cos(shaft angle - phase); without jumps of 2 pi, z next to y + pi/2
         peaks        critical speeds, those of y first; none over another parameter than the speed
 
     Members of a study that have no motion are nan.
@@ -106,7 +106,7 @@ def response(
     else:
         parameter, values, amplitude, phase = of_branch(source) if source.is_branch else of_runup(source)
     there = np.isfinite(amplitude).all(axis=1)
-    phase[there] = np.unwrap(phase[there], axis=0)
+    phase[there] = aligned(phase[there])
     peaks = []
     if parameter == SPEED and there.sum() > 2:
         way = values[there]
@@ -116,6 +116,15 @@ def response(
         for direction, each in zip(DIRECTIONS, amplitude[there].T, strict=True):
             peaks += peaks_of(direction, way, values[there], each)
     return Response(parameter, values, amplitude, phase, peaks)
+
+
+def aligned(phase: np.ndarray) -> np.ndarray:
+    """Phases of y and z, (n, 2), without jumps: z next to where a forward whirl has it, y + pi/2."""
+    whole = np.unwrap(phase, axis=0)
+    for k in range(min(1, len(whole)) * whole.shape[1]):
+        near = np.pi / 2 if k == 0 else whole[0, 0] + np.pi / 2
+        whole[:, k] -= 2 * np.pi * np.round((whole[0, k] - near) / (2 * np.pi))
+    return whole
 
 
 def of_study(

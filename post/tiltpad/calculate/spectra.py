@@ -3,7 +3,7 @@
 Everything is in SI units; `last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ...
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -114,9 +114,23 @@ def order_track(
     Amplitudes have the unit of the dataset. The signal is amplitude * cos(order * shaft angle + phase), the
     phase between -pi and pi. The windows are those of waterfall.
     """
+    speed, amplitude, phase = order_tracks(run, name, (order,), pad, revolutions, spans)
+    return speed, amplitude[:, 0], phase[:, 0]
+
+
+def order_tracks(
+    run: Run,
+    name: str,
+    orders: Sequence[float],
+    pad: int | None = None,
+    revolutions: int = 8,
+    spans: int = 400,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Speed (n,), and amplitude and phase (n, order) of several orders, whose windows are read once."""
     needs_pad(run, name, pad)
+    turning = -1j * np.asarray(orders)[:, None]
     found = [
-        (speed, 2 * np.sum(weighted * np.exp(-1j * order * angle)))
+        (speed, 2 * np.sum(weighted * np.exp(turning * angle), axis=1))
         for speed, angle, weighted in windows(run, name, pad, revolutions, spans, "order track")
     ]
     speed, amplitude = (np.array(each) for each in zip(*found, strict=True))

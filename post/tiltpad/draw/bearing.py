@@ -28,6 +28,8 @@ CLEARANCE, BACK = 0.16, 0.22
 RATE, FRAMES = 25, 50
 #: Farther from the middle than anything that is seen.
 FAR = 10.0
+#: An arc in degrees beside whose pivot angle the names of its edges find room.
+ROOM = 30
 #: What pads can do, in words.
 MOTIONS = {"tilting_radial": "tilting, radially elastic", "tilting_only": "tilting", "fixed": "fixed"}
 NOTE = {"fontsize": "small", "color": "0.2", "ha": "center", "va": "center"}
@@ -111,7 +113,9 @@ def mark_angles(ax: Axes, case: Case) -> None:
 
 
 def mark_edges(ax: Axes, scene: Scene) -> None:
-    """Which edges of the first pad are the leading and the trailing one."""
+    """Which edges of the first pad are the leading and the trailing one, where its angle leaves room."""
+    if geometry.of_pads(scene.case, "arc_deg")[0] < ROOM:
+        return
     for inside, name in ((scene.middles[0][-5], "leading edge"), (scene.middles[0][4], "trailing edge")):
         out = 1.32 * inside
         line = {"arrowstyle": "-", "color": "0.45", "linewidth": 0.5, "relpos": (0.5, 0.5), "shrinkA": 7}
@@ -150,7 +154,7 @@ def figures_of(case: Case, state: State) -> str:
     own, pads = case["bearing"], case["pads"]
     first, last = (case["operation"][name] for name in ("speed_rpm", "final_speed_rpm"))
     assembled, machined = own["assembled_clearance"], own["machined_clearance"]
-    fixed = pads["motion"] == "fixed"
+    fixed, count = pads["motion"] == "fixed", len(geometry.of_pads(case, "arc_deg"))
     arc, ratio = (f"{'/'.join(f'{each:g}' for each in np.unique(geometry.of_pads(case, name)))}"
                   for name in ("arc_deg", "pivot_ratio"))  # fmt: skip
     # the surface is where 1 + CLEARANCE is, not 1 + the true ratio
@@ -159,7 +163,7 @@ def figures_of(case: Case, state: State) -> str:
     if state.time is not None or state.journal.any():
         where = "the equilibrium" if state.time is None else f"{state.time:g} s"
     lines = [
-        f"{len(geometry.of_pads(case, 'arc_deg'))} pads, {MOTIONS[pads['motion']]}, arc {arc}°",
+        f"{count} pad{'s' * (count > 1)}, {MOTIONS[pads['motion']]}, arc {arc}°",
         f"{'anchored' if fixed else 'pivot'} at {ratio} of the arc from the leading edge",
         f"speed {first:g} rpm" if first == last else f"speed {first:g} to {last:g} rpm",
         f"journal radius {1e3 * own['journal_radius']:g} mm, length {1e3 * own['axial_length']:g} mm",

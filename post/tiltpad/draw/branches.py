@@ -21,6 +21,7 @@ from tiltpad.draw.layout import (
     COLUMN,
     DASHES,
     colors,
+    dots,
     heading,
     labels,
     legend,
@@ -59,7 +60,6 @@ def response(
     entries, size = [], SHOWN["amplitude"]
     for color, one in enumerate(found):
         own = response_of(one.source, one.where or None, one.over)
-        dots = {"marker": "o", "markersize": 3} if len(own.values) < 30 else {}
         for k, direction in enumerate(DIRECTIONS):
             line = (
                 {"color": f"C{k}"}
@@ -70,7 +70,7 @@ def response(
                 ("amplitude", size.factor * own.amplitude),
                 ("phase", np.degrees(own.phase)),
             ):
-                panels[name].plot(own.values, values[:, k], **line | dots)
+                panels[name].plot(own.values, values[:, k], **line | dots(len(own.values)))
             peaks = [each for each in own.peaks if each.direction == direction]
             for each in peaks:
                 for ax in panels.values():

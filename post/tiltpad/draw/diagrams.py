@@ -21,7 +21,7 @@ from tiltpad.calculate.selection import (
     selected,
     written,
 )
-from tiltpad.draw.layout import part_color
+from tiltpad.draw.layout import DENSE, dots, part_color
 from tiltpad.draw.plots import on_axes
 from tiltpad.files import units
 from tiltpad.files.study import PIVOTS, POINTS, QUANTITIES, Study
@@ -41,11 +41,9 @@ Result = tuple[np.ndarray, Shown]
 LOG_FROM = 9.9
 #: Characters on a line of the vertical axis' label.
 LABEL = 38
-#: With so many values along the axis points are small.
-DENSE = 60
 #: A member that was not done: in a cell of a map, and over an axis.
 FAILED = {"linestyle": "", "marker": "x", "color": "0.4", "markersize": 5, "zorder": 4}
-NOT_DONE = {"linestyle": (0, (1, 2)), "color": "0.5", "linewidth": 1.2, "zorder": 0.5}
+NOT_DONE = {"linestyle": (0, (1, 2)), "color": "0.5", "linewidth": 1.2, "zorder": 0.5, "gid": "not done"}
 
 
 @on_axes
@@ -104,9 +102,10 @@ def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
         whole = study.done[order]
         text = text if np.isfinite(values[order][whole]).any() else f"{text}: none"
         color = part_color(number, len(groups))
-        line = {"color": color, "marker": "o", "markersize": 3, "label": text}
+        line = {"color": color, "label": text} | dots(len(order))
         if not is_number(study, over):
-            line["linestyle"] = ""  # there are no values between texts
+            # there are no values between texts
+            line |= {"linestyle": "", "marker": "o", "markersize": 3}
         ax.plot(place[order], np.where(whole, shown.factor * values[order], np.nan), **line)
         mark_failed(ax, place[order][~whole], color if len(groups) > 1 else None)
     ax.set(xlabel=at.label, ylabel=fill(shown.label, LABEL))
@@ -244,6 +243,8 @@ def axis(study: Study, name: str, ax: Axes, which: str) -> tuple[Shown, np.ndarr
     shown = units.shown(text, study.about(name, "units"), values)
     if spread_in_ratio(distinct(values)):
         ax.set(**{f"{which}scale": "log"})
+    else:
+        ax.locator_params(axis=which, nbins=6)
     return shown, shown.factor * values
 
 

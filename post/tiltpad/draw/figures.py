@@ -204,8 +204,8 @@ def over_each_other(studies: Sequence[Study], names: Sequence[str], ax: Axes, *a
                 "several studies are lines of one result over one parameter: choose by {show} and {over}"
             )
         mine = ax.get_lines()[before:]
-        # what failed has no markers
-        for part, line in enumerate(line for line in mine if line.get_marker() == "o"):
+        results = (line for line in mine if line.get_gid() != diagrams.NOT_DONE["gid"])
+        for part, line in enumerate(results):
             own = f"{line.get_label()}"
             line.set_label(name if own.startswith("_") or not own else f"{name}, {own}")
             if line.get_linestyle() != "None":

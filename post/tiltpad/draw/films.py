@@ -21,6 +21,7 @@ from tiltpad.draw.layout import (
     shown_pads,
     width,
 )
+from tiltpad.draw.orbits import bearings
 from tiltpad.files.read import Run
 from tiltpad.files.units import SHOWN, digits
 
@@ -35,27 +36,26 @@ def pressure(
     """
     pads = shown_pads(runs, pad)
     columns = min(2, len(pads))
-    rows = -(-len(pads) // columns) * len(runs)
+    own = [[k for k in pads if k <= run.pads] for run in runs]
+    heights = [-(-len(each) // columns) for each in own]
+    rows = sum(heights)
     fig = plt.figure(figsize=(COLUMN if columns == 1 else PAGE, 0.3 + 2.3 * rows))
-    panels = fig.subplots(rows, columns, squeeze=False).reshape(len(runs), -1)
+    panels = np.split(fig.subplots(rows, columns, squeeze=False), np.cumsum(heights)[:-1])
     films = [library.pressure(run, time) for run in runs]
-    fields = [SHOWN["pressure"].factor * film.pressure[np.array(own) - 1]
-              for run, film in zip(runs, films, strict=True)
-              if (own := [k for k in pads if k <= run.pads])]  # fmt: skip
+    fields = [SHOWN["pressure"].factor * film.pressure[np.array(each) - 1]
+              for each, film in zip(own, films, strict=True)]  # fmt: skip
     low, high = min(each.min() for each in fields), max(each.max() for each in fields)
     levels = MaxNLocator(12).tick_values(low, max(high, low + 1e-6))
     used = []
-    for run, film, name, axes in zip(runs, films, labels(runs), panels, strict=True):
-        for ax, k in zip(axes, pads, strict=False):
-            if k > run.pads:
-                ax.remove()
-                continue
+    for i, (run, film, name) in enumerate(zip(runs, films, labels(runs), strict=True)):
+        axes = panels[i].ravel()
+        for ax, k in zip(axes, own[i], strict=False):
             plots.pressure(run, ax, time, k, film, levels=levels)
             peak = SHOWN["pressure"].factor * film.pressure[k - 1].max()
             words = f"pad {k}: at most {digits(peak, 3)} {SHOWN['pressure'].unit}"
             ax.set_title(words if len(runs) == 1 else f"{name}\n{words}")
             used.append(ax)
-        for ax in axes[len(pads) :]:
+        for ax in axes[len(own[i]) :]:
             ax.remove()
     for ax in used:
         # labels of inner axes repeat those of the outer ones
@@ -73,7 +73,7 @@ def film(
 ) -> Figure:
     """Thickness and pressure of the films around the bearing at one instant (None: at the equilibrium).
 
-    The pressure is that in the middle of the width.
+    The pressure is that in the middle of the width. Pads of one bearing have their numbers.
     """
     pads = shown_pads(runs, pad)
     fig = plt.figure(figsize=(PAGE, 3.8))
@@ -86,7 +86,7 @@ def film(
             x = np.degrees(found.angle[k - 1])
             upper.plot(x, SHOWN["min_film_thickness"].factor * found.thickness[k - 1], **line)
             lower.plot(x, SHOWN["pressure"].factor * around.pressure[k - 1, :, 0], **line)
-    for k in (k for k in pads if k <= runs[0].pads):
+    for k in (k for k in pads if len(bearings(runs)) == 1):
         place = {"xycoords": ("data", "axes fraction"), "ha": "center", "fontsize": "small", "color": "0.3"}
         upper.annotate(f"pad {k}", (geometry.of_pads(runs[0].input, "pivot_angle_deg")[k - 1], 1.03), **place)
     upper.set(ylabel="film thickness (µm)")

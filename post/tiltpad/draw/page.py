@@ -12,6 +12,31 @@ from matplotlib.figure import Figure
 from tiltpad.draw import plots
 from tiltpad.files.units import fitted, numbers
 
+#: Pictures of runs and studies and their captions.
+PICTURES = {
+    "orbit": "Journal in its clearance circle and enlarged, last revolution.",
+    "equilibrium": "Equilibrium of the journal in its clearance circle.",
+    "waveform": "The last revolutions.",
+    "multipliers": "Floquet multipliers: inside the circle, the orbit is stable.",
+    "spectrum": "Amplitudes of the journal: one-sided, and full with backward and forward whirl.",
+    "runup": "The whole run; many revolutions are drawn as the band that they fill.",
+    "size": "Peak to peak of the journal over the speed.",
+    "orders": "Amplitude of the first orders over the speed, and the phase of the first.",
+    "waterfall": "Amplitudes over speed and frequency.",
+    "branch": "Highest and lowest values along the branches; special points by their letters.",
+    "response": "First harmonic of the journal: critical speeds, and their amplification factors (AF).",
+    "hysteresis": "Friction moment over tilt: the area is the work dissipated in the last revolution.",
+    "friction": "Friction coefficient over sliding velocity, last revolution.",
+    "sticking": "Tilt rate, bold where the pivot sticks, over the last two revolutions.",
+    "poincare": "Once a revolution, on the path of the last ones; of the pads, the one that moves most.",
+    "pressure": "Film pressure over the unrolled pads at the equilibrium.",
+    "temperatures": "Temperatures of the pads, and the viscosities or the heat that belongs to them.",
+    "film": "Thickness and pressure of the films around the bearing at the equilibrium.",
+    "coefficients": "Stiffness and damping at the journal.",
+    "stability": "Damping ratio and logarithmic decrement of the modes.",
+    "campbell": "Frequencies of the modes over the speed.",
+}
+
 
 def page(title: str, parts: Iterable[str]) -> str:
     """The whole page; empty parts are left out."""
@@ -31,11 +56,15 @@ def paragraph(text: str, warning: bool = False) -> str:
     return f"<p{' class=warning' if warning else ''}>{escape(text)}</p>" if text else ""
 
 
-def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table whose first column is text and whose others are numbers."""
+def table(head: Sequence[str], rows: Iterable[Sequence[str]], words: bool = False) -> str:
+    """A table whose first column is text and whose others are numbers, or with `words` texts."""
     lines = ["<tr>" + "".join(f"<th>{escape(each)}</th>" for each in head) + "</tr>"]
     lines += ["<tr>" + "".join(f"<td>{escape(each)}</td>" for each in row) + "</tr>" for row in rows]
-    return f"<div class=wide><table>{''.join(lines)}</table></div>" if len(lines) > 1 else ""
+    return (
+        f"<div class=wide><table{' class=words' * words}>{''.join(lines)}</table></div>"
+        if len(lines) > 1
+        else ""
+    )
 
 
 def row(text: str, quantity: str, values: Sequence[float]) -> tuple[str, ...]:
@@ -44,8 +73,11 @@ def row(text: str, quantity: str, values: Sequence[float]) -> tuple[str, ...]:
     return (text, *numbers(shown, values), shown.unit)
 
 
-def picture(name: str, caption: str, draw: Callable[[], Figure], remarks: bool = True) -> str:
-    """A picture inside the page, with its caption; without remarks that stand in the page already."""
+def picture(name: str, draw: Callable[[], Figure], caption: str | None = None, remarks: bool = True) -> str:
+    """A picture inside the page, with its caption (by default that of its kind).
+
+    Without `remarks` it leaves out those that stand in the page already.
+    """
     with plt.style.context(plots.STYLE):
         figure = draw()
         try:
@@ -60,4 +92,4 @@ def picture(name: str, caption: str, draw: Callable[[], Figure], remarks: bool =
     data = base64.b64encode(stream.getvalue()).decode("ascii")
     look = f'alt="{name}" style="width: {figure.get_figwidth()}in"'
     image = f'<img {look} src="data:image/svg+xml;base64,{data}">'
-    return f"<figure>{image}<figcaption>{escape(caption)}</figcaption></figure>"
+    return f"<figure>{image}<figcaption>{escape(caption or PICTURES[name])}</figcaption></figure>"

@@ -22,6 +22,8 @@ from tiltpad.files.read import Run, needs_run
 from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN
 
+#: Speed, amplitude and phase of an order.
+Track = tuple[np.ndarray, np.ndarray, np.ndarray]
 #: Name of the package's own style, for matplotlib.style.use and .context.
 STYLE = "tiltpad.draw.tiltpad"
 #: A history of more revolutions is drawn as a band.
@@ -103,7 +105,7 @@ def clearance(run: Run, ax: Axes, marks: bool = True) -> Axes:
     Fixed pads leave the journal the room within their bores, which is drawn instead of the circle.
     With `marks`, pads that carry no load are pale, and words say so, or that they flutter or rub.
     """
-    radius = SHOWN["journal_y"].factor * run.clearance
+    radius = reach = SHOWN["journal_y"].factor * run.clearance
     bore = SHOWN["journal_y"].factor * run.input["bearing"]["machined_clearance"]
     tilting = run.input["pads"]["motion"] != "fixed"
     if tilting:
@@ -114,12 +116,16 @@ def clearance(run: Run, ax: Axes, marks: bool = True) -> Axes:
     for pad, angle in enumerate(np.degrees(run.pivot_angle)):
         mark = found.get(pad + 1, "")
         ends = {"theta1": angle - (1 - ratio[pad]) * arc[pad], "theta2": angle + ratio[pad] * arc[pad]}
+        middle, inner = ((0.0, 0.0), radius) if tilting else (polar(radius - bore, angle), bore)
         if not tilting:
-            ax.add_patch(
-                Arc(polar(radius - bore, angle), 2 * bore, 2 * bore, **ends, linewidth=0.8, color="0.3")
-            )
+            ax.add_patch(Arc(middle, 2 * inner, 2 * inner, **ends, linewidth=0.8, color="0.3"))
+            corners = [np.add(middle, polar(inner, end)) for end in ends.values()]
+            reach = max(reach, np.abs(corners).max())
         color = "0.93" if "no load" in mark else "0.85"
-        ax.add_patch(Arc((0, 0), 2.3 * radius, 2.3 * radius, **ends, linewidth=8, color=color))
+        # backs of lobes, which their clearance bends, would lie on each other
+        away, thick = (0.15, 8) if tilting else (0.07, 4)
+        back = 2 * (inner + away * radius)
+        ax.add_patch(Arc(middle, back, back, **ends, linewidth=thick, color=color))
         ax.text(*polar(1.15 * radius, angle), str(pad + 1), **note, va="center_baseline")
         if mark:
             small = note | {"fontsize": "x-small", "color": "C3" if "rubs" in mark else "0.3"}
@@ -129,7 +135,8 @@ def clearance(run: Run, ax: Axes, marks: bool = True) -> Axes:
     ax.text(0, 0.5 * radius, "rotation", **note, va="center")
     ax.plot([-radius, 0], [0, 0], linewidth=0.6, color="0.3")
     ax.text(-0.5 * radius, 0.02 * radius, f"$c_r$ = {radius:g} µm", **note, va="bottom")
-    ax.set(xlim=(-1.3 * radius, 1.3 * radius), ylim=(-1.3 * radius, 1.3 * radius))
+    reach += 0.3 * radius
+    ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
     ax.set(xlabel=SHOWN["journal_z"].label, ylabel=SHOWN["journal_y"].label, aspect="equal")
     return ax
 
@@ -223,26 +230,37 @@ def order_track(
     order: float = 1,
     pad: int | None = None,
     scale: str = "linear",
+    track: Track | None = None,
     **line: Any,
 ) -> Axes:
-    """Amplitude of one order of a dataset over the speed of a run-up, on a linear or log `scale`."""
-    speed, amplitude, _ = spectra.order_track(run, name, order, pad)
+    """Amplitude of one order of a dataset over the speed of a run-up, on a linear or log `scale`.
+
+    A `track` that is known already (speed, amplitude, phase) is not calculated again.
+    """
+    speed, amplitude, _ = track or spectra.order_track(run, name, order, pad)
     ax.plot(SHOWN["speed"].factor * speed, SHOWN[name].factor * amplitude, **line)
     ax.set(xlabel=SHOWN["speed"].label, ylabel=SHOWN[name].label, yscale=scale)
     if scale == "linear":
-        ax.set_ylim(bottom=0)
+        from_zero(ax)
     return ax
 
 
 @on_axes
 def order_phase(
-    run: Run, ax: Axes, name: str = "journal_y", order: float = 1, pad: int | None = None, **line: Any
+    run: Run,
+    ax: Axes,
+    name: str = "journal_y",
+    order: float = 1,
+    pad: int | None = None,
+    track: Track | None = None,
+    **line: Any,
 ) -> Axes:
     """Phase lag of one order of a dataset over the speed of a run-up, behind the unbalance.
 
-    It is the angle of the shaft from where the unbalance points along +y to the maximum of the dataset.
+    It is the angle of the shaft from where the unbalance points along +y to the maximum of the dataset. A
+    `track` is as for order_track.
     """
-    speed, _, phase = spectra.order_track(run, name, order, pad)
+    speed, _, phase = track or spectra.order_track(run, name, order, pad)
     ax.plot(SHOWN["speed"].factor * speed, -np.degrees(np.unwrap(phase)), **line)
     ax.set(xlabel=SHOWN["speed"].label, ylabel="phase lag (deg)")
     return ax
@@ -408,6 +426,13 @@ def mark_contact(ax: Axes, x: np.ndarray, force: np.ndarray) -> None:
     ax.plot(x[touching], np.full(touching.sum(), 0.03), **where)
     note = {"transform": ax.transAxes, "color": "red", "fontsize": "x-small"}
     ax.text(0.01, 0.13, "asperities touch", **note)
+
+
+def from_zero(ax: Axes) -> None:
+    """Lets the vertical axis reach from 0 over all that is drawn, now and before."""
+    values = np.concatenate([np.asarray(each.get_ydata(), float) for each in ax.get_lines()])
+    if (top := np.nanmax(values, initial=0)) > 0:
+        ax.set_ylim(0, 1.05 * top)
 
 
 def all_tilt(runs: Sequence[Run]) -> bool:

@@ -15,35 +15,10 @@ from tiltpad.calculate.response import response
 from tiltpad.draw import figures
 from tiltpad.draw.bearing import bearing
 from tiltpad.draw.branches import in_words as critical
-from tiltpad.draw.page import page, paragraph, picture, row, section, table
+from tiltpad.draw.page import PICTURES, page, paragraph, picture, row, section, table
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.units import SHOWN, digits, in_words
-
-#: Pictures and their captions; those that a run cannot have are left out.
-PICTURES = {
-    "orbit": "Journal in its clearance circle and enlarged, last revolution.",
-    "equilibrium": "Equilibrium of the journal in its clearance circle.",
-    "waveform": "The last revolutions.",
-    "multipliers": "Floquet multipliers: inside the circle, the orbit is stable.",
-    "spectrum": "Amplitudes of the journal: one-sided, and full with backward and forward whirl.",
-    "runup": "The whole run; many revolutions are drawn as the band that they fill.",
-    "size": "Peak to peak of the journal over the speed.",
-    "orders": "Amplitude of the first orders over the speed, and the phase of the first.",
-    "waterfall": "Amplitudes over speed and frequency.",
-    "branch": "Highest and lowest values along the branches; special points by their letters.",
-    "response": "First harmonic of the journal over the speed: critical speeds and amplification factors.",
-    "hysteresis": "Friction moment over tilt: the area is the work dissipated in the last revolution.",
-    "friction": "Friction coefficient over sliding velocity, last revolution.",
-    "sticking": "Tilt rate, bold where the pivot sticks, over the last two revolutions.",
-    "poincare": "Journal and the pad that moves most, once a revolution, on the path of the last ones.",
-    "pressure": "Film pressure over the unrolled pads at the equilibrium.",
-    "temperatures": "Temperatures of the pads, and where the heat of their films goes.",
-    "film": "Thickness and pressure of the films around the bearing at the equilibrium.",
-    "coefficients": "Stiffness and damping over the whirl frequency.",
-    "stability": "Damping ratio and logarithmic decrement of the modes over their frequency.",
-    "campbell": "Frequencies of the modes over the speed.",
-}
 
 
 def report(run: Run) -> str:
@@ -194,13 +169,13 @@ def mode_table(run: Run) -> str:
 
 def pictures(run: Run) -> Iterable[str]:
     """The pictures that this run can have, with their captions."""
-    yield picture("bearing", "The bearing, with clearances enlarged.", lambda: bearing(run))
-    for name, caption in PICTURES.items():
+    yield picture("bearing", lambda: bearing(run), "The bearing, with clearances enlarged.")
+    for name in PICTURES:
         if (name == "size" and signals.steady(run)) or (name == "equilibrium" and run.samples):
             continue
         pad = liveliest(run) if name == "poincare" else None
         try:
-            yield picture(name, caption, partial(figures.FIGURES[name], [run], None, pad))
+            yield picture(name, partial(figures.FIGURES[name], [run], None, pad))
         except (NotInRunError, MissingLibraryError):
             continue
 

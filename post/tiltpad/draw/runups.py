@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -9,13 +10,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tiltpad.calculate import differences, signals, spectra
-from tiltpad.calculate.response import Peak, peaks_of
+from tiltpad.calculate.response import Peak, aligned, peaks_of
 from tiltpad.draw import plots
 from tiltpad.draw.branches import in_words as critical
 from tiltpad.draw.layout import (
     COLUMN,
     DASHES,
     PAGE,
+    dots,
     drawn,
     heading,
     labels,
@@ -95,19 +97,27 @@ def orders(
     """
     names = [("journal_y", None), ("journal_z", None), *([("pad_tilt", pad)] if pad else [])]
     fig, panels = stacked([*names, "phase"])
+    words: dict[Any, list[str]] = {each: [] for each in names}
     for i, run in enumerate(runs):
-        for k, order in enumerate(ORDERS):
-            for name, column in names:
-                plots.order_track(run, panels[name, column], name, order, column, scale, **look(i, k, runs))
-        for k, (name, column) in enumerate(names[:2]):
+        lags = []
+        for name, column in names:
+            ax = panels[name, column]
+            speed, *both = spectra.order_tracks(run, name, ORDERS, column)
+            tracks = [
+                (speed, amplitude, phase) for amplitude, phase in zip(*(each.T for each in both), strict=True)
+            ]
+            for k, track in enumerate(tracks):
+                plots.order_track(run, ax, name, ORDERS[k], column, scale, track, **look(i, k, runs))
+            words[name, column].append(mark_peak(ax, *tracks[0][:2], name, look(i, 0, runs)["color"]))
+            lags.append(-tracks[0][2])
+        lag = aligned(np.column_stack(lags[:2]))
+        for k, (name, _) in enumerate(names[:2]):
             own = look(i, 0, runs) | {"linestyle": DASHES[k]}
-            plots.order_phase(run, panels["phase"], name, 1, column, **own)
+            plots.order_phase(run, panels["phase"], name, track=(speed, lag[:, k], -lag[:, k]), **own)
     for name, column in names:
         ax = panels[name, column]
-        tracks = [spectra.order_track(run, name, 1, column)[:2] for run in runs]
-        words = [mark_peak(ax, *track, name, look(i, 0, runs)["color"]) for i, track in enumerate(tracks)]
         if len(runs) <= 2:
-            ax.set_title("; ".join(words), fontsize="x-small", loc="right")
+            ax.set_title("; ".join(words[name, column]), fontsize="x-small", loc="right")
         ax.set_ylabel(SHOWN[name].label + (f", pad {column}" if column else ""))
     panels["phase"].set_ylabel("phase lag,\norder 1 (deg)")
     dashed = [(f"phase of ${axis}$", {"color": "0.3", "linestyle": DASHES[k]}) for k, axis in enumerate("yz")]
@@ -175,7 +185,7 @@ def size(runs: Sequence[Run], last: float | None = None, pad: int | None = None)
         order = np.argsort(values)
         dashes = ["-", "--"]
         for each, own in zip(sizes, dashes, strict=True):
-            ax.plot(np.array(values)[order], each[order], own, marker="o", markersize=3)
+            ax.plot(np.array(values)[order], each[order], own, **dots(len(order)))
         ax.set(xlabel=label, ylabel=SHOWN["size"].label, ylim=(0, 1.1 * sizes.max()))
         ax.locator_params(axis="x", nbins=6)
     else:

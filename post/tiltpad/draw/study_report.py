@@ -9,6 +9,7 @@ import numpy as np
 
 from tiltpad.calculate.selection import distinct, written
 from tiltpad.draw import figures
+from tiltpad.draw.diagrams import label
 from tiltpad.draw.page import page, paragraph, picture, section, table
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.study import Study
@@ -22,14 +23,8 @@ KEYS = (
 )
 #: Columns of the table, and its rows.
 COLUMNS, ROWS = 6, 300
-#: Pictures of whole studies, and their captions.
-PICTURES = {
-    "response": "First harmonic of the journal: critical speeds and amplification factors.",
-    "coefficients": "Stiffness and damping.",
-    "stability": "Damping of the modes.",
-    "campbell": "Frequencies of the modes over the speed.",
-    "temperatures": "Temperatures and viscosity of the pads.",
-}
+#: Pictures of whole studies.
+PICTURES = ("response", "coefficients", "stability", "campbell", "temperatures")
 
 
 def study_report(study: Study) -> str:
@@ -69,7 +64,12 @@ def failures(study: Study) -> str:
         (f"{each.member}", *(written(value) for value in each.values.values()), each.how, each.reason)
         for each in study.failures()[:ROWS]
     ]
-    return table(("member", *study.parameters, "end", "reason"), rows)
+    return table(("member", *named(study), "end", "reason"), rows, words=True)
+
+
+def named(study: Study) -> list[str]:
+    """The parameters with their units, as heads of columns."""
+    return [label(study, name) for name in study.parameters]
 
 
 def members(study: Study) -> str:
@@ -87,9 +87,8 @@ def members(study: Study) -> str:
         for k in range(min(len(study.done), ROWS))
     ]
     rest = len(study.done) - ROWS
-    return table(("member", *study.parameters, "done", *(each.label for each in shown)), rows) + paragraph(
-        f"and {rest} more, in the file." if rest > 0 else ""
-    )
+    heads = ("member", *named(study), "done", *(each.label for each in shown))
+    return table(heads, rows) + paragraph(f"and {rest} more, in the file." if rest > 0 else "")
 
 
 def values(study: Study, name: str) -> np.ndarray:
@@ -103,12 +102,12 @@ def curves(study: Study) -> Iterator[str]:
     for name in KEYS:
         if name in study and study.parameters and np.isfinite(values(study, name)).any():
             try:
-                yield picture(name, f"{SHOWN[name].text.replace('$', '')}.".capitalize(),
-                              partial(figures.study, study, name), remarks=False)  # fmt: skip
+                caption = f"{SHOWN[name].text.replace('$', '')}.".capitalize()
+                yield picture(name, partial(figures.study, study, name), caption, remarks=False)
             except ValueError:
                 continue
-    for name, caption in PICTURES.items():
+    for name in PICTURES:
         try:
-            yield picture(name, caption, partial(figures.FIGURES[name], [study]), remarks=False)
+            yield picture(name, partial(figures.FIGURES[name], [study]), remarks=False)
         except (ValueError, NotInRunError):
             continue

@@ -18,7 +18,7 @@ from tiltpad.calculate.coefficients import coefficients as coefficients_of
 from tiltpad.calculate.modes import Modes, forward, modes
 from tiltpad.calculate.selection import default_over, distinct, needs, selected, written
 from tiltpad.draw.diagrams import mark_failed
-from tiltpad.draw.layout import COLUMN, DASHES, PAGE, heading, labels, of_several, part_color
+from tiltpad.draw.layout import COLUMN, DASHES, PAGE, dots, heading, labels, of_several, part_color
 from tiltpad.files import units
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
@@ -70,8 +70,7 @@ def coefficients(
             for color, (_, x, found) in enumerate(lines):
                 for dashes, (i, j) in zip(DASHES, elements.values(), strict=False):
                     values = SHOWN[name].factor * getattr(found, name)[..., i, j]
-                    dots = {"marker": "o", "markersize": 3} if len(x) < 30 else {}
-                    ax.plot(x, values, dashes, color=part_color(color, len(lines)), **dots)
+                    ax.plot(x, values, dashes, color=part_color(color, len(lines)), **dots(len(x)))
                 mark_failed(
                     ax, x[np.isnan(values)], part_color(color, len(lines)) if len(lines) > 1 else None
                 )
@@ -125,11 +124,10 @@ def stability(
         for ax, name in zip(panels, ("damping_ratio", "log_decrement"), strict=True):
             values = SHOWN[name].factor * getattr(own, name)
             for k in range(values.shape[-1]):
-                line = {"color": shades[k], "marker": "o", "markersize": 3}
                 if single:
-                    ax.plot(x[k], values[k], **line)
+                    ax.plot(x[k], values[k], color=shades[k], **dots(1))
                 else:
-                    ax.plot(x, values[:, k], **line)
+                    ax.plot(x, values[:, k], color=shades[k], **dots(len(x)))
         if not single:
             missing = x[np.isnan(own.frequency).all(axis=1)]
             mark_failed(panels[1], missing, own_color if len(found) > 1 else None)
@@ -156,7 +154,7 @@ def mode_colors(own: Modes) -> list[str]:
     """A colour for each mode of a study; those that are in sight have different ones."""
     least = np.where(np.isnan(own.damping_ratio), np.inf, own.damping_ratio).min(axis=0)
     order = np.cumsum(least < DAMPED)
-    return [part_color(max(0, k - 1), max(1, order[-1])) for k in order]
+    return [part_color(max(0, k - 1), order.max(initial=1)) for k in order]
 
 
 def mark_thresholds(panels: Sequence[Axes], own: Modes, color: str) -> None:
