@@ -1,11 +1,132 @@
-"""What the tests of whole runs share."""
+"""What the tests of whole runs share.
 
+None of them depends on how fast the machine is: what happens to a run happens when a file or a line says how
+far it has come, and a run that is to be stopped would not end by itself, or only after many checkpoints.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import time
+
+import h5py
 import pytest
+
+#: Seconds after which a test gives up what it waits for: many times what it takes on a loaded machine.
+PATIENCE = 300
+#: A run that does not end by itself.
+ENDLESS = ("--set", "operation%duration=10000")
+#: A run that makes a checkpoint at each of its steps, which takes fifty times as long as the steps do.
+EVERY_STEP = ("--set", "output%checkpoint_seconds=1e-9")
+
+#: Of a library that is loaded before the system's own: what its functions stand for.
+HEAD = """
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/time.h>
+#include <time.h>
+#include <unistd.h>
+#define NEXT(name) ((__typeof__(name) *)dlsym(RTLD_NEXT, #name))
+"""
+#: A clock that is a second later at every look: what happens now and then happens at once.
+FAST_CLOCK = """
+int clock_gettime(clockid_t clock, struct timespec *now)
+{
+   static long looks;
+   int result = NEXT(clock_gettime)(clock, now);
+   if (clock == CLOCK_MONOTONIC) now->tv_sec += ++looks;
+   return result;
+}
+"""
 
 
 def options(overrides):
     """The words of a command line that set these variables."""
     return [word for each in overrides for word in ("--set", each)]
+
+
+def wait_for(condition, process=None):
+    """Until the condition holds. A process, where one is given, must not end before."""
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        assert process is None or process.poll() is None, process.communicate()
+        assert time.monotonic() < end
+        time.sleep(0.001)
+
+
+def publication(path):
+    """What differs between a result and the checkpoint that replaces it; None where there is no file."""
+    return (path.stat().st_ino, path.stat().st_mtime_ns) if path.exists() else None
+
+
+def wait_for_checkpoint(path, process):
+    """Until the process publishes its result, or publishes it anew."""
+    before = publication(path)
+    wait_for(lambda: publication(path) not in (None, before), process)
+
+
+def wait_for_line(process, pattern):
+    """Until the process has printed a line that begins so; it is one whose output is not buffered."""
+    for line in process.stdout:
+        if re.match(pattern, line):
+            return
+    raise AssertionError(process.communicate())
+
+
+def one_error(process, status):
+    """The one line with which a process ended."""
+    error = process.communicate(timeout=PATIENCE)[1]
+    assert process.returncode == status, error
+    assert error.count("\n") == 1
+    assert error.startswith("tiltpad: error: ")
+    return error
+
+
+def shorten(path, more=0.01):
+    """Sets the end of a stopped march so many seconds behind its checkpoint; gives it."""
+    with h5py.File(path, "r+") as file:
+        end = float(file["checkpoint/time"][()]) + more
+        file.attrs["input"] = re.sub(r"duration = \S+", f"duration = {end!r}", file.attrs["input"])
+    return end
+
+
+@pytest.fixture
+def start(program):
+    """start(folder, *arguments, **options): the program under way; killed where the test leaves it so."""
+    processes = []
+
+    def begin(folder, *arguments, **options):
+        own = {"env": os.environ | {"GFORTRAN_UNBUFFERED_PRECONNECTED": "yes"}} | options
+        pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+        processes.append(subprocess.Popen([program, *map(str, arguments)], cwd=folder, **pipes | own))
+        return processes[-1]
+
+    yield begin
+    for process in processes:
+        with process:
+            process.kill()
+
+
+@pytest.fixture
+def loaded(tmp_path):
+    """loaded(FAST_CLOCK): the environment in which these functions stand for the system's."""
+
+    def environment(source, **variables):
+        library = tmp_path / "own.so"
+        compiler = shutil.which("cc") or shutil.which("gcc")
+        if not compiler:
+            pytest.skip("no C compiler")
+        subprocess.run(
+            [compiler, "-shared", "-fPIC", "-w", "-x", "c", "-", "-o", library, "-ldl"],
+            input=HEAD + source, text=True, check=True,
+        )  # fmt: skip
+        return {**os.environ, "LD_PRELOAD": str(library), **variables}
+
+    return environment
 
 
 @pytest.fixture

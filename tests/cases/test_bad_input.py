@@ -21,11 +21,11 @@ def snapshot(folder):
     return found
 
 
-def refused(tiltpad, folder, *arguments, names=(), status=1, timeout=30, **options):
+def refused(tiltpad, folder, *arguments, names=(), status=1, **options):
     """Runs the program in a folder with an earlier result in it and checks that it refuses."""
     (folder / "case.h5").write_bytes(RESULT)
     before = snapshot(folder)
-    run = tiltpad(*arguments, cwd=folder, timeout=timeout, errors="replace", **options)
+    run = tiltpad(*arguments, cwd=folder, errors="replace", **options)
     allowed = status if isinstance(status, tuple) else (status,)
     assert run.returncode in allowed, run.stderr
     assert run.stdout == ""
@@ -411,7 +411,6 @@ def test_disk_full_for_standard_output(program, case):
             stderr=subprocess.PIPE,
             text=True,
             cwd=case,
-            timeout=30,
         )
     assert run.returncode == 3
     assert run.stderr.startswith("tiltpad: error: ")
@@ -477,7 +476,7 @@ def test_a_huge_file_is_not_read_in_part(tiltpad, case):
     with open(case / "big.nml", "wb") as file:
         file.write(b"&rotor mass=1 /\n")
         file.truncate(2**32 + 16)
-    run = tiltpad("--check", "big.nml", cwd=case, timeout=30)
+    run = tiltpad("--check", "big.nml", cwd=case)
     (case / "big.nml").unlink()
     assert (run.returncode, run.stdout) == (1, "")
     assert "big.nml: 4294967312 bytes" in run.stderr

@@ -14,7 +14,7 @@ def fails(tiltpad, folder, *values, options=()):
     """Runs a case with some values and checks that it fails as a run of numbers fails; gives the message."""
     (folder / "case.nml").write_text("&operation duration=0.05 / &output samples_per_revolution=60 /\n")
     overrides = [word for value in values for word in ("--set", value)]
-    run = tiltpad("case.nml", "--quiet", *options, *overrides, cwd=folder, timeout=30)
+    run = tiltpad("case.nml", "--quiet", *options, *overrides, cwd=folder)
     assert run.returncode == 2, run.stderr
     assert run.stdout == ""
     assert run.stderr.startswith("tiltpad: error: ")
@@ -159,7 +159,7 @@ EXTREMES = {
 def test_extremes_end(tiltpad, tmp_path, key):
     (tmp_path / "case.nml").write_text("&operation duration=0.001 / &integration max_steps=2000 /\n")
     overrides = [word for value in EXTREMES[key] for word in ("--set", value)]
-    run = tiltpad("case.nml", "--quiet", *overrides, cwd=tmp_path, timeout=20)
+    run = tiltpad("case.nml", "--quiet", *overrides, cwd=tmp_path)
     assert run.returncode in (1, 2)
     assert run.stderr.startswith("tiltpad: error: ")
     assert run.stderr.count("\n") == 1
@@ -182,5 +182,5 @@ def test_ordinary_bearings_have_an_equilibrium(tiltpad, tmp_path, pads):
             f"&case task='equilibrium' / &rotor mass={mass} /\n"
             f"&pads pivot_angle_deg={angles}, arc_deg={arc} /\n"
         )
-        run = tiltpad("case.nml", "--quiet", "--overwrite", cwd=tmp_path, timeout=30)
+        run = tiltpad("case.nml", "--quiet", "--overwrite", cwd=tmp_path)
         assert run.returncode == 0, run.stderr

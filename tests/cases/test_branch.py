@@ -1,13 +1,9 @@
 """Whole runs of the task branch: the file, thresholds, agreement with single orbits, going on, refusals."""
 
-import signal
-import subprocess
-import time
-
 import h5py
 import numpy as np
 import pytest
-from conftest import options
+from conftest import EVERY_STEP, one_error, options, wait_for_checkpoint
 
 #: Its journal loses its stability at the threshold that the task coefficients finds.
 LIGHT = "&rotor mass=200 /\n&operation speed_rpm=14000 /\n"
@@ -65,18 +61,13 @@ def test_the_last_orbit_is_that_of_its_speed(run, tmp_path):
         )
 
 
-def test_a_stopped_branch_goes_on_with_the_same_bits(program, tiltpad, run, tmp_path):
+def test_a_stopped_branch_goes_on_with_the_same_bits(start, tiltpad, run, tmp_path):
     more = (*SPEED, "branch%last=4500", "branch%step=10", "branch%max_step=10")
     run(LUGRE, *more, name="whole")
-    with subprocess.Popen(
-        [program, "whole.nml", "-q", "-o", "part.h5", *options(more)], cwd=tmp_path, stderr=subprocess.PIPE
-    ) as process:
-        time.sleep(0.4)
-        process.send_signal(signal.SIGTERM)
-        process.communicate(timeout=60)
-    if process.returncode == 0 or not (tmp_path / "part.h5").exists():
-        pytest.skip("the signal came too late or too early")
-    assert process.returncode == 4
+    process = start(tmp_path, "whole.nml", "-q", "-o", "part.h5", *options(more), *EVERY_STEP)
+    wait_for_checkpoint(tmp_path / "part.h5", process)
+    process.terminate()
+    one_error(process, 4)
     done = tiltpad("--resume", "part.h5", "-q", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     with h5py.File(tmp_path / "whole.h5") as whole, h5py.File(tmp_path / "part.h5") as part:

@@ -14,6 +14,7 @@ import h5py
 import numpy as np
 import pytest
 import tiltpad as package
+from conftest import ENDLESS, EVERY_STEP, PATIENCE, one_error, shorten, wait_for, wait_for_checkpoint
 
 SCENE = "&friction model='lugre' / &operation duration=0.5 / &output checkpoint_seconds=0.01 /\n"
 #: What a scene may add: every kind of state, film and end that a resumed run must take up.
@@ -22,18 +23,17 @@ SCENES = {
     "bengisu": "--set friction%model='bengisu_akay' --set operation%duration=0.1",
     "none": "--set friction%model='none' --set operation%duration=2",
     "tilting": "--set pads%motion='tilting_only'",
-    "fixed": "--set pads%motion='fixed' --set friction%model='none' --set film%cavitation='gumbel'",
+    "fixed": "--set pads%motion='fixed' --set friction%model='none' --set film%cavitation='gumbel' "
+    "--set integration%max_step=1e-4",
     "runup": "--set operation%speed_rpm=3000 --set operation%final_speed_rpm=6500",
     "gumbel": "--set film%cavitation='gumbel' --set pads%pivot_angle_deg=-45,225,45,135 "
     "--set operation%duration=0.2",
     "sor": "--set film%solver='sor' --set operation%duration=0.02",
-    "late": "--set output%start_time=0.4",
+    "late": "--set output%start_time=0.02",
     "warm_runup": "--set oil%grade=46 --set thermal%model='pad' --set thermal%march='groove' "
     "--set oil%groove_volume=1e-5 --set operation%final_speed_rpm=5000 --set operation%duration=0.2",
     "warm": "--set oil%grade=46 --set thermal%model='pad' --set operation%duration=0.3",
 }
-#: One that is still running when a signal comes.
-LONG = "--set operation%duration=3"
 KILLS = 100
 
 
@@ -52,36 +52,11 @@ def whole(tiltpad, tmp_path_factory):
     def path(scene):
         output = folder / f"{scene}.h5"
         if not output.exists():
-            done = tiltpad(
-                "case.nml", "-q", "-o", output, *(SCENES | {"long": LONG})[scene].split(), cwd=folder
-            )
+            done = tiltpad("case.nml", "-q", "-o", output, *SCENES[scene].split(), cwd=folder)
             assert done.returncode == 0, done.stderr
         return output
 
     return path
-
-
-def start(program, folder, *arguments):
-    return subprocess.Popen(
-        [program, *arguments], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
-
-
-def wait_for(path, process, seconds=30):
-    """Until the file is there: the first checkpoint."""
-    end = time.monotonic() + seconds
-    while not path.exists():
-        assert process.poll() is None, process.stderr.read()
-        assert time.monotonic() < end
-        time.sleep(0.001)
-
-
-def one_error(process, status):
-    out, error = process.communicate(timeout=60)
-    assert process.returncode == status, error
-    assert error.count("\n") == 1
-    assert error.startswith("tiltpad: error: ")
-    return error
 
 
 def series(file):
@@ -89,8 +64,14 @@ def series(file):
     return [
         name
         for name, each in file.items()
-        if isinstance(each, h5py.Dataset) and name not in ("pad", "pivot_angle")
+        if isinstance(each, h5py.Dataset) and name not in ("pad", "pivot_angle", "viscosity")
     ]
+
+
+def reached(path):
+    """Simulated time of the checkpoint in a file."""
+    with h5py.File(path) as file:
+        return file["checkpoint/time"][()]
 
 
 def lengths(file):
@@ -128,29 +109,34 @@ def check_joined(path, reference, resumes=None):
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGUSR1, signal.SIGINT, signal.SIGXCPU])
-def test_a_signal_leaves_a_checkpoint(program, tiltpad, case, whole, number):
-    process = start(program, case, "case.nml", *LONG.split(), "--set", "output%checkpoint_seconds=0")
-    time.sleep(0.05)
+def test_a_signal_leaves_a_checkpoint(start, tiltpad, case, number):
+    process = start(case, "case.nml", *ENDLESS, "--set", "output%checkpoint_seconds=0")
+    # the first chunk of samples
+    part = case / "case.h5.part"
+    wait_for(lambda: part.exists() and part.stat().st_size > 1e6, process)
     process.send_signal(number)
     error = one_error(process, 4)
     assert f"signal {int(number)}" in error
     assert "tiltpad --resume case.h5" in error
     assert sorted(path.name for path in case.iterdir()) == ["case.h5", "case.nml"]
-    check_checkpoint(case / "case.h5", whole("long"))
+    end = shorten(case / "case.h5")
+    done = tiltpad("case.nml", "-q", "-o", "whole.h5", "--set", f"operation%duration={end!r}", cwd=case)
+    assert done.returncode == 0
+    check_checkpoint(case / "case.h5", case / "whole.h5")
     with h5py.File(case / "case.h5") as file:
         assert file.attrs["exit_status"] == 4
         assert file.attrs["ended"]
         assert str(int(number)) in file.attrs["reason"]
     assert tiltpad("--resume", "case.h5", cwd=case).returncode == 0
-    check_joined(case / "case.h5", whole("long"), resumes=1)
-    assert sorted(path.name for path in case.iterdir()) == ["case.h5", "case.nml"]
+    check_joined(case / "case.h5", case / "whole.h5", resumes=1)
+    assert sorted(path.name for path in case.iterdir()) == ["case.h5", "case.nml", "whole.h5"]
 
 
-def test_a_signal_while_the_equilibrium_is_sought(program, case):
+def test_a_signal_while_the_equilibrium_is_sought(start, case):
     """There is nothing to keep yet."""
     (case / "case.nml").write_text("&film circumferential_cells=400, axial_cells=200 /\n")
-    run = start(program, case, "case.nml", "-q")
-    time.sleep(0.5)
+    run = start(case, "case.nml", "-q")
+    wait_for((case / "case.h5.part").exists, run)
     assert not (case / "case.h5").exists()
     run.terminate()
     said = one_error(run, 4)
@@ -158,13 +144,13 @@ def test_a_signal_while_the_equilibrium_is_sought(program, case):
     assert [path.name for path in case.iterdir()] == ["case.nml"]
 
 
-def test_a_ruptured_film_is_resumed_to_the_bit(program, tiltpad, case):
+def test_a_ruptured_film_is_resumed_to_the_bit(start, tiltpad, case):
     """From a checkpoint where a film is ruptured: the same bits, twice."""
-    arguments = ["case.nml", "-q", "--set", "rotor%unbalance=0.03", "--set", "operation%duration=1"]
-    process = start(program, case, *arguments)
-    wait_for(case / "case.h5", process)
-    process.send_signal(signal.SIGTERM)
+    process = start(case, "case.nml", "-q", *ENDLESS, "--set", "rotor%unbalance=0.03")
+    wait_for_checkpoint(case / "case.h5", process)
+    process.terminate()
     one_error(process, 4)
+    shorten(case / "case.h5", 0.3)
     shutil.copy(case / "case.h5", case / "again.h5")
     with h5py.File(case / "case.h5") as file:
         before = len(file["time"])
@@ -179,46 +165,48 @@ def test_a_ruptured_film_is_resumed_to_the_bit(program, tiltpad, case):
 
 
 @pytest.mark.parametrize("scene", SCENES)
-def test_every_scene_can_be_resumed(program, tiltpad, case, whole, scene):
-    """Stopped after a checkpoint three times, the last time by kill -9."""
+def test_every_scene_can_be_resumed(start, tiltpad, case, whole, scene):
+    """Stopped at some parts of its way, the last time by kill -9."""
     arguments = ["--resume", "case.h5", "case.nml", "-q", *SCENES[scene].split()]
     output = case / "case.h5"
-    for number in (signal.SIGTERM, signal.SIGUSR1, signal.SIGKILL):
-        published = output.stat().st_mtime_ns if output.exists() else None
-        process = start(program, case, *arguments)
-        # its first checkpoint, unless it ends before
-        while process.poll() is None and not (output.exists() and output.stat().st_mtime_ns != published):
-            time.sleep(0.001)
+    with h5py.File(whole(scene)) as file:
+        end = file["time"][-1]
+    for number, part in ((signal.SIGTERM, 0), (signal.SIGUSR1, 0.05), (signal.SIGKILL, 0.1)):
+        process = start(case, *arguments, *EVERY_STEP)
+        wait_for_checkpoint(output, process)
+        wait_for(lambda part=part: reached(output) > part * end, process)
         process.send_signal(number)
-        process.wait(10)
-    with h5py.File(output) as file:
-        stops = file.attrs["resumes"] + 1 - file.attrs["complete"]
+        process.wait(PATIENCE)
+        check_checkpoint(output, whole(scene))
     assert tiltpad(*arguments, cwd=case).returncode == 0
-    check_joined(case / "case.h5", whole(scene), resumes=stops)
-    assert stops > 0
+    check_joined(case / "case.h5", whole(scene), resumes=3)
 
 
-def test_kills_at_random_instants(program, case, whole):
+def test_kills_at_random_instants(start, case, whole):
     """kill -9 at any instant leaves what was published last, whole; and the run goes on from it."""
     chance = random.Random(5)
     output = case / "case.h5"
+    arguments = ("--resume", "case.h5", "case.nml", "-q")
+    began = time.monotonic()
+    assert start(case, "case.nml", "-q").wait(PATIENCE) == 0
+    all_of_it = time.monotonic() - began
+    output.unlink()
     kills = 0
     while kills < KILLS:
-        process = start(program, case, "--resume", "case.h5", "case.nml", "-q")
-        try:
-            process.wait(chance.uniform(0, 0.2))
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-            kills += 1
+        with start(case, *arguments) as process:
+            try:
+                process.wait(chance.uniform(0, all_of_it))
+            except subprocess.TimeoutExpired:
+                process.kill()
+                kills += 1
+        if process.returncode == -signal.SIGKILL:
             if output.exists():
                 check_checkpoint(output, whole("lugre"))
         else:
-            assert process.returncode == 0, process.stderr.read()
+            assert process.returncode == 0
             check_joined(output, whole("lugre"))
             output.unlink()
-    process = start(program, case, "--resume", "case.h5", "case.nml", "-q")
-    assert process.wait(60) == 0
+    assert start(case, *arguments).wait(PATIENCE) == 0
     check_joined(output, whole("lugre"))
     assert sorted(path.name for path in case.iterdir()) == ["case.h5", "case.nml"]
 
@@ -232,16 +220,18 @@ def test_checkpoints_do_not_change_a_run(tiltpad, case, whole):
         assert file["statistics/steps"][()] == often["statistics/steps"][()]
 
 
-def test_a_periodic_orbit_is_recognised_after_resuming(program, tiltpad, case):
+def test_a_periodic_orbit_is_recognised_after_resuming(start, tiltpad, case):
     """The end by stop_when_periodic looks back over the interruption."""
     smooth = SCENE.replace("lugre", "none")
     (case / "case.nml").write_text(f"{smooth}&integration stop_when_periodic=1e-4 /\n")
-    arguments = ["case.nml", "-q"]
+    arguments = ["case.nml", "-q", "--set", "integration%max_step=1e-5"]
     assert tiltpad(*arguments, "-o", "whole.h5", cwd=case).returncode == 0
-    process = start(program, case, *arguments, "--resume", "case.h5")
-    wait_for(case / "case.h5", process)
+    process = start(case, *arguments, *EVERY_STEP)
+    wait_for_checkpoint(case / "case.h5", process)
+    # behind the first revolution
+    wait_for(lambda: reached(case / "case.h5") > 0.01, process)
     process.terminate()
-    process.wait(10)
+    one_error(process, 4)
     assert tiltpad(*arguments, "--resume", "case.h5", cwd=case).returncode == 0
     with h5py.File(case / "case.h5") as file, h5py.File(case / "whole.h5") as reference:
         assert file.attrs["complete"] == 1
@@ -263,12 +253,14 @@ def test_a_complete_run_is_left_alone(tiltpad, case):
 
 
 @pytest.fixture
-def stopped(program, case):
+def stopped(start, case):
     """A folder with a run that was stopped at a checkpoint."""
-    process = start(program, case, "case.nml", "-q")
-    wait_for(case / "case.h5", process)
+    process = start(case, "case.nml", "-q", *EVERY_STEP)
+    wait_for_checkpoint(case / "case.h5", process)
     process.terminate()
-    assert process.wait(10) == 4
+    one_error(process, 4)
+    with h5py.File(case / "case.h5", "r+") as file:
+        file.attrs["input"] = re.sub(r"(checkpoint_seconds = )\S+", r"\g<1>0.01", file.attrs["input"])
     return case
 
 
@@ -344,7 +336,7 @@ def test_numerics_that_failed_are_not_tried_again(tiltpad, case):
     assert (case / "case.h5").read_bytes() == before
 
 
-def test_the_file_tells_its_making(program, tiltpad, stopped):
+def test_the_file_tells_its_making(tiltpad, stopped):
     assert tiltpad("--resume", "case.h5", cwd=stopped).returncode == 0
     version = tiltpad("--version").stdout.split()
     with h5py.File(stopped / "case.h5") as file:
@@ -360,9 +352,9 @@ def test_the_file_tells_its_making(program, tiltpad, stopped):
     assert second.endswith("exit status 0")
 
 
-def test_the_second_writer_is_refused(program, tiltpad, case):
-    long = start(program, case, "case.nml", "-q", "--set", "operation%duration=1000")
-    wait_for(case / "case.h5", long)
+def test_the_second_writer_is_refused(start, tiltpad, case):
+    long = start(case, "case.nml", "-q", *ENDLESS)
+    wait_for_checkpoint(case / "case.h5", long)
     for arguments in (["case.nml", "--overwrite"], ["--resume", "case.h5"]):
         done = tiltpad(*arguments, cwd=case)
         assert done.returncode == 3
@@ -384,18 +376,18 @@ def test_the_second_writer_is_refused(program, tiltpad, case):
     assert not list(case.glob("*.part"))
 
 
-def test_a_reader_keeps_what_it_opened(program, case):
+def test_a_reader_keeps_what_it_opened(start, case):
     """Who has a checkpoint open is not disturbed by the next ones."""
-    process = start(program, case, "case.nml", "-q", "--set", "operation%duration=5")
-    wait_for(case / "case.h5", process)
+    process = start(case, "case.nml", "-q", *ENDLESS)
+    wait_for_checkpoint(case / "case.h5", process)
     with h5py.File(case / "case.h5") as file:
         samples, reached = len(file["time"]), file["checkpoint/time"][()]
         for _ in range(20):
             assert len(file["time"]) == samples
             assert file["time"][-1] <= reached
-            time.sleep(0.02)
+            wait_for_checkpoint(case / "case.h5", process)
     process.terminate()
-    assert process.wait(10) == 4
+    one_error(process, 4)
     with h5py.File(case / "case.h5") as file:
         assert len(file["time"]) > samples
         assert len(lengths(file)) == 1
@@ -415,7 +407,7 @@ def in_a_mount_namespace(script, **names):
         ["unshare", "-m", "sh", "-e", "-c", script],
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=PATIENCE,
         env={**os.environ, **{name: str(value) for name, value in names.items()}},
     )
 
@@ -426,7 +418,7 @@ def test_a_full_disk_keeps_the_last_checkpoint(program, case, whole):
         done = in_a_mount_namespace(
             """
             mkdir -p $FOLDER/disk; mount -t tmpfs -o size=${SIZE}m tmpfs $FOLDER/disk; cd $FOLDER/disk
-            status=0; $PROGRAM -q ../case.nml --set operation%duration=1 || status=$?
+            status=0; $PROGRAM -q ../case.nml $MORE || status=$?
             ls >&2; test $status = 3
             cp case.h5 ../full.h5
             mount -o remount,size=100m $FOLDER/disk
@@ -435,6 +427,7 @@ def test_a_full_disk_keeps_the_last_checkpoint(program, case, whole):
             """,
             FOLDER=case,
             PROGRAM=program,
+            MORE="--set operation%duration=1 --set output%checkpoint_seconds=1e-3",
             SIZE=size,
         )
         assert done.returncode == 0, done.stderr
@@ -500,10 +493,10 @@ def test_a_complete_run_on_a_read_only_disk(program, tiltpad, case):
     assert done.stdout == "case.h5: complete already, nothing to do\ncase.h5\n"
 
 
-def test_a_deleted_folder(program, case):
+def test_a_deleted_folder(start, case):
     (case / "run").mkdir()
-    process = start(program, case, "case.nml", "-q", "-o", "run/case.h5", "--set", "operation%duration=100")
-    wait_for(case / "run" / "case.h5", process)
+    process = start(case, "case.nml", "-q", "-o", "run/case.h5", *ENDLESS)
+    wait_for_checkpoint(case / "run" / "case.h5", process)
     shutil.rmtree(case / "run", ignore_errors=True)
     shutil.rmtree(case / "run", ignore_errors=True)
     error = one_error(process, 3)
@@ -512,15 +505,10 @@ def test_a_deleted_folder(program, case):
     assert any(reason in error for reason in reasons)
 
 
-def test_a_limit_on_file_size(program, case):
-    limit = 2**20
-    process = subprocess.Popen(
-        [program, "case.nml", "-q"],
-        cwd=case,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
+def test_a_limit_on_file_size(start, case):
+    limits = (2**20, 2**20)
+    process = start(
+        case, "case.nml", "-q", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     )
     assert "file too large" in one_error(process, 3)
     if (case / "case.h5").exists():
@@ -533,7 +521,7 @@ def test_a_limit_on_file_size(program, case):
 
 def refused(tiltpad, folder, names=(), status=3):
     before = (folder / "case.h5").read_bytes()
-    done = tiltpad("--resume", "case.h5", cwd=folder, timeout=60)
+    done = tiltpad("--resume", "case.h5", cwd=folder)
     assert done.returncode == status, done.stderr
     assert done.stderr.startswith("tiltpad: error: case.h5: ")
     assert done.stderr.count("\n") == 1
@@ -572,7 +560,7 @@ def test_what_cannot_be_resumed(tiltpad, stopped):
     done = tiltpad("--resume", "case.h5", cwd=stopped)
     assert (done.returncode, done.stderr) == (3, "tiltpad: error: case.h5: no such file\n")
     os.mkfifo(path)
-    done = tiltpad("--resume", "case.h5", cwd=stopped, timeout=10)
+    done = tiltpad("--resume", "case.h5", cwd=stopped)
     assert done.returncode == 3
     assert done.stderr == "tiltpad: error: case.h5: a directory, device or pipe, not a result file\n"
 
@@ -606,13 +594,11 @@ def test_a_checkpoint_that_does_not_fit_its_samples(tiltpad, stopped):
         assert "no such file" not in done.stderr
 
 
-def test_bit_flips(program, stopped):
+def test_bit_flips(start, stopped):
     """A flipped bit may be a changed value; it is never a crash, a hang or a silent end."""
     path = stopped / "case.h5"
-    with h5py.File(path, "r+") as file:
-        # not much is left to march
-        end = file["checkpoint/time"][()] + 1e-3
-        file.attrs["input"] = re.sub(r"duration = \S+", f"duration = {end}", file.attrs["input"])
+    # not much is left to march
+    shorten(path, 1e-3)
     good = path.read_bytes()
     chance = random.Random(11)
     # metadata lies at the front; samples, most of the file, are numbers like any others
@@ -621,7 +607,7 @@ def test_bit_flips(program, stopped):
         content = bytearray(good)
         content[place] ^= 1 << chance.randrange(8)
         path.write_bytes(content)
-        process = start(program, stopped, "--resume", "case.h5", "-q")
-        out, error = process.communicate(timeout=60)
+        process = start(stopped, "--resume", "case.h5", "-q")
+        error = process.communicate(timeout=PATIENCE)[1]
         assert process.returncode in (0, 1, 2, 3), (place, process.returncode)
         assert error.count("\n") == (process.returncode != 0), (place, error)

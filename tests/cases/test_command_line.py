@@ -5,15 +5,14 @@ import pty
 import re
 import select
 import subprocess
-import time
 
 import h5py
 import pytest
+from conftest import ENDLESS, FAST_CLOCK, PATIENCE, wait_for
 
 BRIEF = "&operation duration=0.002 /\n"
-# long enough in wall time for the progress line to show
-# some seconds, by the slow film
-LONG = "&operation duration=0.2 / &film solver='sor', cavitation='none' /\n"
+#: Some hundreds of steps, after each of which the run looks whether it is time for a line.
+LONG = "&operation duration=0.02 / &integration max_step=1e-4 /\n"
 
 # a case with something unusual in every kind of value
 RICH = """! comment
@@ -301,34 +300,32 @@ def test_input_of_the_result_runs_again(tiltpad, case):
         assert (file["journal_y"][:] == first).all()
 
 
-def test_a_log_is_plain_lines(tiltpad, tmp_path):
+def test_a_log_is_plain_lines(tiltpad, tmp_path, loaded):
     (tmp_path / "case.nml").write_text(LONG)
-    run = tiltpad("case.nml", cwd=tmp_path)
+    run = tiltpad("case.nml", cwd=tmp_path, env=loaded(FAST_CLOCK))
     assert (run.returncode, run.stderr) == (0, "")
     assert "\r" not in run.stdout
     assert "\x1b" not in run.stdout
     assert run.stdout.endswith("\n")
+    assert re.search(r"^t = \S+ s of 0.02 s, [0-9]+ %, [0-9]+ steps, [0-9]+ s left$", run.stdout, re.M)
     for word in ("equilibrium", "last revolution", "pad 1", "pad 2", "cost", "wall time", "case.h5"):
         assert word in run.stdout
     assert not re.search(r"\*\*|NaN|Infinity", run.stdout)
     assert not re.search(r"(^|[\s-])\.[0-9]", run.stdout), "numbers have a digit before the point"
 
 
-def on_a_terminal(program, arguments, folder):
+def on_a_terminal(program, arguments, folder, environment):
     """What the program writes to a pseudo-terminal, and its exit status."""
     try:
         leader, follower = pty.openpty()
     except OSError:
         pytest.skip("no pseudo-terminals here")
     with subprocess.Popen(
-        [program, *arguments], cwd=folder, stdin=follower, stdout=follower, stderr=follower
+        [program, *arguments], cwd=folder, env=environment, stdin=follower, stdout=follower, stderr=follower
     ) as process:
         os.close(follower)
         seen = b""
-        end = time.monotonic() + 60
-        while time.monotonic() < end:
-            if not select.select([leader], [], [], 1)[0]:
-                continue
+        while select.select([leader], [], [], PATIENCE)[0]:
             try:
                 new = os.read(leader, 65536)
             except OSError:
@@ -336,20 +333,18 @@ def on_a_terminal(program, arguments, folder):
             if not new:
                 break
             seen += new
-        else:
-            process.kill()
     os.close(leader)
     return seen.decode(), process.returncode
 
 
-def test_a_terminal_has_a_line_that_renews_itself(program, tmp_path):
+def test_a_terminal_has_a_line_that_renews_itself(program, tmp_path, loaded):
     (tmp_path / "case.nml").write_text(LONG)
-    seen, status = on_a_terminal(program, ["case.nml"], tmp_path)
+    seen, status = on_a_terminal(program, ["case.nml"], tmp_path, loaded(FAST_CLOCK))
     assert status == 0
     lines = re.findall(r"\r(t = [^\r\n]*)", seen)
     assert len(lines) >= 2
     for line in lines:
-        assert re.match(r"t = \S+ s of 0.2 s, [0-9]+ %, [0-9]+ steps, [0-9]+ s left", line), line
+        assert re.match(r"t = \S+ s of 0.02 s, [0-9]+ %, [0-9]+ steps, [0-9]+ s left", line), line
     percent = [int(re.search(r"([0-9]+) %", line)[1]) for line in lines]
     assert percent == sorted(percent)
     # it renews itself in place and is gone at the end
@@ -357,21 +352,20 @@ def test_a_terminal_has_a_line_that_renews_itself(program, tmp_path):
     assert re.search(r"\r\x1b\[K[^\r]*last revolution", seen)
 
 
-def test_quiet_on_a_terminal(program, tmp_path):
+def test_quiet_on_a_terminal(program, tmp_path, loaded):
     (tmp_path / "case.nml").write_text(LONG)
-    assert on_a_terminal(program, ["--quiet", "case.nml"], tmp_path) == ("", 0)
+    assert on_a_terminal(program, ["--quiet", "case.nml"], tmp_path, loaded(FAST_CLOCK)) == ("", 0)
 
 
-def test_killed_in_the_middle(program, tiltpad, case):
+def test_killed_in_the_middle(start, tiltpad, case):
     """The previous result stays whole, whatever ends the run."""
     assert tiltpad("case.nml", "--quiet", cwd=case).returncode == 0
     earlier = (case / "case.h5").read_bytes()
-    with subprocess.Popen(
-        [program, "case.nml", "--quiet", "--overwrite", "--set", "operation%duration=1000"], cwd=case
-    ) as process:
-        time.sleep(0.5)
-        assert process.poll() is None
-        process.kill()
+    process = start(case, "case.nml", "--quiet", "--overwrite", *ENDLESS)
+    part = case / "case.h5.part"
+    wait_for(lambda: part.exists() and part.stat().st_size > 1e6, process)
+    process.kill()
+    process.wait()
     assert (case / "case.h5").read_bytes() == earlier
 
 

@@ -2,12 +2,11 @@
 
 import os
 import shutil
-import signal
 import subprocess
-import time
 
 import h5py
 import pytest
+from conftest import ENDLESS, one_error, wait_for
 
 CASE = "&operation duration=0.02 / &output checkpoint_seconds=0.005 /\n"
 
@@ -40,17 +39,16 @@ def refused(run, *words):
         assert word in run.stderr
 
 
-def running(program, case, *names):
-    """A run that does not end by itself, and has made these files."""
-    process = subprocess.Popen(
-        [program, "case.nml", "-q", "--set", "operation%duration=100"],
-        cwd=case, stderr=subprocess.PIPE, text=True,
-    )  # fmt: skip
-    end = time.monotonic() + 30
-    while not all((case / name).exists() for name in names):
-        assert time.monotonic() < end
-        time.sleep(0.001)
-    return process
+@pytest.fixture
+def running(start, case):
+    """running("case.h5"): a run that does not end by itself, and has made these files."""
+
+    def begin(*names):
+        process = start(case, "case.nml", "-q", *ENDLESS)
+        wait_for(lambda: all((case / name).exists() for name in names), process)
+        return process
+
+    return begin
 
 
 @pytest.mark.parametrize(
@@ -106,7 +104,7 @@ def test_links_with_the_name_of_a_side_file(tiltpad, case, suffix, kind):
     else:
         place.mkdir()
     before = contents(case)
-    done = tiltpad("case.nml", "-q", cwd=case, timeout=30)
+    done = tiltpad("case.nml", "-q", cwd=case)
     if suffix == "lock":
         refused(done, "case.h5.lock is no lock file of tiltpad")
     else:
@@ -149,11 +147,11 @@ def test_the_result_of_another_case_is_replaced_only_if_asked(tiltpad, case):
     assert sorted(contents(case)) == ["case.h5", "case.nml"]
 
 
-def test_a_killed_run_leaves_its_part_and_others_theirs(program, tiltpad, case):
+def test_a_killed_run_leaves_its_part_and_others_theirs(running, tiltpad, case):
     """The next run deletes the part that the lock names, and no copy of it, though it has the part's name."""
     for replaced in (False, True):
-        process = running(program, case, "case.h5", "case.h5.part")
-        process.send_signal(signal.SIGKILL)
+        process = running("case.h5", "case.h5.part")
+        process.kill()
         process.wait()
         part = case / "case.h5.part"
         if replaced:
@@ -166,26 +164,23 @@ def test_a_killed_run_leaves_its_part_and_others_theirs(program, tiltpad, case):
     assert sorted(contents(case)) == ["case.h5.part", "case.nml"]
 
 
-def test_a_file_put_under_the_name_while_the_run_writes(program, case):
+def test_a_file_put_under_the_name_while_the_run_writes(running, case):
     """It stays; where the run has a whole part, that stays too."""
-    process = running(program, case, "case.h5")
+    process = running("case.h5")
     (case / "precious").write_bytes(b"precious")
     (case / "precious").rename(case / "case.h5")
-    said = process.communicate(timeout=30)[1]
-    assert process.returncode == 3
-    assert said.count("\n") == 1
+    said = one_error(process, 3)
     assert (case / "case.h5").read_bytes() == b"precious"
     if "something else has been put there" in said:
         with h5py.File(case / "case.h5.part") as file:
             assert len(file["time"]) > 0
 
 
-def test_a_lock_that_is_moved_away(program, tiltpad, case):
+def test_a_lock_that_is_moved_away(running, tiltpad, case):
     """Two writers never take each other's place: the first notices that its lock is gone."""
-    process = running(program, case, "case.h5")
+    process = running("case.h5")
     (case / "case.h5.lock").rename(case / "moved")
-    assert "its lock is gone" in process.communicate(timeout=30)[1]
-    assert process.returncode == 3
+    assert "its lock is gone" in one_error(process, 3)
     (case / "moved").unlink()
     assert tiltpad("case.nml", "-q", "--overwrite", cwd=case).returncode == 0
 

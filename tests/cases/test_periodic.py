@@ -1,18 +1,20 @@
 """Whole runs of the task periodic: the file, agreement with marches, refusals, failures, signals, sweeps."""
 
-import signal
-import subprocess
-import time
-
 import h5py
 import numpy as np
 import pytest
-from conftest import options
+from conftest import one_error, options, wait_for_line
 
 LUGRE = "&friction model='lugre' / &output samples_per_revolution=90 /\n"
 PERIODIC = "case%task='periodic'"
-#: A long search: an accurate mesh over many revolutions.
-SLOW = ("friction%model='bengisu_akay'", "periodic%revolutions=20", "integration%relative_tolerance=1e-9")
+#: Long searches, accurate meshes over several revolutions: one of a second and one of many.
+LONG = (
+    "friction%model='bengisu_akay'",
+    "film%cavitation='none'",
+    "integration%relative_tolerance=1e-8",
+    "periodic%revolutions=5",
+)
+LONGER = (*LONG[:3], "periodic%revolutions=100")
 #: A journal in fixed pads above its threshold: the orbit is left by a whirl that doubles once a revolution.
 WHIRL = """&pads motion='fixed', pivot_angle_deg=-90,90, arc_deg=160 /
 &bearing journal_radius=50e-3, assembled_clearance=100e-6, preload=0, axial_length=50e-3, viscosity=0.02 /
@@ -193,39 +195,30 @@ def test_a_march_that_ends(run):
     )
 
 
-def test_a_signal_and_going_on(program, tiltpad, tmp_path):
+def stopped_search(start, folder, case, *overrides):
+    """What a run says that is stopped behind its equilibrium, while it marches to the orbit."""
+    process = start(folder, case, "-o", "part.h5", *options((PERIODIC, *overrides)))
+    wait_for_line(process, "equilibrium")
+    process.terminate()
+    return one_error(process, 4)
+
+
+def test_a_signal(start, tmp_path):
     (tmp_path / "case.nml").write_text(LUGRE)
-    words = [program, "case.nml", "-q", *options((PERIODIC, *SLOW))]
-    with subprocess.Popen(words, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as process:
-        time.sleep(0.5)
-        process.send_signal(signal.SIGTERM)
-        said = process.communicate(timeout=60)[1]
-    assert process.returncode == 4, said
-    assert said.endswith("signal 15 while the periodic orbit was sought; tiltpad --resume case.h5 goes on\n")
-    with h5py.File(tmp_path / "case.h5") as file:
+    said = stopped_search(start, tmp_path, "case.nml", *LONGER)
+    assert said.endswith("signal 15 while the periodic orbit was sought; tiltpad --resume part.h5 goes on\n")
+    with h5py.File(tmp_path / "part.h5") as file:
         assert (file.attrs["complete"], file.attrs["exit_status"]) == (0, 4)
 
 
-def test_a_stopped_search_goes_on_to_the_same_orbit(program, tiltpad, run, tmp_path):
-    overrides = (PERIODIC, "integration%relative_tolerance=1e-8", "friction%model='bengisu_akay'")
-    run(LUGRE, *overrides, name="whole")
-    with subprocess.Popen(
-        [program, "whole.nml", "-q", "-o", "part.h5", *options(overrides)],
-        cwd=tmp_path,
-        stderr=subprocess.PIPE,
-    ) as process:
-        time.sleep(0.15)
-        process.send_signal(signal.SIGTERM)
-        process.communicate(timeout=60)
-    if process.returncode == 0:
-        pytest.skip("it was faster than the signal")
-    assert process.returncode == 4
-    if (tmp_path / "part.h5").exists():
-        done = tiltpad("--resume", "part.h5", "-q", cwd=tmp_path)
-        assert (done.returncode, done.stderr) == (0, "")
-        with h5py.File(tmp_path / "whole.h5") as whole, h5py.File(tmp_path / "part.h5") as part:
-            assert part.attrs["complete"] == 1
-            np.testing.assert_allclose(part["journal_y"][:], whole["journal_y"][:], atol=1e-10)
+def test_a_stopped_search_goes_on_to_the_same_orbit(start, tiltpad, run, tmp_path):
+    run(LUGRE, PERIODIC, *LONG, name="whole")
+    stopped_search(start, tmp_path, "whole.nml", *LONG)
+    done = tiltpad("--resume", "part.h5", "-q", cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    with h5py.File(tmp_path / "whole.h5") as whole, h5py.File(tmp_path / "part.h5") as part:
+        assert part.attrs["complete"] == 1
+        np.testing.assert_allclose(part["journal_y"][:], whole["journal_y"][:], atol=1e-10)
 
 
 def test_a_sweep(tiltpad, tmp_path):

@@ -1,12 +1,9 @@
 """Where a march starts: each start leads to the same orbit, and begins where it says, or is refused."""
 
-import signal
-import subprocess
-import time
-
 import h5py
 import numpy as np
 import pytest
+from conftest import EVERY_STEP, one_error, wait_for_checkpoint
 
 CASE = "&operation duration=0.1 / &friction model='lugre' /\n"
 #: Sizes of journal and tilt: their orbits'.
@@ -226,29 +223,26 @@ def test_a_sweep_over_starts(tiltpad, tmp_path):
     assert first == [0, 1e-5, 2e-5]
 
 
-def test_a_resumed_run_does_not_start_again(program, tiltpad, tmp_path):
+def test_a_resumed_run_does_not_start_again(start, tiltpad, tmp_path):
     """It goes on from its checkpoint, even where the file that it started from is gone."""
     text = "&operation duration=2 / &friction model='lugre' /\n"
     (tmp_path / "first.nml").write_text(text.replace("duration=2", "duration=0.01"))
     (tmp_path / "case.nml").write_text(text + "&start from='file', file='first.h5' /\n")
     assert tiltpad("first.nml", "-q", cwd=tmp_path).returncode == 0
     assert tiltpad("case.nml", "-q", "-o", "whole.h5", cwd=tmp_path).returncode == 0
-    slow = ("case.nml", "-q", "-o", "stopped.h5", "--set", "film%solver='sor'")
-    with subprocess.Popen([program, *slow], cwd=tmp_path, stderr=subprocess.PIPE, text=True) as process:
-        time.sleep(1)
-        process.send_signal(signal.SIGTERM)
-        assert "tiltpad --resume stopped.h5 goes on" in process.communicate()[1]
+    output = tmp_path / "stopped.h5"
+    process = start(tmp_path, "case.nml", "-q", "-o", output.name, *EVERY_STEP)
+    wait_for_checkpoint(output, process)
+    process.terminate()
+    assert "tiltpad --resume stopped.h5 goes on" in one_error(process, 4)
     (tmp_path / "first.h5").unlink()
-    with h5py.File(tmp_path / "stopped.h5") as file:
-        reached = file["time"].size
+    with h5py.File(output) as file:
+        reached = file["checkpoint/time"][()]
         first = file["journal_y"][0]
-    with subprocess.Popen(
-        [program, "-q", "--resume", "stopped.h5"], cwd=tmp_path, stderr=subprocess.PIPE, text=True
-    ) as process:
-        time.sleep(1)
-        process.send_signal(signal.SIGTERM)
-        process.communicate()
-    assert process.returncode == 4
-    with h5py.File(tmp_path / "stopped.h5") as file, h5py.File(tmp_path / "whole.h5") as whole:
-        assert file["time"].size > reached
+    process = start(tmp_path, "-q", "--resume", output.name)
+    wait_for_checkpoint(output, process)
+    process.terminate()
+    one_error(process, 4)
+    with h5py.File(output) as file, h5py.File(tmp_path / "whole.h5") as whole:
+        assert file["checkpoint/time"][()] > reached
         assert file["journal_y"][0] == first == whole["journal_y"][0]

@@ -9,26 +9,13 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 
 import h5py
 import numpy as np
 import pytest
+from conftest import ENDLESS, EVERY_STEP, PATIENCE, one_error, shorten, wait_for, wait_for_checkpoint
 
 CASE = "&friction model='lugre' / &operation duration=0.3 / &output checkpoint_seconds=0.01 /\n"
-#: It would not end by itself.
-LONG = ["--set", "operation%duration=1000"]
-HEAD = """
-#define _GNU_SOURCE
-#include <dlfcn.h>
-#include <errno.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/time.h>
-#include <time.h>
-#include <unistd.h>
-#define NEXT(name) ((__typeof__(name) *)dlsym(RTLD_NEXT, #name))
-"""
 NO_PROCESSES = "pid_t fork(void) { errno = EAGAIN; return -1; }"
 #: The calendar jumps by years at every look, there and back.
 JUMPING_CLOCK = """
@@ -166,50 +153,11 @@ def case(tmp_path):
     return folder
 
 
-@pytest.fixture
-def loaded(tmp_path):
-    """loaded(NO_PROCESSES): the environment in which these functions stand for the system's."""
-
-    def environment(source, **variables):
-        library = tmp_path / "own.so"
-        compiler = shutil.which("cc") or shutil.which("gcc")
-        if not compiler:
-            pytest.skip("no C compiler")
-        subprocess.run(
-            [compiler, "-shared", "-fPIC", "-w", "-x", "c", "-", "-o", library, "-ldl"],
-            input=HEAD + source, text=True, check=True,
-        )  # fmt: skip
-        return {**os.environ, "LD_PRELOAD": str(library), **variables}
-
-    return environment
-
-
-def start(program, folder, *arguments, **options):
-    return subprocess.Popen(
-        [program, "-q", *arguments], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        **options,
-    )  # fmt: skip
-
-
-def wait_for(condition, seconds=30):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.001)
-
-
 def refused(done, *words):
     assert done.returncode == 3, done.stderr
     assert done.stderr.count("\n") == 1
     assert done.stderr.startswith("tiltpad: error: ")
     assert all(word in done.stderr for word in words), done.stderr
-
-
-def stopped_by(process, *words):
-    """The one line with which a run ended with status 3."""
-    error = process.communicate(timeout=30)[1]
-    refused(subprocess.CompletedProcess((), process.returncode, "", error), *words)
-    return error
 
 
 def names(folder):
@@ -255,32 +203,29 @@ def test_a_caller_that_ignores_its_children(tiltpad, case):
 # ---- clocks ------------------------------------------------------------------------------------
 
 
-def test_clocks_that_jump(program, tiltpad, case, loaded):
+def test_clocks_that_jump(start, tiltpad, case, loaded):
     """Neither results nor checkpoints nor the lock depend on the calendar."""
     environment = loaded(JUMPING_CLOCK)
     assert tiltpad("case.nml", "-q", "-o", "still.h5", cwd=case).returncode == 0
-    run = start(program, case, "case.nml", env=environment)
-    assert run.wait(60) == 0, run.stderr.read()
+    run = start(case, "-q", "case.nml", env=environment)
+    assert run.wait(PATIENCE) == 0, run.stderr.read()
     jumped, still = series(case / "case.h5"), series(case / "still.h5")
     assert jumped.keys() == still.keys()
     assert all(np.array_equal(jumped[name], still[name]) for name in still)
     with h5py.File(case / "case.h5") as file, h5py.File(case / "still.h5") as other:
         years = {re.match(r"\d{4}", file.attrs[name])[0] for name in ("created", "ended")}
         assert years != {other.attrs["created"][:4]}
-        assert 0 < file["statistics/wall_seconds"][()] < 60
-        assert 0 <= file["statistics/checkpoint_seconds"][()] < 60
+        assert 0 < file["statistics/wall_seconds"][()] < 1e6
+        assert 0 <= file["statistics/checkpoint_seconds"][()] < 1e6
     # checkpoints, stopping, rivals, going on
     (case / "case.h5").unlink()
-    run = start(program, case, "case.nml", *LONG, env=environment)
-    wait_for((case / "case.h5").exists)
-    first = (case / "case.h5").stat().st_ino
-    wait_for(lambda: (case / "case.h5").stat().st_ino != first)
+    run = start(case, "-q", "case.nml", *ENDLESS, env=environment)
+    wait_for_checkpoint(case / "case.h5", run)
+    wait_for_checkpoint(case / "case.h5", run)
     refused(tiltpad("--resume", "case.h5", cwd=case, env=environment), f"process {run.pid}")
     run.terminate()
-    assert run.wait(30) == 4
-    with h5py.File(case / "case.h5", "r+") as file:
-        end = file["checkpoint/time"][()] + 0.01
-        file.attrs["input"] = re.sub(r"duration = \S+", f"duration = {end}", file.attrs["input"])
+    one_error(run, 4)
+    shorten(case / "case.h5")
     assert tiltpad("--resume", "case.h5", "-q", cwd=case, env=environment).returncode == 0
     assert names(case) == ["case.h5", "case.nml", "still.h5"]
 
@@ -292,7 +237,7 @@ def test_clocks_that_jump(program, tiltpad, case, loaded):
 def test_a_quota(tiltpad, case, loaded, kilobytes):
     """Whatever is written when it is reached, the last checkpoint stays, and the run goes on from it."""
     environment = loaded(QUOTA, QUOTA=str(int(1000 * kilobytes)))
-    done = tiltpad("case.nml", "-q", *LONG, cwd=case, env=environment)
+    done = tiltpad("case.nml", "-q", *ENDLESS, *EVERY_STEP, cwd=case, env=environment)
     refused(done, "cannot write", "case.h5")
     # HDF5 1.14 writes in opening, and does not keep the reason for which that fails
     assert done.stderr.endswith((": disk quota exceeded\n", "could not open the file\n")), done.stderr
@@ -303,7 +248,7 @@ def test_a_quota(tiltpad, case, loaded, kilobytes):
 @pytest.mark.parametrize("syncs", [1, 2, 3, 6])
 def test_a_quota_that_is_told_late(tiltpad, case, loaded, syncs):
     """By the disk, as network file systems do."""
-    done = tiltpad("case.nml", "-q", *LONG, cwd=case, env=loaded(QUOTA, QUOTA="0", SYNC=f"{syncs}"))
+    done = tiltpad("case.nml", "-q", *ENDLESS, cwd=case, env=loaded(QUOTA, QUOTA="0", SYNC=f"{syncs}"))
     refused(done, "cannot write", "case.h5", "disk quota exceeded")
     whole_and_going_on(tiltpad, case, there=syncs > 1)
 
@@ -313,9 +258,9 @@ def whole_and_going_on(tiltpad, case, there):
     assert names(case) == ["case.h5", "case.nml"][1 - there :]
     if not there:
         return
-    with h5py.File(case / "case.h5", "r+") as file:
-        samples, end = len(file["time"]), file["checkpoint/time"][()] + 0.01
-        file.attrs["input"] = re.sub(r"duration = \S+", f"duration = {end}", file.attrs["input"])
+    shorten(case / "case.h5")
+    with h5py.File(case / "case.h5") as file:
+        samples = len(file["time"])
     assert tiltpad("--resume", "case.h5", "-q", cwd=case).returncode == 0
     assert len(series(case / "case.h5")["time"]) > samples
 
@@ -323,10 +268,10 @@ def whole_and_going_on(tiltpad, case, there):
 # ---- stops -------------------------------------------------------------------------------------
 
 
-def test_a_stopped_writer_on_this_machine(program, tiltpad, case):
+def test_a_stopped_writer_on_this_machine(start, tiltpad, case):
     """It keeps its lock, however long it stands still."""
-    run = start(program, case, "case.nml", *LONG)
-    wait_for((case / "case.h5").exists)
+    run = start(case, "-q", "case.nml", *ENDLESS)
+    wait_for_checkpoint(case / "case.h5", run)
     run.send_signal(signal.SIGSTOP)
     before = (case / "case.h5").read_bytes()
     for arguments in (["--resume", "case.h5"], ["case.nml", "--overwrite"]):
@@ -334,30 +279,29 @@ def test_a_stopped_writer_on_this_machine(program, tiltpad, case):
     assert (case / "case.h5").read_bytes() == before
     run.send_signal(signal.SIGCONT)
     run.terminate()
-    assert run.wait(30) == 4
+    one_error(run, 4)
     assert names(case) == ["case.h5", "case.nml"]
 
 
 @pytest.mark.parametrize("when", ["while the other writes", "when the other is done"])
-def test_a_stopped_writer_elsewhere(program, case, loaded, when):
+def test_a_stopped_writer_elsewhere(start, case, loaded, when):
     """Where locks are not known, a rival takes over from a writer that stands still, which then gives up."""
-    shared = "case.h5", "case.nml", "--set", f"operation%duration={'1000' if 'writes' in when else '2'}"
-    first = start(program, case, "--resume", *shared, env=loaded(ELSEWHERE, HOST="one"))
-    wait_for((case / "case.h5").exists)
+    shared = "case.h5", "case.nml", "--set", f"operation%duration={'10000' if 'writes' in when else '2'}"
+    first = start(case, "-q", "--resume", *shared, *EVERY_STEP, env=loaded(ELSEWHERE, HOST="one"))
+    wait_for_checkpoint(case / "case.h5", first)
     first.send_signal(signal.SIGSTOP)
-    second = start(program, case, "--resume", *shared, env=loaded(ELSEWHERE, HOST="two"))
+    second = start(case, "-q", "--resume", *shared, env=loaded(ELSEWHERE, HOST="two"))
     if "writes" in when:
-        wait_for(lambda: (case / "case.h5.lock").read_text().startswith(f"two {second.pid} "))
-        before = (case / "case.h5").stat().st_ino
-        wait_for(lambda: (case / "case.h5").stat().st_ino != before)
+        wait_for(lambda: (case / "case.h5.lock").read_text().startswith(f"two {second.pid} "), second)
+        wait_for_checkpoint(case / "case.h5", second)
     else:
-        assert second.wait(60) == 0, second.stderr.read()
+        assert second.wait(PATIENCE) == 0, second.stderr.read()
         before = (case / "case.h5").read_bytes()
     first.send_signal(signal.SIGCONT)
-    stopped_by(first, "cannot write case.h5")
+    assert "cannot write case.h5" in one_error(first, 3)
     if "writes" in when:
         second.terminate()
-        assert second.wait(30) == 4
+        one_error(second, 4)
     else:
         assert (case / "case.h5").read_bytes() == before
     with h5py.File(case / "case.h5") as file:
@@ -377,17 +321,15 @@ def touched(log, folder):
     return {re.sub(r"\d{4}(?=\.h5)|(?<=part)\d+", "N", line) for line in lines}
 
 
-def test_all_that_the_program_touches(program, tiltpad, case, loaded, tmp_path):
+def test_all_that_the_program_touches(start, tiltpad, case, loaded, tmp_path):
     """Runs, a stop, going on, a refusal and a sweep: only files of their names, no connection, no program."""
     log = tmp_path / "log"
     environment = loaded(NOTES, LOG=str(log))
-    run = start(program, case, "case.nml", *LONG, env=environment)
-    wait_for((case / "case.h5").exists)
+    run = start(case, "-q", "case.nml", *ENDLESS, env=environment)
+    wait_for_checkpoint(case / "case.h5", run)
     run.terminate()
-    assert run.wait(30) == 4
-    with h5py.File(case / "case.h5", "r+") as file:
-        end = file["checkpoint/time"][()] + 0.01
-        file.attrs["input"] = re.sub(r"duration = \S+", f"duration = {end}", file.attrs["input"])
+    one_error(run, 4)
+    shorten(case / "case.h5")
     for arguments, status in (
         (["--resume", "case.h5"], 0), (["case.nml"], 3), (["case.nml", "--overwrite"], 0),
     ):  # fmt: skip
@@ -432,12 +374,12 @@ def test_all_that_the_commands_touch(tiltpad, case, loaded, tmp_path):
     assert found - libraries - {"w /dev/null"} == {"w a.png", "w study.h5.partN", "d study.h5.partN"}
 
 
-def test_a_file_system_without_times_of_birth(program, tiltpad, case, loaded):
+def test_a_file_system_without_times_of_birth(start, tiltpad, case, loaded):
     """The part of a killed run is known by its inode alone."""
     environment = loaded(NO_BIRTHS)
     for copied in (False, True):
-        run = start(program, case, "case.nml", *LONG, env=environment)
-        wait_for(lambda: (case / "case.h5").exists() and (case / "case.h5.part").exists())
+        run = start(case, "-q", "case.nml", *ENDLESS, env=environment)
+        wait_for(lambda: (case / "case.h5").exists() and (case / "case.h5.part").exists(), run)
         run.kill()
         run.wait()
         part = case / "case.h5.part"
@@ -471,5 +413,5 @@ def test_two_makes_in_one_folder(root, tmp_path):
     assert second.poll() is None
     assert (tmp_path / "build").exists()
     (tmp_path / "go").touch()
-    assert (first.wait(30), second.wait(30)) == (0, 0)
+    assert (first.wait(PATIENCE), second.wait(PATIENCE)) == (0, 0)
     assert not (tmp_path / "build").exists()

@@ -36,7 +36,7 @@ CASES = {
     "start": "&operation duration=0.01 /\n&start from='file', file='damaged.h5' /\n" + MARCH,
     "equilibrium": "&case task='equilibrium' /\n",
     "failed": "&integration max_steps=100 /\n" + MARCH,
-    "stopped": "&operation duration=100 /\n" + MARCH.replace("=0 /", "=0.01 /"),
+    "stopped": "&operation duration=10000 /\n" + MARCH.replace("=0 /", "=0.01 /"),
     "sweep": "&operation duration=0.01 /\n&sweep operation%speed_rpm=4000:6000:1000 /\n" + MARCH,
 }
 #: Of a file: the arguments of the program. {} is the file; it is the second member in the folder of a sweep.
@@ -90,6 +90,7 @@ def make_sources(program: str, folder: Path) -> dict[str, Source]:
             shutil.copy(folder / "complete.h5", folder / "damaged.h5")
     run = subprocess.Popen([program, "-q", "stopped.nml"], cwd=folder, stderr=subprocess.DEVNULL)
     while not (folder / "stopped.h5").exists():
+        assert run.poll() is None
         time.sleep(0.001)
     run.terminate()
     assert run.wait() == 4
@@ -97,7 +98,7 @@ def make_sources(program: str, folder: Path) -> dict[str, Source]:
         # not much is left to march
         end = float(file["checkpoint/time"][()]) + 1e-3
         file.attrs["input"] = re.sub(r"duration = \S+", f"duration = {end!r}", file.attrs["input"])
-    (folder / "stopped.nml").write_text(CASES["stopped"].replace("=100", f"={end!r}"))
+    (folder / "stopped.nml").write_text(CASES["stopped"].replace("=10000", f"={end!r}"))
     collect = "from tiltpad import command; import sys; sys.exit(command.collect(sys.argv[1:]))"
     done = subprocess.run([sys.executable, "-c", collect, "sweep"], cwd=folder, stdout=subprocess.DEVNULL)
     assert done.returncode == 0

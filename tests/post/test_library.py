@@ -287,7 +287,7 @@ except ImportError as error:
 from tiltpad import command
 sys.exit(command.main(["pressure", run.path]))
 """
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=300)
     assert done.stdout.startswith("the compiled part of the package tiltpad is missing (")
     assert done.stdout.count("\n") == 1
     assert done.stderr == "tiltpad-plot: error: " + done.stdout

@@ -197,7 +197,7 @@ def test_a_browser_shows_it(page, run, tmp_path, scene):
     options = ["--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=5000", "--dump-dom"]
     home = ["--window-size=500,1200", f"--user-data-dir={tmp_path / 'browser'}"]
     done = subprocess.run(
-        [browser, *options, *home, copy.as_uri()], capture_output=True, text=True, timeout=120, check=True
+        [browser, *options, *home, copy.as_uri()], capture_output=True, text=True, timeout=300, check=True
     )
     found = json.loads(unquote(re.search("<pre id=.probe.>PROBE(.*?)PROBE", done.stdout)[1]))
     assert found["title"] == ("Steady, it's LuGre" if scene == "lugre" else scene)

@@ -46,7 +46,7 @@ def test_every_command_of_the_tutorial_does_what_it_says(
             else:
                 done = subprocess.run(
                     ["sh", "-c", line] if line else [sys.executable, "-c", block],
-                    cwd=tmp_path, env=environment, text=True, capture_output=True, timeout=120,
+                    cwd=tmp_path, env=environment, text=True, capture_output=True, timeout=300,
                 )  # fmt: skip
                 status, said = done.returncode, done.stderr
             assert (status != 0) == bool(fails), f"{line or block}: {said}"
@@ -70,7 +70,7 @@ def unbalance_response(root, block, folder):
     python = root / "build/venv-ross/bin/python"
     if not (root / "build/venv-ross/ready").exists():
         return
-    done = subprocess.run([python, "-c", block], cwd=folder, text=True, capture_output=True, timeout=120)
+    done = subprocess.run([python, "-c", block], cwd=folder, text=True, capture_output=True, timeout=300)
     assert done.returncode == 0, done.stderr
     found = re.findall(r"^(\d+) rpm: ([\d.]+) um$", done.stdout, re.MULTILINE)
     speed, size = max(found, key=lambda row: float(row[1]))

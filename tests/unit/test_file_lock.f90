@@ -2,8 +2,8 @@
 program test_file_lock
    use errors, only: error_type, system_error
    use text, only: to_text
-   use files, only: delete_file
-   use processes, only: host_name, process_id
+   use files, only: delete_file, rename_file
+   use processes, only: host_name, process_id, new_process, stop_process, ended, pause_seconds
    use file_lock, only: file_lock_type
    use check, only: runs, expect, expect_no_error, report
    implicit none (type, external)
@@ -27,11 +27,15 @@ contains
       inquire (file=path//'.lock', exist=lock_there)
    end function lock_there
 
-   !> A lock file that nobody has locked.
-   subroutine leave_lock(text)
+   !> A lock file that nobody has locked, or another file with its content.
+   subroutine leave_lock(text, name)
       character(len=*), intent(in) :: text
+      character(len=*), intent(in), optional :: name
+      character(len=:), allocatable :: file
       integer :: unit
-      open (newunit=unit, file=path//'.lock', status='replace', action='write')
+      file = path//'.lock'
+      if (present(name)) file = name
+      open (newunit=unit, file=file, status='replace', action='write')
       write (unit, '(a)') text
       close (unit)
    end subroutine leave_lock
@@ -101,17 +105,36 @@ contains
    subroutine living_holder_elsewhere()
       type(file_lock_type) :: lock
       type(error_type), allocatable :: error
-      integer :: status
+      character(len=:), allocatable :: how
+      integer :: child
+      logical :: found
       call leave_lock('another-machine 12 7')
       lock%watch_free = 60
-      call execute_command_line('(sleep 1.5; echo another-machine 12 8 > '//path//'.lock) &', exitstat=status)
+      child = new_process()
+      if (child == 0) call beat_for_ever()
       call lock%acquire(path, error)
+      call stop_process(child)
+      found = ended(child, .true., how)
+      call delete_file(path//'.next')
       call expect(allocated(error), 'a living holder elsewhere keeps its place')
       if (.not. allocated(error)) return
       call expect(error%status == system_error .and. index(error%message, 'process 12 on another-machine') > 0, &
          & 'and it is told who: '//error%message)
       call expect(lock_there(), 'its lock is left alone')
    end subroutine living_holder_elsewhere
+
+   !> A holder elsewhere. It replaces the lock file at once, so that nobody reads a part of it.
+   subroutine beat_for_ever()
+      integer :: beats
+      logical :: ok
+      beats = 7
+      do
+         beats = beats + 1
+         call leave_lock('another-machine 12 '//to_text(beats), path//'.next')
+         ok = rename_file(path//'.next', path//'.lock')
+         call pause_seconds(1)
+      end do
+   end subroutine beat_for_ever
 
    !> Who was taken for dead notices, writes no more beats and leaves the lock to its new holder.
    subroutine lost_lock()
