@@ -5,7 +5,7 @@ module run_summary
    use loops, only: loop_area
    use scene, only: scene_type
    use result_size, only: size_note
-   use checked_case, only: preload_note, warm_note
+   use checked_case, only: notes
    use heat_balance, only: oil_temperatures_type
    use bearing_numbers, only: load, specific_load, sommerfeld_number
    use equilibrium, only: equilibrium_type
@@ -22,8 +22,7 @@ contains
    !> What is unusual about a scene.
    subroutine print_notes(scene)
       type(scene_type), intent(in) :: scene
-      if (preload_note(scene) /= '') print '(a)', preload_note(scene)
-      if (warm_note(scene) /= '') print '(a)', warm_note(scene)
+      write (*, '(a)', advance='no') notes(scene, '')
       if (size_note(scene, 1) /= '') print '(a)', size_note(scene, 1)
    end subroutine print_notes
 

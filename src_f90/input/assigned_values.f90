@@ -18,7 +18,8 @@ module assigned_values
 
 contains
 
-   !> The one text of an assignment; a word out of several is in lower case, without blanks around it.
+   !> The one text of an assignment; a word out of several is in lower case, without blanks around it. A shell has
+   !> taken the quotes of --set away, so a bare word is a text there.
    subroutine read_word(a, field, word, error)
       type(assignment_type), intent(in) :: a
       type(field_type), intent(in) :: field
@@ -26,12 +27,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
       word = a%values(1)%text
       if (field%choices /= '') word = lower_case(trim(adjustl(word)))
-      if (size(a%values) > 1 .or. a%subscript > 0) then
+      if (size(a%values) > 1 .and. field%choices == '') then
+         call refuse_values(a, 'takes one text, in quotes where it has blanks or commas', error)
+      else if (size(a%values) > 1 .or. a%subscript > 0) then
          call refuse_values(a, 'takes one text'//several_runs(a), error)
       else if (field%choices /= '' .and. .not. is_choice(word, field%choices)) then
          call refuse_values(a, 'must be one of '''//quoted_list(field%choices)//'''' &
             & //did_you_mean(word, field%choices), error)
-      else if (field%choices == '' .and. .not. a%values(1)%quoted) then
+      else if (field%choices == '' .and. .not. (a%values(1)%quoted .or. a%overrides)) then
          call refuse_values(a, 'text must stand in quotes', error)
       else if (len(word) > longest_text) then
          call raise(error, input_error, a%origin//': '//a%group//'%'//a%name//': '//to_text(len(word)) &

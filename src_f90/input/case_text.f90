@@ -35,7 +35,8 @@ contains
          return
       end if
       if (.not. is_regular(file)) then
-         call raise(error, input_error, file//': a directory, device or pipe, not an ordinary file')
+         call raise(error, input_error, file//': a directory, device or pipe, where a case belongs; ' &
+            & //'tiltpad-collect makes a study of a folder of results')
          return
       end if
       open (newunit=unit, file=file, access='stream', form='unformatted', action='read', status='old', &
@@ -43,8 +44,8 @@ contains
       if (status == 0) then
          inquire (unit=unit, size=length)
          if (starts_as_result(unit, length)) then
-            call raise(error, input_error, file//': a result (an HDF5 file), where a case belongs; tiltpad-plot ' &
-               & //'draws it, tiltpad --resume '//file//' continues it')
+            call raise(error, input_error, file//': a result or study (an HDF5 file), where a case belongs; ' &
+               & //'tiltpad-plot draws it, tiltpad --resume '//file//' continues a result')
             close (unit)
             return
          else if (length > longest_file) then

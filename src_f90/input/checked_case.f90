@@ -14,13 +14,15 @@ module checked_case
    use namelist_writer, only: scene_text
    implicit none (type, external)
    private
-   public :: marked_text, derived_text, preload_note, warm_note
+   public :: marked_text, derived_text, notes
 
    character(len=*), parameter :: newline = achar(10)
    !> Column of the marks.
    integer, parameter :: column = 46
    !> Surface speed, m/s, up to which a temperature for each pad is close to those along and across the films.
    real(wp), parameter :: compared_up_to = 35
+   !> Radius of a journal, m, beyond which inches may be meant.
+   real(wp), parameter :: largest_usual = 1
    !> Temperatures of warm oil, C.
    real(wp), parameter :: warm(3) = [60.0_wp, 80.0_wp, 100.0_wp]
 
@@ -108,8 +110,7 @@ contains
       if (scene%oil%law /= 'constant') call say_oil()
       if (result_bytes(scene) > 0) call say('result', 0.1_wp*anint(result_bytes(scene)/1e5_wp), &
          & 'MB, '//to_text(sample_count(scene))//' samples')
-      if (preload_note(scene) /= '') text = text//'! '//preload_note(scene)//newline
-      if (warm_note(scene) /= '') text = text//'! '//warm_note(scene)//newline
+      text = text//notes(scene, '! ')
    contains
       !> The oil's viscosity where it comes in and where it is warm.
       subroutine say_oil()
@@ -135,12 +136,36 @@ contains
       end subroutine say
    end function derived_text
 
+   !> What is allowed and seldom meant, a line each behind `mark`.
+   function notes(scene, mark) result(text)
+      type(scene_type), intent(in) :: scene
+      character(len=*), intent(in) :: mark
+      character(len=:), allocatable :: text
+      text = line_of(length_note(scene))//line_of(preload_note(scene))//line_of(warm_note(scene))
+   contains
+      pure function line_of(note) result(line)
+         character(len=*), intent(in) :: note
+         character(len=:), allocatable :: line
+         line = ''
+         if (note /= '') line = mark//'note: '//note//newline
+      end function line_of
+   end function notes
+
+   !> A word on a journal that is as large as one in inches; else empty.
+   function length_note(scene) result(note)
+      type(scene_type), intent(in) :: scene
+      character(len=:), allocatable :: note
+      note = ''
+      if (scene%bearing%journal_radius > largest_usual) note = 'bearing%journal_radius = ' &
+         & //to_text(scene%bearing%journal_radius)//': all lengths are in metres; an inch is 0.0254'
+   end function length_note
+
    !> A word on a negative preload; else empty.
    function preload_note(scene) result(note)
       type(scene_type), intent(in) :: scene
       character(len=:), allocatable :: note
       note = ''
-      if (preload(scene) < 0) note = 'note: negative preload '//to_text(preload(scene))//': the bore of the pads is ' &
+      if (preload(scene) < 0) note = 'negative preload '//to_text(preload(scene))//': the bore of the pads is ' &
          & //'tighter than the clearance at the pivots; such a pad touches the journal at its edges first'
    end function preload_note
 
@@ -151,7 +176,7 @@ contains
       real(wp) :: surface
       note = ''
       surface = scene%highest_speed()*scene%bearing%journal_radius
-      if (scene%thermal%model /= 'none' .and. surface > compared_up_to) note = 'note: surface speed ' &
+      if (scene%thermal%model /= 'none' .and. surface > compared_up_to) note = 'surface speed ' &
          & //fixed_text(surface, 1)//' m/s: above '//to_text(compared_up_to)//' m/s a temperature for each pad shows ' &
          & //'trends, and stiffness may be off by more than 10 % (docs/warm_oil.md)'
    end function warm_note

@@ -110,7 +110,8 @@ contains
       if (allocated(error)) return
       call scan%skip_blank('')
       if (size(new) /= 1 .or. scan%peek() /= '') then
-         call raise(error, input_error, group%origin//': expected one group%name=value')
+         call raise(error, input_error, group%origin//': expected one group%name=value; a text with a / stands in ' &
+            & //'quotes within those of the shell: "group%name=''a/b''"')
          return
       end if
       new(1)%origin = '--set'

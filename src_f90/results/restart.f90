@@ -112,7 +112,7 @@ contains
       call try_reading(path, refusal)
       if (refusal == '') then
          call file%open(path, writing=.false.)
-         if (file%id < 0) refusal = 'cannot be opened'
+         if (file%id < 0) refusal = 'not a result file (HDF5); tiltpad CASE.nml runs a case'
       end if
       if (refusal /= '') then
          call raise(error, system_error, path//': '//refusal)

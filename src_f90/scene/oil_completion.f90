@@ -74,7 +74,7 @@ contains
          logical, intent(in) :: given
          if (.not. given .or. scene%oil%law == law) return
          call require(.false., name//' = '//to_text(value)//': belongs to oil%law = '''//law &
-            & //''', but this case has oil%law = '''//scene%oil%law//'''; leave it out', error)
+            & //''', but this case has oil%law = '''//scene%oil%law//'''; take it out of the case', error)
       end subroutine only_of
    end subroutine refuse_surplus
 

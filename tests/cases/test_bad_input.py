@@ -271,7 +271,12 @@ def test_binary_file(tiltpad, tmp_path):
 
 def test_result_file_for_a_case(tiltpad, tmp_path):
     (tmp_path / "other.h5").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(64))
-    refused(tiltpad, tmp_path, "other.h5", names=["other.h5: a result (an HDF5 file), where a case belongs"])
+    refused(
+        tiltpad,
+        tmp_path,
+        "other.h5",
+        names=["other.h5: a result or study (an HDF5 file), where a case belongs"],
+    )
 
 
 @pytest.mark.parametrize(
@@ -291,7 +296,7 @@ def test_a_huge_file_is_refused(tiltpad, tmp_path, text):
 
 def test_directory_for_a_case(tiltpad, tmp_path):
     (tmp_path / "case.nml").mkdir()
-    refused(tiltpad, tmp_path, "case.nml", names=["case.nml", "irectory"], status=(1, 3))
+    refused(tiltpad, tmp_path, "case.nml", names=["case.nml", "irectory", "tiltpad-collect"], status=(1, 3))
 
 
 def test_no_such_case(tiltpad, tmp_path):
@@ -450,6 +455,13 @@ OVERRIDES = {
 def test_override(tiltpad, case, override):
     names = OVERRIDES[override]
     refused(tiltpad, case, "case.nml", *SHORT, "--set", override, names=names)
+
+
+def test_a_text_of_set_needs_no_quotes_but_for_blanks_and_slashes(tiltpad, case):
+    done = tiltpad("--check", "case.nml", "--set", "case%title=a_word", cwd=case)
+    assert "\n  title = 'a_word'\n" in done.stdout
+    for text, names in (("two words", ["takes one text, in quotes"]), ("a/b", ["\"group%name='a/b'\""])):
+        refused(tiltpad, case, "case.nml", "--set", f"case%title={text}", names=["case%title", *names])
 
 
 def test_override_too_long(tiltpad, case):

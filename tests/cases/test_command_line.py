@@ -127,10 +127,20 @@ def test_check_marks_what_is_not_given(tiltpad, tmp_path):
     assert float(re.search(r"Sommerfeld number +(\S+)", text)[1]) == pytest.approx(sommerfeld, rel=1e-5)
 
 
-def test_check_notes_a_negative_preload(tiltpad, tmp_path):
-    (tmp_path / "case.nml").write_text("&bearing preload=-0.2 / &case task='equilibrium' /")
-    assert "\n! note: negative preload -0.2:" in check(tiltpad, tmp_path, "case.nml")
-    assert tiltpad("case.nml", cwd=tmp_path).stdout.startswith("note: negative preload -0.2:")
+@pytest.mark.parametrize(
+    ("case", "note"),
+    [
+        ("&bearing preload=-0.2 /", "note: negative preload -0.2:"),
+        (
+            "&bearing journal_radius=2.5, assembled_clearance=4e-3, preload=0 /",
+            "note: bearing%journal_radius = 2.5:",
+        ),
+    ],
+)
+def test_check_notes_what_is_seldom_meant(tiltpad, tmp_path, case, note):
+    (tmp_path / "case.nml").write_text(f"{case}\n&case task='equilibrium' /")
+    assert f"\n! {note}" in check(tiltpad, tmp_path, "case.nml")
+    assert tiltpad("case.nml", cwd=tmp_path).stdout.startswith(note)
 
 
 def test_check_tells_every_value(tiltpad, tmp_path):

@@ -272,7 +272,7 @@ def words(variable: Variable, assignments: list[Assignment]) -> tuple[bytes]:
             value = value.strip(b" ").lower()
             if value.decode("latin-1") not in variable.choices:
                 raise Refused("not one of the choices")
-        elif not quoted or len(value) > MOST_TEXT:
+        elif not (quoted or each.overrides) or len(value) > MOST_TEXT:
             raise Refused("text in quotes")
         try:
             value.decode("utf-8")

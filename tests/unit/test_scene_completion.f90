@@ -5,7 +5,7 @@ program test_scene_completion
    use case_scenes, only: scene_of, expect_refused
    use annular_sector, only: annular_sector_type, new_annular_sector
    use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
-   use checked_case, only: derived_text, preload_note
+   use checked_case, only: derived_text, notes
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -144,10 +144,10 @@ contains
       call expect_close(preload(s), 0.3_wp, 1e-15_wp, 'and comes back')
       s = scene_of('&bearing preload = 0 /')
       call expect_close(s%bearing%machined_clearance, 80e-6_wp, 0.0_wp, 'none')
-      call expect(preload_note(s) == '', 'without a note')
+      call expect(notes(s, '') == '', 'without a note')
       s = scene_of('&bearing preload = -1 /')
       call expect_close(s%bearing%machined_clearance, 40e-6_wp, 0.0_wp, 'the most negative')
-      call expect(index(preload_note(s), 'negative preload -1') > 0, 'has a note')
+      call expect(index(notes(s, ''), 'note: negative preload -1') == 1, 'has a note')
       call expect(index(derived_text(s), 'note: negative preload') > 0, 'that --check shows')
       s = scene_of('&case /')
       call expect_close(preload(s), 0.2_wp, 1e-15_wp, 'the paper''s')

@@ -322,6 +322,7 @@ contains
       call expect_refused('&friction model = ''lugre'' ''none''/', 'takes one text')
       call expect_refused('&friction model = ''none lugre''/', 'must be one of')
       call expect_refused('&case title = bare/', 'must stand in quotes')
+      call expect_refused('&case title = ''a'' ''b''/', 'takes one text, in quotes where it has blanks')
       call expect_refused('&case title = ''a'//char(255)//'b''/', 'must be UTF-8')
       call expect_refused('&rotor mass = 1 mass(1) = 2/', 'rotor%mass(1) = 2: given twice')
       call expect_refused('&film axial_cells = 8 axial_cells(1) = 9/', 'given twice')
