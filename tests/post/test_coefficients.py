@@ -233,7 +233,10 @@ def test_the_command_draws_studies_and_results(study, run, tmp_path, capsys, plo
 
 
 def test_results_without_coefficients_say_why(result, opened, folder):
-    for scene, reason in (("none", "its task is 'march'"), ("equilibrium", "its task is 'equilibrium'")):
+    for scene, reason in (
+        ("none", "its task is 'march', not 'coefficients'"),
+        ("equilibrium", "its task is 'equilibrium'"),
+    ):
         with pytest.raises(tiltpad.NotInRunError, match=reason):
             tiltpad.coefficients(opened(result(scene)))
     with pytest.warns(tiltpad.IncompleteRunWarning, match="no equilibrium found"):

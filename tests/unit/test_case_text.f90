@@ -67,7 +67,8 @@ contains
       call read_text('README.md ', text, error)
       call expect_error(error, input_error, 'README.md : the name of a case must not end in a blank', 'a last blank')
       call read_back(char(137)//'HDF'//char(13)//char(10)//char(26)//char(10)//repeat('x', 200000), text, error)
-      call expect_error(error, input_error, path//': a result or study (an HDF5 file), where a case belongs', 'a result')
+      call expect_error(error, input_error, path//': a result or study (an HDF5 file), where a case belongs', &
+         & 'a result')
       call read_back(char(137)//'HD', text, error)
       call expect_no_error(error, 'three bytes')
    end subroutine no_case

@@ -110,7 +110,7 @@ def default_output(given: Sequence[Path]) -> Path:
             raise RunError(f"{path}: no such file or folder")
     folder = next((path for path in given if path.is_dir()), None)
     if folder is None:
-        raise ValueError("a study of single files needs a name: give its output")
+        raise ValueError("a study of single files needs a name: give its output (-o)")
     return Path(f"{folder.resolve().name}.h5")
 
 

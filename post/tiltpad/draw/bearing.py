@@ -189,7 +189,10 @@ def movie(run: Run, path: str | Path, last: float | None = None) -> None:
     needs_run(run)
     path = Path(path)
     if path.suffix.lower() == ".mp4" and not FFMpegWriter.isAvailable():
-        raise ValueError(f"{path}: an MP4 needs the program ffmpeg, which is not here: take a name with .gif")
+        raise ValueError(
+            f"{path}: an MP4 needs the program ffmpeg, which is not on PATH: install it "
+            "(apt install ffmpeg), or take a name that ends in .gif"
+        )
     writer = (FFMpegWriter if path.suffix.lower() == ".mp4" else PillowWriter)(fps=RATE)
     with plt.style.context(STYLE):
         fig, frame, states = moving(run, last or 2)

@@ -114,6 +114,8 @@ DIMENSIONS = {
     **dict.fromkeys(("periodic/multiplier_real", "periodic/multiplier_imag"), ("multiplier",)),
     **{name: (name,) for name in (*LABELS, "frequency_ratio", "mode", "multiplier")},
 }
+#: Groups of a file, and the tasks that write them.
+TASKS = {"coefficients": "coefficients", "modes": "coefficients", "periodic": "periodic"}
 #: What only pads that tilt have.
 OF_TILTING = ("pad_tilt", "contact_force", "friction_moment")
 #: A group of single numbers.
@@ -293,9 +295,10 @@ class Run(Archive):
             return "it has no heat balance (thermal%model = 'none')"
         if name.startswith("equilibrium") and (start := self.input.get("start", {}).get("from")):
             return f"it did not start at one (start%from = '{start}')"
-        if name in ("coefficients", "modes"):
-            failed = f"{self.attributes.get('reason', '')}" or "it did not come to its end"
-            return f"its task is '{self.task}'" if self.task != "coefficients" else failed
+        if (needed := TASKS.get(name.partition("/")[0])) and needed != self.task:
+            return f"its task is '{self.task}', not '{needed}'"
+        if name in TASKS:
+            return f"{self.attributes.get('reason', '')}" or "it did not come to its end"
         if name in BRANCH and not self.is_branch and name not in DIMENSIONS:
             return f"its task is '{self.task}'"
         if self.task in ("equilibrium", "coefficients", "branch"):
