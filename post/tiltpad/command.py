@@ -69,7 +69,7 @@ PLOTS = {
     "pressure": "film pressure over the unrolled pads at one instant (--time; default: at the equilibrium)",
     "branch": "branches over their parameter, stable or not (--pad: its tilt), over studies of marches",
     "response": "first harmonic of the journal, critical speeds, amplification: studies, run-ups, branches",
-    "temperatures": "temperatures and viscosity of the pads, of studies; with their heat balance of results",
+    "temperatures": "temperatures and viscosity of the pads: studies, a branch; heat balances of results",
     "film": "thickness and pressure of the films around the bearing at one instant (likewise)",
     "bearing": "the bearing of a case (.nml) or result: pads, pivots, angles, load, sense of rotation",
     "movie": "journal and pads in motion, as .gif or .mp4 (last 2 revolutions)",

@@ -1,5 +1,7 @@
 !> Equilibria as a problem of continuation: the unknowns are the positions of journal and pads, the equations the
 !> balance of forces, and the eigenvalues of the motion linearised there tell stability. Without friction and unbalance.
+!> With warm oil the logarithms of the viscosities are unknowns, too, and the heat balance has an equation for each. The
+!> motion keeps these viscosities.
 module equilibrium_branch
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error
@@ -8,6 +10,9 @@ module equilibrium_branch
    use force_balance, only: forces, force_derivatives, masses
    use damped_newton, only: clearances, reference_force
    use small_vibrations, only: eigenvalues
+   use heat_balance, only: oil_temperatures_type
+   use warm_oil, only: has_warm_oil
+   use oil_equations, only: state_balance_type, find_lack, find_lack_slopes, find_force_slopes, find_temperatures
    use varied_bearing, only: varied_bearing_type
    implicit none (type, external)
    private
@@ -16,11 +21,15 @@ module equilibrium_branch
    type, extends(branch_problem_type) :: equilibrium_problem_type
       !> Present positions, in the order of layout%positions().
       real(wp), allocatable :: positions(:)
+      !> Of warm oil on every pad, Pa s; else there are none.
+      real(wp), allocatable :: viscosity(:)
       type(varied_bearing_type), private :: bearing
-      !> Natural sizes of positions and forces.
+      !> Natural sizes of unknowns, and of what is out of balance.
       real(wp), allocatable, private :: scale(:), force(:)
       !> Derivatives of the forces where they were taken last.
       real(wp), allocatable, private :: stiffness(:, :), damping(:, :)
+      !> The heat balance that was found last.
+      type(state_balance_type), private :: balance
    contains
       procedure :: linearize
       procedure :: move
@@ -29,6 +38,9 @@ module equilibrium_branch
       procedure :: get_place
       procedure :: go_to
       procedure :: state
+      procedure :: temperatures
+      procedure, private :: find_imbalance
+      procedure, private :: add_oil
    end type equilibrium_problem_type
 
    !> The difference of the parameter for a derivative over it, over its size; as good as that of orbits.
@@ -46,18 +58,26 @@ contains
       integer :: i
       problem%bearing = bearing
       associate (model => bearing%model)
-         problem%n = model%layout%n_positions()
-         allocate (problem%weight(problem%n), source=1.0_wp/problem%n)
          problem%positions = y(model%layout%positions())
+         problem%viscosity = [real(wp) ::]
+         if (has_warm_oil(model)) problem%viscosity = model%bearing%pads%gap%viscosity
+         problem%n = size(problem%positions) + size(problem%viscosity)
+         allocate (problem%weight(problem%n), source=1.0_wp/size(problem%positions))
          problem%scale = clearances(model)
-         allocate (problem%force(problem%n), source=reference_force(model))
+         allocate (problem%force(size(problem%positions)), source=reference_force(model))
          if (model%layout%tilting) then
             associate (own => [(model%layout%first_position(i), i=1, model%layout%pads)])
                problem%force(own) = problem%force(own)*model%bearing%pads%position%centre_distance
             end associate
          end if
       end associate
-      allocate (problem%stiffness(problem%n, problem%n), problem%damping(problem%n, problem%n), source=0.0_wp)
+      ! where films are thin the viscosities run away while the positions hardly move
+      problem%weight(size(problem%positions) + 1:) = 1.0_wp/max(1, size(problem%viscosity))
+      associate (n => size(problem%positions), one => spread(1.0_wp, 1, size(problem%viscosity)))
+         allocate (problem%stiffness(n, n), problem%damping(n, n), source=0.0_wp)
+         problem%scale = [problem%scale, one]
+         problem%force = [problem%force, one]
+      end associate
       problem%parameter = parameter
       problem%unit = unit
    end subroutine begin_equilibria
@@ -74,44 +94,76 @@ contains
       class(equilibrium_problem_type), intent(inout) :: self
       real(wp), intent(out) :: matrix(:, :), b(:)
       type(error_type), allocatable, intent(out) :: error
-      type(error_type), allocatable :: ignored
-      real(wp), dimension(self%n) :: now, then
+      type(error_type), allocatable :: ignored, unbalanced
+      real(wp), dimension(self%n) :: now, later
       real(wp) :: change
-      integer :: k
-      logical :: ok
+      integer :: k, n
       matrix = 0
       b = 0
+      n = size(self%positions)
       change = difference*max(self%unit, abs(self%parameter))
-      associate (model => self%bearing%model)
-         ! a value that is not allowed serves as well: what is wrong with it shows at the value itself
-         call self%bearing%set_value(self%parameter + change, ignored)
-         call model%evaluate(0.0_wp, self%state(), .false., ok)
-         then = forces(model, 0.0_wp)
-         call self%bearing%set_value(self%parameter, error)
-         self%refused = allocated(error)
-         if (self%refused) return
-         call model%evaluate(0.0_wp, self%state(), .true., ok)
-         self%refused = .not. ok
-         if (.not. ok) then
-            call raise(error, numerics_error, model%refusal)
-            return
-         end if
-         now = forces(model, 0.0_wp)
-         call force_derivatives(model, self%stiffness, self%damping)
-      end associate
-      do k = 1, self%n
-         matrix(:, k) = self%stiffness(:, k)*self%scale(k)/self%force
+      ! a value that is not allowed serves as well: what is wrong with it shows at the value itself
+      call self%bearing%set_value(self%parameter + change, ignored)
+      call self%find_imbalance(.false., later, unbalanced)
+      call self%bearing%set_value(self%parameter, error)
+      if (.not. allocated(error)) call self%find_imbalance(.true., now, error)
+      self%refused = allocated(error)
+      if (self%refused) return
+      if (allocated(unbalanced)) later(n + 1:) = now(n + 1:)
+      call force_derivatives(self%bearing%model, self%stiffness, self%damping)
+      do k = 1, n
+         matrix(:n, k) = self%stiffness(:, k)*self%scale(k)/self%force(:n)
       end do
-      matrix(:, self%n + 1) = (then - now)/self%force*(self%unit/change)
+      if (size(self%viscosity) > 0) call self%add_oil(matrix)
+      matrix(:, self%n + 1) = (later - now)/self%force*(self%unit/change)
       b = -now/self%force
    end subroutine linearize
+
+   !> What is out of balance at the present unknowns: the forces, and what the viscosities lack. An error where the
+   !> model admits no such state.
+   subroutine find_imbalance(self, want_derivatives, imbalance, error)
+      class(equilibrium_problem_type), intent(inout) :: self
+      logical, intent(in) :: want_derivatives
+      real(wp), intent(out) :: imbalance(:)
+      type(error_type), allocatable, intent(out) :: error
+      logical :: ok
+      associate (model => self%bearing%model, n => size(self%positions))
+         if (size(self%viscosity) > 0) call model%bearing%set_viscosity(self%viscosity)
+         call model%evaluate(0.0_wp, self%state(), want_derivatives, ok)
+         imbalance(:n) = forces(model, 0.0_wp)
+         imbalance(n + 1:) = 0
+         if (.not. ok) then
+            call raise(error, numerics_error, model%refusal)
+         else if (size(self%viscosity) > 0) then
+            call find_lack(model, self%state(), self%balance, error)
+            imbalance(n + 1:) = self%balance%lack
+         end if
+      end associate
+   end subroutine find_imbalance
+
+   !> The equations of warm oil and what its viscosities do to the forces.
+   subroutine add_oil(self, matrix)
+      class(equilibrium_problem_type), intent(inout) :: self
+      real(wp), intent(inout) :: matrix(:, :)
+      integer :: k
+      associate (model => self%bearing%model, n => size(self%positions))
+         call find_lack_slopes(model, self%state(), self%balance, self%scale(:n), matrix(n + 1:, :self%n))
+         call find_force_slopes(model, self%state(), matrix(:n, n + 1:self%n))
+         do k = n + 1, self%n
+            matrix(:n, k) = matrix(:n, k)/self%force(:n)
+         end do
+      end associate
+   end subroutine add_oil
 
    subroutine move(self, change, closes, correction)
       class(equilibrium_problem_type), intent(inout) :: self
       real(wp), intent(in) :: change(:)
       logical, intent(in) :: closes
       real(wp), intent(out) :: correction
-      self%positions = self%positions + self%scale*change(:self%n)
+      associate (n => size(self%positions))
+         self%positions = self%positions + self%scale(:n)*change(:n)
+         self%viscosity = self%viscosity*exp(change(n + 1:self%n))
+      end associate
       self%parameter = self%parameter + self%unit*change(self%n + 1)
       correction = maxval(abs(change))
    end subroutine move
@@ -123,7 +175,7 @@ contains
       real(wp), allocatable, intent(out) :: growth(:)
       logical, intent(out) :: ok
       integer :: k, largest
-      allocate (values(2*self%n))
+      allocate (values(2*size(self%positions)))
       call eigenvalues(masses(self%bearing%model), self%stiffness, self%damping, values, ok)
       do k = 1, size(values) - 1
          largest = k - 1 + maxloc(values(k:)%re, dim=1)
@@ -132,23 +184,37 @@ contains
       growth = values%re/self%bearing%model%point%speed(0.0_wp)
    end subroutine spectrum
 
+   !> Where the oil keeps its viscosities in a motion, one without frequency may grow where no branch turns.
    pure function kind_of(self, value) result(kind)
       class(equilibrium_problem_type), intent(in) :: self
       complex(wp), intent(in) :: value
       character(len=:), allocatable :: kind
-      kind = trim(merge('hopf', 'fold', abs(value%im) > 0))
+      if (abs(value%im) > 0) then
+         kind = 'hopf'
+      else
+         kind = trim(merge('divergence', 'fold      ', size(self%viscosity) > 0))
+      end if
    end function kind_of
 
    pure subroutine get_place(self, place)
       class(equilibrium_problem_type), intent(in) :: self
       real(wp), allocatable, intent(out) :: place(:)
-      place = [self%parameter, self%positions]
+      place = [self%parameter, self%positions, self%viscosity]
    end subroutine get_place
 
    subroutine go_to(self, place)
       class(equilibrium_problem_type), intent(inout) :: self
       real(wp), intent(in) :: place(:)
       self%parameter = place(1)
-      self%positions = place(2:)
+      self%positions = place(2:size(self%positions) + 1)
+      self%viscosity = place(size(self%positions) + 2:)
    end subroutine go_to
+
+   !> Of warm oil.
+   subroutine temperatures(self, oil)
+      class(equilibrium_problem_type), intent(inout) :: self
+      type(oil_temperatures_type), intent(out) :: oil
+      call self%bearing%model%bearing%set_viscosity(self%viscosity)
+      call find_temperatures(self%bearing%model, self%state(), self%balance, oil)
+   end subroutine temperatures
 end module equilibrium_branch

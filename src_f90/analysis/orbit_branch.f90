@@ -158,6 +158,7 @@ contains
       real(wp), allocatable :: mesh(:)
       real(wp) :: ignored, now
       logical :: ages
+      call self%ode%begin_here()
       now = self%defect()
       if (self%first_defect < 0) self%first_defect = now
       ages = now > largest_growth*self%first_defect
@@ -214,13 +215,15 @@ contains
       end if
    end function kind_of
 
-   !> Turns, parameter, first defect, sizes of both meshes, and the meshes, start and points.
+   !> Turns, parameter, first defect, sizes of both meshes, and the meshes, start and points; where the model is sought.
    pure subroutine get_place(self, place)
       class(orbit_problem_type), intent(in) :: self
       real(wp), allocatable, intent(out) :: place(:)
+      real(wp), allocatable :: sought(:)
+      call self%ode%get_start(sought)
       associate (orbit => self%orbit)
          place = [real(self%turns, wp), self%parameter, self%first_defect, real(size(self%mesh), wp), &
-            & real(orbit%intervals(), wp), self%mesh, orbit%time, orbit%start, orbit%at]
+            & real(orbit%intervals(), wp), self%mesh, orbit%time, orbit%start, orbit%at, sought]
       end associate
    end subroutine get_place
 
@@ -243,7 +246,9 @@ contains
          orbit%start = place(o + 1:o + self%n)
          o = o + self%n
          orbit%at = reshape(place(o + 1:), [self%n, points, intervals])
+         o = o + size(orbit%at)
       end associate
+      call self%ode%set_start(place(o + 1:))
    end subroutine go_to
 
    !> From a flip of a problem: the point of the branch of double period there, on which the problem stands then. Its

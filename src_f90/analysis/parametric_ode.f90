@@ -16,6 +16,9 @@ module parametric_ode
       procedure(forcing_period), deferred :: period
       procedure :: follow_kinks
       procedure :: new_mesh
+      procedure :: begin_here
+      procedure :: get_start
+      procedure :: set_start
    end type parametric_ode_type
 
    abstract interface
@@ -48,4 +51,23 @@ contains
       type(orbit_type), intent(in) :: orbit
       real(wp), allocatable, intent(out) :: mesh(:)
    end subroutine new_mesh
+
+   !> Where the model at a value of the parameter is sought, not only set: what was found last is where searches begin
+   !> from here on.
+   pure subroutine begin_here(self)
+      class(parametric_ode_type), intent(inout) :: self
+   end subroutine begin_here
+
+   !> Where these searches begin, as numbers.
+   pure subroutine get_start(self, numbers)
+      class(parametric_ode_type), intent(in) :: self
+      real(wp), allocatable, intent(out) :: numbers(:)
+      numbers = [real(wp) ::]
+   end subroutine get_start
+
+   !> Lets them begin there.
+   pure subroutine set_start(self, numbers)
+      class(parametric_ode_type), intent(inout) :: self
+      real(wp), intent(in) :: numbers(:)
+   end subroutine set_start
 end module parametric_ode

@@ -12,7 +12,7 @@ module special_points
    !> Length of the names of kinds, and all names.
    integer, parameter :: kind_length = 14
    character(len=kind_length), parameter :: kinds_of_points(*) = [character(len=kind_length) :: 'fold', 'flip', &
-      & 'neimark_sacker', 'hopf', 'branch_point']
+      & 'neimark_sacker', 'hopf', 'branch_point', 'divergence']
 
    type :: special_point_type
       character(len=kind_length) :: kind = ''

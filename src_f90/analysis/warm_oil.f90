@@ -12,7 +12,7 @@ module warm_oil
    use static_model, only: come_to_rest, start
    implicit none (type, external)
    private
-   public :: has_warm_oil, guess_oil, guesses, come_to_warm_rest, find_losses
+   public :: has_warm_oil, guess_oil, guesses, come_to_warm_rest, find_losses, judge
 
    !> Mineral oils boil and crack from about here on, C.
    real(wp), parameter :: boiling = 300

@@ -5,13 +5,16 @@ module branch_start
    use text, only: to_text
    use scene_parameter, only: scene_parameter_type, find_parameter
    use equations_of_motion, only: bearing_model
-   use static_model, only: make_fine
-   use equilibrium, only: equilibrium_type
+   use static_model, only: make_fine, make_static
+   use equilibrium, only: equilibrium_type, find_equilibrium
    use bearing_coefficients, only: settle
    use periodic_orbit, only: periodic_orbit_type
    use orbit_polynomials, only: orbit_type, points
    use continuation, only: branch_options, return_to
-   use varied_bearing, only: varied_bearing_type, bearing_orbits_type
+   use varied_bearing, only: varied_bearing_type
+   use bearing_orbits, only: bearing_orbits_type
+   use warm_oil, only: has_warm_oil
+   use resting_oil, only: new_resting_oil
    use orbit_branch, only: orbit_problem_type, begin_orbits
    use equilibrium_branch, only: equilibrium_problem_type, begin_equilibria
    use stop_signals, only: stop_requested, stop_reason
@@ -35,8 +38,8 @@ module branch_start
       type(orbit_problem_type) :: orbits
       type(equilibrium_problem_type) :: equilibria
       type(bearing_orbits_type) :: ode
-      !> Of equilibria, with converged films.
-      type(bearing_model) :: fine
+      !> At rest: of equilibria, with converged films; of orbits with warm oil, for its viscosities.
+      type(bearing_model) :: static
       type(branch_course_type) :: course
       !> Clock of the last checkpoint, s.
       real(wp) :: last_checkpoint = 0
@@ -105,10 +108,27 @@ contains
       real(wp), allocatable :: y(:)
       call make_start(run, y, error)
       if (allocated(error)) return
+      if (has_warm_oil(run%model)) call rest_oil(run, b, error)
+      if (allocated(error)) return
       call seek_orbit(run, y, found, error)
       if (.not. allocated(error)) call begin_orbits(b%orbits, b%ode, found%orbit, run%scene%periodic%revolutions, &
          & b%first, b%way)
    end subroutine first_orbit
+
+   !> Gives the oil of the first orbit the viscosities of the equilibrium, from which those of the others follow.
+   subroutine rest_oil(run, b, error)
+      type(case_run_type), intent(inout) :: run
+      type(branches_type), intent(inout), target :: b
+      type(error_type), allocatable, intent(out) :: error
+      type(equilibrium_type) :: static
+      call find_equilibrium(run%model, static, error, stop_requested)
+      call add_context(error, 'the oil takes the temperatures of the equilibrium')
+      if (allocated(error)) return
+      call run%model%bearing%set_viscosity(static%viscosity)
+      call make_static(run%model, run%model%point%rupture, b%static)
+      b%ode%oil = new_resting_oil(varied_bearing_type(b%static, b%parameter), run%model%at_rest(static%journal, &
+         & static%tilt, static%penetration))
+   end subroutine rest_oil
 
    !> The equilibrium of the case, with converged films.
    subroutine first_equilibrium(run, b, error)
@@ -119,8 +139,8 @@ contains
       real(wp), allocatable :: y(:)
       call seek_equilibrium(run, static, error)
       if (allocated(error)) return
-      call make_fine(run%model, b%fine)
-      call settle(b%fine, static, y, error, stop_requested)
+      call make_fine(run%model, b%static)
+      call settle(b%static, static, y, error, stop_requested)
       call add_context(error, 'with converged films')
       if (allocated(error)) return
       call note_equilibrium(run, static)
@@ -130,10 +150,7 @@ contains
    subroutine begin_static(b, y)
       type(branches_type), intent(inout), target :: b
       real(wp), intent(in) :: y(:)
-      type(varied_bearing_type) :: bearing
-      bearing%model => b%fine
-      bearing%parameter = b%parameter
-      call begin_equilibria(b%equilibria, bearing, y, b%first, b%way)
+      call begin_equilibria(b%equilibria, varied_bearing_type(b%static, b%parameter), y, b%first, b%way)
    end subroutine begin_static
 
    !> Takes the branches up where a checkpoint has left them.
@@ -155,9 +172,13 @@ contains
          orbit%time(1) = 1
          orbit%start = at_rest
          orbit%scale = run%model%scale
+         if (has_warm_oil(run%model)) then
+            call make_static(run%model, run%model%point%rupture, b%static)
+            b%ode%oil = new_resting_oil(varied_bearing_type(b%static, b%parameter), at_rest)
+         end if
          call begin_orbits(b%orbits, b%ode, orbit, 1, b%first, b%way)
       else
-         call make_fine(run%model, b%fine)
+         call make_fine(run%model, b%static)
          call begin_static(b, at_rest)
       end if
       call b%course%unpack_from(numbers, ok)

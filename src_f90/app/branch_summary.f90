@@ -12,12 +12,15 @@ module branch_summary
 contains
 
    !> A special point, found between two points.
-   subroutine print_special_point(special, parameter)
+   subroutine print_special_point(special, parameter, warm)
       type(special_point_type), intent(in) :: special
       character(len=*), intent(in) :: parameter
+      !> Whether the oil has temperatures.
+      logical, intent(in) :: warm
       associate (value => special%value)
          print '(a)', '  '//trim(special%kind)//' at '//parameter//' = '//precise(special%point%parameter)//', ' &
-            & //fixed_text(value%re, 4)//merge(' + ', ' - ', value%im >= 0)//fixed_text(abs(value%im), 4)//' i'
+            & //fixed_text(value%re, 4)//merge(' + ', ' - ', value%im >= 0)//fixed_text(abs(value%im), 4)//' i' &
+            & //trim(merge(' at frozen viscosity', repeat(' ', 20), warm))
       end associate
    end subroutine print_special_point
 
@@ -43,10 +46,11 @@ contains
          & //precise(value)//': '//reason)
    end subroutine branch_end
 
-   !> All branches: points, those that are stable, and their ends.
-   subroutine print_branch(file, parameter)
+   !> All branches: points, those that are stable, what warm oil does, and their ends.
+   subroutine print_branch(file, parameter, warm)
       type(run_file_type), intent(inout) :: file
       character(len=*), intent(in) :: parameter
+      logical, intent(in) :: warm
       real(wp), allocatable, dimension(:, :) :: branch, stable, value
       character(len=:), allocatable :: ends
       integer :: k
@@ -57,10 +61,35 @@ contains
          associate (own => nint(branch(1, :)) == k)
             print '(a)', 'branch '//to_text(k)//': '//to_text(count(own))//' points, '//parameter//' from ' &
                & //precise(minval(value(1, :), mask=own))//' to '//precise(maxval(value(1, :), mask=own))//', ' &
-               & //to_text(count(own .and. stable(1, :) > 0))//' of them stable'
+               & //to_text(count(own .and. stable(1, :) > 0))//' of them stable' &
+               & //trim(merge(' at frozen viscosity', repeat(' ', 20), warm))
+            if (warm) call print_oil(file, own)
          end associate
       end do
       call file%file%get_text('branch_ends', ends)
       print '(a)', ends
    end subroutine print_branch
+
+   !> The range of each pad's temperatures and viscosity over the points of a branch.
+   subroutine print_oil(file, own)
+      type(run_file_type), intent(inout) :: file
+      logical, intent(in) :: own(:)
+      real(wp), allocatable, dimension(:, :) :: mean, highest, viscosity
+      integer :: i
+      call file%last_samples('mean_temperature', size(own), mean)
+      call file%last_samples('maximum_temperature', size(own), highest)
+      call file%last_samples('viscosity', size(own), viscosity)
+      do i = 1, size(mean, 1)
+         print '(a)', '  pad '//to_text(i)//': mean '//span(mean(i, :), 1)//' C, '//span(1e3_wp*viscosity(i, :), 2) &
+            & //' mPa s, pad at most '//fixed_text(maxval(highest(i, :), mask=own), 1)//' C'
+      end do
+   contains
+      !> "lowest to highest", with so many decimals.
+      function span(values, decimals) result(text)
+         real(wp), intent(in) :: values(:)
+         integer, intent(in) :: decimals
+         character(len=:), allocatable :: text
+         text = fixed_text(minval(values, mask=own), decimals)//' to '//fixed_text(maxval(values, mask=own), decimals)
+      end function span
+   end subroutine print_oil
 end module branch_summary

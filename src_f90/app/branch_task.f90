@@ -9,6 +9,8 @@ module branch_task
    use special_points, only: special_point_type, find_special_points
    use orbit_branch, only: orbit_problem_type, double_period
    use orbit_figures, only: orbit_figures_type, find_orbit_figures, figures_at_rest
+   use heat_balance, only: oil_temperatures_type
+   use warm_oil, only: has_warm_oil
    use branch_results, only: branch_orbit_type, begin_branches, add_point, put_special_points, noted
    use provenance, only: running
    use stop_signals, only: stop_requested, stop_reason
@@ -21,6 +23,8 @@ module branch_task
 
    !> First step of a branch of double period over that of the first: it starts across the parameter.
    real(wp), parameter :: across = 0.3_wp
+   !> How far behind the last point of a branch, over the first step, is looked for a reason of its end.
+   real(wp), parameter :: near = 1e-2_wp
 
 contains
 
@@ -52,7 +56,8 @@ contains
       run%counts%rhs_evaluations = run%counts%rhs_evaluations + b%orbits%evaluations + b%orbits%tangents
       run%counts%jacobian_evaluations = run%counts%jacobian_evaluations + b%orbits%tangents
       if (.not. allocated(error)) then
-         if (.not. run%quiet) call print_branch(run%file, run%scene%branch%parameter)
+         if (.not. run%quiet) call print_branch(run%file, run%scene%branch%parameter, &
+            & has_warm_oil(run%model))
       else if (error%status == stopped) then
          call stop_here(run, b, error)
       end if
@@ -81,8 +86,8 @@ contains
    subroutine open_series(run, b)
       type(case_run_type), intent(inout) :: run
       type(branches_type), intent(in) :: b
-      call begin_branches(run%file, b%parameter, b%of_orbits, run%scene%tilting(), run%scene%pad_count(), &
-         & merge(run%model%n, 2*run%model%layout%n_positions(), b%of_orbits))
+      call begin_branches(run%file, b%parameter, b%of_orbits, run%scene%tilting(), has_warm_oil(run%model), &
+         & run%scene%pad_count(), merge(run%model%n, 2*run%model%layout%n_positions(), b%of_orbits))
       run%computed = .true.
    end subroutine open_series
 
@@ -102,6 +107,7 @@ contains
          do while (at_end == '')
             call advance(problem, b%options, course%here, course%length, next, ends, error, stop_requested)
             if (allocated(error)) then
+               if (.not. problem%refused) call blame_oil(b, problem%refused, error)
                if (error%status == stopped .or. .not. problem%refused) exit
                at_end = 'there is nothing beyond: '//error%message
                deallocate (error)
@@ -133,6 +139,21 @@ contains
       end associate
    end subroutine follow
 
+   !> A branch of orbits that is lost where the rest turns back from which its oil takes its viscosities has ended: near
+   !> such a rest nothing is smooth over the parameter.
+   subroutine blame_oil(b, ended, error)
+      type(branches_type), intent(inout) :: b
+      logical, intent(inout) :: ended
+      type(error_type), allocatable, intent(inout) :: error
+      type(error_type), allocatable :: without_rest
+      if (error%status == stopped .or. .not. allocated(b%ode%oil)) return
+      associate (here => b%course%here, step => b%options%first_step*b%orbits%unit)
+         call b%ode%set(here%parameter + sign(near*step, here%tangent(size(here%tangent))), without_rest)
+      end associate
+      ended = allocated(without_rest)
+      if (ended) call move_alloc(without_rest, error)
+   end subroutine blame_oil
+
    !> Adds the next point to the file, and the special points before it.
    subroutine record_step(run, b, problem, next, error)
       type(case_run_type), intent(inout) :: run
@@ -153,7 +174,8 @@ contains
             call record(run, b, special(k)%point, error)
             if (allocated(error)) return
             course%special = [course%special, noted(run%file, course%branch, special(k))]
-            if (.not. run%quiet) call print_special_point(special(k), run%scene%branch%parameter)
+            if (.not. run%quiet) call print_special_point(special(k), run%scene%branch%parameter, &
+               & has_warm_oil(run%model))
             if (special(k)%kind == 'flip' .and. course%branch == 1 .and. run%scene%branch%switch == '.true.') then
                course%flips = [course%flips, special(k)%point]
             end if
@@ -172,14 +194,20 @@ contains
       type(branch_point_type), intent(in) :: point
       type(error_type), allocatable, intent(out) :: error
       type(orbit_figures_type) :: figures
+      type(oil_temperatures_type), allocatable :: oil
+      real(wp), allocatable :: viscosity(:)
+      if (has_warm_oil(run%model)) allocate (oil)
       associate (tilting => run%scene%tilting(), orbit => b%orbits%orbit)
          if (b%of_orbits) then
             call find_orbit_figures(run%model, orbit, b%orbits%turns, run%scene%output%samples_per_revolution, figures)
-            call add_point(run%file, b%course%branch, point, figures, tilting, error, &
+            if (allocated(oil)) call b%ode%oil%get_found(oil, viscosity)
+            call add_point(run%file, b%course%branch, point, figures, tilting, error, oil, viscosity, &
                & branch_orbit_type(b%orbits%turns, orbit%intervals(), b%orbits%period()))
          else
-            call figures_at_rest(b%fine, b%equilibria%state(), figures)
-            call add_point(run%file, b%course%branch, point, figures, tilting, error)
+            call figures_at_rest(b%static, b%equilibria%state(), figures)
+            viscosity = b%equilibria%viscosity
+            if (allocated(oil)) call b%equilibria%temperatures(oil)
+            call add_point(run%file, b%course%branch, point, figures, tilting, error, oil, viscosity)
          end if
       end associate
       call run%file%beat(int(wall_clock() - run%started))

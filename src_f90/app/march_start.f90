@@ -60,9 +60,11 @@ contains
       if (.not. run%quiet) call print_start(run%scene, journal%position, pads%tilt)
    end subroutine make_start
 
-   !> Writes the viscosities of warm oil at the start of the march, and their course where they change.
+   !> Writes the viscosities of warm oil at the start of the march, and their course where they change. A branch has
+   !> them for each of its points.
    subroutine note_oil(run)
       type(case_run_type), intent(inout) :: run
+      if (run%scene%about%task == 'branch') return
       if (has_warm_oil(run%model)) call put_viscosity(run%file, run%model%bearing%pads%gap%viscosity)
       if (run%model%oil%runs()) call put_course(run%file, run%model%oil)
    end subroutine note_oil

@@ -5,6 +5,7 @@ module branch_results
    use scene_parameter, only: scene_parameter_type
    use continuation, only: branch_point_type
    use special_points, only: special_point_type, kinds_of_points, kind_length
+   use heat_balance, only: oil_temperatures_type
    use orbit_figures, only: orbit_figures_type
    use hdf5_file, only: hdf5_type
    use run_file, only: run_file_type
@@ -28,13 +29,16 @@ module branch_results
 contains
 
    !> Declares the series, over points, that `add_point` fills, in the same order.
-   subroutine begin_branches(file, parameter, orbits, tilting, pads, modes)
+   subroutine begin_branches(file, parameter, orbits, tilting, warm, pads, modes)
       type(run_file_type), intent(inout) :: file
       type(scene_parameter_type), intent(in) :: parameter
-      !> Whether the branches are of periodic orbits; whether the pads tilt.
-      logical, intent(in) :: orbits, tilting
+      !> Whether the branches are of periodic orbits; whether the pads tilt; whether the oil has temperatures.
+      logical, intent(in) :: orbits, tilting, warm
       integer, intent(in) :: pads, modes
+      character(len=:), allocatable :: frozen
       integer :: i
+      frozen = ''
+      if (warm) frozen = ', at frozen viscosity'
       if (.not. file%file%has('mode')) call file%file%put_list('mode', [(real(i, wp), i=1, modes)], '1', &
          & merge('multiplier number', 'eigenvalue number', orbits), 'mode')
       call file%begin_series('point')
@@ -42,7 +46,7 @@ contains
       call one('branch', '1', 'branch number: 1 the first, then those of double period')
       call one('parameter', parameter%unit, parameter%meaning)
       call one('arc_length', '1', 'length of the branch')
-      call one('stable', '1', '1 where small disturbances die away')
+      call one('stable', '1', '1 where small disturbances die away'//frozen)
       call one('iterations', '1', 'iterations of Newton''s method')
       call one('journal_y_max', 'm', 'highest journal displacement, vertical')
       call one('journal_y_min', 'm', 'lowest journal displacement, vertical')
@@ -53,6 +57,15 @@ contains
          call each('pad_tilt_min', 'rad', 'lowest pad tilt', pads, 'pad')
       end if
       call each('min_film_thickness', 'm', 'minimum film thickness', pads, 'pad')
+      if (warm) then
+         call each('inlet_temperature', 'degC', 'temperature of the oil at the leading edge', pads, 'pad')
+         call each('mean_temperature', 'degC', 'mean temperature of the film', pads, 'pad')
+         call each('outlet_temperature', 'degC', 'temperature of the oil at the trailing edge', pads, 'pad')
+         call each('maximum_temperature', 'degC', 'maximum temperature of the pad', pads, 'pad')
+         call each('viscosity', 'Pa s', 'viscosity of the film', pads, 'pad')
+         call one('shaft_temperature', 'degC', 'temperature of the shaft')
+         call one('drain_temperature', 'degC', 'temperature of the oil that leaves the bearing')
+      end if
       if (orbits) then
          call one('journal_y_amplitude', 'm', 'vertical journal vibration with the shaft, amplitude')
          call one('journal_y_phase', 'rad', 'angle by which it comes after the unbalance')
@@ -61,11 +74,11 @@ contains
          call one('period', 's', 'period of the orbit')
          call one('revolutions', '1', 'revolutions of the shaft in a period')
          call one('intervals', '1', 'intervals of the collocation')
-         call each('multiplier_real', '1', 'multiplier, real part', modes, 'mode')
-         call each('multiplier_imag', '1', 'multiplier, imaginary part', modes, 'mode')
+         call each('multiplier_real', '1', 'multiplier, real part'//frozen, modes, 'mode')
+         call each('multiplier_imag', '1', 'multiplier, imaginary part'//frozen, modes, 'mode')
       else
-         call each('eigenvalue_real', '1/s', 'eigenvalue, real part', modes, 'mode')
-         call each('eigenvalue_imag', '1/s', 'eigenvalue, imaginary part', modes, 'mode')
+         call each('eigenvalue_real', '1/s', 'eigenvalue, real part'//frozen, modes, 'mode')
+         call each('eigenvalue_imag', '1/s', 'eigenvalue, imaginary part'//frozen, modes, 'mode')
       end if
    contains
       subroutine one(name, units, long_name)
@@ -80,14 +93,17 @@ contains
       end subroutine each
    end subroutine begin_branches
 
-   !> Adds a point of a branch; of an equilibrium without `orbit`.
-   subroutine add_point(file, branch, point, figures, tilting, error, orbit)
+   !> Adds a point of a branch; of an equilibrium without `orbit`, of oil that has no temperatures without `oil`.
+   subroutine add_point(file, branch, point, figures, tilting, error, oil, viscosity, orbit)
       type(run_file_type), intent(inout) :: file
       integer, intent(in) :: branch
       type(branch_point_type), intent(in) :: point
       type(orbit_figures_type), intent(in) :: figures
       logical, intent(in) :: tilting
       type(error_type), allocatable, intent(out) :: error
+      type(oil_temperatures_type), intent(in), optional :: oil
+      !> Of warm oil on every pad, Pa s.
+      real(wp), intent(in), optional :: viscosity(:)
       type(branch_orbit_type), intent(in), optional :: orbit
       real(wp), allocatable :: values(:)
       associate (f => figures)
@@ -96,6 +112,8 @@ contains
             & f%highest(2), f%lowest(2)]
          if (tilting) values = [values, f%highest_tilt, f%lowest_tilt]
          values = [values, f%film]
+         if (present(oil)) values = [values, oil%inlet, oil%mean, oil%outlet, oil%maximum, viscosity, oil%shaft, &
+            & oil%drain]
          if (present(orbit)) values = [values, f%amplitude(1), f%phase(1), f%amplitude(2), f%phase(2), orbit%period, &
             & real(orbit%revolutions, wp), real(orbit%intervals, wp)]
          values = [values, point%values%re, point%values%im]

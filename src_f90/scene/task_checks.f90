@@ -101,8 +101,6 @@ contains
          call require(is_set(b%step), 'branch%step: must be given, the first change of '//b%parameter, error)
          call require(.not. b%max_step > 0 .or. b%max_step >= abs(b%step), 'branch%max_step = ' &
             & //to_text(b%max_step)//': must be 0 or at least the size of branch%step = '//to_text(b%step), error)
-         call require(scene%thermal%model == 'none', 'thermal%model = '''//scene%thermal%model//''': must be ' &
-            & //'''none'' with case%task = ''branch'', along which the oil keeps its temperature', error)
          if (b%of == 'periodic') return
          call require(.not. abs(o%final_speed_rpm - o%speed_rpm) > 0, 'operation%final_speed_rpm = ' &
             & //to_text(o%final_speed_rpm)//': must be operation%speed_rpm = '//to_text(o%speed_rpm) &

@@ -140,6 +140,25 @@ def test_a_picture_of_a_result(march):
     np.testing.assert_allclose(np.sum(heights[:3]), np.sum(heights[3:]), rtol=1e-8)
 
 
+def test_a_picture_of_a_branch(folder, tiltpad, opened):
+    """Over its parameter; `stable` there means at frozen viscosity."""
+    words = ("of='equilibrium'", "parameter='oil%supply_temperature'", "last=55", "step=5")
+    changes = [word for each in words for word in ("--set", f"branch%{each}")]
+    done = tiltpad("warm.nml", "-q", "--set", "case%task=branch", *changes, "-o", "branch.h5", cwd=folder)
+    assert done.returncode == 0, done.stderr
+    run = opened(folder / "branch.h5")
+    for name, dimensions in WARM.items():
+        assert run[name].shape == (len(run["point"]), *(3 for _ in dimensions))
+    upper, lower = figures.temperatures([run], pad=2).axes
+    np.testing.assert_array_equal(upper.lines[0].get_xdata(), run["parameter"])
+    np.testing.assert_array_equal(upper.lines[1].get_ydata(), run["mean_temperature"][:, 1])
+    np.testing.assert_array_equal(lower.lines[0].get_ydata(), 1e3 * run["viscosity"][:, 1])
+    texts = [text.get_text() for text in figures.branch([run]).legends[0].get_texts()]
+    assert texts[0] == "stable at frozen viscosity"
+    with pytest.raises(ValueError, match="a branch has a picture of temperatures of its own"):
+        figures.temperatures([run, run])
+
+
 def test_key_figures(march):
     assert "drain temperature" in [each.text for each in summary.journal(march)]
     rows = {each.text: each.value for each in summary.pads(march)}

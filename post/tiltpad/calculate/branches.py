@@ -14,6 +14,7 @@ KINDS = {
     "neimark_sacker": ("NS", "second frequency"),
     "hopf": ("HB", "Hopf"),
     "branch_point": ("BP", "branch point"),
+    "divergence": ("DV", "divergence"),
 }
 
 

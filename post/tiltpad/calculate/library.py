@@ -158,7 +158,9 @@ def viscosity(run: Run, time: float | None) -> np.ndarray:
     """Viscosity of the oil on each pad at a time, s (None: equilibrium), Pa s, (pad,); 0: the input's."""
     if time is not None and "oil/viscosity" in run:
         return np.exp([np.interp(time, run["oil/time"], pad) for pad in np.log(run["oil/viscosity"].T)])
-    warm = next((name for name in ("viscosity", "equilibrium/viscosity") if name in run), None)
+    # of a branch `viscosity` is that of its points
+    names = ("equilibrium/viscosity",) if run.is_branch else ("viscosity", "equilibrium/viscosity")
+    warm = next((name for name in names if name in run), None)
     return run[warm] if warm else np.zeros(run.pads)
 
 

@@ -121,7 +121,8 @@ def branch(runs: Sequence[Run | Study], last: float | None = None, pad: int | No
         names = [(f"branch {each}", {"color": color_of(each)}) for each in numbers if len(numbers) > 1]
     kinds = dict.fromkeys(each.kind for run in found for each in branches.special_points(run))
     marks: list[tuple[str, dict[str, Any]]]
-    marks = [("stable", {"color": "0.3"}), ("unstable", {"color": "0.3"} | UNSTABLE)]
+    frozen = " at frozen viscosity" if any("viscosity" in run for run in found) else ""
+    marks = [(f"stable{frozen}", {"color": "0.3"}), ("unstable", {"color": "0.3"} | UNSTABLE)]
     marks += [(": ".join(branches.KINDS.get(each, (each, ""))), MARK | {"color": "0.3"}) for each in kinds]
     marks += [("marches", MARCHED | {"markersize": 5})] if len(found) < len(runs) else []
     heading(fig, [*names, *marks], title(found))

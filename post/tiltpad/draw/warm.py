@@ -1,6 +1,6 @@
 """Pictures of warm oil: temperatures and viscosity of the pads, and where the heat goes.
 
-Studies are drawn over a parameter, single results as their pads.
+Studies and branches are drawn over a parameter, single results as their pads.
 """
 
 from collections.abc import Mapping, Sequence
@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 
 from tiltpad.calculate.heat import heat_balance
 from tiltpad.calculate.selection import selected
+from tiltpad.draw.branches import parameter_of
 from tiltpad.draw.diagrams import mark_failed
 from tiltpad.draw.layout import (
     COLUMN,
@@ -27,7 +28,7 @@ from tiltpad.draw.layout import (
 )
 from tiltpad.draw.vibrations import axis_label, parts, title
 from tiltpad.files.archive import NotInRunError
-from tiltpad.files.read import Run
+from tiltpad.files.read import WARM, Run
 from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN
 
@@ -47,8 +48,13 @@ def temperatures(
     over: str | None = None,
     where: Mapping[str, Any] | None = None,
 ) -> Figure:
-    """Temperatures and viscosities over a parameter of studies; of results also the pads' heat balances."""
+    """Temperatures and viscosities over a parameter, of studies or a branch; of results the heat balances."""
     results = [each for each in runs if isinstance(each, Run)]
+    branch = next((each for each in results if each.is_branch), None)
+    if branch and len(runs) == 1:
+        return of_branch(branch, pad)
+    if branch:
+        raise ValueError(f"{branch.path}: a branch has a picture of temperatures of its own")
     if len(results) == len(runs):
         return of_results(results, pad)
     for each in runs:
@@ -60,16 +66,49 @@ def temperatures(
         raise ValueError(f"a picture of temperatures has a line for each pad: choose by where: {names}")
     (one,) = found
     fig, panels = stacked(["temperature", "viscosity"])
-    fig.set_figheight(4.2)
     study = cast(Study, one.source)
     pads = over_parameter(study, one.where, one.over, pad, panels["temperature"], panels["viscosity"])
+    finish(fig, panels, pads, axis_label(runs, over, where), runs)
+    return fig
+
+
+def finish(
+    fig: Figure, panels: Mapping[str, Axes], pads: Sequence[int], label: str, runs: Sequence[Run | Study]
+) -> None:
+    """Labels the axes of temperatures and viscosities over a parameter, and names their lines."""
+    fig.set_figheight(4.2)
     for name, ax in panels.items():
         ax.set_ylabel(SHOWN[name].label)
-    panels["viscosity"].set(xlabel=axis_label(runs, over, where), ylim=(0, None))
+    panels["viscosity"].set(xlabel=label, ylim=(0, None))
     entries = [(f"pad {k}", {"color": part_color(i, len(pads))}) for i, k in enumerate(pads)]
     entries += [("maximum", {"color": "0.3"}), ("mean", {"color": "0.3", "linestyle": "-."})]
     heading(fig, [*entries, *((each["label"], without_label(each)) for each in (SHAFT, DRAIN))], title(runs))
+
+
+def of_branch(run: Run, pad: int | None) -> Figure:
+    """Along the branches of a run."""
+    fig, panels = stacked(["temperature", "viscosity"])
+    pads = shown_pads([run], pad)
+    for number in np.unique(run["branch"]):
+        own = np.flatnonzero(run["branch"] == number)
+        found = {name: run[name][own] for name in WARM}
+        draw(run["parameter"][own], found, pads, panels["temperature"], panels["viscosity"])
+    finish(fig, panels, pads, parameter_of(run).label, [run])
     return fig
+
+
+def draw(
+    x: np.ndarray, found: Mapping[str, np.ndarray], pads: Sequence[int], upper: Axes, lower: Axes
+) -> None:
+    """Lines of what a heat balance gives, by name."""
+    dots = {"marker": "o", "markersize": 3} if len(x) < 30 else {}
+    for i, k in enumerate(pads):
+        color = part_color(i, len(pads))
+        upper.plot(x, found["maximum_temperature"][:, k - 1], color=color, **dots)
+        upper.plot(x, found["mean_temperature"][:, k - 1], "-.", color=color, linewidth=1)
+        lower.plot(x, SHOWN["viscosity"].factor * found["viscosity"][:, k - 1], color=color, **dots)
+    upper.plot(x, found["shaft_temperature"], **SHAFT)
+    upper.plot(x, found["drain_temperature"], **DRAIN)
 
 
 def over_parameter(
@@ -80,21 +119,16 @@ def over_parameter(
     order = np.flatnonzero(selected(study, where) & np.isfinite(place))
     order = order[np.argsort(place[order], kind="stable")]
     x = place[order]
-    mean, maximum, viscosity = (
-        study[f"pad_equilibrium_{name}"][order]
-        for name in ("mean_temperature", "maximum_temperature", "viscosity")
-    )
+    found = {
+        name: study[f"{'pad_' if dimensions else ''}equilibrium_{name}"][order]
+        for name, dimensions in WARM.items()
+    }
+    mean = found["mean_temperature"]
     pads = list(range(1, mean.shape[1] + 1))
     if pad is not None and pad not in pads:
         raise ValueError(f"{study.path}: no pad {pad}: 1 to {len(pads)}")
     pads = pads if pad is None else [pad]
-    dots = {"marker": "o", "markersize": 3} if len(x) < 30 else {}
-    for i, k in enumerate(pads):
-        upper.plot(x, maximum[:, k - 1], color=part_color(i, len(pads)), **dots)
-        upper.plot(x, mean[:, k - 1], "-.", color=part_color(i, len(pads)), linewidth=1)
-        lower.plot(x, SHOWN["viscosity"].factor * viscosity[:, k - 1], color=part_color(i, len(pads)), **dots)
-    upper.plot(x, study.equilibrium_shaft_temperature[order], **SHAFT)
-    upper.plot(x, study.equilibrium_drain_temperature[order], **DRAIN)
+    draw(x, found, pads, upper, lower)
     for ax in (upper, lower):
         mark_failed(ax, x[np.isnan(mean).all(axis=1)], None)
     return pads

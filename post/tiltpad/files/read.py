@@ -45,6 +45,7 @@ BRANCH = {
     **dict.fromkeys(("journal_y_phase", "journal_z_phase"), ("point",)),
     **dict.fromkeys(("period", "revolutions", "intervals"), ("point",)),
     **dict.fromkeys(("pad_tilt_max", "pad_tilt_min", "min_film_thickness"), ("point", "pad")),
+    **{name: ("point", *dimensions) for name, dimensions in WARM.items()},
     **dict.fromkeys(("multiplier_real", "multiplier_imag"), ("point", "mode")),
     **dict.fromkeys(("eigenvalue_real", "eigenvalue_imag"), ("point", "mode")),
     **dict.fromkeys(

@@ -1,0 +1,105 @@
+!> The periodic orbits of a bearing as those of an ODE with a parameter. Warm oil keeps the viscosities of the bearing
+!> at rest, as in a march.
+module bearing_orbits
+   use kinds, only: wp, pi
+   use errors, only: error_type
+   use marching, only: march_options
+   use cvode_integrator, only: integrator_type
+   use orbit_polynomials, only: orbit_type
+   use orbit_march, only: march_period, mesh_options
+   use kink_mesh, only: kinks_of_friction => follow_kinks
+   use parametric_ode, only: parametric_ode_type
+   use varied_bearing, only: varied_bearing_type
+   use resting_oil, only: resting_oil_type
+   implicit none (type, external)
+   private
+   public :: bearing_orbits_type
+
+   type, extends(parametric_ode_type) :: bearing_orbits_type
+      type(varied_bearing_type) :: bearing
+      !> Where the oil is warm.
+      type(resting_oil_type), allocatable :: oil
+      !> How the motion is marched, for a mesh.
+      type(march_options) :: march
+   contains
+      procedure :: set
+      procedure :: period
+      procedure :: follow_kinks
+      procedure :: new_mesh
+      procedure :: begin_here
+      procedure :: get_start
+      procedure :: set_start
+   end type bearing_orbits_type
+
+contains
+
+   subroutine set(self, parameter, error)
+      class(bearing_orbits_type), intent(inout) :: self
+      real(wp), intent(in) :: parameter
+      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: oil_error
+      real(wp), allocatable :: viscosity(:)
+      call self%bearing%set_value(parameter, error)
+      if (.not. allocated(self%oil)) return
+      associate (bearing => self%bearing%model%bearing)
+         allocate (viscosity(size(bearing%pads)))
+         call self%oil%find(parameter, viscosity, oil_error)
+         call bearing%set_viscosity(viscosity)
+      end associate
+      if (.not. allocated(error)) call move_alloc(oil_error, error)
+   end subroutine set
+
+   !> A revolution of the shaft.
+   pure real(wp) function period(self)
+      class(bearing_orbits_type), intent(in) :: self
+      period = 2*pi/self%bearing%model%point%speed(0.0_wp)
+   end function period
+
+   subroutine follow_kinks(self, orbit)
+      class(bearing_orbits_type), intent(in) :: self
+      type(orbit_type), intent(inout) :: orbit
+      call kinks_of_friction(self%bearing%model, orbit)
+   end subroutine follow_kinks
+
+   !> The steps of a march over the second of two periods.
+   subroutine new_mesh(self, orbit, mesh)
+      class(bearing_orbits_type), intent(inout) :: self
+      type(orbit_type), intent(in) :: orbit
+      real(wp), allocatable, intent(out) :: mesh(:)
+      type(integrator_type) :: integrator
+      type(march_options) :: options
+      type(orbit_type) :: marched
+      type(error_type), allocatable :: error
+      real(wp) :: length
+      integer :: k
+      length = orbit%time(orbit%intervals())
+      options = mesh_options(self%march, self%period())
+      marched%start = orbit%start
+      associate (model => self%bearing%model)
+         call integrator%start(model, options, 0.0_wp, orbit%start, 2*length, error)
+         do k = 0, 1
+            if (.not. allocated(error)) call march_period(integrator, options, model%n + model%outputs, k, length, &
+               & marched, error)
+         end do
+      end associate
+      if (.not. allocated(error)) mesh = marched%time/length
+   end subroutine new_mesh
+
+   pure subroutine begin_here(self)
+      class(bearing_orbits_type), intent(inout) :: self
+      if (allocated(self%oil)) call self%oil%begin_here()
+   end subroutine begin_here
+
+   pure subroutine get_start(self, numbers)
+      class(bearing_orbits_type), intent(in) :: self
+      real(wp), allocatable, intent(out) :: numbers(:)
+      numbers = [real(wp) ::]
+      if (allocated(self%oil)) call self%oil%get_start(numbers)
+   end subroutine get_start
+
+   pure subroutine set_start(self, numbers)
+      class(bearing_orbits_type), intent(inout) :: self
+      real(wp), intent(in) :: numbers(:)
+      if (allocated(self%oil)) call self%oil%set_start(numbers)
+   end subroutine set_start
+end module bearing_orbits

@@ -1,0 +1,179 @@
+!> The heat balance of warm oil as equations beside the balance of forces: what the viscosities of a state lack to those
+!> that its losses and flows lead to, and how this changes with positions and viscosities. Derivatives are differences.
+module oil_equations
+   use kinds, only: wp
+   use errors, only: error_type
+   use pad_gap, only: pad_gap_type
+   use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
+   use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance
+   use equations_of_motion, only: bearing_model, model_sample
+   use force_balance, only: forces
+   use warm_oil, only: find_losses, judge
+   implicit none (type, external)
+   private
+   public :: state_balance_type, find_lack, find_lack_slopes, find_force_slopes, find_temperatures
+
+   !> The difference of positions over the thinnest film, and of the logarithms of viscosities. Losses and flows are
+   !> known to 1e-5; what they miss changes slowly.
+   real(wp), parameter :: difference = 1e-3_wp
+
+   !> A state's heat balance. It may be used for one state after another.
+   type :: state_balance_type
+      private
+      !> What finds losses takes time to make; the gaps that it was made for.
+      type(bearing_losses_type) :: finder
+      type(pad_gap_type), allocatable :: gaps(:)
+      type(heat_balance_type) :: heat
+      type(pad_loss), allocatable :: losses(:)
+      !> The logarithms of the viscosities that the state leads to, over those that it has.
+      real(wp), allocatable, public :: lack(:)
+   end type state_balance_type
+
+contains
+
+   !> For the state y of a model with its viscosities.
+   subroutine begin_balance(model, y, balance)
+      type(bearing_model), intent(in) :: model
+      real(wp), intent(in) :: y(:)
+      type(state_balance_type), intent(inout) :: balance
+      logical :: stays
+      stays = allocated(balance%gaps)
+      if (stays) stays = .not. any(balance%gaps%differs(model%bearing%pads%gap))
+      if (.not. stays) then
+         balance%finder = new_bearing_losses(model%scene)
+         balance%gaps = model%bearing%pads%gap
+      end if
+      balance%heat = new_heat_balance(model%scene)
+      if (.not. allocated(balance%losses)) allocate (balance%losses(model%layout%pads), balance%lack(model%layout%pads))
+      call find_losses(model, balance%finder, y, balance%losses)
+   end subroutine begin_balance
+
+   !> What the viscosities lack in a state y. An error where its heat has no balance or the oil boils.
+   subroutine find_lack(model, y, balance, error)
+      type(bearing_model), intent(in) :: model
+      real(wp), intent(in) :: y(:)
+      type(state_balance_type), intent(inout) :: balance
+      type(error_type), allocatable, intent(out) :: error
+      logical :: ok
+      call begin_balance(model, y, balance)
+      call set_lack(balance%heat, balance%losses, model%bearing%pads%gap%viscosity, model%point%speed(0.0_wp), &
+         & balance%lack, ok)
+      call judge(model, balance%heat, balance%losses, ok, 0.0_wp, error)
+   end subroutine find_lack
+
+   !> The same with these losses of films of these viscosities at a speed, rad/s; 0 where there is no balance.
+   subroutine set_lack(heat, losses, films, speed, lack, ok)
+      type(heat_balance_type), intent(in) :: heat
+      type(pad_loss), intent(in) :: losses(:)
+      real(wp), intent(in) :: films(:), speed
+      real(wp), intent(out) :: lack(:)
+      logical, intent(out) :: ok
+      real(wp) :: wanted(size(films))
+      call heat%viscosities(losses, films, speed, wanted, ok)
+      lack = 0
+      if (ok) lack = log(wanted/films)
+   end subroutine set_lack
+
+   !> The derivatives of what lacks in the state y, whose balance was found, over positions and then over the logarithms
+   !> of the viscosities; positions over their sizes, which are such that a film that is an assembled clearance thick
+   !> changes by as much. Pads are moved together: the losses of each follow from the journal and from its own state.
+   subroutine find_lack_slopes(model, y, balance, sizes, slopes)
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:), sizes(:)
+      type(state_balance_type), intent(inout) :: balance
+      real(wp), intent(out) :: slopes(:, :)
+      type(model_sample) :: sample
+      type(pad_loss) :: moved(model%layout%pads)
+      ! not size(moved), which gfortran takes for 0 where procedures are contained
+      real(wp), dimension(model%layout%pads) :: films, thicker
+      integer, allocatable :: x(:), own(:)
+      real(wp) :: none(model%outputs), change
+      integer :: i, k, journal
+      slopes = 0
+      none = 0
+      call model%take_sample(0.0_wp, y, none, sample)
+      change = difference*minval(sample%loads%min_film_thickness)/model%scene%bearing%assembled_clearance
+      films = model%bearing%pads%gap%viscosity
+      thicker = films*exp(difference)
+      x = model%layout%positions()
+      journal = model%layout%rotor/2
+      do k = 1, journal
+         call find_moved([k])
+         call set_slope(k, moved, films, change)
+      end do
+      do k = 0, model%layout%motion/2 - 1
+         own = k + [(model%layout%first_position(i), i=1, size(moved))]
+         call find_moved(own)
+         do i = 1, size(own)
+            call set_slope(own(i), merge_loss(i), films, change)
+         end do
+      end do
+      call model%bearing%set_viscosity(thicker)
+      call find_losses(model, balance%finder, y, moved)
+      call model%bearing%set_viscosity(films)
+      do i = 1, size(moved)
+         call set_slope(size(x) + i, merge_loss(i), [films(:i - 1), thicker(i), films(i + 1:)], difference)
+      end do
+
+   contains
+
+      !> The losses where these positions are moved.
+      subroutine find_moved(which)
+         integer, intent(in) :: which(:)
+         real(wp) :: there(size(y))
+         there = y
+         there(x(which)) = there(x(which)) + change*sizes(which)
+         call find_losses(model, balance%finder, there, moved)
+      end subroutine find_moved
+
+      !> The losses where one pad alone is moved.
+      pure function merge_loss(pad) result(losses)
+         integer, intent(in) :: pad
+         type(pad_loss) :: losses(model%layout%pads)
+         losses = balance%losses
+         losses(pad) = moved(pad)
+      end function merge_loss
+
+      subroutine set_slope(column, losses, viscosities, by)
+         integer, intent(in) :: column
+         type(pad_loss), intent(in) :: losses(:)
+         real(wp), intent(in) :: viscosities(:), by
+         real(wp) :: there(model%layout%pads)
+         logical :: ok
+         call set_lack(balance%heat, losses, viscosities, model%point%speed(0.0_wp), there, ok)
+         if (ok) slopes(:, column) = (there - balance%lack)/by
+      end subroutine set_slope
+   end subroutine find_lack_slopes
+
+   !> The derivatives of the forces at the state y over the logarithms of the viscosities. The model is evaluated there
+   !> with its viscosities at the end.
+   subroutine find_force_slopes(model, y, slopes)
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
+      real(wp), intent(out) :: slopes(:, :)
+      real(wp) :: films(model%layout%pads), now(size(slopes, 1))
+      integer :: i
+      logical :: ok
+      films = model%bearing%pads%gap%viscosity
+      now = forces(model, 0.0_wp)
+      do i = 1, size(films)
+         call model%bearing%set_viscosity([films(:i - 1), films(i)*exp(difference), films(i + 1:)])
+         call model%evaluate(0.0_wp, y, .false., ok)
+         slopes(:, i) = (forces(model, 0.0_wp) - now)/difference
+      end do
+      call model%bearing%set_viscosity(films)
+      call model%evaluate(0.0_wp, y, .false., ok)
+   end subroutine find_force_slopes
+
+   !> The temperatures of the oil in a state y at rest whose heat has a balance.
+   subroutine find_temperatures(model, y, balance, oil)
+      type(bearing_model), intent(in) :: model
+      real(wp), intent(in) :: y(:)
+      type(state_balance_type), intent(inout) :: balance
+      type(oil_temperatures_type), intent(out) :: oil
+      logical :: ok
+      call begin_balance(model, y, balance)
+      call balance%heat%temperatures(balance%losses, model%bearing%pads%gap%viscosity, model%point%speed(0.0_wp), oil, &
+         & ok)
+   end subroutine find_temperatures
+end module oil_equations

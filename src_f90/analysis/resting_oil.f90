@@ -1,0 +1,119 @@
+!> The viscosities of warm oil for orbits over a parameter: those of the bearing at rest at a value of it, which a
+!> motion keeps. All searches around a point of a branch begin at the same rest, so that what they find is smooth over
+!> the parameter, and the same again where a branch is taken up.
+module resting_oil
+   use kinds, only: wp
+   use errors, only: error_type, add_context
+   use heat_balance, only: oil_temperatures_type
+   use warm_oil, only: come_to_warm_rest
+   use oil_equations, only: state_balance_type, find_temperatures
+   use varied_bearing, only: varied_bearing_type
+   implicit none (type, external)
+   private
+   public :: resting_oil_type, new_resting_oil
+
+   !> A state at rest and the viscosities there, Pa s, at a value of the parameter.
+   type :: rest_type
+      real(wp) :: value = -huge(1.0_wp)
+      real(wp), allocatable :: y(:), viscosity(:)
+   end type rest_type
+
+   type :: resting_oil_type
+      private
+      !> With a static model.
+      type(varied_bearing_type) :: bearing
+      !> Where searches begin; what they have found, the last first.
+      type(rest_type) :: start, found, before
+      type(state_balance_type) :: balance
+   contains
+      procedure :: find
+      procedure :: begin_here
+      procedure :: get_start
+      procedure :: set_start
+      procedure :: get_found
+   end type resting_oil_type
+
+contains
+
+   !> The oil of a bearing whose model, a static one, is at rest in y with the viscosities of this rest.
+   type(resting_oil_type) function new_resting_oil(bearing, y) result(self)
+      type(varied_bearing_type), intent(in) :: bearing
+      real(wp), intent(in) :: y(:)
+      self%bearing = bearing
+      self%start%y = y
+      self%start%viscosity = bearing%model%bearing%pads%gap%viscosity
+      self%found = self%start
+      self%before = self%start
+   end function new_resting_oil
+
+   !> The viscosities at a value of the parameter; an error, with those found last, where the bearing does not come to
+   !> rest or its heat has no balance.
+   subroutine find(self, value, viscosity, error)
+      class(resting_oil_type), intent(inout) :: self
+      real(wp), intent(in) :: value
+      real(wp), intent(out) :: viscosity(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: ignored
+      type(rest_type) :: rest
+      real(wp) :: residual
+      if (abs(self%before%value - value) <= 0) then
+         rest = self%before
+         self%before = self%found
+         self%found = rest
+      else if (abs(self%found%value - value) > 0) then
+         ! who asks knows of himself whether the value is allowed
+         call self%bearing%set_value(value, ignored)
+         rest = self%start
+         associate (model => self%bearing%model)
+            call model%bearing%set_viscosity(rest%viscosity)
+            call come_to_warm_rest(model, rest%y, residual, error)
+            call add_context(error, 'the oil takes the temperatures of the equilibrium')
+            rest%viscosity = model%bearing%pads%gap%viscosity
+         end associate
+         if (.not. allocated(error)) then
+            rest%value = value
+            self%before = self%found
+            self%found = rest
+         end if
+      end if
+      viscosity = self%found%viscosity
+   end subroutine find
+
+   !> Lets searches begin at what was found last.
+   pure subroutine begin_here(self)
+      class(resting_oil_type), intent(inout) :: self
+      self%start%y = self%found%y
+      self%start%viscosity = self%found%viscosity
+   end subroutine begin_here
+
+   !> Where searches begin, as numbers.
+   pure subroutine get_start(self, numbers)
+      class(resting_oil_type), intent(in) :: self
+      real(wp), allocatable, intent(out) :: numbers(:)
+      numbers = [self%start%y, self%start%viscosity]
+   end subroutine get_start
+
+   !> Lets searches begin there, and forgets what others have found.
+   pure subroutine set_start(self, numbers)
+      class(resting_oil_type), intent(inout) :: self
+      real(wp), intent(in) :: numbers(:)
+      associate (n => size(self%start%y))
+         self%start%y = numbers(:n)
+         self%start%viscosity = numbers(n + 1:)
+      end associate
+      self%found = self%start
+      self%before = self%start
+   end subroutine set_start
+
+   !> Temperatures and viscosities, Pa s, that were found last.
+   subroutine get_found(self, oil, viscosity)
+      class(resting_oil_type), intent(inout) :: self
+      type(oil_temperatures_type), intent(out) :: oil
+      real(wp), allocatable, intent(out) :: viscosity(:)
+      type(error_type), allocatable :: ignored
+      call self%bearing%set_value(self%found%value, ignored)
+      call self%bearing%model%bearing%set_viscosity(self%found%viscosity)
+      call find_temperatures(self%bearing%model, self%found%y, self%balance, oil)
+      viscosity = self%found%viscosity
+   end subroutine get_found
+end module resting_oil
