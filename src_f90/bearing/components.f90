@@ -26,9 +26,8 @@ module components
    !> errors in docs/benchmarks.md.
    integer, parameter :: sor_volumes(2) = [60, 15], rupture_volumes(2) = [80, 8]
    !> The films of 'fine', which is no word of the input: for what is linearised at a single state. Errors of whole
-   !> films and of ruptured ones up to an arc, rad, beyond which rupture takes so much more of the film that the error
-   !> is divided by the fourth power of the arc; volumes where no table knows the film.
-   real(wp), parameter :: fine_error = 1e-6_wp, fine_ruptured_error = 5e-6_wp, fine_arc = 134*degree
+   !> films, of clipped ones and of ruptured ones; volumes where no table knows the film.
+   real(wp), parameter :: fine_whole_error = 4e-7_wp, fine_error = 1e-6_wp, fine_ruptured_error = 1.3e-5_wp
    integer, parameter :: fine_volumes(2) = [160, 16]
    !> Error of those of 'loose', which is no word of the input either: for ways that are long and of which only the end
    !> counts.
@@ -50,7 +49,7 @@ contains
       type(direct_film_type), allocatable :: single(:)
       type(sor_options) :: options
       integer :: cavitation, cells, modes, volumes(2), i
-      real(wp), allocatable :: error
+      real(wp), allocatable :: error, whole_error
       real(wp) :: tolerance
       gaps = new_gaps(scene)
       associate (f => scene%film)
@@ -86,10 +85,14 @@ contains
                   end do
                   ! ruptured films by volumes are dear, by modes they are cheap
                   tolerance = merge(1, 4, gumbel)*scene%integration%relative_tolerance
-                  if (f%solver == 'fine') tolerance = merge(fine_error, fine_ruptured_error &
-                     & *min(1.0_wp, (fine_arc/maxval(gaps%arc()))**4), gumbel)
-                  if (f%table_tolerance > 0) tolerance = f%table_tolerance
-                  film = new_table_film(gaps, single, reynolds .or. gumbel, gumbel, tolerance, f%solver == 'fine')
+                  if (f%solver == 'fine') tolerance = merge(fine_error, fine_ruptured_error, gumbel)
+                  if (f%table_tolerance > 0) then
+                     tolerance = f%table_tolerance
+                  else if (f%solver == 'fine') then
+                     whole_error = fine_whole_error
+                  end if
+                  film = new_table_film(gaps, single, reynolds .or. gumbel, gumbel, tolerance, f%solver == 'fine', &
+                     & whole_error)
                end if
             end associate
          end if

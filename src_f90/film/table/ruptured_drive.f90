@@ -3,9 +3,10 @@
 !>
 !> Both forces come from the same discretisation, so that most of its error is not in v. With the condition of Reynolds
 !> these are finite volumes: half of their columns lie where the film diverges, all of them are narrow where it is
-!> thin, and two grids are extrapolated by Richardson's rule. Where the film has gone from whole columns at the trailing
-!> edge, these are given to what is left of it. With Guembel's condition they are axial modes. Every film is solved from
-!> the same start: the answer does not depend on what came before.
+!> thin, two grids are extrapolated by Richardson's rule, and slopes are those of a film that ends between cells. Where
+!> the film has gone from whole columns at the trailing edge, these are given to what is left of it. With Guembel's
+!> condition they are axial modes. Every film is solved from the same start: the answer does not depend on what came
+!> before.
 module ruptured_drive
    use kinds, only: wp
    use two_equations, only: solved
@@ -88,50 +89,64 @@ contains
       drive%slopes(2, :2) = self%pad%over_edges(drive%slopes(2, :2))
    end function at
 
-   !> The drive by finite volumes on two grids; slopes over the position. The slopes of the finer grid are better than
-   !> extrapolated ones: cells that rupture, one after the other, make them rough.
+   !> The drive by finite volumes on two grids, extrapolated; slopes over the position.
    function by_volumes(self, motion) result(drive)
-      class(ruptured_drive_type), intent(in) :: self
+      type(ruptured_drive_type), intent(in) :: self
       type(film_motion), intent(in) :: motion
       type(drive_type) :: drive, coarse_drive
       type(elimination_film_type) :: coarse, fine, coarse_whole, fine_whole
-      type(film_response) :: ruptured, whole
+      type(film_response) :: coarse_ruptured, ruptured
       type(film_counters) :: unused
       real(wp) :: line(0:self%columns/2), rim
       integer :: empty
       line = angles(self%pad, motion, -self%pad%half_arc, self%columns/2, 1)
-      coarse = grid(self, line, 2)
-      fine_whole = grid(self, angles(self%pad, motion, -self%pad%half_arc, self%columns/2, 2), 1)
-      call coarse%evaluate(motion, 0.0_wp, .true., .false., unused, ruptured)
-      empty = coarse%empty_columns() - margin
-      coarse_whole = coarse
-      fine = fine_whole
+      call make_grid(self, line, 2, coarse_whole)
+      call make_grid(self, angles(self%pad, motion, -self%pad%half_arc, self%columns/2, 2), 1, fine_whole)
+      call coarse_whole%evaluate(motion, 0.0_wp, .true., .true., unused, coarse_ruptured)
+      empty = coarse_whole%empty_columns() - margin
       if (empty > 0) then
          rim = line(empty)
-         coarse = grid(self, angles(self%pad, motion, rim, self%columns/2, 1), 2)
-         fine = grid(self, angles(self%pad, motion, rim, self%columns/2, 2), 1)
-         call coarse%evaluate(motion, 0.0_wp, .true., .false., unused, ruptured)
+         call make_grid(self, angles(self%pad, motion, rim, self%columns/2, 1), 2, coarse)
+         call make_grid(self, angles(self%pad, motion, rim, self%columns/2, 2), 1, fine)
+         call coarse%evaluate(motion, 0.0_wp, .true., .true., unused, coarse_ruptured)
+         call fine%start_from(coarse)
+         call fine%evaluate(motion, 0.0_wp, .true., .true., unused, ruptured)
+      else
+         call fine_whole%start_from(coarse_whole)
+         call fine_whole%evaluate(motion, 0.0_wp, .true., .true., unused, ruptured)
       end if
-      call coarse_whole%evaluate(motion, 0.0_wp, .false., .true., unused, whole)
-      call set_drive(self%pad, ruptured, whole, coarse_drive)
-      call fine%start_from(coarse)
-      call fine%evaluate(motion, 0.0_wp, .true., .true., unused, ruptured)
-      call fine_whole%evaluate(motion, 0.0_wp, .false., .true., unused, whole)
-      call set_drive(self%pad, ruptured, whole, drive)
+      call compare(self%pad, motion, coarse_ruptured, coarse_whole, coarse_drive)
+      call compare(self%pad, motion, ruptured, fine_whole, drive)
       drive%ok = drive%ok .and. coarse_drive%ok
-      if (.not. drive%ok) return
-      call fine_whole%evaluate(film_motion(motion%position, drive%value), 0.0_wp, .false., .true., unused, whole)
-      call set_slopes(ruptured, whole, drive)
       drive%value = drive%value + (drive%value - coarse_drive%value)/3
+      drive%slopes = drive%slopes + (drive%slopes - coarse_drive%slopes)/3
    end function by_volumes
 
    !> The grid with these angles between its columns, and a part of the rows.
-   type(elimination_film_type) function grid(self, line, part)
-      class(ruptured_drive_type), intent(in) :: self
+   subroutine make_grid(self, line, part, grid)
+      type(ruptured_drive_type), intent(in) :: self
       real(wp), intent(in) :: line(0:)
       integer, intent(in) :: part
+      type(elimination_film_type), intent(out) :: grid
       grid = new_elimination_film(self%pad%gap(0.0_wp), self%columns/part, self%rows/part, line)
-   end function grid
+      grid%ends_between = .true.
+   end subroutine make_grid
+
+   !> The drive of a ruptured film, by volumes on which the film is whole.
+   subroutine compare(pad, motion, ruptured, volumes, drive)
+      type(unit_pad_type), intent(in) :: pad
+      type(film_motion), intent(in) :: motion
+      type(film_response), intent(in) :: ruptured
+      type(elimination_film_type), intent(inout) :: volumes
+      type(drive_type), intent(inout) :: drive
+      type(film_response) :: whole
+      type(film_counters) :: unused
+      call volumes%evaluate(motion, 0.0_wp, .false., .true., unused, whole)
+      call set_drive(pad, ruptured, whole, drive)
+      if (.not. drive%ok) return
+      call volumes%evaluate(film_motion(motion%position, drive%value), 0.0_wp, .false., .true., unused, whole)
+      call set_slopes(ruptured, whole, drive)
+   end subroutine compare
 
    !> The drive by axial modes, with Guembel's condition; slopes over the position.
    function by_modes(self, motion) result(drive)

@@ -52,21 +52,26 @@ contains
    !> Tables for the films in these gaps, that rupture by Guembel's condition, by that of Reynolds or not at all, with
    !> errors of this tolerance over the force. With `solves` no table is built: what would be looked up is solved at the
    !> motion itself, which is quicker where motions are few, and has exact derivatives.
-   function new_table_film(gaps, single, ruptures, gumbel, tolerance, solves) result(solver)
+   function new_table_film(gaps, single, ruptures, gumbel, tolerance, solves, whole_tolerance) result(solver)
       type(pad_gap_type), intent(in) :: gaps(:)
       !> Of every pad the solver for what is in no table.
       type(direct_film_type), intent(in) :: single(:)
       logical, intent(in) :: ruptures, gumbel
       real(wp), intent(in) :: tolerance
       logical, intent(in), optional :: solves
+      !> Error of whole films, if it is not the usual share of that.
+      real(wp), intent(in), optional :: whole_tolerance
       type(table_film_type) :: solver
       logical :: supplied
+      real(wp) :: of_whole
       integer :: i, k, n
       solver%single = single
       solver%made_to_rupture = ruptures
       solver%may_rupture = ruptures
       solver%solves = .false.
       if (present(solves)) solver%solves = solves
+      of_whole = share_of_whole*tolerance
+      if (present(whole_tolerance)) of_whole = whole_tolerance
       allocate (solver%pads(size(gaps)), solver%shapes(size(gaps)))
       n = 0
       do i = 1, size(gaps)
@@ -81,8 +86,7 @@ contains
                n = k
                shapes(k)%pad = unit
                shapes(k)%supplied = supplied
-               shapes(k)%whole = new_whole_table(unit, supplied, share_of_whole*tolerance, most_whole/size(gaps), &
-                  & solves)
+               shapes(k)%whole = new_whole_table(unit, supplied, of_whole, most_whole/size(gaps), solves)
                shapes(k)%rupture = new_rupture_table(unit, gumbel, tolerance, most_ruptured/size(gaps), solves)
             end if
             solver%pads(i)%shape = k

@@ -12,6 +12,7 @@ module elimination_film
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type, new_film_grid
    use grid_modes, only: grid_modes_type, new_grid_modes
+   use film_rim, only: rim_conductance
    use slight_rupture, only: force_of_few
    use column_sweeps, only: factor_chain, solve_chain, finish_chain, weighted, apply, invert
    implicit none (type, external)
@@ -35,6 +36,8 @@ module elimination_film
       real(wp), allocatable :: per_pivot(:, :), block(:, :, :)
       !> Scaled (grid_modes), by rows in blocks and by modes outside.
       real(wp), allocatable :: pressure(:, :), adjoint(:, :)
+      !> Whether slopes are those of a film that ends between cells (film_rim); else those of these cells, exact.
+      logical, public :: ends_between = .false.
    contains
       procedure :: evaluate
       procedure :: force_of_rupture
@@ -93,6 +96,8 @@ contains
          call sum_up(self, response)
          if (want_derivatives) then
             call to_rows(self, self%pressure)
+            if (self%ends_between .and. self%first <= grid%columns) call eliminate(self, ruptures, &
+               & rim_conductance(grid, self%film, self%pressure))
             weight = grid%weight()
             do m = 1, 2
                call solve(self, weight(:, m), 0*weight(:, m), self%adjoint)
@@ -251,9 +256,11 @@ contains
 
    !> Pivots and blocks: whole columns from both edges of the pad inwards, mode by mode, then the columns
    !> between, from the first to the last; none of these where the film does not rupture.
-   pure subroutine eliminate(self, ruptures)
+   pure subroutine eliminate(self, ruptures, more)
       type(elimination_film_type), intent(inout) :: self
       logical, intent(in) :: ruptures
+      !> Added to the diagonal beside ruptured cells, (row, column).
+      real(wp), intent(in), optional :: more(:, :)
       logical :: touched(self%grid%columns)
       integer :: i, j, m
       m = self%basis%m
@@ -267,6 +274,8 @@ contains
             if (any(touched)) then
                self%first = findloc(touched, .true., dim=1)
                self%last = findloc(touched, .true., dim=1, back=.true.)
+               if (present(more)) self%first = max(1, self%first - 1)
+               if (present(more)) self%last = min(n, self%last + 1)
             end if
          end if
          call factor_chain(m, n, 1, self%first - 1, c, grid%beside, self%basis%eigenvalue, self%per_pivot)
@@ -280,13 +289,14 @@ contains
                if (i > self%first) then
                   block = -c(i - 1)**2*self%block(:, :, i - 1)
                else if (i > 1) then
-                  block = modal_block(self, -c(i - 1)**2*self%per_pivot(:, i - 1))
+                  block = self%basis%in_rows(-c(i - 1)**2*self%per_pivot(:, i - 1))
                else
                   block = 0
                end if
-               if (i == self%last .and. i < n) block = block + modal_block(self, -c(i)**2*self%per_pivot(:, i + 1))
+               if (i == self%last .and. i < n) block = block + self%basis%in_rows(-c(i)**2*self%per_pivot(:, i + 1))
                do j = 1, rows
                   block(j, j) = block(j, j) + c(i - 1) + c(i) + grid%beside(i)*self%basis%diagonal(j)
+                  if (present(more)) block(j, j) = block(j, j) + more(j, i)
                end do
                do j = 1, rows - 1
                   block(j, j + 1) = block(j, j + 1) + grid%beside(i)*self%basis%off_diagonal(j)
@@ -297,17 +307,6 @@ contains
          end do
       end associate
    end subroutine eliminate
-
-   !> The matrix with given values by mode, in rows.
-   pure function modal_block(self, values) result(block)
-      type(elimination_film_type), intent(in) :: self
-      real(wp), intent(in) :: values(:)
-      real(wp) :: block(self%basis%m, self%grid%rows)
-      integer :: j
-      do j = 1, self%grid%rows
-         block(:, j) = apply(size(block, 1), size(block, 2), self%basis%modes, values*self%basis%transposed(:, j))
-      end do
-   end function modal_block
 
    !> The scaled solution, by rows from the first to the last column that rupture touches, by modes outside, for
    !> a load per column in every row of the film, and one more in its edge row.

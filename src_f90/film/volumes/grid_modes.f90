@@ -3,7 +3,7 @@
 !> the root of the rows' heights ("scaled").
 module grid_modes
    use kinds, only: wp
-   use column_sweeps, only: padded
+   use column_sweeps, only: padded, apply
    use film_grid, only: film_grid_type
    implicit none (type, external)
    private
@@ -20,6 +20,8 @@ module grid_modes
       real(wp), allocatable :: root(:)
       !> A load of 1 in every row and one of 1 in the edge row, scaled, by mode.
       real(wp), allocatable :: uniform(:), at_edge(:)
+   contains
+      procedure :: in_rows
    end type grid_modes_type
 
    interface
@@ -63,4 +65,15 @@ contains
       self%uniform(:rows) = matmul(self%root(:rows), vectors)
       self%at_edge(:rows) = self%root(rows)*vectors(rows, :)
    end function new_grid_modes
+
+   !> The matrix with these values by mode, in rows.
+   pure function in_rows(self, values) result(block)
+      class(grid_modes_type), intent(in) :: self
+      real(wp), intent(in) :: values(:)
+      real(wp) :: block(self%m, size(self%modes, 2))
+      integer :: j
+      do j = 1, size(block, 2)
+         block(:, j) = apply(size(block, 1), size(block, 2), self%modes, values*self%transposed(:, j))
+      end do
+   end function in_rows
 end module grid_modes
