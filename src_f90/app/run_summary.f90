@@ -124,7 +124,8 @@ contains
       do i = 1, size(film, 1)
          if (scene%tilting()) then
             before = 'tilt '//milli(minval(tilt(i, :)))//' to '//milli(maxval(tilt(i, :)))//' mrad, '
-            after = ', mean contact '//fixed_text(sum(contact(i, :))/n, 1)//' N, friction work ' &
+            after = ', mean contact '//fixed_text(sum(contact(i, :))/n, 1)//' N'
+            if (scene%friction%model /= 'none') after = after//', friction work ' &
                & //fixed_text(1e3_wp*loop_area(tilt(i, :), moment(i, :)), 3)//' mJ'
          end if
          print '(a)', '  pad '//to_text(i)//': '//before//'minimum film thickness '//micro(minval(film(i, :))) &
