@@ -24,8 +24,11 @@ module direct_film
    integer, parameter :: fine_rows = 24
    !> Tension over the maximum pressure up to which a pad is loaded: c = 1.
    real(wp), parameter :: loaded_tension = 0.1_wp
-   !> Step of the derivatives of what slight rupture adds, in clearances (times the speed).
+   !> Step of the derivatives that are taken by differences, in clearances (times the speed).
    real(wp), parameter :: difference = 1e-6_wp
+   !> Difference of the two discretisations over the force from which on the derivatives of c count: on grids too
+   !> coarse for the film, where Newton's iteration fails without them.
+   real(wp), parameter :: coarse = 0.02_wp
 
    type, extends(film_solver_type) :: direct_film_type
       private
@@ -134,19 +137,53 @@ contains
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed, force(2)
-      real(wp) :: derivatives(2, 4), step(4), shift(4), near(2)
+      real(wp) :: derivatives(2, 4), step(4), near(2)
       integer :: k
       logical :: few
-      step = difference*self%clearance(i)*[1.0_wp, 1.0_wp, max(1.0_wp, abs(speed)), max(1.0_wp, abs(speed))]
+      step = steps(self%clearance(i), speed)
       derivatives = 0
       do k = 1, 4
-         shift = 0
-         shift(k) = step(k)
-         call self%volumes(i)%force_of_rupture(film_motion(motion%position + shift(:2), motion%velocity + shift(3:)), &
-            & speed, self%counters, near, few)
+         call self%volumes(i)%force_of_rupture(moved(motion, k, step(k)), speed, self%counters, near, few)
          if (few) derivatives(:, k) = (near - force)/step(k)
       end do
    end function derivatives_of_rupture
+
+   !> Derivatives of c of a pad, by differences of the pressures of its modes.
+   function derivatives_of_share(self, i, motion, speed, c) result(derivatives)
+      class(direct_film_type), intent(inout) :: self
+      integer, intent(in) :: i
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed, c
+      real(wp) :: derivatives(4), step(4)
+      type(film_motion) :: near(size(self%gaps))
+      type(film_response) :: modal(size(self%gaps))
+      integer :: k, n
+      step = steps(self%clearance(i), speed)
+      derivatives = 0
+      do k = 1, 4
+         near = moved(motion, k, step(k))
+         call self%modal%evaluate(near, speed, .false., modal, [(n == i, n=1, size(near))])
+         if (modal(i)%status == film_ok) derivatives(k) = &
+            & (share_of_modes(self%cavitation_pressure(i), modal(i)) - c)/step(k)
+      end do
+   end function derivatives_of_share
+
+   !> Steps of differences along e_y, e_z, m, and their rates, m/s.
+   pure function steps(clearance, speed)
+      real(wp), intent(in) :: clearance, speed
+      real(wp) :: steps(4)
+      steps = difference*clearance*[1.0_wp, 1.0_wp, max(1.0_wp, abs(speed)), max(1.0_wp, abs(speed))]
+   end function steps
+
+   !> A motion with a step along the k-th of these.
+   pure type(film_motion) function moved(motion, k, step)
+      type(film_motion), intent(in) :: motion
+      integer, intent(in) :: k
+      real(wp), intent(in) :: step
+      moved = motion
+      if (k <= 2) moved%position(k) = moved%position(k) + step
+      if (k > 2) moved%velocity(k - 2) = moved%velocity(k - 2) + step
+   end function moved
 
    !> A pad's ruptured film by elimination, from that of the modes.
    subroutine change_of_rupture(self, i, motion, speed, want_derivatives, modal, ruptured)
@@ -158,13 +195,21 @@ contains
       type(film_response), intent(in) :: modal
       type(film_response), intent(out) :: ruptured
       type(film_response) :: whole
-      real(wp) :: c
+      real(wp) :: c, differing(2), slopes(4)
+      integer :: k
       c = share_of_modes(self%cavitation_pressure(i), modal)
       call self%volumes(i)%evaluate(motion, speed, .true., want_derivatives, self%counters, ruptured)
       if (ruptured%status /= film_ok .or. .not. c > 0) return
       call self%volumes(i)%evaluate(motion, speed, .false., want_derivatives, self%counters, whole)
-      ruptured%force = ruptured%force + c*(modal%force - whole%force)
-      ruptured%derivatives = ruptured%derivatives + c*(modal%derivatives - whole%derivatives)
+      differing = modal%force - whole%force
+      ruptured%force = ruptured%force + c*differing
+      if (want_derivatives) ruptured%derivatives = ruptured%derivatives + c*(modal%derivatives - whole%derivatives)
+      if (want_derivatives .and. c < 1 .and. norm2(differing) > coarse*norm2(ruptured%force)) then
+         slopes = derivatives_of_share(self, i, motion, speed, c)
+         do k = 1, 4
+            ruptured%derivatives(:, k) = ruptured%derivatives(:, k) + slopes(k)*differing
+         end do
+      end if
       ruptured%max_pressure = ruptured%max_pressure + c*(modal%max_pressure - whole%max_pressure)
    end subroutine change_of_rupture
 

@@ -1,9 +1,10 @@
 !> Which solver `auto` takes for a pad, and how it joins them: modes where the film is whole, what few ruptured cells
 !> add, finite volumes with a share of the modes, finite volumes alone.
 program test_direct_film
-   use kinds, only: wp
+   use kinds, only: wp, degree
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_counters, film_ok, film_closed
+   use pad_gap, only: pad_gap_type
    use modal_film, only: modal_film_type, new_modal_film
    use elimination_film, only: elimination_film_type, new_elimination_film
    use direct_film, only: direct_film_type, new_direct_film
@@ -19,6 +20,7 @@ program test_direct_film
       if (runs('slight')) call slight()
       if (runs('between_both')) call between_both()
    end do
+   if (runs('coarse')) call coarse()
    if (runs('empty')) call empty()
    if (runs('closed')) call closed()
    if (runs('each_pad_its_own')) call each_pad_its_own()
@@ -127,6 +129,34 @@ contains
       expected%max_pressure = expected%max_pressure + share*(of_modes(1)%max_pressure - unruptured%max_pressure)
       call expect_same(found(1), expected, 'between both')
    end subroutine between_both
+
+   !> On a grid far too coarse for a thin film the two differ, and the slopes contain those of the share.
+   subroutine coarse()
+      type(direct_film_type) :: auto
+      type(film_motion) :: motion, forward, back
+      type(film_response) :: found(1), moved(1)
+      real(wp), parameter :: turning = 310.5_wp, arc = 78*degree, thin = 9e-5_wp
+      real(wp) :: change(2), shift(4), step
+      integer :: k
+      auto = new_direct_film([pad_gap_type(0.0315_wp, thin, 0.00786_wp, 0.55_wp*arc, 0.45_wp*arc, 0.00216_wp, &
+         & 5.4e5_wp, 0.0_wp, 0.0_wp)], 16, 4, 16, 8, .true., .false.)
+      motion = film_motion([-1.1628e-5_wp, 8.8232e-5_wp], [1.13e-5_wp, 1.78e-6_wp])
+      call auto%evaluate([motion], turning, .true., found)
+      call expect(auto%counters%volumes == 1, 'the film ruptures')
+      do k = 1, 4
+         step = 1e-6_wp*thin*merge(1.0_wp, turning, k <= 2)
+         shift = 0
+         shift(k) = step
+         forward = film_motion(motion%position + shift(:2), motion%velocity + shift(3:))
+         back = film_motion(motion%position - shift(:2), motion%velocity - shift(3:))
+         call auto%evaluate([forward], turning, .false., moved)
+         change = moved(1)%force
+         call auto%evaluate([back], turning, .false., moved)
+         change = (change - moved(1)%force)/(2*step)
+         call expect_close(norm2(found(1)%derivatives(:, k) - change), 0.0_wp, 1e-3_wp*norm2(change), &
+            & 'slope '//to_text(k)//' on a coarse grid')
+      end do
+   end subroutine coarse
 
    !> A pad that draws more than it presses is left to the finite volumes.
    subroutine empty()
