@@ -1,4 +1,4 @@
-"""Benchmark: run time against error, every scene with the defaults, films, pads, production, peers, maps.
+"""Benchmark: run time against error, all scenes with the defaults, films, pads, production, peers, warm oil.
 
 usage: bench.py TILTPAD [--only PART...] [--folder FOLDER] [--docs FOLDER]
 
@@ -27,6 +27,7 @@ from production import production
 from runner import Row, Runner
 from settings import ROOT
 from skips import kernels, skips, visits
+from warm import warm
 
 PARTS = {
     "ladder": ladder,
@@ -40,6 +41,7 @@ PARTS = {
     "production": production,
     "peers": peers,
     "maps": maps,
+    "warm": warm,
 }
 
 

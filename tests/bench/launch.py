@@ -1,6 +1,6 @@
-"""Runs one command on one core and prints its wall seconds, peak memory in MB and exit status.
+"""Runs one command on one core, or on all, and prints its wall seconds, peak memory in MB and exit status.
 
-usage: launch.py CORE LIMIT COMMAND...     (LIMIT: seconds after which it is killed)
+usage: launch.py CORE|all LIMIT COMMAND...     (LIMIT: seconds after which it is killed)
 
 A process of its own, and small: a peak memory is inherited over `exec`, so a command started straight from
 the benchmark would be charged with the benchmark's own.
@@ -12,12 +12,12 @@ import sys
 import time
 
 
-def main(core: int, limit: int, command: list[str]) -> None:
+def main(core: int | None, limit: int, command: list[str]) -> None:
     started = time.perf_counter()
     child = os.fork()
     if child == 0:
         os.setsid()
-        if hasattr(os, "sched_setaffinity"):
+        if core is not None and hasattr(os, "sched_setaffinity"):
             free = sorted(os.sched_getaffinity(0))
             os.sched_setaffinity(0, {free[core % len(free)]})
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
@@ -29,4 +29,4 @@ def main(core: int, limit: int, command: list[str]) -> None:
     print(seconds, used.ru_maxrss / 1024, os.waitstatus_to_exitcode(status))
 
 
-main(int(sys.argv[1]), int(sys.argv[2]), sys.argv[3:])
+main(None if sys.argv[1] == "all" else int(sys.argv[1]), int(sys.argv[2]), sys.argv[3:])

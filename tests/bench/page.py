@@ -3,6 +3,7 @@
 import costs
 import maps
 import tables
+import warm
 from errors import JUMP
 from runner import Row
 from settings import (
@@ -223,6 +224,15 @@ ROSS, and both programs treat the rupture of the film in their own way. ROSS 3.1
 that is not at hand it runs on an older one, which its code allows.
 
 {maps}
+
+## Warm oil
+
+Equilibria with a temperature for each pad against those with the viscosity of the supply, as whole runs; maps
+of {warm_speeds} speeds, a file for each; and marches with the viscosities of their equilibrium. An oil whose
+viscosity does not fall makes the march with temperatures the same, step by step, as the one without. Times of
+marches are those of the march alone.
+
+{warm}
 """
 
 
@@ -272,4 +282,6 @@ def page(rows: dict[str, list[Row]], machine: str) -> str:
         map_ratios=len(maps.RATIOS),
         map_preload=maps.B.preload,
         maps=maps.compared(rows["maps"]),
+        warm_speeds=warm.MAP_SPEEDS,
+        warm=warm.compared(rows["warm"]),
     )

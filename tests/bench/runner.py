@@ -73,9 +73,10 @@ class Launched:
     said: str
 
 
-def launch(command: Iterable, core: int = CORE, limit: int = LIMIT) -> Launched:
-    """Runs a command by launch.py."""
-    words = [sys.executable, "-I", "-S", LAUNCH, str(core), str(limit), *map(str, command)]
+def launch(command: Iterable, core: int | None = CORE, limit: int = LIMIT) -> Launched:
+    """Runs a command by launch.py, on one core or, without one, on all."""
+    place = "all" if core is None else str(core)
+    words = [sys.executable, "-I", "-S", LAUNCH, place, str(limit), *map(str, command)]
     quiet = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
     done = subprocess.run(words, text=True, capture_output=True, env=quiet)
     if done.returncode:

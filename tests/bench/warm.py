@@ -1,0 +1,103 @@
+"""Warm oil: equilibria with temperatures against those with one viscosity, maps of speeds, and marches."""
+
+import os
+import shutil
+from collections.abc import Iterator
+
+from runner import Row, Runner, launch
+from settings import ROOT, Scene
+from tables import NOT_RUN, short, table, verdict
+
+#: The examples with warm oil, and their tasks.
+SCENES = tuple(
+    Scene(name, label, f"input/examples/{name}.nml", (f"case%task={task}",))
+    for name, label in (("warm_paper", "paper's pads"), ("warm_five_pads", "five pads"))
+    for task in ("equilibrium", "coefficients")
+)
+WARM, COLD = ("temperatures", ()), ("one viscosity", ("thermal%model=none",))
+#: Speeds of a map: equilibria on all cores.
+MAP, SPEEDS, MAP_SPEEDS = "map", "1000:8000:7", 1001
+#: A march with an oil whose viscosity does not fall (the same motion with and without temperatures), and with
+#: VG 46.
+MARCH = Scene("march", "steady_lugre", "input/paper/steady_lugre.nml")
+SAME_OIL = ("oil%reference_viscosity=0.019", "oil%temperature_exponent=0")
+MARCHES = (
+    (COLD[0], SAME_OIL),
+    ("temperatures, the same viscosity", (*SAME_OIL, "thermal%model=pad")),
+    ("temperatures, VG 46", ("oil%grade=46", "thermal%model=pad")),
+)
+#: Time of an equilibrium with temperatures over that of one without; seconds of a map; time of a march's step
+#: likewise.
+RATIO, MAP_SECONDS, MARCH_RATIO = 3.0, 5.0, 1.05
+
+
+def warm(runner: Runner) -> Iterator[Row]:
+    """Single runs, the maps, and the marches."""
+    for scene in SCENES:
+        for setting, overrides in (COLD, WARM):
+            yield single(runner, scene, setting, overrides)
+    for name in ("warm_paper", "warm_five_pads"):
+        yield over_speeds(runner, name)
+    for setting, overrides in MARCHES:
+        yield single(runner, MARCH, setting, overrides)
+
+
+def single(runner: Runner, scene: Scene, setting: str, overrides: tuple[str, ...]) -> Row:
+    """One timed run."""
+    row, path = runner.run(scene, scene.label, setting, overrides)
+    path.unlink(missing_ok=True)
+    return row
+
+
+def over_speeds(runner: Runner, name: str) -> Row:
+    """A map of equilibria with temperatures."""
+    folder = runner.folder / "speeds"
+    words = ("case%task=equilibrium", f"sweep%operation%speed_rpm={SPEEDS}")
+    options = [word for each in words for word in ("--set", each)]
+    case = ROOT / f"input/examples/{name}.nml"
+    done = launch([runner.program, case, "--quiet", "--overwrite", "--output", folder, *options], core=None)
+    shutil.rmtree(folder, ignore_errors=True)
+    row = Row(runner.part, MAP, name, WARM[0], " ".join(words), done.seconds, MAP_SPEEDS)
+    row.memory_mb = done.memory
+    row.note = f"failed with status {done.status}: {done.said[-200:]}" if done.status else ""
+    return row
+
+
+def compared(rows: list[Row]) -> str:
+    """Times, and the figures to reach."""
+    lines = []
+    for row in rows:
+        if row.scene == MAP:
+            figure = f"{MAP_SECONDS:g} s", verdict(row.wall_seconds, MAP_SECONDS)
+            words = f"{MAP_SPEEDS} speeds of `{row.group}`, {os.cpu_count()} cores", "equilibrium"
+            lines.append((*words, row.setting, short(row.wall_seconds), "", *figure))
+        elif row.scene == MARCH.name:
+            lines.append(of_march(row, next(other for other in rows if other.scene == MARCH.name)))
+        else:
+            cold = next(each for each in rows if (each.scene, each.overrides.split()[0]) == key(row))
+            lines.append(of_single(row, cold))
+    head = "", "task", "oil", "wall s", "over one viscosity", "to reach", ""
+    return table(head, lines) if lines else NOT_RUN
+
+
+def key(row: Row) -> tuple[str, str]:
+    """What a run with temperatures shares with the one without, which stands first."""
+    return row.scene, row.overrides.split()[0]
+
+
+def of_single(row: Row, cold: Row) -> tuple:
+    """A run of its own."""
+    words = row.group, row.overrides.split()[0].partition("=")[2], row.setting, short(row.wall_seconds)
+    if row is cold:
+        return (*words, "", "", "")
+    ratio = row.wall_seconds / cold.wall_seconds
+    return (*words, short(ratio), f"{RATIO:g}", verdict(ratio, RATIO))
+
+
+def of_march(row: Row, cold: Row) -> tuple:
+    """A march: its time of a step over that with one viscosity."""
+    words = f"{row.group}, {row.steps} steps", "march", row.setting, short(row.march_seconds)
+    if row is cold:
+        return (*words, "", "", "")
+    ratio = row.march_seconds / row.steps / (cold.march_seconds / cold.steps)
+    return (*words, f"{short(ratio)} a step", f"{MARCH_RATIO:g}", verdict(ratio, MARCH_RATIO))
