@@ -55,7 +55,7 @@ contains
       integer :: iterations, limit
 
       limit = max_iterations
-      if (present(most)) limit = most
+      if (present(most)) limit = min(limit, most)
       free = free_positions(model, held)
       stuck = .false.
       time_step = 1/model%point%speed(0.0_wp)

@@ -23,8 +23,9 @@ module equilibrium
 
    !> The methods of the wider search, in their order.
    integer, parameter :: by_pads = 1, by_newton = 2, by_rests = 3, by_motion = 4, by_suction = 5
-   !> Iterations from an equilibrium of quick films to that of the model's own.
-   integer, parameter :: few = 40
+   !> Iterations from an equilibrium of quick films to that of the model's own; iterations of the first search from a
+   !> start along the load, after which films that are kept whole lead to the rest of most unloaded pads.
+   integer, parameter :: few = 40, patience = 60
    !> Residual of quick films from which on this is tried.
    real(wp), parameter :: near = 0.1_wp
 
@@ -111,7 +112,8 @@ contains
       type(error_type), allocatable :: second_error
       real(wp), allocatable :: y_whole(:)
       y = best_start(static, give_up)
-      call follow_motion(static, y, residual, error, give_up)
+      call follow_motion(static, y, residual, error, give_up, &
+         & most=merge(patience, huge(patience), static%bearing%films_rupture()))
       films_fail = .not. static%bearing%films_converge()
       if (.not. allocated(error) .or. .not. static%bearing%films_rupture()) return
       if (error%status == stopped) return
