@@ -25,14 +25,15 @@ module kink_mesh
 
 contains
 
-   !> Puts an orbit on a mesh with an end of an interval wherever the pivot of a pad passes a kink of its friction.
+   !> Puts an orbit on a mesh with an end of an interval wherever the pivot of a pad passes a kink of its friction; its
+   !> mesh stays where it has settled.
    subroutine follow_kinks(model, orbit)
       type(bearing_model), intent(in) :: model
       type(orbit_type), intent(inout) :: orbit
       type(mesh_type) :: mesh
       real(wp), allocatable :: kinks(:), ends(:)
       integer :: pad, i, k, state
-      if (.not. model%layout%tilting) return
+      if (orbit%settled .or. .not. model%layout%tilting) return
       kinks = model%bearing%friction%kinks()
       if (size(kinks) == 0) return
       allocate (mesh%time(0:orbit%intervals()), source=orbit%time)

@@ -12,7 +12,7 @@ module orbit_branch
    use floquet_multipliers, only: set_multipliers
    implicit none (type, external)
    private
-   public :: orbit_problem_type, begin_orbits, double_period
+   public :: orbit_problem_type, begin_orbits, double_period, turns_at
 
    type, extends(branch_problem_type) :: orbit_problem_type
       type(orbit_type) :: orbit
@@ -215,15 +215,17 @@ contains
       end if
    end function kind_of
 
-   !> Turns, parameter, first defect, sizes of both meshes, and the meshes, start and points; where the model is sought.
+   !> Turns, parameter, first defect, whether the mesh has settled, sizes of both meshes, and the meshes, start and
+   !> points; where the model is sought.
    pure subroutine get_place(self, place)
       class(orbit_problem_type), intent(in) :: self
       real(wp), allocatable, intent(out) :: place(:)
       real(wp), allocatable :: sought(:)
       call self%ode%get_start(sought)
       associate (orbit => self%orbit)
-         place = [real(self%turns, wp), self%parameter, self%first_defect, real(size(self%mesh), wp), &
-            & real(orbit%intervals(), wp), self%mesh, orbit%time, orbit%start, orbit%at, sought]
+         place = [real(self%turns, wp), self%parameter, self%first_defect, merge(1.0_wp, 0.0_wp, orbit%settled), &
+            & real(size(self%mesh), wp), real(orbit%intervals(), wp), self%mesh, orbit%time, orbit%start, orbit%at, &
+            & sought]
       end associate
    end subroutine get_place
 
@@ -234,12 +236,14 @@ contains
       self%turns = nint(place(1))
       self%parameter = place(2)
       self%first_defect = place(3)
-      ends = nint(place(4))
-      intervals = nint(place(5))
-      o = 5
+      ends = nint(place(5))
+      intervals = nint(place(6))
+      o = 6
       self%mesh = place(o + 1:o + ends)
       o = o + ends
       associate (orbit => self%orbit)
+         orbit%settled = place(4) > 0
+         orbit%last_correction = huge(1.0_wp)
          deallocate (orbit%time)
          allocate (orbit%time(0:intervals), source=place(o + 1:o + intervals + 1))
          o = o + intervals + 1
@@ -250,6 +254,12 @@ contains
       end associate
       call self%ode%set_start(place(o + 1:))
    end subroutine go_to
+
+   !> Periods of what drives the model in that of the orbit at a point.
+   pure integer function turns_at(point)
+      type(branch_point_type), intent(in) :: point
+      turns_at = nint(point%place(1))
+   end function turns_at
 
    !> From a flip of a problem: the point of the branch of double period there, on which the problem stands then. Its
    !> tangent is the disturbance that comes back with the opposite sign after a period.

@@ -41,6 +41,9 @@ module orbit_collocation
       real(wp), allocatable :: rates(:, :, :)
    end type parameter_shift_type
 
+   !> Where corrections below this size, over the scales, no longer fall by this factor in a round, the mesh has settled.
+   real(wp), parameter :: slow = 0.1_wp, near = 1e-4_wp
+
    !> Where displacements x and their rates v, x' = v, stand among the states, all states u but the displacements, and
    !> where the rates stand among these.
    type :: parts_type
@@ -146,9 +149,11 @@ contains
       real(wp), intent(in) :: change(:)
       logical, intent(in) :: closes
       real(wp), intent(in) :: longest
-      real(wp) :: corrections(points*size(orbit%start), orbit%intervals()), at_start(size(orbit%start)), share
+      real(wp), allocatable :: corrections(:, :)
+      real(wp) :: at_start(size(orbit%start)), share
       integer :: k, i, n
       n = size(orbit%start)
+      allocate (corrections(points*n, orbit%intervals()))
       at_start = change(:n)
       do k = 1, orbit%intervals()
          associate (at_points => equations%at_points(:, :, k))
@@ -159,6 +164,7 @@ contains
          end associate
       end do
       orbit%correction = max(maxval(abs(change(:n))), maxval(abs(corrections)))
+      call settle(orbit, closes)
       share = longest/max(longest, orbit%correction)
       orbit%start = orbit%start + share*orbit%scale*change(:n)
       do k = 1, orbit%intervals()
@@ -167,6 +173,21 @@ contains
          end do
       end do
    end subroutine move_orbit
+
+   !> Notes whether ends of intervals that go where the orbit passes a kink still help: where it does so slowly, they go
+   !> far for a small correction, and the passage after them, so that Newton's method would come closer by little in
+   !> each round. Nor does it matter then how far an end is from the passage: the rates there are close to the kink's.
+   pure subroutine settle(orbit, closes)
+      type(orbit_type), intent(inout) :: orbit
+      logical, intent(in) :: closes
+      if (closes) then
+         orbit%settled = orbit%settled .or. orbit%correction < near .and. orbit%correction > slow*orbit%last_correction
+         orbit%last_correction = orbit%correction
+      else
+         orbit%settled = .false.
+         orbit%last_correction = huge(1.0_wp)
+      end if
+   end subroutine settle
 
    !> Solves the linear equations of interval k for the corrections of its points, over the scales, by column. The
    !> equations of the displacements, x' = v, are satisfied by x_i = x_0 + h sum_j a_ij v_j, which leaves a system on

@@ -119,5 +119,7 @@ contains
          orbit%at(:, :, k) = steps(k)%at
       end do
       orbit%correction = huge(orbit%correction)
+      orbit%last_correction = huge(orbit%correction)
+      orbit%settled = .false.
    end subroutine make_orbit
 end module orbit_march

@@ -25,6 +25,9 @@ module orbit_polynomials
       real(wp), allocatable :: monodromy(:, :)
       !> Newton's last correction, over the scales, and how far the equations were from being satisfied before it.
       real(wp) :: correction = huge(1.0_wp), residual = huge(1.0_wp)
+      !> The closing correction before; whether ends of intervals are to stay where they are.
+      real(wp) :: last_correction = huge(1.0_wp)
+      logical :: settled = .false.
       !> Whether the model refused a state of the orbit.
       logical :: refused = .false.
    contains
@@ -133,5 +136,6 @@ contains
       allocate (self%time(0:ubound(time, 1)), source=time)
       call move_alloc(at, self%at)
       self%correction = huge(self%correction)
+      self%settled = .false.
    end subroutine change_mesh
 end module orbit_polynomials

@@ -7,7 +7,7 @@ module branch_task
    use clock, only: wall_clock
    use continuation, only: branch_problem_type, branch_point_type, start_branch, advance, return_to
    use special_points, only: special_point_type, find_special_points
-   use orbit_branch, only: orbit_problem_type, double_period
+   use orbit_branch, only: orbit_problem_type, double_period, turns_at
    use orbit_figures, only: orbit_figures_type, find_orbit_figures, figures_at_rest
    use heat_balance, only: oil_temperatures_type
    use warm_oil, only: has_warm_oil
@@ -25,6 +25,8 @@ module branch_task
    real(wp), parameter :: across = 0.3_wp
    !> How far behind the last point of a branch, over the first step, is looked for a reason of its end.
    real(wp), parameter :: near = 1e-2_wp
+   !> Periods are doubled up to this many of the first branch's.
+   integer, parameter :: longest_period = 8
 
 contains
 
@@ -176,7 +178,8 @@ contains
             course%special = [course%special, noted(run%file, course%branch, special(k))]
             if (.not. run%quiet) call print_special_point(special(k), run%scene%branch%parameter, &
                & has_warm_oil(run%model))
-            if (special(k)%kind == 'flip' .and. course%branch == 1 .and. run%scene%branch%switch == '.true.') then
+            if (special(k)%kind == 'flip' .and. run%scene%branch%switch == '.true.' .and. &
+               & b%orbits%turns < longest_period*run%scene%periodic%revolutions) then
                course%flips = [course%flips, special(k)%point]
             end if
          end do
@@ -235,8 +238,8 @@ contains
       integer :: k
       associate (course => b%course)
          step = abs(next%parameter - course%here%parameter)
-         course%flips = pack(course%flips, [(abs(course%flips(k)%parameter - next%parameter) > 2*step, &
-            & k=1, size(course%flips))])
+         course%flips = pack(course%flips, [(abs(course%flips(k)%parameter - next%parameter) > 2*step &
+            & .or. 2*turns_at(course%flips(k)) /= b%orbits%turns, k=1, size(course%flips))])
       end associate
    end subroutine forget_flips
 

@@ -118,6 +118,18 @@ def factors(series):
     return np.linalg.eigvals(series[:, 1:] @ np.linalg.pinv(series[:, :-1]))
 
 
+def test_a_kink_that_is_passed_slowly(run, tmp_path):
+    """Pads creep while they stick: where ends of intervals followed each passage of the velocity 0, the
+    corrections fell by a tenth a round only, and no orbit was found before the march had doubled.
+    """
+    run("&friction model='bengisu_akay', static_coefficient=0.1, dynamic_coefficient=0.05 /\n", PERIODIC)
+    with h5py.File(tmp_path / "case.h5") as file:
+        assert file["periodic/marched_periods"][()] <= 12
+        assert file["periodic/iterations"][()] <= 10
+        # 1e-3: the films' tables; on a march and tables of 1e-8
+        assert leading_multiplier(file) == pytest.approx(-0.0520 + 0.2941j, abs=1e-3)
+
+
 def test_two_revolutions_square_the_multipliers(run, tmp_path):
     run(LUGRE, PERIODIC, name="one")
     run(LUGRE, PERIODIC, "periodic%revolutions=2", name="two")

@@ -1,5 +1,5 @@
 !> Branches of problems that are known: an algebraic fold, orbits that double their period or leave for a torus at a
-!> known value, and Duffing's oscillator, whose folds were found by harmonic balance.
+!> known value, and Duffing's oscillator, whose folds were found by harmonic balance and whose doublings by shooting.
 module branch_problems
    use kinds, only: wp, pi
    use errors, only: error_type, raise, input_error
@@ -35,9 +35,10 @@ module branch_problems
       procedure :: solve => frame_solve
    end type turning_frame
 
-   !> x'' + 0.1 x' + x + x**3 = 0.2 cos(p t).
+   !> x'' + damping x' + spring x + x**3 = force cos(frequency t); the parameter is the frequency or the force.
    type, extends(ode_model_type) :: duffing
-      real(wp) :: p = 1
+      real(wp) :: damping = 0.1_wp, spring = 1, force = 0.2_wp, frequency = 1
+      logical :: varies_force = .false.
       real(wp), private :: x = 0
    contains
       procedure :: rhs => duffing_rhs
@@ -173,7 +174,7 @@ contains
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:)
       logical, intent(out) :: ok
-      dydt = [y(2), 0.2_wp*cos(self%p*t) - 0.1_wp*y(2) - y(1) - y(1)**3]
+      dydt = [y(2), self%force*cos(self%frequency*t) - self%damping*y(2) - self%spring*y(1) - y(1)**3]
       ok = .true.
    end subroutine duffing_rhs
 
@@ -189,7 +190,7 @@ contains
       class(duffing), intent(inout) :: self
       real(wp), intent(in) :: v(:)
       real(wp), intent(out) :: jv(:)
-      jv = [v(2), -(1 + 3*self%x**2)*v(1) - 0.1_wp*v(2)]
+      jv = [v(2), -(self%spring + 3*self%x**2)*v(1) - self%damping*v(2)]
    end subroutine duffing_times
 
    subroutine duffing_solve(self, gamma, b, ok)
@@ -212,13 +213,18 @@ contains
       real(wp), intent(in) :: parameter
       type(error_type), allocatable, intent(out) :: error
       if (associated(self%frame)) self%frame%p = parameter
-      if (associated(self%oscillator)) self%oscillator%p = parameter
+      if (.not. associated(self%oscillator)) return
+      if (self%oscillator%varies_force) then
+         self%oscillator%force = parameter
+      else
+         self%oscillator%frequency = parameter
+      end if
    end subroutine set
 
    pure real(wp) function period(self)
       class(oscillator_orbits), intent(in) :: self
       period = 2*pi
-      if (associated(self%oscillator)) period = 2*pi/self%oscillator%p
+      if (associated(self%oscillator)) period = 2*pi/self%oscillator%frequency
    end function period
 end module branch_problems
 
@@ -239,6 +245,7 @@ program test_continuation
    if (runs('flip')) call flip()
    if (runs('torus')) call torus()
    if (runs('duffing')) call duffing_folds()
+   if (runs('cascade')) call cascade()
    call report()
 
 contains
@@ -450,4 +457,49 @@ contains
       call expect_close(special(2)%point%parameter, lower, 1e-6_wp, 'the lower one')
       call expect(all(here%growth < 0), 'it ends stable')
    end subroutine duffing_folds
+
+   !> Two wells, x'' + 0.3 x' - x + x**3 = p cos(1.2 t): the orbit in one of them doubles its period, and the doubled
+   !> one again, at values by shooting in Python (DOP853, 1e-12). The error of 60 intervals is of (3 omega h)^5/7200 for
+   !> the third harmonic, 3e-7.
+   subroutine cascade()
+      type(duffing), target :: model
+      type(oscillator_orbits), target :: ode
+      type(orbit_problem_type) :: problem
+      type(orbit_type) :: well
+      type(branch_point_type) :: here, flip
+      type(special_point_type), allocatable :: special(:)
+      type(error_type), allocatable :: error
+      type(branch_options) :: options
+      real(wp), parameter :: doublings(2) = [0.2655817860556_wp, 0.2866931578237_wp]
+      real(wp) :: half(2)
+      integer :: count, k
+      logical :: ok
+      model = duffing(n=2, damping=0.3_wp, spring=-1.0_wp, frequency=1.2_wp, varies_force=.true.)
+      ode%model => model
+      ode%oscillator => model
+      well = at_rest(60, 2*pi/1.2_wp)
+      well%start(1) = 1
+      well%at(1, :, :) = 1
+      call begin_orbits(problem, ode, well, 1, 0.01_wp, 0.3_wp)
+      options = branch_options(first_step=0.02_wp, max_step=0.05_wp, low=0.01_wp, high=0.288_wp)
+      call start_branch(problem, options, .true., here, error)
+      call expect_no_error(error, 'the start')
+      do k = 1, 2
+         call follow(problem, options, here, special, count)
+         special = pack(special, special%kind == 'flip')
+         call expect(size(special) == 1, 'one doubling')
+         if (size(special) /= 1) return
+         flip = special(1)%point
+         call expect_close(flip%parameter, doublings(k), 2e-6_wp, 'where it doubles')
+         call double_period(problem, flip, here, ok)
+         call expect(ok, 'the doubled orbit')
+         here%growth(1) = -1
+      end do
+      call follow(problem, options, here, special, count)
+      call expect(size(special) == 0, 'it stays doubled twice')
+      call expect_close(problem%period(), 8*pi/1.2_wp, 1e-12_wp, 'its period')
+      call problem%orbit%state_at(0.5_wp*problem%period(), half)
+      call expect(norm2(half - problem%orbit%start) > 1e-3_wp, 'it is none of half the period')
+      call expect(all(here%growth < 0), 'it is stable')
+   end subroutine cascade
 end program test_continuation
