@@ -41,7 +41,7 @@ module orbit_collocation
       real(wp), allocatable :: rates(:, :, :)
    end type parameter_shift_type
 
-   !> Where corrections below this size, over the scales, no longer fall by this factor in a round, the mesh has settled.
+   !> Where corrections below this size, over the scales, no longer fall by this factor a round, the mesh has settled.
    real(wp), parameter :: slow = 0.1_wp, near = 1e-4_wp
 
    !> Where displacements x and their rates v, x' = v, stand among the states, all states u but the displacements, and
