@@ -103,7 +103,7 @@ LIBS += $($(family).alone) -s
 endif
 # these have arrays as long as a run: not on the stack, wherever FFLAGS puts the short ones of the march
 run_long := $(addprefix src_f90/,$(addprefix analysis/,spectra.f90 loops.f90 pad_behaviour.f90 \
-            kink_mesh.f90 orbit_march.f90) $(addsuffix /*.f90,system input storage results app))
+            orbits/kink_mesh.f90 orbits/orbit_march.f90) $(addsuffix /*.f90,system input storage results app))
 COMPILE = $(FC) $($(family).standard) $(FFLAGS) $(INCLUDE) $($(family).modules)$(B)/mod
 
 # ---- system packages ---------------------------------------------------------------------------
