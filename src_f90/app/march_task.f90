@@ -48,7 +48,7 @@ contains
          call make_start(run, y, error)
       end if
       if (allocated(error)) return
-      call run%file%begin_series('time')
+      call run%file%begin_series('time', sample_count(run%scene))
       plan = planned(run)
       if (run%resumed) call check_samples(run, plan, t, error)
       if (allocated(error)) return

@@ -80,7 +80,7 @@ contains
       none = 0
       plan%count = 1 + int(run%scene%periodic%revolutions, i8)*run%scene%output%samples_per_revolution
       plan%interval = found%period/(plan%count - 1)
-      call run%file%begin_series('time')
+      call run%file%begin_series('time', plan%count)
       call begin_recording(observer, run, 0.0_wp)
       do k = 0, plan%count - 1
          t = min(plan%time(k), found%period)

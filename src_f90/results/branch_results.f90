@@ -1,6 +1,6 @@
 !> What the file of a run says of its branches: names, dimensions and units as docs/results.md lists them.
 module branch_results
-   use kinds, only: wp
+   use kinds, only: wp, i8
    use errors, only: error_type
    use scene_parameter, only: scene_parameter_type
    use continuation, only: branch_point_type
@@ -26,6 +26,9 @@ module branch_results
       real(wp) :: period = 0
    end type branch_orbit_type
 
+   !> Points of a usual file.
+   integer(i8), parameter :: usual_points = 100
+
 contains
 
    !> Declares the series, over points, that `add_point` fills, in the same order.
@@ -41,7 +44,7 @@ contains
       if (warm) frozen = ', at frozen viscosity'
       if (.not. file%file%has('mode')) call file%file%put_list('mode', [(real(i, wp), i=1, modes)], '1', &
          & merge('multiplier number', 'eigenvalue number', orbits), 'mode')
-      call file%begin_series('point')
+      call file%begin_series('point', usual_points)
       call one('point', '1', 'point number')
       call one('branch', '1', 'branch number: 1 the first, then those of double period')
       call one('parameter', parameter%unit, parameter%meaning)

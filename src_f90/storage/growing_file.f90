@@ -76,10 +76,12 @@ contains
    end subroutine open_part
 
    !> Series over an axis, 'time' or another, follow; they start from the samples that are in the file, if any.
-   subroutine begin_series(self, axis)
+   !> `expected`: how many there will be in the end, as far as is known.
+   subroutine begin_series(self, axis, expected)
       class(growing_file_type), intent(inout) :: self
       character(len=*), intent(in) :: axis
-      call self%table%begin(self%file, axis)
+      integer(i8), intent(in) :: expected
+      call self%table%begin(self%file, axis, expected)
    end subroutine begin_series
 
    !> Samples added, also before the run was resumed.

@@ -11,7 +11,7 @@ module hdf5_series
    private
    public :: hdf5_series_type, chunk_samples
 
-   !> Samples in a chunk.
+   !> Samples in a chunk, at most: a series that is known to be shorter has chunks of its own length.
    integer, parameter :: chunk_samples = 4096
    !> Most values a sample; only a damaged file says more.
    integer, parameter :: widest = 1000
@@ -35,12 +35,14 @@ module hdf5_series
 
 contains
 
-   !> A new dataset; with width > 0 of (axis, width), with width 0 of (axis). `scales` as in hdf5_file.
-   subroutine create(self, file, path, width, units, long_name, scales)
+   !> A new dataset; with width > 0 of (axis, width), with width 0 of (axis). `scales` as in hdf5_file. `expected`: how
+   !> many samples it will have, as far as is known; HDF5 takes room for whole chunks.
+   subroutine create(self, file, path, width, units, long_name, scales, expected)
       class(hdf5_series_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: path, units, long_name, scales
       integer, intent(in) :: width
+      integer(i8), intent(in) :: expected
       integer(hsize_t), allocatable :: dims(:), most(:), chunk(:)
       integer(hid_t) :: space, properties, access
       integer :: status
@@ -49,7 +51,7 @@ contains
       self%rank = merge(2, 1, width > 0)
       dims = int([0], hsize_t)
       most = int([h5s_unlimited_f], hsize_t)
-      chunk = int([chunk_samples], hsize_t)
+      chunk = int([max(1_i8, min(expected, int(chunk_samples, i8)))], hsize_t)
       if (width > 0) then
          dims = [int(width, hsize_t), dims]
          most = [int(width, hsize_t), most]

@@ -20,6 +20,8 @@ module sample_table
       private
       !> Name of the series that is the scale of all; it is declared first.
       character(len=:), allocatable :: axis
+      !> How many samples there will be, as far as is known.
+      integer(i8) :: expected = 0
       type(series_type), allocatable :: series(:)
       !> Samples held back, series after series with room for a chunk each, and how many there are.
       real(wp), allocatable :: buffer(:)
@@ -47,12 +49,14 @@ module sample_table
 
 contains
 
-   subroutine begin(self, file, axis)
+   subroutine begin(self, file, axis, expected)
       class(sample_table_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: axis
+      integer(i8), intent(in) :: expected
       type(hdf5_series_type) :: scale
       self%axis = axis
+      self%expected = expected
       if (allocated(self%buffer)) deallocate (self%buffer)
       self%series = [series_type ::]
       self%place = [integer ::]
@@ -78,7 +82,8 @@ contains
       new%width = width
       new%before = size(self%place)
       if (self%samples == 0) then
-         call new%data%create(file, name, merge(width, 0, across /= ''), units, long_name, trim(self%axis//' '//across))
+         call new%data%create(file, name, merge(width, 0, across /= ''), units, long_name, &
+            & trim(self%axis//' '//across), self%expected)
       else
          call new%data%open(file, name)
          if (new%data%length /= self%samples .or. new%data%width /= width) call file%check_read(-1, &

@@ -1,6 +1,7 @@
 """Whole runs against converged values of independent programs, and against each other."""
 
 import resource
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -34,6 +35,14 @@ def march(tiltpad, root, tmp_path):
     yield run
     for file in files:
         file.close()
+
+
+def test_a_short_run_makes_a_small_file(march):
+    """HDF5 takes room for whole chunks: they are as long as the run where it is short."""
+    file = march("paper/steady_lugre", "operation%duration=0.008")
+    values = sum(data.size for data in file.values() if isinstance(data, h5py.Dataset))
+    beside_samples = 1e5  # as in result_size.f90
+    assert Path(file.filename).stat().st_size < 2 * 8 * values + beside_samples
 
 
 def last_revolution(file):

@@ -66,7 +66,7 @@ def test_a_sweep_is_a_study(speeds):
         ({"opertion": {"speed_rpm": 1}}, "opertion"),
         ({"operation": 3000}, "operation = 3000: a group has variables"),
         ({"operation": {"speed_rpm": None}}, "None is neither a number nor a text"),
-        ({"case": {"title": 3}}, "title"),
+        ({"friction": {"model": 3}}, "friction%model"),
     ],
 )
 def test_a_wrong_case_is_said_by_the_program(arguments, message):

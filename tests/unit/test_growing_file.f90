@@ -45,7 +45,7 @@ contains
       call file%begin(error)
       call expect_no_error(error, 'begun')
       call file%file%put_list('pad', [1.0_wp, 2.0_wp], '1', 'pad number', 'pad')
-      call file%begin_series('frequency')
+      call file%begin_series('frequency', 5000_i8)
    end subroutine begin_new
 
    !> Adds samples first to last.
@@ -118,7 +118,7 @@ contains
       call later%claim(path, error)
       call later%reopen(error)
       call expect_no_error(error, 'opened again')
-      call later%begin_series('frequency')
+      call later%begin_series('frequency', 5000_i8)
       call expect(later%samples() == 4000_i8, 'the samples in the file count')
       call add_samples(later, 4001, 4500)
       call later%publish(continued=.true., error=error)
@@ -143,7 +143,7 @@ contains
       call file%publish(continued=.false., error=error)
       call later%claim(path, error)
       call later%reopen(error)
-      call later%begin_series('frequency')
+      call later%begin_series('frequency', 5000_i8)
       call later%last_samples('frequency', 2, values)
       call expect_close(norm2(values(1, :) - [4999.0_wp, 5000.0_wp]), 0.0_wp, 0.0_wp, 'those from before')
       call later%abandon()
@@ -190,17 +190,17 @@ contains
       type(hdf5_series_type) :: series
       type(error_type), allocatable :: error
       call bad%create(path)
-      call series%create(bad, 'frequency', 0, 'Hz', 'frequency', 'frequency')
+      call series%create(bad, 'frequency', 0, 'Hz', 'frequency', 'frequency', 5000_i8)
       call series%append(bad, reshape([1.0_wp, 2.0_wp, 3.0_wp], [1, 3]))
       call series%close(bad)
-      call series%create(bad, 'amplitude', 2, 'm', 'amplitude', 'frequency')
+      call series%create(bad, 'amplitude', 2, 'm', 'amplitude', 'frequency', 5000_i8)
       call series%append(bad, reshape([1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp], [2, 2]))
       call series%close(bad)
       call bad%close()
       call expect(.not. allocated(bad%failure), 'made')
       call file%claim(path, error)
       call file%reopen(error)
-      call file%begin_series('frequency')
+      call file%begin_series('frequency', 5000_i8)
       call add_samples(file, 4, 4)
       call file%error_of(error)
       call expect(allocated(error), 'uneven series are refused')

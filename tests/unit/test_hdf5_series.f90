@@ -8,13 +8,17 @@ program test_hdf5_series
    use scratch, only: scratch_path
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
+   !> Samples of a long series.
+   integer(i8), parameter :: long = 2*chunk_samples
    character(len=:), allocatable :: path
 
    path = scratch_path('series.h5')
    if (runs('growing')) then
-      call growing(0)
-      call growing(1)
-      call growing(5)
+      call growing(0, long)
+      call growing(1, long)
+      call growing(5, long)
+      call growing(5, 100_i8)
+      call growing(0, 0_i8)
    end if
    if (runs('opened_again')) call opened_again()
    if (runs('parts')) call parts()
@@ -58,15 +62,16 @@ contains
          & - samples(series%width, first, last)) > 0), what)
    end subroutine expect_samples
 
-   !> With any number of samples at a time, over the ends of chunks.
-   subroutine growing(width)
+   !> With any number of samples at a time, over the ends of chunks, also where there are more than expected.
+   subroutine growing(width, expected)
       integer, intent(in) :: width
+      integer(i8), intent(in) :: expected
       integer, parameter :: pieces(*) = [1, 1, 2, chunk_samples - 5, 3, chunk_samples, 2*chunk_samples + 1, 10]
       type(hdf5_type) :: file
       type(hdf5_series_type) :: series
       integer :: i, length
       call file%create(path)
-      call series%create(file, 'x', width, 'm', 'numbers', '')
+      call series%create(file, 'x', width, 'm', 'numbers', '', expected)
       call expect(series%width == max(1, width) .and. series%length == 0, 'a new one')
       length = 0
       do i = 1, size(pieces)
@@ -86,7 +91,7 @@ contains
       type(hdf5_type) :: file
       type(hdf5_series_type) :: series
       call file%create(path)
-      call series%create(file, 'x', 3, 'm', 'numbers', '')
+      call series%create(file, 'x', 3, 'm', 'numbers', '', long)
       call series%append(file, samples(3, 1, 7))
       call series%close(file)
       call file%close()
@@ -104,7 +109,7 @@ contains
       type(hdf5_type) :: file
       type(hdf5_series_type) :: series
       call file%create(path)
-      call series%create(file, 'x', 2, 'm', 'numbers', '')
+      call series%create(file, 'x', 2, 'm', 'numbers', '', long)
       call series%append(file, samples(2, 1, chunk_samples + 100))
       call expect_samples(series, file, 1, 1)
       call expect_samples(series, file, chunk_samples - 1, chunk_samples + 2)
@@ -120,8 +125,8 @@ contains
       type(hdf5_type) :: file
       type(hdf5_series_type) :: flat, lists
       call file%create(path)
-      call flat%create(file, 'flat', 0, 'm', 'numbers', 'flat')
-      call lists%create(file, 'lists', 1, 'm', 'numbers', 'flat')
+      call flat%create(file, 'flat', 0, 'm', 'numbers', 'flat', long)
+      call lists%create(file, 'lists', 1, 'm', 'numbers', 'flat', long)
       call flat%append(file, samples(1, 1, 3))
       call lists%append(file, samples(1, 1, 3))
       call expect_samples(flat, file, 1, 3)
@@ -169,7 +174,7 @@ contains
       type(hdf5_series_type) :: series
       real(wp), allocatable :: found(:, :)
       call file%create(path)
-      call series%create(file, 'x', 0, 'm', 'numbers', '')
+      call series%create(file, 'x', 0, 'm', 'numbers', '', long)
       call series%append(file, samples(1, 1, 3))
       call series%read(file, 2_i8, 2, found)
       call expect(all(shape(found) == [1, 2]), 'as many as were asked for')
@@ -183,14 +188,14 @@ contains
       type(hdf5_series_type) :: series, other
       real(wp), allocatable :: found(:, :)
       call file%create(path)
-      call series%create(file, 'x', 0, 'm', 'numbers', '')
+      call series%create(file, 'x', 0, 'm', 'numbers', '', long)
       call series%append(file, samples(1, 1, 3))
       call file%check_read(-1, 'do something else')
       call series%append(file, samples(1, 4, 5))
       call expect(series%length == 3, 'nothing is appended')
       call series%read(file, 0_i8, 3, found)
       call expect_close(maxval(abs(found)), 0.0_wp, 0.0_wp, 'nothing is read')
-      call other%create(file, 'y', 0, 'm', 'numbers', '')
+      call other%create(file, 'y', 0, 'm', 'numbers', '', long)
       call series%close(file)
       call expect_damaged(file, 'do something else')
       call file%open(path, writing=.false.)
