@@ -171,7 +171,7 @@ help:
 	@echo '                     make test-debian-sid: on another release'
 	@echo 'make stress   runs random scenes, half an hour; writes docs/stability.md (SCENES=300 SEED=1)'
 	@echo 'make fuzz     tries random cases and arguments, right and wrong; writes docs/fuzzing.md (MINUTES=5 SEED=1)'
-	@echo 'make bench    measures run time against error, and other programs, ten minutes; writes docs/benchmarks.md'
+	@echo 'make bench    measures run time against error, and other programs, a quarter of an hour; writes docs/benchmarks.md'
 	@echo 'make paper    makes the figures and checks the claims of the paper, a minute or two; writes docs/paper'
 	@echo 'make build    builds build/bin/tiltpad          (MODE=debug: build/debug/bin/tiltpad)'
 	@echo 'make deps     installs missing packages (as root or with sudo; otherwise prints the list and stops)'
