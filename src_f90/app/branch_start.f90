@@ -125,10 +125,16 @@ contains
       call add_context(error, 'the oil takes the temperatures of the equilibrium')
       if (allocated(error)) return
       call run%model%bearing%set_viscosity(static%viscosity)
-      call make_static(run%model, run%model%point%rupture, b%static)
-      b%ode%oil = new_resting_oil(varied_bearing_type(b%static, b%parameter), run%model%at_rest(static%journal, &
-         & static%tilt, static%penetration))
+      call begin_oil(run%model, b, run%model%at_rest(static%journal, static%tilt, static%penetration))
    end subroutine rest_oil
+
+   subroutine begin_oil(model, b, at_rest)
+      type(bearing_model), intent(in) :: model
+      type(branches_type), intent(inout), target :: b
+      real(wp), intent(in) :: at_rest(:)
+      call make_static(model, model%point%rupture, b%static)
+      b%ode%oil = new_resting_oil(varied_bearing_type(b%static, b%parameter), at_rest)
+   end subroutine begin_oil
 
    !> The equilibrium of the case, with converged films.
    subroutine first_equilibrium(run, b, error)
@@ -172,10 +178,7 @@ contains
          orbit%time(1) = 1
          orbit%start = at_rest
          orbit%scale = run%model%scale
-         if (has_warm_oil(run%model)) then
-            call make_static(run%model, run%model%point%rupture, b%static)
-            b%ode%oil = new_resting_oil(varied_bearing_type(b%static, b%parameter), at_rest)
-         end if
+         if (has_warm_oil(run%model)) call begin_oil(run%model, b, at_rest)
          call begin_orbits(b%orbits, b%ode, orbit, 1, b%first, b%way)
       else
          call make_fine(run%model, b%static)

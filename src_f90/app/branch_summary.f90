@@ -20,7 +20,7 @@ contains
       associate (value => special%value)
          print '(a)', '  '//trim(special%kind)//' at '//parameter//' = '//precise(special%point%parameter)//', ' &
             & //fixed_text(value%re, 4)//merge(' + ', ' - ', value%im >= 0)//fixed_text(abs(value%im), 4)//' i' &
-            & //trim(merge(' at frozen viscosity', repeat(' ', 20), warm))
+            & //frozen(warm)
       end associate
    end subroutine print_special_point
 
@@ -62,13 +62,21 @@ contains
             print '(a)', 'branch '//to_text(k)//': '//to_text(count(own))//' points, '//parameter//' from ' &
                & //precise(minval(value(1, :), mask=own))//' to '//precise(maxval(value(1, :), mask=own))//', ' &
                & //to_text(count(own .and. stable(1, :) > 0))//' of them stable' &
-               & //trim(merge(' at frozen viscosity', repeat(' ', 20), warm))
+               & //frozen(warm)
             if (warm) call print_oil(file, own)
          end associate
       end do
       call file%file%get_text('branch_ends', ends)
       print '(a)', ends
    end subroutine print_branch
+
+   !> What stability stands for where the oil has temperatures.
+   pure function frozen(warm) result(text)
+      logical, intent(in) :: warm
+      character(len=:), allocatable :: text
+      text = ''
+      if (warm) text = ' at frozen viscosity'
+   end function frozen
 
    !> The range of each pad's temperatures and viscosity over the points of a branch.
    subroutine print_oil(file, own)

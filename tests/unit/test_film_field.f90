@@ -23,7 +23,7 @@ program test_film_field
 
    if (runs('force_of_modes')) call force_of_modes()
    if (runs('force_of_volumes')) call force_of_volumes()
-   if (runs('force_of_auto')) call force_of_auto()
+   if (runs('force_of_direct')) call force_of_direct()
    if (runs('solvers_agree')) call solvers_agree()
    if (runs('uniform_pressure')) call uniform_pressure()
    if (runs('heated_edge')) call heated_edge()
@@ -114,7 +114,7 @@ contains
    end subroutine force_of_volumes
 
    !> The solver that chooses, from no rupture to an all but empty pad: there the error of the volumes (80 x 8) is left.
-   subroutine force_of_auto()
+   subroutine force_of_direct()
       type(direct_film_type) :: solver
       type(film_motion) :: motions(4)
       real(wp), parameter :: tolerances(4) = [1e-5_wp, 1e-3_wp, 1e-2_wp, 2e-2_wp]
@@ -129,7 +129,7 @@ contains
          call expect(minval(p) >= 0, 'no tension, motion '//to_text(i))
          call expect(any(p <= 0) .eqv. i > 1, 'rupture, motion '//to_text(i))
       end do
-   end subroutine force_of_auto
+   end subroutine force_of_direct
 
    !> Modes, and the solver that chooses, against fine over-relaxation in every point, over the highest pressure;
    !> with a pressure at the leading edge but for a cell of the latter around the corner where the pressure jumps.

@@ -62,7 +62,6 @@ contains
          problem%viscosity = [real(wp) ::]
          if (has_warm_oil(model)) problem%viscosity = model%bearing%pads%gap%viscosity
          problem%n = size(problem%positions) + size(problem%viscosity)
-         allocate (problem%weight(problem%n), source=1.0_wp/size(problem%positions))
          problem%scale = clearances(model)
          allocate (problem%force(size(problem%positions)), source=reference_force(model))
          if (model%layout%tilting) then
@@ -71,9 +70,9 @@ contains
             end associate
          end if
       end associate
-      ! where films are thin the viscosities run away while the positions hardly move
-      problem%weight(size(problem%positions) + 1:) = 1.0_wp/max(1, size(problem%viscosity))
       associate (n => size(problem%positions), one => spread(1.0_wp, 1, size(problem%viscosity)))
+         ! viscosities count, too: where films are thin they run away while the positions hardly move
+         problem%weight = [spread(1.0_wp/n, 1, n), one/max(1, size(one))]
          allocate (problem%stiffness(n, n), problem%damping(n, n), source=0.0_wp)
          problem%scale = [problem%scale, one]
          problem%force = [problem%force, one]
