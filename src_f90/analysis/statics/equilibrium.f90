@@ -13,6 +13,7 @@ module equilibrium
    use pad_elimination, only: eliminate_pads
    use pad_rest, only: find_rests
    use motion_to_rest, only: march_to_rest
+   use shortened_newton, only: shorten_newton
    use static_model, only: equilibrium_type, describe, make_static, make_quick, come_to_rest, start, &
       & starts, pull_pads
    use warm_oil, only: has_warm_oil, guess_oil, guesses, come_to_warm_rest
@@ -234,8 +235,7 @@ contains
          ok = .not. model%bearing%films_rupture()
          if (.not. ok) return
          call pull_pads(model, y)
-         ! every motion leaves such a rest: the steps must be Newton's own
-         call eliminate_pads(model, y, at_rest, ok, give_up, first_step=newtons)
+         call shorten_newton(model, y, ok, give_up)
       case default
          call march_to_rest(model, y, ok, give_up)
       end select

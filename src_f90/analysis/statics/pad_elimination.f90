@@ -23,14 +23,12 @@ module pad_elimination
 contains
 
    !> Moves journal and pads from y to rest, nearly. Pads that find no rest stand at zero tilt on their pivots.
-   subroutine eliminate_pads(model, y, at_rest, ok, give_up, first_step)
+   subroutine eliminate_pads(model, y, at_rest, ok, give_up)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       !> Which pads rest; whether the journal does.
       logical, intent(out) :: at_rest(:), ok
       procedure(asked_to_stop), optional :: give_up
-      !> Time step of journal and pads to begin with, in radians of the shaft; 1 if it is left out.
-      real(wp), intent(in), optional :: first_step
       type(journal_motion) :: journal
       type(pad_state) :: pads(model%layout%pads)
       real(wp) :: force(2), stiffness(2, 2), damping(2, 2), step(2), time_step, residual, last, follow(2, 2, size(pads))
@@ -38,11 +36,10 @@ contains
       journal = model%rotor%journal(y(:model%rotor%states))
       pads = model%layout%pad_states(y)
       time_step = 1/model%point%speed(0.0_wp)
-      if (present(first_step)) time_step = first_step*time_step
       last = 0
       do iteration = 1, journal_iterations
          ok = .not. asked(give_up)
-         if (ok) call settle_pads(model, journal, pads, at_rest, ok, first_step)
+         if (ok) call settle_pads(model, journal, pads, at_rest, ok)
          if (ok .and. .not. all(at_rest)) call put_down(model, journal, pads, at_rest, ok)
          if (.not. ok) exit
          force = resultant(model)
