@@ -67,10 +67,10 @@ contains
          u = [cos(u(2)), (1 - tan(u(2))/tangent)/2]
       end if
       state%t = u(2)
-      call set_velocity(state, u(1)*[1.0_wp, tangent])
-      call measure(state)
       chance = between(0.0_wp, 1.0_wp)
       if (chance < 0.5_wp) u(1) = -u(1)
+      call set_velocity(state, [u(1), abs(u(1))*tangent])
+      call measure(state)
       call set_velocity(state, [u(1), abs(u(1))*tangent*(1 - 2*state%t)])
       call measure(state)
       if (.not. supplied) return

@@ -355,6 +355,10 @@ contains
          call expect(loss%couette < whole%couette, 'streamers shear less')
          call within(loss%inlet/(radius*clearance*speed/(2*pi)*length), tables(6, i), 0.002_wp, 'inlet flow')
          call within(loss%side/loss%inlet, tables(7, i), 0.004_wp, 'side flow')
+         print '(a, 2f4.1, a, 5f9.4)', 'L/D, e/c', tables(1:2, i), ': S, Q_in, side share, friction, with streamers', &
+            & viscosity*speed/pi*radius*length/load*(radius/clearance)**2, loss%inlet/(radius*clearance*speed/(2*pi) &
+            & *length), loss%side/loss%inlet, friction, friction*(loss%couette + loss%wedge) &
+            & /(whole%couette + loss%wedge)
       end do
    end subroutine raimondi_boyd
 

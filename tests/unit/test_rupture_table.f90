@@ -137,6 +137,7 @@ contains
             call expect(good, 'there is a cell')
             call expect_close(norm2(value(:2)), 0.0_wp, 1e-12_wp, 'w at T = 0')
             call expect_close(norm2(slope(:2, :)), 0.0_wp, tolerance, 'and its slopes, to an error''s')
+            call expect_close(value(3), 1.0_wp, 1e-12_wp, 'the pressure is that of the whole film')
             t = tiny(t)
          end do
          t = nearest(1.0_wp, -1.0_wp)
@@ -144,6 +145,7 @@ contains
             call table%look_up([0.8_wp, 0.4_wp], t, .true., last, value, slope, good)
             call expect(good, 'there is a cell')
             call expect_close(norm2([1.0_wp, -pad%tangent] + value(:2)), 0.0_wp, 1e-12_wp, 'nothing at T = 1')
+            call expect_close(value(3), 0.0_wp, 1e-12_wp, 'and no pressure')
             t = 1
          end do
          gumbel = .true.

@@ -30,8 +30,8 @@ module rupture_table
    !> How much an error of the slopes at a cell's middle, times its size, counts.
    real(wp), parameter :: share_of_slopes = 0.15_wp
 
-   !> Functions: the two components of d, the highest pressure over that of the whole film driven by v, and 0. Their
-   !> values, and derivatives over both thicknesses and T, (function, value or derivative).
+   !> Functions: the two components of d, the highest pressure of the whole film driven by v over that of the ruptured
+   !> one, and 0. Their values, and derivatives over both thicknesses and T, (function, value or derivative).
    type :: node_type
       real(wp) :: data(lanes, corner_data) = 0
       !> Error of the force over that of the film that is just whole, per error of d.
@@ -224,7 +224,7 @@ contains
          if (.not. node%ok) return
          data(:, :, corner) = node%data*spread([1.0_wp, size_of], 1, lanes)
       end do
-      ! the ratio of pressures is linear between corners
+      ! the ratio of pressures, which falls smoothly from 1 to 0, is linear between corners
       do corner = 0, corners - 1
          do i = 1, 3
             associate (other => ieor(corner, 2**(i - 1)))
@@ -277,10 +277,12 @@ contains
       real(wp), intent(in) :: edges(2), t
       type(drive_type) :: drive
       real(wp) :: w(2)
-      node%data(3, 1) = 1
       node%ok = .true.
       ! whole
-      if (.not. t > 0) return
+      if (.not. t > 0) then
+         node%data(3, 1) = 1
+         return
+      end if
       associate (tangent => self%pad%tangent)
          w = [1.0_wp, tangent*(1 - 2*t)]
          ! at T = 1 nothing is left of the film; as it goes to nothing smoothly, only w changes
@@ -288,7 +290,7 @@ contains
             self%built_nodes = self%built_nodes + 1
             drive = self%drive%at(edges, w(2))
             node%ok = drive%ok
-            node%data(3, 1) = drive%peak
+            node%data(3, 1) = drive%pressure_ratio
             node%weight = drive%weight*min(1.0_wp, thickness_scale(edges(1), edges(2)) &
                & /thickness_scale(thick_film, thick_film))
          end if

@@ -46,8 +46,8 @@ module ruptured_drive
       real(wp) :: value(2) = 0, slopes(2, 3) = 0
       !> M over the force of the film that is just whole, w_2 = tan(half the arc).
       real(wp) :: weight(2, 2) = 0
-      !> Highest pressure of the ruptured film over that of the whole one that is driven by v.
-      real(wp) :: peak = 1
+      !> Highest pressure of the whole film that is driven by v over that of the ruptured one.
+      real(wp) :: pressure_ratio = 1
       logical :: ok = .false.
    end type drive_type
 
@@ -186,7 +186,7 @@ contains
          end do
          drive%slopes(:, 3) = solved(m, ruptured%derivatives(:, 4))
       end associate
-      if (whole%max_pressure > 0) drive%peak = ruptured%max_pressure/whole%max_pressure
+      if (ruptured%max_pressure > 0) drive%pressure_ratio = whole%max_pressure/ruptured%max_pressure
    end subroutine set_slopes
 
    !> Angles between the columns, rad, from the trailing to the leading edge, where the film has gone up to an angle

@@ -52,10 +52,12 @@ module table_pad
    !> (component, edge), and over w, (component, component of w).
    type :: pad_drive
       real(wp) :: value(2), over_edges(2, 2), over_w(2, 2)
-      !> Highest pressure over that of the whole film.
-      real(wp) :: peak = 1
+      !> Highest pressure of the whole film over that of the ruptured one.
+      real(wp) :: pressure_ratio = 1
    end type pad_drive
 
+   !> Ratio of pressures below which nothing of a film is left that counts.
+   real(wp), parameter :: least_ratio = 0.01_wp
    real(wp), parameter :: identity(2, 2) = reshape([1, 0, 0, 1], [2, 2])
 
 contains
@@ -140,7 +142,7 @@ contains
          call tables%rupture%look_up(seen%edges([leading, trailing]), 0.5_wp*(1 - w(2)/room), want_derivatives, &
             & self%rupture_cell, d, slope, self%found)
          drive%value = w + (along*side)*d(1:2)
-         drive%peak = d(3)
+         drive%pressure_ratio = d(3)
          if (.not. want_derivatives) return
          drive%over_edges(:, leading) = (along*side)*slope(1:2, 1)
          drive%over_edges(:, trailing) = (along*side)*slope(1:2, 2)
@@ -211,7 +213,7 @@ contains
       end if
       if (.not. may_rupture) call tables%whole%highest_pressure(seen%edges, -seen%w, -rise, self%whole_cell, &
          & lowest, good)
-      highest = highest*drive%peak
+      highest = highest/max(drive%pressure_ratio, least_ratio)
       response%max_pressure = self%gap%ambient_pressure + self%unit_pressure*highest
       response%min_pressure = min(self%gap%ambient_pressure, self%gap%supply_pressure, &
          & self%gap%ambient_pressure - self%unit_pressure*lowest)
