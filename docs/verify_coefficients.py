@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import tiltpad
-from verify_runs import row, run
+from verify_runs import EXAMPLES, row, run
 
 # Coefficients at the journal, MN/m and MN s/m, by independent programs without rupture: motion, rpm, whirl
 # frequency over speed, pivots: yy, yz, zy, zz of K and of C, as far as they are known.
@@ -24,6 +24,19 @@ INDEPENDENT = {
     ("tilting_only", 3000, 1.0, "free"): ((709.094, None, None, 711.112), (2.06450, None, None, 2.07038)),
 }
 PLACES = ("yy", "yz", "zy", "zz")
+# Bearings whose default films are compared with closer ones: name, case, what is changed in it, closer films.
+GROOVES, SLOW = EXAMPLES / "two_groove.nml", "operation%speed_rpm=2000"
+PARTS = ("stiffness", "damping")
+CLOSER = ("film%table_tolerance=1.2e-6",)
+FINER = ("film%solver=direct", "film%circumferential_cells=320", "film%axial_cells=32")
+CLOSE_FILMS = (
+    ("paper's pads, 6500 rpm", "steady_tr", (), CLOSER),
+    ("paper's pads, 2000 rpm", "steady_tr", (SLOW,), CLOSER),
+    ("offset pivots, 3000 rpm", EXAMPLES / "offset_preload.nml", ("operation%speed_rpm=3000",), CLOSER),
+    ("five pads, preload 0.5", EXAMPLES / "five_pads.nml", ("bearing%preload=0.5",), CLOSER),
+    ("two fixed pads of 140 degrees, 2000 rpm", GROOVES, ("pads%arc_deg=140", SLOW), CLOSER),
+    ("two fixed pads of 160 degrees, 3000 rpm", GROOVES, ("operation%speed_rpm=3000",), FINER),
+)
 
 # Someya (1989), four pads, load between them: S, eccentricity over clearance, K c/W and C c omega/W along
 # the load.
@@ -81,6 +94,18 @@ def independent(program, folder):
                     f"{worst:.1e}",
                 ),
             )
+
+
+def close_films(program, folder):
+    """Rows of coefficients with the default films against those with closer ones."""
+    task = ("case%task=coefficients", "coefficients%frequency_ratio=0.5,1,2")
+    for name, case, changes, close in CLOSE_FILMS:
+        with (
+            run(program, case, folder, *changes, *task) as usual,
+            run(program, case, folder, *changes, *task, *close) as closer,
+        ):
+            pairs = [[each[f"coefficients/{part}"][0] for each in (usual, closer)] for part in PARTS]
+        yield row(name, *(f"{np.abs(a - b).max() / np.abs(b).max():.1e}" for a, b in pairs))
 
 
 def thresholds(program, folder):

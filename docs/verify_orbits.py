@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 from tiltpad.calculate import branches
-from verify_runs import row, run
+from verify_runs import EXAMPLES, row, run
 
-FOUR = Path(__file__).resolve().parent.parent / "input/examples/four_pads.nml"
+FOUR = EXAMPLES / "four_pads.nml"
 #: Orbits and marches have the same films: these do not follow the tolerance.
 FILMS = ("film%table_tolerance=2e-6",)
 ORBIT = ("case%task=periodic", "integration%relative_tolerance=1e-6", "output%samples_per_revolution=20")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import tiltpad
 
-CASES = Path(__file__).resolve().parent.parent / "input/paper"
+CASES, EXAMPLES = (Path(__file__).resolve().parent.parent / "input" / name for name in ("paper", "examples"))
 NUMBERS = itertools.count()
 
 

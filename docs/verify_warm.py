@@ -8,10 +8,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 import tiltpad
 from tiltpad.draw import plots
-from verify_runs import row, run
+from verify_runs import EXAMPLES, row, run
 
 IMAGES = Path(__file__).resolve().parent / "images"
-EXAMPLES = Path(__file__).resolve().parent.parent / "input/examples"
 #: Fillon, Bligoud and Frene 1992.
 FILLON = """&case  task = 'equilibrium' /
 &rotor  mass = 1000, gravity = 10, unbalance = 0 /
@@ -36,6 +35,11 @@ AT_4000 = (-55.686, (51.67, 50.06, 65.45, 64.20), 57.26, 351.30, 0.61687)
 CONVERGED = (-55.7045, (51.683, 50.079, 65.475, 64.208), 57.276, 351.43, 0.6163)
 #: Pads without weight.
 WEIGHTLESS = ("pads%mass=1e-6", "pads%inertia=1e-9")
+#: A run-up whose grooves warm.
+RUN_UP = (
+    *("case%task=march", "operation%speed_rpm=3000", "operation%final_speed_rpm=6500"),
+    *("operation%duration=2", "output%start_time=1.97", "thermal%march=groove", "oil%groove_volume=1e-5"),
+)
 #: Viscosities, mPa s, of an oil of 46 and 6.8 mm2/s.
 WALTHER = {40: 39.284, 60: 17.348, 80: 9.197, 100: 5.546}
 
@@ -146,4 +150,22 @@ def fillon(folder):
     return case
 
 
-TABLES = (walther, warm_bearings, measured, heat)
+def vibration(program, folder):
+    """Rows of what vibration changes in the heat and the flow of the pads, at the end of a run-up."""
+    still = None
+    for unbalance in (0, 0.01, 0.03):
+        changes = (*RUN_UP, f"rotor%unbalance={unbalance}")
+        with run(program, EXAMPLES / "warm_paper.nml", folder, *changes) as found:
+            loss, oil = tiltpad.losses(found, last=2), found.input["oil"]
+            size = np.ptp(found.journal_y[tiltpad.last_revolutions(found, 2)])
+            clearance = found.clearance
+        heat, flow = loss.power.mean(axis=0), loss.inlet_flow.mean(axis=0)
+        through = (loss.inlet_flow + loss.outlet_flow).mean(axis=0) / 2
+        here = heat, flow, heat / (oil["density"] * oil["specific_heat"] * through)
+        still = still or here
+        more = [100 * (a / b - 1) for a, b in zip(here[:2], still[:2], strict=True)]
+        cells = [", ".join(f"{x:+.1f}" for x in each) for each in (*more, here[2] - still[2])]
+        yield row(unbalance, f"{1e6 * size:.1f}", f"{size / clearance:.2f}", *(cells if unbalance else "---"))
+
+
+TABLES = (walther, warm_bearings, measured, heat, vibration)
