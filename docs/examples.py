@@ -1,4 +1,4 @@
-"""Runs the commands of docs/examples.md and writes its pictures.
+"""Runs the commands of docs/examples.md, writes its pictures and compares the figures in its text.
 
 usage: examples.py TILTPAD FOLDER-FOR-RUNS
 """
@@ -8,7 +8,11 @@ import re
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+
+import numpy as np
+import tiltpad
 
 DOCS = Path(__file__).resolve().parent
 
@@ -18,14 +22,37 @@ def commands(page: str) -> list[str]:
     return [line for block in re.findall(r"```sh\n(.*?)```", page, re.DOTALL) for line in block.splitlines()]
 
 
+def figures(folder: Path) -> Iterator[str]:
+    """What the page says of its results, with the figures that they have."""
+    with tiltpad.read(folder / "speeds/0002.h5") as run:
+        cross = 1e-6 * tiltpad.coefficients(run, "free").stiffness[0, 0, 1]
+        yield f"its cross stiffness is {cross:.0f} MN/m"
+    with tiltpad.read(folder / "up.h5") as run:
+        yield f"near {100 * round(tiltpad.response(run).peaks[0].speed_rpm / 100)} rpm"
+    with tiltpad.read_study(folder / "lobes.h5") as study:
+        found = tiltpad.modes(study, "locked")
+    growth = np.nanmax(found.eigenvalue.real, axis=1)
+    for preload, words in (
+        (0, "unstable from {} rpm on"),
+        (0.3, "adds little ({} rpm)"),
+        (0.5, "holds to {} rpm"),
+    ):
+        lobes = found.parameters["preload"] == preload
+        yield words.format(100 * round(np.interp(0, growth[lobes], found.speed_rpm[lobes]) / 100))
+
+
 def main() -> None:
     program, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     (folder / "input").symlink_to(DOCS.parent / "input")
     path = os.pathsep.join([str(program.parent), str(Path(sys.executable).parent), os.environ["PATH"]])
-    for line in commands((DOCS / "examples.md").read_text()):
+    page = (DOCS / "examples.md").read_text()
+    for line in commands(page):
         subprocess.run(["sh", "-c", line], check=True, cwd=folder, env=os.environ | {"PATH": path})
+    wrong = [words for words in figures(folder) if words not in page]
+    if wrong:
+        sys.exit(f"docs/examples.md: other figures now: {wrong}")
     for picture in folder.glob("example_*.png"):
         shutil.copy(picture, DOCS / "images")
 

@@ -8,7 +8,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
+import tiltpad
 from tiltpad import command
+from tiltpad.calculate import behaviour
 
 BLOCK = re.compile(r"```(\w+)( fails| ross)?\n(.*?)```", re.DOTALL)
 #: Commands of the package that need no process of their own, each of which would load matplotlib.
@@ -61,8 +64,44 @@ def test_every_command_of_the_tutorial_does_what_it_says(
     assert (tmp_path / "mine.html").exists()
     for example, own in (("five_pads", "five.nml"), ("offset_preload", "bearing.nml")):
         assert (root / f"input/examples/{example}.nml").read_text().endswith((tmp_path / own).read_text())
+    for words in figures(tmp_path):
+        assert words in text
     same = [(tmp_path / name).stat().st_size for name in ("mine.h5", "again.h5")]
     assert same[0] == same[1]
+
+
+def figures(folder):
+    """What the page says of its results, with the figures that they have."""
+
+    def result(name):
+        return tiltpad.read(folder / name)
+
+    with result("rest.h5") as run:
+        e = run.equilibrium
+        yield f"specific load ({1e-6 * e['specific_load']:.2f} MPa)"
+        yield f"{1e6 * e['min_film_thickness'].min():.0f} um and {1e-6 * e['max_pressure'].max():.1f} MPa at"
+        assert (e["load"] > 1000).all()
+    with result("map/0003.h5") as run:
+        k = 1e-6 * tiltpad.coefficients(run, "free").stiffness[0]
+        yield f"{k[0, 0]:.0f} MN/m at 9000 rpm in both directions, and cross terms that are small"
+        assert round(k[0, 0]) == round(k[1, 1])
+        assert abs(k[0, 1]) + abs(k[1, 0]) < 0.01 * k[0, 0]
+    with result("smooth.h5") as smooth, result("rough.h5") as rough:
+        sizes = [1e6 * tiltpad.orbit_size(run)[0] for run in (smooth, rough)]
+        yield "from {:.1f} to {:.1f} um in the vertical".format(*sizes)
+    with result("plain.h5") as run:
+        yield f"whirls at {behaviour.whirl(run).order:.2f} of the shaft speed"
+    with result("threshold.h5") as run:
+        yield f"from which speed on: {run['modes/threshold_rpm'][-1]:.0f} rpm"
+    with result("warm.h5") as run:
+        e = run.equilibrium
+        viscosity = np.sort(1e3 * e["viscosity"])
+        yield f"have {viscosity[1]:.0f} and {viscosity[0]:.0f} mPa s, the others more than 30"
+        assert viscosity[2] > 30
+        yield f"moves by {-1e6 * e['journal_z']:.0f} um"
+    with result("cross.h5") as run:
+        k = 1e-6 * tiltpad.coefficients(run, "free").stiffness[0]
+        yield f"cross stiffness of {k[0, 1]:.0f} and {k[1, 0]:.0f} MN/m"
 
 
 def unbalance_response(root, block, folder):
