@@ -13,8 +13,9 @@ module asperity_contact
 
    !> Mean pressure over K' E': 4.4086e-5 (4 - h/sigma)^6.804 below h = 4 sigma, the usual fit of F_5/2.
    real(wp), parameter :: highest_ratio = 4, coefficient = 4.4086e-5_wp, exponent = 6.804_wp
-   !> Speed of the journal's surface at which boundary friction has 0.7 of its size, m/s: it has none at rest.
-   real(wp), parameter :: slow = 1e-3_wp
+   !> Speed of the journal's surface, over its highest, at which boundary friction has 0.7 of its size: it has none at
+   !> rest.
+   real(wp), parameter :: slow_share = 3e-5_wp
    !> Mean gap that the oil has, over the roughness, from which on it is less than the film thickness falls by.
    real(wp), parameter :: oil_ratio = 2
 
@@ -32,6 +33,8 @@ module asperity_contact
       real(wp) :: reach = -huge(1.0_wp)
       !> Combined rms roughness sigma, m; K' E' times the coefficient, Pa; coefficient of friction.
       real(wp) :: roughness = 0, pressure = 0, friction = 0
+      !> Speed of the journal's surface at which friction goes, m/s.
+      real(wp) :: slow = 0
    contains
       procedure :: act
       procedure :: evaluate
@@ -68,10 +71,12 @@ module asperity_contact
 contains
 
    !> Contact of surfaces of a combined rms roughness, m, and composite modulus, Pa, with the factor K' and a
-   !> coefficient of friction.
-   pure type(asperity_contact_type) function new_asperity_contact(roughness, modulus, factor, friction) result(contact)
-      real(wp), intent(in) :: roughness, modulus, factor, friction
-      contact = asperity_contact_type(highest_ratio*roughness, roughness, coefficient*factor*modulus, friction)
+   !> coefficient of friction; the journal's surface moves at up to `fastest`, m/s.
+   pure function new_asperity_contact(roughness, modulus, factor, friction, fastest) result(contact)
+      real(wp), intent(in) :: roughness, modulus, factor, friction, fastest
+      type(asperity_contact_type) :: contact
+      contact = asperity_contact_type(highest_ratio*roughness, roughness, coefficient*factor*modulus, friction, &
+         & slow_share*fastest)
    end function new_asperity_contact
 
    !> True where asperities may touch.
@@ -121,7 +126,7 @@ contains
          if (high > low) call self%add_stretch(gap, position, low, high, sums)
       end do
       ! friction pulls the journal along phi, and turns the pad with the journal
-      associate (friction => self%friction*speed/sqrt(speed**2 + slow**2), s => sums%slopes)
+      associate (friction => self%friction*speed/sqrt(speed**2 + self%slow**2), s => sums%slopes)
          load%normal = sums%normal
          load%force = -sums%pushed + friction*[sums%pushed(2), -sums%pushed(1)]
          load%force_slopes(1, :) = -s(1, :) + friction*s(2, :)

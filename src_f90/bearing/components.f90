@@ -191,7 +191,8 @@ contains
          if (a%model == 'none') then
             contact = no_asperities
          else
-            contact = new_asperity_contact(a%roughness, a%elastic_modulus, a%factor, a%friction_coefficient)
+            contact = new_asperity_contact(a%roughness, a%elastic_modulus, a%factor, a%friction_coefficient, &
+               & scene%highest_speed()*scene%bearing%journal_radius)
          end if
       end associate
    end function new_asperities

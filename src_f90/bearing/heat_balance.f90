@@ -34,11 +34,14 @@ module heat_balance
       real(wp) :: journal_radius
       !> Length of each pad's arc, m.
       real(wp), allocatable :: arc(:)
+      !> Machined clearance times length of the pads, m^2.
+      real(wp) :: section
    contains
       procedure :: temperatures
       procedure :: viscosities
       procedure :: renewal
       procedure, private :: network
+      procedure, private :: least_flow
    end type heat_balance_type
 
    !> Pads and shaft as what the heat of the films warms; one element a pad.
@@ -50,10 +53,9 @@ module heat_balance
       logical :: solved = .false.
    end type heat_network
 
-   !> Least heat capacity of a flow, W/K: oil that stands gives its heat to the shaft.
-   real(wp), parameter :: least_capacity = 1e-9_wp
-   !> Least flow that renews a groove, m^3/s.
-   real(wp), parameter :: least_flow = 1e-12_wp
+   !> Least flow through a film, over that which the journal would drag through its clearance: oil that stands gives its
+   !> heat to the shaft.
+   real(wp), parameter :: least_share = 1e-12_wp
    !> Relative change of the viscosities at which they have settled; most rounds of Newton's method.
    real(wp), parameter :: settled = 1e-13_wp
    integer, parameter :: most_rounds = 200
@@ -68,6 +70,7 @@ contains
       self%oil = scene%oil
       self%journal_radius = scene%bearing%journal_radius
       self%arc = scene%pads%arc_deg*degree*scene%bearing%journal_radius
+      self%section = scene%bearing%machined_clearance*scene%bearing%axial_length
       allocate (self%upstream(scene%pad_count()), source=0)
       allocate (self%carry_over(scene%pad_count()), source=0.0_wp)
       associate (p => scene%pads)
@@ -176,8 +179,16 @@ contains
       real(wp) :: hot(size(losses))
       hot = hot_shares(self, losses)
       entering = hot*oil%outlet(self%upstream) + (1 - hot)*self%oil%supply_temperature
-      time_constant = self%oil%groove_volume/max(losses%inlet, least_flow) + self%arc/(speed*self%journal_radius)
+      time_constant = self%oil%groove_volume/max(losses%inlet, self%least_flow(speed)) &
+         & + self%arc/(speed*self%journal_radius)
    end subroutine renewal
+
+   !> Flow through a film, m^3/s, below which it counts as standing.
+   pure real(wp) function least_flow(self, speed)
+      class(heat_balance_type), intent(in) :: self
+      real(wp), intent(in) :: speed
+      least_flow = least_share*speed*self%journal_radius*self%section/2
+   end function least_flow
 
    !> Which share of the inflow comes from upstream.
    pure function hot_shares(self, losses) result(hot)
@@ -204,7 +215,7 @@ contains
       associate (oil => self%oil, up => self%upstream)
          ! the integral of dA/h over what oil fills
          part = losses%couette/(films*(speed*self%journal_radius)**2)
-         net%capacity = max(least_capacity, oil%density*oil%specific_heat*(losses%inlet + losses%outlet)/2)
+         net%capacity = oil%density*oil%specific_heat*max(self%least_flow(speed), (losses%inlet + losses%outlet)/2)
          call film_shares(oil%wall_exchange*oil%conductivity*part/net%capacity, net%left, net%f, net%g)
          net%hot = hot_shares(self, losses)
          matrix = 0

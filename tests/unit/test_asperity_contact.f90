@@ -28,7 +28,7 @@ contains
 
    type(asperity_contact_type) function steel_on_metal(coefficient) result(contact)
       real(wp), intent(in) :: coefficient
-      contact = new_asperity_contact(roughness, modulus, factor, coefficient)
+      contact = new_asperity_contact(roughness, modulus, factor, coefficient, speed*49.9e-3_wp)
    end function steel_on_metal
 
    !> The load at a position, m.
