@@ -30,7 +30,8 @@ contains
          if (.not. ok) return
          residual = imbalance(model)
          ok = residual <= residual_limit
-         if (ok .or. iteration == max_iterations .or. asked(give_up)) return
+         if (ok .or. iteration == max_iterations) return
+         if (asked(give_up)) return
          call force_derivatives(model, stiffness, damping)
          step = -forces(model, 0.0_wp)
          call dgesv(size(step), 1, stiffness, size(step), pivots, step, size(step), info)
