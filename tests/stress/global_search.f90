@@ -25,7 +25,7 @@ program global_search
    use operating_point, only: operating_point_type
    use equations_of_motion, only: bearing_model, new_bearing_model
    use force_balance, only: forces, force_derivatives
-   use damped_newton, only: imbalance, residual_limit
+   use damped_newton, only: unbalanced, reference_force, residual_limit
    use small_vibrations, only: stability_at, stability_type
    implicit none (type, external)
 
@@ -476,7 +476,7 @@ contains
       do iteration = 1, 60
          call model%evaluate(0.0_wp, y, .true., ok)
          if (.not. ok) return
-         residual = imbalance(model)
+         residual = unbalanced(model)/reference_force(model)
          if (residual <= residual_limit) return
          call force_derivatives(model, stiffness, damping)
          step = -forces(model, 0.0_wp)
@@ -489,7 +489,7 @@ contains
             trial(x) = y(x) + part*step
             call model%evaluate(0.0_wp, trial, .false., ok)
             if (ok) then
-               next = imbalance(model)
+               next = unbalanced(model)/reference_force(model)
                if (next < residual .or. cut > 8) exit
             end if
             part = 0.5_wp*part

@@ -8,7 +8,7 @@ module equilibrium
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error, stopped
    use equations_of_motion, only: bearing_model
-   use damped_newton, only: follow_motion, imbalance, asked_to_stop, asked, newtons, residual_limit
+   use damped_newton, only: follow_motion, unbalanced, asked_to_stop, asked, newtons, residual_limit
    use small_vibrations, only: stability_at
    use pad_elimination, only: eliminate_pads
    use pad_rest, only: find_rests
@@ -138,7 +138,7 @@ contains
    function best_start(model, give_up) result(y)
       type(bearing_model), intent(inout) :: model
       procedure(asked_to_stop), optional :: give_up
-      real(wp) :: y(model%n), trial(model%n), smallest, residual
+      real(wp) :: y(model%n), trial(model%n), smallest, force
       integer :: k
       logical :: ok
       smallest = huge(smallest)
@@ -148,9 +148,9 @@ contains
          trial = start(model, k)
          call model%evaluate(0.0_wp, trial, .false., ok)
          if (.not. ok) cycle
-         residual = imbalance(model)
-         if (residual < smallest) then
-            smallest = residual
+         force = unbalanced(model)
+         if (force < smallest) then
+            smallest = force
             y = trial
          end if
       end do

@@ -12,7 +12,8 @@ module pad_elimination
    private
    public :: eliminate_pads, settle_pads, film_of
 
-   !> Unbalanced forces over the load at which a pad and the journal rest: near enough for Newton's method on the whole.
+   !> Unbalanced forces over the reference force at which a pad and the journal rest: near enough for Newton's method
+   !> on the whole.
    real(wp), parameter :: pad_limit = 1e-9_wp, journal_limit = 1e-6_wp
    integer, parameter :: pad_iterations = 40, journal_iterations = 60
    !> Least part of a film that a move leaves.
@@ -31,7 +32,8 @@ contains
       procedure(asked_to_stop), optional :: give_up
       type(journal_motion) :: journal
       type(pad_state) :: pads(model%layout%pads)
-      real(wp) :: force(2), stiffness(2, 2), damping(2, 2), step(2), time_step, residual, last, follow(2, 2, size(pads))
+      real(wp) :: force(2), stiffness(2, 2), damping(2, 2), step(2), time_step, unbalanced, last
+      real(wp) :: follow(2, 2, size(pads))
       integer :: iteration
       journal = model%rotor%journal(y(:model%rotor%states))
       pads = model%layout%pad_states(y)
@@ -43,10 +45,10 @@ contains
          if (ok .and. .not. all(at_rest)) call put_down(model, journal, pads, at_rest, ok)
          if (.not. ok) exit
          force = resultant(model)
-         residual = norm2(force)/reference_force(model)
-         if (residual <= journal_limit) exit
-         if (iteration > 1) time_step = next_time_step(time_step, last, residual)
-         last = residual
+         unbalanced = norm2(force)
+         if (unbalanced <= journal_limit*reference_force(model)) exit
+         if (iteration > 1) time_step = next_time_step(time_step, last, unbalanced)
+         last = unbalanced
          call reduce(model, at_rest, stiffness, damping, follow)
          call find_step(stiffness, damping, force, model%rotor%mass*model%point%speed(0.0_wp), &
             & model%scene%bearing%assembled_clearance, time_step, step)
@@ -64,7 +66,7 @@ contains
       logical, intent(out) :: at_rest(:), ok
       !> Time step to begin with, in radians of the shaft; 1 if it is left out.
       real(wp), intent(in), optional :: first_step
-      real(wp), dimension(size(pads)) :: time_step, residual, last
+      real(wp), dimension(size(pads)) :: time_step, unbalanced, last
       integer :: iteration, i
       time_step = 1/model%point%speed(0.0_wp)
       if (present(first_step)) time_step = first_step*time_step
@@ -72,27 +74,26 @@ contains
       do iteration = 0, pad_iterations
          call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok, .not. at_rest)
          if (.not. ok) return
-         residual = imbalances(model)
-         at_rest = residual <= pad_limit
+         unbalanced = unbalanced_forces(model)
+         at_rest = unbalanced <= pad_limit*reference_force(model)
          if (all(at_rest) .or. iteration == pad_iterations) exit
-         if (iteration > 0) time_step = next_time_step(time_step, last, residual)
-         last = residual
+         if (iteration > 0) time_step = next_time_step(time_step, last, unbalanced)
+         last = unbalanced
          do i = 1, size(pads)
             if (.not. at_rest(i)) call move_pad(model, i, journal, pads(i), time_step(i))
          end do
       end do
    end subroutine settle_pads
 
-   !> Unbalanced force of every pad over the load.
-   pure function imbalances(model)
+   !> Unbalanced force of every pad, N.
+   pure function unbalanced_forces(model) result(forces)
       type(bearing_model), intent(in) :: model
-      real(wp) :: imbalances(model%layout%pads)
+      real(wp) :: forces(model%layout%pads)
       associate (loads => model%bearing%loads, pads => model%bearing%pads)
-         imbalances = abs(loads%moment)/pads%position%centre_distance
-         if (model%layout%radial) imbalances = max(imbalances, abs(loads%radial))
-         imbalances = imbalances/reference_force(model)
+         forces = abs(loads%moment)/pads%position%centre_distance
+         if (model%layout%radial) forces = max(forces, abs(loads%radial))
       end associate
-   end function imbalances
+   end function unbalanced_forces
 
    !> One step of a pad alone, shortened until nothing moves too far and its film stays open.
    subroutine move_pad(model, i, journal, pad, time_step)

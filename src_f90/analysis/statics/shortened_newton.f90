@@ -5,7 +5,7 @@ module shortened_newton
    use lapack, only: dgesv
    use equations_of_motion, only: bearing_model
    use force_balance, only: forces, force_derivatives
-   use damped_newton, only: imbalance, clearances, asked_to_stop, asked, longest_move, residual_limit
+   use damped_newton, only: unbalanced, reference_force, clearances, asked_to_stop, asked, longest_move, residual_limit
    implicit none (type, external)
    private
    public :: shorten_newton
@@ -23,13 +23,13 @@ contains
       logical, intent(out) :: ok
       procedure(asked_to_stop), optional :: give_up
       real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: stiffness, damping
-      real(wp) :: step(model%layout%n_positions()), residual
+      real(wp) :: step(model%layout%n_positions()), force
       integer :: iteration, pivots(size(step)), info
       do iteration = 0, max_iterations
          call model%evaluate(0.0_wp, y, .true., ok)
          if (.not. ok) return
-         residual = imbalance(model)
-         ok = residual <= residual_limit
+         force = unbalanced(model)
+         ok = force <= residual_limit*reference_force(model)
          if (ok .or. iteration == max_iterations) return
          if (asked(give_up)) return
          call force_derivatives(model, stiffness, damping)
@@ -37,16 +37,16 @@ contains
          call dgesv(size(step), 1, stiffness, size(step), pivots, step, size(step), info)
          if (info /= 0) return
          step = step*min(1.0_wp, longest_move/max(maxval(abs(step/clearances(model))), longest_move))
-         call take_part(model, residual, step, y, ok)
+         call take_part(model, force, step, y, ok)
          if (.not. ok) return
       end do
    end subroutine shorten_newton
 
-   !> Moves y by the step, halved until the films are open there and the residual falls; `ok` is false where they are
-   !> not.
-   subroutine take_part(model, residual, step, y, ok)
+   !> Moves y by the step, halved until the films are open there and the unbalanced force falls; `ok` is false where
+   !> they are not.
+   subroutine take_part(model, force, step, y, ok)
       type(bearing_model), intent(inout) :: model
-      real(wp), intent(in) :: residual, step(:)
+      real(wp), intent(in) :: force, step(:)
       real(wp), intent(inout) :: y(:)
       logical, intent(out) :: ok
       real(wp) :: trial(size(y))
@@ -58,7 +58,7 @@ contains
          trial(x) = y(x) + step/2**halvings
          call model%evaluate(0.0_wp, trial, .false., ok)
          if (.not. ok) cycle
-         if (imbalance(model) < residual .or. halvings >= patience) exit
+         if (unbalanced(model) < force .or. halvings >= patience) exit
       end do
       if (ok) y = trial
    end subroutine take_part
