@@ -26,7 +26,7 @@ def figures(folder: Path) -> Iterator[str]:
     """What the page says of its results, with the figures that they have."""
     with tiltpad.read(folder / "speeds/0002.h5") as run:
         cross = 1e-6 * tiltpad.coefficients(run, "free").stiffness[0, 0, 1]
-        yield f"its cross stiffness is {cross:.0f} MN/m"
+        yield f"its cross-coupled stiffness is {cross:.0f} MN/m"
     with tiltpad.read(folder / "up.h5") as run:
         yield f"near {100 * round(tiltpad.response(run).peaks[0].speed_rpm / 100)} rpm"
     with tiltpad.read_study(folder / "lobes.h5") as study:

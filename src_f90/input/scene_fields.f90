@@ -165,7 +165,7 @@ contains
       call v%per_pad(pads%arc_deg, field('arc_deg', 0.1_wp, 360.0_wp, 'deg', &
          & 'arc theta_1 + theta_2; at most 350 for pads that tilt'))
       call v%per_pad(pads%pivot_ratio, field('pivot_ratio', 0.01_wp, 0.99_wp, '1', &
-         & 'position of the pivot from the leading edge, theta_1 over the arc'))
+         & 'offset: position of the pivot from the leading edge, theta_1 over the arc'))
       call v%per_pad(pads%pivot_distance, field('pivot_distance', 1e-6_wp, 1.0_wp, 'm', &
          & 'radial distance kappa from the pad''s bore to the pivot'))
       call v%per_pad(pads%mass, field('mass', mass_range(1), mass_range(2), 'kg', 'pad mass; *Pads* above says what ' &

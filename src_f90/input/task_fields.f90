@@ -18,7 +18,7 @@ contains
       call v%number(coefficients%threshold_up_to_rpm, field('threshold_up_to_rpm', 0.0_wp, 1e6_wp, 'rpm', &
          & '> 0: the speed at which stability is lost is sought from speed_rpm up to this one'))
       call v%number(coefficients%cross_stiffness, field('cross_stiffness', -1e15_wp, 1e15_wp, 'N/m', &
-         & 'Q: cross stiffness at the journal beside the bearing''s, for the modes; > 0 drives forward whirl'))
+         & 'Q: cross-coupled stiffness at the journal beside the bearing''s, for the modes; > 0 drives forward whirl'))
    end subroutine visit_coefficients
 
    subroutine visit_periodic(periodic, v)

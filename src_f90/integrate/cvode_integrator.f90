@@ -2,7 +2,7 @@
 !> know SUNDIALS.
 module cvode_integrator
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
-   use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodereinit, fcvodewftolerances, fcvodesetuserdata, &
+   use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodewftolerances, fcvodesetuserdata, &
       & fcvodesetlinearsolver, fcvodesetlinsysfn, fcvodesetlinearsolutionscaling, fcvodesetjacevalfrequency, &
       & fcvodesetlsetupfrequency, fcvodegetcurrentgamma, fcvodesetnonlinconvcoef, fcvodesetstablimdet, &
       & fcvodesetmaxord, fcvodesetmaxerrtestfails, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, fcvode, &
@@ -64,7 +64,6 @@ module cvode_integrator
       type(core_type), pointer :: core => null()
    contains
       procedure :: start
-      procedure :: restart
       procedure :: step
       procedure :: time
       procedure :: state
@@ -127,18 +126,7 @@ contains
       call begin(self%core, t, t_end, error)
    end subroutine start
 
-   !> Starts anew from another state y and time t, s, with the same model and options; counts begin at 0.
-   subroutine restart(self, t, y, t_end, error)
-      class(integrator_type), intent(inout) :: self
-      real(wp), intent(in) :: t, y(:), t_end
-      type(error_type), allocatable, intent(out) :: error
-      integer(c_int) :: flag
-      self%core%y = y
-      flag = fcvodereinit(self%core%memory, t, self%core%y_vector)
-      call begin(self%core, t, t_end, error)
-   end subroutine restart
-
-   !> What starting and restarting have in common, once CVODE has the state y.
+   !> The first evaluation, once CVODE has the state y.
    subroutine begin(core, t, t_end, error)
       type(core_type), intent(inout) :: core
       real(wp), intent(in) :: t, t_end
@@ -199,7 +187,7 @@ contains
       call self%core%history%at(t, self%core%order(1), values)
    end subroutine interpolate
 
-   !> What the integration cost since its start or restart.
+   !> What the integration cost since its start.
    type(integrator_counts_type) function counts(self)
       class(integrator_type), intent(in) :: self
       integer(c_long) :: count(1)

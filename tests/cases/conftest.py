@@ -5,7 +5,9 @@ far it has come, and a run that is to be stopped would not end by itself, or onl
 """
 
 import os
+import pty
 import re
+import select
 import shutil
 import subprocess
 import time
@@ -75,6 +77,30 @@ def wait_for_line(process, pattern):
         if re.match(pattern, line):
             return
     raise AssertionError(process.communicate())
+
+
+def on_a_terminal(program, arguments, folder, environment, stderr=None):
+    """What the program writes to a pseudo-terminal, messages too unless `stderr` takes them; its status."""
+    try:
+        leader, follower = pty.openpty()
+    except OSError:
+        pytest.skip("no pseudo-terminals here")
+    with subprocess.Popen(
+        [program, *arguments], cwd=folder, env=environment,
+        stdin=follower, stdout=follower, stderr=follower if stderr is None else stderr,
+    ) as process:  # fmt: skip
+        os.close(follower)
+        seen = b""
+        while select.select([leader], [], [], PATIENCE)[0]:
+            try:
+                new = os.read(leader, 65536)
+            except OSError:
+                break
+            if not new:
+                break
+            seen += new
+    os.close(leader)
+    return seen.decode(), process.returncode
 
 
 def one_error(process, status):

@@ -1,14 +1,11 @@
 """The command line: options, precedence, names of files, exit status 0, and what a run prints."""
 
-import os
-import pty
 import re
-import select
 import subprocess
 
 import h5py
 import pytest
-from conftest import ENDLESS, FAST_CLOCK, PATIENCE, wait_for
+from conftest import ENDLESS, FAST_CLOCK, on_a_terminal, wait_for
 
 BRIEF = "&operation duration=0.002 /\n"
 #: Some hundreds of steps, after each of which the run looks whether it is time for a line.
@@ -322,29 +319,6 @@ def test_a_log_is_plain_lines(tiltpad, tmp_path, loaded):
         assert word in run.stdout
     assert not re.search(r"\*\*|NaN|Infinity", run.stdout)
     assert not re.search(r"(^|[\s-])\.[0-9]", run.stdout), "numbers have a digit before the point"
-
-
-def on_a_terminal(program, arguments, folder, environment):
-    """What the program writes to a pseudo-terminal, and its exit status."""
-    try:
-        leader, follower = pty.openpty()
-    except OSError:
-        pytest.skip("no pseudo-terminals here")
-    with subprocess.Popen(
-        [program, *arguments], cwd=folder, env=environment, stdin=follower, stdout=follower, stderr=follower
-    ) as process:
-        os.close(follower)
-        seen = b""
-        while select.select([leader], [], [], PATIENCE)[0]:
-            try:
-                new = os.read(leader, 65536)
-            except OSError:
-                break
-            if not new:
-                break
-            seen += new
-    os.close(leader)
-    return seen.decode(), process.returncode
 
 
 def test_a_terminal_has_a_line_that_renews_itself(program, tmp_path, loaded):

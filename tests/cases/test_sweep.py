@@ -1,10 +1,8 @@
 """Sweeps: counting and checking members, running them side by side, failures, signals, what is refused."""
 
 import os
-import pty
 import re
 import resource
-import select
 import signal
 import subprocess
 import sys
@@ -12,7 +10,7 @@ import time
 
 import h5py
 import pytest
-from conftest import FAST_CLOCK, PATIENCE, one_error, wait_for
+from conftest import FAST_CLOCK, PATIENCE, on_a_terminal, one_error, wait_for
 
 # quick members; a member of a second or two; and one that does not end by itself
 QUICK = "&case task='equilibrium' /\n"
@@ -461,27 +459,9 @@ def running(process):
 def test_a_terminal_has_one_line_for_all_members(program, case, loaded):
     base = "&operation duration=0.001 /\n"
     folder = case(sweep("rotor%mass=2000:2900:100", "integration%max_steps=100000,1", base=base))
-    try:
-        leader, follower = pty.openpty()
-    except OSError:
-        pytest.skip("no pseudo-terminals here")
-    with subprocess.Popen(
-        [program, "--jobs", "1", "case.nml"], cwd=folder, env=loaded(FAST_CLOCK),
-        stdin=follower, stdout=follower, stderr=subprocess.DEVNULL,
-    ) as process:  # fmt: skip
-        os.close(follower)
-        seen = b""
-        while select.select([leader], [], [], PATIENCE)[0]:
-            try:
-                new = os.read(leader, 65536)
-            except OSError:
-                break
-            if not new:
-                break
-            seen += new
-    os.close(leader)
-    assert process.returncode == 2
-    text = seen.decode()
+    arguments = "--jobs", "1", "case.nml"
+    text, status = on_a_terminal(program, arguments, folder, loaded(FAST_CLOCK), subprocess.DEVNULL)
+    assert status == 2
     lines = re.findall(r"\r(\d[^\r\n]*)\x1b", text)
     assert len(lines) >= 2
     for line in lines:

@@ -129,7 +129,7 @@ contains
       complex(wp) :: forward
       scene = whole(6500.0_wp)
       scene%coefficients%cross_stiffness = 1e8_wp
-      call analyse(scene, 'cross stiffness', found)
+      call analyse(scene, 'cross-coupled stiffness', found)
       associate (first => found%modes(1))
          forward = first%shape(2, 1)/first%shape(1, 1)
          call expect_close(abs(forward - cmplx(0.0_wp, -1.0_wp, wp)), 0.0_wp, 0.02_wp, 'z lags y by a quarter')

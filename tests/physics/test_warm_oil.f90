@@ -86,7 +86,7 @@ contains
       call expect_close(found%damping(1, 1, 1, 1), 0.6163e6_wp, 0.0004e6_wp, 'C_yy')
    end subroutine published
 
-   !> The paper's bearing at 6500 rpm: one pad runs in oil that the other has warmed, and cross stiffness appears.
+   !> The paper's bearing at 6500 rpm: one pad runs in oil that the other has warmed: cross-coupled stiffness appears.
    subroutine cross_stiffness()
       type(equilibrium_type) :: static
       type(static_figures_type) :: figures

@@ -101,7 +101,7 @@ def figures(folder):
         yield f"moves by {-1e6 * e['journal_z']:.0f} um"
     with result("cross.h5") as run:
         k = 1e-6 * tiltpad.coefficients(run, "free").stiffness[0]
-        yield f"cross stiffness of {k[0, 1]:.0f} and {k[1, 0]:.0f} MN/m"
+        yield f"cross-coupled stiffness of {k[0, 1]:.0f} and {k[1, 0]:.0f} MN/m"
 
 
 def unbalance_response(root, block, folder):

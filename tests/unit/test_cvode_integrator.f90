@@ -172,7 +172,7 @@ contains
       end do
    end subroutine take_steps
 
-   !> After a restart, and after another start, every bit is as from a fresh integrator.
+   !> After another start every bit is as from a fresh integrator.
    subroutine starting_anew()
       type(oscillator), target :: model, fast
       type(integrator_type) :: integrator, fresh
@@ -187,10 +187,10 @@ contains
       fresh_counts = fresh%counts()
       call integrator%start(model, tolerances(), 0.0_wp, exact(1.0_wp, 0.0_wp), 6.0_wp, error)
       call take_steps(integrator, again)
-      call integrator%restart(1.5_wp, from, 8.0_wp, error)
+      call integrator%start(model, tolerances(), 1.5_wp, from, 8.0_wp, error)
       call expect_well(error)
       call take_steps(integrator, again)
-      call expect_close(norm2(again - first), 0.0_wp, 0.0_wp, 'a restart is a start')
+      call expect_close(norm2(again - first), 0.0_wp, 0.0_wp, 'a second start is a start')
       counts = integrator%counts()
       call expect(counts%steps == 40_i8 .and. counts%rhs_evaluations == fresh_counts%rhs_evaluations, &
          & 'and counts from there')
@@ -226,7 +226,7 @@ contains
       call expect(alone(1, 40, 1) > 5*alone(1, 40, 2), 'each goes at its own pace')
    end subroutine side_by_side
 
-   !> Where the model refuses, steps end with its reason; after a restart elsewhere they go on.
+   !> Where the model refuses, steps end with its reason; after a start elsewhere they go on.
    subroutine refusal()
       type(oscillator), target :: model
       type(integrator_type) :: integrator
@@ -235,7 +235,7 @@ contains
       model = oscillator(n=2, outputs=2, refuse_after=0.5_wp)
       call integrator%start(model, tolerances(), 1.0_wp, exact(1.0_wp, 1.0_wp), 2.0_wp, error)
       call expect(allocated(error), 'a start that the model refuses is an error')
-      call integrator%restart(0.0_wp, exact(1.0_wp, 0.0_wp), 2.0_wp, error)
+      call integrator%start(model, tolerances(), 0.0_wp, exact(1.0_wp, 0.0_wp), 2.0_wp, error)
       call expect_well(error)
       do while (.not. allocated(error) .and. integrator%time() < 1)
          call integrator%step(error)

@@ -299,7 +299,7 @@ contains
       call expect_refused(s, 'coefficients%threshold_up_to_rpm', 'must be 0 or above operation%speed_rpm = 6500')
       s%coefficients%threshold_up_to_rpm = 0
       s%coefficients%cross_stiffness = -1e6_wp
-      call expect_allowed(s, 'a cross stiffness of either sign')
+      call expect_allowed(s, 'a cross-coupled stiffness of either sign')
       s%operation%final_speed_rpm = 7000
       call expect_refused(s, 'operation%final_speed_rpm', 'must be operation%speed_rpm = 6500')
       s = scene_type()

@@ -25,7 +25,7 @@ module vibration_modes
 
 contains
 
-   !> The modes of a bearing with a rotor of this mass, kg, and cross stiffness, N/m. `ok` is false where the
+   !> The modes of a bearing with a rotor of this mass, kg, and cross-coupled stiffness, N/m. `ok` is false where the
    !> eigenvalues are not found.
    subroutine find_modes(bearing, rotor_mass, cross_stiffness, lengths, modes, ok)
       type(linear_bearing_type), intent(in) :: bearing
