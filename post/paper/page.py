@@ -103,14 +103,14 @@ speed of the machine. The unbalance of Table 1 of the paper corresponds to G {gr
 ## Pads that stick, and stability
 
 The stiffness and damping of a tilting pad bearing are calculated with pivots that slide freely: the pads
-then follow the journal, hardly any cross-coupled stiffness is left, and rotors are stable. A small vibration
-does not move a pivot with friction, however. Its bristles carry the moment of the film (LuGre), the pad
-follows the journal no more than a fixed one would, and the bearing has the cross-coupled stiffness of a fixed
-bearing: at {told} rpm {cross} MN/m beside a direct stiffness of {direct} MN/m. The left picture shows the
-damping ratio of the least damped mode on pads that stick (the task `coefficients`; {runs} runs), with the
-thresholds of stability for pivots that stick and that are locked; those of pivots that slide lie to the right of it. The
-right picture shows how the threshold of the paper's rotor falls to that of locked pads as the bristles
-become stiffer.
+then follow the journal, hardly any cross-coupled stiffness is left, and rotors are stable. A small
+vibration does not move a pivot with friction, however. Its bristles carry the moment of the film (LuGre),
+the pad follows the journal no more than a fixed one would, and the bearing has the cross-coupled stiffness
+of a fixed bearing: at {told} rpm {cross} MN/m beside a direct stiffness of {direct} MN/m. The left picture
+shows the damping ratio of the least damped mode on pads that stick (the task `coefficients`; {runs} runs),
+with the thresholds of stability for pivots that stick and that are locked; those of pivots that slide lie
+to the right of it. The right picture shows how the threshold of the paper's rotor falls to that of locked
+pads as the bristles become stiffer.
 
 ![Damping ratio over speed and mass; threshold over bristle stiffness](stability.png)
 
