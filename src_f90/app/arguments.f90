@@ -185,7 +185,9 @@ contains
    subroutine print_help()
       print '(a)', 'usage: tiltpad [options] CASE.nml', &
          & '', &
-         & 'Simulates the tilting pad journal bearing of a namelist case and writes an HDF5 result file.', &
+         & 'Calculates a journal bearing with tilting or fixed pads, which a namelist case describes, and writes', &
+         & 'an HDF5 result file: by case%task a march in time, the static equilibrium, stiffness and damping', &
+         & '(coefficients), a periodic orbit, or branches of equilibria or orbits.', &
          & 'A case with a group &sweep describes many runs, its members; each member writes its own file.', &
          & '', &
          & 'options:', &
