@@ -31,17 +31,25 @@ contains
    pure function real_text(x) result(string)
       real(wp), intent(in) :: x
       character(len=:), allocatable :: string
+      string = of_digits(x, 6)
+   end function real_text
+
+   !> So many significant digits, without needless zeros.
+   pure function of_digits(x, digits) result(string)
+      real(wp), intent(in) :: x
+      integer, intent(in) :: digits
+      character(len=:), allocatable :: string
       character(len=32) :: buffer
       integer :: exponent, e
       if (abs(x) >= 1e-3_wp .and. abs(x) < 1e6_wp) then
-         string = without_zeros(fixed_text(x, max(0, 5 - floor(log10(abs(x))))))
+         string = without_zeros(fixed_text(x, max(0, digits - 1 - floor(log10(abs(x))))))
          return
       end if
       if (.not. abs(x) > 0) then
          string = '0'
          return
       end if
-      write (buffer, '(es14.5e3)') x
+      write (buffer, '(es32.'//integer_text(digits - 1)//'e3)') x
       buffer = adjustl(buffer)
       e = scan(buffer, 'E')
       if (e == 0) then
@@ -51,7 +59,7 @@ contains
       end if
       read (buffer(e + 1:), *) exponent
       string = without_zeros(buffer(:e - 1))//'e'//integer_text(exponent)
-   end function real_text
+   end function of_digits
 
    !> "0.0190" to "0.019", "10.0" to "10".
    pure function without_zeros(digits) result(string)
@@ -64,17 +72,20 @@ contains
       string = digits(:last)
    end function without_zeros
 
-   !> Seventeen significant digits: reading them back gives the same bits.
+   !> Six significant digits or as many more, up to seventeen, as reading them back takes to give the same bits.
    pure function exact_text(x) result(string)
       real(wp), intent(in) :: x
       character(len=:), allocatable :: string
-      character(len=32) :: buffer
       real(wp) :: back
-      string = real_text(x)
-      read (string, *) back
-      if (transfer(back, 1_i8) == transfer(x, 1_i8)) return
-      write (buffer, '(es24.16e3)') x
-      string = trim(adjustl(buffer))
+      integer :: digits
+      ! rounded to fewer digits the largest numbers would be infinite
+      do digits = merge(17, 6, abs(x) > 0.1_wp*huge(x)), 17
+         string = of_digits(x, digits)
+         read (string, *) back
+         if (transfer(back, 1_i8) == transfer(x, 1_i8)) return
+      end do
+      ! a zero below zero
+      if (.not. abs(x) > 0) string = '-0'
    end function exact_text
 
    !> So many decimals, with a digit before the point.

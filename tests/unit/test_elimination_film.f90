@@ -1,6 +1,6 @@
 !> The film by elimination against over-relaxation of the same equations, its slopes, and its starts.
 program test_elimination_film
-   use kinds, only: wp
+   use kinds, only: wp, degree
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_counters, film_ok, film_closed
    use pad_gap, only: pad_gap_type
@@ -25,6 +25,7 @@ program test_elimination_film
    if (runs('few_cells')) call few_cells([1.2e5_wp, 1e5_wp, 9e4_wp], .false.)
    if (runs('any_start')) call any_start()
    if (runs('empty_film')) call empty_film()
+   if (runs('many_columns')) call many_columns()
    if (runs('closed_film')) call closed_film()
    call report()
 
@@ -160,6 +161,26 @@ contains
       call expect(all(abs(r%derivatives - before%derivatives) <= 1e-10_wp*maxval(abs(before%derivatives))), &
          & 'so do its slopes')
    end subroutine empty_film
+
+   !> A long pad opposite the journal: its film is thickest in the middle, and from its leading edge on grows by one
+   !> column a round, which takes 126 of them on the finer grid. The error falls with the second power of the columns.
+   subroutine many_columns()
+      type(pad_gap_type) :: gap
+      type(elimination_film_type) :: film
+      type(film_counters) :: counters
+      type(film_response) :: coarse, fine
+      gap = paper_pad()
+      gap%leading_angle = 80*degree
+      gap%trailing_angle = gap%leading_angle
+      associate (motion => film_motion([0.0_wp, -0.97_wp*clearance]))
+         film = new_elimination_film(gap, 160, 2)
+         call film%evaluate(motion, speed, .true., .false., counters, coarse)
+         film = new_elimination_film(gap, 640, 2)
+         call film%evaluate(motion, speed, .true., .false., counters, fine)
+      end associate
+      call expect(fine%status == film_ok, 'the rupture settles')
+      call expect(deviation(coarse%force, fine%force) < 2e-3_wp, 'where it does on fewer columns')
+   end subroutine many_columns
 
    subroutine closed_film()
       type(elimination_film_type) :: direct

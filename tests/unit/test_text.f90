@@ -119,6 +119,8 @@ contains
       call expect(same_bits(value_of(exact_text(transfer(1_i8, 1.0_wp))), transfer(1_i8, 1.0_wp)), &
          & 'exact_text of the least subnormal number')
       call expect(exact_text(0.1_wp) == '0.1', 'exact_text is short where short is exact')
+      call expect(exact_text(0.1234567_wp) == '0.1234567', 'exact_text has no more digits than it needs')
+      call expect(exact_text(-1.23456789e-5_wp) == '-1.23456789e-5', 'exact_text has a short exponent')
    end subroutine exact_special_values
 
    subroutine words()

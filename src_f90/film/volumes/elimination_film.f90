@@ -19,7 +19,8 @@ module elimination_film
    private
    public :: elimination_film_type, new_elimination_film
 
-   integer, parameter :: max_rounds = 100
+   !> Rounds at most, and those for each column: a film that forms again may grow by one column a round.
+   integer, parameter :: max_rounds = 100, rounds_a_column = 2
    !> Pressure over the maximum below which a cell counts as empty: rounding must not decide.
    real(wp), parameter :: rounding = 1e-12_wp
 
@@ -84,7 +85,7 @@ contains
             return
          end if
          call grid%set_motion(motion, speed)
-         do round = 1, max_rounds
+         do round = 1, max(max_rounds, rounds_a_column*grid%columns)
             call eliminate(self, ruptures)
             call solve(self, -grid%source, -grid%edge_source, self%pressure)
             counters%passes = counters%passes + 1
