@@ -177,8 +177,11 @@ def extremes(dice: Random, program: Path, folder: Path, variables, corpus):
     scene = scenes.draw(dice, variables)
     while len(scene.get("pads%mass", ())) > 4:
         scene = scenes.draw(dice, variables)
+    # what belongs to a task of its own is refused without it
+    apart = ("pads", *scenes.OF_TASK)
+    scene = {key: value for key, value in scene.items() if variables[key].group not in scenes.OF_TASK}
     for key in dice.sample(list(variables), 5):
-        if key not in scene and key not in scenes.SPECIAL and variables[key].group != "pads":
+        if key not in scene and key not in scenes.SPECIAL and variables[key].group not in apart:
             scene[key] = scenes.anything(dice, variables[key])
     # within the time allowed: few pads and steps, films of a usual size
     duration = 10 ** dice.uniform(-9, -2)

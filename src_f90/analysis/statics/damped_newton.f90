@@ -58,7 +58,7 @@ contains
       integer :: iterations, limit
       limit = max_iterations
       if (present(most)) limit = min(limit, most)
-      free = free_positions(model, held)
+      call set_free(model, held, free)
       stuck = .false.
       time_step = 1/model%point%speed(0.0_wp)
       if (present(first_step)) time_step = first_step*time_step
@@ -118,10 +118,10 @@ contains
    end function next_time_step
 
    !> The positions that move: all but those of pads that are held.
-   pure function free_positions(model, held) result(free)
+   pure subroutine set_free(model, held, free)
       type(bearing_model), intent(in) :: model
       logical, intent(in), optional :: held(:)
-      logical :: free(model%layout%n_positions())
+      logical, intent(out) :: free(:)
       integer :: i, own
       free = .true.
       if (.not. present(held)) return
@@ -129,7 +129,7 @@ contains
          own = model%layout%first_position(i)
          free(own:own + model%layout%motion/2 - 1) = .not. held(i)
       end do
-   end function free_positions
+   end subroutine set_free
 
    !> The step of the positions from y, in a time step that is shortened until nothing moves too far. `ok` is false
    !> where the equations are singular.
