@@ -1,5 +1,5 @@
-!> Integrates an ode_model step by step with CVODE (BDF, Newton). It, sundials_context and vector_operations alone
-!> know SUNDIALS.
+!> Integrates an ode_model step by step with CVODE (BDF, Newton). It, cvode_failures, sundials_context and
+!> vector_operations alone know SUNDIALS.
 module cvode_integrator
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
    use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodewftolerances, fcvodesetuserdata, &
@@ -8,8 +8,7 @@ module cvode_integrator
       & fcvodesetmaxord, fcvodesetmaxerrtestfails, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, fcvode, &
       & fcvodefree, fcvodegetnumrhsevals, fcvodegetnumjacevals, fcvodegetnumerrtestfails, &
       & fcvodegetnumnonlinsolvconvfails, fcvodegetcurrentstep, fcvodegetlastorder, cv_bdf, cv_one_step, &
-      & cv_err_failure, cv_conv_failure, cv_too_much_acc, cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, &
-      & cv_unrec_rhsfunc_err, cv_lsetup_fail
+      & cv_first_rhsfunc_err
    use sundials_context, only: index_kind, new_context, free_context, silence, n_vector, fn_vdestroy, sunmatrix, &
       & fsunmatdestroy, sunlinearsolver, sunlinearsolver_ops, sunlinearsolver_direct, fsunlinsolnewempty, &
       & fsunlinsolfreeempty
@@ -21,6 +20,7 @@ module cvode_integrator
    use errors, only: error_type, raise, numerics_error
    use ode_model, only: ode_model_type
    use integrator_counts, only: integrator_counts_type
+   use cvode_failures, only: cvode_failure
    use step_history, only: step_history_type, new_step_history
    implicit none (type, external)
    private
@@ -37,6 +37,8 @@ module cvode_integrator
       !> Whether orders are lowered where BDF is found unstable, for light modes (docs/theory.md); the highest.
       logical :: lowers_orders = .false.
       integer :: max_order = 5
+      !> Whether the outputs of the model are wanted between the ends of steps.
+      logical :: keeps_outputs = .true.
    end type integrator_options
 
    !> What CVODE holds pointers to, and hands back to the callbacks.
@@ -53,6 +55,7 @@ module cvode_integrator
       !> Absolute tolerance of each state; Newton's last correction of it.
       real(wp), allocatable :: absolute_tolerance(:), correction(:)
       type(step_history_type) :: history
+      logical :: keeps_outputs = .true.
       !> Order of the last step.
       integer(c_int) :: order(1) = 0
       type(integrator_counts_type) :: counts
@@ -144,9 +147,17 @@ contains
       core%correction = spread(0.0_wp, 1, size(core%y))
       call core%model%rhs(t, core%y, dydt, ok)
       if (.not. ok) call raise(error, numerics_error, failure(core, cv_first_rhsfunc_err))
-      core%history = new_step_history(size(core%y) + core%model%outputs)
-      call core%history%add(t, core%y, core%model%output(core%correction))
+      core%history = new_step_history(size(core%y) + merge(core%model%outputs, 0, core%keeps_outputs))
+      call note_end(core)
    end subroutine begin
+
+   !> Notes the end of a step, or the start.
+   subroutine note_end(core)
+      type(core_type), intent(inout) :: core
+      real(wp) :: outputs(merge(core%model%outputs, 0, core%keeps_outputs))
+      if (core%keeps_outputs) outputs = core%model%output(core%correction)
+      call core%history%add(core%t(1), core%y, outputs)
+   end subroutine note_end
 
    !> Does one step, which ends at t_end at the latest. A numerics error says why there is none.
    subroutine step(self, error)
@@ -162,7 +173,7 @@ contains
          end if
          core%counts%steps = core%counts%steps + 1
          flag = fcvodegetlastorder(core%memory, core%order)
-         call core%history%add(core%t(1), core%y, core%model%output(core%correction))
+         call note_end(core)
       end associate
    end subroutine step
 
@@ -179,7 +190,7 @@ contains
       state = self%core%y
    end function state
 
-   !> States, then outputs of the model, at a time t, s, in the last step, or at the start. Nothing is evaluated.
+   !> States, then outputs of the model, as many as asked for, at a time t, s, in the last step. Nothing is evaluated.
    subroutine interpolate(self, t, values)
       class(integrator_type), intent(in) :: self
       real(wp), intent(in) :: t
@@ -233,18 +244,7 @@ contains
       real(c_double) :: h(1)
       integer(c_int) :: ignored
       ignored = fcvodegetcurrentstep(core%memory, h)
-      select case (flag)
-      case (cv_err_failure)
-         reason = 'the error test kept failing'
-      case (cv_conv_failure)
-         reason = 'the Newton iteration kept failing'
-      case (cv_too_much_acc)
-         reason = 'the tolerances are finer than the machine can resolve'
-      case (cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, cv_unrec_rhsfunc_err, cv_lsetup_fail)
-         reason = 'the equations of motion could not be evaluated'
-      case default
-         reason = 'CVODE gave up with code '//to_text(int(flag))
-      end select
+      reason = cvode_failure(flag)
       if (allocated(core%model%refusal)) then
          reason = core%model%refusal//'; '//reason
       else if (core%model%warning() /= '') then

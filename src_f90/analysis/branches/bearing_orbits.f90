@@ -78,8 +78,7 @@ contains
       associate (model => self%bearing%model)
          call integrator%start(model, options, 0.0_wp, orbit%start, 2*length, error)
          do k = 0, 1
-            if (.not. allocated(error)) call march_period(integrator, options, model%n + model%outputs, k, length, &
-               & marched, error)
+            if (.not. allocated(error)) call march_period(integrator, options, k, length, marched, error)
          end do
       end associate
       if (.not. allocated(error)) mesh = marched%time/length

@@ -36,27 +36,26 @@ contains
       factor = max(1.0_wp, min(looser, loosest/march%relative_tolerance))
       options%relative_tolerance = factor*march%relative_tolerance
       options%absolute_tolerance = factor*march%absolute_tolerance
+      options%keeps_outputs = .false.
       options%max_step = revolution/fewest
       if (march%max_step > 0) options%max_step = min(options%max_step, march%max_step)
    end function mesh_options
 
    !> Marches over period number `period` = 0, 1, .., in whose first step the integrator stands; its steps become the
    !> intervals of the orbit. An error says why, where and when the march ended.
-   subroutine march_period(integrator, options, values, period, length, orbit, error, give_up)
+   subroutine march_period(integrator, options, period, length, orbit, error, give_up)
       type(integrator_type), intent(inout) :: integrator
       type(march_options), intent(in) :: options
-      !> Number of states and outputs of the model; number of the period.
-      integer, intent(in) :: values, period
+      integer, intent(in) :: period
       !> s.
       real(wp), intent(in) :: length
       type(orbit_type), intent(inout) :: orbit
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       type(step_type), allocatable :: steps(:), longer(:)
-      real(wp) :: all_values(values), t, before
+      real(wp) :: t, before
       integer :: n, i
-      call integrator%interpolate(period*length, all_values)
-      orbit%start = all_values(:size(orbit%start))
+      call integrator%interpolate(period*length, orbit%start)
       allocate (steps(64))
       n = 0
       before = 0
@@ -72,8 +71,7 @@ contains
             steps(n)%end = t
             allocate (steps(n)%at(size(orbit%start), points))
             do i = 1, points
-               call integrator%interpolate(period*length + before + place(i)*(t - before), all_values)
-               steps(n)%at(:, i) = all_values(:size(orbit%start))
+               call integrator%interpolate(period*length + before + place(i)*(t - before), steps(n)%at(:, i))
             end do
             before = t
          end if
@@ -101,8 +99,9 @@ contains
          else
             call integrator%step(error)
          end if
-         call add_context(error, 'the march stopped at t = '//to_text(integrator%time())//' s, after ' &
-            & //to_text(counts%steps)//' steps')
+         ! the text takes longer than a step
+         if (allocated(error)) call add_context(error, 'the march stopped at t = '//to_text(integrator%time()) &
+            & //' s, after '//to_text(counts%steps)//' steps')
       end associate
    end subroutine do_step
 

@@ -73,8 +73,7 @@ contains
       next_try = first_try
       do while (.not. allocated(error))
          before = found%orbit
-         call march_period(integrator, mesh, model%n + model%outputs, found%marched, found%period, found%orbit, error, &
-            & give_up)
+         call march_period(integrator, mesh, found%marched, found%period, found%orbit, error, give_up)
          found%march = integrator%counts()
          if (allocated(error)) exit
          found%marched = found%marched + 1

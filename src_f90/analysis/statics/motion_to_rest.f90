@@ -33,6 +33,7 @@ contains
       options%relative_tolerance = tolerance
       options%absolute_tolerance = tolerance*model%scale
       options%derivatives_age = 2
+      options%keeps_outputs = .false.
       end = revolutions*2*pi/model%point%speed(0.0_wp)
       call integrator%start(model, options, 0.0_wp, y, end, error)
       do steps = 1, max_steps
