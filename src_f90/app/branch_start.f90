@@ -105,10 +105,10 @@ contains
       type(branches_type), intent(inout), target :: b
       type(error_type), allocatable, intent(out) :: error
       type(periodic_orbit_type) :: found
-      real(wp), allocatable :: y(:)
-      call make_start(run, y, error)
+      real(wp), allocatable :: y(:), at_rest(:)
+      call make_start(run, y, error, at_rest)
       if (allocated(error)) return
-      if (has_warm_oil(run%model)) call rest_oil(run, b, error)
+      if (has_warm_oil(run%model)) call rest_oil(run, b, at_rest, error)
       if (allocated(error)) return
       call seek_orbit(run, y, found, error)
       if (.not. allocated(error)) call begin_orbits(b%orbits, b%ode, found%orbit, run%scene%periodic%revolutions, &
@@ -116,16 +116,21 @@ contains
    end subroutine first_orbit
 
    !> Gives the oil of the first orbit the viscosities of the equilibrium, from which those of the others follow.
-   subroutine rest_oil(run, b, error)
+   subroutine rest_oil(run, b, at_rest, error)
       type(case_run_type), intent(inout) :: run
       type(branches_type), intent(inout), target :: b
+      !> Where the start is from it, the model has its viscosities already.
+      real(wp), allocatable, intent(inout) :: at_rest(:)
       type(error_type), allocatable, intent(out) :: error
       type(equilibrium_type) :: static
-      call find_equilibrium(run%model, static, error, stop_requested)
-      call add_context(error, 'the oil takes the temperatures of the equilibrium')
-      if (allocated(error)) return
-      call run%model%bearing%set_viscosity(static%viscosity)
-      call begin_oil(run%model, b, run%model%at_rest(static%journal, static%tilt, static%penetration))
+      if (.not. allocated(at_rest)) then
+         call find_equilibrium(run%model, static, error, stop_requested)
+         call add_context(error, 'the oil takes the temperatures of the equilibrium')
+         if (allocated(error)) return
+         call run%model%bearing%set_viscosity(static%viscosity)
+         at_rest = run%model%at_rest(static%journal, static%tilt, static%penetration)
+      end if
+      call begin_oil(run%model, b, at_rest)
    end subroutine rest_oil
 
    subroutine begin_oil(model, b, at_rest)

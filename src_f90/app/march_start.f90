@@ -23,10 +23,12 @@ module march_start
 contains
 
    !> Creates the file and finds the state y to start from.
-   subroutine make_start(run, y, error)
+   subroutine make_start(run, y, error, at_rest)
       type(case_run_type), intent(inout) :: run
       real(wp), allocatable, intent(out) :: y(:)
       type(error_type), allocatable, intent(out) :: error
+      !> The equilibrium, if it was sought.
+      real(wp), allocatable, intent(out), optional :: at_rest(:)
       type(journal_motion) :: journal
       type(pad_state), allocatable :: pads(:)
       logical :: ok
@@ -35,13 +37,14 @@ contains
             call start_at_equilibrium(run, y, error)
             if (.not. allocated(error)) call let_grooves_warm(run, y, error)
             if (.not. allocated(error)) call note_oil(run)
+            if (present(at_rest) .and. .not. allocated(error)) at_rest = y
             if (allocated(error) .or. .not. is_disturbed(run)) return
             journal = model%rotor%journal(y(:model%rotor%states))
             pads = model%layout%pad_states(y)
          else
             allocate (pads(model%layout%pads))
             if (from == 'file') call start_from_file(run, journal, pads, error)
-            if (from /= 'partial' .and. .not. allocated(error)) call take_oil(run, error)
+            if (from /= 'partial' .and. .not. allocated(error)) call take_oil(run, error, at_rest)
             if (from == 'partial') call start_partially(run, journal, pads, error)
             if (.not. allocated(error)) call create_file(run, error)
             if (allocated(error)) return
@@ -71,10 +74,13 @@ contains
 
    !> Gives warm oil the viscosities of the equilibrium, which it keeps in a march that starts elsewhere or goes on from
    !> a checkpoint.
-   subroutine take_oil(run, error)
+   subroutine take_oil(run, error, at_rest)
       type(case_run_type), intent(inout) :: run
       type(error_type), allocatable, intent(inout) :: error
+      !> The equilibrium, if it was sought.
+      real(wp), allocatable, intent(out), optional :: at_rest(:)
       type(equilibrium_type) :: static
+      real(wp), allocatable :: y(:)
       logical, allocatable :: held(:)
       if (.not. has_warm_oil(run%model)) return
       if (run%scene%start%from == 'partial') then
@@ -84,7 +90,9 @@ contains
       end if
       if (.not. allocated(error)) then
          call run%model%bearing%set_viscosity(static%viscosity)
-         call let_grooves_warm(run, run%model%at_rest(static%journal, static%tilt, static%penetration), error)
+         y = run%model%at_rest(static%journal, static%tilt, static%penetration)
+         call let_grooves_warm(run, y, error)
+         if (present(at_rest)) at_rest = y
       else if (error%status == stopped) then
          error%message = stop_reason()//' while the temperatures of the oil were sought'
       else

@@ -107,6 +107,7 @@ contains
          flag = fcvodesetuserdata(core%memory, c_loc(core))
          core%relative_tolerance = options%relative_tolerance
          core%absolute_tolerance = options%absolute_tolerance
+         core%keeps_outputs = options%keeps_outputs
          flag = fcvodewftolerances(core%memory, c_funloc(weights_callback))
          core%matrix => fsundensematrix(1_index_kind, 1_index_kind, core%context)
          core%linear_solver => fsunlinsolnewempty(core%context)
@@ -235,10 +236,9 @@ contains
       call self%finish()
    end subroutine finish_last
 
-   !> Says why there is no further step.
+   !> Says why there is no further step, from what CVODE returned.
    function failure(core, flag) result(reason)
       type(core_type), intent(in) :: core
-      !> What CVODE returned.
       integer(c_int), intent(in) :: flag
       character(len=:), allocatable :: reason
       real(c_double) :: h(1)

@@ -21,6 +21,7 @@ module ode_model
       procedure :: tangent
       !> Which states are displacements, and which their rates.
       procedure :: pairs
+      procedure :: blocks
       !> The quantities sampled beside the states.
       procedure :: output
       !> What may soon stop the integration in the state evaluated last, for its message; else empty.
@@ -90,6 +91,14 @@ contains
       integer, allocatable, intent(out) :: x(:), v(:)
       allocate (x(0), v(0))
    end subroutine pairs
+
+   !> The last states form so many blocks of one size: the rates of a block's states do not depend on other blocks.
+   pure subroutine blocks(self, number, states)
+      class(ode_model_type), intent(in) :: self
+      integer, intent(out) :: number, states
+      number = 0
+      states = 0
+   end subroutine blocks
 
    !> From the last evaluation, and to first order at the state that `correction` leads to from the state of that
    !> evaluation; 0: in that state itself.

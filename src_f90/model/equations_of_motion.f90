@@ -46,6 +46,7 @@ module equations_of_motion
       procedure :: warning
       procedure :: tangent
       procedure :: pairs
+      procedure :: blocks
       procedure :: evaluate
       procedure :: set_point
       procedure :: adopt
@@ -290,6 +291,14 @@ contains
       x = self%layout%positions()
       v = self%layout%rates()
    end subroutine pairs
+
+   !> The pads.
+   pure subroutine blocks(self, number, states)
+      class(bearing_model), intent(in) :: self
+      integer, intent(out) :: number, states
+      number = merge(self%layout%pads, 0, self%layout%tilting)
+      states = self%layout%per_pad
+   end subroutine blocks
 
    !> What is sampled at (t, y), where these outputs are known; no film is evaluated. The record may be used again.
    pure subroutine take_sample(self, t, y, output, sample)

@@ -9,16 +9,11 @@ module orbit_collocation
    use lapack, only: dgesv
    use ode_model, only: ode_model_type
    use orbit_polynomials, only: orbit_type, points, place
+   use interval_maps, only: interval_maps_type, new_interval_maps, weight
    implicit none (type, external)
    private
    public :: newton_round
    public :: orbit_equations_type, parameter_shift_type, condense, closing_equations, move_orbit, collocated_state
-
-   real(wp), parameter :: s6 = sqrt(6.0_wp)
-   !> The integrals of the points' polynomials up to each point.
-   real(wp), parameter :: weight(points, points) = reshape([(88 - 7*s6)/360, (296 + 169*s6)/1800, (16 - s6)/36, &
-      & (296 - 169*s6)/1800, (88 + 7*s6)/360, (16 + s6)/36, (-2 + 3*s6)/225, (-2 - 3*s6)/225, 1/9.0_wp], &
-      & [points, points])
 
    !> The derivatives at the end of an interval are taken this part of the way to the point before: at a kink, on the
    !> interval's side of it. To the same order the rates are still those at the end.
@@ -27,10 +22,10 @@ module orbit_collocation
    !> The equations linearised on an orbit and eliminated inside of its intervals, all over the scales.
    type :: orbit_equations_type
       private
-      !> How the points of each interval follow, (state of a point, column, interval), and the end of the period:
-      !> columns 1 to n a change of the state at the start of interval or period, n + 1 what the equations lack, n + 2
-      !> (where it is asked for) a change of the parameter by 1.
-      real(wp), allocatable :: at_points(:, :, :), at_end(:, :)
+      type(interval_maps_type) :: maps
+      !> How the end of the period follows, (column, state): columns 1 to n from a change of the state at its start,
+      !> n + 1 from what the equations lack, n + 2 (where it is asked for) from a change of the parameter by 1.
+      real(wp), allocatable :: at_end(:, :)
    end type orbit_equations_type
 
    !> What the equations are for another value of the parameter.
@@ -42,23 +37,9 @@ module orbit_collocation
    end type parameter_shift_type
 
    !> Where corrections below this size, over the scales, no longer fall by this factor a round, the mesh has settled.
-   real(wp), parameter :: slow = 0.1_wp, near = 1e-4_wp
-
-   !> Where displacements x and their rates v, x' = v, stand among the states, all states u but the displacements, and
-   !> where the rates stand among these.
-   type :: parts_type
-      integer, allocatable :: x(:), v(:), u(:), v_in_u(:)
-   end type parts_type
+   real(wp), parameter :: slow = 0.1_wp, near = 1e-3_wp
 
 contains
-
-   type(parts_type) function new_parts(model) result(parts)
-      class(ode_model_type), intent(in) :: model
-      integer :: i
-      call model%pairs(parts%x, parts%v)
-      parts%u = pack([(i, i=1, model%n)], [(all(parts%x /= i), i=1, model%n)])
-      parts%v_in_u = [(findloc(parts%u, parts%v(i), dim=1), i=1, size(parts%v))]
-   end function new_parts
 
    !> One round of Newton's method; of a correction longer than `longest`, over the scales, only a part is made. A
    !> numerics error where the model refuses a state or the equations have no solution: then the orbit is as it was.
@@ -90,31 +71,38 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Where the derivatives over the parameter are wanted.
       type(parameter_shift_type), intent(in), optional :: shift
-      type(parts_type) :: parts
-      integer :: k, i, n, columns
+      real(wp) :: jacobian(model%n, model%n, points)
+      real(wp), allocatable :: gap(:, :, :), start(:, :), at(:, :, :)
+      integer :: k, i, n, constants
+      logical :: ok
       n = model%n
-      columns = n + merge(2, 1, present(shift))
-      parts = new_parts(model)
-      allocate (equations%at_points(points*n, columns, orbit%intervals()))
-      allocate (equations%at_end(n, columns), source=0.0_wp)
-      do i = 1, n
-         equations%at_end(i, i) = 1
+      constants = merge(2, 1, present(shift))
+      allocate (gap(n, constants, points), start(n + constants, n + constants), at(n + constants, n, points))
+      equations%maps = new_interval_maps(model, orbit%scale, orbit%intervals(), constants)
+      start = 0
+      do i = 1, n + constants
+         start(i, i) = 1
       end do
       orbit%residual = 0
       orbit%refused = .false.
       do k = 1, orbit%intervals()
-         call eliminate(model, orbit, parts, k, equations%at_points(:, :, k), error, shift)
+         call linearize(model, orbit, k, jacobian, gap, error, shift)
          if (allocated(error)) return
-         associate (last => equations%at_points((points - 1)*n + 1:, :, k), at_end => equations%at_end)
-            at_end = matmul(last(:, :n), at_end)
-            at_end(:, n + 1:) = at_end(:, n + 1:) + last(:, n + 1:)
-         end associate
+         call equations%maps%eliminate(k, orbit%time(k) - orbit%time(k - 1), jacobian, gap, ok)
+         if (.not. ok) then
+            call raise(error, numerics_error, 'Newton''s equations have no solution at t = ' &
+               & //to_text(orbit%time(k))//' s')
+            return
+         end if
+         call equations%maps%follow(k, points, start, at)
+         start(:, :n) = at(:, :, points)
       end do
+      equations%at_end = start(:, :n)
       if (.not. all(abs(equations%at_end) <= huge(1.0_wp))) then
          call raise(error, numerics_error, 'Newton''s equations have no solution')
          return
       end if
-      orbit%monodromy = equations%at_end(:, :n)
+      orbit%monodromy = transpose(equations%at_end(:n, :))
       orbit%residual = max(orbit%residual, maxval(abs(gap_of(orbit))))
    end subroutine condense
 
@@ -133,12 +121,12 @@ contains
       real(wp), intent(out) :: matrix(:, :), b(:)
       integer :: i, n
       n = size(b)
-      matrix(:, :n) = -equations%at_end(:, :n)
+      matrix(:, :n) = -transpose(equations%at_end(:n, :))
       do i = 1, n
          matrix(i, i) = matrix(i, i) + 1
       end do
-      if (size(matrix, 2) > n) matrix(:, n + 1) = -equations%at_end(:, n + 2)
-      b = equations%at_end(:, n + 1) + gap_of(orbit)
+      if (size(matrix, 2) > n) matrix(:, n + 1) = -equations%at_end(n + 2, :)
+      b = equations%at_end(n + 1, :) + gap_of(orbit)
    end subroutine closing_equations
 
    !> Moves an orbit by a change of its start and (an element more) of the parameter, over the scales; where it
@@ -149,19 +137,18 @@ contains
       real(wp), intent(in) :: change(:)
       logical, intent(in) :: closes
       real(wp), intent(in) :: longest
-      real(wp), allocatable :: corrections(:, :)
-      real(wp) :: at_start(size(orbit%start)), share
+      real(wp), allocatable :: corrections(:, :, :, :)
+      real(wp) :: start(1, size(equations%at_end, 1)), share
       integer :: k, i, n
       n = size(orbit%start)
-      allocate (corrections(points*n, orbit%intervals()))
-      at_start = change(:n)
+      allocate (corrections(1, n, points, orbit%intervals()))
+      start = 0
+      start(1, :n) = change(:n)
+      if (closes) start(1, n + 1) = 1
+      start(1, n + 2:size(change) + 1) = change(n + 1:)
       do k = 1, orbit%intervals()
-         associate (at_points => equations%at_points(:, :, k))
-            corrections(:, k) = matmul(at_points(:, :n), at_start)
-            if (closes) corrections(:, k) = corrections(:, k) + at_points(:, n + 1)
-            if (size(change) > n) corrections(:, k) = corrections(:, k) + change(n + 1)*at_points(:, n + 2)
-            at_start = corrections((points - 1)*n + 1:, k)
-         end associate
+         call equations%maps%follow(k, 1, start, corrections(:, :, :, k))
+         start(1, :n) = corrections(1, :, points, k)
       end do
       orbit%correction = max(maxval(abs(change(:n))), maxval(abs(corrections)))
       call settle(orbit, closes)
@@ -169,7 +156,7 @@ contains
       orbit%start = orbit%start + share*orbit%scale*change(:n)
       do k = 1, orbit%intervals()
          do i = 1, points
-            orbit%at(:, i, k) = orbit%at(:, i, k) + share*orbit%scale*corrections((i - 1)*n + 1:i*n, k)
+            orbit%at(:, i, k) = orbit%at(:, i, k) + share*orbit%scale*corrections(1, :, i, k)
          end do
       end do
    end subroutine move_orbit
@@ -188,51 +175,6 @@ contains
          orbit%last_correction = huge(1.0_wp)
       end if
    end subroutine settle
-
-   !> Solves the linear equations of interval k for the corrections of its points, over the scales, by column. The
-   !> equations of the displacements, x' = v, are satisfied by x_i = x_0 + h sum_j a_ij v_j, which leaves a system on
-   !> the other states alone.
-   subroutine eliminate(model, orbit, parts, k, at_points, error, shift)
-      class(ode_model_type), intent(inout) :: model
-      type(orbit_type), intent(inout) :: orbit
-      type(parts_type), intent(in) :: parts
-      integer, intent(in) :: k
-      real(wp), intent(out) :: at_points(:, :)
-      type(error_type), allocatable, intent(out) :: error
-      type(parameter_shift_type), intent(in), optional :: shift
-      real(wp) :: jacobian(model%n, model%n, points), gap(model%n, size(at_points, 2) - model%n, points)
-      real(wp) :: matrix(points*size(parts%u), points*size(parts%u)), b(points*size(parts%u), size(at_points, 2))
-      real(wp) :: per_rate(size(parts%x))
-      integer :: pivots(points*size(parts%u)), info, i, j, m, columns
-      m = size(parts%u)
-      columns = size(at_points, 2)
-      associate (x => parts%x, h => orbit%time(k) - orbit%time(k - 1))
-         call linearize(model, orbit, k, jacobian, gap, error, shift)
-         if (allocated(error)) return
-         per_rate = h*orbit%scale(parts%v)/orbit%scale(x)
-         call assemble(parts, per_rate, jacobian, gap, matrix, b)
-         call dgesv(points*m, columns, matrix, points*m, pivots, b, points*m, info)
-         if (info /= 0) then
-            call raise(error, numerics_error, 'Newton''s equations have no solution at t = ' &
-               & //to_text(orbit%time(k))//' s')
-            return
-         end if
-         do i = 1, points
-            associate (o => (i - 1)*model%n)
-               at_points(o + parts%u, :) = b((i - 1)*m + 1:i*m, :)
-               at_points(o + x, :) = 0
-               at_points(o + x, model%n + 1:) = gap(x, :, i)
-               do j = 1, size(x)
-                  at_points(o + x(j), x(j)) = 1
-               end do
-               do j = 1, points
-                  at_points(o + x, :) = at_points(o + x, :) + weight(i, j) &
-                     & *spread(per_rate, 2, columns)*b((j - 1)*m + parts%v_in_u, :)
-               end do
-            end associate
-         end do
-      end associate
-   end subroutine eliminate
 
    !> At the points of interval k: the derivatives of the rates, over the scales and times the interval, and how far the
    !> equations are from being satisfied, (state, 1, point); (state, 2, point) is what the parameter adds to that.
@@ -260,7 +202,7 @@ contains
             return
          end if
          if (present(shift)) over_parameter(:, i) = (shift%rates(:, i, k) - rate(:, i))/shift%amount
-         rate(:, i) = rate(:, i) + matmul(jacobian(:, :, i), orbit%at(:, i, k) - inside)
+         if (i == points) rate(:, i) = rate(:, i) + matmul(jacobian(:, :, i), orbit%at(:, i, k) - inside)
          do l = 1, model%n
             jacobian(:, l, i) = h*orbit%scale(l)*jacobian(:, l, i)/orbit%scale
          end do
@@ -280,40 +222,4 @@ contains
       y = orbit%at(:, point, k)
       if (point == points) y = y + inward*(orbit%at(:, points - 1, k) - y)
    end function collocated_state
-
-   !> The linear system of an interval on what is no displacement.
-   pure subroutine assemble(parts, per_rate, jacobian, gap, matrix, b)
-      type(parts_type), intent(in) :: parts
-      real(wp), intent(in) :: per_rate(:), jacobian(:, :, :), gap(:, :, :)
-      real(wp), intent(out) :: matrix(:, :), b(:, :)
-      real(wp) :: over_x(size(parts%u), size(parts%x)), over_v(size(parts%u), size(parts%x))
-      integer :: i, j, l, m, n
-      m = size(parts%u)
-      n = size(jacobian, 1)
-      matrix = 0
-      b = 0
-      do j = 1, points
-         over_x = jacobian(parts%u, parts%x, j)
-         over_v = over_x*spread(per_rate, 1, m)
-         do i = 1, points
-            associate (rows => b((i - 1)*m + 1:i*m, :), block => matrix((i - 1)*m + 1:i*m, :))
-               block(:, (j - 1)*m + 1:j*m) = block(:, (j - 1)*m + 1:j*m) &
-                  & - weight(i, j)*jacobian(parts%u, parts%u, j)
-               do l = 1, points
-                  block(:, (l - 1)*m + parts%v_in_u) = block(:, (l - 1)*m + parts%v_in_u) &
-                     & - weight(i, j)*weight(j, l)*over_v
-               end do
-               rows(:, parts%x) = rows(:, parts%x) + weight(i, j)*over_x
-               rows(:, n + 1:) = rows(:, n + 1:) + weight(i, j)*matmul(over_x, gap(parts%x, :, j))
-            end associate
-         end do
-      end do
-      do i = 1, points
-         b((i - 1)*m + 1:i*m, n + 1:) = b((i - 1)*m + 1:i*m, n + 1:) + gap(parts%u, :, i)
-         do l = 1, m
-            b((i - 1)*m + l, parts%u(l)) = b((i - 1)*m + l, parts%u(l)) + 1
-            matrix((i - 1)*m + l, (i - 1)*m + l) = matrix((i - 1)*m + l, (i - 1)*m + l) + 1
-         end do
-      end do
-   end subroutine assemble
 end module orbit_collocation

@@ -13,6 +13,7 @@ module periodic_orbit
    use orbit_collocation, only: newton_round
    use orbit_march, only: march_period, mesh_options
    use kink_mesh, only: follow_kinks
+   use unbalance_response, only: go_to_response
    use floquet_multipliers, only: set_multipliers
    implicit none (type, external)
    private
@@ -42,16 +43,20 @@ module periodic_orbit
    end type periodic_orbit_type
 
    !> Newton's method is tried once the state changes by less than this over a period, over the scales, or after so many
-   !> periods. Where it fails, it is tried again when the march has doubled.
-   real(wp), parameter :: near = 1e-3_wp
+   !> periods. Where it fails, it is tried again when the march has doubled. Over several turns the change must be less,
+   !> or the method would lead back to an orbit of one turn that the motion is only leaving.
+   real(wp), parameter :: near = 3e-2_wp, near_of_several = 1e-3_wp
    integer, parameter :: first_try = 12, last_try = 96
+   !> The first period has the short steps of a start: it is no mesh. Most rounds before `first_try`.
+   integer, parameter :: fewest_periods = 2, early_rounds = 12
    !> Largest correction that is made, over the scales.
    real(wp), parameter :: longest = 0.5_wp
 
 contains
 
-   !> The periodic orbit that the motion from state y leads to. A numerics error where the march ends or Newton's method
-   !> finds none, or one of status `stopped`, where `give_up` says so.
+   !> The periodic orbit that the motion from state y leads to; from a state at rest, that to which the motion near the
+   !> answer of the linearised equations to the unbalance leads. A numerics error where the march ends or Newton's
+   !> method finds none, or one of status `stopped`, where `give_up` says so.
    subroutine find_periodic_orbit(model, march, options, y, found, error, give_up)
       type(bearing_model), intent(inout), target :: model
       !> Tolerances of a march; they choose the mesh.
@@ -64,12 +69,15 @@ contains
       type(integrator_type) :: integrator
       type(march_options) :: mesh
       type(orbit_type) :: before
+      real(wp) :: close_by
       integer :: next_try
       found%period = options%revolutions*2*pi/model%point%speed(0.0_wp)
       found%orbit%start = y
       found%orbit%scale = model%scale
       mesh = mesh_options(march, found%period/options%revolutions)
-      call integrator%start(model, mesh, 0.0_wp, y, last_try*found%period, error)
+      close_by = merge(near, near_of_several, options%revolutions == 1)
+      if (options%revolutions == 1) call go_to_response(model, found%orbit%start)
+      call integrator%start(model, mesh, 0.0_wp, found%orbit%start, last_try*found%period, error)
       next_try = first_try
       do while (.not. allocated(error))
          before = found%orbit
@@ -77,9 +85,10 @@ contains
          found%march = integrator%counts()
          if (allocated(error)) exit
          found%marched = found%marched + 1
-         if (found%marched < next_try .and. (found%evaluations > 0 .or. change_in_period(found%orbit) > near)) cycle
+         if (found%marched < next_try .and. (found%evaluations > 0 .or. found%marched < fewest_periods &
+            & .or. change_in_period(found%orbit) > close_by)) cycle
          next_try = 2*found%marched
-         if (change_in_period(found%orbit) > near) call average(found%orbit, before)
+         if (change_in_period(found%orbit) > close_by) call average(found%orbit, before)
          call close_orbit(model, options, found, error, give_up)
          if (.not. allocated(error)) return
          if (error%status == numerics_error .and. next_try <= last_try) deallocate (error)
@@ -118,13 +127,16 @@ contains
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       logical :: stops, ok
+      integer :: most
+      most = options%max_iterations
+      if (found%marched < first_try) most = min(most, early_rounds)
       found%iterations = 0
       associate (orbit => found%orbit)
          do while (.not. orbit%correction <= options%tolerance)
             stops = asked(give_up)
             if (stops) then
                call raise(error, stopped, 'asked to stop')
-            else if (found%iterations == options%max_iterations) then
+            else if (found%iterations == most) then
                call raise(error, numerics_error, 'Newton''s method stopped after '//to_text(found%iterations) &
                   & //' iterations (periodic%max_iterations) at a correction of '//to_text(orbit%correction) &
                   & //' of the natural size of the states')
