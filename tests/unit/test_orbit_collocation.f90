@@ -1,11 +1,11 @@
 !> Collocation of periodic orbits on problems with known orbits and multipliers: a forced linear oscillator with a stiff
-!> state beside it, and Van der Pol's oscillator, forced at its own period.
+!> state beside it, Van der Pol's oscillator, forced at its own period, and oscillators that know one another by one.
 module orbit_problems
    use kinds, only: wp
    use ode_model, only: ode_model_type
    implicit none (type, external)
    private
-   public :: linear_problem, van_der_pol
+   public :: linear_problem, van_der_pol, coupled_problem
 
    !> x'' + 2 d x' + x = cos t, and z' = -k (z - x).
    type, extends(ode_model_type) :: linear_problem
@@ -29,6 +29,20 @@ module orbit_problems
       procedure :: jacobian_times => van_der_pol_times
       procedure :: solve => no_solution_either
    end type van_der_pol
+
+   !> y' = matrix y + cos t, 1 for each state, of one oscillator x, v and two of x, v, z that it alone joins.
+   type, extends(ode_model_type) :: coupled_problem
+      real(wp) :: matrix(8, 8) = 0
+      !> Whether it says that they are blocks.
+      logical :: in_blocks = .true.
+   contains
+      procedure :: rhs => coupled_rhs
+      procedure :: linearize => no_derivatives
+      procedure :: jacobian_times => coupled_times
+      procedure :: solve => no_coupled_solution
+      procedure :: pairs => coupled_pairs
+      procedure :: blocks => coupled_blocks
+   end type coupled_problem
 
 contains
 
@@ -102,6 +116,52 @@ contains
       logical, intent(out) :: ok
       ok = .false.
    end subroutine no_solution_either
+
+   subroutine coupled_rhs(self, t, y, dydt, ok)
+      class(coupled_problem), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: dydt(:)
+      logical, intent(out) :: ok
+      dydt = matmul(self%matrix, y)
+      dydt([2, 4, 5, 7, 8]) = dydt([2, 4, 5, 7, 8]) + cos(t)
+      ok = .true.
+   end subroutine coupled_rhs
+
+   subroutine no_derivatives(self, t, y, ok)
+      class(coupled_problem), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      logical, intent(out) :: ok
+      ok = .true.
+   end subroutine no_derivatives
+
+   subroutine coupled_times(self, v, jv)
+      class(coupled_problem), intent(inout) :: self
+      real(wp), intent(in) :: v(:)
+      real(wp), intent(out) :: jv(:)
+      jv = matmul(self%matrix, v)
+   end subroutine coupled_times
+
+   subroutine no_coupled_solution(self, gamma, b, ok)
+      class(coupled_problem), intent(inout) :: self
+      real(wp), intent(in) :: gamma
+      real(wp), intent(inout) :: b(:)
+      logical, intent(out) :: ok
+      ok = .false.
+   end subroutine no_coupled_solution
+
+   pure subroutine coupled_pairs(self, x, v)
+      class(coupled_problem), intent(in) :: self
+      integer, allocatable, intent(out) :: x(:), v(:)
+      x = [1, 3, 6]
+      v = [2, 4, 7]
+   end subroutine coupled_pairs
+
+   pure subroutine coupled_blocks(self, number, states)
+      class(coupled_problem), intent(in) :: self
+      integer, intent(out) :: number, states
+      number = merge(2, 0, self%in_blocks)
+      states = 3
+   end subroutine coupled_blocks
 end module orbit_problems
 
 program test_orbit_collocation
@@ -111,7 +171,7 @@ program test_orbit_collocation
    use orbit_collocation, only: newton_round
    use errors, only: error_type
    use floquet_multipliers, only: set_multipliers
-   use orbit_problems, only: linear_problem, van_der_pol
+   use orbit_problems, only: linear_problem, van_der_pol, coupled_problem
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
 
@@ -122,6 +182,7 @@ program test_orbit_collocation
    if (runs('order')) call order()
    if (runs('state_at')) call state_at()
    if (runs('limit_cycle')) call limit_cycle()
+   if (runs('blocks')) call blocks()
    call report()
 
 contains
@@ -251,4 +312,32 @@ contains
       call expect_close(abs(values(1)), abs(expected), 1e-6_wp*abs(expected), 'modulus of its multipliers')
       call expect_close(values(1)%re, expected%re, 1e-6_wp*abs(expected), 'and their angle')
    end subroutine limit_cycle
+
+   !> Eliminated block by block, and all at once: the same orbit and the same monodromy matrix but for rounding.
+   subroutine blocks()
+      type(coupled_problem) :: problem
+      type(orbit_type) :: orbit(2)
+      type(error_type), allocatable :: error
+      integer :: i
+      problem%n = 8
+      problem%matrix(1, 2) = 1
+      problem%matrix(2, :) = [-1.0_wp, -0.3_wp, 0.2_wp, 0.1_wp, 0.4_wp, -0.3_wp, 0.2_wp, 0.1_wp]
+      problem%matrix(3, 4) = 1
+      problem%matrix(4, :5) = [0.5_wp, 0.1_wp, -2.0_wp, -0.2_wp, 0.6_wp]
+      problem%matrix(5, :5) = [0.3_wp, 0.0_wp, 1.0_wp, 0.7_wp, -50.0_wp]
+      problem%matrix(6, 7) = 1
+      problem%matrix(7, :) = [0.2_wp, -0.1_wp, 0.0_wp, 0.0_wp, 0.0_wp, -3.0_wp, -0.5_wp, 0.3_wp]
+      problem%matrix(8, :) = [0.0_wp, 0.4_wp, 0.0_wp, 0.0_wp, 0.0_wp, -0.8_wp, 0.2_wp, -4.0_wp]
+      do i = 1, 2
+         problem%in_blocks = i == 1
+         orbit(i) = at_rest(8, 30, 2*pi)
+         call newton_round(problem, orbit(i), huge(1.0_wp), error)
+         call expect_no_error(error, 'a round')
+      end do
+      call expect(maxval(abs(orbit(2)%start)) > 0.1_wp, 'they move')
+      call expect_close(maxval(abs(orbit(1)%at - orbit(2)%at)), 0.0_wp, 1e-12_wp, 'the orbit')
+      call expect_close(maxval(abs(orbit(1)%monodromy - orbit(2)%monodromy)), 0.0_wp, 1e-12_wp, 'the monodromy matrix')
+      call newton_round(problem, orbit(2), huge(1.0_wp), error)
+      call expect_close(orbit(2)%residual, 0.0_wp, 1e-12_wp, 'its equations are satisfied')
+   end subroutine blocks
 end program test_orbit_collocation
