@@ -29,7 +29,7 @@ contains
       real(wp), intent(in) :: phi(:), z(:)
       real(wp) :: pressure(size(z), size(phi))
       real(wp) :: position(size(z)), narrow(size(z)), smooth(size(z), 0:pad%n)
-      real(wp) :: profile(lanes*pad%axial%blocks, size(z)), rise, h, angle
+      real(wp) :: profile(lanes*pad%axial%blocks, size(z)), amplitude(lanes), rise, h, angle
       integer :: i, j, b
       associate (gap => pad%gap, n => pad%n)
          rise = gap%supply_pressure - gap%ambient_pressure
@@ -44,8 +44,12 @@ contains
             if (i > 0) smooth(:, i) = -narrow*pad%narrow(i)/pad%h(i)
             do b = 1, pad%axial%blocks
                associate (first => lanes*b - lanes + 1, last => lanes*b)
-                  smooth(:, i) = smooth(:, i) + matmul(pad%q(:, i, b)/pad%h(i) - rise*even_layer(pad, i) &
-                     & *exp(-sqrt(pad%axial%square(first:last))*angle), profile(first:last, :))
+                  amplitude = pad%q(:, i, b)/pad%h(i)
+                  if (abs(rise) > 0) amplitude = amplitude - rise*even_layer(pad, i) &
+                     & *exp(-sqrt(pad%axial%square(first:last))*angle)
+                  do j = 1, size(z)
+                     smooth(j, i) = smooth(j, i) + dot_product(amplitude, profile(first:last, j))
+                  end do
                end associate
             end do
          end do
@@ -53,8 +57,8 @@ contains
             h = 1 - pad%e(1)*sin(phi(j)) - pad%e(2)*cos(phi(j))
             angle = node_position(pad, phi(j))
             i = min(max(int(angle) - 1, 0), n - 3)
-            pressure(:, j) = gap%ambient_pressure + matmul(smooth(:, i:i + 3), cubic_weights(angle - i)) &
-               & + rise*(pad%h(n)/h)**1.5_wp &
+            pressure(:, j) = gap%ambient_pressure + matmul(smooth(:, i:i + 3), cubic_weights(angle - i))
+            if (abs(rise) > 0) pressure(:, j) = pressure(:, j) + rise*(pad%h(n)/h)**1.5_wp &
                & *layer(position, (gap%leading_angle - phi(j))*gap%pad_radius()/gap%axial_length)
          end do
       end associate

@@ -12,6 +12,7 @@ module ruptured_drive
    use two_equations, only: solved
    use film_solver, only: film_motion, film_response, film_counters, film_ok
    use unit_pad, only: unit_pad_type, thickness_scale
+   use film_grid, only: new_film_grid
    use elimination_film, only: elimination_film_type, new_elimination_film
    use modal_film, only: modal_film_type, converged_film
    implicit none (type, external)
@@ -34,6 +35,8 @@ module ruptured_drive
       type(unit_pad_type) :: pad
       logical :: gumbel
       integer :: columns, rows
+      !> The finer and the coarser grid, once they are needed: what the grids of all films have in common.
+      type(elimination_film_type), allocatable :: grids(:)
       !> Guembel's: clipped and whole.
       type(modal_film_type) :: clipped, whole
    contains
@@ -83,11 +86,22 @@ contains
       if (self%gumbel) then
          drive = by_modes(self, motion)
       else
+         if (.not. allocated(self%grids)) call make_grids(self)
          drive = by_volumes(self, motion)
       end if
       drive%slopes(1, :2) = self%pad%over_edges(drive%slopes(1, :2))
       drive%slopes(2, :2) = self%pad%over_edges(drive%slopes(2, :2))
    end function at
+
+   subroutine make_grids(self)
+      class(ruptured_drive_type), intent(inout) :: self
+      integer :: part
+      allocate (self%grids(2))
+      do part = 1, 2
+         self%grids(part) = new_elimination_film(self%pad%gap(0.0_wp), self%columns/part, self%rows/part)
+         self%grids(part)%ends_between = .true.
+      end do
+   end subroutine make_grids
 
    !> The drive by finite volumes on two grids, extrapolated; slopes over the position.
    function by_volumes(self, motion) result(drive)
@@ -122,14 +136,14 @@ contains
       drive%slopes = drive%slopes + (drive%slopes - coarse_drive%slopes)/3
    end function by_volumes
 
-   !> The grid with these angles between its columns, and a part of the rows.
+   !> The grid with these angles between its columns, and a part of the columns and rows.
    subroutine make_grid(self, line, part, grid)
       type(ruptured_drive_type), intent(in) :: self
       real(wp), intent(in) :: line(0:)
       integer, intent(in) :: part
       type(elimination_film_type), intent(out) :: grid
-      grid = new_elimination_film(self%pad%gap(0.0_wp), self%columns/part, self%rows/part, line)
-      grid%ends_between = .true.
+      grid = self%grids(part)
+      grid%grid = new_film_grid(self%pad%gap(0.0_wp), self%columns/part, self%rows/part, line)
    end subroutine make_grid
 
    !> The drive of a ruptured film, by volumes on which the film is whole.
