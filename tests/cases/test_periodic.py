@@ -48,7 +48,9 @@ def test_the_file(run, tmp_path):
         assert (np.diff(modulus) < 1e-12).all()
         # 1e-3: the films' tables; without them test_periodic_orbits is as close as 1e-6
         assert (real[0], abs(imag[0])) == pytest.approx((-0.0504, 0.2970), abs=1e-3)
-        assert group["evaluations"][()] == 3 * group["intervals"][()] * group["iterations"][()]
+        # before the first rounds there may be fewer intervals: kinks add some
+        most = 3 * group["intervals"][()] * group["iterations"][()]
+        assert 0.9 * most < group["evaluations"][()] <= most
         assert file["statistics/rhs_evaluations"][()] > group["evaluations"][()]
 
 
