@@ -73,7 +73,7 @@ contains
       iterations = 0
       do while (.not. residual <= residual_limit)
          if (iterations == limit .or. stuck) then
-            call raise(error, numerics_error, last_words(model, iterations, residual))
+            call raise(error, numerics_error, last_words(model, iterations, force))
             return
          end if
          iterations = iterations + 1
@@ -84,7 +84,7 @@ contains
          call find_step(model, y, free, time_step, step, move, ok)
          if (.not. ok) then
             call raise(error, numerics_error, 'the equations are singular, the unbalanced force is still ' &
-               & //to_text(residual)//' of the load')
+               & //shown(model, force))
             return
          end if
          call take_step(model, y, time_step, step, ok)
@@ -101,15 +101,27 @@ contains
    end subroutine follow_motion
 
    !> What is said of a search that does not end.
-   function last_words(model, iterations, residual)
+   function last_words(model, iterations, force)
       type(bearing_model), intent(in) :: model
       integer, intent(in) :: iterations
-      real(wp), intent(in) :: residual
+      !> Largest unbalanced force, N.
+      real(wp), intent(in) :: force
       character(len=:), allocatable :: last_words
-      last_words = 'after '//to_text(iterations)//' iterations the unbalanced force is still '//to_text(residual) &
-         & //' of the load'
+      last_words = 'after '//to_text(iterations)//' iterations the unbalanced force is still '//shown(model, force)
       if (model%warning() /= '') last_words = last_words//'; '//model%warning()
    end function last_words
+
+   !> "12.5 N, 0.02 of the load".
+   function shown(model, force)
+      type(bearing_model), intent(in) :: model
+      !> N
+      real(wp), intent(in) :: force
+      character(len=:), allocatable :: shown
+      shown = to_text(force)//' N'
+      associate (load => norm2(model%point%load))
+         if (load > 0) shown = shown//', '//to_text(force/load)//' of the load'
+      end associate
+   end function shown
 
    !> The time step after one that took the unbalanced force from `last` to `now`: longer as it falls.
    elemental real(wp) function next_time_step(time_step, last, now)
