@@ -1,5 +1,6 @@
 !> What a run prints of its results.
 module run_summary
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, i8, pi, degree
    use text, only: to_text, fixed_text
    use loops, only: loop_area
@@ -81,9 +82,20 @@ contains
       end do
       associate (pads => figures%pads)
          print '(a)', '  all pads: loss '//fixed_text(sum(pads%power()), 1)//' W, oil in '//micro(sum(pads%inlet)) &
-            & //', at the sides '//micro(sum(pads%side))//' ml/s, oil warmer by '//fixed_text(figures%rise_fresh, 1) &
-            & //' K (fresh at every pad) to '//fixed_text(figures%rise_side, 1)//' K (fresh for the sides alone)'
+            & //', at the sides '//micro(sum(pads%side))//' ml/s'//warmer(figures%rise_fresh, ', oil warmer by ', &
+            & 'fresh at every pad')//warmer(figures%rise_side, ' to ', 'fresh for the sides alone')
       end associate
+
+   contains
+
+      !> By how many K, and where; nothing where next to no oil flows.
+      function warmer(rise, before, where_fresh)
+         real(wp), intent(in) :: rise
+         character(len=*), intent(in) :: before, where_fresh
+         character(len=:), allocatable :: warmer
+         warmer = ''
+         if (.not. ieee_is_nan(rise)) warmer = before//fixed_text(rise, 1)//' K ('//where_fresh//')'
+      end function warmer
    end subroutine print_figures
 
    !> Temperatures of warm oil, C, and the viscosity of each pad's film, Pa s.

@@ -27,6 +27,9 @@ module static_figures
       type(oil_temperatures_type), allocatable :: oil
    end type static_figures_type
 
+   !> K: no oil becomes as warm; where it would, hardly any flows.
+   real(wp), parameter :: largest_rise = 1e4_wp
+
 contains
 
    !> The figures of an equilibrium of the model.
@@ -57,11 +60,11 @@ contains
       if (.not. balanced) deallocate (figures%oil)
    end subroutine find_static_figures
 
-   !> Rise of temperature, K, by a power, W, in a flow of heat capacity, W/K; no number where there is no flow.
+   !> Rise of temperature, K, by a power, W, in a flow of heat capacity, W/K; no number where next to nothing flows.
    elemental real(wp) function rise(power, capacity)
       real(wp), intent(in) :: power, capacity
       rise = ieee_value(power, ieee_quiet_nan)
       if (ieee_is_nan(capacity)) return
-      if (capacity > 0) rise = power/capacity
+      if (capacity*largest_rise > power) rise = power/capacity
    end function rise
 end module static_figures
