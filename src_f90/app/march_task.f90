@@ -29,7 +29,7 @@ module march_task
    real(wp), parameter :: friction_tolerance = 0.5_wp
 
    !> Steps in a revolution from which on low orders are tried.
-   real(wp), parameter :: many_steps = 2000
+   real(wp), parameter :: many_steps = 1000
 
 contains
 

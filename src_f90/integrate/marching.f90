@@ -6,7 +6,7 @@ module marching
    use ode_model, only: ode_model_type
    use integrator_counts, only: integrator_counts_type
    use cvode_integrator, only: integrator_type, integrator_options
-   use order_watch, only: order_watch_type, low_order
+   use order_watch, only: order_watch_type, stable_order
    use march_observer, only: march_observer_type
    implicit none (type, external)
    private
@@ -74,7 +74,7 @@ contains
                & //to_text(counts%steps)//' steps (integration%max_steps)')
             exit
          end if
-         if (watch%changes(t, counts%steps)) call change_orders(integrator, model, options, watch%low, t_end, earlier, &
+         if (watch%changes(t, counts%steps)) call change_orders(integrator, model, options, watch, t_end, earlier, &
             & error)
          if (.not. allocated(error)) call integrator%step(error)
          t = integrator%time()
@@ -89,19 +89,26 @@ contains
       counts = earlier + integrator%counts()
    end subroutine march
 
-   !> Goes on from the state reached, whose samples are given, with low orders or with all.
-   subroutine change_orders(integrator, model, options, low, t_end, earlier, error)
+   !> Goes on from the state reached, whose samples are given, with all orders, or with those that are stable in every
+   !> vibration.
+   subroutine change_orders(integrator, model, options, watch, t_end, earlier, error)
       type(integrator_type), intent(inout) :: integrator
       class(ode_model_type), intent(inout), target :: model
       class(march_options), intent(in) :: options
-      logical, intent(in) :: low
+      type(order_watch_type), intent(in) :: watch
       real(wp), intent(in) :: t_end
       !> What the integrations before this one cost.
       type(integrator_counts_type), intent(inout) :: earlier
       type(error_type), allocatable, intent(out) :: error
       type(march_options) :: changed
+      real(wp) :: rates(model%n), jacobian(model%n, model%n)
+      logical :: ok
       changed = options
-      if (low) changed%max_order = low_order
+      if (watch%low) then
+         call model%tangent(integrator%time(), integrator%state(), rates, jacobian, ok)
+         if (ok) changed%max_order = min(options%max_order, stable_order(jacobian, watch%mean_step))
+         if (changed%max_order == options%max_order) return
+      end if
       earlier = earlier + integrator%counts()
       call integrator%start(model, changed, integrator%time(), integrator%state(), t_end, error)
    end subroutine change_orders

@@ -2,20 +2,24 @@
 !> orders 3 to 5 is unstable, so that the error test keeps the steps short where nothing happens.
 module order_watch
    use kinds, only: wp, i8
+   use lapack, only: dgeev
    implicit none (type, external)
    private
-   public :: order_watch_type, low_order
+   public :: order_watch_type, stable_order
 
-   !> The highest order that is stable in any vibration.
-   integer, parameter :: low_order = 2
    !> Steps that are looked at together.
    integer(i8), parameter :: window = 250
    !> Windows in a row with short steps before the first trial, and how many times as many after one in vain.
    integer, parameter :: first_wait = 4, patience = 4
-   !> Windows of a trial, of which the last one counts: before, vibrations that high orders have raised die away. How
-   !> much further it must go for low orders to stay, and for how many windows they do.
-   integer, parameter :: trial = 4, stay = 20
-   real(wp), parameter :: gain = 4
+   !> Windows of a half of a trial. In the first, vibrations that high orders have raised die away; the trial ends with
+   !> it where it does not go a part as far as before. How much further the second must go for low orders to stay, and
+   !> for how many windows they do.
+   integer, parameter :: half = 2, stay = 20
+   real(wp), parameter :: part = 0.5_wp, gain = 1.5_wp
+   !> Damping ratios from which on vibrations of any frequency are stable with the orders 2 to 5.
+   real(wp), parameter :: stable_damping(2:5) = [0.0_wp, 0.0692_wp, 0.2865_wp, 0.6180_wp]
+   !> Radians of a vibration in a step below which the steps resolve it, whatever the order.
+   real(wp), parameter :: resolved = 0.2_wp
 
    type :: order_watch_type
       !> Mean step, s, below which low orders are tried; 0: they never are.
@@ -24,9 +28,11 @@ module order_watch
       real(wp) :: time = 0
       !> Whether low orders are in force.
       logical :: low = .false.
-      !> How far the window before the trial went, s; windows with low orders, or in a row with short steps, and how
-      !> many of these lead to a trial.
-      real(wp), private :: span = 0
+      !> Mean step with high orders before the trial, s.
+      real(wp) :: mean_step = 0
+      !> Where the steps that count began, s; windows with low orders, or in a row with short steps, and how many of
+      !> these lead to a trial.
+      real(wp), private :: since = 0
       integer, private :: windows = 0, wait = first_wait
    contains
       procedure :: changes
@@ -39,25 +45,43 @@ contains
       class(order_watch_type), intent(inout) :: self
       real(wp), intent(in) :: t
       integer(i8), intent(in) :: steps
-      real(wp) :: span
       changes = .false.
       if (mod(steps, window) /= 0) return
-      span = t - self%time
-      self%time = t
       self%windows = self%windows + 1
+      if (self%windows == 1) self%since = self%time
       if (self%low) then
          changes = self%windows == stay
-         if (self%windows == trial) then
-            changes = .not. span > gain*self%span
-            self%wait = merge(patience*self%wait, first_wait, changes)
+         if (any(self%windows == [half, 2*half])) then
+            changes = t - self%since < merge(part, gain, self%windows == half)*half*window*self%mean_step
+            self%since = t
+         end if
+         if (changes .and. self%windows <= 2*half) then
+            self%wait = patience*self%wait
+         else if (self%windows == 2*half) then
+            self%wait = first_wait
          end if
       else
-         if (.not. span < window*self%short_step) self%windows = 0
+         if (t - self%time > window*self%short_step) self%windows = 0
          changes = self%windows == self%wait
-         self%span = span
+         if (changes) self%mean_step = (t - self%since)/(self%wait*window)
       end if
+      self%time = t
       if (.not. changes) return
       self%low = .not. self%low
       self%windows = 0
    end function changes
+
+   !> The highest order that is stable in all vibrations that steps of this length, s, do not resolve, of a motion with
+   !> this Jacobian.
+   integer function stable_order(jacobian, step) result(order)
+      real(wp), intent(in) :: jacobian(:, :), step
+      real(wp), dimension(size(jacobian, 1)) :: re, im
+      real(wp) :: matrix(size(re), size(re)), left(1, 1), right(1, 1), work(4*size(re))
+      integer :: info
+      matrix = jacobian
+      call dgeev('N', 'N', size(re), matrix, size(re), re, im, left, 1, right, 1, work, size(work), info)
+      do order = ubound(stable_damping, 1), lbound(stable_damping, 1) + 1, -1
+         if (info == 0 .and. all(-re >= stable_damping(order)*hypot(re, im) .or. abs(im)*step < resolved)) return
+      end do
+   end function stable_order
 end module order_watch
