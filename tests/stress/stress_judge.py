@@ -172,7 +172,7 @@ def refusal_faults(done: Ended, file: Path) -> list[str]:
             faults.append(f"no cause named: {said.strip()}")
         if file.exists():
             faults.append("a result file without an equilibrium")
-    elif done.returncode in (2, STOPPED):
+    elif done.returncode in (2, STOPPED) and "before the march" not in said:
         if not re.search(r" t = \S+ s", said):
             faults.append(f"no time named: {said.strip()}")
         if not file.exists():

@@ -1,5 +1,5 @@
 !> The rest of one pad for a given journal, wherever there is one: where moments balance is sought over all its tilts,
-!> and along these tilts where its radial force changes its sign.
+!> and, along each balance over the penetrations, where its radial force changes its sign or the balance ends.
 module pad_rest
    use kinds, only: wp, pi
    use scene, only: scene_type
@@ -18,6 +18,8 @@ module pad_rest
    real(wp), parameter :: least_gap = 2e-3_wp, least_contact = 1e-5_wp
    !> Way across the tilts, from 0 to 1, that a balance goes from one penetration to the next.
    real(wp), parameter :: longest_way = 0.25_wp
+   !> Halvings of the way from one penetration to the next.
+   integer, parameter :: halvings = 10
 
    !> The balances of moments at one penetration: tilts, rad, shares of the way across the tilts, radial forces, N, and
    !> whether the pad comes back to them.
@@ -74,7 +76,9 @@ contains
       logical, intent(out) :: found
       type(balances_type), allocatable :: rows(:)
       real(wp), allocatable :: penetrations(:)
+      type(pad_state) :: guess
       integer :: row, k, next, turn
+      logical :: may_rest
       found = .false.
       penetrations = penetrations_of(alone, journal)
       allocate (rows(size(penetrations)))
@@ -85,14 +89,14 @@ contains
          do row = 1, size(rows)
             do k = 1, rows(row)%count
                if (rows(row)%stable(k) .neqv. turn == 1) cycle
-               if (alone%layout%radial) then
-                  next = 0
-                  if (row < size(rows)) next = follower(rows(row), k, rows(row + 1))
-                  if (next == 0) cycle
-                  call try(alone, journal, between(rows(row), k, rows(row + 1), next), pad, found)
-               else
+               if (.not. alone%layout%radial) then
                   call try(alone, journal, pad_state(tilt=rows(row)%tilt(k)), pad, found)
                end if
+               do next = max(row - 1, 1), min(row + 1, size(rows))
+                  if (found .or. next == row) cycle
+                  call follow(alone, journal, rows(row), k, rows(next), guess, may_rest)
+                  if (may_rest) call try(alone, journal, guess, pad, found)
+               end do
                if (found) return
             end do
          end do
@@ -182,29 +186,52 @@ contains
       end do
    end function last_open
 
-   !> The balance in the next row that continues balance k, if the radial force changes its sign on the way; else 0.
-   pure integer function follower(row, k, next)
-      type(balances_type), intent(in) :: row, next
+   !> Follows balance k of a row towards another row, by halving the way, up to where its radial force changes its sign
+   !> or the balance ends; `may_rest` is false where it does neither.
+   subroutine follow(alone, journal, row, k, other, guess, may_rest)
+      type(bearing_model), intent(inout) :: alone
+      type(journal_motion), intent(in) :: journal
+      type(balances_type), intent(in) :: row, other
+      integer, intent(in) :: k
+      type(pad_state), intent(out) :: guess
+      logical, intent(out) :: may_rest
+      type(balances_type) :: near, middle
+      real(wp) :: far
+      integer :: at, next, halving
+      next = follower(row, k, other)
+      may_rest = next == 0
+      if (.not. may_rest) may_rest = row%radial(k) < 0 .neqv. other%radial(next) < 0
+      if (.not. may_rest) return
+      near = row
+      at = k
+      far = other%penetration
+      do halving = 1, halvings
+         call find_balances(alone, journal, 0.5_wp*(near%penetration + far), middle)
+         next = follower(near, at, middle)
+         if (next > 0) then
+            if (near%radial(at) < 0 .neqv. middle%radial(next) < 0) next = 0
+         end if
+         if (next == 0) then
+            far = middle%penetration
+         else
+            near = middle
+            at = next
+         end if
+      end do
+      guess = pad_state(tilt=near%tilt(at), penetration=near%penetration)
+   end subroutine follow
+
+   !> The balance in another row that continues balance k; 0 where there is none.
+   pure integer function follower(row, k, other)
+      type(balances_type), intent(in) :: row, other
       integer, intent(in) :: k
       follower = 0
-      if (next%count == 0) return
-      follower = minloc(abs(next%share(:next%count) - row%share(k)), &
-         & mask=next%stable(:next%count) .eqv. row%stable(k), dim=1)
+      if (other%count == 0) return
+      follower = minloc(abs(other%share(:other%count) - row%share(k)), &
+         & mask=other%stable(:other%count) .eqv. row%stable(k), dim=1)
       if (follower == 0) return
-      if (abs(next%share(follower) - row%share(k)) > longest_way) follower = 0
-      if (follower == 0) return
-      if (row%radial(k) < 0 .eqv. next%radial(follower) < 0) follower = 0
+      if (abs(other%share(follower) - row%share(k)) > longest_way) follower = 0
    end function follower
-
-   !> Where the radial force vanishes between balances of two rows.
-   pure type(pad_state) function between(row, k, next, follower) result(pad)
-      type(balances_type), intent(in) :: row, next
-      integer, intent(in) :: k, follower
-      associate (t => row%radial(k)/(row%radial(k) - next%radial(follower)))
-         pad%penetration = row%penetration + t*(next%penetration - row%penetration)
-         pad%tilt = row%tilt(k) + t*(next%tilt(follower) - row%tilt(k))
-      end associate
-   end function between
 
    !> Newton's method on the pad from a guess; where it comes to rest this is the pad's state.
    subroutine try(alone, journal, guess, pad, found)
