@@ -203,4 +203,4 @@ def losses(program, folder):
             yield row(label, f"{here:.4f}", reference, f"{abs(here / reference - 1):.1e}")
 
 
-TABLES = (independent, thresholds, someya, lund_thomsen, losses)
+TABLES = (independent, close_films, thresholds, someya, lund_thomsen, losses)
