@@ -167,12 +167,13 @@ def refusal_faults(done: Ended, file: Path) -> list[str]:
     faults += [f"{word!r} in the message: {said.strip()}" for word in NO_MESSAGE if word in said]
     if done.returncode == 1 and not re.search(r"\w+%\w+", said):
         faults.append(f"no variable named: {said.strip()}")
-    if done.returncode == 2 and "no equilibrium found" in said:
-        if not cause_of(said):
-            faults.append(f"no cause named: {said.strip()}")
+    refused = done.returncode == 2 and "no equilibrium found" in said
+    if refused and not cause_of(said):
+        faults.append(f"no cause named: {said.strip()}")
+    if refused or (done.returncode == STOPPED and "before the march" in said):
         if file.exists():
             faults.append("a result file without an equilibrium")
-    elif done.returncode in (2, STOPPED) and "before the march" not in said:
+    elif done.returncode in (2, STOPPED):
         if not re.search(r" t = \S+ s", said):
             faults.append(f"no time named: {said.strip()}")
         if not file.exists():

@@ -198,9 +198,7 @@ contains
       type(balances_type) :: near, middle
       real(wp) :: far
       integer :: at, next, halving
-      next = follower(row, k, other)
-      may_rest = next == 0
-      if (.not. may_rest) may_rest = row%radial(k) < 0 .neqv. other%radial(next) < 0
+      may_rest = follower(row, k, other) == 0
       if (.not. may_rest) return
       near = row
       at = k
@@ -208,9 +206,6 @@ contains
       do halving = 1, halvings
          call find_balances(alone, journal, 0.5_wp*(near%penetration + far), middle)
          next = follower(near, at, middle)
-         if (next > 0) then
-            if (near%radial(at) < 0 .neqv. middle%radial(next) < 0) next = 0
-         end if
          if (next == 0) then
             far = middle%penetration
          else
@@ -221,7 +216,7 @@ contains
       guess = pad_state(tilt=near%tilt(at), penetration=near%penetration)
    end subroutine follow
 
-   !> The balance in another row that continues balance k; 0 where there is none.
+   !> The balance in another row that continues balance k with a radial force of the same sign; 0 where there is none.
    pure integer function follower(row, k, other)
       type(balances_type), intent(in) :: row, other
       integer, intent(in) :: k
@@ -231,6 +226,8 @@ contains
          & mask=other%stable(:other%count) .eqv. row%stable(k), dim=1)
       if (follower == 0) return
       if (abs(other%share(follower) - row%share(k)) > longest_way) follower = 0
+      if (follower == 0) return
+      if (row%radial(k) < 0 .neqv. other%radial(follower) < 0) follower = 0
    end function follower
 
    !> Newton's method on the pad from a guess; where it comes to rest this is the pad's state.

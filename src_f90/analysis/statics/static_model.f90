@@ -22,7 +22,7 @@ module static_model
       real(wp), allocatable :: min_film_thickness(:), max_pressure(:)
       !> Of the oil on every pad, Pa s.
       real(wp), allocatable :: viscosity(:)
-      !> Largest unbalanced force over the load.
+      !> Largest unbalanced force over the reference force (damped_newton).
       real(wp) :: residual = huge(1.0_wp)
       type(stability_type) :: stability
    end type equilibrium_type
@@ -31,7 +31,7 @@ module static_model
    real(wp), parameter :: film_tolerance = 0.1_wp*residual_limit
    integer, parameter :: film_sweeps = 100000
 
-   !> Unbalanced force over the load that leaps of ruptured films may leave.
+   !> Unbalanced force over the reference force that leaps of ruptured films may leave.
    real(wp), parameter :: largest_leap = 1e-5_wp
 
    !> Positions of the journal to start from, in assembled clearances down the load.
