@@ -230,7 +230,8 @@ contains
       end do
    end subroutine insert
 
-   !> Gauss-Jordan elimination of the first n columns of n rows held side by side, each row with the largest pivot.
+   !> Gauss-Jordan elimination of the first n columns of n rows held side by side, each row with the largest pivot. For
+   !> a pad n is 9 or so: LAPACK is slower on systems this small.
    pure subroutine reduce(width, n, rows, ok)
       integer, intent(in) :: width, n
       real(wp), intent(inout) :: rows(width, n)
