@@ -57,9 +57,11 @@ contains
       type(order_watch_type) :: watch
       real(wp) :: t
       integer(i8) :: next
+      integer :: order
 
       t = t_start
       watch = order_watch_type(options%short_step, t)
+      order = options%max_order
       next = plan%next
       call integrator%start(model, options, t, y, t_end, error)
       if (allocated(error)) call add_context(error, stopped_at(t, counts%steps))
@@ -74,8 +76,8 @@ contains
                & //to_text(counts%steps)//' steps (integration%max_steps)')
             exit
          end if
-         if (watch%changes(t, counts%steps)) call change_orders(integrator, model, options, watch, t_end, earlier, &
-            & error)
+         if (watch%changes(t, counts%steps)) call change_orders(integrator, model, options, watch, t_end, order, &
+            & earlier, error)
          if (.not. allocated(error)) call integrator%step(error)
          t = integrator%time()
          if (allocated(error)) then
@@ -91,12 +93,14 @@ contains
 
    !> Goes on from the state reached, whose samples are given, with all orders, or with those that are stable in every
    !> vibration.
-   subroutine change_orders(integrator, model, options, watch, t_end, earlier, error)
+   subroutine change_orders(integrator, model, options, watch, t_end, order, earlier, error)
       type(integrator_type), intent(inout) :: integrator
       class(ode_model_type), intent(inout), target :: model
       class(march_options), intent(in) :: options
       type(order_watch_type), intent(in) :: watch
       real(wp), intent(in) :: t_end
+      !> The highest in force.
+      integer, intent(inout) :: order
       !> What the integrations before this one cost.
       type(integrator_counts_type), intent(inout) :: earlier
       type(error_type), allocatable, intent(out) :: error
@@ -107,8 +111,9 @@ contains
       if (watch%low) then
          call model%tangent(integrator%time(), integrator%state(), rates, jacobian, ok)
          if (ok) changed%max_order = min(options%max_order, stable_order(jacobian, watch%mean_step))
-         if (changed%max_order == options%max_order) return
       end if
+      if (changed%max_order == order) return
+      order = changed%max_order
       earlier = earlier + integrator%counts()
       call integrator%start(model, changed, integrator%time(), integrator%state(), t_end, error)
    end subroutine change_orders

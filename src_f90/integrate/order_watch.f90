@@ -9,12 +9,13 @@ module order_watch
 
    !> Steps that are looked at together.
    integer(i8), parameter :: window = 250
-   !> Windows in a row with short steps before the first trial, and how many times as many after one in vain.
-   integer, parameter :: first_wait = 4, patience = 4
-   !> Windows of a half of a trial. In the first, vibrations that high orders have raised die away; the trial ends with
-   !> it where it does not go a part as far as before. How much further the second must go for low orders to stay, and
-   !> for how many windows they do.
-   integer, parameter :: half = 2, stay = 20
+   !> Windows in a row with short steps before low orders are first tried; windows with low orders before high ones are
+   !> tried again; and how many times as many after a trial in vain.
+   integer, parameter :: first_wait = 4, stay = 40, patience = 4
+   !> Windows of a half of a trial. In the first, what the orders before have left dies away; the trial ends with it
+   !> where it does not go a part as far as before. How much further than before the second must go for low orders to
+   !> stay; high ones stay where they go no less far.
+   integer, parameter :: half = 2
    real(wp), parameter :: part = 0.5_wp, gain = 1.5_wp
    !> Damping ratios from which on vibrations of any frequency are stable with the orders 2 to 5.
    real(wp), parameter :: stable_damping(2:5) = [0.0_wp, 0.0692_wp, 0.2865_wp, 0.6180_wp]
@@ -26,12 +27,12 @@ module order_watch
       real(wp) :: short_step = 0
       !> Time at the end of the last window, s, where the march begins at first.
       real(wp) :: time = 0
-      !> Whether low orders are in force.
+      !> Whether low orders are in force; whether the orders in force are on trial.
       logical :: low = .false.
-      !> Mean step with high orders before the trial, s.
+      logical, private :: tried = .false.
+      !> Mean step before the trial, s.
       real(wp) :: mean_step = 0
-      !> Where the steps that count began, s; windows with low orders, or in a row with short steps, and how many of
-      !> these lead to a trial.
+      !> Where the steps that count began, s; windows since then, and how many of these lead to a trial.
       real(wp), private :: since = 0
       integer, private :: windows = 0, wait = first_wait
    contains
@@ -49,27 +50,40 @@ contains
       if (mod(steps, window) /= 0) return
       self%windows = self%windows + 1
       if (self%windows == 1) self%since = self%time
-      if (self%low) then
-         changes = self%windows == stay
-         if (any(self%windows == [half, 2*half])) then
-            changes = t - self%since < merge(part, gain, self%windows == half)*half*window*self%mean_step
-            self%since = t
-         end if
-         if (changes .and. self%windows <= 2*half) then
-            self%wait = patience*self%wait
-         else if (self%windows == 2*half) then
-            self%wait = first_wait
-         end if
+      if (self%tried) then
+         call judge_trial(self, t, changes)
       else
-         if (t - self%time > window*self%short_step) self%windows = 0
+         if (.not. self%low .and. t - self%time > window*self%short_step) self%windows = 0
          changes = self%windows == self%wait
          if (changes) self%mean_step = (t - self%since)/(self%wait*window)
       end if
       self%time = t
       if (.not. changes) return
       self%low = .not. self%low
+      self%tried = .not. self%tried
       self%windows = 0
    end function changes
+
+   !> After each half of a trial, at time t, s: whether it was in vain. Where it was not, its orders stay.
+   subroutine judge_trial(self, t, in_vain)
+      class(order_watch_type), intent(inout) :: self
+      real(wp), intent(in) :: t
+      logical, intent(out) :: in_vain
+      real(wp) :: least
+      in_vain = .false.
+      if (mod(self%windows, half) /= 0) return
+      least = part
+      if (self%windows > half) least = merge(gain, 1.0_wp, self%low)
+      in_vain = t - self%since < least*half*window*self%mean_step
+      self%since = t
+      if (in_vain) then
+         self%wait = patience*self%wait
+      else if (self%windows > half) then
+         self%wait = merge(stay, first_wait, self%low)
+         self%tried = .false.
+         self%windows = 0
+      end if
+   end subroutine judge_trial
 
    !> The highest order that is stable in all vibrations that steps of this length, s, do not resolve, of a motion with
    !> this Jacobian.

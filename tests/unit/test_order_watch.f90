@@ -8,6 +8,7 @@ program test_order_watch
 
    if (runs('long_steps')) call long_steps()
    if (runs('stays')) call stays()
+   if (runs('returns')) call returns()
    if (runs('in_vain')) call in_vain()
    if (runs('orders')) call orders()
    if (runs('many_modes')) call many_modes()
@@ -44,7 +45,8 @@ contains
       call expect(steps == 5000 .and. .not. watch%low, 'no trial at step '//to_text(steps))
    end subroutine long_steps
 
-   !> Low orders that go twice as far stay, are left after their time, and tried again as soon as before.
+   !> Low orders that go twice as far stay, until high ones are tried; these stay where they go as far as low ones, and
+   !> low ones are then tried as soon as at first.
    subroutine stays()
       type(order_watch_type) :: watch
       real(wp) :: t
@@ -58,10 +60,29 @@ contains
       call go_on(watch, t, steps, 0.06_wp, 1500_i8)
       call expect(watch%low .and. steps == 1500, 'its second half is waited for: '//to_text(steps))
       call go_on(watch, t, steps, 0.2_wp, 100000_i8)
-      call expect(.not. watch%low .and. steps == 6000, 'low orders stay until step '//to_text(steps))
+      call expect(.not. watch%low .and. steps == 12000, 'low orders stay until step '//to_text(steps))
+      call expect(abs(watch%mean_step - 0.2_wp) < 1e-9_wp, 'they had a mean step of '//to_text(watch%mean_step))
+      call go_on(watch, t, steps, 0.21_wp, 13000_i8)
+      call expect(.not. watch%low .and. steps == 13000, 'high orders that go as far stay: '//to_text(steps))
       call go_on(watch, t, steps, 0.1_wp, 100000_i8)
-      call expect(watch%low .and. steps == 7000, 'the next trial at step '//to_text(steps))
+      call expect(watch%low .and. steps == 14000, 'the next trial at step '//to_text(steps))
    end subroutine stays
+
+   !> High orders that go less far than low ones are left, and tried again after a longer wait.
+   subroutine returns()
+      type(order_watch_type) :: watch
+      real(wp) :: t
+      integer(i8) :: steps
+      t = 0
+      steps = 0
+      watch = order_watch_type(1.0_wp, t)
+      call go_on(watch, t, steps, 0.1_wp, 1000_i8)
+      call go_on(watch, t, steps, 0.2_wp, 100000_i8)
+      call go_on(watch, t, steps, 0.19_wp, 100000_i8)
+      call expect(watch%low .and. steps == 13000, 'high orders are left at step '//to_text(steps))
+      call go_on(watch, t, steps, 0.2_wp, 100000_i8)
+      call expect(.not. watch%low .and. steps == 53000, 'and tried again at step '//to_text(steps))
+   end subroutine returns
 
    !> Low orders that go much less far are left after half the trial, those that go hardly further after the whole. The
    !> waits grow.
