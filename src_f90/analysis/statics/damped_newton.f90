@@ -247,11 +247,15 @@ contains
       end associate
    end function unbalanced
 
-   !> What unbalanced forces are measured by: the load, or, without load, the heaviest pad, or 1 N; at least a share of
-   !> the largest force of a film in the state evaluated last.
+   !> What unbalanced forces are measured by: the load, or, without load, the heaviest pad, or the drag of a film as
+   !> thick as the machined clearance; at least a share of the largest force of a film in the state evaluated last.
    pure real(wp) function reference_force(model)
       type(bearing_model), intent(in) :: model
-      reference_force = max(norm2(model%point%load), maxval(model%bearing%pads%weight), 1.0_wp, &
-         & least_load*maxval(hypot(model%bearing%loads%journal(1), model%bearing%loads%journal(2))))
+      associate (gap => model%bearing%pads%gap, loads => model%bearing%loads)
+         reference_force = max(norm2(model%point%load), maxval(model%bearing%pads%weight), &
+            & maxval(gap%viscosity*model%point%speed(0.0_wp)*gap%journal_radius**2*gap%arc()*gap%axial_length &
+            & /gap%machined_clearance), &
+            & least_load*maxval(hypot(loads%journal(1), loads%journal(2))))
+      end associate
    end function reference_force
 end module damped_newton
