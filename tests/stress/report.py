@@ -83,9 +83,10 @@ The settings set a limit of the error: CVODE keeps the error of one step below s
 states, so after N steps the error of a scene that does not amplify disturbances stays below **N sqrt(n)**
 tolerances. A bearing may have several equilibria: where the two runs find different ones, both are run
 again from the first. If the error of a scene is above the limit, the test runs the scene once more with the
-small tolerance and a load changed by `relative_tolerance` of itself. If this alone changes the result by a
-tenth of the error or more, the scene is sensitive, and no solver can follow it at this tolerance; otherwise
-it fails.
+small tolerance and a load changed by `relative_tolerance` of itself; pads are made heavier by the same force,
+with its moment at their ends, as films promise their forces over that of a loaded film, however little a pad
+carries. If this alone changes the result by a tenth of the error or more, the scene is sensitive, and no
+solver can follow it at this tolerance; otherwise it fails.
 
 {verdicts}
 

@@ -305,17 +305,30 @@ def shortened(scene: Scene) -> Scene:
     return short
 
 
-def tightened(scene: Scene, load: float = 0.0) -> Scene:
-    """The scene with a finer tolerance, and on request a load that much larger, N."""
+def tightened(scene: Scene) -> Scene:
+    """The scene with a finer tolerance."""
     fine = copy.deepcopy(scene)
     tolerance = scene["integration"]["relative_tolerance"]
     fine["integration"]["relative_tolerance"] = tolerance / FINER
     fine["integration"]["max_steps"] *= 20
     fine["film"]["tolerance"] = min(1e-6, tolerance) / FINER
     fine["film"]["max_sweeps"] = 100000
-    force = fine["rotor"].get("static_load", [0.0, 0.0])
-    fine["rotor"]["static_load"] = [each + load for each in force]
     return fine
+
+
+def disturbed(scene: Scene, force: float) -> Scene:
+    """The scene with a load that much larger, N, and pads that much heavier, with the moment of this force at their
+    ends: films promise their forces over that of a loaded film, however little a pad carries."""
+    other = copy.deepcopy(scene)
+    rotor, pads = other["rotor"], other["pads"]
+    rotor["static_load"] = [each + force for each in rotor.get("static_load", [0.0, 0.0])]
+    gravity = rotor.get("gravity", 9.81)
+    if gravity > 0 and pads["motion"] != "fixed":
+        ends = 0.5 * other["bearing"]["journal_radius"] * np.radians(pads["arc_deg"])
+        moments = force / gravity * ends
+        pads["centre_tangential"] = list(pads["centre_tangential"] + moments / pads["mass"])
+        pads["mass"] = [each + force / gravity for each in pads["mass"]]
+    return other
 
 
 def compared(program: Path, scene: Scene, folder: Path) -> Comparison:
@@ -338,7 +351,7 @@ def compared(program: Path, scene: Scene, folder: Path) -> Comparison:
     found = Comparison("kept", error, promised, share=share, moment=moment)
     if error <= found.promised:
         return found
-    done = run(program, tightened(short, tolerance * load_of(scene)), folder, "disturbed")
+    done = run(program, disturbed(tightened(short), tolerance * load_of(scene)), folder, "disturbed")
     if done.returncode != 0:
         return Comparison("hung" if done.hung else "disturbed run refused", error, found.promised)
     found.sensitivity = difference(folder / "disturbed.h5", folder / "fine.h5", scene)[0]
