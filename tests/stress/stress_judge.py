@@ -317,8 +317,8 @@ def tightened(scene: Scene) -> Scene:
 
 
 def disturbed(scene: Scene, force: float) -> Scene:
-    """The scene with a load that much larger, N, and pads that much heavier, with the moment of this force at their
-    ends: films promise their forces over that of a loaded film, however little a pad carries."""
+    """The scene with a load that much larger, N, and pads that much heavier, with the moment of this force at
+    their ends: films promise their forces over that of a loaded film, however little a pad carries."""
     other = copy.deepcopy(scene)
     rotor, pads = other["rotor"], other["pads"]
     rotor["static_load"] = [each + force for each in rotor.get("static_load", [0.0, 0.0])]
