@@ -5,7 +5,7 @@ module scene
    implicit none (type, external)
    private
    public :: scene_type, max_pads, unset, is_set, mass_range, inertia_range, centre_range, temperature_range
-   public :: viscosity_range
+   public :: viscosity_range, clearance_range
    public :: case_type, rotor_type, operation_type, bearing_type, oil_type, thermal_type, pads_type, pivot_type
    public :: friction_type
    public :: asperity_type, start_type, film_type, coefficients_type, most_ratios
@@ -20,6 +20,8 @@ module scene
    !> What the input allows of the pads, kg, kg m^2 and m: their masses may follow from other variables.
    real(wp), parameter :: mass_range(2) = [1e-9_wp, 1e9_wp], inertia_range(2) = [1e-15_wp, 1e12_wp]
    real(wp), parameter :: centre_range(2) = [-100.0_wp, 100.0_wp]
+   !> What it allows of the machined clearance, over the journal's radius.
+   real(wp), parameter :: clearance_range(2) = [1e-5_wp, 0.05_wp]
    !> What it allows of temperatures, C, and of the oil's viscosity, Pa s.
    real(wp), parameter :: temperature_range(2) = [-100.0_wp, 500.0_wp], viscosity_range(2) = [1e-6_wp, 10.0_wp]
 

@@ -3,7 +3,7 @@ module scene_checks
    use kinds, only: wp, degree
    use text, only: to_text
    use errors, only: error_type, require
-   use scene, only: scene_type
+   use scene, only: scene_type, clearance_range
    use task_checks, only: check_tasks
    implicit none (type, external)
    private
@@ -59,9 +59,10 @@ contains
       real(wp) :: ratio
       associate (b => scene%bearing)
          ratio = b%machined_clearance/b%journal_radius
-         call require(ratio >= 1e-5_wp .and. ratio <= 0.05_wp, 'bearing%machined_clearance = ' &
-            & //to_text(b%machined_clearance)//': must be 1e-5 to 0.05 of bearing%journal_radius = ' &
-            & //to_text(b%journal_radius)//' (both in m)', error)
+         call require(ratio >= clearance_range(1) .and. ratio <= clearance_range(2), 'bearing%machined_clearance = ' &
+            & //to_text(b%machined_clearance)//': must be '//to_text(clearance_range(1))//' to ' &
+            & //to_text(clearance_range(2))//' of bearing%journal_radius = '//to_text(b%journal_radius) &
+            & //' (both in m)', error)
          call require(b%assembled_clearance <= 2*b%machined_clearance, 'bearing%assembled_clearance = ' &
             & //to_text(b%assembled_clearance)//': must be at most twice bearing%machined_clearance = ' &
             & //to_text(b%machined_clearance), error)

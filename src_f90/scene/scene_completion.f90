@@ -4,7 +4,8 @@ module scene_completion
    use kinds, only: wp, degree
    use text, only: to_text
    use errors, only: error_type, raise, input_error
-   use scene, only: scene_type, unset, is_set, mass_range, inertia_range, centre_range
+   use scene, only: scene_type, unset, is_set, mass_range, inertia_range, centre_range, &
+      & clearance_range
    use oil_completion, only: complete_oil
    use annular_sector, only: annular_sector_type, new_annular_sector
    implicit none (type, external)
@@ -56,6 +57,14 @@ contains
                & //to_text(b%machined_clearance)//' is given too; give one of them')
          else if (is_set(b%preload)) then
             b%machined_clearance = b%assembled_clearance/(1 - b%preload)
+            associate (ratio => b%machined_clearance/b%journal_radius)
+               if (ratio < clearance_range(1) .or. ratio > clearance_range(2)) call raise(error, input_error, &
+                  & 'bearing%preload = '//to_text(b%preload)//': gives bearing%machined_clearance = ' &
+                  & //to_text(b%machined_clearance)//' with bearing%assembled_clearance = ' &
+                  & //to_text(b%assembled_clearance)//'; it must be '//to_text(clearance_range(1))//' to ' &
+                  & //to_text(clearance_range(2))//' of bearing%journal_radius = '//to_text(b%journal_radius) &
+                  & //' (all in m)')
+            end associate
          else if (.not. is_set(b%machined_clearance)) then
             paper = scene_type()
             b%machined_clearance = paper%bearing%machined_clearance

@@ -179,6 +179,10 @@ TOGETHER = {
         "&bearing preload=0.3, machined_clearance=1e-4 /",
         ["bearing%preload = 0.3", "bearing%machined_clearance = 1e-4", "give one of them"],
     ),
+    "preload too high": (
+        "&bearing preload=0.999, assembled_clearance=2e-4 /",
+        ["bearing%preload = 0.999", "bearing%machined_clearance = 0.2", "1e-5 to 0.05", "= 0.0499"],
+    ),
     "mass and density": (
         "&pads mass=1, density=7850 /",
         ["pads%density = 7850", "pads%mass = 1", "give one of them"],
