@@ -207,6 +207,8 @@ contains
       if (.not. allocated(self%failure)) call h5dwrite_f(dataset, kind, buffer, status)
       if (.not. allocated(self%failure)) call self%check(status, 'write '//path)
       call h5dclose_f(dataset, status)
+      ! some of it is written only now
+      call self%check(status, 'write '//path)
    end subroutine write_all
 
    integer(i8) function get_count(self, path)
