@@ -2,6 +2,7 @@
 module branch_course
    use kinds, only: wp
    use continuation, only: branch_point_type
+   use special_points, only: kinds_of_points
    use branch_results, only: noted_point_type
    implicit none (type, external)
    private
@@ -15,6 +16,8 @@ module branch_course
       type(noted_point_type), allocatable :: special(:)
       !> Flips from which branches are still to be followed.
       type(branch_point_type), allocatable :: flips(:)
+      !> Where and why branches have ended, a line for each; the file has it as a text.
+      character(len=:), allocatable :: ends
    contains
       procedure :: packed
       procedure :: unpack_from
@@ -22,7 +25,7 @@ module branch_course
 
 contains
 
-   !> All of it as numbers.
+   !> All but the text as numbers.
    function packed(self) result(numbers)
       class(branch_course_type), intent(in) :: self
       real(wp), allocatable :: numbers(:)
@@ -57,19 +60,20 @@ contains
       self%branch = nint(numbers(1))
       self%points = nint(numbers(2))
       self%length = numbers(3)
+      ok = all(numbers(4:5) >= 0) .and. 6*numbers(4) + numbers(5) <= size(numbers)
+      if (.not. ok) return
       special = nint(numbers(4))
       flips = nint(numbers(5))
-      ok = min(special, flips) >= 0 .and. 6*special + flips <= size(numbers)
-      if (.not. ok) return
       allocate (self%special(special), self%flips(flips))
       o = 5
       do k = 1, special
          associate (n => numbers(o + 1:o + 6))
             self%special(k) = noted_point_type(nint(n(1)), nint(n(2)), nint(n(3)), n(4), cmplx(n(5), n(6), wp))
          end associate
+         ok = ok .and. self%special(k)%kind >= 1 .and. self%special(k)%kind <= size(kinds_of_points)
          o = o + 6
       end do
-      call take_point(numbers, o, self%here, ok)
+      if (ok) call take_point(numbers, o, self%here, ok)
       do k = 1, flips
          if (ok) call take_point(numbers, o, self%flips(k), ok)
       end do
@@ -87,10 +91,12 @@ contains
       point%parameter = numbers(o + 1)
       point%arc_length = numbers(o + 2)
       point%along = numbers(o + 3)
-      sizes = nint(numbers(o + 4:o + 6))
+      associate (given => numbers(o + 4:o + 6))
+         ok = all(given > 0) .and. o + 6 + given(1) + 2*given(2) + given(3) <= size(numbers)
+         if (.not. ok) return
+         sizes = nint(given)
+      end associate
       o = o + 6
-      ok = all(sizes > 0) .and. o + sizes(1) + 2*sizes(2) + sizes(3) <= size(numbers)
-      if (.not. ok) return
       call take(sizes(1), point%place)
       call take(sizes(2), point%change)
       call take(sizes(2), point%tangent)

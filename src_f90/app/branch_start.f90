@@ -10,7 +10,7 @@ module branch_start
    use bearing_coefficients, only: settle
    use periodic_orbit, only: periodic_orbit_type
    use orbit_polynomials, only: orbit_type, points
-   use continuation, only: branch_options, return_to
+   use continuation, only: branch_problem_type, branch_options, return_to, can_be_of
    use varied_bearing, only: varied_bearing_type
    use bearing_orbits, only: bearing_orbits_type
    use warm_oil, only: has_warm_oil
@@ -67,6 +67,7 @@ contains
          b%options%first_step = abs(given%step)/b%way
          b%options%max_step = given%max_step/b%way
          if (.not. given%max_step > 0) b%options%max_step = usual_growth*b%options%first_step
+         b%last_checkpoint = run%started
          if (.not. b%of_orbits) return
          b%options%tolerance = run%scene%periodic%tolerance
          b%ode%bearing%model => run%model
@@ -77,7 +78,6 @@ contains
          b%ode%march = tolerances(run, nowhere)
          b%ode%march%lowers_orders = .false.
       end associate
-      b%last_checkpoint = run%started
    end subroutine prepare
 
    !> Creates the file and finds the first orbit or equilibrium.
@@ -92,6 +92,7 @@ contains
       end if
       allocate (b%course%special(0), b%course%flips(0))
       b%course%length = b%options%first_step
+      b%course%ends = ''
       if (.not. allocated(error)) return
       if (error%status /= stopped) return
       ! nothing to go on from
@@ -190,17 +191,34 @@ contains
          call begin_static(b, at_rest)
       end if
       call b%course%unpack_from(numbers, ok)
+      if (ok .and. b%of_orbits) call take_up(b%orbits, b%course, ok)
+      if (ok .and. .not. b%of_orbits) call take_up(b%equilibria, b%course, ok)
       if (.not. ok) then
-         call raise(error, system_error, run%path//': damaged: its checkpoint is none of a branch')
+         call raise(error, system_error, run%path//': damaged: its checkpoint is none of this branch')
          return
       end if
-      if (b%of_orbits) then
-         call return_to(b%orbits, b%course%here)
-      else
-         call return_to(b%equilibria, b%course%here)
-      end if
+      call run%file%file%get_text('branch_ends', b%course%ends)
+      call run%file%error_of(error)
+      if (allocated(error)) return
       if (.not. run%quiet) print '(a)', 'going on behind '//run%scene%branch%parameter//' = ' &
          & //to_text(b%course%here%parameter)//', point '//to_text(b%course%points)//' of branch ' &
          & //to_text(b%course%branch)
    end subroutine go_on
+
+   !> Takes a problem to where its branch had come; `ok` is false where there is no such point.
+   subroutine take_up(problem, course, ok)
+      class(branch_problem_type), intent(inout) :: problem
+      type(branch_course_type), intent(in) :: course
+      logical, intent(out) :: ok
+      type(error_type), allocatable :: refusal
+      complex(wp), allocatable :: values(:)
+      real(wp), allocatable :: growth(:)
+      integer :: k
+      ok = can_be_of(problem, course%here) .and. all([(can_be_of(problem, course%flips(k)), k=1, size(course%flips))])
+      if (.not. ok) return
+      call return_to(problem, course%here, refusal)
+      ok = .not. allocated(refusal)
+      if (ok) call problem%spectrum(values, growth, ok)
+      if (ok) ok = size(growth) == size(course%here%growth)
+   end subroutine take_up
 end module branch_start

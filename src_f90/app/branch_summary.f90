@@ -33,18 +33,14 @@ contains
       digits = trim(buffer)
    end function precise
 
-   !> Notes in the file where and why a branch ended.
-   subroutine branch_end(file, branch, parameter, value, reason)
-      type(hdf5_type), intent(inout) :: file
+   !> The line that says where and why a branch ended.
+   function branch_end(branch, parameter, value, reason) result(line)
       integer, intent(in) :: branch
       character(len=*), intent(in) :: parameter, reason
       real(wp), intent(in) :: value
-      character(len=:), allocatable :: before
-      call file%get_text('branch_ends', before)
-      if (before /= '') before = before//achar(10)
-      call file%put_text('branch_ends', before//'branch '//to_text(branch)//' ends at '//parameter//' = ' &
-         & //precise(value)//': '//reason)
-   end subroutine branch_end
+      character(len=:), allocatable :: line
+      line = 'branch '//to_text(branch)//' ends at '//parameter//' = '//precise(value)//': '//reason
+   end function branch_end
 
    !> All branches: points, those that are stable, what warm oil does, and their ends.
    subroutine print_branch(file, parameter, warm)

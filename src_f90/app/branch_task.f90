@@ -3,7 +3,7 @@
 module branch_task
    use kinds, only: wp
    use text, only: to_text
-   use errors, only: error_type, raise, add_context, stopped
+   use errors, only: error_type, add_context, numerics_error, stopped
    use clock, only: wall_clock
    use continuation, only: branch_problem_type, branch_point_type, start_branch, advance, return_to
    use special_points, only: special_point_type, find_special_points
@@ -54,9 +54,7 @@ contains
          if (allocated(error)) exit
          call begin_double(run, b, more)
       end do
-      call put_special_points(run%file%file, b%course%special, b%parameter)
-      run%counts%rhs_evaluations = run%counts%rhs_evaluations + b%orbits%evaluations + b%orbits%tangents
-      run%counts%jacobian_evaluations = run%counts%jacobian_evaluations + b%orbits%tangents
+      call bring_up_to_date(run, b)
       if (.not. allocated(error)) then
          if (.not. run%quiet) call print_branch(run%file, run%scene%branch%parameter, &
             & has_warm_oil(run%model))
@@ -78,7 +76,6 @@ contains
       if (allocated(error)) return
       call run%file%file%put_text('branch_of', run%scene%branch%of)
       call run%file%file%put_text('branch_parameter', run%scene%branch%parameter)
-      call run%file%file%put_text('branch_ends', '')
       call open_series(run, b)
       call record(run, b, b%course%here, error)
       b%course%points = 1
@@ -93,6 +90,20 @@ contains
       run%computed = .true.
    end subroutine open_series
 
+   !> Brings the file up to what it has not as series: special points, ends of branches, counts.
+   subroutine bring_up_to_date(run, b)
+      type(case_run_type), intent(inout) :: run
+      type(branches_type), intent(inout) :: b
+      call put_special_points(run%file%file, b%course%special, b%parameter)
+      call run%file%file%put_text('branch_ends', b%course%ends)
+      associate (counts => run%counts, orbits => b%orbits)
+         counts%rhs_evaluations = counts%rhs_evaluations + orbits%evaluations + orbits%tangents
+         counts%jacobian_evaluations = counts%jacobian_evaluations + orbits%tangents
+         orbits%evaluations = 0
+         orbits%tangents = 0
+      end associate
+   end subroutine bring_up_to_date
+
    !> Follows a branch from where it is to its end.
    subroutine follow(run, b, problem, error)
       type(case_run_type), intent(inout) :: run
@@ -102,12 +113,14 @@ contains
       type(branch_point_type) :: next
       character(len=:), allocatable :: at_end
       real(wp), allocatable :: split(:)
+      real(wp) :: length
       logical :: ends
       split = half_apart(b%orbits)
       associate (course => b%course, most => run%scene%branch%max_points)
          at_end = ''
          do while (at_end == '')
-            call advance(problem, b%options, course%here, course%length, next, ends, error, stop_requested)
+            length = course%length
+            call advance(problem, b%options, course%here, length, next, ends, error, stop_requested)
             if (allocated(error)) then
                if (.not. problem%refused) call blame_oil(b, problem%refused, error)
                if (error%status == stopped .or. .not. problem%refused) exit
@@ -124,6 +137,8 @@ contains
             end if
             call record_step(run, b, problem, next, error)
             if (allocated(error)) exit
+            ! not before: a stop goes on from the point before, with its length
+            course%length = length
             split = half_apart(b%orbits)
             if (ends) at_end = trim(merge('the first value', 'the last value ', abs(next%parameter - b%first) <= 0))
             if (course%points >= most .and. .not. ends) at_end = 'after '//to_text(most)//' points (branch%max_points)'
@@ -131,12 +146,13 @@ contains
             if (allocated(error)) exit
          end do
          if (allocated(error)) then
-            if (error%status == stopped) return
-            call add_context(error, 'branch '//to_text(course%branch)//' was lost behind ' &
-               & //run%scene%branch%parameter//' = '//to_text(course%here%parameter)//', its point ' &
-               & //to_text(course%points))
+            if (error%status == numerics_error) call add_context(error, 'branch '//to_text(course%branch) &
+               & //' was lost behind '//run%scene%branch%parameter//' = '//to_text(course%here%parameter) &
+               & //', its point '//to_text(course%points))
          else
-            call branch_end(run%file%file, course%branch, run%scene%branch%parameter, course%here%parameter, at_end)
+            if (course%ends /= '') course%ends = course%ends//achar(10)
+            course%ends = course%ends//branch_end(course%branch, run%scene%branch%parameter, course%here%parameter, &
+               & at_end)
          end if
       end associate
    end subroutine follow
@@ -274,7 +290,7 @@ contains
       associate (pause => run%scene%output%checkpoint_seconds)
          if (.not. pause > 0 .or. started - b%last_checkpoint < pause) return
       end associate
-      call put_special_points(run%file%file, b%course%special, b%parameter)
+      call bring_up_to_date(run, b)
       call run%file%checkpoint(0.0_wp, b%course%packed(), run%statistics(), running, '', error)
       b%last_checkpoint = wall_clock()
       run%checkpoints = run%checkpoints + b%last_checkpoint - started

@@ -93,7 +93,7 @@ contains
    end function new_tilting_pad_bearing
 
    !> Makes the bearing that of another scene, with the same pads but for numbers. Films and contact, which take time to
-   !> make, stay where they are the same.
+   !> make, stay where they are the same; what was solved last is forgotten.
    subroutine adopt(self, scene, pivots_differ)
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(scene_type), intent(in) :: scene
@@ -103,6 +103,7 @@ contains
       before = self%pads
       call self%set_parts(scene)
       call self%film%set_viscosity(self%pads%gap%viscosity)
+      call self%film%forget()
       if (any(before%gap%differs(self%pads%gap))) then
          call make_film(scene, film)
          call film%take_over(self%film)

@@ -42,6 +42,7 @@ module direct_film
       procedure :: ruptures
       procedure :: set_rupture
       procedure :: set_viscosity
+      procedure :: forget
       procedure :: evaluate
       procedure :: field
       procedure :: fine_field
@@ -91,6 +92,15 @@ contains
       call self%modal%set_viscosity(viscosity)
       if (allocated(self%volumes)) self%volumes%grid%gap%viscosity = viscosity
    end subroutine set_viscosity
+
+   pure subroutine forget(self)
+      class(direct_film_type), intent(inout) :: self
+      integer :: i
+      if (.not. allocated(self%volumes)) return
+      do i = 1, size(self%volumes)
+         call self%volumes(i)%start_from()
+      end do
+   end subroutine forget
 
    subroutine evaluate(self, motion, speed, want_derivatives, response, chosen)
       class(direct_film_type), intent(inout) :: self

@@ -53,6 +53,7 @@ module film_solver
       procedure(choose_rupture), deferred :: set_rupture
       procedure(change_viscosity), deferred :: set_viscosity
       procedure :: set_accuracy
+      procedure :: forget
       procedure :: take_pressures
       procedure, non_overridable :: take_over
    end type film_solver_type
@@ -113,6 +114,12 @@ contains
       self%tolerance = min(self%tolerance, tolerance)
       self%max_sweeps = max(self%max_sweeps, max_sweeps)
    end subroutine set_accuracy
+
+   !> Forgets the films that were solved last, from which the next ones would start: what is solved then is the same to
+   !> the last bit, wherever one comes from.
+   pure subroutine forget(self)
+      class(film_solver_type), intent(inout) :: self
+   end subroutine forget
 
    !> Sets minimum and maximum pressure in the answers of the last evaluation, at the same motions and speed, where
    !> `evaluate` has left them out.

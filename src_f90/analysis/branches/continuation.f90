@@ -10,6 +10,7 @@ module continuation
    implicit none (type, external)
    private
    public :: branch_problem_type, branch_point_type, branch_options, start_branch, advance, correct, return_to
+   public :: can_be_of
 
    !> n unknowns and a parameter. All changes are over the natural sizes of what changes.
    type, abstract :: branch_problem_type
@@ -29,6 +30,7 @@ module continuation
       procedure(name_kind), deferred :: kind
       procedure(take_place), deferred :: get_place
       procedure(put_place), deferred :: go_to
+      procedure :: fits
    end type branch_problem_type
 
    abstract interface
@@ -117,6 +119,23 @@ module continuation
    real(wp), parameter :: longer = 1.5_wp, shorter = 0.7_wp, largest_turn = 0.8_wp
 
 contains
+
+   !> Whether numbers that come from elsewhere can be a place: as many as those where the problem stands.
+   pure logical function fits(self, place)
+      class(branch_problem_type), intent(in) :: self
+      real(wp), intent(in) :: place(:)
+      real(wp), allocatable :: here(:)
+      call self%get_place(here)
+      fits = size(place) == size(here)
+   end function fits
+
+   !> Whether a point that comes from elsewhere can be one of a problem's branches.
+   pure logical function can_be_of(problem, point) result(can)
+      class(branch_problem_type), intent(in) :: problem
+      type(branch_point_type), intent(in) :: point
+      can = size(point%change) == problem%n + 1 .and. size(point%tangent) == problem%n + 1
+      if (can) can = problem%fits(point%place)
+   end function can_be_of
 
    !> Moves by a step along the tangent to where the next point is sought. A problem may do more, once for each point.
    subroutine predict(self, change)
@@ -207,16 +226,19 @@ contains
       if (.not. ok) call raise(error, numerics_error, 'the eigenvalues that tell stability were not found')
    end subroutine correct
 
-   !> Takes a problem back to a point of its branch, linearised there as it was.
-   subroutine return_to(problem, point)
+   !> Takes a problem back to a point of its branch, linearised there as it was. An error where the point comes from
+   !> elsewhere and is none of the branch.
+   subroutine return_to(problem, point, refusal)
       class(branch_problem_type), intent(inout) :: problem
       type(branch_point_type), intent(in) :: point
+      type(error_type), allocatable, intent(out), optional :: refusal
       real(wp) :: matrix(problem%n, problem%n + 1), b(problem%n), ignored
       type(error_type), allocatable :: error
       call problem%go_to(point%place)
       call problem%linearize(matrix, b, error)
       if (.not. allocated(error)) call problem%move(point%change, .true., ignored)
       problem%parameter = point%parameter
+      if (present(refusal)) call move_alloc(error, refusal)
    end subroutine return_to
 
    !> From a point, at which the problem stands, to the next, where it stands then; `length` is that of the step, and

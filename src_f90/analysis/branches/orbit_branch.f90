@@ -34,6 +34,7 @@ module orbit_branch
       procedure :: kind => kind_of
       procedure :: get_place
       procedure :: go_to
+      procedure :: fits
       procedure :: period
       procedure, private :: set_shift
       procedure, private :: defect
@@ -228,6 +229,28 @@ contains
             & sought]
       end associate
    end subroutine get_place
+
+   !> Both meshes grow, and every turn has an interval.
+   pure logical function fits(self, place)
+      class(orbit_problem_type), intent(in) :: self
+      real(wp), intent(in) :: place(:)
+      real(wp), allocatable :: sought(:)
+      integer :: ends, intervals, o
+      o = 6
+      fits = size(place) > o
+      if (fits) fits = all(place([1, 5, 6]) >= 1) .and. place(1) <= place(6) .and. sum(place([5, 6])) < size(place)
+      if (.not. fits) return
+      call self%ode%get_start(sought)
+      ends = nint(place(5))
+      intervals = nint(place(6))
+      fits = size(place) == o + ends + intervals + 1 + self%n*(1 + points*intervals) + size(sought)
+      if (fits) fits = grows(place(o + 1:o + ends)) .and. grows(place(o + ends + 1:o + ends + intervals + 1))
+   end function fits
+
+   pure logical function grows(numbers)
+      real(wp), intent(in) :: numbers(:)
+      grows = all(numbers(2:) > numbers(:size(numbers) - 1))
+   end function grows
 
    subroutine go_to(self, place)
       class(orbit_problem_type), intent(inout) :: self

@@ -41,6 +41,7 @@ module table_film
       procedure :: set_rupture
       procedure :: set_viscosity
       procedure :: set_accuracy
+      procedure :: forget
       procedure :: evaluate
       procedure :: take_pressures
       procedure :: field
@@ -138,6 +139,14 @@ contains
       integer, intent(in) :: max_sweeps
       self%tabulates = self%solves
    end subroutine set_accuracy
+
+   pure subroutine forget(self)
+      class(table_film_type), intent(inout) :: self
+      integer :: i
+      do i = 1, size(self%single)
+         call self%single(i)%forget()
+      end do
+   end subroutine forget
 
    subroutine evaluate(self, motion, speed, want_derivatives, response, chosen)
       class(table_film_type), intent(inout) :: self

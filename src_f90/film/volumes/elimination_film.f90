@@ -62,7 +62,7 @@ contains
       self%basis = new_grid_modes(self%grid)
       n = self%basis%m
       allocate (self%film(n, columns), self%pressure(n, columns), self%adjoint(n, columns), source=0.0_wp)
-      self%film(:rows, :) = 1
+      call self%start_from()
       allocate (self%per_pivot(n, columns), self%block(n, rows, columns), source=0.0_wp)
    end function new_elimination_film
 
@@ -117,15 +117,16 @@ contains
       end do
    end function empty_columns
 
-   !> Lets the next film start from the cells in which that on a grid of half as many columns and rows has ruptured.
+   !> Lets the next film start as a whole one, or from the cells in which that on a grid of half as many columns and
+   !> rows has ruptured.
    pure subroutine start_from(self, coarse)
       class(elimination_film_type), intent(inout) :: self
-      type(elimination_film_type), intent(in) :: coarse
+      type(elimination_film_type), intent(in), optional :: coarse
       integer :: i, k
+      self%film(:self%grid%rows, :) = 1
+      if (.not. present(coarse)) return
       do i = 1, self%grid%columns
-         do k = 1, self%grid%rows
-            self%film(k, i) = coarse%film((k + 1)/2, (i + 1)/2)
-         end do
+         self%film(:self%grid%rows, i) = coarse%film([((k + 1)/2, k=1, self%grid%rows)], (i + 1)/2)
       end do
    end subroutine start_from
 
@@ -212,8 +213,7 @@ contains
       associate (grid => self%grid, rows => self%grid%rows, first => self%first, last => self%last, &
          & across => self%basis%off_diagonal, root => self%basis%root)
          floor = 0
-         p(:, 0) = 0
-         p(:, grid%columns + 1) = 0
+         p(:, [0, grid%columns + 1]) = 0
          do i = 1, grid%columns
             if (i >= first .and. i <= last) then
                p(1:m, i) = self%pressure(:, i)

@@ -58,6 +58,7 @@ module sor_film
       procedure :: ruptures
       procedure :: set_rupture
       procedure :: set_viscosity
+      procedure :: forget
       procedure :: evaluate => evaluate_all
       procedure :: field => field_all
       !> One pad only.
@@ -130,6 +131,15 @@ contains
       real(wp), intent(in) :: viscosity(:)
       self%pads%grid%gap%viscosity = viscosity
    end subroutine set_viscosity
+
+   pure subroutine forget(self)
+      class(sor_film_type), intent(inout) :: self
+      integer :: i
+      do i = 1, size(self%pads)
+         self%pads(i)%pressure = 0
+         self%pads(i)%adjoint = 0
+      end do
+   end subroutine forget
 
    subroutine evaluate_all(self, motion, speed, want_derivatives, response, chosen)
       class(sor_film_type), intent(inout) :: self

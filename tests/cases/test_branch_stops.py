@@ -1,0 +1,143 @@
+"""Branches that are stopped or killed at given moments, and go on: the same bits. Checkpoints that are none.
+
+A small library counts how often the program asks for memory, which it does all the time, and sends a signal
+at one of these requests: so that a moment is the same on every machine.
+"""
+
+import signal
+
+import h5py
+import numpy as np
+import pytest
+from conftest import EVERY_STEP, one_error, wait_for_checkpoint
+
+#: Sends SIGNAL to the program at its request number REQUEST.
+AT_A_REQUEST = """
+#include <signal.h>
+void *__libc_malloc(size_t);
+void *malloc(size_t size)
+{
+   static long requests;
+   if (getenv("REQUEST") && ++requests == atol(getenv("REQUEST"))) raise(atoi(getenv("SIGNAL")));
+   return __libc_malloc(size);
+}
+"""
+BRANCH = "&case task='branch' / &output samples_per_revolution=90 /\n"
+#: Equilibria that lose their stability and find it again.
+EQUILIBRIA = f"""{BRANCH}&rotor mass=200 / &operation speed_rpm=14700 /
+&branch of='equilibrium', parameter='operation%speed_rpm', last=15300, step=100, max_step=200 /
+"""
+#: Orbits in wide films without tables that rupture; their period doubles, and the second branch leads back.
+DOUBLED = f"""{BRANCH}&rotor mass=500, unbalance=0.007 /
+&pads motion='fixed', pivot_angle_deg=-90,90, arc_deg=160 / &bearing preload=0 /
+&branch parameter='rotor%unbalance', last=0.009, step=0.0005 /
+"""
+#: Orbits with sticking pads and films from tables.
+LUGRE = f"""{BRANCH}&friction model='lugre' / &operation speed_rpm=11500 /
+&branch parameter='operation%speed_rpm', last=11700, step=20, max_step=40 /
+"""
+#: What each stretch of a run has of its own, and the input, where the time between checkpoints may change.
+OWN = ("created", "ended", "history", "resumes", "input")
+
+
+def datasets(path):
+    """All datasets of a result but counts and times, by name."""
+    found = {}
+
+    def note(name, each):
+        if isinstance(each, h5py.Dataset) and not name.startswith(("statistics/", "checkpoint/")):
+            found[name] = each[()]
+
+    with h5py.File(path) as file:
+        file.visititems(note)
+    return found
+
+
+def check_same(path, reference):
+    """The same bits, texts and marks; the work that was done twice is counted twice."""
+    own, expected = datasets(path), datasets(reference)
+    assert own.keys() == expected.keys()
+    for name, values in own.items():
+        np.testing.assert_array_equal(values, expected[name], err_msg=name)
+    with h5py.File(path) as file, h5py.File(reference) as whole:
+        assert file.attrs.keys() == whole.attrs.keys()
+        for name in set(file.attrs) - set(OWN):
+            assert file.attrs[name] == whole.attrs[name], name
+        for name in ("rhs_evaluations", "jacobian_evaluations"):
+            assert file["statistics"][name][()] >= whole["statistics"][name][()]
+
+
+@pytest.mark.parametrize("case", [EQUILIBRIA, DOUBLED, LUGRE], ids=["equilibria", "doubled", "lugre"])
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
+def test_slices_of_a_branch_join_to_the_bit(run, tiltpad, tmp_path, loaded, case, number):
+    """Slices that end after so many requests; one without a new point is followed by a longer one."""
+    run(case, more=("-o", "whole.h5"))
+    path, library = tmp_path / "case.h5", loaded(AT_A_REQUEST, SIGNAL=str(int(number)))
+    requests, points, stops, status = 20000, 0, 0, None
+    while status != 0:
+        done = tiltpad(
+            "--resume", "case.h5", "case.nml", "-q", *EVERY_STEP,
+            cwd=tmp_path, env=library | {"REQUEST": str(requests)},
+        )  # fmt: skip
+        status = done.returncode
+        assert status in (0, 4, -signal.SIGKILL), done.stderr
+        assert done.stderr.count("\n") == (status == 4)
+        stops += status != 0
+        reached = len(datasets(path)["point"]) if path.exists() else 0
+        requests = requests + 997 if reached > points else requests * 5 // 4
+        points = reached
+    assert stops > 5
+    check_same(path, tmp_path / "whole.h5")
+    assert sorted(each.name for each in tmp_path.glob("case*")) == ["case.h5", "case.nml"]
+
+
+@pytest.fixture
+def stopped(start, tmp_path):
+    """stopped(case): where a checkpoint of this case has its point, among its numbers."""
+
+    def stop(case):
+        (tmp_path / "case.nml").write_text(case)
+        process = start(tmp_path, "case.nml", "-q", *EVERY_STEP)
+        wait_for_checkpoint(tmp_path / "case.h5", process)
+        process.terminate()
+        one_error(process, 4)
+        with h5py.File(tmp_path / "case.h5") as file:
+            return 5 + 6 * int(file["checkpoint/state"][3])
+
+    return stop
+
+
+@pytest.mark.parametrize("case", [EQUILIBRIA, LUGRE], ids=["equilibria", "lugre"])
+def test_a_checkpoint_that_is_none(tiltpad, tmp_path, stopped, case):
+    """Numbers of special points and flips, sizes of the point, and of orbits turns and sizes of meshes."""
+    point, path = stopped(case), tmp_path / "case.h5"
+    good = path.read_bytes()
+    places = [3, 4, *range(point + 3, point + 6)]
+    if case == LUGRE:
+        places += [point + 6, point + 10, point + 11]
+    for place in places:
+        for value in (-1, 3e9, 1e300, -1e300):
+            path.write_bytes(good)
+            with h5py.File(path, "r+") as file:
+                file["checkpoint/state"][place] = value
+            done = tiltpad("--resume", "case.h5", "-q", cwd=tmp_path)
+            assert done.returncode == 3, (place, value, done.stderr)
+            assert done.stderr == (
+                "tiltpad: error: case.h5: damaged: its checkpoint is none of this branch\n"
+            )
+            assert not list(tmp_path.glob("*.part"))
+    path.write_bytes(good)
+    with h5py.File(path, "r+") as file:
+        del file.attrs["branch_ends"]
+    done = tiltpad("--resume", "case.h5", "-q", cwd=tmp_path)
+    assert done.returncode == 3
+    assert "damaged" in done.stderr
+
+
+def test_checkpoints_of_equilibria_have_their_time(run, tmp_path, tiltpad, loaded):
+    """Killed at its end, a branch that is shorter than the time between them has left nothing."""
+    (tmp_path / "case.nml").write_text(EQUILIBRIA)
+    killed = loaded(AT_A_REQUEST, SIGNAL=str(int(signal.SIGKILL)), REQUEST="100000")
+    done = tiltpad("case.nml", "-q", "--set", "output%checkpoint_seconds=60", cwd=tmp_path, env=killed)
+    assert done.returncode == -signal.SIGKILL
+    assert not (tmp_path / "case.h5").exists()
