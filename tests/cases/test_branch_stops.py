@@ -36,6 +36,8 @@ DOUBLED = f"""{BRANCH}&rotor mass=500, unbalance=0.007 /
 LUGRE = f"""{BRANCH}&friction model='lugre' / &operation speed_rpm=11500 /
 &branch parameter='operation%speed_rpm', last=11700, step=20, max_step=40 /
 """
+#: Films that are solved by sweeps from the last ones.
+SWEPT = EQUILIBRIA.replace("&rotor", "&film solver='sor', circumferential_cells=20, axial_cells=4 / &rotor")
 #: What each stretch of a run has of its own, and the input, where the time between checkpoints may change.
 OWN = ("created", "ended", "history", "resumes", "input")
 
@@ -67,7 +69,9 @@ def check_same(path, reference):
             assert file["statistics"][name][()] >= whole["statistics"][name][()]
 
 
-@pytest.mark.parametrize("case", [EQUILIBRIA, DOUBLED, LUGRE], ids=["equilibria", "doubled", "lugre"])
+@pytest.mark.parametrize(
+    "case", [EQUILIBRIA, SWEPT, DOUBLED, LUGRE], ids=["equilibria", "swept", "doubled", "lugre"]
+)
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
 def test_slices_of_a_branch_join_to_the_bit(run, tiltpad, tmp_path, loaded, case, number):
     """Slices that end after so many requests; one without a new point is followed by a longer one."""
