@@ -158,7 +158,7 @@ contains
       call volumes%evaluate(motion, 0.0_wp, .false., .true., unused, whole)
       call set_drive(pad, ruptured, whole, drive)
       if (.not. drive%ok) return
-      call volumes%evaluate(film_motion(motion%position, drive%value), 0.0_wp, .false., .true., unused, whole)
+      call volumes%drive_anew(film_motion(motion%position, drive%value), 0.0_wp, whole)
       call set_slopes(ruptured, whole, drive)
    end subroutine compare
 

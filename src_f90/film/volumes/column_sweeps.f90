@@ -4,7 +4,7 @@ module column_sweeps
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: padded, green_chain, factor_chain, solve_chain, finish_chain, weighted, apply, invert
+   public :: padded, green_chain, factor_chain, solve_chain, finish_chain, multiply_columns, weighted, apply, invert
 
    integer, parameter :: lanes = 8
 
@@ -124,6 +124,37 @@ contains
          end do
       end do
    end subroutine finish_chain
+
+   !> In the columns from one to another: p times a with these weights, a with two other ones, and, over the faces
+   !> between the columns, the products of their differences.
+   pure subroutine multiply_columns(m, n, from, to, weight, weight_a, weight_b, p, a, along, across, sum_a, sum_b)
+      integer, intent(in) :: m, n, from, to
+      real(wp), intent(in) :: weight(m), weight_a(m), weight_b(m), p(m, n), a(m, n)
+      real(wp), intent(inout) :: along(0:n), across(n), sum_a(n), sum_b(n)
+      real(wp) :: over, within, one, two
+      integer :: i, k
+      do i = from, to
+         within = 0
+         one = 0
+         two = 0
+         !$omp simd reduction(+:within, one, two)
+         do k = 1, m
+            within = within + weight(k)*p(k, i)*a(k, i)
+            one = one + weight_a(k)*a(k, i)
+            two = two + weight_b(k)*a(k, i)
+         end do
+         across(i) = within
+         sum_a(i) = one
+         sum_b(i) = two
+         if (i == to) exit
+         over = 0
+         !$omp simd reduction(+:over)
+         do k = 1, m
+            over = over + (p(k, i + 1) - p(k, i))*(a(k, i + 1) - a(k, i))
+         end do
+         along(i) = over
+      end do
+   end subroutine multiply_columns
 
    pure real(wp) function weighted(m, weight, x)
       integer, intent(in) :: m

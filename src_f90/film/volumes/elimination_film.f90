@@ -1,8 +1,6 @@
-!> Film with the Reynolds condition by elimination: the equations of over-relaxation, solved exactly.
+!> Film with the Reynolds condition by elimination: the equations of over-relaxation, solved exactly
+!> (volume_equations).
 !>
-!> Where a column of cells is whole, the axial part of its equations is the same matrix for every column, up
-!> to a factor; its eigenvectors ("modes" of the grid) turn the columns into independent chains of single
-!> equations. Only between the first and the last column that rupture touches are whole blocks eliminated.
 !> Which cells are ruptured is found as an active set: cells below the cavitation pressure leave the film,
 !> ruptured cells that would fill come back; for this kind of matrix that ends, after a few rounds from the
 !> set of the last motion (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13, 2002, theorem 3.2).
@@ -11,10 +9,10 @@ module elimination_film
    use film_solver, only: film_motion, film_response, film_counters, film_closed, film_not_converged
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type, new_film_grid
-   use grid_modes, only: grid_modes_type, new_grid_modes
+   use volume_equations, only: volume_equations_type, new_volume_equations
    use film_rim, only: rim_conductance
    use slight_rupture, only: force_of_few
-   use column_sweeps, only: factor_chain, solve_chain, finish_chain, weighted, apply, invert
+   use column_sweeps, only: weighted, apply
    implicit none (type, external)
    private
    public :: elimination_film_type, new_elimination_film
@@ -25,22 +23,16 @@ module elimination_film
    real(wp), parameter :: rounding = 1e-12_wp
 
    !> One pad's film.
-   type :: elimination_film_type
+   type, extends(volume_equations_type) :: elimination_film_type
       private
-      type(film_grid_type), public :: grid
-      type(grid_modes_type) :: basis
-      !> Cells that belong to the film: 1, the others 0 (row, column).
-      real(wp), allocatable :: film(:, :)
-      !> Columns that rupture touches: first to last; none: first = columns + 1.
-      integer :: first, last
-      !> Reciprocal pivots outside them (mode, column); inverse blocks inside (row, row, column).
-      real(wp), allocatable :: per_pivot(:, :), block(:, :, :)
-      !> Scaled (grid_modes), by rows in blocks and by modes outside.
-      real(wp), allocatable :: pressure(:, :), adjoint(:, :)
+      !> Pressure, and the adjoints of both forces, (.., column, force): scaled (grid_modes), by rows in blocks and by
+      !> modes outside.
+      real(wp), allocatable :: pressure(:, :), adjoint(:, :, :)
       !> Whether slopes are those of a film that ends between cells (film_rim); else those of these cells, exact.
       logical, public :: ends_between = .false.
    contains
       procedure :: evaluate
+      procedure :: drive_anew
       procedure :: force_of_rupture
       procedure :: field
       procedure :: cells
@@ -57,13 +49,8 @@ contains
       integer, intent(in) :: columns, rows
       real(wp), intent(in), optional :: angles(0:)
       type(elimination_film_type) :: self
-      integer :: n
-      self%grid = new_film_grid(gap, columns, rows, angles)
-      self%basis = new_grid_modes(self%grid)
-      n = self%basis%m
-      allocate (self%film(n, columns), self%pressure(n, columns), self%adjoint(n, columns), source=0.0_wp)
-      call self%start_from()
-      allocate (self%per_pivot(n, columns), self%block(n, rows, columns), source=0.0_wp)
+      self%volume_equations_type = new_volume_equations(new_film_grid(gap, columns, rows, angles))
+      allocate (self%pressure(self%basis%m, columns), self%adjoint(self%basis%m, columns, 2), source=0.0_wp)
    end function new_elimination_film
 
    !> The film at a motion and a journal speed, rad/s, with the Reynolds condition or without rupture.
@@ -75,8 +62,7 @@ contains
       logical, intent(in) :: ruptures, want_derivatives
       type(film_counters), intent(inout) :: counters
       type(film_response), intent(out) :: response
-      real(wp) :: weight(self%grid%columns, 2)
-      integer :: m, round
+      integer :: round
       logical :: changed
       associate (grid => self%grid)
          response%min_film_thickness = grid%gap%min_film_thickness(motion, grid%directions)
@@ -86,28 +72,78 @@ contains
          end if
          call grid%set_motion(motion, speed)
          do round = 1, max(max_rounds, rounds_a_column*grid%columns)
-            call eliminate(self, ruptures)
-            call solve(self, -grid%source, -grid%edge_source, self%pressure)
+            call self%eliminate(ruptures)
+            call self%solve(-grid%source, -grid%edge_source, self%pressure)
             counters%passes = counters%passes + 1
             changed = .false.
             if (ruptures) call update_film(self, changed)
             if (.not. changed) exit
          end do
          if (changed) response%status = film_not_converged
-         call sum_up(self, response)
-         if (want_derivatives) then
-            call to_rows(self, self%pressure)
-            if (self%ends_between .and. self%first <= grid%columns) call eliminate(self, ruptures, &
-               & rim_conductance(grid, self%film, self%pressure))
-            weight = grid%weight()
-            do m = 1, 2
-               call solve(self, weight(:, m), 0*weight(:, m), self%adjoint)
-               call to_rows(self, self%adjoint)
-               response%derivatives(m, :) = grid%derivatives(speed, self%pressure, self%adjoint)
-            end do
-         end if
       end associate
+      call sum_up(self, response)
+      if (.not. want_derivatives) return
+      if (self%ends_between .and. self%first <= self%grid%columns) call end_between(self)
+      call find_adjoints(self)
+      call set_derivatives(self, speed, response)
    end subroutine evaluate
+
+   !> The last film, which was whole and evaluated with its derivatives, at another velocity in the same position: its
+   !> equations are the same but for their right-hand side.
+   subroutine drive_anew(self, motion, speed, response)
+      class(elimination_film_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      type(film_response), intent(out) :: response
+      associate (grid => self%grid)
+         response%min_film_thickness = grid%gap%min_film_thickness(motion, grid%directions)
+         call grid%set_motion(motion, speed)
+         call self%solve(-grid%source, -grid%edge_source, self%pressure)
+      end associate
+      call sum_up(self, response)
+      call set_derivatives(self, speed, response)
+   end subroutine drive_anew
+
+   !> Pivots and blocks for changes of the pressure in a film that ends between its cells.
+   pure subroutine end_between(self)
+      type(elimination_film_type), intent(inout) :: self
+      real(wp) :: p(self%grid%rows, self%grid%columns)
+      integer :: i, first, last
+      first = self%first
+      last = self%last
+      p = 0
+      do i = max(1, first - 1), min(self%grid%columns, last + 1)
+         ! the columns beside those that rupture touches become blocks, too
+         if (i < first .or. i > last) self%pressure(:, i) = self%in_rows(self%pressure, i)
+         p(:, i) = self%pressure(:self%grid%rows, i)/self%basis%root(:self%grid%rows)
+      end do
+      call self%eliminate(.true., rim_conductance(self%grid, self%film, p, first, last))
+   end subroutine end_between
+
+   !> The adjoints of both forces.
+   pure subroutine find_adjoints(self)
+      type(elimination_film_type), intent(inout) :: self
+      real(wp) :: weight(self%grid%columns, 2), none(self%grid%columns)
+      integer :: m
+      weight = self%grid%weight()
+      none = 0
+      do m = 1, 2
+         call self%solve(weight(:, m), none, self%adjoint(:, :, m))
+      end do
+   end subroutine find_adjoints
+
+   !> The derivatives of both forces over position and velocity.
+   pure subroutine set_derivatives(self, speed, response)
+      type(elimination_film_type), intent(in) :: self
+      real(wp), intent(in) :: speed
+      type(film_response), intent(inout) :: response
+      real(wp) :: along(0:self%grid%columns), across(self%grid%columns), total(self%grid%columns)
+      integer :: m
+      do m = 1, 2
+         call self%multiply(self%pressure, self%adjoint(:, :, m), along, across, total)
+         response%derivatives(m, :) = self%grid%derivatives_of_products(speed, along, across, total)
+      end do
+   end subroutine set_derivatives
 
    !> How many columns from the trailing edge on the last film, with the Reynolds condition, has left.
    pure integer function empty_columns(self) result(n)
@@ -154,9 +190,14 @@ contains
       class(elimination_film_type), intent(in) :: self
       type(film_grid_type), intent(out) :: grid
       real(wp), allocatable, intent(out) :: pressure(:, :), film(:, :)
+      integer :: i
       grid = self%grid
-      pressure = self%pressure
-      call to_rows(self, pressure)
+      allocate (pressure, mold=self%pressure)
+      pressure = 0
+      do i = 1, grid%columns
+         pressure(:, i) = self%in_rows(self%pressure, i)
+         pressure(:grid%rows, i) = pressure(:grid%rows, i)/self%basis%root(:grid%rows)
+      end do
       film = self%film
    end subroutine cells
 
@@ -244,107 +285,4 @@ contains
       end associate
    end subroutine update_film
 
-   !> Turns the columns outside first to last from modes to rows, and all to what is not scaled.
-   pure subroutine to_rows(self, x)
-      type(elimination_film_type), intent(in) :: self
-      real(wp), intent(inout), contiguous :: x(:, :)
-      integer :: i
-      do i = 1, self%grid%columns
-         if (i < self%first .or. i > self%last) x(:, i) = apply(size(x, 1), self%grid%rows, self%basis%modes, x(:, i))
-         x(:self%grid%rows, i) = x(:self%grid%rows, i)/self%basis%root(:self%grid%rows)
-      end do
-   end subroutine to_rows
-
-   !> Pivots and blocks: whole columns from both edges of the pad inwards, mode by mode, then the columns
-   !> between, from the first to the last; none of these where the film does not rupture.
-   pure subroutine eliminate(self, ruptures, more)
-      type(elimination_film_type), intent(inout) :: self
-      logical, intent(in) :: ruptures
-      !> Added to the diagonal beside ruptured cells, (row, column).
-      real(wp), intent(in), optional :: more(:, :)
-      logical :: touched(self%grid%columns)
-      integer :: i, j, m
-      m = self%basis%m
-      associate (grid => self%grid, c => self%grid%along, n => self%grid%columns, rows => self%grid%rows)
-         self%first = n + 1
-         self%last = n
-         if (ruptures) then
-            do i = 1, n
-               touched(i) = any(self%film(:rows, i) <= 0)
-            end do
-            if (any(touched)) then
-               self%first = findloc(touched, .true., dim=1)
-               self%last = findloc(touched, .true., dim=1, back=.true.)
-               if (present(more)) self%first = max(1, self%first - 1)
-               if (present(more)) self%last = min(n, self%last + 1)
-            end if
-         end if
-         call factor_chain(m, n, 1, self%first - 1, c, grid%beside, self%basis%eigenvalue, self%per_pivot)
-         call factor_chain(m, n, n, self%last + 1, c, grid%beside, self%basis%eigenvalue, self%per_pivot)
-         do i = self%first, self%last
-            associate (block => self%block(:, :, i))
-               if (.not. any(self%film(:rows, i) > 0)) then
-                  block = 0
-                  cycle
-               end if
-               if (i > self%first) then
-                  block = -c(i - 1)**2*self%block(:, :, i - 1)
-               else if (i > 1) then
-                  block = self%basis%in_rows(-c(i - 1)**2*self%per_pivot(:, i - 1))
-               else
-                  block = 0
-               end if
-               if (i == self%last .and. i < n) block = block + self%basis%in_rows(-c(i)**2*self%per_pivot(:, i + 1))
-               do j = 1, rows
-                  block(j, j) = block(j, j) + c(i - 1) + c(i) + grid%beside(i)*self%basis%diagonal(j)
-                  if (present(more)) block(j, j) = block(j, j) + more(j, i)
-               end do
-               do j = 1, rows - 1
-                  block(j, j + 1) = block(j, j + 1) + grid%beside(i)*self%basis%off_diagonal(j)
-                  block(j + 1, j) = block(j + 1, j) + grid%beside(i)*self%basis%off_diagonal(j)
-               end do
-               call invert(m, rows, self%film(:, i), block)
-            end associate
-         end do
-      end associate
-   end subroutine eliminate
-
-   !> The scaled solution, by rows from the first to the last column that rupture touches, by modes outside, for
-   !> a load per column in every row of the film, and one more in its edge row.
-   pure subroutine solve(self, load, edge_load, x)
-      type(elimination_film_type), intent(in) :: self
-      real(wp), intent(in) :: load(:), edge_load(:)
-      real(wp), intent(inout), contiguous :: x(:, :)
-      real(wp) :: next(size(x, 1))
-      integer :: i, m
-      m = size(x, 1)
-      associate (c => self%grid%along, n => self%grid%columns, rows => self%grid%rows, first => self%first, &
-         & last => self%last)
-         call solve_chain(m, n, 1, first - 1, c, self%per_pivot, load, self%basis%uniform, edge_load, &
-            & self%basis%at_edge, x)
-         call solve_chain(m, n, n, last + 1, c, self%per_pivot, load, self%basis%uniform, edge_load, &
-            & self%basis%at_edge, x)
-         do i = first, last
-            next = load(i)*self%basis%root
-            next(rows) = next(rows) + edge_load(i)*self%basis%root(rows)
-            if (i > first) then
-               next = next + c(i - 1)*x(:, i - 1)
-            else if (i > 1) then
-               next = next + c(i - 1)*apply(m, rows, self%basis%modes, x(:, i - 1))
-            end if
-            if (i == last .and. i < n) next = next + c(i)*apply(m, rows, self%basis%modes, x(:, i + 1))
-            x(:, i) = apply(m, rows, self%block(:, :, i), next)
-         end do
-         do i = last - 1, first, -1
-            x(:, i) = x(:, i) + c(i)*apply(m, rows, self%block(:, :, i), x(:, i + 1))
-         end do
-         next = 0
-         if (first <= n) next = apply(m, rows, self%basis%transposed, x(:, first))
-         call finish_chain(m, n, 1, first - 1, c, self%per_pivot, next, x)
-         if (last < n) then
-            next = apply(m, rows, self%basis%transposed, x(:, last))
-            call finish_chain(m, n, n, last + 1, c, self%per_pivot, next, x)
-         end if
-      end associate
-   end subroutine solve
 end module elimination_film

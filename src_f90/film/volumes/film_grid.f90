@@ -49,6 +49,7 @@ module film_grid
       procedure :: force
       procedure :: weight
       procedure :: derivatives
+      procedure :: derivatives_of_products
       procedure :: pressure_at
    end type film_grid_type
 
@@ -167,9 +168,7 @@ contains
       real(wp), dimension(0:self%columns) :: over_face
       real(wp), dimension(self%columns) :: over_side, total
       real(wp) :: between(self%rows)
-      real(wp) :: radius_over_d_z
       integer :: i
-      radius_over_d_z = self%gap%pad_radius()/self%d_z
       associate (n => self%columns, rows => self%rows, height => self%height)
          between = self%outward*height
          over_face(0) = sum(height*(p(:rows, 1) - self%ambient)*a(:rows, 1))
@@ -180,13 +179,23 @@ contains
                & + between(rows)*(p(rows, i) - self%ambient)*a(rows, i)
             total(i) = sum(height*a(:rows, i))
          end do
-         over_face = over_face*3*self%h_face**2/(self%d_phi**2*self%between)
-         over_side = over_side*3*self%width*(self%h_cell*radius_over_d_z)**2
-         derivatives(1) = over_position(self%sin_face, self%sin_cell)
-         derivatives(2) = over_position(self%cos_face, self%cos_cell)
-         derivatives(3) = -squeeze(self)*dot_product(self%width*self%sin_cell, total)
-         derivatives(4) = -squeeze(self)*dot_product(self%width*self%cos_cell, total)
       end associate
+      derivatives = self%derivatives_of_products(speed, over_face, over_side, total)
+   end function derivatives
+
+   !> The same from products of p and a, summed over the rows and weighted by their heights: of their differences over
+   !> each face along the arc; of those over the faces between the rows of a column, times `outward`; and a's own sums.
+   pure function derivatives_of_products(self, speed, along, across, total) result(derivatives)
+      class(film_grid_type), intent(in) :: self
+      real(wp), intent(in) :: speed, along(0:), across(:), total(:)
+      real(wp) :: derivatives(4)
+      real(wp) :: over_face(0:self%columns), over_side(self%columns)
+      over_face = along*3*self%h_face**2/(self%d_phi**2*self%between)
+      over_side = across*3*self%width*(self%h_cell*(self%gap%pad_radius()/self%d_z))**2
+      derivatives(1) = over_position(self%sin_face, self%sin_cell)
+      derivatives(2) = over_position(self%cos_face, self%cos_cell)
+      derivatives(3) = -squeeze(self)*dot_product(self%width*self%sin_cell, total)
+      derivatives(4) = -squeeze(self)*dot_product(self%width*self%cos_cell, total)
    contains
       !> Derivative over e_y' (sines) or e_z' (cosines): dh = -sin(phi) de_y' - cos(phi) de_z'.
       pure real(wp) function over_position(at_face, at_cell)
@@ -194,7 +203,7 @@ contains
          over_position = -dot_product(wedge(self, speed)*(at_face(1:) - at_face(:self%columns - 1)), total) &
             & - dot_product(at_face, over_face) - dot_product(at_cell, over_side)
       end function over_position
-   end function derivatives
+   end function derivatives_of_products
 
    !> Pressure, Pa, (axial position, angle), from that of the cells: along the arc and across the width parabolas that
    !> meet smoothly, one for each cell, whose mean is the cell's pressure. So the integral of the field is the force,

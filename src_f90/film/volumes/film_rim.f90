@@ -15,10 +15,12 @@ contains
 
    !> What the end of a film adds to the diagonal of a cell's equation for a change of pressure, (row, column): the
    !> conductance towards a ruptured cell is that up to the end of the film instead of up to the cell's middle.
-   pure function rim_conductance(grid, film, pressure) result(more)
+   pure function rim_conductance(grid, film, pressure, first, last) result(more)
       type(film_grid_type), intent(in) :: grid
       !> Cells of the film 1, others 0; pressure above that of cavitation, Pa, 0 in the others; (row, column).
       real(wp), intent(in) :: film(:, :), pressure(:, :)
+      !> The columns that rupture touches; beside these alone the pressure has to be known.
+      integer, intent(in) :: first, last
       real(wp) :: more(size(film, 1), grid%columns)
       real(wp), dimension(0:grid%rows + 1, 0:grid%columns + 1) :: filled, p
       integer :: i, k
@@ -27,7 +29,7 @@ contains
       p = 0
       associate (n => grid%columns, rows => grid%rows, width => grid%width, height => grid%height)
          p(1:rows, 1:n) = pressure(:rows, :)
-         do i = 1, n
+         do i = first, last
             do k = 1, rows
                if (film(k, i) > 0) cycle
                filled(k, i) = share(grid%along(i - 1)*p(k, i - 1) + grid%along(i)*p(k, i + 1) + grid%beside(i) &
@@ -35,7 +37,7 @@ contains
                   & grid%source(i) + merge(grid%edge_source(i), 0.0_wp, k == rows))
             end do
          end do
-         do i = 1, n
+         do i = max(1, first - 1), min(n, last + 1)
             do k = 1, rows
                if (.not. film(k, i) > 0) cycle
                if (i > 1) more(k, i) = grid%along(i - 1)*nearer(width(i), width(i - 1), filled(k, i - 1))
