@@ -8,13 +8,16 @@ module interval_maps
    use orbit_polynomials, only: points
    implicit none (type, external)
    private
-   public :: interval_maps_type, new_interval_maps, weight
+   public :: interval_maps_type, new_interval_maps, weight, padded
 
    real(wp), parameter :: s6 = sqrt(6.0_wp)
    !> The integrals of the points' polynomials up to each point.
    real(wp), parameter :: weight(points, points) = reshape([(88 - 7*s6)/360, (296 + 169*s6)/1800, (16 - s6)/36, &
       & (296 - 169*s6)/1800, (88 + 7*s6)/360, (16 + s6)/36, (-2 + 3*s6)/225, (-2 - 3*s6)/225, 1/9.0_wp], &
       & [points, points])
+
+   !> Rows of numbers are filled up to so many, or a multiple: whole vectors.
+   integer, parameter :: lanes = 8
 
    !> The border or a block: its states, counted in itself; displacements and the rates of these, all states but the
    !> displacements, and where the rates stand among them.
@@ -62,11 +65,18 @@ contains
       maps%border = new_part(maps, 0, model%n - maps%blocks*in_block)
       maps%block = new_part(maps, maps%border%n, in_block)
       associate (per_border => points*size(maps%border%u), per_block => points*size(maps%block%u))
-         allocate (maps%of_border(model%n + constants, per_border, intervals))
-         allocate (maps%of_block(per_border + maps%border%n + in_block + constants, per_block, maps%blocks, intervals))
+         allocate (maps%of_border(padded(model%n + constants), per_border, intervals))
+         allocate (maps%of_block(padded(per_border + maps%border%n + in_block + constants), per_block, maps%blocks, &
+            & intervals))
       end associate
       allocate (maps%length(intervals), maps%gap(constants, size(maps%x), points, intervals))
    end function new_interval_maps
+
+   !> So many numbers, filled up to whole vectors.
+   elemental integer function padded(numbers)
+      integer, intent(in) :: numbers
+      padded = lanes*((numbers + lanes - 1)/lanes)
+   end function padded
 
    !> The part of these n states, of which so many stand before.
    pure type(part_type) function new_part(maps, before, n) result(part)
@@ -89,32 +99,34 @@ contains
       integer, intent(in) :: k
       real(wp), intent(in) :: length, jacobian(:, :, :), gap(:, :, :)
       logical, intent(out) :: ok
-      real(wp) :: rows(points*size(self%border%u) + self%n + self%constants, points*size(self%border%u))
+      real(wp) :: rows(padded(points*size(self%border%u) + self%n + self%constants), points*size(self%border%u))
       real(wp) :: across(points*size(self%block%u), points*size(self%border%u))
       integer :: i, l, from
       self%length(k) = length
       do i = 1, points
          self%gap(:, :, i, k) = transpose(gap(self%x, :, i))
       end do
-      associate (n => self%n, b => self%border, p => self%block, u => points*size(self%border%u))
+      associate (n => self%n, b => self%border, p => self%block, u => points*size(self%border%u), &
+         & all => points*size(self%border%u) + self%n + self%constants)
          rows = 0
-         call couple(self, k, b%u, jacobian, b, 0, rows(:u, :), rows(u + 1:u + b%n, :), rows(u + n + 1:, :))
-         call add_own(b, b%u, gap, rows(u + 1:u + b%n, :), rows(u + n + 1:, :))
+         call couple(self, k, b%u, jacobian, b, 0, rows(:u, :), rows(u + 1:u + b%n, :), rows(u + n + 1:all, :))
+         call add_own(b, b%u, gap, rows(u + 1:u + b%n, :), rows(u + n + 1:all, :))
          do l = 1, self%blocks
             from = b%n + (l - 1)*p%n
             call eliminate_block(self, k, l, jacobian, gap, ok)
             if (.not. ok) return
             across = 0
             call couple(self, k, b%u, jacobian, p, from, across, rows(u + from + 1:u + from + p%n, :), &
-               & rows(u + n + 1:, :))
-            call insert(self%of_block(:, :, l, k), across, u + b%n, u + from, u + n, rows)
+               & rows(u + n + 1:all, :))
+            call insert(self%of_block(:, :, l, k), across, [u + b%n, p%n, self%constants], [0, u + from, u + n], rows)
          end do
          rows(:u, :) = -rows(:u, :)
          do i = 1, u
             rows(i, i) = rows(i, i) + 1
          end do
          call reduce(size(rows, 1), u, rows, ok)
-         self%of_border(:, :, k) = rows(u + 1:, :)
+         self%of_border(:, :, k) = 0
+         self%of_border(:all - u, :, k) = rows(u + 1:all, :)
       end associate
    end subroutine eliminate
 
@@ -124,26 +136,27 @@ contains
       integer, intent(in) :: k, l
       real(wp), intent(in) :: jacobian(:, :, :), gap(:, :, :)
       logical, intent(out) :: ok
-      real(wp) :: rows(points*size(self%block%u) + size(self%of_block, 1), points*size(self%block%u))
-      integer :: i, own, other, starts, constants, from
+      real(wp) :: rows(padded(points*size(self%block%u) + size(self%of_block, 1)), points*size(self%block%u))
+      integer :: i, own, other, starts, constants, all, from
       associate (b => self%border, p => self%block)
          from = b%n + (l - 1)*p%n
          own = points*size(p%u)
          other = own + points*size(b%u)
          starts = other + b%n
          constants = starts + p%n
+         all = constants + self%constants
          rows = 0
          call couple(self, k, from + p%u, jacobian, p, from, rows(:own, :), rows(starts + 1:constants, :), &
-            & rows(constants + 1:, :))
+            & rows(constants + 1:all, :))
          rows(:own, :) = -rows(:own, :)
          do i = 1, own
             rows(i, i) = rows(i, i) + 1
          end do
          call couple(self, k, from + p%u, jacobian, b, 0, rows(own + 1:other, :), rows(other + 1:starts, :), &
-            & rows(constants + 1:, :))
-         call add_own(p, from + p%u, gap, rows(starts + 1:constants, :), rows(constants + 1:, :))
+            & rows(constants + 1:all, :))
+         call add_own(p, from + p%u, gap, rows(starts + 1:constants, :), rows(constants + 1:all, :))
          call reduce(size(rows, 1), own, rows, ok)
-         self%of_block(:, :, l, k) = rows(own + 1:, :)
+         self%of_block(:, :, l, k) = rows(own + 1:own + size(self%of_block, 1), :)
       end associate
    end subroutine eliminate_block
 
@@ -155,7 +168,7 @@ contains
       real(wp), intent(in) :: jacobian(:, :, :)
       type(part_type), intent(in) :: part
       real(wp), intent(inout) :: unknowns(:, :), starts(:, :), constants(:, :)
-      real(wp) :: per_x
+      real(wp) :: per_x(points)
       integer :: i, j, l, r, s, row, m, x
       m = size(part%u)
       do j = 1, points
@@ -168,19 +181,22 @@ contains
                end do
             end do
          end do
-         do s = 1, size(part%x)
-            x = self%number(from + part%x(s))
-            do r = 1, size(rated)
-               do i = 1, points
-                  row = (i - 1)*size(rated) + r
-                  per_x = weight(i, j)*jacobian(rated(r), from + part%x(s), j)
-                  starts(part%x(s), row) = starts(part%x(s), row) + per_x
-                  constants(:, row) = constants(:, row) + per_x*self%gap(:, x, j, k)
-                  do l = 1, points
-                     associate (at => (l - 1)*m + part%v_in_u(s))
-                        unknowns(at, row) = unknowns(at, row) + per_x*self%length(k)*self%ratio(x)*weight(j, l)
-                     end associate
-                  end do
+      end do
+      do s = 1, size(part%x)
+         x = self%number(from + part%x(s))
+         do r = 1, size(rated)
+            do i = 1, points
+               row = (i - 1)*size(rated) + r
+               per_x = weight(i, :)*jacobian(rated(r), from + part%x(s), :)
+               starts(part%x(s), row) = starts(part%x(s), row) + sum(per_x)
+               do l = 1, self%constants
+                  constants(l, row) = constants(l, row) + sum(per_x*self%gap(l, x, :, k))
+               end do
+               per_x = self%length(k)*self%ratio(x)*per_x
+               do l = 1, points
+                  associate (at => (l - 1)*m + part%v_in_u(s))
+                     unknowns(at, row) = unknowns(at, row) + sum(per_x*weight(:, l))
+                  end associate
                end do
             end do
          end do
@@ -203,29 +219,22 @@ contains
       end do
    end subroutine add_own
 
-   !> Puts a block's unknowns, as they follow, into the rows of the border, which have them `across`. In both the first
-   !> columns are of the border; those of the block begin behind `own`, the constants behind `constants`.
-   pure subroutine insert(of_block, across, shared, own, constants, rows)
+   !> Puts a block's unknowns, as they follow, into the rows of the border, which have them `across`. What they follow
+   !> from are so many numbers each of the border, the block and the constants; these stand behind others in the rows.
+   pure subroutine insert(of_block, across, numbers, behind, rows)
       real(wp), intent(in), contiguous :: of_block(:, :), across(:, :)
-      integer, intent(in) :: shared, own, constants
+      integer, intent(in) :: numbers(3), behind(3)
       real(wp), intent(inout), contiguous :: rows(:, :)
-      integer :: r, s, i, states, more
-      more = size(rows, 1) - constants
-      states = size(of_block, 1) - shared - more
+      real(wp) :: sum(size(of_block, 1))
+      integer :: r, i, first
       do r = 1, size(rows, 2)
-         do s = 1, size(across, 1)
-            associate (factor => across(s, r))
-               !$omp simd
-               do i = 1, shared
-                  rows(i, r) = rows(i, r) + factor*of_block(i, s)
-               end do
-               do i = 1, states
-                  rows(own + i, r) = rows(own + i, r) + factor*of_block(shared + i, s)
-               end do
-               do i = 1, more
-                  rows(constants + i, r) = rows(constants + i, r) + factor*of_block(shared + states + i, s)
-               end do
+         sum = combined(size(of_block, 1), size(across, 1), of_block, across(:, r))
+         first = 0
+         do i = 1, 3
+            associate (part => rows(behind(i) + 1:behind(i) + numbers(i), r))
+               part = part + sum(first + 1:first + numbers(i))
             end associate
+            first = first + numbers(i)
          end do
       end do
    end subroutine insert
@@ -237,7 +246,7 @@ contains
       real(wp), intent(inout) :: rows(width, n)
       logical, intent(out) :: ok
       real(wp) :: swapped(width), factor
-      integer :: i, j, k, best
+      integer :: i, j, k, l, first, best
       ok = .false.
       do i = 1, n
          best = i
@@ -247,17 +256,17 @@ contains
          if (.not. abs(rows(i, best)) > 0) return
          swapped = rows(:, best)
          rows(:, best) = rows(:, i)
-         factor = 1/swapped(i)
-         !$omp simd
-         do k = i, width
-            rows(k, i) = factor*swapped(k)
-         end do
+         rows(:, i) = (1/swapped(i))*swapped
+         ! whole vectors, from that with number i; those before it are no longer read
+         first = lanes*((i - 1)/lanes)
          do j = 1, n
             if (j == i) cycle
             factor = rows(i, j)
-            !$omp simd
-            do k = i, width
-               rows(k, j) = rows(k, j) - factor*rows(k, i)
+            do l = first, width - 1, lanes
+               !$omp simd
+               do k = 1, lanes
+                  rows(l + k, j) = rows(l + k, j) - factor*rows(l + k, i)
+               end do
             end do
          end do
       end do
@@ -265,13 +274,13 @@ contains
    end subroutine reduce
 
    !> Changes of the points of interval k, from point `first` on, that follow from changes at its start, all over the
-   !> scales: (column, state or constant), (column, state, point).
+   !> scales: (column, state or constant), (column, state, point); one column, or whole vectors of them.
    pure subroutine follow(self, k, first, start, at)
       class(interval_maps_type), intent(in) :: self
       integer, intent(in) :: k, first
       real(wp), intent(in), contiguous :: start(:, :)
       real(wp), intent(out), contiguous :: at(:, :, :)
-      real(wp) :: seen(size(start, 1), size(self%of_block, 1))
+      real(wp) :: seen(size(start, 1), points*size(self%border%u) + self%border%n + self%block%n + self%constants)
       integer :: i, j, l, x, u, from, own
       associate (b => self%border, p => self%block)
          u = points*size(b%u)
@@ -308,19 +317,35 @@ contains
       real(wp), intent(in), contiguous :: known(:, :), follows(:, :)
       integer, intent(in) :: to(:)
       real(wp), intent(inout), contiguous :: at(:, :, :)
-      integer :: c, i, r, s
+      integer :: i, r
       do i = 1, points
          do r = 1, size(to)
-            at(:, to(r), i) = 0
-            do s = 1, size(known, 2)
-               associate (factor => follows(s, (i - 1)*size(to) + r))
-                  !$omp simd
-                  do c = 1, size(known, 1)
-                     at(c, to(r), i) = at(c, to(r), i) + factor*known(c, s)
-                  end do
-               end associate
-            end do
+            associate (factor => follows(:size(known, 2), (i - 1)*size(to) + r))
+               if (size(known, 1) == 1) then
+                  at(1, to(r), i) = dot_product(known(1, :), factor)
+               else
+                  at(:, to(r), i) = combined(size(known, 1), size(known, 2), known, factor)
+               end if
+            end associate
          end do
       end do
    end subroutine multiply
+
+   !> n columns of whole vectors, times their factors, added up.
+   pure function combined(m, n, columns, factor) result(sum)
+      integer, intent(in) :: m, n
+      real(wp), intent(in) :: columns(m, n), factor(n)
+      real(wp) :: sum(m), part(lanes)
+      integer :: i, k, first
+      do first = 0, m - 1, lanes
+         part = 0
+         do i = 1, n
+            !$omp simd
+            do k = 1, lanes
+               part(k) = part(k) + factor(i)*columns(first + k, i)
+            end do
+         end do
+         sum(first + 1:first + lanes) = part
+      end do
+   end function combined
 end module interval_maps

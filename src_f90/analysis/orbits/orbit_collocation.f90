@@ -9,7 +9,7 @@ module orbit_collocation
    use lapack, only: dgesv
    use ode_model, only: ode_model_type
    use orbit_polynomials, only: orbit_type, points, place
-   use interval_maps, only: interval_maps_type, new_interval_maps, weight
+   use interval_maps, only: interval_maps_type, new_interval_maps, weight, padded
    implicit none (type, external)
    private
    public :: newton_round
@@ -77,7 +77,9 @@ contains
       logical :: ok
       n = model%n
       constants = merge(2, 1, present(shift))
-      allocate (gap(n, constants, points), start(n + constants, n + constants), at(n + constants, n, points))
+      associate (columns => padded(n + constants))
+         allocate (gap(n, constants, points), start(columns, n + constants), at(columns, n, points))
+      end associate
       equations%maps = new_interval_maps(model, orbit%scale, orbit%intervals(), constants)
       start = 0
       do i = 1, n + constants
@@ -97,7 +99,7 @@ contains
          call equations%maps%follow(k, points, start, at)
          start(:, :n) = at(:, :, points)
       end do
-      equations%at_end = start(:, :n)
+      equations%at_end = start(:n + constants, :n)
       if (.not. all(abs(equations%at_end) <= huge(1.0_wp))) then
          call raise(error, numerics_error, 'Newton''s equations have no solution')
          return
