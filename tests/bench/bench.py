@@ -1,4 +1,4 @@
-"""Benchmark: run time against error, all scenes with the defaults, films, pads, production, peers, warm oil.
+"""Benchmark: run time against error, all scenes with the defaults, films, pads, orbits, sweeps, peers, oil.
 
 usage: bench.py TILTPAD [--only PART...] [--folder FOLDER] [--docs FOLDER]
 
@@ -21,6 +21,7 @@ from figures import draw
 from films import films, pads
 from machine import described
 from maps import maps
+from orbits import orbits
 from page import page
 from peers import peers
 from production import production
@@ -38,6 +39,7 @@ PARTS = {
     "visits": visits,
     "skips": skips,
     "pads": pads,
+    "orbits": orbits,
     "production": production,
     "peers": peers,
     "maps": maps,

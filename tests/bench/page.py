@@ -2,6 +2,7 @@
 
 import costs
 import maps
+import orbits
 import tables
 import warm
 from errors import JUMP
@@ -138,6 +139,14 @@ The program also omits work for which there is no run to compare with: the press
 rupture (it computes the minimum only where rupture is possible), the blocks of Newton's matrix between
 pads, and samples before `output%start_time`.
 
+## Periodic orbits
+
+The task `periodic` finds the motion on which these marches of 2 s settle. Both are timed as whole processes,
+in turn, with the defaults; the best of {orbit_rounds} counts. The error is that of the orbit over its
+period, against an orbit with {orbit_reference}.
+
+{orbits}
+
 ## Production
 
 ### Checkpoints
@@ -262,6 +271,9 @@ def page(rows: dict[str, list[Row]], machine: str) -> str:
         kernels=costs.kernels(rows["kernels"]),
         skips=costs.skips(rows["skips"]),
         skips_words=costs.skips_words(rows["diagram"], rows["kernels"]),
+        orbit_rounds=orbits.ROUNDS,
+        orbit_reference=orbits.REFERENCE,
+        orbits=orbits.compared(rows["orbits"]),
         checkpoint_seconds=CHECKPOINT_SECONDS,
         checkpoints=costs.checkpoints(rows["production"]),
         members=MEMBERS,
