@@ -16,9 +16,8 @@ module interval_maps
       & (296 - 169*s6)/1800, (88 + 7*s6)/360, (16 + s6)/36, (-2 + 3*s6)/225, (-2 - 3*s6)/225, 1/9.0_wp], &
       & [points, points])
 
-   !> Rows of numbers are filled up to so many, or a multiple: whole vectors.
+   !> Rows of numbers are filled up to whole vectors.
    integer, parameter :: lanes = 8
-
    !> The border or a block: its states, counted in itself; displacements and the rates of these, all states but the
    !> displacements, and where the rates stand among them.
    type :: part_type

@@ -22,7 +22,7 @@ module periodic_orbit
    type :: orbit_options
       !> Turns of the shaft in a period.
       integer :: revolutions = 1
-      !> Newton's last correction over the scales; most rounds.
+      !> What Newton's last correction may leave, over the scales; most rounds.
       real(wp) :: tolerance = 1e-8_wp
       integer :: max_iterations = 30
    end type orbit_options
@@ -126,13 +126,16 @@ contains
       type(periodic_orbit_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
+      real(wp) :: before, left
       logical :: stops, ok
       integer :: most
       most = options%max_iterations
       if (found%marched < first_try) most = min(most, early_rounds)
       found%iterations = 0
+      left = huge(left)
+      before = 0
       associate (orbit => found%orbit)
-         do while (.not. orbit%correction <= options%tolerance)
+         do while (.not. left <= options%tolerance)
             stops = asked(give_up)
             if (stops) then
                call raise(error, stopped, 'asked to stop')
@@ -148,6 +151,10 @@ contains
                call add_context(error, 'iteration '//to_text(found%iterations)//' of Newton''s method')
             end if
             if (allocated(error)) return
+            ! by as much as this correction is shorter than the last, the next is shorter still
+            left = orbit%correction
+            if (before > 0) left = left*min(1.0_wp, left/before)
+            before = orbit%correction
          end do
          call set_multipliers(orbit%monodromy, found%multipliers, ok)
       end associate
