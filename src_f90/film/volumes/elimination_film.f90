@@ -270,6 +270,7 @@ contains
          floor = -rounding*floor
          changes = 0
          do i = 1, grid%columns
+            if (.not. grid%source(i) > 0 .and. (i < first - 1 .or. i > last + 1)) cycle
             limit = -floor*(grid%along(i - 1) + grid%along(i) + 2*grid%beside(i))
             !$omp simd private(inflow, new) reduction(+:changes)
             do k = 1, rows

@@ -159,13 +159,14 @@ contains
       integer :: i
       associate (grid => self%grid, basis => self%basis, m => self%basis%m, n => self%grid%columns, &
          & rows => self%grid%rows, first => self%first, last => self%last)
-         call multiply_columns(m, n, 1, first - 1, basis%eigenvalue, basis%uniform, basis%at_edge, p, a, along, across, &
-            & total, at_edge)
+         call multiply_columns(m, n, 1, first - 1, basis%eigenvalue, basis%uniform, basis%at_edge, p, a, along, &
+            & across, total, at_edge)
          call multiply_columns(m, n, last + 1, n, basis%eigenvalue, basis%uniform, basis%at_edge, p, a, along, across, &
             & total, at_edge)
          edge_row = 0
          edge_row(rows) = basis%root(rows)
-         call multiply_columns(m, n, first, last, basis%diagonal, basis%root, edge_row, p, a, along, across, total, at_edge)
+         call multiply_columns(m, n, first, last, basis%diagonal, basis%root, edge_row, p, a, along, across, total, &
+            & at_edge)
          do i = first, last
             across(i) = across(i) + dot_product(basis%off_diagonal(1:rows - 1), &
                & p(:rows - 1, i)*a(2:rows, i) + p(2:rows, i)*a(:rows - 1, i))
