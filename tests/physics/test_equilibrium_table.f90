@@ -32,6 +32,7 @@ program test_equilibrium_table
       call wide_range('tilting_radial')
       call wide_range('tilting_only')
    end if
+   if (runs('floating_pads')) call floating_pads()
    if (runs('no_equilibrium')) then
       call no_equilibrium('tilting_radial')
       call no_equilibrium('tilting_only')
@@ -219,6 +220,35 @@ contains
    end subroutine wide_range
 
    !> A load away from the two lower pads is carried by nothing: that is told, in words.
+   !> Two light pads above the journal float off their pivots, pads tighter than the clearance: their rest is found.
+   subroutine floating_pads()
+      type(scene_type) :: scene
+      type(equilibrium_type) :: found
+      scene = paper_scene('tilting_radial', 1000.0_wp)
+      scene%bearing%journal_radius = 0.074_wp
+      scene%bearing%machined_clearance = 74e-6_wp
+      scene%bearing%assembled_clearance = 89e-6_wp
+      scene%bearing%axial_length = 0.1_wp
+      scene%bearing%viscosity = 0.023_wp
+      scene%rotor%mass = 46
+      scene%pads%pivot_angle_deg = [126, 198, 270, 342, 54]
+      scene%pads%arc_deg = [44, 56, 52, 66, 26]
+      scene%pads%pivot_ratio = spread(0.52_wp, 1, 5)
+      scene%pads%pivot_distance = spread(0.014_wp, 1, 5)
+      scene%pads%mass = [0.88_wp, 0.73_wp, 0.53_wp, 0.91_wp, 0.69_wp]
+      scene%pads%inertia = [0.38e-3_wp, 0.43e-3_wp, 0.28e-3_wp, 0.68e-3_wp, 0.17e-3_wp]
+      scene%pads%centre_tangential = spread(0.0_wp, 1, 5)
+      scene%pads%centre_radial = spread(-0.012_wp, 1, 5)
+      scene%pivot%law = 'fang'
+      scene%pivot%socket_radius = 0.026_wp
+      scene%pivot%radius_difference = 17e-6_wp
+      found = found_in(scene)
+      if (.not. allocated(found%tilt)) return
+      call expect(found%residual <= 1e-8_wp, 'at rest')
+      call expect(found%stability%name /= 'divergent', 'where a motion can start')
+      call expect(any(found%penetration < 0), 'with a pad that floats')
+   end subroutine floating_pads
+
    subroutine no_equilibrium(motion)
       character(len=*), intent(in) :: motion
       type(scene_type) :: scene

@@ -2,8 +2,9 @@
 !>
 !> The first search is Newton's method, damped (damped_newton), from the best of some positions along the load. Where it
 !> fails, or finds an equilibrium that no motion dwells in, a wider one follows from all these positions: by small
-!> problems of the pads (pad_elimination), by Newton's method, by the motion itself (motion_to_rest); at last, where
-!> films do not rupture, with pads that hold the journal by suction.
+!> problems of the pads (pad_elimination, pad_rest), by Newton's method, damped or in parts of its own steps
+!> (shortened_newton), by the motion itself (motion_to_rest); at last, where films do not rupture, with pads that hold
+!> the journal by suction.
 module equilibrium
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error, stopped
@@ -23,7 +24,7 @@ module equilibrium
    public :: equilibrium_type, find_equilibrium
 
    !> The methods of the wider search, in their order.
-   integer, parameter :: by_pads = 1, by_newton = 2, by_rests = 3, by_motion = 4, by_suction = 5
+   integer, parameter :: by_pads = 1, by_newton = 2, by_rests = 3, by_parts = 4, by_motion = 5, by_suction = 6
    !> Iterations from an equilibrium of quick films to that of the model's own; iterations of the first search from a
    !> start along the load, after which films that are kept whole lead to the rest of most unloaded pads.
    integer, parameter :: few = 40, patience = 60
@@ -228,6 +229,10 @@ contains
          call eliminate_pads(model, y_of_pads, at_rest, ok, give_up)
          if (ok .and. all(at_rest)) y = y_of_pads
          ok = .true.
+      case (by_parts)
+         at_rest = .false.
+         call find_rests(model, y, at_rest)
+         call shorten_newton(model, y, ok, give_up)
       case (by_newton)
          call follow_motion(model, y, residual, error, give_up)
          ok = residual <= near

@@ -10,7 +10,7 @@ module pad_elimination
    use damped_newton, only: asked_to_stop, asked, reference_force, next_time_step, longest_move, shortest_move, trace
    implicit none (type, external)
    private
-   public :: eliminate_pads, settle_pads, film_of
+   public :: eliminate_pads, pad_balance, hold_second, unbalanced_forces, film_of, pad_limit
 
    !> Unbalanced forces over the reference force at which a pad and the journal rest: near enough for Newton's method
    !> on the whole.
@@ -59,17 +59,14 @@ contains
    end subroutine eliminate_pads
 
    !> Every pad to its own rest with the journal where it is; which of them found it.
-   subroutine settle_pads(model, journal, pads, at_rest, ok, first_step)
+   subroutine settle_pads(model, journal, pads, at_rest, ok)
       type(bearing_model), intent(inout) :: model
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(inout) :: pads(:)
       logical, intent(out) :: at_rest(:), ok
-      !> Time step to begin with, in radians of the shaft; 1 if it is left out.
-      real(wp), intent(in), optional :: first_step
       real(wp), dimension(size(pads)) :: time_step, unbalanced, last
       integer :: iteration, i
       time_step = 1/model%point%speed(0.0_wp)
-      if (present(first_step)) time_step = first_step*time_step
       at_rest = .false.
       do iteration = 0, pad_iterations
          call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok, .not. at_rest)

@@ -1,33 +1,45 @@
-!> The rest of one pad for a given journal, wherever there is one: where moments balance is sought over all its tilts,
-!> and, along each balance over the penetrations, where its radial force changes its sign or the balance ends.
+!> The rest of one pad for a given journal, wherever there is one: at every tilt the penetration is sought at which the
+!> radial forces balance, and, along the tilts with these, where the moment changes its sign.
 module pad_rest
    use kinds, only: wp, pi
    use scene, only: scene_type
    use kinematics, only: journal_motion, pad_state, pad_frame
    use equations_of_motion, only: bearing_model
-   use damped_newton, only: newtons
-   use pad_elimination, only: settle_pads, film_of
+   use two_equations, only: solved
+   use damped_newton, only: reference_force, longest_move
+   use pad_elimination, only: pad_balance, hold_second, unbalanced_forces, film_of, pad_limit
    use static_model, only: make_quick
    implicit none (type, external)
    private
    public :: find_rests
 
-   !> Tilts looked at; gaps in which the pad floats, and contact forces on its pivot, that are looked at.
-   integer, parameter :: tilts = 41, floats = 28, contacts = 6
+   !> Tilts looked at, closest where the pad faces the journal, by a hyperbolic sine up to this number, and at the ends.
+   integer, parameter :: tilts = 61
+   real(wp), parameter :: wide = 5
+   !> Gaps in which the pad floats, and contact forces on its pivot, that are looked at.
+   integer, parameter :: floats = 24, contacts = 7
    !> Gap over the machined clearance, contact force over the load, from which on they are looked at.
    real(wp), parameter :: least_gap = 2e-3_wp, least_contact = 1e-5_wp
-   !> Way across the tilts, from 0 to 1, that a balance goes from one penetration to the next.
-   real(wp), parameter :: longest_way = 0.25_wp
-   !> Halvings of the way from one penetration to the next.
-   integer, parameter :: halvings = 10
+   !> Radial force over that of film or weight, moment over that at the tilts beside it, that count as balanced; steps
+   !> to them.
+   real(wp), parameter :: balanced = 1e-3_wp
+   integer, parameter :: steps = 30
+   !> Halvings of a step of Newton's method, after which it is taken for better or worse.
+   integer, parameter :: patience = 8
+   !> Parts of the way between two places from whose ends it starts.
+   integer, parameter :: guesses = 4
 
-   !> The balances of moments at one penetration: tilts, rad, shares of the way across the tilts, radial forces, N, and
-   !> whether the pad comes back to them.
-   type :: balances_type
-      integer :: count = 0
-      real(wp) :: penetration = 0, tilt(tilts) = 0, share(tilts) = 0, radial(tilts) = 0
-      logical :: stable(tilts) = .false.
-   end type balances_type
+   !> A pad with its moment, N m, and radial force, N, and whether its film is open, or what was sought balances there.
+   type :: place_type
+      type(pad_state) :: pad
+      real(wp) :: moment = 0, radial = 0
+      logical :: ok = .false.
+   end type place_type
+
+   !> Two places, at the first of which a value is negative and at the second positive.
+   type :: bracket_type
+      real(wp) :: place(2) = 0, value(2) = 0
+   end type bracket_type
 
 contains
 
@@ -68,38 +80,38 @@ contains
       end associate
    end function scene_of_pad
 
-   !> The rest of the only pad of a model: a stable one if there is one.
+   !> The rest of the only pad of a model: of those to which the pad comes back, or else of the others, that with the
+   !> thinnest film, on which it is held best.
    subroutine find_rest(alone, journal, pad, found)
       type(bearing_model), intent(inout) :: alone
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(inout) :: pad
       logical, intent(out) :: found
-      type(balances_type), allocatable :: rows(:)
+      type(place_type) :: places(tilts)
       real(wp), allocatable :: penetrations(:)
-      type(pad_state) :: guess
-      integer :: row, k, next, turn
-      logical :: may_rest
+      real(wp) :: thinnest
+      type(place_type) :: sides(2)
+      type(pad_state) :: rest
+      integer :: k, turn
+      logical :: rests
       found = .false.
       penetrations = penetrations_of(alone, journal)
-      allocate (rows(size(penetrations)))
-      do row = 1, size(rows)
-         call find_balances(alone, journal, penetrations(row), rows(row))
-      end do
+      places = tilted(alone, journal, penetrations)
       do turn = 1, 2
-         do row = 1, size(rows)
-            do k = 1, rows(row)%count
-               if (rows(row)%stable(k) .neqv. turn == 1) cycle
-               if (.not. alone%layout%radial) then
-                  call try(alone, journal, pad_state(tilt=rows(row)%tilt(k)), pad, found)
-               end if
-               do next = max(row - 1, 1), min(row + 1, size(rows))
-                  if (found .or. next == row) cycle
-                  call follow(alone, journal, rows(row), k, rows(next), guess, may_rest)
-                  if (may_rest) call try(alone, journal, guess, pad, found)
-               end do
-               if (found) return
-            end do
+         do k = 2, tilts
+            if (.not. (places(k - 1)%ok .and. places(k)%ok)) cycle
+            if (places(k - 1)%moment < 0 .eqv. places(k)%moment < 0) cycle
+            if (places(k)%moment < 0 .neqv. turn == 1) cycle
+            sides = places(k - 1:k)
+            call close_in(alone, journal, penetrations, sides)
+            call settle_between(alone, journal, sides%pad, rest, rests)
+            if (.not. rests) cycle
+            if (found .and. film_of(alone, 1, journal, rest) > thinnest) cycle
+            thinnest = film_of(alone, 1, journal, rest)
+            pad = rest
+            found = .true.
          end do
+         if (found) return
       end do
    end subroutine find_rest
 
@@ -128,43 +140,117 @@ contains
          & contacts)]
    end function penetrations_of
 
-   !> The balances of moments over the tilts that leave the film open.
-   subroutine find_balances(alone, journal, penetration, row)
+   !> The pad at tilts that leave the film open at the largest penetration, where its radial forces balance.
+   function tilted(alone, journal, penetrations) result(places)
       type(bearing_model), intent(inout) :: alone
       type(journal_motion), intent(in) :: journal
-      real(wp), intent(in) :: penetration
-      type(balances_type), intent(out) :: row
+      real(wp), intent(in) :: penetrations(:)
+      type(place_type) :: places(tilts)
       type(pad_frame) :: frame
-      real(wp) :: middle, ends(2), tilt, share, moment, radial, last(4)
+      real(wp) :: middle, last, ways(2), part
       integer :: k
-      logical :: ok, last_ok
-      row%penetration = penetration
-      frame = alone%bearing%pads(1)%frame(journal, pad_state(penetration=penetration))
+      frame = alone%bearing%pads(1)%frame(journal, pad_state())
       middle = atan2(frame%along, -frame%outward)
-      if (.not. film_of(alone, 1, journal, pad_state(tilt=middle, penetration=penetration)) > 0) return
-      ends = [last_open(alone, journal, penetration, middle, -1.0_wp), &
-         & last_open(alone, journal, penetration, middle, 1.0_wp)]
-      last_ok = .false.
-      last = 0
+      last = penetrations(size(penetrations))
+      if (.not. film_of(alone, 1, journal, pad_state(tilt=middle, penetration=last)) > 0) return
+      ways = [middle - last_open(alone, journal, last, middle, -1.0_wp), &
+         & last_open(alone, journal, last, middle, 1.0_wp) - middle]
       do k = 1, tilts
-         share = 0.5_wp*(1 - cos(pi*(k - 0.5_wp)/tilts))
-         tilt = ends(1) + share*(ends(2) - ends(1))
-         call alone%evaluate(0.0_wp, alone%state(journal, [pad_state(tilt=tilt, penetration=penetration)]), .false., ok)
-         moment = alone%bearing%loads(1)%moment
-         radial = alone%bearing%loads(1)%radial
-         if (ok .and. last_ok .and. (moment < 0 .neqv. last(1) < 0)) then
-            associate (n => row%count, t => last(1)/(last(1) - moment))
-               n = n + 1
-               row%tilt(n) = last(2) + t*(tilt - last(2))
-               row%share(n) = last(3) + t*(share - last(3))
-               row%radial(n) = last(4) + t*(radial - last(4))
-               row%stable(n) = moment < 0
-            end associate
-         end if
-         last = [moment, tilt, share, radial]
-         last_ok = ok
+         part = sin(pi*((k - 0.5_wp)/tilts - 0.5_wp))
+         places(k) = radial_balance(alone, journal, penetrations, middle + sinh(wide*part)/sinh(wide) &
+            & *ways(merge(1, 2, part < 0)))
       end do
-   end subroutine find_balances
+   end function tilted
+
+   !> The pad at a tilt where its radial forces balance: between two of the penetrations, by false position.
+   type(place_type) function radial_balance(alone, journal, penetrations, tilt) result(balance)
+      type(bearing_model), intent(inout) :: alone
+      type(journal_motion), intent(in) :: journal
+      real(wp), intent(in) :: penetrations(:), tilt
+      type(bracket_type) :: bracket
+      integer :: first, last, middle, k
+      last = size(penetrations)
+      balance = place_at(alone, journal, pad_state(tilt=tilt, penetration=penetrations(last)))
+      if (.not. alone%layout%radial) return
+      balance%ok = balance%ok .and. balance%radial < 0
+      if (.not. balance%ok) return
+      call narrow(bracket, penetrations(last), balance%radial)
+      first = 0
+      do while (last - first > 1)
+         middle = (first + last)/2
+         balance = place_at(alone, journal, pad_state(tilt=tilt, penetration=penetrations(middle)))
+         call narrow(bracket, penetrations(middle), balance%radial)
+         if (balance%radial < 0) then
+            last = middle
+         else
+            first = middle
+         end if
+      end do
+      do k = 1, steps
+         if (first == 0) exit
+         ! films push far more than pivots pull
+         bracket%value(2) = min(bracket%value(2), -bracket%value(1))
+         balance = place_at(alone, journal, pad_state(tilt=tilt, penetration=crossing(bracket)))
+         if (balance%ok .and. abs(balance%radial) <= balanced*max(norm2(alone%bearing%loads(1)%journal), &
+            & alone%bearing%pads(1)%weight)) return
+         call narrow(bracket, balance%pad%penetration, balance%radial)
+      end do
+      balance%ok = .false.
+   end function radial_balance
+
+   !> Brings two tilts between which the moment changes its sign close together, likewise.
+   subroutine close_in(alone, journal, penetrations, sides)
+      type(bearing_model), intent(inout) :: alone
+      type(journal_motion), intent(in) :: journal
+      real(wp), intent(in) :: penetrations(:)
+      type(place_type), intent(inout) :: sides(2)
+      type(bracket_type) :: bracket
+      type(place_type) :: next
+      real(wp) :: enough
+      integer :: k
+      enough = balanced*minval(abs(sides%moment))
+      if (sides(1)%moment > 0) sides = sides([2, 1])
+      bracket = bracket_type(sides%pad%tilt, sides%moment)
+      do k = 1, steps
+         next = radial_balance(alone, journal, penetrations, crossing(bracket))
+         if (.not. next%ok) return
+         call narrow(bracket, next%pad%tilt, next%moment)
+         sides(merge(1, 2, next%moment < 0)) = next
+         if (abs(next%moment) > enough) cycle
+         sides = next
+         return
+      end do
+   end subroutine close_in
+
+   !> Where the value is zero if it changes evenly.
+   pure real(wp) function crossing(bracket)
+      type(bracket_type), intent(in) :: bracket
+      associate (x => bracket%place, f => bracket%value)
+         crossing = x(1) + (x(2) - x(1))*f(1)/(f(1) - f(2))
+      end associate
+   end function crossing
+
+   !> Replaces one of the places, and halves the value at the other so that it is replaced soon (Illinois).
+   pure subroutine narrow(bracket, place, value)
+      type(bracket_type), intent(inout) :: bracket
+      real(wp), intent(in) :: place, value
+      integer :: side
+      side = merge(1, 2, value < 0)
+      bracket%place(side) = place
+      bracket%value(side) = value
+      bracket%value(3 - side) = 0.5_wp*bracket%value(3 - side)
+   end subroutine narrow
+
+   !> A pad with its loads; a film that is closed pushes it off.
+   type(place_type) function place_at(alone, journal, pad) result(place)
+      type(bearing_model), intent(inout) :: alone
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(in) :: pad
+      place%pad = pad
+      call alone%evaluate(0.0_wp, alone%state(journal, [pad]), .false., place%ok)
+      place%moment = alone%bearing%loads(1)%moment
+      place%radial = merge(alone%bearing%loads(1)%radial, huge(1.0_wp), place%ok)
+   end function place_at
 
    !> The last tilt in one sense from the middle that leaves the film open.
    real(wp) function last_open(alone, journal, penetration, middle, sense)
@@ -186,62 +272,56 @@ contains
       end do
    end function last_open
 
-   !> Follows balance k of a row towards another row, by halving the way, up to where its radial force changes its sign
-   !> or the balance ends; `may_rest` is false where it does neither.
-   subroutine follow(alone, journal, row, k, other, guess, may_rest)
+   !> Newton's method from places between two, which lie apart where penetrations leap; whether one leads to rest.
+   subroutine settle_between(alone, journal, sides, rest, rests)
       type(bearing_model), intent(inout) :: alone
       type(journal_motion), intent(in) :: journal
-      type(balances_type), intent(in) :: row, other
-      integer, intent(in) :: k
-      type(pad_state), intent(out) :: guess
-      logical, intent(out) :: may_rest
-      type(balances_type) :: near, middle
-      real(wp) :: far
-      integer :: at, next, halving
-      may_rest = follower(row, k, other) == 0
-      if (.not. may_rest) return
-      near = row
-      at = k
-      far = other%penetration
-      do halving = 1, halvings
-         call find_balances(alone, journal, 0.5_wp*(near%penetration + far), middle)
-         next = follower(near, at, middle)
-         if (next == 0) then
-            far = middle%penetration
-         else
-            near = middle
-            at = next
-         end if
+      type(pad_state), intent(in) :: sides(2)
+      type(pad_state), intent(out) :: rest
+      logical, intent(out) :: rests
+      real(wp) :: share
+      integer :: k
+      do k = 0, guesses
+         share = real(k, wp)/guesses
+         rest%tilt = (1 - share)*sides(1)%tilt + share*sides(2)%tilt
+         rest%penetration = (1 - share)*sides(1)%penetration + share*sides(2)%penetration
+         call settle(alone, journal, rest, rests)
+         if (rests) return
       end do
-      guess = pad_state(tilt=near%tilt(at), penetration=near%penetration)
-   end subroutine follow
+   end subroutine settle_between
 
-   !> The balance in another row that continues balance k with a radial force of the same sign; 0 where there is none.
-   pure integer function follower(row, k, other)
-      type(balances_type), intent(in) :: row, other
-      integer, intent(in) :: k
-      follower = 0
-      if (other%count == 0) return
-      follower = minloc(abs(other%share(:other%count) - row%share(k)), &
-         & mask=other%stable(:other%count) .eqv. row%stable(k), dim=1)
-      if (follower == 0) return
-      if (abs(other%share(follower) - row%share(k)) > longest_way) follower = 0
-      if (follower == 0) return
-      if (row%radial(k) < 0 .neqv. other%radial(follower) < 0) follower = 0
-   end function follower
-
-   !> Newton's method on the pad from a guess; where it comes to rest this is the pad's state.
-   subroutine try(alone, journal, guess, pad, found)
+   !> Newton's method on the pad, its steps shortened where they go too far or make nothing better; whether it comes to
+   !> rest.
+   subroutine settle(alone, journal, pad, rests)
       type(bearing_model), intent(inout) :: alone
       type(journal_motion), intent(in) :: journal
-      type(pad_state), intent(in) :: guess
       type(pad_state), intent(inout) :: pad
-      logical, intent(out) :: found
-      type(pad_state) :: trial(1)
-      logical :: at_rest(1), ok
-      trial = guess
-      call settle_pads(alone, journal, trial, at_rest, ok, newtons)
-      found = ok .and. at_rest(1)
-      if (found) pad = trial(1)
-   end subroutine try
+      logical, intent(out) :: rests
+      type(pad_state) :: trial
+      real(wp) :: force(2), stiffness(2, 2), damping(2, 2), step(2), last(1), arc, longest
+      integer :: iteration, halving
+      logical :: ok
+      arc = alone%bearing%pads(1)%gap%arc()*alone%bearing%pads(1)%gap%pad_radius()
+      longest = longest_move*alone%scene%bearing%assembled_clearance
+      rests = .false.
+      do iteration = 0, steps
+         call alone%evaluate(0.0_wp, alone%state(journal, [pad]), .true., ok)
+         if (.not. ok) return
+         last = unbalanced_forces(alone)
+         rests = last(1) <= pad_limit*reference_force(alone)
+         if (rests) return
+         call pad_balance(alone, 1, force, stiffness, damping)
+         if (.not. alone%layout%radial) call hold_second(force, stiffness, damping)
+         step = solved(stiffness, -force)
+         step = step*longest/max(longest, abs(step(1))*arc, abs(step(2)))
+         do halving = 0, patience
+            trial = pad_state(tilt=pad%tilt + step(1)/2**halving, penetration=pad%penetration + step(2)/2**halving)
+            call alone%evaluate(0.0_wp, alone%state(journal, [trial]), .false., ok)
+            if (.not. ok) cycle
+            if (all(unbalanced_forces(alone) < last)) exit
+         end do
+         if (.not. ok) return
+         pad = trial
+      end do
+   end subroutine settle
 end module pad_rest

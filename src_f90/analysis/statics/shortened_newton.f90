@@ -1,5 +1,5 @@
-!> Newton's method alone, its steps shortened where they go too far or make nothing better: for rests that every motion
-!> leaves, such as that of pads which pull.
+!> Newton's method alone, its steps shortened where they go too far or make nothing better: for rests that the motion
+!> without inertia leaves, such as that of pads which pull, or which balance with the journal but not alone.
 module shortened_newton
    use kinds, only: wp
    use lapack, only: dgesv
