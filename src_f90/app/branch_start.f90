@@ -180,8 +180,7 @@ contains
       run%computed = .true.
       allocate (at_rest(run%model%n), source=0.0_wp)
       if (b%of_orbits) then
-         allocate (orbit%time(0:1), orbit%at(run%model%n, points, 1), source=0.0_wp)
-         orbit%time(1) = 1
+         call orbit%set_mesh([0.0_wp, 1.0_wp], spread(spread(at_rest, 2, points), 3, 1))
          orbit%start = at_rest
          orbit%scale = run%model%scale
          if (has_warm_oil(run%model)) call begin_oil(run%model, b, at_rest)

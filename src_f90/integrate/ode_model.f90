@@ -22,6 +22,8 @@ module ode_model
       !> Which states are displacements, and which their rates.
       procedure :: pairs
       procedure :: blocks
+      procedure :: kinks
+      procedure :: drive
       !> The quantities sampled beside the states.
       procedure :: output
       !> What may soon stop the integration in the state evaluated last, for its message; else empty.
@@ -99,6 +101,22 @@ contains
       number = 0
       states = 0
    end subroutine blocks
+
+   !> States and values of them at which the derivatives of the rates jump.
+   pure subroutine kinks(self, state, value)
+      class(ode_model_type), intent(in) :: self
+      integer, allocatable, intent(out) :: state(:)
+      real(wp), allocatable, intent(out) :: value(:)
+      allocate (state(0), value(0))
+   end subroutine kinks
+
+   !> The derivatives of the rates over time, in a state that stays.
+   pure function drive(self, t)
+      class(ode_model_type), intent(in) :: self
+      real(wp), intent(in) :: t
+      real(wp) :: drive(self%n)
+      drive = 0
+   end function drive
 
    !> From the last evaluation, and to first order at the state that `correction` leads to from the state of that
    !> evaluation; 0: in that state itself.

@@ -1,6 +1,6 @@
 !> Equations of motion (1)-(4) of a rotor and the pads of its bearing as an ODE, with their linearisation.
 module equations_of_motion
-   use kinds, only: wp, degree
+   use kinds, only: wp
    use scene, only: scene_type
    use operating_point, only: operating_point_type
    use film_solver, only: film_counters
@@ -11,6 +11,7 @@ module equations_of_motion
    use viscosity_course, only: viscosity_course_type
    use state_layout, only: state_layout_type, new_state_layout, at_tilt, at_tilt_rate, at_penetration, &
       & at_penetration_rate
+   use natural_sizes, only: state_scales
    use newton_system, only: newton_system_type, new_newton_system
    implicit none (type, external)
    private
@@ -47,6 +48,8 @@ module equations_of_motion
       procedure :: tangent
       procedure :: pairs
       procedure :: blocks
+      procedure :: kinks
+      procedure :: drive
       procedure :: evaluate
       procedure :: set_point
       procedure :: adopt
@@ -59,9 +62,6 @@ module equations_of_motion
       procedure :: pressure_field
       procedure :: film_counters => counters_of_films
    end type bearing_model
-
-   !> Scale of the tilt rate over that at which Bengisu-Akay friction changes its direction.
-   real(wp), parameter :: sticking_scale = 10
 
 contains
 
@@ -79,7 +79,7 @@ contains
       model%n = model%layout%n
       model%outputs = pad_outputs*n
       call model%set_point(operating_point_type(scene))
-      model%scale = state_scales(model)
+      model%scale = state_scales(scene, model%point, model%rotor, model%bearing, model%layout)
       model%newton = new_newton_system(model%layout)
    end function new_bearing_model
 
@@ -110,36 +110,6 @@ contains
       point%rupture = self%point%rupture
       call self%set_point(point)
    end subroutine adopt
-
-   !> Natural size of each state: clearance; clearance over pad length; the penetration under the load;
-   !> the deflection at which bristles yield; rates: times the highest speed, but the tilt rate not above
-   !> ten times that at which friction changes its direction, or its moment would be no better than 1e-2.
-   function state_scales(model) result(scale)
-      type(bearing_model), intent(in) :: model
-      real(wp) :: scale(model%n)
-      type(pad_state) :: pads(model%layout%pads)
-      real(wp) :: speed, force
-      integer :: i
-      associate (scene => model%scene, b => model%scene%bearing, friction => model%bearing%friction)
-         speed = scene%highest_speed()
-         scale(:model%rotor%states) = model%rotor%scales(b%assembled_clearance, speed)
-         do i = 1, size(pads)
-            pads(i)%tilt = b%assembled_clearance/((b%journal_radius + b%machined_clearance) &
-               & *scene%pads%arc_deg(i)*degree)
-            pads(i)%tilt_rate = min(pads(i)%tilt*speed, sticking_scale*friction%sticking_velocity() &
-               & /model%bearing%pads(i)%ball_radius)
-            if (model%layout%radial) then
-               force = norm2(model%point%load) + model%point%unbalance*speed**2
-               pads(i)%penetration = 1e-3_wp*b%assembled_clearance
-               if (force > 0) pads(i)%penetration = max(pads(i)%penetration, model%bearing%penetration(force))
-               pads(i)%penetration_rate = pads(i)%penetration*speed
-            end if
-            if (model%layout%bristles) pads(i)%deflection = friction%static_coefficient &
-               & /scene%friction%bristle_stiffness
-         end do
-      end associate
-      call model%layout%put_pads(pads, scale)
-   end function state_scales
 
    !> The state with journal and pads at rest at given positions, m, tilts, rad, and penetrations, m (what a pad lacks
    !> does not matter), bristles undeflected.
@@ -299,6 +269,28 @@ contains
       number = merge(self%layout%pads, 0, self%layout%tilting)
       states = self%layout%per_pad
    end subroutine blocks
+
+   !> The tilt rates at which the pivot passes a kink of its friction.
+   pure subroutine kinks(self, state, value)
+      class(bearing_model), intent(in) :: self
+      integer, allocatable, intent(out) :: state(:)
+      real(wp), allocatable, intent(out) :: value(:)
+      real(wp), allocatable :: velocity(:)
+      integer :: pads, i, j
+      velocity = self%bearing%friction%kinks()
+      pads = merge(self%layout%pads, 0, self%layout%tilting)
+      state = [((self%layout%tilt_rate(i), j=1, size(velocity)), i=1, pads)]
+      value = [(velocity/self%bearing%pads(i)%ball_radius, i=1, pads)]
+   end subroutine kinks
+
+   !> The unbalance turns; at constant speed.
+   pure function drive(self, t)
+      class(bearing_model), intent(in) :: self
+      real(wp), intent(in) :: t
+      real(wp) :: drive(self%n)
+      drive = 0
+      drive(:self%rotor%states) = self%rotor%rates(drive(:self%rotor%states), self%rotor%turn(self%point, t))
+   end function drive
 
    !> What is sampled at (t, y), where these outputs are known; no film is evaluated. The record may be used again.
    pure subroutine take_sample(self, t, y, output, sample)

@@ -21,6 +21,7 @@ module rigid_journal
       procedure :: with_journal
       procedure :: scales
       procedure :: force
+      procedure :: turn
       procedure :: rates
       procedure :: rate_derivatives
       procedure :: own_derivatives
@@ -64,6 +65,16 @@ contains
       direction = [cos(phase), sin(phase)]
       force = point%load + point%unbalance*(speed**2*direction + point%acceleration*[direction(2), -direction(1)])
    end function force
+
+   !> How the force changes with time at constant speed, N/s.
+   pure function turn(self, point, t)
+      class(rigid_journal_type), intent(in) :: self
+      type(operating_point_type), intent(in) :: point
+      real(wp), intent(in) :: t
+      real(wp) :: turn(2), phase
+      phase = point%shaft_angle(t)
+      turn = point%unbalance*point%speed(t)**3*[-sin(phase), cos(phase)]
+   end function turn
 
    !> Rates of the states under a force on the journal along y and z, N.
    pure function rates(self, states, force)

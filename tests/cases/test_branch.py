@@ -8,6 +8,9 @@ from conftest import EVERY_STEP, one_error, options, wait_for_checkpoint
 #: Its journal loses its stability at the threshold that the task coefficients finds.
 LIGHT = "&rotor mass=200 /\n&operation speed_rpm=14000 /\n"
 LUGRE = "&friction model='lugre' /\n&operation speed_rpm=3000 /\n&output samples_per_revolution=90 /\n"
+BENGISU_AKAY = (
+    "&friction model='bengisu_akay' /\n&operation speed_rpm=6500 /\n&output samples_per_revolution=90 /\n"
+)
 SPEED = ("case%task='branch'", "branch%parameter='operation%speed_rpm'")
 EQUILIBRIA = (*SPEED, "branch%of='equilibrium'", "branch%last=16000", "branch%step=200")
 ORBITS = (*SPEED, "branch%last=3300", "branch%step=50", "branch%max_step=100")
@@ -37,15 +40,16 @@ def test_equilibria_lose_their_stability_at_the_threshold(run, tmp_path):
         )
 
 
-def test_the_last_orbit_is_that_of_its_speed(run, tmp_path):
+@pytest.mark.parametrize(("text", "last", "step"), [(LUGRE, 3300, 50), (BENGISU_AKAY, 8000, 100)])
+def test_the_last_orbit_is_that_of_its_speed(run, tmp_path, text, last, step):
     """As close as the meshes of both, some 1e-4 of the tolerance 1e-5 of the states in position."""
-    run(LUGRE, *ORBITS)
-    run(LUGRE, "case%task='periodic'", "operation%speed_rpm=3300", name="orbit")
+    run(text, *SPEED, f"branch%last={last}", f"branch%step={step}", f"branch%max_step={2 * step}")
+    run(text, "case%task='periodic'", f"operation%speed_rpm={last}", name="orbit")
     with h5py.File(tmp_path / "case.h5") as branch, h5py.File(tmp_path / "orbit.h5") as orbit:
         assert branch.attrs["complete"] == 1
         assert list(branch["point"]) == list(range(1, len(branch["point"]) + 1))
-        assert branch["parameter"][-1] == 3300
-        assert branch["period"][-1] == pytest.approx(60 / 3300, rel=1e-12)
+        assert branch["parameter"][-1] == last
+        assert branch["period"][-1] == pytest.approx(60 / last, rel=1e-12)
         for name, series in (("journal_y", orbit["journal_y"]), ("journal_z", orbit["journal_z"])):
             assert branch[name + "_max"][-1] == pytest.approx(max(series), abs=1e-9)
             assert branch[name + "_min"][-1] == pytest.approx(min(series), abs=1e-9)
@@ -61,9 +65,10 @@ def test_the_last_orbit_is_that_of_its_speed(run, tmp_path):
         )
 
 
-def test_a_stopped_branch_goes_on_with_the_same_bits(start, tiltpad, run, tmp_path):
-    more = (*SPEED, "branch%last=4500", "branch%step=10", "branch%max_step=10")
-    run(LUGRE, *more, name="whole")
+@pytest.mark.parametrize(("text", "last"), [(LUGRE, 4500), (BENGISU_AKAY, 8000)])
+def test_a_stopped_branch_goes_on_with_the_same_bits(start, tiltpad, run, tmp_path, text, last):
+    more = (*SPEED, f"branch%last={last}", "branch%step=10", "branch%max_step=10")
+    run(text, *more, name="whole")
     process = start(tmp_path, "whole.nml", "-q", "-o", "part.h5", *options(more), *EVERY_STEP)
     wait_for_checkpoint(tmp_path / "part.h5", process)
     process.terminate()

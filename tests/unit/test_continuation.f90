@@ -370,11 +370,9 @@ contains
       integer, intent(in) :: n
       real(wp), intent(in) :: period
       integer :: k
-      allocate (orbit%time(0:n), orbit%at(2, points, n), orbit%start(2), orbit%scale(2))
-      orbit%time = [(period*k/n, k=0, n)]
-      orbit%at = 0
-      orbit%start = 0
-      orbit%scale = 1
+      allocate (orbit%start(2), source=0.0_wp)
+      allocate (orbit%scale(2), source=1.0_wp)
+      call orbit%set_mesh([(period*k/n, k=0, n)], reshape([real(wp) ::], [2, points, n], pad=[0.0_wp]))
    end function at_rest
 
    !> The rest at w = 0 has the multipliers -exp(2 pi p) and -exp(-2 pi): a flip at p = 0. The orbits of double period

@@ -1,11 +1,12 @@
 !> Collocation of periodic orbits on problems with known orbits and multipliers: a forced linear oscillator with a stiff
-!> state beside it, Van der Pol's oscillator, forced at its own period, and oscillators that know one another by one.
+!> state beside it, Van der Pol's oscillator, forced at its own period, oscillators that know one another by one, and
+!> one with a spring that is stiffer on one side.
 module orbit_problems
    use kinds, only: wp
    use ode_model, only: ode_model_type
    implicit none (type, external)
    private
-   public :: linear_problem, van_der_pol, coupled_problem
+   public :: linear_problem, van_der_pol, coupled_problem, bent_problem
 
    !> x'' + 2 d x' + x = cos t, and z' = -k (z - x).
    type, extends(ode_model_type) :: linear_problem
@@ -43,6 +44,18 @@ module orbit_problems
       procedure :: pairs => coupled_pairs
       procedure :: blocks => coupled_blocks
    end type coupled_problem
+
+   !> x'' + 2 d x' + x + a max(x - b, 0) = cos t.
+   type, extends(ode_model_type) :: bent_problem
+      real(wp) :: damping = 0.1_wp, more = 0.5_wp, bend = 0.3_wp, x = 0
+   contains
+      procedure :: rhs => bent_rhs
+      procedure :: linearize => keep_place
+      procedure :: jacobian_times => bent_times
+      procedure :: solve => no_bent_solution
+      procedure :: kinks => bend_of_spring
+      procedure :: drive => turn_of_force
+   end type bent_problem
 
 contains
 
@@ -162,6 +175,53 @@ contains
       number = merge(2, 0, self%in_blocks)
       states = 3
    end subroutine coupled_blocks
+
+   subroutine bent_rhs(self, t, y, dydt, ok)
+      class(bent_problem), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: dydt(:)
+      logical, intent(out) :: ok
+      dydt = [y(2), cos(t) - y(1) - self%more*max(y(1) - self%bend, 0.0_wp) - 2*self%damping*y(2)]
+      ok = .true.
+   end subroutine bent_rhs
+
+   subroutine keep_place(self, t, y, ok)
+      class(bent_problem), intent(inout) :: self
+      real(wp), intent(in) :: t, y(:)
+      logical, intent(out) :: ok
+      self%x = y(1)
+      ok = .true.
+   end subroutine keep_place
+
+   subroutine bent_times(self, v, jv)
+      class(bent_problem), intent(inout) :: self
+      real(wp), intent(in) :: v(:)
+      real(wp), intent(out) :: jv(:)
+      jv = [v(2), -(1 + merge(self%more, 0.0_wp, self%x > self%bend))*v(1) - 2*self%damping*v(2)]
+   end subroutine bent_times
+
+   pure subroutine bend_of_spring(self, state, value)
+      class(bent_problem), intent(in) :: self
+      integer, allocatable, intent(out) :: state(:)
+      real(wp), allocatable, intent(out) :: value(:)
+      state = [1]
+      value = [self%bend]
+   end subroutine bend_of_spring
+
+   pure function turn_of_force(self, t) result(drive)
+      class(bent_problem), intent(in) :: self
+      real(wp), intent(in) :: t
+      real(wp) :: drive(self%n)
+      drive = [0.0_wp, -sin(t)]
+   end function turn_of_force
+
+   subroutine no_bent_solution(self, gamma, b, ok)
+      class(bent_problem), intent(inout) :: self
+      real(wp), intent(in) :: gamma
+      real(wp), intent(inout) :: b(:)
+      logical, intent(out) :: ok
+      ok = .false.
+   end subroutine no_bent_solution
 end module orbit_problems
 
 program test_orbit_collocation
@@ -170,8 +230,9 @@ program test_orbit_collocation
    use orbit_polynomials, only: orbit_type, points, place
    use orbit_collocation, only: newton_round
    use errors, only: error_type
+   use text, only: to_text
    use floquet_multipliers, only: set_multipliers
-   use orbit_problems, only: linear_problem, van_der_pol, coupled_problem
+   use orbit_problems, only: linear_problem, van_der_pol, coupled_problem, bent_problem
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
 
@@ -183,6 +244,7 @@ program test_orbit_collocation
    if (runs('state_at')) call state_at()
    if (runs('limit_cycle')) call limit_cycle()
    if (runs('blocks')) call blocks()
+   if (runs('kinks')) call kinks()
    call report()
 
 contains
@@ -192,11 +254,9 @@ contains
       integer, intent(in) :: states, n
       real(wp), intent(in) :: period
       integer :: k
-      allocate (orbit%time(0:n), orbit%at(states, points, n), orbit%start(states), orbit%scale(states))
-      orbit%time = [(period*k/n, k=0, n)]
-      orbit%at = 0
-      orbit%start = 0
-      orbit%scale = 1
+      allocate (orbit%start(states), source=0.0_wp)
+      allocate (orbit%scale(states), source=1.0_wp)
+      call orbit%set_mesh([(period*k/n, k=0, n)], reshape([real(wp) ::], [states, points, n], pad=[0.0_wp]))
    end function at_rest
 
    !> x = sin(t)/(2 d) and z = x - x'/k + ..., for d = 0.1. One round solves what is linear. Of the multipliers,
@@ -340,4 +400,62 @@ contains
       call newton_round(problem, orbit(2), huge(1.0_wp), error)
       call expect_close(orbit(2)%residual, 0.0_wp, 1e-12_wp, 'its equations are satisfied')
    end subroutine blocks
+
+   !> Ends of intervals at a kink: the orbit passes it exactly there, Newton's method stays quadratic, and the
+   !> multipliers keep their order, which a kink inside of an interval would take from them. Their product is
+   !> exp(-4 pi d), and their sum is that of the two springs, each for the time between two ends.
+   subroutine kinks()
+      type(bent_problem) :: problem
+      type(orbit_type) :: orbit
+      type(error_type), allocatable :: error
+      complex(wp), allocatable :: values(:)
+      real(wp) :: errors(2), last, passages(2), between, y(2)
+      integer :: i, round
+      logical :: ok
+      problem%n = 2
+      do i = 1, 2
+         orbit = at_rest(2, 15*2**i, 2*pi)
+         last = huge(last)
+         do round = 1, 8
+            call newton_round(problem, orbit, huge(1.0_wp), error)
+            call expect_no_error(error, 'a round')
+            if (last < 0.1_wp) call expect(orbit%correction < last**2 + 1e-12_wp, 'quadratic: '//to_text(last)//' to ' &
+               & //to_text(orbit%correction))
+            last = orbit%correction
+         end do
+         call expect(count(orbit%kink == 1) == 2, 'two passages')
+         if (count(orbit%kink == 1) /= 2) return
+         passages = pack(orbit%time, orbit%kink == 1)
+         call orbit%state_at(passages(1), y)
+         call expect_close(y(1), problem%bend, 1e-14_wp, 'the kink is there')
+         call set_multipliers(orbit%monodromy, values, ok)
+         call expect_close(real(product(values)), exp(-4*pi*problem%damping), 1e-6_wp, 'product of the multipliers')
+         between = passages(2) - passages(1)
+         if (orbit%start(1) > problem%bend) between = 2*pi - between
+         errors(i) = abs(real(sum(values)) - sum_of_multipliers(problem, between))
+      end do
+      call expect(errors(1)/errors(2) > 28 .and. errors(1)/errors(2) < 36, 'order 5: '//to_text(errors(1))//' to ' &
+         & //to_text(errors(2)))
+   end subroutine kinks
+
+   !> The trace of the product of both springs' exact solutions, that of the stiffer one for so long in a period.
+   real(wp) function sum_of_multipliers(problem, length) result(sum)
+      type(bent_problem), intent(in) :: problem
+      real(wp), intent(in) :: length
+      real(wp) :: m(2, 2)
+      associate (d => problem%damping)
+         m = matmul(free_motion(d, 1.0_wp, 2*pi - length), free_motion(d, 1 + problem%more, length))
+      end associate
+      sum = m(1, 1) + m(2, 2)
+   end function sum_of_multipliers
+
+   !> What x'' + 2 d x' + k x = 0 makes of a state in a time.
+   pure function free_motion(d, k, t) result(m)
+      real(wp), intent(in) :: d, k, t
+      real(wp) :: m(2, 2), w
+      w = sqrt(k - d**2)
+      m(:, 1) = [cos(w*t) + d/w*sin(w*t), -k/w*sin(w*t)]
+      m(:, 2) = [sin(w*t)/w, cos(w*t) - d/w*sin(w*t)]
+      m = exp(-d*t)*m
+   end function free_motion
 end program test_orbit_collocation

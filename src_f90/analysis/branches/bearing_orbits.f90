@@ -7,7 +7,6 @@ module bearing_orbits
    use cvode_integrator, only: integrator_type
    use orbit_polynomials, only: orbit_type
    use orbit_march, only: march_period, mesh_options
-   use kink_mesh, only: kinks_of_friction => follow_kinks
    use parametric_ode, only: parametric_ode_type
    use varied_bearing, only: varied_bearing_type
    use resting_oil, only: resting_oil_type
@@ -24,7 +23,6 @@ module bearing_orbits
    contains
       procedure :: set
       procedure :: period
-      procedure :: follow_kinks
       procedure :: new_mesh
       procedure :: begin_here
       procedure :: get_start
@@ -54,12 +52,6 @@ contains
       class(bearing_orbits_type), intent(in) :: self
       period = 2*pi/self%bearing%model%point%speed(0.0_wp)
    end function period
-
-   subroutine follow_kinks(self, orbit)
-      class(bearing_orbits_type), intent(in) :: self
-      type(orbit_type), intent(inout) :: orbit
-      call kinks_of_friction(self%bearing%model, orbit)
-   end subroutine follow_kinks
 
    !> The steps of a march over the second of two periods.
    subroutine new_mesh(self, orbit, mesh)

@@ -6,6 +6,7 @@ module orbit_branch
    use lapack, only: dgesv
    use continuation, only: branch_problem_type, branch_point_type, return_to
    use orbit_polynomials, only: orbit_type, points, place
+   use kink_mesh, only: follow_kinks
    use orbit_collocation, only: orbit_equations_type, parameter_shift_type, condense, closing_equations, move_orbit, &
       & collocated_state
    use parametric_ode, only: parametric_ode_type
@@ -22,9 +23,8 @@ module orbit_branch
       integer(i8) :: tangents = 0, evaluations = 0
       class(parametric_ode_type), pointer, private :: ode => null()
       type(orbit_equations_type), private :: equations
-      !> Ends of intervals from which each point's mesh is made, as parts of the period; and how far the first orbit on
-      !> them was from satisfying the rates in the middle of the intervals, < 0: not known yet.
-      real(wp), allocatable, private :: mesh(:)
+      !> How far the first orbit on its mesh was from satisfying the rates in the middle of the intervals, < 0: not
+      !> known yet.
       real(wp), private :: first_defect = -1
    contains
       procedure :: linearize
@@ -72,7 +72,6 @@ contains
       problem%turns = turns
       problem%parameter = parameter
       problem%unit = unit
-      problem%mesh = orbit%time/orbit%time(orbit%intervals())
    end subroutine begin_orbits
 
    !> Period of the orbit, s.
@@ -92,7 +91,7 @@ contains
       self%refused = allocated(error)
       if (self%refused) return
       call set_period(self%orbit, self%period())
-      call self%ode%follow_kinks(self%orbit)
+      call follow_kinks(self%ode%model, self%orbit)
       call self%set_shift(shift, error)
       self%refused = allocated(error)
       if (self%refused) return
@@ -151,26 +150,38 @@ contains
       correction = max(self%orbit%correction, abs(change(self%n + 1)))
    end subroutine move
 
-   !> Each point starts from the same mesh, to which kinks have been added on the way; from a new one where the orbit
-   !> has changed so much that it fits the old one less.
+   !> The mesh goes along, and with it the kinks; where the orbit has changed so much that it fits its mesh less, from a
+   !> new one.
    subroutine predict(self, change)
       class(orbit_problem_type), intent(inout) :: self
       real(wp), intent(in) :: change(:)
-      real(wp), allocatable :: mesh(:)
+      real(wp), allocatable :: mesh(:), before(:)
       real(wp) :: ignored, now
-      logical :: ages
       call self%ode%begin_here()
       now = self%defect()
       if (self%first_defect < 0) self%first_defect = now
-      ages = now > largest_growth*self%first_defect
-      call self%move(change, .false., ignored)
-      if (ages) then
+      if (now > largest_growth*self%first_defect) then
          call self%ode%new_mesh(self%orbit, mesh)
-         if (allocated(mesh)) call move_alloc(mesh, self%mesh)
          self%first_defect = -1
       end if
-      call self%orbit%change_mesh(self%mesh*self%orbit%time(self%orbit%intervals()))
+      before = [self%orbit%time]
+      call self%move(change, .false., ignored)
+      if (allocated(mesh)) call self%orbit%change_mesh(moved(mesh*self%period(), before, [self%orbit%time]))
    end subroutine predict
+
+   !> Times of a mesh, s, that goes along where the ends of another go.
+   pure function moved(mesh, before, after)
+      real(wp), intent(in) :: mesh(:), before(:), after(:)
+      real(wp) :: moved(size(mesh))
+      integer :: i, k
+      k = 1
+      do i = 1, size(mesh)
+         do while (before(k + 1) < mesh(i) .and. k < size(before) - 1)
+            k = k + 1
+         end do
+         moved(i) = after(k) + (mesh(i) - before(k))*(after(k + 1) - after(k))/(before(k + 1) - before(k))
+      end do
+   end function moved
 
    !> The largest defect of the rates between the points of an interval, times its length, over the scales.
    real(wp) function defect(self)
@@ -216,17 +227,16 @@ contains
       end if
    end function kind_of
 
-   !> Turns, parameter, first defect, whether the mesh has settled, sizes of both meshes, and the meshes, start and
-   !> points; where the model is sought.
+   !> Turns, parameter, first defect, intervals, and their ends, the kinks there, start and points; where the model is
+   !> sought.
    pure subroutine get_place(self, place)
       class(orbit_problem_type), intent(in) :: self
       real(wp), allocatable, intent(out) :: place(:)
       real(wp), allocatable :: sought(:)
       call self%ode%get_start(sought)
       associate (orbit => self%orbit)
-         place = [real(self%turns, wp), self%parameter, self%first_defect, merge(1.0_wp, 0.0_wp, orbit%settled), &
-            & real(size(self%mesh), wp), real(orbit%intervals(), wp), self%mesh, orbit%time, orbit%start, orbit%at, &
-            & sought]
+         place = [real(self%turns, wp), self%parameter, self%first_defect, real(orbit%intervals(), wp), orbit%time, &
+            & real(orbit%kink, wp), orbit%start, orbit%at, sought]
       end associate
    end subroutine get_place
 
@@ -255,24 +265,20 @@ contains
    subroutine go_to(self, place)
       class(orbit_problem_type), intent(inout) :: self
       real(wp), intent(in) :: place(:)
-      integer :: ends, intervals, o
+      integer :: intervals, o
       self%turns = nint(place(1))
       self%parameter = place(2)
       self%first_defect = place(3)
-      ends = nint(place(5))
-      intervals = nint(place(6))
-      o = 6
-      self%mesh = place(o + 1:o + ends)
-      o = o + ends
+      intervals = nint(place(4))
+      o = 4
       associate (orbit => self%orbit)
-         orbit%settled = place(4) > 0
-         orbit%last_correction = huge(1.0_wp)
-         deallocate (orbit%time)
-         allocate (orbit%time(0:intervals), source=place(o + 1:o + intervals + 1))
+         call orbit%set_mesh(place(o + 1:o + intervals + 1), reshape(place(o + 2*(intervals + 1) + self%n + 1:), &
+            & [self%n, points, intervals]))
+         o = o + intervals + 1
+         orbit%kink(:) = nint(place(o + 1:o + intervals + 1))
          o = o + intervals + 1
          orbit%start = place(o + 1:o + self%n)
          o = o + self%n
-         orbit%at = reshape(place(o + 1:), [self%n, points, intervals])
          o = o + size(orbit%at)
       end associate
       call self%ode%set_start(place(o + 1:))
@@ -291,7 +297,7 @@ contains
       type(branch_point_type), intent(in) :: flip
       type(branch_point_type), intent(out) :: point
       logical, intent(out) :: ok
-      real(wp), allocatable :: time(:), at(:, :, :)
+      type(orbit_type) :: twice
       real(wp) :: direction(problem%n), matrix(problem%n, problem%n)
       integer :: pivots(problem%n), info, i, n
       call return_to(problem, flip)
@@ -307,14 +313,12 @@ contains
          direction = direction/sqrt(sum(problem%weight*direction**2))
       end do
       n = problem%orbit%intervals()
-      allocate (time(0:2*n), at(problem%n, points, 2*n))
-      time(:n) = problem%orbit%time
-      time(n:) = time(n) + problem%orbit%time
-      at(:, :, :n) = problem%orbit%at
-      at(:, :, n + 1:) = problem%orbit%at
-      call move_alloc(time, problem%orbit%time)
-      call move_alloc(at, problem%orbit%at)
-      problem%mesh = 0.5_wp*[problem%mesh, 1 + problem%mesh(2:)]
+      associate (orbit => problem%orbit, time => problem%orbit%time, kink => problem%orbit%kink)
+         twice = orbit
+         call twice%set_mesh([time, time(n) + time(1:)], reshape([orbit%at, orbit%at], [problem%n, points, 2*n]))
+         twice%kink(:) = [kink, kink(1:)]
+      end associate
+      problem%orbit = twice
       problem%turns = 2*problem%turns
       call problem%get_place(point%place)
       allocate (point%change(problem%n + 1), source=0.0_wp)

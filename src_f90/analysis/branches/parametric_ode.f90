@@ -14,7 +14,6 @@ module parametric_ode
    contains
       procedure(set_value), deferred :: set
       procedure(forcing_period), deferred :: period
-      procedure :: follow_kinks
       procedure :: new_mesh
       procedure :: begin_here
       procedure :: get_start
@@ -38,12 +37,6 @@ module parametric_ode
    end interface
 
 contains
-
-   !> Puts ends of intervals where the rates have a kink on an orbit.
-   subroutine follow_kinks(self, orbit)
-      class(parametric_ode_type), intent(in) :: self
-      type(orbit_type), intent(inout) :: orbit
-   end subroutine follow_kinks
 
    !> A mesh for an orbit near this one, as parts of its period, 0 to 1; not allocated where there is no better one.
    subroutine new_mesh(self, orbit, mesh)

@@ -1,76 +1,109 @@
-!> The kinks of friction on an orbit: ends of intervals of its collocation are moved to where a pivot passes one, or the
-!> polynomials would lose their order there.
+!> The kinks that an orbit passes: intervals of its collocation end there, or the polynomials would lose their order.
+!> Such an end goes with the orbit as Newton's method corrects it; here it is found that there is, or is no longer, one.
 module kink_mesh
    use kinds, only: wp
-   use equations_of_motion, only: bearing_model
-   use orbit_polynomials, only: orbit_type
+   use ode_model, only: ode_model_type
+   use orbit_polynomials, only: orbit_type, points, place
    implicit none (type, external)
    private
    public :: follow_kinks
 
-   !> The part of an interval by which an end may be moved.
-   real(wp), parameter :: beside = 0.3_wp
    !> Ends that are closer than this part of the period are one.
    real(wp), parameter :: rounding = 1e-9_wp
    !> Bisections that find a passage.
    integer, parameter :: bisections = 50
 
-   !> A mesh in the making: ends of intervals, s, with those moved already marked, and new ends.
+   !> A mesh in the making: ends of intervals, s, and the kinks at them.
    type :: mesh_type
-      real(wp), allocatable :: time(:), new(:)
-      logical, allocatable :: moved(:)
+      real(wp), allocatable :: time(:)
+      integer, allocatable :: kink(:)
+      logical :: changed = .false.
    contains
       procedure :: put_end
+      procedure :: drop_end
    end type mesh_type
 
 contains
 
-   !> Puts an orbit on a mesh with an end of an interval wherever the pivot of a pad passes a kink of its friction; its
-   !> mesh stays where it has settled.
+   !> Puts an end of an interval wherever an orbit passes a kink of its model, and drops those where it no longer does.
    subroutine follow_kinks(model, orbit)
-      type(bearing_model), intent(in) :: model
+      class(ode_model_type), intent(in) :: model
       type(orbit_type), intent(inout) :: orbit
       type(mesh_type) :: mesh
-      real(wp), allocatable :: kinks(:), ends(:)
-      integer :: pad, i, k, state
-      if (orbit%settled .or. .not. model%layout%tilting) return
-      kinks = model%bearing%friction%kinks()
-      if (size(kinks) == 0) return
-      allocate (mesh%time(0:orbit%intervals()), source=orbit%time)
-      allocate (mesh%moved(0:orbit%intervals()), source=.false.)
-      allocate (mesh%new(0))
-      do pad = 1, model%layout%pads
-         state = model%layout%tilt_rate(pad)
-         ends = orbit%values_at_ends(state)
-         do i = 1, size(kinks)
-            associate (rate => kinks(i)/model%bearing%pads(pad)%ball_radius)
-               do k = 1, orbit%intervals()
-                  if ((ends(k) < rate) .neqv. (ends(k + 1) < rate)) call mesh%put_end(k, &
-                     & passage(orbit, state, rate, orbit%time(k - 1), orbit%time(k)))
-               end do
-            end associate
-         end do
+      integer, allocatable :: state(:)
+      real(wp), allocatable :: value(:)
+      integer :: kink, k
+      call model%kinks(state, value)
+      mesh%time = [orbit%time]
+      mesh%kink = [orbit%kink]
+      do k = 1, orbit%intervals()
+         if (orbit%kink(k) < 0) call mesh%drop_end(orbit%time(k))
       end do
-      call orbit%change_mesh(sorted([mesh%time, mesh%new]))
+      do kink = 1, size(state)
+         call follow_kink(orbit, kink, state(kink), value(kink), mesh)
+      end do
+      if (mesh%changed) call orbit%change_mesh(mesh%time, mesh%kink)
    end subroutine follow_kinks
 
-   !> An end at time t, s, in interval k: one of its ends, if it is close and free, else a new one.
-   pure subroutine put_end(self, k, t)
+   !> Does so for one kink. The state is on different sides before and after an end that lies there, and elsewhere on
+   !> one side from point to point.
+   subroutine follow_kink(orbit, kink, state, value, mesh)
+      type(orbit_type), intent(in) :: orbit
+      integer, intent(in) :: kink, state
+      real(wp), intent(in) :: value
+      type(mesh_type), intent(inout) :: mesh
+      logical :: was_below, is_below, at_end
+      real(wp) :: before, now
+      integer :: k, i
+      was_below = orbit%start(state) < value
+      at_end = .false.
+      before = 0
+      do k = 1, orbit%intervals()
+         do i = 1, points
+            now = orbit%time(k - 1) + place(i)*(orbit%time(k) - orbit%time(k - 1))
+            if (i == points .and. orbit%kink(k) == kink) then
+               at_end = .true.
+            else
+               is_below = orbit%at(state, i, k) < value
+               if (at_end) then
+                  if (is_below .eqv. was_below) call mesh%drop_end(orbit%time(k - 1))
+               else if (is_below .neqv. was_below) then
+                  call mesh%put_end(passage(orbit, state, value, before, now), kink)
+               end if
+               at_end = .false.
+               was_below = is_below
+            end if
+            before = now
+         end do
+      end do
+   end subroutine follow_kink
+
+   !> An end at a kink at time t, s: a new one, or the one that is there, if it lies at no other kink.
+   pure subroutine put_end(self, t, kink)
       class(mesh_type), intent(inout) :: self
-      integer, intent(in) :: k
       real(wp), intent(in) :: t
-      integer :: end
-      logical :: moves
-      end = merge(k - 1, k, t - self%time(k - 1) < self%time(k) - t)
-      moves = abs(t - self%time(end)) < beside*(self%time(k) - self%time(k - 1)) .and. .not. self%moved(end) &
-         & .and. end > 0 .and. end < ubound(self%time, 1)
-      if (moves) then
-         self%time(end) = t
-         self%moved(end) = .true.
+      integer, intent(in) :: kink
+      integer :: near, before
+      near = minloc(abs(self%time - t), dim=1)
+      if (abs(self%time(near) - t) <= rounding*self%time(size(self%time))) then
+         if (self%kink(near) /= 0 .or. near == 1 .or. near == size(self%time)) return
+         self%kink(near) = kink
       else
-         self%new = [self%new, t]
+         before = count(self%time < t)
+         self%time = [self%time(:before), t, self%time(before + 1:)]
+         self%kink = [self%kink(:before), kink, self%kink(before + 1:)]
       end if
+      self%changed = .true.
    end subroutine put_end
+
+   !> Without the end at time t, s.
+   pure subroutine drop_end(self, t)
+      class(mesh_type), intent(inout) :: self
+      real(wp), intent(in) :: t
+      self%kink = pack(self%kink, abs(self%time - t) > 0)
+      self%time = pack(self%time, abs(self%time - t) > 0)
+      self%changed = .true.
+   end subroutine drop_end
 
    !> When a state passes a value between two times, s.
    pure real(wp) function passage(orbit, state, value, from, to)
@@ -94,29 +127,4 @@ contains
          end if
       end do
    end function passage
-
-   !> Times in their order, without those that are next to another by rounding.
-   pure function sorted(times)
-      !> Most of them in their order.
-      real(wp), intent(in) :: times(:)
-      real(wp), allocatable :: sorted(:)
-      real(wp) :: next, apart
-      integer :: k, i, n
-      allocate (sorted(size(times)))
-      apart = rounding*maxval(times)
-      n = 0
-      do k = 1, size(times)
-         next = times(k)
-         i = n
-         do while (i > 0)
-            if (sorted(i) <= next) exit
-            i = i - 1
-         end do
-         if (any(abs(sorted(max(i, 1):min(i + 1, n)) - next) <= apart)) cycle
-         sorted(i + 2:n + 1) = sorted(i + 1:n)
-         sorted(i + 1) = next
-         n = n + 1
-      end do
-      sorted = sorted(:n)
-   end function sorted
 end module kink_mesh

@@ -9,6 +9,7 @@ module orbit_collocation
    use lapack, only: dgesv
    use ode_model, only: ode_model_type
    use orbit_polynomials, only: orbit_type, points, place
+   use kink_mesh, only: follow_kinks
    use interval_maps, only: interval_maps_type, new_interval_maps, weight, padded
    implicit none (type, external)
    private
@@ -23,9 +24,12 @@ module orbit_collocation
    type :: orbit_equations_type
       private
       type(interval_maps_type) :: maps
+      integer :: constants = 0
       !> How the end of the period follows, (column, state): columns 1 to n from a change of the state at its start,
       !> n + 1 from what the equations lack, n + 2 (where it is asked for) from a change of the parameter by 1.
       real(wp), allocatable :: at_end(:, :)
+      !> How the ends of intervals go with these columns where they lie at a kink, s, (column, 0:intervals).
+      real(wp), allocatable :: shift(:, :)
    end type orbit_equations_type
 
    !> What the equations are for another value of the parameter.
@@ -36,8 +40,8 @@ module orbit_collocation
       real(wp), allocatable :: rates(:, :, :)
    end type parameter_shift_type
 
-   !> Where corrections below this size, over the scales, no longer fall by this factor a round, the mesh has settled.
-   real(wp), parameter :: slow = 0.1_wp, near = 1e-3_wp
+   !> The shortest that intervals between kinks become at once, over what they were.
+   real(wp), parameter :: shortest = 0.1_wp
 
 contains
 
@@ -51,6 +55,7 @@ contains
       type(orbit_equations_type) :: equations
       real(wp) :: matrix(model%n, model%n), change(model%n)
       integer :: pivots(model%n), info
+      call follow_kinks(model, orbit)
       call condense(model, orbit, equations, error)
       if (allocated(error)) return
       call closing_equations(orbit, equations, matrix, change)
@@ -64,6 +69,7 @@ contains
 
    !> Linearises the equations on an orbit and eliminates the points inside of the intervals: sets the orbit's monodromy
    !> matrix and residual. A numerics error where the model refuses a state or an interval's equations have no solution.
+   !> Ends of intervals at a kink go where the orbit passes it; between them the mesh is stretched.
    subroutine condense(model, orbit, equations, error, shift)
       class(ode_model_type), intent(inout) :: model
       type(orbit_type), intent(inout) :: orbit
@@ -73,21 +79,31 @@ contains
       type(parameter_shift_type), intent(in), optional :: shift
       real(wp) :: jacobian(model%n, model%n, points)
       real(wp), allocatable :: gap(:, :, :), start(:, :), at(:, :, :)
-      integer :: k, i, n, constants
+      integer :: k, i, n, columns, constants, from, to
       logical :: ok
       n = model%n
-      constants = merge(2, 1, present(shift))
-      associate (columns => padded(n + constants))
-         allocate (gap(n, constants, points), start(columns, n + constants), at(columns, n, points))
+      columns = n + merge(2, 1, present(shift))
+      constants = columns - n + merge(2, 0, any(orbit%kink > 0))
+      equations%constants = constants
+      ! the last column is how far the next end at a kink goes
+      associate (rows => padded(columns + 1))
+         allocate (gap(n, constants, points), start(rows, n + constants), at(rows, n, points))
       end associate
+      allocate (equations%shift(columns + 1, 0:orbit%intervals()), source=0.0_wp)
       equations%maps = new_interval_maps(model, orbit%scale, orbit%intervals(), constants)
       start = 0
-      do i = 1, n + constants
+      do i = 1, columns
          start(i, i) = 1
       end do
       orbit%residual = 0
       orbit%refused = .false.
+      to = 0
       do k = 1, orbit%intervals()
+         if (k > to) then
+            from = to
+            to = next_kink(orbit, k)
+            if (to < orbit%intervals()) equations%shift(columns + 1, to) = 1
+         end if
          call linearize(model, orbit, k, jacobian, gap, error, shift)
          if (allocated(error)) return
          call equations%maps%eliminate(k, orbit%time(k) - orbit%time(k - 1), jacobian, gap, ok)
@@ -96,10 +112,13 @@ contains
                & //to_text(orbit%time(k))//' s')
             return
          end if
+         if (constants > columns - n) start(:columns + 1, columns + 1:) = stretched(orbit, equations%shift, from, to, k)
          call equations%maps%follow(k, points, start, at)
          start(:, :n) = at(:, :, points)
+         if (k == to .and. k < orbit%intervals()) call put_at_kink(model, orbit, k, start(:columns + 1, :n), &
+            & equations%shift(:, k))
       end do
-      equations%at_end = start(:n + constants, :n)
+      equations%at_end = start(:columns, :n)
       if (.not. all(abs(equations%at_end) <= huge(1.0_wp))) then
          call raise(error, numerics_error, 'Newton''s equations have no solution')
          return
@@ -107,6 +126,52 @@ contains
       orbit%monodromy = transpose(equations%at_end(:n, :))
       orbit%residual = max(orbit%residual, maxval(abs(gap_of(orbit))))
    end subroutine condense
+
+   !> The end at a kink, or of the period, that comes next at or behind the end of interval k.
+   pure integer function next_kink(orbit, k) result(end)
+      type(orbit_type), intent(in) :: orbit
+      integer, intent(in) :: k
+      end = k
+      do while (end < orbit%intervals() .and. orbit%kink(end) <= 0)
+         end = end + 1
+      end do
+   end function next_kink
+
+   !> By how much both ends of interval k go, s, (column, end), where the mesh is stretched between two ends.
+   pure function stretched(orbit, shift, from, to, k)
+      type(orbit_type), intent(in) :: orbit
+      real(wp), intent(in) :: shift(:, 0:)
+      integer, intent(in) :: from, to, k
+      real(wp) :: stretched(size(shift, 1), 2), part
+      integer :: i
+      do i = 1, 2
+         part = (orbit%time(k + i - 2) - orbit%time(from))/(orbit%time(to) - orbit%time(from))
+         stretched(:, i) = (1 - part)*shift(:, from) + part*shift(:, to)
+      end do
+   end function stretched
+
+   !> Lets end k go so far that the state is at the kink there, which puts this into how all states follow.
+   pure subroutine put_at_kink(model, orbit, k, states, shift)
+      class(ode_model_type), intent(in) :: model
+      type(orbit_type), intent(in) :: orbit
+      integer, intent(in) :: k
+      real(wp), intent(inout) :: states(:, :)
+      real(wp), intent(inout) :: shift(:)
+      integer, allocatable :: state(:)
+      real(wp), allocatable :: value(:)
+      integer :: i, columns
+      columns = size(shift) - 1
+      call model%kinks(state, value)
+      associate (s => state(orbit%kink(k)), v => value(orbit%kink(k)), n => size(states, 2))
+         shift = -states(:, s)/states(columns + 1, s)
+         shift(n + 1) = shift(n + 1) + (v - orbit%at(s, points, k))/orbit%scale(s)/states(columns + 1, s)
+         shift(columns + 1) = 0
+      end associate
+      do i = 1, size(states, 2)
+         states(:columns, i) = states(:columns, i) + shift(:columns)*states(columns + 1, i)
+      end do
+      states(columns + 1, :) = 0
+   end subroutine put_at_kink
 
    !> By how much the end misses the start, over the scales.
    pure function gap_of(orbit) result(gap)
@@ -140,46 +205,80 @@ contains
       logical, intent(in) :: closes
       real(wp), intent(in) :: longest
       real(wp), allocatable :: corrections(:, :, :, :)
-      real(wp) :: start(1, size(equations%at_end, 1)), share
+      real(wp) :: columns(size(equations%at_end, 1)), start(1, size(equations%at_end, 1) + 2), share
+      real(wp) :: shift(0:orbit%intervals())
       integer :: k, i, n
+      logical :: kept
       n = size(orbit%start)
       allocate (corrections(1, n, points, orbit%intervals()))
-      start = 0
-      start(1, :n) = change(:n)
-      if (closes) start(1, n + 1) = 1
-      start(1, n + 2:size(change) + 1) = change(n + 1:)
-      do k = 1, orbit%intervals()
-         call equations%maps%follow(k, 1, start, corrections(:, :, :, k))
-         start(1, :n) = corrections(1, :, points, k)
+      columns = 0
+      columns(:n) = change(:n)
+      if (closes) columns(n + 1) = 1
+      columns(n + 2:size(change) + 1) = change(n + 1:)
+      shift = matmul(columns, equations%shift(:size(columns), :))
+      start(1, :size(columns)) = columns
+      do
+         call stretch(orbit, shift)
+         do k = 1, orbit%intervals()
+            start(1, size(columns) + 1:) = shift(k - 1:k)
+            call equations%maps%follow(k, 1, start(:, :n + equations%constants), corrections(:, :, :, k))
+            start(1, :n) = corrections(1, :, points, k)
+         end do
+         start(1, :n) = change(:n)
+         orbit%correction = max(maxval(abs(change(:n))), maxval(abs(corrections)))
+         share = longest/max(longest, orbit%correction)
+         call keep_order(orbit, share*shift, kept)
+         if (kept) exit
       end do
-      orbit%correction = max(maxval(abs(change(:n))), maxval(abs(corrections)))
-      call settle(orbit, closes)
-      share = longest/max(longest, orbit%correction)
       orbit%start = orbit%start + share*orbit%scale*change(:n)
       do k = 1, orbit%intervals()
          do i = 1, points
             orbit%at(:, i, k) = orbit%at(:, i, k) + share*orbit%scale*corrections(1, :, i, k)
          end do
       end do
+      orbit%time = orbit%time + share*shift
    end subroutine move_orbit
 
-   !> Notes whether ends of intervals that go where the orbit passes a kink still help: where it does so slowly, they go
-   !> far for a small correction, and the passage after them, so that Newton's method would come closer by little in
-   !> each round. Nor does it matter then how far an end is from the passage: the rates there are close to the kink's.
-   pure subroutine settle(orbit, closes)
+   !> Stretches a mesh between its ends at kinks: by how much all ends go, s, from what those do.
+   pure subroutine stretch(orbit, shift)
+      type(orbit_type), intent(in) :: orbit
+      real(wp), intent(inout) :: shift(0:)
+      integer :: k, from, to
+      real(wp) :: part
+      to = 0
+      do k = 1, orbit%intervals() - 1
+         if (k > to) then
+            from = to
+            to = next_kink(orbit, k)
+         end if
+         if (k == to) cycle
+         part = (orbit%time(k) - orbit%time(from))/(orbit%time(to) - orbit%time(from))
+         shift(k) = (1 - part)*shift(from) + part*shift(to)
+      end do
+   end subroutine stretch
+
+   !> Where two ends at kinks would come together, or change their order, the one that goes further lies there no more.
+   pure subroutine keep_order(orbit, shift, kept)
       type(orbit_type), intent(inout) :: orbit
-      logical, intent(in) :: closes
-      if (closes) then
-         orbit%settled = orbit%settled .or. orbit%correction < near .and. orbit%correction > slow*orbit%last_correction
-         orbit%last_correction = orbit%correction
-      else
-         orbit%settled = .false.
-         orbit%last_correction = huge(1.0_wp)
-      end if
-   end subroutine settle
+      real(wp), intent(in) :: shift(0:)
+      !> Whether there are no such ends.
+      logical, intent(out) :: kept
+      integer :: from, to
+      kept = .true.
+      from = 0
+      do while (kept .and. from < orbit%intervals())
+         to = next_kink(orbit, from + 1)
+         associate (length => orbit%time(to) - orbit%time(from))
+            kept = length + shift(to) - shift(from) >= shortest*length
+         end associate
+         if (.not. kept) orbit%kink(merge(from, to, abs(shift(from)) > abs(shift(to)))) = -1
+         from = to
+      end do
+   end subroutine keep_order
 
    !> At the points of interval k: the derivatives of the rates, over the scales and times the interval, and how far the
-   !> equations are from being satisfied, (state, 1, point); (state, 2, point) is what the parameter adds to that.
+   !> equations are from being satisfied, (state, 1, point); (state, 2, point) is what the parameter adds to that, and
+   !> the last two, if there are more, a shift of the interval's start and end by 1 s.
    subroutine linearize(model, orbit, k, jacobian, gap, error, shift)
       class(ode_model_type), intent(inout) :: model
       type(orbit_type), intent(inout) :: orbit
@@ -187,13 +286,14 @@ contains
       real(wp), intent(out) :: jacobian(:, :, :), gap(:, :, :)
       type(error_type), allocatable, intent(out) :: error
       type(parameter_shift_type), intent(in), optional :: shift
-      real(wp), dimension(model%n, points) :: rate, over_parameter
+      real(wp), dimension(model%n, points) :: rate, over_parameter, drive
       real(wp) :: before(model%n), inside(model%n), h
-      integer :: i, l
+      integer :: i, l, constants
       logical :: ok
       h = orbit%time(k) - orbit%time(k - 1)
       before = orbit%start
       if (k > 1) before = orbit%at(:, points, k - 1)
+      constants = merge(2, 1, present(shift))
       do i = 1, points
          inside = collocated_state(orbit, k, i)
          call model%tangent(orbit%time(k - 1) + place(i)*h, inside, rate(:, i), jacobian(:, :, i), ok)
@@ -204,6 +304,7 @@ contains
             return
          end if
          if (present(shift)) over_parameter(:, i) = (shift%rates(:, i, k) - rate(:, i))/shift%amount
+         drive(:, i) = model%drive(orbit%time(k - 1) + place(i)*h)
          if (i == points) rate(:, i) = rate(:, i) + matmul(jacobian(:, :, i), orbit%at(:, i, k) - inside)
          do l = 1, model%n
             jacobian(:, l, i) = h*orbit%scale(l)*jacobian(:, l, i)/orbit%scale
@@ -212,6 +313,9 @@ contains
       do i = 1, points
          gap(:, 1, i) = (before - orbit%at(:, i, k) + h*matmul(rate, weight(i, :)))/orbit%scale
          if (present(shift)) gap(:, 2, i) = h*matmul(over_parameter, weight(i, :))/orbit%scale
+         if (size(gap, 2) == constants) cycle
+         gap(:, constants + 1, i) = matmul(h*drive*spread(1 - place, 1, model%n) - rate, weight(i, :))/orbit%scale
+         gap(:, constants + 2, i) = matmul(h*drive*spread(place, 1, model%n) + rate, weight(i, :))/orbit%scale
       end do
       orbit%residual = max(orbit%residual, maxval(abs(gap(:, 1, :))))
    end subroutine linearize

@@ -109,16 +109,11 @@ contains
    pure subroutine make_orbit(steps, orbit)
       type(step_type), intent(in) :: steps(:)
       type(orbit_type), intent(inout) :: orbit
+      real(wp) :: at(size(orbit%start), points, size(steps))
       integer :: k
-      if (allocated(orbit%time)) deallocate (orbit%time, orbit%at)
-      allocate (orbit%time(0:size(steps)), orbit%at(size(orbit%start), points, size(steps)))
-      orbit%time(0) = 0
-      orbit%time(1:) = steps%end
       do k = 1, size(steps)
-         orbit%at(:, :, k) = steps(k)%at
+         at(:, :, k) = steps(k)%at
       end do
-      orbit%correction = huge(orbit%correction)
-      orbit%last_correction = huge(orbit%correction)
-      orbit%settled = .false.
+      call orbit%set_mesh([0.0_wp, steps%end], at)
    end subroutine make_orbit
 end module orbit_march

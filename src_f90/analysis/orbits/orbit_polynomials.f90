@@ -15,6 +15,8 @@ module orbit_polynomials
    type :: orbit_type
       !> Ends of the intervals, s, (0:intervals).
       real(wp), allocatable :: time(:)
+      !> Which of the model's kinks the orbit passes at each end, (0:intervals); 0: none.
+      integer, allocatable :: kink(:)
       !> State at the start of the period; states at the points, (state, point, interval): the last point of an interval
       !> is its end.
       real(wp), allocatable :: start(:), at(:, :, :)
@@ -25,16 +27,13 @@ module orbit_polynomials
       real(wp), allocatable :: monodromy(:, :)
       !> Newton's last correction, over the scales, and how far the equations were from being satisfied before it.
       real(wp) :: correction = huge(1.0_wp), residual = huge(1.0_wp)
-      !> The closing correction before; whether ends of intervals are to stay where they are.
-      real(wp) :: last_correction = huge(1.0_wp)
-      logical :: settled = .false.
       !> Whether the model refused a state of the orbit.
       logical :: refused = .false.
    contains
       procedure :: intervals
       procedure :: state_at
-      procedure :: values_at_ends
       procedure :: change_mesh
+      procedure :: set_mesh
    end type orbit_type
 
 contains
@@ -111,19 +110,12 @@ contains
       end do
    end function interval_of
 
-   !> A state at the start and at the ends of the intervals.
-   pure function values_at_ends(self, state) result(values)
-      class(orbit_type), intent(in) :: self
-      integer, intent(in) :: state
-      real(wp) :: values(0:self%intervals())
-      values(0) = self%start(state)
-      values(1:) = self%at(state, points, :)
-   end function values_at_ends
-
-   !> Puts the same motion on intervals that end at other times, s; the first and the last stay.
-   pure subroutine change_mesh(self, time)
+   !> Puts the same motion on intervals that end at other times, s; the first and the last stay. Kinks at them, as in
+   !> the component; none if they are not given.
+   pure subroutine change_mesh(self, time, kink)
       class(orbit_type), intent(inout) :: self
       real(wp), intent(in) :: time(0:)
+      integer, intent(in), optional :: kink(0:)
       real(wp), allocatable :: at(:, :, :)
       integer :: k, i
       allocate (at(size(self%start), points, ubound(time, 1)))
@@ -132,10 +124,18 @@ contains
             call self%state_at(time(k - 1) + place(i)*(time(k) - time(k - 1)), at(:, i, k))
          end do
       end do
-      deallocate (self%time)
-      allocate (self%time(0:ubound(time, 1)), source=time)
-      call move_alloc(at, self%at)
-      self%correction = huge(self%correction)
-      self%settled = .false.
+      call self%set_mesh(time, at)
+      if (present(kink)) self%kink(:) = kink
    end subroutine change_mesh
+
+   !> Takes ends of intervals, s, none of which is at a kink, and the states at their points.
+   pure subroutine set_mesh(self, time, at)
+      class(orbit_type), intent(inout) :: self
+      real(wp), intent(in) :: time(0:), at(:, :, :)
+      if (allocated(self%time)) deallocate (self%time, self%kink)
+      allocate (self%time(0:ubound(time, 1)), source=time)
+      allocate (self%kink(0:ubound(time, 1)), source=0)
+      self%at = at
+      self%correction = huge(self%correction)
+   end subroutine set_mesh
 end module orbit_polynomials

@@ -12,7 +12,6 @@ module periodic_orbit
    use orbit_polynomials, only: orbit_type, points, place
    use orbit_collocation, only: newton_round
    use orbit_march, only: march_period, mesh_options
-   use kink_mesh, only: follow_kinks
    use unbalance_response, only: go_to_response
    use floquet_multipliers, only: set_multipliers
    implicit none (type, external)
@@ -118,8 +117,7 @@ contains
       orbit%start = 0.5_wp*(orbit%start + before%start)
    end subroutine average
 
-   !> Newton's method on the collocation of an orbit. Before each round ends of intervals go to the kinks of friction on
-   !> the orbit as it is.
+   !> Newton's method on the collocation of an orbit.
    subroutine close_orbit(model, options, found, error, give_up)
       type(bearing_model), intent(inout) :: model
       type(orbit_options), intent(in) :: options
@@ -144,7 +142,6 @@ contains
                   & //' iterations (periodic%max_iterations) at a correction of '//to_text(orbit%correction) &
                   & //' of the natural size of the states')
             else
-               call follow_kinks(model, orbit)
                call newton_round(model, orbit, longest, error)
                found%iterations = found%iterations + 1
                found%evaluations = found%evaluations + points*orbit%intervals()
