@@ -304,7 +304,7 @@ contains
             return
          end if
          if (present(shift)) over_parameter(:, i) = (shift%rates(:, i, k) - rate(:, i))/shift%amount
-         drive(:, i) = model%drive(orbit%time(k - 1) + place(i)*h)
+         if (size(gap, 2) > constants) drive(:, i) = model%drive(orbit%time(k - 1) + place(i)*h)
          if (i == points) rate(:, i) = rate(:, i) + matmul(jacobian(:, :, i), orbit%at(:, i, k) - inside)
          do l = 1, model%n
             jacobian(:, l, i) = h*orbit%scale(l)*jacobian(:, l, i)/orbit%scale
