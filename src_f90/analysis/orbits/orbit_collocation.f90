@@ -24,6 +24,7 @@ module orbit_collocation
    type :: orbit_equations_type
       private
       type(interval_maps_type) :: maps
+      !> How many constants the equations of an interval have there.
       integer :: constants = 0
       !> How the end of the period follows, (column, state): columns 1 to n from a change of the state at its start,
       !> n + 1 from what the equations lack, n + 2 (where it is asked for) from a change of the parameter by 1.
@@ -119,7 +120,7 @@ contains
             & equations%shift(:, k))
       end do
       equations%at_end = start(:columns, :n)
-      if (.not. all(abs(equations%at_end) <= huge(1.0_wp))) then
+      if (.not. (all(abs(equations%at_end) <= huge(1.0_wp)) .and. all(abs(equations%shift) <= huge(1.0_wp)))) then
          call raise(error, numerics_error, 'Newton''s equations have no solution')
          return
       end if
@@ -162,10 +163,13 @@ contains
       integer :: i, columns
       columns = size(shift) - 1
       call model%kinks(state, value)
+      shift = 0
       associate (s => state(orbit%kink(k)), v => value(orbit%kink(k)), n => size(states, 2))
-         shift = -states(:, s)/states(columns + 1, s)
-         shift(n + 1) = shift(n + 1) + (v - orbit%at(s, points, k))/orbit%scale(s)/states(columns + 1, s)
-         shift(columns + 1) = 0
+         if (abs(states(columns + 1, s)) > 0) then
+            shift(:columns) = -states(:columns, s)
+            shift(n + 1) = shift(n + 1) + (v - orbit%at(s, points, k))/orbit%scale(s)
+            shift = shift/states(columns + 1, s)
+         end if
       end associate
       do i = 1, size(states, 2)
          states(:columns, i) = states(:columns, i) + shift(:columns)*states(columns + 1, i)
@@ -206,8 +210,8 @@ contains
       real(wp), intent(in) :: longest
       real(wp), allocatable :: corrections(:, :, :, :)
       real(wp) :: columns(size(equations%at_end, 1)), start(1, size(equations%at_end, 1) + 2), share
-      real(wp) :: shift(0:orbit%intervals())
-      integer :: k, i, n
+      real(wp) :: shift(1, 0:orbit%intervals())
+      integer :: k, i, n, from, to
       logical :: kept
       n = size(orbit%start)
       allocate (corrections(1, n, points, orbit%intervals()))
@@ -215,19 +219,24 @@ contains
       columns(:n) = change(:n)
       if (closes) columns(n + 1) = 1
       columns(n + 2:size(change) + 1) = change(n + 1:)
-      shift = matmul(columns, equations%shift(:size(columns), :))
+      shift(1, :) = matmul(columns, equations%shift(:size(columns), :))
       start(1, :size(columns)) = columns
       do
-         call stretch(orbit, shift)
+         to = 0
          do k = 1, orbit%intervals()
-            start(1, size(columns) + 1:) = shift(k - 1:k)
+            if (k > to) then
+               from = to
+               to = next_kink(orbit, k)
+            end if
+            start(:, size(columns) + 1:) = stretched(orbit, shift, from, to, k)
+            shift(:, k) = start(:, size(columns) + 2)
             call equations%maps%follow(k, 1, start(:, :n + equations%constants), corrections(:, :, :, k))
             start(1, :n) = corrections(1, :, points, k)
          end do
          start(1, :n) = change(:n)
          orbit%correction = max(maxval(abs(change(:n))), maxval(abs(corrections)))
          share = longest/max(longest, orbit%correction)
-         call keep_order(orbit, share*shift, kept)
+         call keep_order(orbit, share*shift(1, :), kept)
          if (kept) exit
       end do
       orbit%start = orbit%start + share*orbit%scale*change(:n)
@@ -236,26 +245,8 @@ contains
             orbit%at(:, i, k) = orbit%at(:, i, k) + share*orbit%scale*corrections(1, :, i, k)
          end do
       end do
-      orbit%time = orbit%time + share*shift
+      orbit%time = orbit%time + share*shift(1, :)
    end subroutine move_orbit
-
-   !> Stretches a mesh between its ends at kinks: by how much all ends go, s, from what those do.
-   pure subroutine stretch(orbit, shift)
-      type(orbit_type), intent(in) :: orbit
-      real(wp), intent(inout) :: shift(0:)
-      integer :: k, from, to
-      real(wp) :: part
-      to = 0
-      do k = 1, orbit%intervals() - 1
-         if (k > to) then
-            from = to
-            to = next_kink(orbit, k)
-         end if
-         if (k == to) cycle
-         part = (orbit%time(k) - orbit%time(from))/(orbit%time(to) - orbit%time(from))
-         shift(k) = (1 - part)*shift(from) + part*shift(to)
-      end do
-   end subroutine stretch
 
    !> Where two ends at kinks would come together, or change their order, the one that goes further lies there no more.
    pure subroutine keep_order(orbit, shift, kept)
