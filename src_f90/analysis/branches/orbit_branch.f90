@@ -245,16 +245,15 @@ contains
       class(orbit_problem_type), intent(in) :: self
       real(wp), intent(in) :: place(:)
       real(wp), allocatable :: sought(:)
-      integer :: ends, intervals, o
-      o = 6
+      integer :: ends, o
+      o = 4
       fits = size(place) > o
-      if (fits) fits = all(place([1, 5, 6]) >= 1) .and. place(1) <= place(6) .and. sum(place([5, 6])) < size(place)
+      if (fits) fits = all(place([1, 4]) >= 1) .and. place(1) <= place(4) .and. place(4) < size(place)
       if (.not. fits) return
       call self%ode%get_start(sought)
-      ends = nint(place(5))
-      intervals = nint(place(6))
-      fits = size(place) == o + ends + intervals + 1 + self%n*(1 + points*intervals) + size(sought)
-      if (fits) fits = grows(place(o + 1:o + ends)) .and. grows(place(o + ends + 1:o + ends + intervals + 1))
+      ends = nint(place(4)) + 1
+      fits = size(place) == o + 2*ends + self%n*(1 + points*(ends - 1)) + size(sought)
+      if (fits) fits = grows(place(o + 1:o + ends))
    end function fits
 
    pure logical function grows(numbers)
