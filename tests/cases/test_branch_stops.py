@@ -113,14 +113,16 @@ def stopped(start, tmp_path):
 
 @pytest.mark.parametrize("case", [EQUILIBRIA, LUGRE], ids=["equilibria", "lugre"])
 def test_a_checkpoint_that_is_none(tiltpad, tmp_path, stopped, case):
-    """Numbers of special points and flips, sizes of the point, and of orbits turns and sizes of meshes."""
+    """Numbers of special points and flips, sizes of the point, and of orbits turns, intervals and kinks."""
     point, path = stopped(case), tmp_path / "case.h5"
     good = path.read_bytes()
     places = [3, 4, *range(point + 3, point + 6)]
     if case == LUGRE:
-        places += [point + 6, point + 10, point + 11]
+        with h5py.File(path) as file:
+            intervals = int(file["checkpoint/state"][point + 9])
+        places += [point + 6, point + 9, point + 10 + intervals + 1]
     for place in places:
-        for value in (-1, 3e9, 1e300, -1e300):
+        for value in (-2, 3e9, 1e300, -1e300):
             path.write_bytes(good)
             with h5py.File(path, "r+") as file:
                 file["checkpoint/state"][place] = value

@@ -240,11 +240,12 @@ contains
       end associate
    end subroutine get_place
 
-   !> Both meshes grow, and every turn has an interval.
+   !> The mesh grows, every turn has an interval, and kinks are among those of the model.
    pure logical function fits(self, place)
       class(orbit_problem_type), intent(in) :: self
       real(wp), intent(in) :: place(:)
-      real(wp), allocatable :: sought(:)
+      real(wp), allocatable :: sought(:), value(:)
+      integer, allocatable :: state(:)
       integer :: ends, o
       o = 4
       fits = size(place) > o
@@ -253,13 +254,12 @@ contains
       call self%ode%get_start(sought)
       ends = nint(place(4)) + 1
       fits = size(place) == o + 2*ends + self%n*(1 + points*(ends - 1)) + size(sought)
-      if (fits) fits = grows(place(o + 1:o + ends))
+      if (.not. fits) return
+      call self%ode%model%kinks(state, value)
+      associate (time => place(o + 1:o + ends), kink => place(o + ends + 1:o + 2*ends))
+         fits = all(time(2:) > time(:ends - 1)) .and. all(kink >= -1 .and. kink <= size(state))
+      end associate
    end function fits
-
-   pure logical function grows(numbers)
-      real(wp), intent(in) :: numbers(:)
-      grows = all(numbers(2:) > numbers(:size(numbers) - 1))
-   end function grows
 
    subroutine go_to(self, place)
       class(orbit_problem_type), intent(inout) :: self
