@@ -15,7 +15,7 @@ module orbit_polynomials
    type :: orbit_type
       !> Ends of the intervals, s, (0:intervals).
       real(wp), allocatable :: time(:)
-      !> Which of the model's kinks the orbit passes at each end, (0:intervals); 0: none; -1: one that has lost its place.
+      !> Which of the model's kinks the orbit passes at each end, (0:intervals); 0: none; -1: one that lost its place.
       integer, allocatable :: kink(:)
       !> State at the start of the period; states at the points, (state, point, interval): the last point of an interval
       !> is its end.
