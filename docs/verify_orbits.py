@@ -50,6 +50,7 @@ POINTS = (
     ),
     Point("LuGre 0.2/0.1", PAPER, lugre(0.2, 0.1), JOURNAL, (9350, 9420)),
     Point("LuGre 0.15/0.075", PAPER, lugre(0.15, 0.075), JOURNAL, (9480, 9560)),
+    Point("Bengisu-Akay 0.2/0.1", "steady_ba_20_10", (), JOURNAL, (8600, 8760)),
     Point("four pads", FOUR, (), UPPER_PADS, (5200, 5600), **PAIRS),
     Point("four pads", FOUR, (), UPPER_PADS, (5400, 5900), special=1, multiplier=2, **PAIRS),
 )

@@ -1,5 +1,6 @@
 """Beyond the paper: where the synchronous orbit is lost, by branches over the speed; pictures and words."""
 
+from itertools import product
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -17,6 +18,7 @@ from paper.settings import (
     FOUR,
     FOUR_SPEEDS,
     LOST_COEFFICIENTS,
+    LOST_LAWS,
     LOST_SPEEDS,
     LOST_UNBALANCES,
     ROOT,
@@ -43,21 +45,22 @@ def march_up_and_down(folder: Path) -> None:
 
 
 def lost_figure(runs: Runs) -> Figure:
-    """Leading multiplier over the speed with the unbalance of Table 1; speeds of unstable orbits."""
-    fig, axes = plt.subplots(1, 2, figsize=(PAGE, 3.2))
-    draw_multiplier(axes[0], runs["lost_none"], "0", {"color": "0.3", "linestyle": "--"})
-    for k, f in enumerate(LOST_COEFFICIENTS):
-        run = runs[lost_name(LOST_UNBALANCES[-1], f)]
-        draw_multiplier(
-            axes[0], run, f"{f:g}", {"color": plt.get_cmap("viridis")(k / len(LOST_COEFFICIENTS))}
-        )
-    axes[0].axhline(1, color="0.3", linewidth=0.8)
-    axes[0].set(xlabel=RPM, ylabel="modulus of the leading multiplier", xlim=LOST_SPEEDS, ylim=(0, 1.6))
-    axes[0].legend(title="$f_s$", ncols=2, loc="upper left")
-    for k, unbalance in enumerate(LOST_UNBALANCES):
-        draw_unstable(axes[1], runs, unbalance, f"C{k}", 4e-3 * (2 * k - 1))
-    axes[1].set(xlabel="static friction coefficient $f_s$", ylabel=RPM, xlim=(0, None), ylim=LOST_SPEEDS)
-    axes[1].legend(title="unstable, unbalance", loc="lower right")
+    """Leading multiplier over the speed with the unbalance of Table 1; speeds of unstable orbits; by law."""
+    fig, axes = plt.subplots(len(LOST_LAWS), 2, figsize=(PAGE, 6.2), sharex="col")
+    for (left, right), law in zip(axes, LOST_LAWS, strict=True):
+        draw_multiplier(left, runs["lost_none"], "0", {"color": "0.3", "linestyle": "--"})
+        for k, f in enumerate(LOST_COEFFICIENTS):
+            color = plt.get_cmap("viridis")(k / len(LOST_COEFFICIENTS))
+            draw_multiplier(left, runs[lost_name(law, LOST_UNBALANCES[-1], f)], f"{f:g}", {"color": color})
+        left.axhline(1, color="0.3", linewidth=0.8)
+        left.set(title=law, ylabel="modulus of the leading multiplier", xlim=LOST_SPEEDS, ylim=(0, 1.6))
+        left.legend(title="$f_s$", ncols=2, loc="upper left")
+        for k, unbalance in enumerate(LOST_UNBALANCES):
+            draw_unstable(right, runs, law, unbalance, f"C{k}", 4e-3 * (2 * k - 1))
+        right.set(title=law, ylabel=RPM, xlim=(0, None), ylim=LOST_SPEEDS)
+        right.legend(title="unstable, unbalance", loc="lower right")
+    axes[-1, 0].set(xlabel=RPM)
+    axes[-1, 1].set(xlabel="static friction coefficient $f_s$")
     return fig
 
 
@@ -66,11 +69,11 @@ def draw_multiplier(ax: Axes, run: tiltpad.Run, text: str, line: dict) -> None:
     ax.plot(run["parameter"], leading, label=text, **{"linewidth": 1.2} | line)
 
 
-def draw_unstable(ax: Axes, runs: Runs, unbalance: float, color: str, beside: float) -> None:
+def draw_unstable(ax: Axes, runs: Runs, law: str, unbalance: float, color: str, beside: float) -> None:
     """A bar over the speeds at which the orbit is unstable, for each friction coefficient."""
     label = f"{unbalance:g} kg m"
     for f in LOST_COEFFICIENTS:
-        for low, high in unstable(runs[lost_name(unbalance, f)]):
+        for low, high in unstable(runs[lost_name(law, unbalance, f)]):
             ax.plot(2 * [f + beside], [low, high], color=color, linewidth=4, alpha=0.8, label=label)
             label = "_"
     if label != "_":
@@ -86,14 +89,15 @@ def unstable(run: tiltpad.Run) -> list[tuple[float, float]]:
 
 def lost_table(runs: Runs) -> str:
     """Where the orbit becomes unstable and stable again, and what happens there."""
+    cases = [(law, unbalance) for law in LOST_LAWS for unbalance in LOST_UNBALANCES]
     rows = []
     for f in LOST_COEFFICIENTS:
         cells = []
-        for unbalance in LOST_UNBALANCES:
-            run = runs[lost_name(unbalance, f)]
+        for law, unbalance in cases:
+            run = runs[lost_name(law, unbalance, f)]
             cells.append("; ".join(part_words(run, *part) for part in unstable(run)) or "never")
         rows.append((f"{f:g}", *cells))
-    return table(("f_s", *(f"unbalance {unbalance:g} kg m" for unbalance in LOST_UNBALANCES)), rows)
+    return table(("f_s", *(f"{law}, unbalance {unbalance:g} kg m" for law, unbalance in cases)), rows)
 
 
 def part_words(run: tiltpad.Run, low: float, high: float) -> str:
@@ -115,13 +119,14 @@ def lost_words(runs: Runs) -> str:
         if not parts
         else f"Without friction it is unstable {'; '.join(part_words(runs['lost_none'], *p) for p in parts)}."
     )
-    kept = {u: [f for f in LOST_COEFFICIENTS if not unstable(runs[lost_name(u, f)])] for u in LOST_UNBALANCES}
-    said = [
-        f"With the unbalance of {unbalance:g} kg m it is never lost in this range for f_s = "
-        f"{', '.join(f'{f:g}' for f in own)}."
-        for unbalance, own in kept.items()
-        if own
-    ]
+    said = []
+    for law, unbalance in product(LOST_LAWS, LOST_UNBALANCES):
+        kept = [f for f in LOST_COEFFICIENTS if not unstable(runs[lost_name(law, unbalance, f)])]
+        if kept:
+            said.append(
+                f"With {law} and the unbalance of {unbalance:g} kg m it is never lost in this range for "
+                f"f_s = {', '.join(f'{f:g}' for f in kept)}."
+            )
     return " ".join([without, *said])
 
 

@@ -252,8 +252,9 @@ STICK_SCENES = (
     *(Scene(f"whirl_{speed}", LUGRE, (*WHIRL, f"operation%speed_rpm={speed}")) for speed in WHIRL_SPEEDS),
 )
 
-#: Branches of the synchronous orbit over the speed, rpm: static friction coefficients of LuGre, the dynamic
+#: Branches of the synchronous orbit over the speed, rpm: laws of friction, static coefficients, the dynamic
 #: ones half as large, and unbalances, kg m; that of Table 1 last.
+LOST_LAWS = {"LuGre": LUGRE, "Bengisu-Akay": BA}
 LOST_COEFFICIENTS = (0.02, 0.05, 0.075, 0.1, 0.15, 0.2, 0.3)
 LOST_UNBALANCES = (0.001, 0.010)
 LOST_SPEEDS = (2000, 14000)
@@ -272,8 +273,8 @@ def over_speed(first: float, last: float, *, step: float, longest: float) -> tup
     )
 
 
-def lost_name(unbalance: float, coefficient: float) -> str:
-    return f"lost_{unbalance:g}_{coefficient:g}"
+def lost_name(law: str, unbalance: float, coefficient: float) -> str:
+    return f"lost_{law}_{unbalance:g}_{coefficient:g}"
 
 
 #: The four-pad bearing: its synchronous orbit, and that of two revolutions, down from where it is found and
@@ -284,14 +285,15 @@ DOUBLED = ("periodic%revolutions=2", "branch%max_points=125", 'case%title="two r
 LOST_SCENES = (
     *(
         Scene(
-            lost_name(unbalance, f),
-            LUGRE,
+            lost_name(law, unbalance, f),
+            case,
             (
                 f"rotor%unbalance={unbalance:g}",
                 *coefficients(f, f / 2),
                 *over_speed(*LOST_SPEEDS, step=100, longest=500),
             ),
         )
+        for law, case in LOST_LAWS.items()
         for unbalance in LOST_UNBALANCES
         for f in LOST_COEFFICIENTS
     ),
