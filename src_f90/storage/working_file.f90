@@ -156,15 +156,16 @@ contains
       class(working_file_type), intent(inout) :: self
       logical, intent(out) :: exchanged
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: found, made
+      character(len=:), allocatable :: found, made, reason
       logical :: ok
       exchanged = .false.
+      reason = ''
+      if (.not. sync_file(self%part)) reason = system_reason()
+      ! not before, as this may take long
       call self%check_part(error)
+      if (.not. allocated(error) .and. reason /= '') call raise(error, system_error, 'cannot write '//self%path//': ' &
+         & //reason)
       if (allocated(error)) return
-      if (.not. sync_file(self%part)) then
-         call raise(error, system_error, 'cannot write '//self%path//': '//system_reason())
-         return
-      end if
       found = file_identity(self%path)
       if (found /= '' .and. found /= self%there) then
          self%stranded = .true.
