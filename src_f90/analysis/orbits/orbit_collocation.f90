@@ -260,9 +260,9 @@ contains
       do while (kept .and. from < orbit%intervals())
          to = next_kink(orbit, from + 1)
          associate (length => orbit%time(to) - orbit%time(from))
-            kept = length + shift(to) - shift(from) >= shortest*length
+            kept = length + shift(to) - shift(from) >= shortest*length .or. max(orbit%kink(from), orbit%kink(to)) <= 0
          end associate
-         if (.not. kept) orbit%kink(merge(from, to, abs(shift(from)) > abs(shift(to)))) = -1
+         if (.not. kept) orbit%kink(merge(from, to, abs(shift(from)) > abs(shift(to)) .or. orbit%kink(to) <= 0)) = -1
          from = to
       end do
    end subroutine keep_order
