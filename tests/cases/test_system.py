@@ -307,7 +307,9 @@ def test_one_refused_write(tiltpad, tmp_path, loaded, text):
         write += 1
         done = tiltpad("case.nml", "-q", cwd=tmp_path, env=library | {"WRITE": str(write)})
         if done.returncode != 0:
-            refused(done, "tiltpad: error: cannot write", "no space left on device")
+            refused(done, "tiltpad: error: cannot write")
+            # a newer HDF5 may tell of a head that was not written only when it opens the file again
+            assert "no space left on device" in done.stderr or "could not open" in done.stderr, done.stderr
             told += 1
         missed = 0 if done.returncode != 0 else missed + 1
         if done.returncode != 0 and path.exists():
