@@ -264,20 +264,16 @@ contains
    subroutine go_to(self, place)
       class(orbit_problem_type), intent(inout) :: self
       real(wp), intent(in) :: place(:)
-      integer :: intervals, o
+      integer :: ends, o
       self%turns = nint(place(1))
       self%parameter = place(2)
       self%first_defect = place(3)
-      intervals = nint(place(4))
-      o = 4
-      associate (orbit => self%orbit)
-         call orbit%set_mesh(place(o + 1:o + intervals + 1), reshape(place(o + 2*(intervals + 1) + self%n + 1:), &
-            & [self%n, points, intervals]))
-         o = o + intervals + 1
-         orbit%kink(:) = nint(place(o + 1:o + intervals + 1))
-         o = o + intervals + 1
+      ends = nint(place(4)) + 1
+      o = 4 + 2*ends
+      associate (orbit => self%orbit, time => place(5:4 + ends), kink => place(5 + ends:o))
          orbit%start = place(o + 1:o + self%n)
          o = o + self%n
+         call orbit%set_mesh(time, reshape(place(o + 1:), [self%n, points, ends - 1]), nint(kink))
          o = o + size(orbit%at)
       end associate
       call self%ode%set_start(place(o + 1:))
@@ -314,8 +310,8 @@ contains
       n = problem%orbit%intervals()
       associate (orbit => problem%orbit, time => problem%orbit%time, kink => problem%orbit%kink)
          twice = orbit
-         call twice%set_mesh([time, time(n) + time(1:)], reshape([orbit%at, orbit%at], [problem%n, points, 2*n]))
-         twice%kink(:) = [kink, kink(1:)]
+         call twice%set_mesh([time, time(n) + time(1:)], reshape([orbit%at, orbit%at], [problem%n, points, 2*n]), &
+            & [kink, kink(1:)])
       end associate
       problem%orbit = twice
       problem%turns = 2*problem%turns

@@ -4,11 +4,12 @@
 !> neither with its cube nor with its square. Displacements x, x' = v, follow from their rates and are no unknowns.
 module interval_maps
    use kinds, only: wp
+   use whole_vectors, only: lanes, padded
    use ode_model, only: ode_model_type
    use orbit_polynomials, only: points
    implicit none (type, external)
    private
-   public :: interval_maps_type, new_interval_maps, weight, padded
+   public :: interval_maps_type, new_interval_maps, weight
 
    real(wp), parameter :: s6 = sqrt(6.0_wp)
    !> The integrals of the points' polynomials up to each point.
@@ -16,8 +17,6 @@ module interval_maps
       & (296 - 169*s6)/1800, (88 + 7*s6)/360, (16 + s6)/36, (-2 + 3*s6)/225, (-2 - 3*s6)/225, 1/9.0_wp], &
       & [points, points])
 
-   !> Rows of numbers are filled up to whole vectors.
-   integer, parameter :: lanes = 8
    !> The border or a block: its states, counted in itself; displacements and the rates of these, all states but the
    !> displacements, and where the rates stand among them.
    type :: part_type
@@ -70,12 +69,6 @@ contains
       end associate
       allocate (maps%length(intervals), maps%gap(constants, size(maps%x), points, intervals))
    end function new_interval_maps
-
-   !> So many numbers, filled up to whole vectors.
-   elemental integer function padded(numbers)
-      integer, intent(in) :: numbers
-      padded = lanes*((numbers + lanes - 1)/lanes)
-   end function padded
 
    !> The part of these n states, of which so many stand before.
    pure type(part_type) function new_part(maps, before, n) result(part)

@@ -4,13 +4,14 @@
 !> unstable orbit is found like a stable one. Elimination from interval to interval leaves the monodromy matrix.
 module orbit_collocation
    use kinds, only: wp
+   use whole_vectors, only: padded
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error
    use lapack, only: dgesv
    use ode_model, only: ode_model_type
    use orbit_polynomials, only: orbit_type, points, place
    use kink_mesh, only: follow_kinks
-   use interval_maps, only: interval_maps_type, new_interval_maps, weight, padded
+   use interval_maps, only: interval_maps_type, new_interval_maps, weight
    implicit none (type, external)
    private
    public :: newton_round

@@ -124,17 +124,18 @@ contains
             call self%state_at(time(k - 1) + place(i)*(time(k) - time(k - 1)), at(:, i, k))
          end do
       end do
-      call self%set_mesh(time, at)
-      if (present(kink)) self%kink(:) = kink
+      call self%set_mesh(time, at, kink)
    end subroutine change_mesh
 
-   !> Takes ends of intervals, s, none of which is at a kink, and the states at their points.
-   pure subroutine set_mesh(self, time, at)
+   !> Takes ends of intervals, s, and the states at their points; kinks as for `change_mesh`.
+   pure subroutine set_mesh(self, time, at, kink)
       class(orbit_type), intent(inout) :: self
       real(wp), intent(in) :: time(0:), at(:, :, :)
+      integer, intent(in), optional :: kink(0:)
       if (allocated(self%time)) deallocate (self%time, self%kink)
       allocate (self%time(0:ubound(time, 1)), source=time)
       allocate (self%kink(0:ubound(time, 1)), source=0)
+      if (present(kink)) self%kink(:) = kink
       self%at = at
       self%correction = huge(self%correction)
    end subroutine set_mesh

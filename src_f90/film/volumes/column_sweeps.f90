@@ -2,19 +2,12 @@
 !> column of cells wide. Modes and rows are filled up to whole vectors.
 module column_sweeps
    use kinds, only: wp
+   use whole_vectors, only: lanes
    implicit none (type, external)
    private
-   public :: padded, green_chain, factor_chain, solve_chain, finish_chain, multiply_columns, weighted, apply, invert
-
-   integer, parameter :: lanes = 8
+   public :: green_chain, factor_chain, solve_chain, finish_chain, multiply_columns, weighted, apply, invert
 
 contains
-
-   !> Rows filled up to a multiple of the vector length.
-   pure integer function padded(rows)
-      integer, intent(in) :: rows
-      padded = lanes*((rows + lanes - 1)/lanes)
-   end function padded
 
    !> From the leading edge to the trailing one: reciprocal pivots (mode, column), and per_pivot (load + what comes
    !> from the column behind) for three loads, uniform over the rows, the first with one at the edge besides.

@@ -3,7 +3,8 @@
 !> the root of the rows' heights ("scaled").
 module grid_modes
    use kinds, only: wp
-   use column_sweeps, only: padded, apply
+   use whole_vectors, only: padded
+   use column_sweeps, only: apply
    use film_grid, only: film_grid_type
    implicit none (type, external)
    private
