@@ -139,8 +139,7 @@ right pictures are the speeds at which the orbit is unstable.
 
 {lost_words} A small unbalance leaves the pads sticking, and the orbit is lost near the threshold of stability
 of pads that stick (above). A larger one makes them slide in each revolution, and may keep its orbit up to
-higher speeds. Not every loss is large: with Bengisu-Akay and f_s = 0.2 small disturbances of the orbit grow
-around 7200 rpm, but marches stay far closer to it than its own size.
+higher speeds.
 
 ## The four-pad bearing: orbits of two revolutions
 
