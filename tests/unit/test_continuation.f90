@@ -3,7 +3,7 @@
 module branch_problems
    use kinds, only: wp, pi
    use errors, only: error_type, raise, input_error
-   use ode_model, only: ode_model_type
+   use small_ode, only: small_ode_type
    use continuation, only: branch_problem_type
    use parametric_ode, only: parametric_ode_type
    implicit none (type, external)
@@ -24,27 +24,22 @@ module branch_problems
 
    !> y = R(t/2) w or y = w: half a turn of the frame in the period 2 pi, or none. In the frame w_1' = p w_1 - w_1**3
    !> and w_2' = -w_2 (half a turn), or w_1 + i w_2 = z with z' = (p + i/sqrt(5)) z - |z|**2 z (none).
-   type, extends(ode_model_type) :: turning_frame
+   type, extends(small_ode_type) :: turning_frame
       real(wp) :: p = 0
       logical :: turns = .true.
-      real(wp), private :: matrix(2, 2) = 0
    contains
-      procedure :: rhs => frame_rhs
-      procedure :: linearize => frame_linearize
-      procedure :: jacobian_times => frame_times
-      procedure :: solve => frame_solve
+      procedure :: rates => frame_rates
+      procedure :: jacobian => frame_jacobian
+      procedure :: frame => frame_at
    end type turning_frame
 
    !> x'' + damping x' + spring x + x**3 = force cos(frequency t); the parameter is the frequency or the force.
-   type, extends(ode_model_type) :: duffing
+   type, extends(small_ode_type) :: duffing
       real(wp) :: damping = 0.1_wp, spring = 1, force = 0.2_wp, frequency = 1
       logical :: varies_force = .false.
-      real(wp), private :: x = 0
    contains
-      procedure :: rhs => duffing_rhs
-      procedure :: linearize => duffing_linearize
-      procedure :: jacobian_times => duffing_times
-      procedure :: solve => duffing_solve
+      procedure :: rates => duffing_rates
+      procedure :: jacobian => duffing_jacobian
       procedure :: pairs => duffing_pairs
    end type duffing
 
@@ -58,6 +53,7 @@ module branch_problems
    end type oscillator_orbits
 
    real(wp), parameter :: spin = 1/sqrt(5.0_wp)
+   real(wp), parameter :: half_spin(2, 2) = reshape([0.0_wp, 0.5_wp, -0.5_wp, 0.0_wp], [2, 2])
 
 contains
 
@@ -111,95 +107,62 @@ contains
       self%x = place(2)
    end subroutine put_parabola
 
-   !> Rates and their derivatives in the frame, turned back.
-   pure subroutine frame_field(self, t, y, rates, matrix)
+   !> Columns of the frame.
+   pure function frame_at(self, t) result(turn)
       class(turning_frame), intent(in) :: self
-      real(wp), intent(in) :: t, y(:)
-      real(wp), intent(out) :: rates(2), matrix(2, 2)
-      real(wp) :: turn(2, 2), w(2), field(2)
-      real(wp), parameter :: half_spin(2, 2) = reshape([0.0_wp, 0.5_wp, -0.5_wp, 0.0_wp], [2, 2])
+      real(wp), intent(in) :: t
+      real(wp) :: turn(2, 2)
       turn = reshape([1, 0, 0, 1], [2, 2])
       if (self%turns) turn = reshape([cos(t/2), sin(t/2), -sin(t/2), cos(t/2)], [2, 2])
-      w = matmul(transpose(turn), y)
+   end function frame_at
+
+   !> Rates in the frame, turned back.
+   pure function frame_rates(self, t, y) result(rates)
+      class(turning_frame), intent(in) :: self
+      real(wp), intent(in) :: t, y(:)
+      real(wp) :: rates(size(y))
       if (self%turns) then
-         field = [self%p*w(1) - w(1)**3, -w(2)]
-         matrix = reshape([self%p - 3*w(1)**2, 0.0_wp, 0.0_wp, -1.0_wp], [2, 2])
-         rates = matmul(turn, field) + matmul(half_spin, y)
-         matrix = matmul(turn, matmul(matrix, transpose(turn))) + half_spin
+         associate (w => matmul(transpose(self%frame(t)), y))
+            rates = matmul(self%frame(t), [self%p*w(1) - w(1)**3, -w(2)]) + matmul(half_spin, y)
+         end associate
       else
-         associate (square => w(1)**2 + w(2)**2)
-            rates = [(self%p - square)*w(1) - spin*w(2), (self%p - square)*w(2) + spin*w(1)]
-            matrix = reshape([self%p - square - 2*w(1)**2, spin - 2*w(1)*w(2), -spin - 2*w(1)*w(2), &
-               & self%p - square - 2*w(2)**2], [2, 2])
+         associate (square => y(1)**2 + y(2)**2)
+            rates = [(self%p - square)*y(1) - spin*y(2), (self%p - square)*y(2) + spin*y(1)]
          end associate
       end if
-   end subroutine frame_field
+   end function frame_rates
 
-   subroutine frame_rhs(self, t, y, dydt, ok)
-      class(turning_frame), intent(inout) :: self
+   pure function frame_jacobian(self, t, y) result(matrix)
+      class(turning_frame), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
-      real(wp), intent(out) :: dydt(:)
-      logical, intent(out) :: ok
-      real(wp) :: ignored(2, 2)
-      call frame_field(self, t, y, dydt, ignored)
-      ok = .true.
-   end subroutine frame_rhs
+      real(wp) :: matrix(size(y), size(y))
+      if (self%turns) then
+         associate (turn => self%frame(t), w => matmul(transpose(self%frame(t)), y))
+            matrix = reshape([self%p - 3*w(1)**2, 0.0_wp, 0.0_wp, -1.0_wp], [2, 2])
+            matrix = matmul(turn, matmul(matrix, transpose(turn))) + half_spin
+         end associate
+      else
+         associate (square => y(1)**2 + y(2)**2)
+            matrix = reshape([self%p - square - 2*y(1)**2, spin - 2*y(1)*y(2), -spin - 2*y(1)*y(2), &
+               & self%p - square - 2*y(2)**2], [2, 2])
+         end associate
+      end if
+   end function frame_jacobian
 
-   subroutine frame_linearize(self, t, y, ok)
-      class(turning_frame), intent(inout) :: self
+   pure function duffing_rates(self, t, y) result(rates)
+      class(duffing), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
-      logical, intent(out) :: ok
-      real(wp) :: ignored(2)
-      call frame_field(self, t, y, ignored, self%matrix)
-      ok = .true.
-   end subroutine frame_linearize
+      real(wp) :: rates(size(y))
+      rates = [y(2), self%force*cos(self%frequency*t) - self%damping*y(2) - self%spring*y(1) - y(1)**3]
+   end function duffing_rates
 
-   subroutine frame_times(self, v, jv)
-      class(turning_frame), intent(inout) :: self
-      real(wp), intent(in) :: v(:)
-      real(wp), intent(out) :: jv(:)
-      jv = matmul(self%matrix, v)
-   end subroutine frame_times
-
-   subroutine frame_solve(self, gamma, b, ok)
-      class(turning_frame), intent(inout) :: self
-      real(wp), intent(in) :: gamma
-      real(wp), intent(inout) :: b(:)
-      logical, intent(out) :: ok
-      ok = .false.
-   end subroutine frame_solve
-
-   subroutine duffing_rhs(self, t, y, dydt, ok)
-      class(duffing), intent(inout) :: self
+   pure function duffing_jacobian(self, t, y) result(matrix)
+      class(duffing), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
-      real(wp), intent(out) :: dydt(:)
-      logical, intent(out) :: ok
-      dydt = [y(2), self%force*cos(self%frequency*t) - self%damping*y(2) - self%spring*y(1) - y(1)**3]
-      ok = .true.
-   end subroutine duffing_rhs
-
-   subroutine duffing_linearize(self, t, y, ok)
-      class(duffing), intent(inout) :: self
-      real(wp), intent(in) :: t, y(:)
-      logical, intent(out) :: ok
-      self%x = y(1)
-      ok = .true.
-   end subroutine duffing_linearize
-
-   subroutine duffing_times(self, v, jv)
-      class(duffing), intent(inout) :: self
-      real(wp), intent(in) :: v(:)
-      real(wp), intent(out) :: jv(:)
-      jv = [v(2), -(self%spring + 3*self%x**2)*v(1) - self%damping*v(2)]
-   end subroutine duffing_times
-
-   subroutine duffing_solve(self, gamma, b, ok)
-      class(duffing), intent(inout) :: self
-      real(wp), intent(in) :: gamma
-      real(wp), intent(inout) :: b(:)
-      logical, intent(out) :: ok
-      ok = .false.
-   end subroutine duffing_solve
+      real(wp) :: matrix(size(y), size(y))
+      matrix(1, :) = [0.0_wp, 1.0_wp]
+      matrix(2, :) = [-self%spring - 3*y(1)**2, -self%damping]
+   end function duffing_jacobian
 
    pure subroutine duffing_pairs(self, x, v)
       class(duffing), intent(in) :: self
@@ -233,7 +196,8 @@ program test_continuation
    use errors, only: error_type
    use continuation, only: branch_problem_type, branch_point_type, branch_options, start_branch, advance, return_to
    use special_points, only: special_point_type, find_special_points
-   use orbit_polynomials, only: orbit_type, points
+   use orbit_polynomials, only: orbit_type
+   use resting_orbit, only: at_rest
    use orbit_branch, only: orbit_problem_type, begin_orbits, double_period
    use branch_problems, only: parabola, turning_frame, duffing, oscillator_orbits
    use check, only: runs, expect, expect_close, expect_no_error, report
@@ -251,16 +215,16 @@ program test_continuation
 contains
 
    !> Follows a branch to its end; the special points on the way.
-   subroutine follow(problem, options, here, special, count)
+   subroutine follow(problem, options, here, special)
       class(branch_problem_type), intent(inout) :: problem
       type(branch_options), intent(in) :: options
       type(branch_point_type), intent(inout) :: here
       type(special_point_type), allocatable, intent(out) :: special(:)
-      integer, intent(out) :: count
       type(special_point_type), allocatable :: found(:)
       type(branch_point_type) :: next
       type(error_type), allocatable :: error
       real(wp) :: length
+      integer :: count
       logical :: ends
       length = options%first_step
       allocate (special(0))
@@ -280,18 +244,10 @@ contains
       type(parabola) :: problem
       type(branch_point_type) :: here
       type(special_point_type), allocatable :: special(:)
-      type(error_type), allocatable :: error
       type(branch_options) :: options
-      integer :: count
-      problem%n = 1
-      problem%weight = [1.0_wp]
-      problem%parameter = 1
-      options%low = -1
-      options%high = 1
-      options%tolerance = 1e-10_wp
-      call start_branch(problem, options, .false., here, error)
-      call expect_no_error(error, 'the start')
-      call follow(problem, options, here, special, count)
+      options = branch_options(low=-1.0_wp, high=1.0_wp, tolerance=1e-10_wp)
+      call begin_parabola(problem, options, here)
+      call follow(problem, options, here, special)
       call expect_close(here%parameter, 1.0_wp, 0.0_wp, 'the end is at the bound')
       call expect_close(problem%x, -1.0_wp, 1e-9_wp, 'on the other side')
       call expect(size(special) == 1, 'one special point')
@@ -302,6 +258,19 @@ contains
       call expect(here%growth(1) > 0, 'and it ends unstable')
    end subroutine fold
 
+   !> At p = 1 on the stable side.
+   subroutine begin_parabola(problem, options, here)
+      type(parabola), intent(inout) :: problem
+      type(branch_options), intent(in) :: options
+      type(branch_point_type), intent(out) :: here
+      type(error_type), allocatable :: error
+      problem%n = 1
+      problem%weight = [1.0_wp]
+      problem%parameter = 1
+      call start_branch(problem, options, .false., here, error)
+      call expect_no_error(error, 'the start')
+   end subroutine begin_parabola
+
    !> Where the problem refuses a value the branch comes close to it, and the error says so.
    subroutine refused()
       type(parabola) :: problem
@@ -310,13 +279,9 @@ contains
       type(branch_options) :: options
       real(wp) :: length
       logical :: ends
-      problem%n = 1
-      problem%weight = [1.0_wp]
-      problem%parameter = 1
       problem%least = 0.5_wp
-      options%low = -1
-      options%high = 1
-      call start_branch(problem, options, .false., here, error)
+      options = branch_options(low=-1.0_wp, high=1.0_wp)
+      call begin_parabola(problem, options, here)
       length = options%first_step
       do while (.not. allocated(error))
          call advance(problem, options, here, length, next, ends, error)
@@ -361,19 +326,9 @@ contains
       model%turns = turns
       ode%model => model
       ode%frame => model
-      call begin_orbits(problem, ode, at_rest(20, 2*pi), 1, -0.5_wp, 1.0_wp)
+      call begin_orbits(problem, ode, at_rest(2, 20, 2*pi), 1, -0.5_wp, 1.0_wp)
       options = branch_options(first_step=0.05_wp, max_step=0.1_wp, low=-0.5_wp, high=0.5_wp)
    end subroutine begin_frame
-
-   !> An orbit at rest on n intervals of a period.
-   type(orbit_type) function at_rest(n, period) result(orbit)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: period
-      integer :: k
-      allocate (orbit%start(2), source=0.0_wp)
-      allocate (orbit%scale(2), source=1.0_wp)
-      call orbit%set_mesh([(period*k/n, k=0, n)], reshape([real(wp) ::], [2, points, n], pad=[0.0_wp]))
-   end function at_rest
 
    !> The rest at w = 0 has the multipliers -exp(2 pi p) and -exp(-2 pi): a flip at p = 0. The orbits of double period
    !> are w_1 = +-sqrt(p) with the multipliers exp(-8 pi p) and exp(-4 pi). Radau's error on 20 intervals is of (2
@@ -386,12 +341,11 @@ contains
       type(special_point_type), allocatable :: special(:), others(:)
       type(error_type), allocatable :: error
       type(branch_options) :: options
-      integer :: count
       logical :: ok
       call begin_frame(model, ode, .true., problem, options)
       call start_branch(problem, options, .true., here, error)
       call expect_close(here%values(1)%re, -exp(-pi), 1e-7_wp, 'leading multiplier at the start')
-      call follow(problem, options, here, special, count)
+      call follow(problem, options, here, special)
       call expect_close(here%values(1)%re, -exp(pi), 1e-4_wp, 'leading multiplier at the end')
       call expect(size(special) == 1, 'one special point')
       call expect(special(1)%kind == 'flip' .and. special(1)%destabilises, 'a flip')
@@ -400,7 +354,7 @@ contains
       call expect(ok, 'the doubled orbit')
       call expect_close(here%values(1)%re, 1.0_wp, 1e-5_wp, 'its multiplier there is 1')
       here%growth(1) = -1
-      call follow(problem, options, here, others, count)
+      call follow(problem, options, here, others)
       call expect(size(others) == 0, 'nothing happens on the branch of double period')
       call expect_close(here%parameter, 0.5_wp, 0.0_wp, 'it leads up')
       call expect_close(norm2(problem%orbit%start), sqrt(0.5_wp), 1e-6_wp, 'its size')
@@ -417,10 +371,9 @@ contains
       type(special_point_type), allocatable :: special(:)
       type(error_type), allocatable :: error
       type(branch_options) :: options
-      integer :: count
       call begin_frame(model, ode, .false., problem, options)
       call start_branch(problem, options, .true., here, error)
-      call follow(problem, options, here, special, count)
+      call follow(problem, options, here, special)
       call expect(size(special) == 1, 'one special point')
       call expect(special(1)%kind == 'neimark_sacker', 'a second frequency')
       call expect_close(special(1)%point%parameter, 0.0_wp, 1e-7_wp, 'at 0')
@@ -439,15 +392,14 @@ contains
       type(error_type), allocatable :: error
       type(branch_options) :: options
       real(wp), parameter :: upper = 1.52244802_wp, lower = 1.252014959_wp
-      integer :: count
       model%n = 2
       ode%model => model
       ode%oscillator => model
-      call begin_orbits(problem, ode, at_rest(80, 2*pi/0.6_wp), 1, 0.6_wp, 1.9_wp)
+      call begin_orbits(problem, ode, at_rest(2, 80, 2*pi/0.6_wp), 1, 0.6_wp, 1.9_wp)
       options = branch_options(first_step=0.02_wp, max_step=0.05_wp, low=0.6_wp, high=2.5_wp)
       call start_branch(problem, options, .true., here, error)
       call expect_no_error(error, 'the start')
-      call follow(problem, options, here, special, count)
+      call follow(problem, options, here, special)
       call expect_close(here%parameter, 2.5_wp, 0.0_wp, 'the branch goes on behind both folds')
       call expect(size(special) == 2, 'two special points')
       call expect(all(special%kind == 'fold'), 'folds')
@@ -470,12 +422,12 @@ contains
       type(branch_options) :: options
       real(wp), parameter :: doublings(2) = [0.2655817860556_wp, 0.2866931578237_wp]
       real(wp) :: half(2)
-      integer :: count, k
+      integer :: k
       logical :: ok
       model = duffing(n=2, damping=0.3_wp, spring=-1.0_wp, frequency=1.2_wp, varies_force=.true.)
       ode%model => model
       ode%oscillator => model
-      well = at_rest(60, 2*pi/1.2_wp)
+      well = at_rest(2, 60, 2*pi/1.2_wp)
       well%start(1) = 1
       well%at(1, :, :) = 1
       call begin_orbits(problem, ode, well, 1, 0.01_wp, 0.3_wp)
@@ -483,7 +435,7 @@ contains
       call start_branch(problem, options, .true., here, error)
       call expect_no_error(error, 'the start')
       do k = 1, 2
-         call follow(problem, options, here, special, count)
+         call follow(problem, options, here, special)
          special = pack(special, special%kind == 'flip')
          call expect(size(special) == 1, 'one doubling')
          if (size(special) /= 1) return
@@ -493,7 +445,7 @@ contains
          call expect(ok, 'the doubled orbit')
          here%growth(1) = -1
       end do
-      call follow(problem, options, here, special, count)
+      call follow(problem, options, here, special)
       call expect(size(special) == 0, 'it stays doubled twice')
       call expect_close(problem%period(), 8*pi/1.2_wp, 1e-12_wp, 'its period')
       call problem%orbit%state_at(0.5_wp*problem%period(), half)

@@ -2,23 +2,17 @@
 !> once.
 module swinging
    use kinds, only: wp
-   use ode_model, only: ode_model_type
+   use small_ode, only: small_ode_type
    implicit none (type, external)
    private
    public :: oscillator, exact
 
    !> y'' = -w^2 y as (y, y'), whose outputs are the states themselves.
-   type, extends(ode_model_type) :: oscillator
+   type, extends(small_ode_type) :: oscillator
       real(wp) :: w = 1
-      !> Refuses every time after this one, s.
-      real(wp) :: refuse_after = huge(1.0_wp)
-      !> State evaluated last.
-      real(wp) :: seen(2) = 0
    contains
-      procedure :: rhs
-      procedure :: linearize
-      procedure :: jacobian_times
-      procedure :: solve
+      procedure :: rates
+      procedure :: jacobian
       procedure :: output
    end type oscillator
 
@@ -31,40 +25,19 @@ contains
       y = [cos(w*t), -w*sin(w*t)]
    end function exact
 
-   subroutine rhs(self, t, y, dydt, ok)
-      class(oscillator), intent(inout) :: self
+   pure function rates(self, t, y)
+      class(oscillator), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
-      real(wp), intent(out) :: dydt(:)
-      logical, intent(out) :: ok
-      self%seen = y
-      dydt = [y(2), -self%w**2*y(1)]
-      ok = t <= self%refuse_after
-      if (.not. ok) self%refusal = 'the string is cut'
-   end subroutine rhs
+      real(wp) :: rates(size(y))
+      rates = [y(2), -self%w**2*y(1)]
+   end function rates
 
-   subroutine linearize(self, t, y, ok)
-      class(oscillator), intent(inout) :: self
+   pure function jacobian(self, t, y) result(matrix)
+      class(oscillator), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
-      logical, intent(out) :: ok
-      self%seen = y
-      ok = t <= self%refuse_after
-   end subroutine linearize
-
-   subroutine jacobian_times(self, v, jv)
-      class(oscillator), intent(inout) :: self
-      real(wp), intent(in) :: v(:)
-      real(wp), intent(out) :: jv(:)
-      jv = [v(2), -self%w**2*v(1)]
-   end subroutine jacobian_times
-
-   subroutine solve(self, gamma, b, ok)
-      class(oscillator), intent(inout) :: self
-      real(wp), intent(in) :: gamma
-      real(wp), intent(inout) :: b(:)
-      logical, intent(out) :: ok
-      b = [b(1) + gamma*b(2), b(2) - gamma*self%w**2*b(1)]/(1 + (gamma*self%w)**2)
-      ok = .true.
-   end subroutine solve
+      real(wp) :: matrix(size(y), size(y))
+      matrix = reshape([0.0_wp, -self%w**2, 1.0_wp, 0.0_wp], [2, 2])
+   end function jacobian
 
    function output(self, correction)
       class(oscillator), intent(inout) :: self
@@ -242,7 +215,7 @@ contains
       end do
       call expect(allocated(error), 'no step beyond')
       if (.not. allocated(error)) return
-      call expect(error%status == numerics_error .and. index(error%message, 'the string is cut') == 1, &
+      call expect(error%status == numerics_error .and. index(error%message, 'the problem ends') == 1, &
          & 'the error gives the reason: '//error%message)
       reached = integrator%time()
       call expect(reached <= 0.5_wp .and. reached > 0.49_wp, 'the time reached stands: '//to_text(reached))

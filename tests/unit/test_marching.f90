@@ -1,60 +1,34 @@
 !> The march on small problems with known solutions: accuracy, samples, refusals, limits.
 module march_problems
    use kinds, only: wp, i8
-   use lapack, only: dgesv
    use errors, only: error_type, raise, numerics_error, stopped
-   use ode_model, only: ode_model_type
+   use small_ode, only: small_ode_type
    use march_observer, only: march_observer_type
    use integrator_counts, only: integrator_counts_type
    implicit none (type, external)
    private
    public :: stiff_cosine, robertson, light_vibration, keeper
 
-   !> A problem with a full Jacobian.
-   type, abstract, extends(ode_model_type) :: dense_problem
-      real(wp), allocatable :: matrix(:, :)
-   contains
-      procedure :: linearize => take_matrix
-      procedure :: jacobian_times => times_dense
-      procedure :: solve => solve_dense
-      procedure(jacobian_matrix), deferred :: jacobian
-   end type dense_problem
-
-   abstract interface
-      pure function jacobian_matrix(self, y) result(matrix)
-         import :: dense_problem, wp
-         class(dense_problem), intent(in) :: self
-         real(wp), intent(in) :: y(:)
-         real(wp) :: matrix(size(y), size(y))
-      end function jacobian_matrix
-   end interface
-
    !> y' = -k (y - cos t) - sin t, beside a damped oscillator of its own: y = cos t from y(0) = 1.
-   type, extends(dense_problem) :: stiff_cosine
+   type, extends(small_ode_type) :: stiff_cosine
       real(wp) :: stiffness = 1e5_wp
-      !> Refuses every time after this one.
-      real(wp) :: refuse_after = huge(1.0_wp)
-      !> Refuses the first so many evaluations.
-      integer :: refuse_first = 0
-      !> Answers with numbers too large at this call and beyond.
-      integer :: calls = 0
    contains
-      procedure :: rhs => cosine_rhs
+      procedure :: rates => cosine_rates
       procedure :: jacobian => cosine_jacobian
    end type stiff_cosine
 
    !> y'' + 2 zeta w y' + w^2 y = w^2 cos t, fast and hardly damped: in the orders 3 to 5 of BDF it grows.
-   type, extends(dense_problem) :: light_vibration
+   type, extends(small_ode_type) :: light_vibration
       real(wp) :: frequency = 400, damping = 0.0045_wp
    contains
-      procedure :: rhs => light_rhs
+      procedure :: rates => light_rates
       procedure :: jacobian => light_jacobian
    end type light_vibration
 
    !> Robertson's chemical reaction.
-   type, extends(dense_problem) :: robertson
+   type, extends(small_ode_type) :: robertson
    contains
-      procedure :: rhs => robertson_rhs
+      procedure :: rates => robertson_rates
       procedure :: jacobian => robertson_jacobian
    end type robertson
 
@@ -74,54 +48,16 @@ module march_problems
 
 contains
 
-   subroutine take_matrix(self, t, y, ok)
-      class(dense_problem), intent(inout) :: self
-      real(wp), intent(in) :: t, y(:)
-      logical, intent(out) :: ok
-      self%matrix = self%jacobian(y)
-      ok = .true.
-   end subroutine take_matrix
-
-   subroutine times_dense(self, v, jv)
-      class(dense_problem), intent(inout) :: self
-      real(wp), intent(in) :: v(:)
-      real(wp), intent(out) :: jv(:)
-      jv = matmul(self%matrix, v)
-   end subroutine times_dense
-
-   subroutine solve_dense(self, gamma, b, ok)
-      class(dense_problem), intent(inout) :: self
-      real(wp), intent(in) :: gamma
-      real(wp), intent(inout) :: b(:)
-      logical, intent(out) :: ok
-      real(wp) :: system(size(b), size(b)), column(size(b), 1)
-      integer :: pivots(size(b)), info, i
-      system = -gamma*self%matrix
-      do i = 1, size(b)
-         system(i, i) = system(i, i) + 1
-      end do
-      column(:, 1) = b
-      call dgesv(size(b), 1, system, size(b), pivots, column, size(b), info)
-      b = column(:, 1)
-      ok = info == 0
-   end subroutine solve_dense
-
-   subroutine cosine_rhs(self, t, y, dydt, ok)
-      class(stiff_cosine), intent(inout) :: self
-      real(wp), intent(in) :: t, y(:)
-      real(wp), intent(out) :: dydt(:)
-      logical, intent(out) :: ok
-      self%calls = self%calls + 1
-      dydt(1) = -self%stiffness*(y(1) - cos(t)) - sin(t)
-      dydt(2) = y(3)
-      dydt(3) = -4*y(2)
-      ok = t <= self%refuse_after .and. self%calls > self%refuse_first
-      if (.not. ok) self%refusal = 'the problem ends'
-   end subroutine cosine_rhs
-
-   pure function cosine_jacobian(self, y) result(matrix)
+   pure function cosine_rates(self, t, y) result(rates)
       class(stiff_cosine), intent(in) :: self
-      real(wp), intent(in) :: y(:)
+      real(wp), intent(in) :: t, y(:)
+      real(wp) :: rates(size(y))
+      rates = [-self%stiffness*(y(1) - cos(t)) - sin(t), y(3), -4*y(2)]
+   end function cosine_rates
+
+   pure function cosine_jacobian(self, t, y) result(matrix)
+      class(stiff_cosine), intent(in) :: self
+      real(wp), intent(in) :: t, y(:)
       real(wp) :: matrix(size(y), size(y))
       matrix = 0
       matrix(1, 1) = -self%stiffness
@@ -129,37 +65,33 @@ contains
       matrix(3, 2) = -4
    end function cosine_jacobian
 
-   subroutine light_rhs(self, t, y, dydt, ok)
-      class(light_vibration), intent(inout) :: self
-      real(wp), intent(in) :: t, y(:)
-      real(wp), intent(out) :: dydt(:)
-      logical, intent(out) :: ok
-      dydt = matmul(self%jacobian(y), y) + [0.0_wp, self%frequency**2*cos(t)]
-      ok = .true.
-   end subroutine light_rhs
-
-   pure function light_jacobian(self, y) result(matrix)
+   pure function light_rates(self, t, y) result(rates)
       class(light_vibration), intent(in) :: self
-      real(wp), intent(in) :: y(:)
+      real(wp), intent(in) :: t, y(:)
+      real(wp) :: rates(size(y))
+      rates = matmul(self%jacobian(t, y), y) + [0.0_wp, self%frequency**2*cos(t)]
+   end function light_rates
+
+   pure function light_jacobian(self, t, y) result(matrix)
+      class(light_vibration), intent(in) :: self
+      real(wp), intent(in) :: t, y(:)
       real(wp) :: matrix(size(y), size(y))
       matrix(1, :) = [0.0_wp, 1.0_wp]
       matrix(2, :) = [-self%frequency**2, -2*self%damping*self%frequency]
    end function light_jacobian
 
-   subroutine robertson_rhs(self, t, y, dydt, ok)
-      class(robertson), intent(inout) :: self
-      real(wp), intent(in) :: t, y(:)
-      real(wp), intent(out) :: dydt(:)
-      logical, intent(out) :: ok
-      dydt(1) = -0.04_wp*y(1) + 1e4_wp*y(2)*y(3)
-      dydt(3) = 3e7_wp*y(2)**2
-      dydt(2) = -dydt(1) - dydt(3)
-      ok = .true.
-   end subroutine robertson_rhs
-
-   pure function robertson_jacobian(self, y) result(matrix)
+   pure function robertson_rates(self, t, y) result(rates)
       class(robertson), intent(in) :: self
-      real(wp), intent(in) :: y(:)
+      real(wp), intent(in) :: t, y(:)
+      real(wp) :: rates(size(y))
+      rates(1) = -0.04_wp*y(1) + 1e4_wp*y(2)*y(3)
+      rates(3) = 3e7_wp*y(2)**2
+      rates(2) = -rates(1) - rates(3)
+   end function robertson_rates
+
+   pure function robertson_jacobian(self, t, y) result(matrix)
+      class(robertson), intent(in) :: self
+      real(wp), intent(in) :: t, y(:)
       real(wp) :: matrix(size(y), size(y))
       matrix(1, :) = [-0.04_wp, 1e4_wp*y(3), 1e4_wp*y(2)]
       matrix(3, :) = [0.0_wp, 6e7_wp*y(2), 0.0_wp]
@@ -212,8 +144,17 @@ program test_marching
    use marching, only: march, march_options, sample_plan
    use integrator_counts, only: integrator_counts_type
    use march_problems, only: stiff_cosine, robertson, light_vibration, keeper
-   use check, only: runs, expect, expect_close, expect_no_error, report
+   use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
+
+   !> A march of the cosine with all that it needs and leaves.
+   type :: trial
+      type(stiff_cosine) :: model
+      type(keeper) :: observer
+      type(integrator_counts_type) :: counts
+      type(error_type), allocatable :: error
+      real(wp) :: y(3) = 0
+   end type trial
 
    if (runs('accuracy')) call accuracy()
    if (runs('samples_in_time')) call samples_in_time()
@@ -278,39 +219,56 @@ contains
 
    !> A march left at a state goes on from it: no sample twice, none missing, as accurate as in one go.
    subroutine going_on()
-      type(stiff_cosine) :: model
-      type(keeper) :: observer
-      type(integrator_counts_type) :: statistics
+      type(trial) :: it
       type(sample_plan) :: plan
-      type(error_type), allocatable :: error
       real(wp), parameter :: tolerance = 1e-8_wp
-      real(wp) :: y(3), t
+      real(wp) :: t
       integer(i8) :: steps
       integer :: k
-      model%n = 3
       plan = sample_plan(0.25_wp, 0.01_wp, 576_i8)
-      y = exact(0.0_wp)
+      it%y = exact(0.0_wp)
       t = 0
       steps = 0
       do k = 1, 4
-         observer%leave_at = merge(huge(1), 150*k, k == 4)
-         call march(model, tolerances(tolerance), t, 6.0_wp, plan, y, observer, statistics, error)
-         steps = steps + statistics%steps
+         it%observer%leave_at = merge(huge(1), 150*k, k == 4)
+         call go(it, tolerances(tolerance), t, 6.0_wp, plan)
+         steps = steps + it%counts%steps
          if (k == 4) exit
-         call expect(allocated(error), 'leave '//to_text(k))
-         t = observer%left_at
-         plan%next = size(observer%t)
+         call expect(allocated(it%error), 'leave '//to_text(k))
+         t = it%observer%left_at
+         plan%next = size(it%observer%t)
          call expect(plan%time(plan%next - 1) <= t .and. plan%time(plan%next) > t, 'all samples up to the state')
-         call expect_close(norm2(y - exact(t)), 0.0_wp, 6*steps*tolerance, 'the state is the one at its time')
+         call expect_close(norm2(it%y - exact(t)), 0.0_wp, 6*steps*tolerance, 'the state is the one at its time')
       end do
-      call expect_no_error(error, 'the last part ends well')
-      call expect(size(observer%t) == 576, 'as many samples as planned: '//to_text(size(observer%t)))
-      do k = 1, size(observer%t)
-         call expect_close(observer%t(k), plan%time(k - 1_i8), 0.0_wp, 'time of sample '//to_text(k))
-         call expect_close(norm2(observer%y(:, k) - exact(observer%t(k))), 0.0_wp, 6*steps*tolerance, &
-            & 'sample '//to_text(k))
-      end do
+      call expect_no_error(it%error, 'the last part ends well')
+      associate (samples => it%observer)
+         call expect(size(samples%t) == 576, 'as many samples as planned: '//to_text(size(samples%t)))
+         do k = 1, size(samples%t)
+            call expect_close(samples%t(k), plan%time(k - 1_i8), 0.0_wp, 'time of sample '//to_text(k))
+            call expect_close(norm2(samples%y(:, k) - exact(samples%t(k))), 0.0_wp, 6*steps*tolerance, &
+               & 'sample '//to_text(k))
+         end do
+      end associate
    end subroutine going_on
+
+   !> Marches from the state of the trial.
+   subroutine go(it, options, from, to, plan)
+      type(trial), intent(inout) :: it
+      type(march_options), intent(in) :: options
+      real(wp), intent(in) :: from, to
+      type(sample_plan), intent(in) :: plan
+      it%model%n = 3
+      call march(it%model, options, from, to, plan, it%y, it%observer, it%counts, it%error)
+   end subroutine go
+
+   !> A march of the cosine from the exact state.
+   type(trial) function marched(options, from, to, plan) result(it)
+      type(march_options), intent(in) :: options
+      real(wp), intent(in) :: from, to
+      type(sample_plan), intent(in) :: plan
+      it%y = exact(from)
+      call go(it, options, from, to, plan)
+   end function marched
 
    !> y = (cos t, sin 2t, 2 cos 2t).
    pure function exact(t)
@@ -330,24 +288,17 @@ contains
       real(wp), intent(in) :: tolerance
       real(wp), intent(out) :: error_found
       integer(i8), intent(out) :: steps
-      type(stiff_cosine) :: model
-      type(keeper) :: observer
-      type(integrator_counts_type) :: statistics
-      type(error_type), allocatable :: error
-      real(wp) :: y(3)
+      type(trial) :: it
       integer :: k
-      model%n = 3
-      y = exact(0.0_wp)
-      call march(model, tolerances(tolerance), 0.0_wp, 6.0_wp, sample_plan(0.0_wp, 0.01_wp, 601_i8), y, observer, &
-         & statistics, error)
-      call expect_no_error(error, 'the march ends well at tolerance '//to_text(tolerance))
+      it = marched(tolerances(tolerance), 0.0_wp, 6.0_wp, sample_plan(0.0_wp, 0.01_wp, 601_i8))
+      call expect_no_error(it%error, 'the march ends well at tolerance '//to_text(tolerance))
       error_found = 0
-      do k = 1, size(observer%t)
-         error_found = max(error_found, maxval(abs(observer%y(:, k) - exact(observer%t(k)))))
+      do k = 1, size(it%observer%t)
+         error_found = max(error_found, maxval(abs(it%observer%y(:, k) - exact(it%observer%t(k)))))
       end do
-      steps = statistics%steps
-      call expect(statistics%rhs_evaluations >= steps .and. statistics%jacobian_evaluations > 0, 'work is counted')
-      call expect(observer%reports == steps/64, 'a report every 64 steps')
+      steps = it%counts%steps
+      call expect(it%counts%rhs_evaluations >= steps .and. it%counts%jacobian_evaluations > 0, 'work is counted')
+      call expect(it%observer%reports == steps/64, 'a report every 64 steps')
    end subroutine sampled_error
 
    !> A step's error is at most the tolerance times (|y| + 1) sqrt(3), with |y| <= 2 (a weighted root mean
@@ -369,44 +320,33 @@ contains
 
    !> Samples come once each, at their very times, the first and the last among them.
    subroutine samples_in_time()
-      type(stiff_cosine) :: model
-      type(keeper) :: observer
-      type(integrator_counts_type) :: statistics
+      type(trial) :: it
       type(sample_plan) :: plan
-      type(error_type), allocatable :: error
-      real(wp) :: y(3)
       integer :: k
-      model%n = 3
       plan = sample_plan(0.5_wp, 0.125_wp, 13_i8)
-      y = exact(0.5_wp)
-      call march(model, tolerances(1e-8_wp), 0.5_wp, 2.0_wp, plan, y, observer, statistics, error)
-      call expect_no_error(error, 'the march ends well')
-      call expect(size(observer%t) == 13, 'as many samples as planned')
-      do k = 1, size(observer%t)
-         call expect_close(observer%t(k), 0.5_wp + 0.125_wp*(k - 1), 0.0_wp, 'time of sample '//to_text(k))
-         call expect_close(plan%time(k - 1_i8), observer%t(k), 0.0_wp, 'planned time of sample '//to_text(k))
-      end do
-      call expect_close(norm2(observer%y(:, 1) - exact(0.5_wp)), 0.0_wp, 0.0_wp, 'the first sample is the start')
-      call expect_close(norm2(observer%y(:, 13) - y), 0.0_wp, 4*epsilon(y), 'the last sample is the end')
-      call expect_close(norm2(y - exact(2.0_wp)), 0.0_wp, 6*statistics%steps*1e-8_wp, &
+      it = marched(tolerances(1e-8_wp), 0.5_wp, 2.0_wp, plan)
+      call expect_no_error(it%error, 'the march ends well')
+      associate (samples => it%observer)
+         call expect(size(samples%t) == 13, 'as many samples as planned')
+         do k = 1, size(samples%t)
+            call expect_close(samples%t(k), 0.5_wp + 0.125_wp*(k - 1), 0.0_wp, 'time of sample '//to_text(k))
+            call expect_close(plan%time(k - 1_i8), samples%t(k), 0.0_wp, 'planned time of sample '//to_text(k))
+         end do
+         call expect_close(norm2(samples%y(:, 1) - exact(0.5_wp)), 0.0_wp, 0.0_wp, 'the first sample is the start')
+         call expect_close(norm2(samples%y(:, 13) - it%y), 0.0_wp, 4*epsilon(it%y), 'the last sample is the end')
+      end associate
+      call expect_close(norm2(it%y - exact(2.0_wp)), 0.0_wp, 6*it%counts%steps*1e-8_wp, &
          & 'the state at the end is returned')
    end subroutine samples_in_time
 
    !> A last sample that rounding puts past the end is taken at the end; a late first one is waited for.
    subroutine last_sample_past_the_end()
-      type(stiff_cosine) :: model
-      type(keeper) :: observer
-      type(integrator_counts_type) :: statistics
-      type(error_type), allocatable :: error
-      real(wp) :: y(3)
-      model%n = 3
-      y = exact(0.0_wp)
-      call march(model, tolerances(1e-8_wp), 0.0_wp, 1.0_wp, sample_plan(0.4_wp, 0.1_wp*(1 + 1e-9_wp), 7_i8), y, &
-         & observer, statistics, error)
-      call expect(size(observer%t) == 7, 'all samples are taken')
-      call expect_close(observer%t(1), 0.4_wp, 0.0_wp, 'a late first sample')
-      call expect_close(observer%t(7), 1.0_wp, 0.0_wp, 'a sample just past the end is taken at the end')
-      call expect_close(norm2(observer%y(:, 1) - exact(0.4_wp)), 0.0_wp, 6*statistics%steps*1e-8_wp, 'its state')
+      type(trial) :: it
+      it = marched(tolerances(1e-8_wp), 0.0_wp, 1.0_wp, sample_plan(0.4_wp, 0.1_wp*(1 + 1e-9_wp), 7_i8))
+      call expect(size(it%observer%t) == 7, 'all samples are taken')
+      call expect_close(it%observer%t(1), 0.4_wp, 0.0_wp, 'a late first sample')
+      call expect_close(it%observer%t(7), 1.0_wp, 0.0_wp, 'a sample just past the end is taken at the end')
+      call expect_close(norm2(it%observer%y(:, 1) - exact(0.4_wp)), 0.0_wp, 6*it%counts%steps*1e-8_wp, 'its state')
    end subroutine last_sample_past_the_end
 
    !> Robertson's reaction at t = 40: reference values to ten digits; mass is conserved by the equations and,
@@ -433,81 +373,55 @@ contains
 
    !> A problem that has no solution beyond t = 0.5 ends there, with its own words and the time.
    subroutine refusal()
-      type(stiff_cosine) :: model
-      type(keeper) :: observer
-      type(integrator_counts_type) :: statistics
-      type(error_type), allocatable :: error
-      real(wp) :: y(3)
+      type(trial) :: it
       integer :: before
-      model%n = 3
-      model%refuse_after = 0.5_wp
-      y = exact(0.0_wp)
-      call march(model, tolerances(1e-6_wp), 0.0_wp, 1.0_wp, sample_plan(0.0_wp, 0.1_wp, 11_i8), y, observer, &
-         & statistics, error)
-      call expect(allocated(error), 'refusal is an error')
-      if (.not. allocated(error)) return
-      call expect(error%status == numerics_error, 'refusal is an error of the numerics')
-      call expect(index(error%message, 'the problem ends') > 0, 'the error gives the reason: '//error%message)
-      call expect(index(error%message, 't = 0.5 s') > 0 .or. index(error%message, 't = 0.49') > 0, &
-         & 'the error gives the time: '//error%message)
-      call expect(index(error%message, 'after '//to_text(statistics%steps)//' steps') > 0, 'the error counts the steps')
-      before = size(observer%t)
+      it%model%refuse_after = 0.5_wp
+      it%y = exact(0.0_wp)
+      call go(it, tolerances(1e-6_wp), 0.0_wp, 1.0_wp, sample_plan(0.0_wp, 0.1_wp, 11_i8))
+      call expect_error(it%error, numerics_error, 'the problem ends', 'refusal is an error')
+      if (.not. allocated(it%error)) return
+      associate (message => it%error%message)
+         call expect(index(message, 't = 0.5 s') > 0 .or. index(message, 't = 0.49') > 0, 'gives the time: '//message)
+         call expect(index(message, 'after '//to_text(it%counts%steps)//' steps') > 0, 'counts the steps: '//message)
+      end associate
+      before = size(it%observer%t)
       call expect(before == 5 .or. before == 6, 'samples before the end stand: '//to_text(before))
-      call expect_close(norm2(observer%y(:, before) - exact(observer%t(before))), 0.0_wp, 6*statistics%steps*1e-6_wp, &
-         & 'and are good')
+      call expect_close(norm2(it%observer%y(:, before) - exact(it%observer%t(before))), 0.0_wp, &
+         & 6*it%counts%steps*1e-6_wp, 'and are good')
    end subroutine refusal
 
    !> A refusal at the first evaluation is an error at the start.
    subroutine passing_refusal()
-      type(stiff_cosine) :: model
-      type(keeper) :: observer
-      type(integrator_counts_type) :: statistics
-      type(error_type), allocatable :: error
-      real(wp) :: y(3)
-      model%n = 3
-      model%refuse_first = 1
-      y = exact(0.0_wp)
-      call march(model, tolerances(1e-6_wp), 0.0_wp, 1.0_wp, sample_plan(), y, observer, statistics, error)
-      call expect(allocated(error), 'refusal of the start is an error')
-      if (allocated(error)) call expect(index(error%message, 't = 0 s') > 0, 'at the start: '//error%message)
+      type(trial) :: it
+      it%model%refuse_first = 1
+      it%y = exact(0.0_wp)
+      call go(it, tolerances(1e-6_wp), 0.0_wp, 1.0_wp, sample_plan())
+      call expect_error(it%error, numerics_error, 't = 0 s', 'refusal of the start is an error')
    end subroutine passing_refusal
 
    subroutine step_limits()
-      type(stiff_cosine) :: model
-      type(keeper) :: observer
-      type(integrator_counts_type) :: statistics
+      type(trial) :: it
       type(march_options) :: options
-      type(error_type), allocatable :: error
-      real(wp) :: y(3)
-      model%n = 3
       options = tolerances(1e-6_wp)
       options%max_steps = 20
-      y = exact(0.0_wp)
-      call march(model, options, 0.0_wp, 6.0_wp, sample_plan(), y, observer, statistics, error)
-      call expect(allocated(error), 'too many steps are an error')
-      if (allocated(error)) call expect(index(error%message, 'max_steps') > 0 .and. index(error%message, 't = ') > 0, &
-         & 'which names the limit and the time: '//error%message)
-      call expect(statistics%steps == 20, 'the limit is kept: '//to_text(statistics%steps)//' steps')
+      it = marched(options, 0.0_wp, 6.0_wp, sample_plan())
+      call expect(allocated(it%error), 'too many steps are an error')
+      if (allocated(it%error)) call expect(index(it%error%message, 'max_steps') > 0 &
+         & .and. index(it%error%message, 't = ') > 0, 'which names the limit and the time: '//it%error%message)
+      call expect(it%counts%steps == 20, 'the limit is kept: '//to_text(it%counts%steps)//' steps')
       options = tolerances(1e-2_wp)
       options%max_step = 1e-3_wp
-      y = exact(0.0_wp)
-      call march(model, options, 0.0_wp, 1.0_wp, sample_plan(), y, observer, statistics, error)
-      call expect(statistics%steps >= 1000, 'no step is longer than max_step: '//to_text(statistics%steps)//' steps')
+      it = marched(options, 0.0_wp, 1.0_wp, sample_plan())
+      call expect(it%counts%steps >= 1000, 'no step is longer than max_step: '//to_text(it%counts%steps)//' steps')
    end subroutine step_limits
 
    subroutine observer_stops()
-      type(stiff_cosine) :: model
-      type(keeper) :: observer
-      type(integrator_counts_type) :: statistics
-      type(error_type), allocatable :: error
-      real(wp) :: y(3)
-      model%n = 3
-      observer%stop_at = 3
-      y = exact(0.0_wp)
-      call march(model, tolerances(1e-6_wp), 0.0_wp, 1.0_wp, sample_plan(0.0_wp, 0.1_wp, 11_i8), y, observer, &
-         & statistics, error)
-      call expect(allocated(error), 'an error of the observer ends the march')
-      if (allocated(error)) call expect(error%message == 'the keeper is full', 'and comes back unchanged')
-      call expect(size(observer%t) == 3, 'at once')
+      type(trial) :: it
+      it%observer%stop_at = 3
+      it%y = exact(0.0_wp)
+      call go(it, tolerances(1e-6_wp), 0.0_wp, 1.0_wp, sample_plan(0.0_wp, 0.1_wp, 11_i8))
+      call expect(allocated(it%error), 'an error of the observer ends the march')
+      if (allocated(it%error)) call expect(it%error%message == 'the keeper is full', 'and comes back unchanged')
+      call expect(size(it%observer%t) == 3, 'at once')
    end subroutine observer_stops
 end program test_marching

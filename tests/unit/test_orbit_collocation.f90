@@ -3,84 +3,69 @@
 !> one with a spring that is stiffer on one side.
 module orbit_problems
    use kinds, only: wp
-   use ode_model, only: ode_model_type
+   use small_ode, only: small_ode_type
    implicit none (type, external)
    private
    public :: linear_problem, van_der_pol, coupled_problem, bent_problem
 
    !> x'' + 2 d x' + x = cos t, and z' = -k (z - x).
-   type, extends(ode_model_type) :: linear_problem
+   type, extends(small_ode_type) :: linear_problem
       real(wp) :: damping = 0.1_wp, stiffness = 1e4_wp
       !> Whether x and x' are said to be a displacement and its rate.
       logical :: paired = .true.
    contains
-      procedure :: rhs => linear_rhs
-      procedure :: linearize => no_preparation
-      procedure :: jacobian_times => linear_times
-      procedure :: solve => no_solution
+      procedure :: rates => linear_rates
+      procedure :: jacobian => linear_jacobian
       procedure :: pairs => linear_pairs
    end type linear_problem
 
    !> x'' - mu (1 - x^2) x' + x = 0.
-   type, extends(ode_model_type) :: van_der_pol
-      real(wp) :: mu = 1, x = 0, v = 0
+   type, extends(small_ode_type) :: van_der_pol
+      real(wp) :: mu = 1
    contains
-      procedure :: rhs => van_der_pol_rhs
-      procedure :: linearize => keep_state
-      procedure :: jacobian_times => van_der_pol_times
-      procedure :: solve => no_solution_either
+      procedure :: rates => van_der_pol_rates
+      procedure :: jacobian => van_der_pol_jacobian
    end type van_der_pol
 
-   !> y' = matrix y + cos t, 1 for each state, of one oscillator x, v and two of x, v, z that it alone joins.
-   type, extends(ode_model_type) :: coupled_problem
-      real(wp) :: matrix(8, 8) = 0
+   !> y' = joined y + cos t, 1 for each state, of one oscillator x, v and two of x, v, z that it alone joins.
+   type, extends(small_ode_type) :: coupled_problem
+      real(wp) :: joined(8, 8) = 0
       !> Whether it says that they are blocks.
       logical :: in_blocks = .true.
    contains
-      procedure :: rhs => coupled_rhs
-      procedure :: linearize => no_derivatives
-      procedure :: jacobian_times => coupled_times
-      procedure :: solve => no_coupled_solution
+      procedure :: rates => coupled_rates
+      procedure :: jacobian => coupled_jacobian
       procedure :: pairs => coupled_pairs
       procedure :: blocks => coupled_blocks
    end type coupled_problem
 
    !> x'' + 2 d x' + x + a max(x - b, 0) = cos t.
-   type, extends(ode_model_type) :: bent_problem
-      real(wp) :: damping = 0.1_wp, more = 0.5_wp, bend = 0.3_wp, x = 0
+   type, extends(small_ode_type) :: bent_problem
+      real(wp) :: damping = 0.1_wp, more = 0.5_wp, bend = 0.3_wp
    contains
-      procedure :: rhs => bent_rhs
-      procedure :: linearize => keep_place
-      procedure :: jacobian_times => bent_times
-      procedure :: solve => no_bent_solution
+      procedure :: rates => bent_rates
+      procedure :: jacobian => bent_jacobian
       procedure :: kinks => bend_of_spring
       procedure :: drive => turn_of_force
    end type bent_problem
 
 contains
 
-   subroutine linear_rhs(self, t, y, dydt, ok)
-      class(linear_problem), intent(inout) :: self
+   pure function linear_rates(self, t, y) result(rates)
+      class(linear_problem), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
-      real(wp), intent(out) :: dydt(:)
-      logical, intent(out) :: ok
-      dydt = [y(2), cos(t) - y(1) - 2*self%damping*y(2), -self%stiffness*(y(3) - y(1))]
-      ok = .true.
-   end subroutine linear_rhs
+      real(wp) :: rates(size(y))
+      rates = [y(2), cos(t) - y(1) - 2*self%damping*y(2), -self%stiffness*(y(3) - y(1))]
+   end function linear_rates
 
-   subroutine no_preparation(self, t, y, ok)
-      class(linear_problem), intent(inout) :: self
+   pure function linear_jacobian(self, t, y) result(matrix)
+      class(linear_problem), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
-      logical, intent(out) :: ok
-      ok = .true.
-   end subroutine no_preparation
-
-   subroutine linear_times(self, v, jv)
-      class(linear_problem), intent(inout) :: self
-      real(wp), intent(in) :: v(:)
-      real(wp), intent(out) :: jv(:)
-      jv = [v(2), -v(1) - 2*self%damping*v(2), -self%stiffness*(v(3) - v(1))]
-   end subroutine linear_times
+      real(wp) :: matrix(size(y), size(y))
+      matrix(1, :) = [0.0_wp, 1.0_wp, 0.0_wp]
+      matrix(2, :) = [-1.0_wp, -2*self%damping, 0.0_wp]
+      matrix(3, :) = [self%stiffness, 0.0_wp, -self%stiffness]
+   end function linear_jacobian
 
    pure subroutine linear_pairs(self, x, v)
       class(linear_problem), intent(in) :: self
@@ -89,78 +74,35 @@ contains
       v = pack([2], self%paired)
    end subroutine linear_pairs
 
-   subroutine no_solution(self, gamma, b, ok)
-      class(linear_problem), intent(inout) :: self
-      real(wp), intent(in) :: gamma
-      real(wp), intent(inout) :: b(:)
-      logical, intent(out) :: ok
-      ok = .false.
-   end subroutine no_solution
-
-   subroutine van_der_pol_rhs(self, t, y, dydt, ok)
-      class(van_der_pol), intent(inout) :: self
+   pure function van_der_pol_rates(self, t, y) result(rates)
+      class(van_der_pol), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
-      real(wp), intent(out) :: dydt(:)
-      logical, intent(out) :: ok
-      dydt = [y(2), self%mu*(1 - y(1)**2)*y(2) - y(1)]
-      ok = .true.
-   end subroutine van_der_pol_rhs
+      real(wp) :: rates(size(y))
+      rates = [y(2), self%mu*(1 - y(1)**2)*y(2) - y(1)]
+   end function van_der_pol_rates
 
-   subroutine keep_state(self, t, y, ok)
-      class(van_der_pol), intent(inout) :: self
+   pure function van_der_pol_jacobian(self, t, y) result(matrix)
+      class(van_der_pol), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
-      logical, intent(out) :: ok
-      self%x = y(1)
-      self%v = y(2)
-      ok = .true.
-   end subroutine keep_state
+      real(wp) :: matrix(size(y), size(y))
+      matrix(1, :) = [0.0_wp, 1.0_wp]
+      matrix(2, :) = [-2*self%mu*y(1)*y(2) - 1, self%mu*(1 - y(1)**2)]
+   end function van_der_pol_jacobian
 
-   subroutine van_der_pol_times(self, v, jv)
-      class(van_der_pol), intent(inout) :: self
-      real(wp), intent(in) :: v(:)
-      real(wp), intent(out) :: jv(:)
-      jv = [v(2), (-2*self%mu*self%x*self%v - 1)*v(1) + self%mu*(1 - self%x**2)*v(2)]
-   end subroutine van_der_pol_times
-
-   subroutine no_solution_either(self, gamma, b, ok)
-      class(van_der_pol), intent(inout) :: self
-      real(wp), intent(in) :: gamma
-      real(wp), intent(inout) :: b(:)
-      logical, intent(out) :: ok
-      ok = .false.
-   end subroutine no_solution_either
-
-   subroutine coupled_rhs(self, t, y, dydt, ok)
-      class(coupled_problem), intent(inout) :: self
+   pure function coupled_rates(self, t, y) result(rates)
+      class(coupled_problem), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
-      real(wp), intent(out) :: dydt(:)
-      logical, intent(out) :: ok
-      dydt = matmul(self%matrix, y)
-      dydt([2, 4, 5, 7, 8]) = dydt([2, 4, 5, 7, 8]) + cos(t)
-      ok = .true.
-   end subroutine coupled_rhs
+      real(wp) :: rates(size(y))
+      rates = matmul(self%joined, y)
+      rates([2, 4, 5, 7, 8]) = rates([2, 4, 5, 7, 8]) + cos(t)
+   end function coupled_rates
 
-   subroutine no_derivatives(self, t, y, ok)
-      class(coupled_problem), intent(inout) :: self
+   pure function coupled_jacobian(self, t, y) result(matrix)
+      class(coupled_problem), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
-      logical, intent(out) :: ok
-      ok = .true.
-   end subroutine no_derivatives
-
-   subroutine coupled_times(self, v, jv)
-      class(coupled_problem), intent(inout) :: self
-      real(wp), intent(in) :: v(:)
-      real(wp), intent(out) :: jv(:)
-      jv = matmul(self%matrix, v)
-   end subroutine coupled_times
-
-   subroutine no_coupled_solution(self, gamma, b, ok)
-      class(coupled_problem), intent(inout) :: self
-      real(wp), intent(in) :: gamma
-      real(wp), intent(inout) :: b(:)
-      logical, intent(out) :: ok
-      ok = .false.
-   end subroutine no_coupled_solution
+      real(wp) :: matrix(size(y), size(y))
+      matrix = self%joined
+   end function coupled_jacobian
 
    pure subroutine coupled_pairs(self, x, v)
       class(coupled_problem), intent(in) :: self
@@ -176,29 +118,20 @@ contains
       states = 3
    end subroutine coupled_blocks
 
-   subroutine bent_rhs(self, t, y, dydt, ok)
-      class(bent_problem), intent(inout) :: self
+   pure function bent_rates(self, t, y) result(rates)
+      class(bent_problem), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
-      real(wp), intent(out) :: dydt(:)
-      logical, intent(out) :: ok
-      dydt = [y(2), cos(t) - y(1) - self%more*max(y(1) - self%bend, 0.0_wp) - 2*self%damping*y(2)]
-      ok = .true.
-   end subroutine bent_rhs
+      real(wp) :: rates(size(y))
+      rates = [y(2), cos(t) - y(1) - self%more*max(y(1) - self%bend, 0.0_wp) - 2*self%damping*y(2)]
+   end function bent_rates
 
-   subroutine keep_place(self, t, y, ok)
-      class(bent_problem), intent(inout) :: self
+   pure function bent_jacobian(self, t, y) result(matrix)
+      class(bent_problem), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
-      logical, intent(out) :: ok
-      self%x = y(1)
-      ok = .true.
-   end subroutine keep_place
-
-   subroutine bent_times(self, v, jv)
-      class(bent_problem), intent(inout) :: self
-      real(wp), intent(in) :: v(:)
-      real(wp), intent(out) :: jv(:)
-      jv = [v(2), -(1 + merge(self%more, 0.0_wp, self%x > self%bend))*v(1) - 2*self%damping*v(2)]
-   end subroutine bent_times
+      real(wp) :: matrix(size(y), size(y))
+      matrix(1, :) = [0.0_wp, 1.0_wp]
+      matrix(2, :) = [-1 - merge(self%more, 0.0_wp, y(1) > self%bend), -2*self%damping]
+   end function bent_jacobian
 
    pure subroutine bend_of_spring(self, state, value)
       class(bent_problem), intent(in) :: self
@@ -214,20 +147,12 @@ contains
       real(wp) :: drive(self%n)
       drive = [0.0_wp, -sin(t)]
    end function turn_of_force
-
-   subroutine no_bent_solution(self, gamma, b, ok)
-      class(bent_problem), intent(inout) :: self
-      real(wp), intent(in) :: gamma
-      real(wp), intent(inout) :: b(:)
-      logical, intent(out) :: ok
-      ok = .false.
-   end subroutine no_bent_solution
 end module orbit_problems
 
 program test_orbit_collocation
    use kinds, only: wp, pi
-   use ode_model, only: ode_model_type
    use orbit_polynomials, only: orbit_type, points, place
+   use resting_orbit, only: at_rest
    use orbit_collocation, only: newton_round
    use errors, only: error_type
    use text, only: to_text
@@ -248,16 +173,6 @@ program test_orbit_collocation
    call report()
 
 contains
-
-   !> An orbit at rest on n equal intervals of a period.
-   type(orbit_type) function at_rest(states, n, period) result(orbit)
-      integer, intent(in) :: states, n
-      real(wp), intent(in) :: period
-      integer :: k
-      allocate (orbit%start(states), source=0.0_wp)
-      allocate (orbit%scale(states), source=1.0_wp)
-      call orbit%set_mesh([(period*k/n, k=0, n)], reshape([real(wp) ::], [states, points, n], pad=[0.0_wp]))
-   end function at_rest
 
    !> x = sin(t)/(2 d) and z = x - x'/k + ..., for d = 0.1. One round solves what is linear. Of the multipliers,
    !> exp(2 pi (-d +- i sqrt(1 - d^2))) and exp(-2 pi k) = 0, the largest have the modulus exp(-0.2 pi). Radau's error
@@ -380,14 +295,14 @@ contains
       type(error_type), allocatable :: error
       integer :: i
       problem%n = 8
-      problem%matrix(1, 2) = 1
-      problem%matrix(2, :) = [-1.0_wp, -0.3_wp, 0.2_wp, 0.1_wp, 0.4_wp, -0.3_wp, 0.2_wp, 0.1_wp]
-      problem%matrix(3, 4) = 1
-      problem%matrix(4, :5) = [0.5_wp, 0.1_wp, -2.0_wp, -0.2_wp, 0.6_wp]
-      problem%matrix(5, :5) = [0.3_wp, 0.0_wp, 1.0_wp, 0.7_wp, -50.0_wp]
-      problem%matrix(6, 7) = 1
-      problem%matrix(7, :) = [0.2_wp, -0.1_wp, 0.0_wp, 0.0_wp, 0.0_wp, -3.0_wp, -0.5_wp, 0.3_wp]
-      problem%matrix(8, :) = [0.0_wp, 0.4_wp, 0.0_wp, 0.0_wp, 0.0_wp, -0.8_wp, 0.2_wp, -4.0_wp]
+      problem%joined(1, 2) = 1
+      problem%joined(2, :) = [-1.0_wp, -0.3_wp, 0.2_wp, 0.1_wp, 0.4_wp, -0.3_wp, 0.2_wp, 0.1_wp]
+      problem%joined(3, 4) = 1
+      problem%joined(4, :5) = [0.5_wp, 0.1_wp, -2.0_wp, -0.2_wp, 0.6_wp]
+      problem%joined(5, :5) = [0.3_wp, 0.0_wp, 1.0_wp, 0.7_wp, -50.0_wp]
+      problem%joined(6, 7) = 1
+      problem%joined(7, :) = [0.2_wp, -0.1_wp, 0.0_wp, 0.0_wp, 0.0_wp, -3.0_wp, -0.5_wp, 0.3_wp]
+      problem%joined(8, :) = [0.0_wp, 0.4_wp, 0.0_wp, 0.0_wp, 0.0_wp, -0.8_wp, 0.2_wp, -4.0_wp]
       do i = 1, 2
          problem%in_blocks = i == 1
          orbit(i) = at_rest(8, 30, 2*pi)
