@@ -95,8 +95,7 @@ modules  := $(if $(SUNDIALS_PREFIX),$(wildcard $(addprefix $(SUNDIALS_PREFIX)/,i
              /usr/include/sundials/fortran) \
             $(if $(HDF5_PREFIX),$(wildcard $(addprefix $(HDF5_PREFIX)/,include mod include/static)),/usr/include/hdf5/serial)
 INCLUDE := $(addprefix -I,$(modules)) $(patsubst %,-I%/include,$(SUNDIALS_PREFIX)) -I$(B)/mod
-# what a program is linked with; how, is found out when linking, as the libraries may be installed only now
-library := $(B)/lib/libtiltpad.a $(B)/lib/unused.o
+# how a program is linked with them is found out when linking, as they may be installed only now
 LIBS := $$(cat $(B)/lib/flags)
 ifneq ($(filter any x86-64-v3,$(MODE)),)
 LIBS += $($(family).alone) -s
@@ -114,19 +113,15 @@ TEST_PACKAGES := chromium-headless-shell
 # for make test-slurm alone
 SLURM_PACKAGES := slurmctld slurmd slurm-client munge
 
-sources := $(sort $(shell find src_f90 -name '*.[fF]90'))
-c_sources := $(sort $(shell find src_f90 -name '*.c'))
-main    := src_f90/app/tiltpad.f90
-objects := $(addsuffix .o,$(addprefix $(B)/obj/,$(basename $(notdir $(filter-out $(main),$(sources)) $(c_sources))))) \
-           $(B)/obj/build_info.o
-tests   := $(sort $(wildcard tests/unit/test_*.f90 tests/physics/test_*.f90))
-test_programs := $(patsubst %.f90,$(B)/tests/%,$(notdir $(tests)))
-# what they share
-test_modules := $(wildcard tests/*.f90)
-film_bench := tests/bench/film_bench.f90
-fuzz_input := tests/fuzz/fuzz_input.f90
-global_search := tests/stress/global_search.f90
 wrapper := post/wrap/library.f90
+sources := $(sort $(shell find src_f90 tests -name '*.[fF]90')) $(wrapper)
+c_sources := $(sort $(shell find src_f90 -name '*.c'))
+object = $(patsubst %,$(B)/obj/%.o,$1)
+# what a program is linked from: the modules that it uses (build/depend.mk), so that a test builds what it needs alone
+objects_of = $(call object,$(linked.$1) $(basename $(notdir $(c_sources)))) $(B)/lib/unused.o
+test_names := $(basename $(notdir $(filter tests/unit/test_% tests/physics/test_%,$(sources))))
+test_programs := $(addprefix $(B)/tests/,$(test_names))
+programs := $(B)/bin/tiltpad $(test_programs) $(B)/fuzz/fuzz_input $(B)/bench/film_bench $(B)/stress/global_search
 # what the program says of itself; rewritten only when it changes
 commit := $(shell git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)
 define newline
@@ -153,19 +148,21 @@ $(shell for f in $(B)/obj/build_info.f90:$(B)/obj/build_info.new $(B)/flags:$(B)
 
 vpath %.F90 $(sort $(dir $(sources)))
 vpath %.c $(sort $(dir $(c_sources)))
-vpath %.f90 $(sort $(dir $(sources) $(tests) $(film_bench) $(fuzz_input) $(global_search) $(wrapper))) tests $(B)/obj
+vpath %.f90 $(sort $(dir $(sources))) $(B)/obj
 
 VENV := build/venv
 venv_python := $(VENV)/bin/python
 ross := build/venv-ross
 
 .PHONY: help run build deps python wrap python_library wheel test test-slurm test-debian13 stress fuzz bench paper \
-        test-programs lint format docs install install-plots uninstall clean
+        unit test-programs lint format docs install install-plots uninstall clean
 .DELETE_ON_ERROR:
+.SECONDEXPANSION:
 
 help:
 	@echo 'make run      installs missing packages, builds, runs input/paper/steady_lugre.nml, draws it into build/run'
 	@echo 'make test     installs missing packages, builds, runs every test; ONLY=sweep: only tests with sweep in their name'
+	@echo 'make unit NAME=test_x   builds and runs one test program of tests/unit or tests/physics, with checks (debug)'
 	@echo 'make test-slurm   tries the job scripts of input/slurm on a real Slurm of one node, two minutes (as root)'
 	@echo 'make test-debian13   tries make run, make test and the wheel on an empty Debian 13, ten minutes (as root);'
 	@echo '                     make test-debian-sid: on another release'
@@ -277,22 +274,21 @@ wrap: $(VENV)/ready
 	@ls post/tiltpad/_library.* >/dev/null 2>&1 || rm -f build/wrap/library
 	@$(MAKE) --no-print-directory MODE=wrap build/wrap/library
 
-build/wrap/library: $(B)/obj/library.o $(B)/lib/unused.o $(B)/flags $(VENV)/ready
+build/wrap/library: $$(call objects_of,library) $(VENV)/ready
 	@rm -f post/tiltpad/_library.*
 	@$(MAKE) --no-print-directory MODE=wrap python_library FOLDER=post/tiltpad
 	@touch $@
 
-# compiles it, in MODE=wrap, for the Python of VENV into FOLDER; from an archive only what it uses is linked
+# compiles it, in MODE=wrap, for the Python of VENV into FOLDER
 f2py = $(B)/f2py/$(FOLDER)
-python_library: $(B)/obj/library.o $(B)/lib/unused.o
+python_library: $$(call objects_of,library)
 	@rm -rf $(f2py) && mkdir -p $(f2py)
 	cd $(f2py) && $(abspath $(venv_python)) -m numpy.f2py --quiet -m _library $(abspath $(wrapper)) >log 2>&1 || { cat log; exit 1; }
 	set -e; eval "$$($(venv_python) post/wrap/paths.py)"; \
 	$(COMPILE) -c $(f2py)/_library-f2pywrappers2.f90 -o $(f2py)/wrappers.o; \
 	$(CC) -O2 -fPIC -w -I$$python -I$$numpy -I$$f2py -c $(f2py)/_librarymodule.c -o $(f2py)/module.o; \
 	$(CC) -O2 -fPIC -w -I$$python -I$$numpy -I$$f2py -c $$f2py/fortranobject.c -o $(f2py)/fortranobject.o; \
-	ar rcs $(f2py)/modules.a $(B)/obj/*.o; \
-	$(FC) -shared -s -Wl,--as-needed $(f2py)/*.o $(f2py)/modules.a $(B)/lib/unused.o $(LIBS) -o $(FOLDER)/_library$$suffix
+	$(FC) -shared -s -Wl,--as-needed $(f2py)/*.o $^ $(LIBS) -o $(FOLDER)/_library$$suffix
 
 $(VENV)/ready: post/pyproject.toml post/setup.py post/requirements.txt | build/deps-checked
 	$(PYTHON) -m venv $(VENV)
@@ -340,19 +336,18 @@ $(ross)/ready: tests/post/ross_requirements.txt | build/deps-checked
 # ---- build -------------------------------------------------------------------------------------
 build: $(B)/bin/tiltpad
 
-$(B)/bin/tiltpad: $(B)/obj/tiltpad.o $(if $(filter fuzz,$(MODE)),$(B)/obj/coverage.o) $(library)
+# which modules each source uses
+$(shell awk -f src_f90/dependencies.awk $(sources) > $(B)/depend.mk)
+include $(B)/depend.mk
+
+$(programs): $$(call objects_of,$$(@F))
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
 
-$(B)/lib/libtiltpad.a: $(objects)
-	@mkdir -p $(@D)
-	@rm -f $@
-	ar rcs $@ $^
-
-$(B)/obj/%.o: %.f90 $(B)/flags | build/deps-checked
+$(B)/obj/%.o: %.f90 $$(call object,$$(uses.$$*)) $(B)/flags | build/deps-checked
 	$(COMPILE) -c $< -o $@
 
-$(B)/obj/%.o: %.F90 $(B)/flags | build/deps-checked
+$(B)/obj/%.o: %.F90 $$(call object,$$(uses.$$*)) $(B)/flags | build/deps-checked
 	$(COMPILE) -c $< -o $@
 
 $(B)/obj/%.o: %.c $(B)/flags | build/deps-checked
@@ -365,37 +360,21 @@ $(B)/lib/flags: src_f90/libraries.sh $(B)/flags | build/deps-checked
 $(B)/lib/unused.o: $(B)/lib/flags
 	$(CC) -O1 -fPIC -w -c $(B)/lib/unused.c -o $@
 
-$(B)/tests/%: $(B)/obj/%.o $(patsubst tests/%.f90,$(B)/obj/%.o,$(test_modules)) $(library)
-	@mkdir -p $(@D)
-	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
-
 $(patsubst %.f90,$(B)/obj/%.o,$(notdir $(wildcard $(run_long)))): private override FFLAGS += $($(family).heap)
 
 test-programs: $(test_programs)
 
-$(B)/fuzz/fuzz_input: $(B)/obj/fuzz_input.o $(B)/obj/coverage.o $(library)
-	@mkdir -p $(@D)
-	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
+unit:
+ifeq ($(filter $(NAME),$(test_names)),)
+	@echo 'make unit NAME=test_x: NAME is one of'; printf '   %s\n' $(test_names); exit 1
+else
+	@$(MAKE) -s --no-print-directory MODE=debug build/debug/tests/$(NAME)
+	@build/debug/tests/$(NAME)
+endif
 
+$(B)/fuzz/fuzz_input $(if $(filter fuzz,$(MODE)),$(B)/bin/tiltpad): $(B)/obj/coverage.o
 $(B)/obj/coverage.o: tests/fuzz/coverage.c
 	$(CC) -O2 -c $< -o $@
-
-$(B)/bench/film_bench: $(B)/obj/film_bench.o $(library)
-	@mkdir -p $(@D)
-	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
-
-$(B)/stress/global_search: $(B)/obj/global_search.o $(library)
-	@mkdir -p $(@D)
-	$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
-
-# module order: an object depends on the objects of the modules it uses (file = module)
-$(shell awk -v b=$(B)/obj 'FNR == 1 { n = split(FILENAME, part, "/"); sub(/\.[fF]90$$/, "", part[n]); \
-   own[part[n]] = 1; this = part[n] } \
-   tolower($$1) == "use" { used = tolower($$2); sub(/,.*/, "", used); uses[this] = uses[this] " " used } \
-   END { own["build_info"] = 1; for (f in uses) { split(uses[f], m, " "); line = ""; \
-   for (i in m) if (m[i] in own) line = line " " b "/" m[i] ".o"; if (line != "") print b "/" f ".o:" line } }' \
-   $(sources) $(tests) $(film_bench) $(fuzz_input) $(global_search) $(wrapper) $(test_modules) > $(B)/depend.mk)
-include $(B)/depend.mk
 
 fortran_style := --line-length 120 --ignore S241,C002,C061,C071
 
