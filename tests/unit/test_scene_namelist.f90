@@ -122,12 +122,10 @@ program test_scene_namelist
    if (runs('lists')) call lists()
    if (runs('awkward_titles')) call awkward_titles()
    if (runs('refused_values')) call refused_values()
-   if (runs('refused_scenes')) call refused_scenes()
    call report()
 
 contains
 
-   !> A scene from text that must be good.
    subroutine expect_list(found, expected, what)
       real(wp), intent(in) :: found(:), expected(:)
       character(len=*), intent(in) :: what
@@ -339,17 +337,4 @@ contains
       call expect_refused('&rotor mass = 1e999/', 'must be')
       call ieee_set_halting_mode(ieee_overflow, .true.)
    end subroutine refused_values
-
-   !> What no single value can tell.
-   subroutine refused_scenes()
-      call expect_refused('&pads pivot_angle_deg = -45, 0/', 'overlap')
-      call expect_refused('&pads inertia = 1e-6/', 'must exceed mass times')
-      call expect_refused('&bearing machined_clearance = 1e-2/', '0.05 of bearing%journal_radius')
-      call expect_refused('&bearing assembled_clearance = 250e-6/', 'at most twice')
-      call expect_refused('&bearing cavitation_pressure = 1e5/', 'must not exceed')
-      call expect_refused('&friction static_coefficient = 0.1 dynamic_coefficient = 0.2/', 'must not exceed')
-      call expect_refused('&pivot law = ''hertz'' radius_difference = 0/', 'must be > 0 for law')
-      call expect_refused('&film circumferential_cells = 41/', 'must be even')
-      call expect_refused('&output start_time = 3/', 'must not exceed operation%duration')
-   end subroutine refused_scenes
 end program test_scene_namelist
