@@ -19,7 +19,7 @@ module small_ode
       procedure(jacobian_at), deferred :: jacobian
       procedure :: rhs
       procedure :: linearize
-      procedure :: jacobian_times
+      procedure :: rhs_and_jacobian
       procedure :: solve
    end type small_ode_type
 
@@ -62,12 +62,14 @@ contains
       ok = t <= self%refuse_after
    end subroutine linearize
 
-   subroutine jacobian_times(self, v, jv)
+   subroutine rhs_and_jacobian(self, t, y, dydt, matrix, ok)
       class(small_ode_type), intent(inout) :: self
-      real(wp), intent(in) :: v(:)
-      real(wp), intent(out) :: jv(:)
-      jv = matmul(self%matrix, v)
-   end subroutine jacobian_times
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: dydt(:), matrix(:, :)
+      logical, intent(out) :: ok
+      call self%rhs(t, y, dydt, ok)
+      matrix = self%jacobian(t, y)
+   end subroutine rhs_and_jacobian
 
    subroutine solve(self, gamma, b, ok)
       class(small_ode_type), intent(inout) :: self

@@ -109,7 +109,7 @@ contains
       logical :: ok
       changed = options
       if (watch%low) then
-         call model%tangent(integrator%time(), integrator%state(), rates, jacobian, ok)
+         call model%rhs_and_jacobian(integrator%time(), integrator%state(), rates, jacobian, ok)
          if (ok) changed%max_order = min(options%max_order, stable_order(jacobian, watch%mean_step))
       end if
       if (changed%max_order == order) return

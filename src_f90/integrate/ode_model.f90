@@ -15,15 +15,13 @@ module ode_model
    contains
       procedure(right_hand_side), deferred :: rhs
       procedure(take_derivatives), deferred :: linearize
-      procedure(multiply), deferred :: jacobian_times
       procedure(solve_system), deferred :: solve
-      !> The right-hand side and its derivatives together.
-      procedure :: tangent
+      procedure(right_hand_side_and_jacobian), deferred :: rhs_and_jacobian
       !> Which states are displacements, and which their rates.
       procedure :: pairs
       procedure :: blocks
       procedure :: kinks
-      procedure :: drive
+      procedure :: df_dt
       !> The quantities sampled beside the states.
       procedure :: output
       !> What may soon stop the integration in the state evaluated last, for its message; else empty.
@@ -40,21 +38,13 @@ module ode_model
          logical, intent(out) :: ok
       end subroutine right_hand_side
 
-      !> Takes what `solve` and `jacobian_times` need of J = df/dy at (t, y); refuses a state as `rhs` does.
+      !> Takes what `solve` needs of J = df/dy at (t, y); refuses a state as `rhs` does.
       subroutine take_derivatives(self, t, y, ok)
          import :: ode_model_type, wp
          class(ode_model_type), intent(inout) :: self
          real(wp), intent(in) :: t, y(:)
          logical, intent(out) :: ok
       end subroutine take_derivatives
-
-      !> jv = J v with the derivatives that `solve` uses.
-      subroutine multiply(self, v, jv)
-         import :: ode_model_type, wp
-         class(ode_model_type), intent(inout) :: self
-         real(wp), intent(in) :: v(:)
-         real(wp), intent(out) :: jv(:)
-      end subroutine multiply
 
       !> b := (1 - gamma J)^(-1) b with the derivatives taken last; a model that knows parts of them better,
       !> from the right-hand side evaluated last, may use these. `ok = .false.`: no solution.
@@ -65,27 +55,18 @@ module ode_model
          real(wp), intent(inout) :: b(:)
          logical, intent(out) :: ok
       end subroutine solve_system
+
+      !> f(t, y) and the whole matrix J = df/dy there; refuses a state as `rhs` does.
+      subroutine right_hand_side_and_jacobian(self, t, y, dydt, matrix, ok)
+         import :: ode_model_type, wp
+         class(ode_model_type), intent(inout) :: self
+         real(wp), intent(in) :: t, y(:)
+         real(wp), intent(out) :: dydt(:), matrix(:, :)
+         logical, intent(out) :: ok
+      end subroutine right_hand_side_and_jacobian
    end interface
 
 contains
-
-   !> f(t, y) and the whole matrix J = df/dy there; a model that has both at once replaces it.
-   subroutine tangent(self, t, y, dydt, matrix, ok)
-      class(ode_model_type), intent(inout) :: self
-      real(wp), intent(in) :: t, y(:)
-      real(wp), intent(out) :: dydt(:), matrix(:, :)
-      logical, intent(out) :: ok
-      real(wp) :: column(self%n)
-      integer :: k
-      call self%rhs(t, y, dydt, ok)
-      if (ok) call self%linearize(t, y, ok)
-      if (.not. ok) return
-      do k = 1, self%n
-         column = 0
-         column(k) = 1
-         call self%jacobian_times(column, matrix(:, k))
-      end do
-   end subroutine tangent
 
    !> States x(i) and v(i) with x' = v.
    pure subroutine pairs(self, x, v)
@@ -111,12 +92,12 @@ contains
    end subroutine kinks
 
    !> The derivatives of the rates over time, in a state that stays.
-   pure function drive(self, t)
+   pure function df_dt(self, t)
       class(ode_model_type), intent(in) :: self
       real(wp), intent(in) :: t
-      real(wp) :: drive(self%n)
-      drive = 0
-   end function drive
+      real(wp) :: df_dt(self%n)
+      df_dt = 0
+   end function df_dt
 
    !> From the last evaluation, and to first order at the state that `correction` leads to from the state of that
    !> evaluation; 0: in that state itself.

@@ -41,15 +41,14 @@ module equations_of_motion
    contains
       procedure :: rhs
       procedure :: linearize
-      procedure :: jacobian_times
       procedure :: solve
+      procedure :: rhs_and_jacobian
       procedure :: output
       procedure :: warning
-      procedure :: tangent
       procedure :: pairs
       procedure :: blocks
       procedure :: kinks
-      procedure :: drive
+      procedure :: df_dt
       procedure :: evaluate
       procedure :: set_point
       procedure :: adopt
@@ -207,14 +206,6 @@ contains
       if (ok) call self%newton%linearize(self%rotor, self%bearing)
    end subroutine linearize
 
-   !> J v, with film and contact as linearised last and friction as evaluated last.
-   subroutine jacobian_times(self, v, jv)
-      class(bearing_model), intent(inout) :: self
-      real(wp), intent(in) :: v(:)
-      real(wp), intent(out) :: jv(:)
-      jv = matmul(self%newton%jacobian(self%rotor, self%bearing), v)
-   end subroutine jacobian_times
-
    !> b := (1 - gamma J)^(-1) b, with film and contact as linearised last and friction as evaluated last: Newton's
    !> iteration then crosses the kinks of friction, where old derivatives would mislead it.
    subroutine solve(self, gamma, b, ok)
@@ -243,7 +234,7 @@ contains
    end function warning
 
    !> Rates of all states at (t, y), and the whole Jacobian there.
-   subroutine tangent(self, t, y, dydt, matrix, ok)
+   subroutine rhs_and_jacobian(self, t, y, dydt, matrix, ok)
       class(bearing_model), intent(inout) :: self
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:), matrix(:, :)
@@ -252,7 +243,7 @@ contains
       if (.not. ok) return
       call set_rates(self, t, y, dydt)
       matrix = self%newton%jacobian(self%rotor, self%bearing)
-   end subroutine tangent
+   end subroutine rhs_and_jacobian
 
    !> Displacements of rotor and pads, and their rates.
    pure subroutine pairs(self, x, v)
@@ -284,13 +275,13 @@ contains
    end subroutine kinks
 
    !> The unbalance turns; at constant speed.
-   pure function drive(self, t)
+   pure function df_dt(self, t)
       class(bearing_model), intent(in) :: self
       real(wp), intent(in) :: t
-      real(wp) :: drive(self%n)
-      drive = 0
-      drive(:self%rotor%states) = self%rotor%rates(drive(:self%rotor%states), self%rotor%turn(self%point, t))
-   end function drive
+      real(wp) :: df_dt(self%n)
+      df_dt = 0
+      df_dt(:self%rotor%states) = self%rotor%rates(df_dt(:self%rotor%states), self%rotor%turn(self%point, t))
+   end function df_dt
 
    !> What is sampled at (t, y), where these outputs are known; no film is evaluated. The record may be used again.
    pure subroutine take_sample(self, t, y, output, sample)

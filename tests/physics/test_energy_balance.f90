@@ -21,7 +21,7 @@ module energy_ledger
    contains
       procedure :: rhs => ledger_rhs
       procedure :: linearize => ledger_linearize
-      procedure :: jacobian_times => ledger_times
+      procedure :: rhs_and_jacobian => ledger_rhs_and_jacobian
       procedure :: solve => ledger_solve
    end type ledger
 
@@ -155,15 +155,19 @@ contains
    end subroutine ledger_linearize
 
    !> The work acts back on nothing; its own rows are left out, which costs an iteration, not accuracy.
-   subroutine ledger_times(self, v, jv)
+   subroutine ledger_rhs_and_jacobian(self, t, y, dydt, matrix, ok)
       class(ledger), intent(inout) :: self
-      real(wp), intent(in) :: v(:)
-      real(wp), intent(out) :: jv(:)
-      jv = 0
-      call self%bearing%jacobian_times(v(:self%bearing%n), jv(:self%bearing%n))
-   end subroutine ledger_times
+      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(out) :: dydt(:), matrix(:, :)
+      logical, intent(out) :: ok
+      matrix = 0
+      call self%rhs(t, y, dydt, ok)
+      associate (n => self%bearing%n)
+         if (ok) call self%bearing%rhs_and_jacobian(t, y(:n), dydt(:n), matrix(:n, :n), ok)
+      end associate
+   end subroutine ledger_rhs_and_jacobian
 
-   !> Without these rows too.
+   !> Without these rows.
    subroutine ledger_solve(self, gamma, b, ok)
       class(ledger), intent(inout) :: self
       real(wp), intent(in) :: gamma

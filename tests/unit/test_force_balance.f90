@@ -53,7 +53,7 @@ contains
       associate (x => model%layout%positions(), v => model%layout%rates())
          call expect(size(expected) == size(x), 'a force for each position, '//what)
          call compare(spread(matmul(masses(model), rates(v)), 2, 1), spread(expected, 2, 1), 'forces, '//what)
-         call model%tangent(t, y, rates, jacobian, ok)
+         call model%rhs_and_jacobian(t, y, rates, jacobian, ok)
          call force_derivatives(model, over_positions, over_rates)
          matrix = matmul(masses(model), jacobian(v, x))
          call compare(matrix, over_positions, 'derivatives over positions, '//what)

@@ -46,7 +46,7 @@ module orbit_problems
       procedure :: rates => bent_rates
       procedure :: jacobian => bent_jacobian
       procedure :: kinks => bend_of_spring
-      procedure :: drive => turn_of_force
+      procedure :: df_dt => turn_of_force
    end type bent_problem
 
 contains
@@ -141,11 +141,11 @@ contains
       value = [self%bend]
    end subroutine bend_of_spring
 
-   pure function turn_of_force(self, t) result(drive)
+   pure function turn_of_force(self, t) result(df_dt)
       class(bent_problem), intent(in) :: self
       real(wp), intent(in) :: t
-      real(wp) :: drive(self%n)
-      drive = [0.0_wp, -sin(t)]
+      real(wp) :: df_dt(self%n)
+      df_dt = [0.0_wp, -sin(t)]
    end function turn_of_force
 end module orbit_problems
 

@@ -278,7 +278,7 @@ contains
       real(wp), intent(out) :: jacobian(:, :, :), gap(:, :, :)
       type(error_type), allocatable, intent(out) :: error
       type(parameter_shift_type), intent(in), optional :: shift
-      real(wp), dimension(model%n, points) :: rate, over_parameter, drive
+      real(wp), dimension(model%n, points) :: rate, over_parameter, df_dt
       real(wp) :: before(model%n), inside(model%n), h
       integer :: i, l, constants
       logical :: ok
@@ -288,7 +288,7 @@ contains
       constants = merge(2, 1, present(shift))
       do i = 1, points
          inside = collocated_state(orbit, k, i)
-         call model%tangent(orbit%time(k - 1) + place(i)*h, inside, rate(:, i), jacobian(:, :, i), ok)
+         call model%rhs_and_jacobian(orbit%time(k - 1) + place(i)*h, inside, rate(:, i), jacobian(:, :, i), ok)
          if (.not. ok) then
             orbit%refused = .true.
             call raise(error, numerics_error, 'at t = '//to_text(orbit%time(k - 1) + place(i)*h)//' s of the period: ' &
@@ -296,7 +296,7 @@ contains
             return
          end if
          if (present(shift)) over_parameter(:, i) = (shift%rates(:, i, k) - rate(:, i))/shift%amount
-         if (size(gap, 2) > constants) drive(:, i) = model%drive(orbit%time(k - 1) + place(i)*h)
+         if (size(gap, 2) > constants) df_dt(:, i) = model%df_dt(orbit%time(k - 1) + place(i)*h)
          if (i == points) rate(:, i) = rate(:, i) + matmul(jacobian(:, :, i), orbit%at(:, i, k) - inside)
          do l = 1, model%n
             jacobian(:, l, i) = h*orbit%scale(l)*jacobian(:, l, i)/orbit%scale
@@ -306,8 +306,8 @@ contains
          gap(:, 1, i) = (before - orbit%at(:, i, k) + h*matmul(rate, weight(i, :)))/orbit%scale
          if (present(shift)) gap(:, 2, i) = h*matmul(over_parameter, weight(i, :))/orbit%scale
          if (size(gap, 2) == constants) cycle
-         gap(:, constants + 1, i) = matmul(h*drive*spread(1 - place, 1, model%n) - rate, weight(i, :))/orbit%scale
-         gap(:, constants + 2, i) = matmul(h*drive*spread(place, 1, model%n) + rate, weight(i, :))/orbit%scale
+         gap(:, constants + 1, i) = matmul(h*df_dt*spread(1 - place, 1, model%n) - rate, weight(i, :))/orbit%scale
+         gap(:, constants + 2, i) = matmul(h*df_dt*spread(place, 1, model%n) + rate, weight(i, :))/orbit%scale
       end do
       orbit%residual = max(orbit%residual, maxval(abs(gap(:, 1, :))))
    end subroutine linearize

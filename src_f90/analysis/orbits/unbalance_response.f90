@@ -31,7 +31,7 @@ contains
       free%friction = .false.
       call model%set_point(free)
       do i = 2, 0, -1
-         call model%tangent(i*pi/(2*speed), y, rates(:, i), jacobian, ok)
+         call model%rhs_and_jacobian(i*pi/(2*speed), y, rates(:, i), jacobian, ok)
          if (.not. ok) exit
          rates(:, i) = rates(:, i)/(speed*model%scale)
       end do
