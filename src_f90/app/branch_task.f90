@@ -85,8 +85,7 @@ contains
    subroutine open_series(run, b)
       type(case_run_type), intent(inout) :: run
       type(branches_type), intent(in) :: b
-      call begin_branches(run%file, b%parameter, b%of_orbits, run%scene%tilting(), has_warm_oil(run%model), &
-         & run%scene%pad_count(), merge(run%model%n, 2*run%model%layout%n_positions(), b%of_orbits))
+      call begin_branches(run%file, b%of_orbits, merge(run%model%n, 2*run%model%layout%n_positions(), b%of_orbits))
       run%computed = .true.
    end subroutine open_series
 
@@ -220,13 +219,13 @@ contains
          if (b%of_orbits) then
             call find_orbit_figures(run%model, orbit, b%orbits%turns, run%scene%output%samples_per_revolution, figures)
             if (allocated(oil)) call b%ode%oil%get_found(oil, viscosity)
-            call add_point(run%file, b%course%branch, point, figures, tilting, error, oil, viscosity, &
+            call add_point(run%file, b%course%branch, b%parameter, point, figures, tilting, error, oil, viscosity, &
                & branch_orbit_type(b%orbits%turns, orbit%intervals(), b%orbits%period()))
          else
             call figures_at_rest(b%static, b%equilibria%state(), figures)
             viscosity = b%equilibria%viscosity
             if (allocated(oil)) call b%equilibria%temperatures(oil)
-            call add_point(run%file, b%course%branch, point, figures, tilting, error, oil, viscosity)
+            call add_point(run%file, b%course%branch, b%parameter, point, figures, tilting, error, oil, viscosity)
          end if
       end associate
       call run%file%beat(int(wall_clock() - run%started))

@@ -31,75 +31,22 @@ module branch_results
 
 contains
 
-   !> Declares the series, over points, that `add_point` fills, in the same order.
-   subroutine begin_branches(file, parameter, orbits, tilting, warm, pads, modes)
+   !> Series over points follow, with so many eigenvalues or (of periodic orbits) multipliers.
+   subroutine begin_branches(file, orbits, modes)
       type(run_file_type), intent(inout) :: file
-      type(scene_parameter_type), intent(in) :: parameter
-      !> Whether the branches are of periodic orbits; whether the pads tilt; whether the oil has temperatures.
-      logical, intent(in) :: orbits, tilting, warm
-      integer, intent(in) :: pads, modes
-      character(len=:), allocatable :: frozen
+      logical, intent(in) :: orbits
+      integer, intent(in) :: modes
       integer :: i
-      frozen = ''
-      if (warm) frozen = ', at frozen viscosity'
       if (.not. file%file%has('mode')) call file%file%put_list('mode', [(real(i, wp), i=1, modes)], '1', &
          & merge('multiplier number', 'eigenvalue number', orbits), 'mode')
       call file%begin_series('point', usual_points)
-      call one('point', '1', 'point number')
-      call one('branch', '1', 'branch number: 1 the first, then those of double period')
-      call one('parameter', parameter%unit, parameter%meaning)
-      call one('arc_length', '1', 'length of the branch')
-      call one('stable', '1', '1 where small disturbances die away'//frozen)
-      call one('iterations', '1', 'iterations of Newton''s method')
-      call one('journal_y_max', 'm', 'highest journal displacement, vertical')
-      call one('journal_y_min', 'm', 'lowest journal displacement, vertical')
-      call one('journal_z_max', 'm', 'highest journal displacement, horizontal')
-      call one('journal_z_min', 'm', 'lowest journal displacement, horizontal')
-      if (tilting) then
-         call each('pad_tilt_max', 'rad', 'highest pad tilt', pads, 'pad')
-         call each('pad_tilt_min', 'rad', 'lowest pad tilt', pads, 'pad')
-      end if
-      call each('min_film_thickness', 'm', 'minimum film thickness', pads, 'pad')
-      if (warm) then
-         call each('inlet_temperature', 'degC', 'temperature of the oil at the leading edge', pads, 'pad')
-         call each('mean_temperature', 'degC', 'mean temperature of the film', pads, 'pad')
-         call each('outlet_temperature', 'degC', 'temperature of the oil at the trailing edge', pads, 'pad')
-         call each('maximum_temperature', 'degC', 'maximum temperature of the pad', pads, 'pad')
-         call each('viscosity', 'Pa s', 'viscosity of the film', pads, 'pad')
-         call one('shaft_temperature', 'degC', 'temperature of the shaft')
-         call one('drain_temperature', 'degC', 'temperature of the oil that leaves the bearing')
-      end if
-      if (orbits) then
-         call one('journal_y_amplitude', 'm', 'vertical journal vibration with the shaft, amplitude')
-         call one('journal_y_phase', 'rad', 'angle by which it comes after the unbalance')
-         call one('journal_z_amplitude', 'm', 'horizontal journal vibration with the shaft, amplitude')
-         call one('journal_z_phase', 'rad', 'angle by which it comes after the unbalance')
-         call one('period', 's', 'period of the orbit')
-         call one('revolutions', '1', 'revolutions of the shaft in a period')
-         call one('intervals', '1', 'intervals of the collocation')
-         call each('multiplier_real', '1', 'multiplier, real part'//frozen, modes, 'mode')
-         call each('multiplier_imag', '1', 'multiplier, imaginary part'//frozen, modes, 'mode')
-      else
-         call each('eigenvalue_real', '1/s', 'eigenvalue, real part'//frozen, modes, 'mode')
-         call each('eigenvalue_imag', '1/s', 'eigenvalue, imaginary part'//frozen, modes, 'mode')
-      end if
-   contains
-      subroutine one(name, units, long_name)
-         character(len=*), intent(in) :: name, units, long_name
-         call file%table%declare(file%file, name, 1, '', units, long_name)
-      end subroutine one
-
-      subroutine each(name, units, long_name, width, across)
-         character(len=*), intent(in) :: name, units, long_name, across
-         integer, intent(in) :: width
-         call file%table%declare(file%file, name, width, across, units, long_name)
-      end subroutine each
    end subroutine begin_branches
 
    !> Adds a point of a branch; of an equilibrium without `orbit`, of oil that has no temperatures without `oil`.
-   subroutine add_point(file, branch, point, figures, tilting, error, oil, viscosity, orbit)
+   subroutine add_point(file, branch, parameter, point, figures, tilting, error, oil, viscosity, orbit)
       type(run_file_type), intent(inout) :: file
       integer, intent(in) :: branch
+      type(scene_parameter_type), intent(in) :: parameter
       type(branch_point_type), intent(in) :: point
       type(orbit_figures_type), intent(in) :: figures
       logical, intent(in) :: tilting
@@ -108,21 +55,68 @@ contains
       !> Of warm oil on every pad, Pa s.
       real(wp), intent(in), optional :: viscosity(:)
       type(branch_orbit_type), intent(in), optional :: orbit
-      real(wp), allocatable :: values(:)
-      associate (f => figures)
-         values = [real(file%samples() + 1, wp), real(branch, wp), point%parameter, point%arc_length, &
-            & merge(1.0_wp, 0.0_wp, all(point%growth < 0)), real(point%iterations, wp), f%highest(1), f%lowest(1), &
-            & f%highest(2), f%lowest(2)]
-         if (tilting) values = [values, f%highest_tilt, f%lowest_tilt]
-         values = [values, f%film]
-         if (present(oil)) values = [values, oil%inlet, oil%mean, oil%outlet, oil%maximum, viscosity, oil%shaft, &
-            & oil%drain]
-         if (present(orbit)) values = [values, f%amplitude(1), f%phase(1), f%amplitude(2), f%phase(2), orbit%period, &
-            & real(orbit%revolutions, wp), real(orbit%intervals, wp)]
-         values = [values, point%values%re, point%values%im]
-      end associate
-      call file%table%add(file%file, values)
+      character(len=:), allocatable :: frozen
+      frozen = ''
+      if (present(oil)) frozen = ', at frozen viscosity'
+      call one('point', real(file%samples() + 1, wp), '1', 'point number')
+      call one('branch', real(branch, wp), '1', 'branch number: 1 the first, then those of double period')
+      call one('parameter', point%parameter, parameter%unit, parameter%meaning)
+      call one('arc_length', point%arc_length, '1', 'length of the branch')
+      call one('stable', merge(1.0_wp, 0.0_wp, all(point%growth < 0)), '1', '1 where small disturbances die away'//frozen)
+      call one('iterations', real(point%iterations, wp), '1', 'iterations of Newton''s method')
+      call one('journal_y_max', figures%highest(1), 'm', 'highest journal displacement, vertical')
+      call one('journal_y_min', figures%lowest(1), 'm', 'lowest journal displacement, vertical')
+      call one('journal_z_max', figures%highest(2), 'm', 'highest journal displacement, horizontal')
+      call one('journal_z_min', figures%lowest(2), 'm', 'lowest journal displacement, horizontal')
+      if (tilting) then
+         call each('pad_tilt_max', figures%highest_tilt, 'rad', 'highest pad tilt', 'pad')
+         call each('pad_tilt_min', figures%lowest_tilt, 'rad', 'lowest pad tilt', 'pad')
+      end if
+      call each('min_film_thickness', figures%film, 'm', 'minimum film thickness', 'pad')
+      if (present(oil)) call put_oil()
+      if (present(orbit)) then
+         call put_orbit()
+      else
+         call each('eigenvalue_real', real(point%values, wp), '1/s', 'eigenvalue, real part'//frozen, 'mode')
+         call each('eigenvalue_imag', aimag(point%values), '1/s', 'eigenvalue, imaginary part'//frozen, 'mode')
+      end if
+      call file%table%add(file%file)
       call file%error_of(error)
+   contains
+      subroutine put_oil()
+         call each('inlet_temperature', oil%inlet, 'degC', 'temperature of the oil at the leading edge', 'pad')
+         call each('mean_temperature', oil%mean, 'degC', 'mean temperature of the film', 'pad')
+         call each('outlet_temperature', oil%outlet, 'degC', 'temperature of the oil at the trailing edge', 'pad')
+         call each('maximum_temperature', oil%maximum, 'degC', 'maximum temperature of the pad', 'pad')
+         call each('viscosity', viscosity, 'Pa s', 'viscosity of the film', 'pad')
+         call one('shaft_temperature', oil%shaft, 'degC', 'temperature of the shaft')
+         call one('drain_temperature', oil%drain, 'degC', 'temperature of the oil that leaves the bearing')
+      end subroutine put_oil
+
+      subroutine put_orbit()
+         call one('journal_y_amplitude', figures%amplitude(1), 'm', 'vertical journal vibration with the shaft, amplitude')
+         call one('journal_y_phase', figures%phase(1), 'rad', 'angle by which it comes after the unbalance')
+         call one('journal_z_amplitude', figures%amplitude(2), 'm', &
+            & 'horizontal journal vibration with the shaft, amplitude')
+         call one('journal_z_phase', figures%phase(2), 'rad', 'angle by which it comes after the unbalance')
+         call one('period', orbit%period, 's', 'period of the orbit')
+         call one('revolutions', real(orbit%revolutions, wp), '1', 'revolutions of the shaft in a period')
+         call one('intervals', real(orbit%intervals, wp), '1', 'intervals of the collocation')
+         call each('multiplier_real', real(point%values, wp), '1', 'multiplier, real part'//frozen, 'mode')
+         call each('multiplier_imag', aimag(point%values), '1', 'multiplier, imaginary part'//frozen, 'mode')
+      end subroutine put_orbit
+
+      subroutine one(name, value, units, long_name)
+         character(len=*), intent(in) :: name, units, long_name
+         real(wp), intent(in) :: value
+         call file%table%put(file%file, name, value, units, long_name)
+      end subroutine one
+
+      subroutine each(name, values, units, long_name, across)
+         character(len=*), intent(in) :: name, units, long_name, across
+         real(wp), intent(in) :: values(:)
+         call file%table%put(file%file, name, values, across, units, long_name)
+      end subroutine each
    end subroutine add_point
 
    !> How a special point of a branch is noted that is the last point of the file.

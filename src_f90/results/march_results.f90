@@ -11,109 +11,58 @@ module march_results
    private
    public :: add_sample, put_spectrum, put_asperities, put_viscosity, put_course
 
-   !> Values of a sample: of the journal, and of a pad at most.
-   integer, parameter :: of_journal = 7, of_pad = 12
-
 contains
 
-   !> Adds a sample.
+   !> Adds a sample: the one list of what is sampled.
    subroutine add_sample(file, sample, error)
       type(run_file_type), intent(inout) :: file
       type(model_sample), intent(in) :: sample
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: values(of_journal + of_pad*size(sample%states))
-      integer :: n
-      if (.not. file%table%is_declared()) call declare_series(file, sample)
-      associate (journal => sample%journal)
-         values(:of_journal) = [sample%time, sample%shaft_angle, sample%speed, journal%position, journal%velocity]
+      call one('time', sample%time, 's', 'time')
+      call one('shaft_angle', sample%shaft_angle, 'rad', 'shaft angle')
+      call one('speed', sample%speed, 'rad/s', 'shaft speed')
+      associate (position => sample%journal%position, velocity => sample%journal%velocity)
+         call one('journal_y', position(1), 'm', 'journal displacement, vertical')
+         call one('journal_z', position(2), 'm', 'journal displacement, horizontal')
+         call one('journal_vy', velocity(1), 'm/s', 'journal velocity, vertical')
+         call one('journal_vz', velocity(2), 'm/s', 'journal velocity, horizontal')
       end associate
-      call put_pads(sample, size(sample%states), values(of_journal + 1:), n)
-      call file%table%add(file%file, values(:of_journal + n))
+      associate (states => sample%states, loads => sample%loads)
+         if (sample%tilting) then
+            call each('contact_force', loads%contact_force, 'N', 'pivot contact force')
+            call each('friction_moment', loads%friction_moment, 'N m', 'pivot friction moment')
+         end if
+         call each('film_force_tangential', loads%film_force(1), 'N', 'film force on the journal along the pad (y'')')
+         call each('film_force_radial', loads%film_force(2), 'N', 'film force on the journal outward (z'')')
+         call each('min_film_thickness', loads%min_film_thickness, 'm', 'minimum film thickness')
+         call each('max_pressure', loads%max_pressure, 'Pa', 'maximum film pressure')
+         if (sample%tilting) then
+            call each('pad_tilt', states%tilt, 'rad', 'pad tilt')
+            call each('pad_tilt_rate', states%tilt_rate, 'rad/s', 'pad tilt rate')
+         end if
+         if (sample%radial) then
+            call each('pad_penetration', states%penetration, 'm', 'pivot penetration')
+            call each('pad_penetration_rate', states%penetration_rate, 'm/s', 'pivot penetration rate')
+         end if
+         if (sample%bristles) call each('bristle_deflection', states%deflection, 'm', 'bristle deflection')
+         if (sample%asperities) call each('asperity_force', loads%asperity_force, 'N', &
+            & 'normal force between the asperities of pad and journal')
+      end associate
+      call file%table%add(file%file)
       call file%error_of(error)
-   end subroutine add_sample
-
-   !> Puts the series of the pads one after the other, n values in all.
-   pure subroutine put_pads(sample, pads, values, n)
-      type(model_sample), intent(in) :: sample
-      integer, intent(in) :: pads
-      real(wp), intent(inout) :: values(pads, of_pad)
-      integer, intent(out) :: n
-      integer :: i, k
-      do i = 1, pads
-         associate (state => sample%states(i), loads => sample%loads(i))
-            k = 0
-            if (sample%tilting) then
-               values(i, 1) = loads%contact_force
-               values(i, 2) = loads%friction_moment
-               k = 2
-            end if
-            values(i, k + 1:k + 2) = loads%film_force
-            values(i, k + 3) = loads%min_film_thickness
-            values(i, k + 4) = loads%max_pressure
-            k = k + 4
-            if (sample%tilting) then
-               values(i, k + 1) = state%tilt
-               values(i, k + 2) = state%tilt_rate
-               k = k + 2
-            end if
-            if (sample%radial) then
-               values(i, k + 1) = state%penetration
-               values(i, k + 2) = state%penetration_rate
-               k = k + 2
-            end if
-            if (sample%bristles) then
-               values(i, k + 1) = state%deflection
-               k = k + 1
-            end if
-            if (sample%asperities) then
-               values(i, k + 1) = loads%asperity_force
-               k = k + 1
-            end if
-         end associate
-      end do
-      n = k*pads
-   end subroutine put_pads
-
-   !> Declares the series that `add_sample` fills, in the same order.
-   subroutine declare_series(file, sample)
-      type(run_file_type), intent(inout) :: file
-      type(model_sample), intent(in) :: sample
-      call one('time', 's', 'time')
-      call one('shaft_angle', 'rad', 'shaft angle')
-      call one('speed', 'rad/s', 'shaft speed')
-      call one('journal_y', 'm', 'journal displacement, vertical')
-      call one('journal_z', 'm', 'journal displacement, horizontal')
-      call one('journal_vy', 'm/s', 'journal velocity, vertical')
-      call one('journal_vz', 'm/s', 'journal velocity, horizontal')
-      if (sample%tilting) then
-         call each('contact_force', 'N', 'pivot contact force')
-         call each('friction_moment', 'N m', 'pivot friction moment')
-      end if
-      call each('film_force_tangential', 'N', 'film force on the journal along the pad (y'')')
-      call each('film_force_radial', 'N', 'film force on the journal outward (z'')')
-      call each('min_film_thickness', 'm', 'minimum film thickness')
-      call each('max_pressure', 'Pa', 'maximum film pressure')
-      if (sample%tilting) then
-         call each('pad_tilt', 'rad', 'pad tilt')
-         call each('pad_tilt_rate', 'rad/s', 'pad tilt rate')
-      end if
-      if (sample%radial) then
-         call each('pad_penetration', 'm', 'pivot penetration')
-         call each('pad_penetration_rate', 'm/s', 'pivot penetration rate')
-      end if
-      if (sample%bristles) call each('bristle_deflection', 'm', 'bristle deflection')
-      if (sample%asperities) call each('asperity_force', 'N', 'normal force between the asperities of pad and journal')
    contains
-      subroutine one(name, units, long_name)
+      subroutine one(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
-         call file%table%declare(file%file, name, 1, '', units, long_name)
+         real(wp), intent(in) :: value
+         call file%table%put(file%file, name, value, units, long_name)
       end subroutine one
 
-      subroutine each(name, units, long_name)
+      subroutine each(name, values, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
-         call file%table%declare(file%file, name, size(sample%states), 'pad', units, long_name)
+         real(wp), intent(in) :: values(:)
+         call file%table%put(file%file, name, values, 'pad', units, long_name)
       end subroutine each
-   end subroutine declare_series
+   end subroutine add_sample
 
    !> What the asperities bore in all samples, taken at this interval, s, with this load on the journal, N.
    subroutine put_asperities(file, interval, load)
