@@ -1,6 +1,6 @@
 !> Amplitude spectra by FFTW. The only file that knows FFTW.
 module spectra
-   use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_int, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_double_complex, c_int, c_ptr
    use kinds, only: wp
    implicit none (type, external)
    private

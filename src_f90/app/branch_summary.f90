@@ -3,7 +3,6 @@ module branch_summary
    use kinds, only: wp
    use text, only: to_text, fixed_text
    use special_points, only: special_point_type
-   use hdf5_file, only: hdf5_type
    use run_file, only: run_file_type
    implicit none (type, external)
    private

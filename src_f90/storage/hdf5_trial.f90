@@ -1,7 +1,7 @@
 !> Tries in a child process whether an HDF5 file can be read at all: if it is damaged, the library may crash or run
 !> for ever.
 module hdf5_trial
-   use hdf5, only: hid_t, h5gn_members_f, h5gget_obj_info_idx_f, h5g_group_f
+   use hdf5, only: h5gn_members_f, h5gget_obj_info_idx_f, h5g_group_f
    use kinds, only: wp
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: hdf5_series_type

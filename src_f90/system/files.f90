@@ -6,7 +6,7 @@ module files
    private
    public :: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync, &
       & real_path, is_regular
-   public :: file_identity, identity_length
+   public :: file_identity
 
    !> Room for a path.
    integer, parameter :: path_length = 4096

@@ -20,7 +20,6 @@ program global_search
    use lapack, only: dgesv
    use film_solver, only: film_solver_type, film_motion, film_response, film_ok
    use components, only: make_film
-   use kinematics, only: journal_motion, pad_state
    use tilting_pad, only: tilting_pad_type
    use operating_point, only: operating_point_type
    use equations_of_motion, only: bearing_model, new_bearing_model

@@ -3,7 +3,7 @@ program test_cubic_patch
    use kinds, only: wp
    use text, only: to_text
    use cubic_patch, only: lanes, terms, corner_data, corners, cubic_transform, evaluate_cubic
-   use check, only: runs, expect, expect_close, between, report
+   use check, only: runs, expect_close, between, report
    implicit none (type, external)
 
    real(wp), parameter :: rounding = 1e-12_wp

@@ -95,7 +95,6 @@ end module scene_probes
 program test_scene_namelist
    use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_overflow
    use kinds, only: wp, i8
-   use text, only: to_text
    use errors, only: error_type, input_error
    use scene, only: scene_type, periodic_type
    use scene_fields, only: visit_scene

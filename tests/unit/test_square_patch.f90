@@ -3,7 +3,7 @@ program test_square_patch
    use kinds, only: wp
    use text, only: to_text
    use square_patch, only: nodes, lanes, node_points, fitted, evaluate_patch, patch_values
-   use check, only: runs, expect, expect_close, between, report
+   use check, only: runs, expect_close, between, report
    implicit none (type, external)
 
    if (runs('polynomials')) call polynomials()

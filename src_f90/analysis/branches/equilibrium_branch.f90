@@ -6,7 +6,6 @@ module equilibrium_branch
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error
    use continuation, only: branch_problem_type
-   use equations_of_motion, only: bearing_model
    use force_balance, only: forces, force_derivatives, masses
    use damped_newton, only: clearances, reference_force
    use small_vibrations, only: eigenvalues

@@ -1,6 +1,6 @@
 !> The motion itself as the way to rest: without unbalance and friction it ends where a stable equilibrium is.
 module motion_to_rest
-   use kinds, only: wp, i8, pi
+   use kinds, only: wp, pi
    use errors, only: error_type
    use cvode_integrator, only: integrator_type, integrator_options
    use equations_of_motion, only: bearing_model

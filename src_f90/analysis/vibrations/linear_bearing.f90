@@ -7,7 +7,7 @@ module linear_bearing
    use force_balance, only: force_derivatives, add_sticking, masses
    implicit none (type, external)
    private
-   public :: linear_bearing_type, linearize, pivot_name
+   public :: linear_bearing_type, linearize
 
    !> Length of the names of pivots.
    integer, parameter :: pivot_name = 6

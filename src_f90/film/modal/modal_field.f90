@@ -8,7 +8,6 @@
 !> the rest is smooth, and put back at the point.
 module modal_field
    use kinds, only: wp, pi
-   use pad_gap, only: pad_gap_type
    use modal_pad, only: modal_pad_type
    use modal_sweeps, only: lanes
    use sommerfeld_nodes, only: span

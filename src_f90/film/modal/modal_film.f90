@@ -18,7 +18,7 @@ module modal_film
    use film_resolution, only: resolution_type, new_resolution, most_levels, enough_cells, enough_modes
    use modal_edges, only: edge_flows
    use modal_field, only: field_of_modes
-   use modal_pad, only: modal_pad_type, init_pad, set_weights, set_motion, gauss, middle, point_weights
+   use modal_pad, only: modal_pad_type, set_weights, set_motion, gauss, middle, point_weights
    use modal_slopes, only: force_slopes
    use modal_sweeps, only: lanes, weigh_nodes, solve_modes, sum_modes, lowest_pressure
    use sommerfeld_nodes, only: span

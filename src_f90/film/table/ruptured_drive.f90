@@ -11,7 +11,7 @@ module ruptured_drive
    use kinds, only: wp
    use two_equations, only: solved
    use film_solver, only: film_motion, film_response, film_counters, film_ok
-   use unit_pad, only: unit_pad_type, thickness_scale
+   use unit_pad, only: unit_pad_type
    use film_grid, only: new_film_grid
    use elimination_film, only: elimination_film_type, new_elimination_film
    use modal_film, only: modal_film_type, converged_film
