@@ -3,7 +3,7 @@ module lapack
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgesv, dgeev, zgesv
+   public :: dgesv, zgesv, dgeev, dstev
 
    interface
       !> Solves a x = b by elimination with row exchanges; `info` /= 0: a is singular.
@@ -32,5 +32,15 @@ module lapack
          real(wp), intent(out) :: wr(*), wi(*), vl(ldvl, *), vr(ldvr, *), work(*)
          integer, intent(out) :: info
       end subroutine dgeev
+
+      !> Eigenvalues d and eigenvectors z of a symmetric tridiagonal matrix with the diagonal d and, beside it, e.
+      subroutine dstev(jobz, n, d, e, z, ldz, work, info)
+         import :: wp
+         character(len=1), intent(in) :: jobz
+         integer, intent(in) :: n, ldz
+         real(wp), intent(inout) :: d(*), e(*)
+         real(wp), intent(out) :: z(ldz, *), work(*)
+         integer, intent(out) :: info
+      end subroutine dstev
    end interface
 end module lapack

@@ -2,7 +2,7 @@
 !> orders 3 to 5 is unstable, so that the error test keeps the steps short where nothing happens.
 module order_watch
    use kinds, only: wp, i8
-   use lapack, only: dgeev
+   use eigenvalues, only: find_eigenvalues
    implicit none (type, external)
    private
    public :: order_watch_type, stable_order
@@ -89,13 +89,11 @@ contains
    !> this Jacobian.
    integer function stable_order(jacobian, step) result(order)
       real(wp), intent(in) :: jacobian(:, :), step
-      real(wp), dimension(size(jacobian, 1)) :: re, im
-      real(wp) :: matrix(size(re), size(re)), left(1, 1), right(1, 1), work(4*size(re))
-      integer :: info
-      matrix = jacobian
-      call dgeev('N', 'N', size(re), matrix, size(re), re, im, left, 1, right, 1, work, size(work), info)
+      complex(wp) :: values(size(jacobian, 1))
+      logical :: ok
+      call find_eigenvalues(jacobian, values, ok)
       do order = ubound(stable_damping, 1), lbound(stable_damping, 1) + 1, -1
-         if (info == 0 .and. all(-re >= stable_damping(order)*hypot(re, im) .or. abs(im)*step < resolved)) return
+         if (ok .and. all(-values%re >= stable_damping(order)*abs(values) .or. abs(values%im)*step < resolved)) return
       end do
    end function stable_order
 end module order_watch

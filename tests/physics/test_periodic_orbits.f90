@@ -10,7 +10,7 @@ program test_periodic_orbits
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use force_balance, only: force_derivatives, masses
-   use small_vibrations, only: eigenvalues
+   use small_vibrations, only: find_vibrations
    use orbit_polynomials, only: orbit_type
    use orbit_collocation, only: newton_round
    use floquet_multipliers, only: set_multipliers, are_stable
@@ -116,7 +116,7 @@ contains
       allocate (stiffness(n, n), damping(n, n), values(2*n))
       call model%evaluate(0.0_wp, found%orbit%start, .true., ok)
       call force_derivatives(model, stiffness, damping)
-      call eigenvalues(masses(model), stiffness, damping, values, ok)
+      call find_vibrations(masses(model), stiffness, damping, values, ok)
       expected = exp(values*found%period)
       call expect(count(abs(expected) > 1e-3_wp) >= 2, 'some do not die at once, '//motion)
       do k = 1, 2*n

@@ -7,7 +7,7 @@ program test_small_vibrations
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use static_model, only: make_static
-   use small_vibrations, only: stability_type, stability_of, eigenvalues, are_light
+   use small_vibrations, only: stability_type, stability_of, find_vibrations, are_light
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
 
@@ -29,7 +29,7 @@ contains
       ! -0.1 +- 4.9990 i, and 3 and -4
       stiffness = reshape([-50.0_wp, 0.0_wp, 0.0_wp, 6.0_wp], [2, 2])
       damping = reshape([-0.4_wp, 0.0_wp, 0.0_wp, -0.5_wp], [2, 2])
-      call eigenvalues(mass, stiffness, damping, values, ok)
+      call find_vibrations(mass, stiffness, damping, values, ok)
       call expect(ok, 'they are found')
       call expect_close(minval(abs(values - cmplx(-0.1_wp, sqrt(24.99_wp), wp))), 0.0_wp, 1e-13_wp, &
          & 'a damped vibration')

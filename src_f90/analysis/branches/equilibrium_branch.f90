@@ -5,10 +5,11 @@
 module equilibrium_branch
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error
+   use eigenvalues, only: largest_first
    use continuation, only: branch_problem_type
    use force_balance, only: forces, force_derivatives, masses
    use damped_newton, only: clearances, reference_force
-   use small_vibrations, only: eigenvalues
+   use small_vibrations, only: find_vibrations
    use heat_balance, only: oil_temperatures_type
    use warm_oil, only: has_warm_oil
    use oil_equations, only: state_balance_type, find_lack, find_lack_slopes, find_force_slopes, find_temperatures
@@ -172,13 +173,9 @@ contains
       complex(wp), allocatable, intent(out) :: values(:)
       real(wp), allocatable, intent(out) :: growth(:)
       logical, intent(out) :: ok
-      integer :: k, largest
       allocate (values(2*size(self%positions)))
-      call eigenvalues(masses(self%bearing%model), self%stiffness, self%damping, values, ok)
-      do k = 1, size(values) - 1
-         largest = k - 1 + maxloc(values(k:)%re, dim=1)
-         values([k, largest]) = values([largest, k])
-      end do
+      call find_vibrations(masses(self%bearing%model), self%stiffness, self%damping, values, ok)
+      values = values(largest_first(values%re))
       growth = values%re/self%bearing%model%point%speed(0.0_wp)
    end subroutine spectrum
 

@@ -3,6 +3,7 @@
 module special_points
    use kinds, only: wp
    use errors, only: error_type, stopped
+   use roots, only: root_bracket
    use damped_newton, only: asked_to_stop
    use continuation, only: branch_problem_type, branch_point_type, branch_options, correct, return_to
    implicit none (type, external)
@@ -28,12 +29,6 @@ module special_points
    integer, parameter :: most_cuts = 40
    !> Most special points between two points.
    integer, parameter :: most_points = 4
-
-   !> A place between two points: how far along the tangent of the first, and there the growth that crosses, or the
-   !> tangent's component along the parameter.
-   type :: bracket_type
-      real(wp) :: along = 0, value = 0
-   end type bracket_type
 
 contains
 
@@ -105,8 +100,8 @@ contains
       parameter_part = point%tangent(size(point%tangent))
    end function parameter_part
 
-   !> Where the k-th growth (0: the tangent's component along the parameter) is zero between two points: by false
-   !> position, whose end that stays counts half (Illinois). `ok` is false where Newton's method fails on the way.
+   !> Where, along the tangent of the first of two points, the k-th growth (0: the tangent's component along the
+   !> parameter) is zero. `ok` is false where Newton's method fails on the way.
    subroutine locate(problem, options, here, next, k, found, ok, error, give_up)
       class(branch_problem_type), intent(inout) :: problem
       type(branch_options), intent(in) :: options
@@ -116,18 +111,17 @@ contains
       logical, intent(out) :: ok
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      type(bracket_type) :: a, b, middle
+      type(root_bracket) :: bracket
       type(branch_point_type) :: point
-      real(wp) :: ignored, width
+      real(wp) :: ignored, along, value
       integer :: cut
-      a = bracket_type(0.0_wp, watched(here, k))
-      b = bracket_type(next%along, watched(next, k))
+      bracket = root_bracket([0.0_wp, next%along], [watched(here, k), watched(next, k)])
       call return_to(problem, next)
       point = next
       do cut = 1, most_cuts
-         middle%along = (a%along*b%value - b%along*a%value)/(b%value - a%value)
+         along = bracket%estimate()
          associate (tangent => point%tangent/problem%dot(here%tangent, point%tangent))
-            call problem%move((middle%along - point%along)*tangent, .false., ignored)
+            call problem%move((along - point%along)*tangent, .false., ignored)
          end associate
          call correct(problem, here%tangent, options, point, error, give_up)
          ok = .not. allocated(error)
@@ -135,17 +129,11 @@ contains
             if (error%status /= stopped) deallocate (error)
             return
          end if
-         point%along = middle%along
-         middle%value = watched(point, k)
-         if (middle%value*b%value < 0) then
-            a = b
-         else
-            a%value = 0.5_wp*a%value
-         end if
-         b = middle
-         width = abs(b%along - a%along)
-         if (abs(b%value) <= 0) exit
-         if (width <= closeness*next%along .and. width*problem%unit*abs(parameter_part(point)) &
+         point%along = along
+         value = watched(point, k)
+         call bracket%narrow(along, value)
+         if (abs(value) <= 0) exit
+         if (bracket%width() <= closeness*next%along .and. bracket%width()*problem%unit*abs(parameter_part(point)) &
             & <= accuracy*max(abs(point%parameter), problem%unit)) exit
       end do
       point%arc_length = here%arc_length + point%along

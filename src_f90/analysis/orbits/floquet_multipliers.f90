@@ -1,7 +1,7 @@
 !> The multipliers of a periodic orbit: the factors by which small disturbances grow in a period.
 module floquet_multipliers
    use kinds, only: wp
-   use lapack, only: dgeev
+   use eigenvalues, only: find_eigenvalues, largest_first
    implicit none (type, external)
    private
    public :: set_multipliers, are_stable, loss_of_stability
@@ -13,18 +13,9 @@ contains
       real(wp), intent(in) :: monodromy(:, :)
       complex(wp), allocatable, intent(out) :: values(:)
       logical, intent(out) :: ok
-      real(wp) :: matrix(size(monodromy, 1), size(monodromy, 1)), re(size(monodromy, 1)), im(size(monodromy, 1))
-      real(wp) :: work(8*size(monodromy, 1)), left(1, 1), right(1, 1)
-      integer :: info, k, largest
-      matrix = monodromy
-      call dgeev('N', 'N', size(re), matrix, size(re), re, im, left, 1, right, 1, work, size(work), info)
-      ok = info == 0
-      if (.not. ok) return
-      values = cmplx(re, im, wp)
-      do k = 1, size(values) - 1
-         largest = k - 1 + maxloc(abs(values(k:)), dim=1)
-         values([k, largest]) = values([largest, k])
-      end do
+      allocate (values(size(monodromy, 1)))
+      call find_eigenvalues(monodromy, values, ok)
+      if (ok) values = values(largest_first(abs(values)))
    end subroutine set_multipliers
 
    !> True where a small disturbance of the orbit dies out.

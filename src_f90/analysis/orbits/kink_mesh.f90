@@ -2,6 +2,7 @@
 !> Such an end goes with the orbit as Newton's method corrects it; here it is found that there is, or is no longer, one.
 module kink_mesh
    use kinds, only: wp
+   use roots, only: root_bracket
    use ode_model, only: ode_model_type
    use orbit_polynomials, only: orbit_type, points, place
    implicit none (type, external)
@@ -10,8 +11,9 @@ module kink_mesh
 
    !> Ends that are closer than this part of the period are one.
    real(wp), parameter :: rounding = 1e-9_wp
-   !> Bisections that find a passage.
-   integer, parameter :: bisections = 50
+   !> A passage is found to this part of the distance of two points; most evaluations for it.
+   real(wp), parameter :: closeness = 1e-14_wp
+   integer, parameter :: most_cuts = 50
 
    !> A mesh in the making: ends of intervals, s, and the kinks at them.
    type :: mesh_type
@@ -52,10 +54,10 @@ contains
       integer, intent(in) :: kink, state
       real(wp), intent(in) :: value
       type(mesh_type), intent(inout) :: mesh
-      logical :: was_below, is_below, at_end
-      real(wp) :: before, now
+      logical :: at_end
+      real(wp) :: before, now, last, above
       integer :: k, i
-      was_below = orbit%start(state) < value
+      last = orbit%start(state) - value
       at_end = .false.
       before = 0
       do k = 1, orbit%intervals()
@@ -64,14 +66,14 @@ contains
             if (i == points .and. orbit%kink(k) == kink) then
                at_end = .true.
             else
-               is_below = orbit%at(state, i, k) < value
+               above = orbit%at(state, i, k) - value
                if (at_end) then
-                  if (is_below .eqv. was_below) call mesh%drop_end(orbit%time(k - 1))
-               else if (is_below .neqv. was_below) then
-                  call mesh%put_end(passage(orbit, state, value, before, now), kink)
+                  if (above < 0 .eqv. last < 0) call mesh%drop_end(orbit%time(k - 1))
+               else if (above < 0 .neqv. last < 0) then
+                  call mesh%put_end(passage(orbit, state, value, root_bracket([before, now], [last, above])), kink)
                end if
                at_end = .false.
-               was_below = is_below
+               last = above
             end if
             before = now
          end do
@@ -105,26 +107,21 @@ contains
       self%changed = .true.
    end subroutine drop_end
 
-   !> When a state passes a value between two times, s.
-   pure real(wp) function passage(orbit, state, value, from, to)
+   !> When a state passes a value, s, between the two times of a bracket.
+   pure real(wp) function passage(orbit, state, value, between)
       type(orbit_type), intent(in) :: orbit
       integer, intent(in) :: state
-      real(wp), intent(in) :: value, from, to
-      real(wp) :: y(size(orbit%start)), low, high
-      logical :: below
+      real(wp), intent(in) :: value
+      type(root_bracket), intent(in) :: between
+      type(root_bracket) :: bracket
+      real(wp) :: y(size(orbit%start))
       integer :: i
-      call orbit%state_at(from, y)
-      below = y(state) < value
-      low = from
-      high = to
-      do i = 1, bisections
-         passage = 0.5_wp*(low + high)
+      bracket = between
+      do i = 1, most_cuts
+         passage = bracket%estimate()
+         if (abs(passage - bracket%place(2)) <= closeness*between%width()) return
          call orbit%state_at(passage, y)
-         if ((y(state) < value) .eqv. below) then
-            low = passage
-         else
-            high = passage
-         end if
+         call bracket%narrow(passage, y(state) - value)
       end do
    end function passage
 end module kink_mesh

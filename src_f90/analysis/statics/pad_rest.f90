@@ -2,6 +2,7 @@
 !> radial forces balance, and, along the tilts with these, where the moment changes its sign.
 module pad_rest
    use kinds, only: wp, pi
+   use roots, only: root_bracket
    use scene, only: scene_type
    use kinematics, only: journal_motion, pad_state, pad_frame
    use equations_of_motion, only: bearing_model
@@ -35,11 +36,6 @@ module pad_rest
       real(wp) :: moment = 0, radial = 0
       logical :: ok = .false.
    end type place_type
-
-   !> Two places, at the first of which a value is negative and at the second positive.
-   type :: bracket_type
-      real(wp) :: place(2) = 0, value(2) = 0
-   end type bracket_type
 
 contains
 
@@ -162,24 +158,26 @@ contains
       end do
    end function tilted
 
-   !> The pad at a tilt where its radial forces balance: between two of the penetrations, by false position.
+   !> The pad at a tilt where its radial forces balance: between two of the penetrations.
    type(place_type) function radial_balance(alone, journal, penetrations, tilt) result(balance)
       type(bearing_model), intent(inout) :: alone
       type(journal_motion), intent(in) :: journal
       real(wp), intent(in) :: penetrations(:), tilt
-      type(bracket_type) :: bracket
+      type(root_bracket) :: bracket
       integer :: first, last, middle, k
       last = size(penetrations)
       balance = place_at(alone, journal, pad_state(tilt=tilt, penetration=penetrations(last)))
       if (.not. alone%layout%radial) return
       balance%ok = balance%ok .and. balance%radial < 0
       if (.not. balance%ok) return
-      call narrow(bracket, penetrations(last), balance%radial)
+      bracket = root_bracket(penetrations(last), balance%radial)
       first = 0
       do while (last - first > 1)
          middle = (first + last)/2
          balance = place_at(alone, journal, pad_state(tilt=tilt, penetration=penetrations(middle)))
-         call narrow(bracket, penetrations(middle), balance%radial)
+         k = merge(2, 1, balance%radial < 0)
+         bracket%place(k) = penetrations(middle)
+         bracket%value(k) = balance%radial
          if (balance%radial < 0) then
             last = middle
          else
@@ -189,11 +187,11 @@ contains
       do k = 1, steps
          if (first == 0) exit
          ! films push far more than pivots pull
-         bracket%value(2) = min(bracket%value(2), -bracket%value(1))
-         balance = place_at(alone, journal, pad_state(tilt=tilt, penetration=crossing(bracket)))
+         bracket%value = min(bracket%value, -minval(bracket%value))
+         balance = place_at(alone, journal, pad_state(tilt=tilt, penetration=bracket%estimate()))
          if (balance%ok .and. abs(balance%radial) <= balanced*max(norm2(alone%bearing%loads(1)%journal), &
             & alone%bearing%pads(1)%weight)) return
-         call narrow(bracket, balance%pad%penetration, balance%radial)
+         call bracket%narrow(balance%pad%penetration, balance%radial)
       end do
       balance%ok = .false.
    end function radial_balance
@@ -204,42 +202,23 @@ contains
       type(journal_motion), intent(in) :: journal
       real(wp), intent(in) :: penetrations(:)
       type(place_type), intent(inout) :: sides(2)
-      type(bracket_type) :: bracket
+      type(root_bracket) :: bracket
       type(place_type) :: next
       real(wp) :: enough
       integer :: k
       enough = balanced*minval(abs(sides%moment))
       if (sides(1)%moment > 0) sides = sides([2, 1])
-      bracket = bracket_type(sides%pad%tilt, sides%moment)
+      bracket = root_bracket(sides%pad%tilt, sides%moment)
       do k = 1, steps
-         next = radial_balance(alone, journal, penetrations, crossing(bracket))
+         next = radial_balance(alone, journal, penetrations, bracket%estimate())
          if (.not. next%ok) return
-         call narrow(bracket, next%pad%tilt, next%moment)
+         call bracket%narrow(next%pad%tilt, next%moment)
          sides(merge(1, 2, next%moment < 0)) = next
          if (abs(next%moment) > enough) cycle
          sides = next
          return
       end do
    end subroutine close_in
-
-   !> Where the value is zero if it changes evenly.
-   pure real(wp) function crossing(bracket)
-      type(bracket_type), intent(in) :: bracket
-      associate (x => bracket%place, f => bracket%value)
-         crossing = x(1) + (x(2) - x(1))*f(1)/(f(1) - f(2))
-      end associate
-   end function crossing
-
-   !> Replaces one of the places, and halves the value at the other so that it is replaced soon (Illinois).
-   pure subroutine narrow(bracket, place, value)
-      type(bracket_type), intent(inout) :: bracket
-      real(wp), intent(in) :: place, value
-      integer :: side
-      side = merge(1, 2, value < 0)
-      bracket%place(side) = place
-      bracket%value(side) = value
-      bracket%value(3 - side) = 0.5_wp*bracket%value(3 - side)
-   end subroutine narrow
 
    !> A pad with its loads; a film that is closed pushes it off.
    type(place_type) function place_at(alone, journal, pad) result(place)

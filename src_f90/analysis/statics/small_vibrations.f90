@@ -1,12 +1,13 @@
 !> Small vibrations about a state at rest: the eigenvalues of the motion linearised there, and what they say of it.
 module small_vibrations
    use kinds, only: wp
-   use lapack, only: dgesv, dgeev
+   use eigenvalues, only: find_eigenvalues
+   use lapack, only: dgesv
    use equations_of_motion, only: bearing_model
    use force_balance, only: force_derivatives, masses
    implicit none (type, external)
    private
-   public :: stability_type, stability_at, stability_of, eigenvalues, has_light_modes, are_light
+   public :: stability_type, stability_at, stability_of, find_vibrations, has_light_modes, are_light
 
    !> How a state at rest answers a small disturbance.
    type :: stability_type
@@ -65,7 +66,7 @@ contains
       call model%evaluate(0.0_wp, y, .true., ok)
       if (.not. ok) return
       call force_derivatives(model, stiffness, damping)
-      call eigenvalues(masses(model), stiffness, damping, values, ok)
+      call find_vibrations(masses(model), stiffness, damping, values, ok)
    end subroutine eigenvalues_at
 
    !> What eigenvalues, 1/s, say, with a growth, 1/s, that counts as none.
@@ -84,16 +85,15 @@ contains
    end function stability_of
 
    !> Eigenvalues of M x'' = C x' + K x, with the derivatives of the forces over positions, K, and over rates, C.
-   subroutine eigenvalues(mass, stiffness, damping, values, ok, shapes)
+   subroutine find_vibrations(mass, stiffness, damping, values, ok, shapes)
       real(wp), intent(in) :: mass(:, :), stiffness(:, :), damping(:, :)
       complex(wp), intent(out) :: values(2*size(mass, 1))
       logical, intent(out) :: ok
       !> The positions in the vibration of each eigenvalue, (position, eigenvalue), of any size and phase.
       complex(wp), intent(out), optional :: shapes(:, :)
       real(wp) :: matrix(2*size(mass, 1), 2*size(mass, 1)), per_mass(size(mass, 1), 2*size(mass, 1))
-      real(wp) :: factors(size(mass, 1), size(mass, 1)), re(2*size(mass, 1)), im(2*size(mass, 1))
-      real(wp) :: work(16*size(mass, 1)), left(1, 1)
-      real(wp), allocatable :: right(:, :)
+      real(wp) :: factors(size(mass, 1), size(mass, 1))
+      complex(wp), allocatable :: vectors(:, :)
       integer :: pivots(size(mass, 1)), info, i
       associate (n => size(mass, 1))
          per_mass(:, :n) = stiffness
@@ -107,28 +107,9 @@ contains
             matrix(i, n + i) = 1
          end do
          matrix(n + 1:, :) = per_mass
-         allocate (right(merge(2*n, 1, present(shapes)), merge(2*n, 1, present(shapes))))
-         call dgeev('N', merge('V', 'N', present(shapes)), 2*n, matrix, 2*n, re, im, left, 1, right, size(right, 1), &
-            & work, size(work), info)
-         ok = info == 0
-         values = cmplx(re, im, wp)
-         if (present(shapes) .and. ok) shapes = to_complex(right(:n, :), im)
+         if (present(shapes)) allocate (vectors(2*n, 2*n))
+         call find_eigenvalues(matrix, values, ok, vectors)
+         if (present(shapes) .and. ok) shapes = vectors(:n, :)
       end associate
-   end subroutine eigenvalues
-
-   !> Vectors as LAPACK gives them: of a pair the real and the imaginary part of that whose eigenvalue comes first.
-   pure function to_complex(parts, im) result(vectors)
-      real(wp), intent(in) :: parts(:, :), im(:)
-      complex(wp) :: vectors(size(parts, 1), size(parts, 2))
-      integer :: i
-      do i = 1, size(im)
-         if (im(i) > 0) then
-            vectors(:, i) = cmplx(parts(:, i), parts(:, i + 1), wp)
-         else if (im(i) < 0) then
-            vectors(:, i) = cmplx(parts(:, i - 1), -parts(:, i), wp)
-         else
-            vectors(:, i) = cmplx(parts(:, i), 0.0_wp, wp)
-         end if
-      end do
-   end function to_complex
+   end subroutine find_vibrations
 end module small_vibrations

@@ -4,6 +4,7 @@ module stability_threshold
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp
    use errors, only: error_type
+   use roots, only: root_bracket
    use operating_point, only: operating_point_type
    use equations_of_motion, only: bearing_model
    use damped_newton, only: asked_to_stop, asked
@@ -125,40 +126,29 @@ contains
       end do
    end function is_steep
 
-   !> The speed between two places, rpm, at which the growth of a bearing that crosses zero first is zero: by false
-   !> position, whose end that stays counts half (Illinois).
+   !> The speed between two places, rpm, at which the growth of a bearing that crosses zero first is zero.
    real(wp) function crossing(model, first, last, bearing, cross_stiffness)
       type(bearing_model), intent(inout) :: model
       type(place_type), intent(in) :: first, last
       integer, intent(in) :: bearing
       real(wp), intent(in) :: cross_stiffness
-      type(place_type) :: a, b, middle
-      real(wp) :: at_a, at_b, at_middle
+      type(root_bracket) :: bracket
+      type(place_type) :: place
+      real(wp) :: last_speed
       integer :: k, cut
       logical :: ok
-      a = first
-      b = last
       ! of those that do not grow the largest crosses first, of those that grow the least
       k = unstable(first, bearing)
       if (unstable(last, bearing) > k) k = k + 1
-      at_a = a%growths(k, bearing)
-      at_b = b%growths(k, bearing)
+      bracket = root_bracket([first%rpm, last%rpm], [first%growths(k, bearing), last%growths(k, bearing)])
       do cut = 1, most_cuts
-         crossing = (a%rpm*at_b - b%rpm*at_a)/(at_b - at_a)
-         if (abs(b%rpm - a%rpm) <= accuracy*b%rpm) return
-         call go_to(model, crossing, a%y, cross_stiffness, middle, ok)
+         crossing = bracket%estimate()
+         last_speed = bracket%place(2)
+         if (bracket%width() <= accuracy*last_speed) return
+         call go_to(model, crossing, first%y, cross_stiffness, place, ok)
          if (.not. ok) return
-         at_middle = middle%growths(k, bearing)
-         if (abs(at_middle) <= 0) return
-         if (at_middle > 0 .neqv. at_b > 0) then
-            a = b
-            at_a = at_b
-         else
-            at_a = 0.5_wp*at_a
-         end if
-         if (abs(middle%rpm - b%rpm) <= accuracy*b%rpm) return
-         b = middle
-         at_b = at_middle
+         call bracket%narrow(crossing, place%growths(k, bearing))
+         if (abs(place%growths(k, bearing)) <= 0 .or. abs(crossing - last_speed) <= accuracy*last_speed) return
       end do
    end function crossing
 end module stability_threshold

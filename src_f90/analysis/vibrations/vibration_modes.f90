@@ -2,7 +2,8 @@
 module vibration_modes
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi
-   use small_vibrations, only: eigenvalues
+   use eigenvalues, only: largest_first
+   use small_vibrations, only: find_vibrations
    use linear_bearing, only: linear_bearing_type
    implicit none (type, external)
    private
@@ -67,15 +68,11 @@ contains
       logical, intent(out) :: ok
       complex(wp), allocatable :: values(:)
       integer, allocatable :: kept(:)
-      integer :: i, k
+      integer :: i
       kept = pack([(i, i=1, size(bearing%moves))], bearing%moves)
       allocate (values(2*size(kept)))
       call solve(bearing, kept, rotor_mass, cross_stiffness, values, ok)
-      growths = values%re
-      do i = 1, size(growths) - 1
-         k = i - 1 + maxloc(growths(i:), dim=1)
-         growths([i, k]) = growths([k, i])
-      end do
+      growths = values(largest_first(values%re))%re
    end subroutine find_growths
 
    !> The eigenvalues of the positions kept, with the rotor.
@@ -96,7 +93,7 @@ contains
       ! what is displaced along y is pushed along z, and what is displaced along z against y: forward
       stiffness(1, 2) = stiffness(1, 2) + cross_stiffness
       stiffness(2, 1) = stiffness(2, 1) - cross_stiffness
-      call eigenvalues(mass, -stiffness, -bearing%damping(kept, kept), values, ok, shapes)
+      call find_vibrations(mass, -stiffness, -bearing%damping(kept, kept), values, ok, shapes)
    end subroutine solve
 
    !> The one of least ratio, and of these the one of least size.

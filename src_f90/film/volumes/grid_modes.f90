@@ -3,6 +3,7 @@
 !> the root of the rows' heights ("scaled").
 module grid_modes
    use kinds, only: wp
+   use lapack, only: dstev
    use whole_vectors, only: padded
    use column_sweeps, only: apply
    use film_grid, only: film_grid_type
@@ -24,18 +25,6 @@ module grid_modes
    contains
       procedure :: in_rows
    end type grid_modes_type
-
-   interface
-      !> LAPACK: eigenvalues and eigenvectors of a symmetric tridiagonal matrix.
-      subroutine dstev(jobz, n, d, e, z, ldz, work, info)
-         import :: wp
-         character, intent(in) :: jobz
-         integer, intent(in) :: n, ldz
-         real(wp), intent(inout) :: d(*), e(*)
-         real(wp), intent(out) :: z(ldz, *), work(*)
-         integer, intent(out) :: info
-      end subroutine dstev
-   end interface
 
 contains
 
