@@ -5,11 +5,14 @@ program test_file_lock
    use files, only: delete_file, rename_file
    use processes, only: host_name, process_id, new_process, stop_process, ended, pause_seconds
    use file_lock, only: file_lock_type
-   use check, only: runs, expect, expect_no_error, report
+   use scratch, only: file_there, write_bytes, bytes_of
+   use check, only: runs, expect, expect_no_error, expect_error, report
    implicit none (type, external)
-   character(len=:), allocatable :: path
+   character(len=*), parameter :: newline = achar(10)
+   character(len=:), allocatable :: path, lock_file
 
    path = 'test_file_lock_'//to_text(int(process_id()))//'.h5'
+   lock_file = path//'.lock'
    if (runs('free_place')) call free_place()
    if (runs('dead_holder')) call dead_holder()
    if (runs('holder_elsewhere')) call holder_elsewhere()
@@ -18,54 +21,43 @@ program test_file_lock
    if (runs('other_files')) call other_files()
    if (runs('files_left')) call files_left()
    if (runs('no_place')) call no_place()
-   call delete_file(path//'.lock')
+   call delete_file(lock_file)
    call report()
 
 contains
 
-   logical function lock_there()
-      inquire (file=path//'.lock', exist=lock_there)
-   end function lock_there
-
-   !> A lock file that nobody has locked, or another file with its content.
-   subroutine leave_lock(text, name)
+   !> A lock file that nobody has locked.
+   subroutine leave_lock(text)
       character(len=*), intent(in) :: text
-      character(len=*), intent(in), optional :: name
-      character(len=:), allocatable :: file
-      integer :: unit
-      file = path//'.lock'
-      if (present(name)) file = name
-      open (newunit=unit, file=file, status='replace', action='write')
-      write (unit, '(a)') text
-      close (unit)
+      call write_bytes(lock_file, text//newline)
    end subroutine leave_lock
+
+   !> The lock file says that this process holds it, with these beats and files.
+   subroutine expect_ours(beats, what)
+      character(len=*), intent(in) :: beats, what
+      character(len=:), allocatable :: found
+      found = bytes_of(lock_file)
+      call expect(trim(found(:len(found) - 1)) == host_name()//' '//to_text(int(process_id()))//' '//beats, what)
+   end subroutine expect_ours
 
    subroutine free_place()
       type(file_lock_type) :: lock
       type(error_type), allocatable :: error
-      character(len=100) :: line
-      integer :: unit
       call lock%acquire(path, error)
       call expect_no_error(error, 'a free place is locked')
       call expect(lock%taken_from == '', 'from nobody')
-      open (newunit=unit, file=path//'.lock', status='old', action='read')
-      read (unit, '(a)') line
-      call expect(trim(line) == host_name()//' '//to_text(int(process_id()))//' 0', 'the lock says who holds it')
-      close (unit)
+      call expect_ours('0', 'the lock says who holds it')
       call lock%beat(9)
       call lock%beat(10)
       call lock%beat(19)
       call lock%beat(25)
-      open (newunit=unit, file=path//'.lock', status='old', action='read')
-      read (unit, '(a)') line
-      call expect(trim(line) == host_name()//' '//to_text(int(process_id()))//' 2', 'a beat in ten seconds')
-      close (unit)
+      call expect_ours('2', 'a beat in ten seconds')
       call expect(lock%is_ours(), 'it is ours')
       call lock%release()
-      call expect(.not. lock_there(), 'released it is gone')
+      call expect(.not. file_there(lock_file), 'released it is gone')
       call lock%release()
       call lock%beat(100)
-      call expect(.not. lock_there(), 'and no longer beats')
+      call expect(.not. file_there(lock_file), 'and no longer beats')
    end subroutine free_place
 
    !> Its lock file stayed, the system freed its lock: taken at once.
@@ -116,11 +108,8 @@ contains
       call stop_process(child)
       found = ended(child, .true., how)
       call delete_file(path//'.next')
-      call expect(allocated(error), 'a living holder elsewhere keeps its place')
-      if (.not. allocated(error)) return
-      call expect(error%status == system_error .and. index(error%message, 'process 12 on another-machine') > 0, &
-         & 'and it is told who: '//error%message)
-      call expect(lock_there(), 'its lock is left alone')
+      call expect_error(error, system_error, 'process 12 on another-machine', 'a living holder elsewhere')
+      call expect(file_there(lock_file), 'its lock is left alone')
    end subroutine living_holder_elsewhere
 
    !> A holder elsewhere. It replaces the lock file at once, so that nobody reads a part of it.
@@ -130,8 +119,8 @@ contains
       beats = 7
       do
          beats = beats + 1
-         call leave_lock('another-machine 12 '//to_text(beats), path//'.next')
-         ok = rename_file(path//'.next', path//'.lock')
+         call write_bytes(path//'.next', 'another-machine 12 '//to_text(beats)//newline)
+         ok = rename_file(path//'.next', lock_file)
          call pause_seconds(1)
       end do
    end subroutine beat_for_ever
@@ -140,22 +129,17 @@ contains
    subroutine lost_lock()
       type(file_lock_type) :: lock
       type(error_type), allocatable :: error
-      character(len=100) :: line
-      integer :: unit
-      call delete_file(path//'.lock')
+      call delete_file(lock_file)
       call lock%acquire(path, error)
       call leave_lock('another-machine 12 7')
       call expect(.not. lock%is_ours(), 'another''s now')
       call lock%beat(100)
       call lock%release()
-      call expect(lock_there(), 'and left to it')
-      open (newunit=unit, file=path//'.lock', status='old', action='read')
-      read (unit, '(a)') line
-      close (unit)
-      call expect(trim(line) == 'another-machine 12 7', 'as it was')
-      call delete_file(path//'.lock')
+      call expect(file_there(lock_file), 'and left to it')
+      call expect(bytes_of(lock_file) == 'another-machine 12 7'//newline, 'as it was')
+      call delete_file(lock_file)
       call lock%acquire(path, error)
-      call delete_file(path//'.lock')
+      call delete_file(lock_file)
       call expect(.not. lock%is_ours(), 'a deleted lock is nobody''s')
       call lock%release()
    end subroutine lost_lock
@@ -183,32 +167,25 @@ contains
       type(file_lock_type) :: lock
       type(error_type), allocatable :: error
       integer :: status
-      call delete_file(path//'.lock')
+      call delete_file(lock_file)
       call execute_command_line('LOCK='//path//'.lock; '//make, exitstat=status)
       call lock%acquire(path, error)
-      call expect(allocated(error), what//' is refused')
-      if (allocated(error)) call expect(error%status == system_error &
-         & .and. index(error%message, path//'.lock is no lock file of tiltpad') > 0, what//': '//error%message)
+      call expect_error(error, system_error, lock_file//' is no lock file of tiltpad', what//' is refused')
       call execute_command_line('LOCK='//path//'.lock; '//check, exitstat=status)
       call expect(status == 0, what//' stays as it was')
-      call delete_file(path//'.lock')
+      call delete_file(lock_file)
    end subroutine expect_refused
 
    !> The files that a holder noted are told to the next one, if it died.
    subroutine files_left()
       type(file_lock_type) :: lock
       type(error_type), allocatable :: error
-      character(len=100) :: line
-      integer :: unit
       call leave_lock(host_name()//' 999999 7 12:34.5 6:7.8')
       call lock%acquire(path, error)
       call expect_no_error(error, 'a dead holder with files')
       call expect(lock%files_left == '12:34.5 6:7.8', 'its files: '//lock%files_left)
       call lock%note_files('1:2.3')
-      open (newunit=unit, file=path//'.lock', status='old', action='read')
-      read (unit, '(a)') line
-      close (unit)
-      call expect(trim(line) == host_name()//' '//to_text(int(process_id()))//' 0 1:2.3', 'ours: '//trim(line))
+      call expect_ours('0 1:2.3', 'ours: '//bytes_of(lock_file))
       call lock%release()
       call lock%acquire(path, error)
       call expect(lock%files_left == '' .and. lock%taken_from == '', 'none where it ended well')
@@ -219,7 +196,6 @@ contains
       type(file_lock_type) :: lock
       type(error_type), allocatable :: error
       call lock%acquire('no_such_folder/run.h5', error)
-      call expect(allocated(error), 'no lock where there is no folder')
-      if (allocated(error)) call expect(error%status == system_error, 'that is a system error')
+      call expect_error(error, system_error, '', 'no lock where there is no folder')
    end subroutine no_place
 end program test_file_lock

@@ -145,14 +145,8 @@ contains
       end do
       call expect_speeds('0.3:1.2:0.1', tenths)
       call expect_speeds('0.1:0.5:0.1', [0.1_wp, 0.2_wp, 0.3_wp + spacing(0.3_wp), 0.4_wp, 0.5_wp])
-      call expect_speeds('1000:10000:500', [(real(i, wp), i=1000, 10000, 500)])
-      call expect_speeds('10000:1000:-4500', [10000.0_wp, 5500.0_wp, 1000.0_wp])
-      call expect_speeds('10:20:7', [10.0_wp, 17.0_wp])
-      call expect_speeds('5:5:1', [5.0_wp])
       call expect_speeds('1E1:1d5:*10', [10.0_wp, 100.0_wp, 1000.0_wp, 1e4_wp, 1e5_wp])
       call expect_powers(593842e-12_wp, 93.44e-4_wp)
-      call expect_speeds('8:1:*0.5', [8.0_wp, 4.0_wp, 2.0_wp, 1.0_wp])
-      call expect_speeds('1:10:*3', [1.0_wp, 3.0_wp, 9.0_wp])
       call expect_speeds('7, 1:2:1, 4:8:*2 , 5', [7.0_wp, 1.0_wp, 2.0_wp, 4.0_wp, 8.0_wp, 5.0_wp])
       ! whole numbers are written as such
       sweep = sweep_of('&sweep integration%max_steps = 1e6:3e6:1e6, output%samples_per_revolution = 90:360:*2 /')
@@ -267,6 +261,7 @@ contains
       call expect_error(error, input_error, 'a%b8 has 9, ...', 'too many members')
    end subroutine many_variables
 
+   !> Of the values of a variable test_swept_values has more.
    subroutine refused()
       character(len=*), parameter :: range = 'a range is first:last:stride or first:last:*factor'
       call expect_refused('&sweep /', '&sweep sweeps nothing')
@@ -288,33 +283,8 @@ contains
       call expect_refused('&sweep pads%mass(1) = 1 pads%mass = 2/', 'given twice')
       call expect_refused('&sweep pads%mass = 1 pads%mass(1) = 2/', 'pads%mass is swept twice')
       call expect_refused('&sweep rotor%mass = /', 'a value is missing')
-      call expect_refused('&sweep rotor%mass = 2*3/', 'n*value is not for a sweep')
       call expect_refused('&sweep rotor%mass = 1:2/', range)
-      call expect_refused('&sweep rotor%mass = 1:/', range)
-      call expect_refused('&sweep rotor%mass = ::/', range)
-      call expect_refused('&sweep rotor%mass = 1:2:/', range)
-      call expect_refused('&sweep rotor%mass = 1:2:*/', range)
-      call expect_refused('&sweep rotor%mass = 1:2:**2/', range)
-      call expect_refused('&sweep rotor%mass = 1:2:1:1/', range)
       call expect_refused('&sweep rotor%mass = 1 : 2 : 1/', range)
-      call expect_refused('&sweep rotor%mass = 1:b:1/', range)
-      call expect_refused('&sweep rotor%mass = 1:nan:1/', range)
-      call expect_refused('&sweep rotor%mass = 1:1e400:1/', '1e-100 to 1e100')
-      call expect_refused('&sweep rotor%mass = 1:2:1e-200/', '1e-100 to 1e100')
-      call expect_refused('&sweep rotor%mass = 1:2:0/', 'stride must not be 0')
-      call expect_refused('&sweep rotor%mass = 1:2:-1/', 'must be > 0')
-      call expect_refused('&sweep rotor%mass = 2:1:1/', 'must be < 0')
-      call expect_refused('&sweep rotor%mass = 1:8:*1/', 'must be > 0, and not 1')
-      call expect_refused('&sweep rotor%mass = 1:8:*0/', 'must be > 0, and not 1')
-      call expect_refused('&sweep rotor%mass = 1:8:*-2/', 'must be > 0, and not 1')
-      call expect_refused('&sweep rotor%mass = 1:8:*0.5/', 'must be > 1')
-      call expect_refused('&sweep rotor%mass = 8:1:*2/', 'must be < 1')
-      call expect_refused('&sweep rotor%mass = 0:8:*2/', 'one sign, and not 0')
-      call expect_refused('&sweep rotor%mass = 8:0:*0.5/', 'one sign, and not 0')
-      call expect_refused('&sweep rotor%mass = -1:8:*2/', 'one sign, and not 0')
-      call expect_refused('&sweep rotor%mass = 1:2:1e-9/', 'more than 100000 values')
-      call expect_refused('&sweep rotor%mass = -1e100:1e100:1e-100/', 'more than 100000 values')
-      call expect_refused('&sweep rotor%mass = 1:1e99:*1.0000001/', 'more than 100000 values')
       call expect_refused('&sweep rotor%mass = 1:1000:1 rotor%gravity = 0:100:1/', &
          & 'more than 100000 members: rotor%mass has 1000, rotor%gravity has 101')
       call expect_refused('&sweep rotor%mass = 1:90000:1 rotor%gravity = 1:90000:1 rotor%unbalance = 1:90000:1' &

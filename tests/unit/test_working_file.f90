@@ -49,6 +49,17 @@ contains
       call expect(file_there(path//'.lock'), 'and locked')
    end subroutine claim
 
+   !> A part with these bytes, where nothing else is but, perhaps, a file of before.
+   subroutine begin(work, part, before)
+      type(working_file_type), intent(inout) :: work
+      character(len=*), intent(in) :: part
+      character(len=*), intent(in), optional :: before
+      call clear()
+      if (present(before)) call write_bytes(path, before)
+      call claim(work)
+      call write_part(work, part)
+   end subroutine begin
+
    !> Writes the part, which is made if it is not there.
    subroutine write_part(work, bytes)
       type(working_file_type), intent(inout) :: work
@@ -72,13 +83,20 @@ contains
       call expect(exchanged .eqv. expected, 'whether the part is what was published before')
    end subroutine publish
 
+   !> What cannot be published is told in these words.
+   subroutine expect_unpublished(work, words, what)
+      type(working_file_type), intent(inout) :: work
+      character(len=*), intent(in) :: words, what
+      type(error_type), allocatable :: error
+      logical :: exchanged
+      call work%publish(exchanged, error)
+      call expect_error(error, system_error, words, what)
+   end subroutine expect_unpublished
+
    !> A file of before stays until there is a whole new one.
    subroutine first_time()
       type(working_file_type) :: work
-      call clear()
-      call write_bytes(path, 'before')
-      call claim(work)
-      call write_part(work, 'new')
+      call begin(work, 'new', before='before')
       call expect_files('before', 'new', 'while it is written')
       call publish(work, .false.)
       call expect_files('new', '(none)', 'published')
@@ -90,9 +108,7 @@ contains
    !> Publishing again exchanges the two.
    subroutine again()
       type(working_file_type) :: work
-      call clear()
-      call claim(work)
-      call write_part(work, '1')
+      call begin(work, '1')
       call publish(work, .false.)
       call write_part(work, '12')
       call publish(work, .true.)
@@ -130,7 +146,6 @@ contains
    !> is taken.
    subroutine parts_of_before()
       type(working_file_type) :: work
-      integer :: unit
       call clear()
       call write_bytes(path//'.part', 'of the dead run')
       call leave_lock(file_identity(path//'.part'))
@@ -162,8 +177,7 @@ contains
       ! a file that takes the place of the part meanwhile
       call write_part(work, 'newer')
       call delete_file(work%part)
-      open (newunit=unit, file=work%part, status='new', action='write')
-      close (unit)
+      call write_bytes(work%part, '')
       call work%release()
       call expect(file_there(work%part), 'is not deleted')
    end subroutine parts_of_before
@@ -178,20 +192,13 @@ contains
    subroutine replaced_meanwhile()
       type(working_file_type) :: work
       type(error_type), allocatable :: error
-      logical :: exchanged
-      call clear()
-      call write_bytes(path, 'before')
-      call claim(work)
-      call write_part(work, 'new')
+      call begin(work, 'new', before='before')
       call delete_file(path)
       call write_bytes(path, 'precious')
-      call work%publish(exchanged, error)
-      call expect_error(error, system_error, 'something else has been put there', 'a file put there meanwhile')
+      call expect_unpublished(work, 'something else has been put there', 'a file put there meanwhile')
       call work%release()
       call expect_files('precious', 'new', 'both stay')
-      call clear()
-      call claim(work)
-      call write_part(work, 'new')
+      call begin(work, 'new')
       call publish(work, .false.)
       call delete_file(path)
       call work%copy_published(error)
@@ -201,10 +208,7 @@ contains
 
    subroutine given_up()
       type(working_file_type) :: work
-      call clear()
-      call write_bytes(path, 'before')
-      call claim(work)
-      call write_part(work, 'half')
+      call begin(work, 'half', before='before')
       call work%release()
       call expect_files('before', '(none)', 'given up')
       call expect(.not. file_there(path//'.lock'), 'the lock is gone')
@@ -213,15 +217,9 @@ contains
    !> A run that has lost its lock writes and deletes nothing any more: it may be another's.
    subroutine lock_gone()
       type(working_file_type) :: work
-      type(error_type), allocatable :: error
-      logical :: exchanged
-      call clear()
-      call write_bytes(path, 'before')
-      call claim(work)
-      call write_part(work, 'new')
+      call begin(work, 'new', before='before')
       call delete_file(path//'.lock')
-      call work%publish(exchanged, error)
-      call expect_error(error, system_error, 'its lock is gone', 'publishing without the lock')
+      call expect_unpublished(work, 'its lock is gone', 'publishing without the lock')
       call work%release()
       call expect_files('before', 'new', 'nothing changed')
    end subroutine lock_gone
@@ -229,15 +227,10 @@ contains
    !> What is whole is kept under the name of the part. A folder in the file's way cannot be replaced.
    subroutine cannot_be_renamed()
       type(working_file_type) :: work
-      type(error_type), allocatable :: error
-      logical :: exchanged
       integer :: status
-      call clear()
-      call claim(work)
-      call write_part(work, 'new')
+      call begin(work, 'new')
       call execute_command_line('mkdir '//path//' && touch '//path//'/file', exitstat=status)
-      call work%publish(exchanged, error)
-      call expect_error(error, system_error, 'cannot rename '//path//'.part, which is whole', 'a folder in the way')
+      call expect_unpublished(work, 'cannot rename '//path//'.part, which is whole', 'a folder in the way')
       call expect(work%stranded, 'the part is all there is')
       call work%release()
       call expect(bytes_of(path//'.part') == 'new', 'and stays')
