@@ -1,12 +1,14 @@
 !> Scenes of namelist texts: what test programs take from the program's own reader, and what it must refuse.
 module case_scenes
+   use kinds, only: wp
+   use text, only: exact_text
    use errors, only: error_type, input_error
    use scene, only: scene_type
    use scene_namelist, only: scene_from_text
    use check, only: expect, expect_error, expect_no_error
    implicit none (type, external)
    private
-   public :: scene_of, expect_refused
+   public :: scene_of, listed, expect_refused
 
 contains
 
@@ -17,6 +19,17 @@ contains
       call scene_from_text(text, 'case.nml', scene, error)
       call expect_no_error(error, 'accepted: '//text)
    end function scene_of
+
+   !> Values as they stand in a case, to the last bit.
+   pure function listed(values) result(text)
+      real(wp), intent(in) :: values(:)
+      character(len=:), allocatable :: text
+      integer :: i
+      text = exact_text(values(1))
+      do i = 2, size(values)
+         text = text//', '//exact_text(values(i))
+      end do
+   end function listed
 
    !> The text must be refused with these words; the message names the file first.
    subroutine expect_refused(text, words)

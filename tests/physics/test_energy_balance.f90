@@ -238,7 +238,7 @@ end module energy_ledger
 
 program test_energy_balance
    use kinds, only: wp
-   use text, only: to_text
+   use text, only: to_text, exact_text
    use errors, only: error_type
    use scene, only: scene_type
    use equations_of_motion, only: bearing_model, new_bearing_model
@@ -246,6 +246,7 @@ program test_energy_balance
    use marching, only: march, march_options, sample_plan
    use integrator_counts, only: integrator_counts_type
    use energy_ledger, only: ledger, energy_of, silent
+   use case_scenes, only: scene_of
    use check, only: runs, expect, expect_no_error, report
    implicit none (type, external)
 
@@ -269,16 +270,13 @@ program test_energy_balance
 
 contains
 
-   !> The paper's bearing with pads off their balance, let go from a displaced place.
+   !> The paper's bearing with pads off their balance, without rupture.
    type(scene_type) function shaken_scene(motion, friction, unbalance) result(scene)
       character(len=*), intent(in) :: motion, friction
       real(wp), intent(in) :: unbalance
-      scene = scene_type()
-      scene%pads%motion = motion
-      scene%pads%centre_tangential = [2e-3_wp, -3e-3_wp]
-      scene%friction%model = friction
-      scene%rotor%unbalance = unbalance
-      scene%film%cavitation = 'none'
+      scene = scene_of('&pads centre_tangential = 2e-3, -3e-3, mass = 0.8108, inertia = 4.055e-4, ' &
+         & //'centre_radial = -10.1e-3, motion = '''//motion//''' / &friction model = '''//friction//''' / ' &
+         & //'&film cavitation = ''none'' / &rotor unbalance = '//exact_text(unbalance)//' /')
    end function shaken_scene
 
    !> Over 6 ms (two thirds of a revolution) the energy changes by the work done.
@@ -319,19 +317,9 @@ contains
       logical :: touched
       character(len=:), allocatable :: what
       what = 'bouncing, '//motion//', friction '//to_text(coefficient)
-      scene = shaken_scene(motion, 'none', 0.0_wp)
-      scene%film%cavitation = 'gumbel'
-      scene%asperity%friction_coefficient = coefficient
-      associate (p => scene%pads)
-         p%pivot_angle_deg = [-45.0_wp, 225.0_wp, 90.0_wp]
-         p%arc_deg = spread(p%arc_deg(1), 1, 3)
-         p%pivot_ratio = spread(p%pivot_ratio(1), 1, 3)
-         p%pivot_distance = spread(p%pivot_distance(1), 1, 3)
-         p%mass = spread(p%mass(1), 1, 3)
-         p%inertia = spread(p%inertia(1), 1, 3)
-         p%centre_radial = spread(p%centre_radial(1), 1, 3)
-         p%centre_tangential = [2e-3_wp, -3e-3_wp, 1e-3_wp]
-      end associate
+      scene = scene_of('&pads pivot_angle_deg = -45, 225, 90, centre_tangential = 2e-3, -3e-3, 1e-3, motion = ''' &
+         & //motion//''' / &film cavitation = ''gumbel'' / &rotor unbalance = 0 / &asperity friction_coefficient = ' &
+         & //exact_text(coefficient)//' /')
       bearing = new_bearing_model(scene)
       start = bearing%at_rest([-55e-6_wp, 0.0_wp], [-0.2e-3_wp, 1.03e-3_wp, -3.4e-3_wp], [7e-6_wp, 7e-6_wp, 1e-6_wp])
       start(bearing%layout%tilt_rate(3)) = -1

@@ -43,7 +43,6 @@ program test_fixed_pads
    use text, only: to_text
    use errors, only: error_type
    use scene, only: scene_type
-   use scene_completion, only: leave_out, complete_scene
    use equations_of_motion, only: bearing_model, new_bearing_model
    use force_balance, only: force_derivatives
    use film_solver, only: film_solver_type, film_motion, film_response
@@ -56,6 +55,7 @@ program test_fixed_pads
    use marching, only: march, march_options, sample_plan
    use integrator_counts, only: integrator_counts_type
    use journal_orbit, only: orbit_observer, samples
+   use case_scenes, only: scene_of, listed
    use check, only: runs, expect, expect_close, expect_no_error, between, report
    implicit none (type, external)
 
@@ -73,8 +73,6 @@ program test_fixed_pads
    if (runs('lund_thomsen')) call lund_thomsen()
    if (runs('threshold')) call threshold()
    if (runs('whirl')) call whirl()
-
-
    call report()
 
 contains
@@ -83,32 +81,10 @@ contains
    !> downwards.
    type(scene_type) function fixed_scene(pivots, arcs, length_ratio) result(scene)
       real(wp), intent(in) :: pivots(:), arcs(:), length_ratio
-      type(error_type), allocatable :: error
-      scene = scene_type()
-      call leave_out(scene)
-      scene%pads%motion = 'fixed'
-      associate (p => scene%pads, n => size(pivots))
-         p%pivot_angle_deg = pivots
-         p%arc_deg = arcs
-         p%pivot_ratio = spread(0.5_wp, 1, n)
-         p%pivot_distance = spread(p%pivot_distance(1), 1, n)
-         p%mass = spread(p%mass(1), 1, n)
-         p%inertia = spread(p%inertia(1), 1, n)
-         p%centre_radial = spread(p%centre_radial(1), 1, n)
-         p%centre_tangential = spread(p%centre_tangential(1), 1, n)
-         p%density = spread(p%density(1), 1, n)
-         p%thickness = spread(p%thickness(1), 1, n)
-      end associate
-      scene%bearing%journal_radius = 50e-3_wp
-      scene%bearing%assembled_clearance = 50e-6_wp
-      scene%bearing%preload = 0
-      scene%bearing%axial_length = 0.1_wp*length_ratio
-      scene%bearing%viscosity = 0.02_wp
-      scene%operation%speed_rpm = 3000
-      scene%rotor%mass = 5e3_wp/scene%rotor%gravity
-      scene%rotor%unbalance = 0
-      call complete_scene(scene, error)
-      call expect_no_error(error, 'the scene is complete')
+      scene = scene_of('&pads motion = ''fixed'', pivot_angle_deg = '//listed(pivots)//', arc_deg = '//listed(arcs) &
+         & //' / &bearing journal_radius = 50e-3, assembled_clearance = 50e-6, preload = 0, viscosity = 0.02, ' &
+         & //'axial_length = '//listed([0.1_wp*length_ratio])//' / &operation speed_rpm = 3000 / ' &
+         & //'&rotor unbalance = 0, mass = '//listed([5e3_wp/9.81_wp])//' /')
    end function fixed_scene
 
    !> Forces, N, of a bearing of one fixed pad all around, its groove where the film is thickest, on a journal that is

@@ -6,6 +6,7 @@ program test_newton_euler
    use scene, only: scene_type
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
+   use case_scenes, only: scene_of
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -25,14 +26,8 @@ contains
 
    type(scene_type) function offset_scene(motion) result(scene)
       character(len=*), intent(in) :: motion
-      scene = scene_type()
-      scene%pads%motion = motion
-      scene%pads%mass = [0.8_wp, 8.0_wp]
-      scene%pads%inertia = [4.0e-4_wp, 5.0e-3_wp]
-      scene%pads%centre_tangential = [8e-3_wp, -15e-3_wp]
-      scene%friction%model = 'lugre'
-      scene%rotor%gravity = 500
-      scene%film%cavitation = 'none'
+      scene = scene_of('&pads mass = 0.8, 8, inertia = 4e-4, 5e-3, centre_tangential = 8e-3, -15e-3, motion = ''' &
+         & //motion//''' / &friction model = ''lugre'' / &rotor gravity = 500 / &film cavitation = ''none'' /')
    end function offset_scene
 
    !> Random places, velocities and bristles, with films open and pivots loaded.

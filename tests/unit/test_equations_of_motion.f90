@@ -7,6 +7,7 @@ program test_equations_of_motion
    use operating_point, only: operating_point_type
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
+   use case_scenes, only: scene_of, listed
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -74,18 +75,10 @@ contains
    type(scene_type) function heavy_scene(motion, friction, offset) result(scene)
       character(len=*), intent(in) :: motion, friction
       real(wp), intent(in) :: offset
-      scene = paper_scene(motion, friction)
-      scene%rotor%mass = 20
-      scene%rotor%gravity = 300
-      scene%pads%mass = [80.0_wp, 60.0_wp]
-      scene%pads%inertia = [0.03_wp, 0.025_wp]
-      scene%pads%centre_tangential = [offset, -2*offset]
-      scene%pads%pivot_ratio = [0.5_wp, 0.6_wp]
-      scene%film%solver = 'sor'
-      scene%film%cavitation = 'none'
-      scene%film%circumferential_cells = 16
-      scene%film%axial_cells = 4
-      scene%film%tolerance = 1e-12_wp
+      scene = scene_of('&rotor mass = 20, gravity = 300 / &pads mass = 80, 60, inertia = 0.03, 0.025, ' &
+         & //'pivot_ratio = 0.5, 0.6, centre_tangential = '//listed([offset, -2*offset])//', motion = ''' &
+         & //trim(motion)//''' / &friction model = '''//trim(friction)//''' / &film solver = ''sor'', ' &
+         & //'cavitation = ''none'', circumferential_cells = 16, axial_cells = 4, tolerance = 1e-12 /')
    end function heavy_scene
 
    !> Steps of h = 1e-3 of each state's scale in the five-point form: error h**4/30 of the fifth derivative

@@ -6,78 +6,40 @@ program test_equilibrium_refusal
    use equations_of_motion, only: new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use equilibrium_refusal, only: search_traces, refusal
-   use check, only: runs, expect, report
+   use case_scenes, only: scene_of
+   use check, only: runs, expect, expect_error, report
    implicit none (type, external)
+   character(len=*), parameter :: upwards = ' &rotor static_load = 6e4, 0 /'
 
    if (runs('searched')) then
-      call searched(loaded(bearing([-45.0_wp, 225.0_wp]), [6e4_wp, 0.0_wp]), 'points to 90 deg, where no pad is')
-      call searched(loaded(bearing([-90.0_wp]), [0.0_wp, 0.0_wp]), 'one pad: the journal rolls off')
-      call searched(loaded(bearing([90.0_wp]), [0.0_wp, 0.0_wp]), 'past the only pad')
+      call searched(upwards, 'points to 90 deg, where no pad is')
+      call searched('&pads pivot_angle_deg = -90 /', 'one pad: the journal rolls off')
+      call searched('&pads pivot_angle_deg = 90 /', 'past the only pad')
    end if
    if (runs('fixed_pads')) then
-      call searched(fixed(loaded(bearing([-90.0_wp]), [6e4_wp, 0.0_wp])), 'past the only pad')
-      call searched(fixed(loaded(bearing([-45.0_wp, 225.0_wp]), [6e4_wp, 0.0_wp])), 'points to 90 deg, where no pad is')
+      call searched('&pads pivot_angle_deg = -90, motion = ''fixed'' /'//upwards, 'past the only pad')
+      call searched('&pads motion = ''fixed'' /'//upwards, 'points to 90 deg, where no pad is')
    end if
    if (runs('from_traces')) call from_traces()
    call report()
 
 contains
 
-   !> The paper's pads at some angles, deg.
-   type(scene_type) function bearing(angles) result(scene)
-      real(wp), intent(in) :: angles(:)
-      integer :: i
-      integer :: one(size(angles))
-      one = [(1, i=1, size(angles))]
-      scene = scene_type()
-      scene%pads%arc_deg = scene%pads%arc_deg(one)
-      scene%pads%pivot_ratio = scene%pads%pivot_ratio(one)
-      scene%pads%pivot_distance = scene%pads%pivot_distance(one)
-      scene%pads%mass = scene%pads%mass(one)
-      scene%pads%inertia = scene%pads%inertia(one)
-      scene%pads%centre_tangential = scene%pads%centre_tangential(one)
-      scene%pads%centre_radial = scene%pads%centre_radial(one)
-      scene%pads%pivot_angle_deg = angles
-   end function bearing
-
-   !> With an extra load along y and z, N.
-   type(scene_type) function loaded(bare, load) result(scene)
-      type(scene_type), intent(in) :: bare
-      real(wp), intent(in) :: load(2)
-      scene = bare
-      scene%rotor%static_load = load
-   end function loaded
-
-   type(scene_type) function fixed(tilting)
-      type(scene_type), intent(in) :: tilting
-      fixed = tilting
-      fixed%pads%motion = 'fixed'
-   end function fixed
-
-   type(scene_type) function weightless(bare) result(scene)
-      type(scene_type), intent(in) :: bare
-      scene = bare
-      scene%rotor%gravity = 0
-   end function weightless
-
-   subroutine searched(scene, words)
-      type(scene_type), intent(in) :: scene
-      character(len=*), intent(in) :: words
+   !> The search in this case must end with these words.
+   subroutine searched(case, words)
+      character(len=*), intent(in) :: case, words
       type(equilibrium_type) :: found
       type(error_type), allocatable :: error
-      call find_equilibrium(new_bearing_model(scene), found, error)
-      call expect(allocated(error), 'refused: '//words)
-      if (.not. allocated(error)) return
-      call expect(error%status == numerics_error, 'an error of the numerics: '//words)
-      call expect(index(error%message, words) > 0, words//', not '//error%message)
+      call find_equilibrium(new_bearing_model(scene_of(case)), found, error)
+      call expect_error(error, numerics_error, words, 'refused: '//case)
    end subroutine searched
 
    !> What the searches left decides where the load does not; the load decides first.
    subroutine from_traces()
       type(search_traces) :: traces
       type(scene_type) :: scene
-      scene = bearing([-54.0_wp, 18.0_wp, 90.0_wp, 162.0_wp, 234.0_wp])
-      call says(weightless(bearing([-45.0_wp, 225.0_wp])), traces, 'without load 2 pads push the journal away')
+      scene = scene_of('&pads pivot_angle_deg = -54, 18, 90, 162, 234 /')
+      call says(scene_of('&rotor gravity = 0 /'), traces, 'without load 2 pads push the journal away')
       traces%last_words = 'after 400 iterations'
       call says(scene, traces, 'the search did not end')
       call says(scene, traces, '(after 400 iterations)')

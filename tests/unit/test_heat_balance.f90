@@ -5,6 +5,7 @@ program test_heat_balance
    use oil_properties, only: viscosity
    use bearing_losses, only: pad_loss
    use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance
+   use case_scenes, only: scene_of
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -30,13 +31,8 @@ contains
 
    !> Four pads of 70 degrees with oil of VG 46.
    type(scene_type) function four_pads() result(scene)
-      scene = scene_type()
-      scene%pads%pivot_angle_deg = [-45.0_wp, 225.0_wp, 45.0_wp, 135.0_wp]
-      scene%pads%arc_deg = [70.0_wp, 70.0_wp, 70.0_wp, 70.0_wp]
-      scene%pads%pivot_ratio = [0.5_wp, 0.5_wp, 0.5_wp, 0.5_wp]
-      scene%oil%law = 'walther'
-      scene%oil%grade = 46
-      scene%thermal%model = 'pad'
+      scene = scene_of('&pads pivot_angle_deg = -45, 225, 45, 135, arc_deg = 70 / ' &
+         & //'&oil law = ''walther'', grade = 46 / &thermal model = ''pad'' /')
    end function four_pads
 
    !> Random losses and flows of four pads, some of which take oil in at the sides.

@@ -8,7 +8,8 @@ program test_partial_equilibrium
    use force_balance, only: forces
    use equilibrium, only: equilibrium_type, find_equilibrium
    use partial_equilibrium, only: find_partial_equilibrium
-   use check, only: runs, expect, expect_close, expect_no_error, report
+   use case_scenes, only: scene_of
+   use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
 
    if (runs('nothing_held')) call nothing_held()
@@ -42,9 +43,9 @@ contains
       type(error_type), allocatable :: error
       real(wp), allocatable :: force(:)
       logical :: ok
-      scene = scene_with_top_pad()
       ! its films are those of the search
-      scene%film%solver = 'direct'
+      scene = scene_of('&pads pivot_angle_deg = -45, 225, 90 / &film solver = ''direct'' /')
+      scene%pads%centre_tangential(3) = 60e-3_wp
       model = new_bearing_model(scene)
       call find_partial_equilibrium(model, found, held, error)
       call expect_no_error(error, 'with a pad on top')
@@ -60,30 +61,12 @@ contains
       call expect(abs(force(7)) > 1e-3_wp, 'and the held pad is not')
    end subroutine pad_held
 
-   type(scene_type) function scene_with_top_pad() result(scene)
-      scene = scene_type()
-      scene%pads%pivot_angle_deg = [-45.0_wp, 225.0_wp, 90.0_wp]
-      scene%pads%arc_deg = spread(69.3_wp, 1, 3)
-      scene%pads%pivot_ratio = spread(0.5_wp, 1, 3)
-      scene%pads%pivot_distance = spread(14e-3_wp, 1, 3)
-      scene%pads%mass = spread(0.8108_wp, 1, 3)
-      scene%pads%inertia = spread(4.055e-4_wp, 1, 3)
-      scene%pads%centre_tangential = [0.0_wp, 0.0_wp, 60e-3_wp]
-      scene%pads%centre_radial = spread(-10.1e-3_wp, 1, 3)
-   end function scene_with_top_pad
-
    !> A load that points away from both pads.
    subroutine no_partial()
-      type(scene_type) :: scene
       type(equilibrium_type) :: found
       logical, allocatable :: held(:)
       type(error_type), allocatable :: error
-      scene = scene_type()
-      scene%rotor%static_load = [3*2000*9.81_wp, 0.0_wp]
-      call find_partial_equilibrium(new_bearing_model(scene), found, held, error)
-      call expect(allocated(error), 'nothing carries the load')
-      if (.not. allocated(error)) return
-      call expect(error%status == numerics_error, 'an error of the numerics')
-      call expect(index(error%message, 'no partial equilibrium found') > 0, 'which says so: '//error%message)
+      call find_partial_equilibrium(new_bearing_model(scene_of('&rotor static_load = 58860, 0 /')), found, held, error)
+      call expect_error(error, numerics_error, 'no partial equilibrium found', 'nothing carries the load')
    end subroutine no_partial
 end program test_partial_equilibrium

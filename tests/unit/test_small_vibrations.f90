@@ -2,7 +2,7 @@
 program test_small_vibrations
    use kinds, only: wp, pi
    use errors, only: error_type
-   use scene, only: scene_type
+   use case_scenes, only: scene_of
    use cvode_integrator, only: integrator_type, integrator_options
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
@@ -14,8 +14,13 @@ program test_small_vibrations
    if (runs('oscillators')) call oscillators()
    if (runs('names')) call names()
    if (runs('light_modes')) call light_modes()
-   if (runs('stable_march')) call against_march(paper_scene(), 'stable', 4)
-   if (runs('fluttering_march')) call against_march(five_pads(), 'fluttering', 8)
+   ! films that are smooth; and an ordinary bearing whose pad on top carries nothing
+   if (runs('stable_march')) call against_march('&film solver = ''modal'', cavitation = ''none'' /', 'stable', 4)
+   if (runs('fluttering_march')) call against_march('&film solver = ''modal'', cavitation = ''gumbel'' / ' &
+      & //'&rotor mass = 1500 / &operation speed_rpm = 9000 / &pads pivot_angle_deg = -54, 18, 90, 162, 234, ' &
+      & //'arc_deg = 60, mass = 0.8108, inertia = 4.055e-4, centre_tangential = 0, centre_radial = -10.1e-3 / ' &
+      & //'&bearing journal_radius = 63.5e-3, axial_length = 63.5e-3, assembled_clearance = 0.2e-3, ' &
+      & //'machined_clearance = 0.2857e-3, viscosity = 0.022 /', 'fluttering', 8)
    call report()
 
 contains
@@ -62,9 +67,8 @@ contains
    !> A small disturbance grows or decays as the eigenvalue of largest real part says, once the others have died: its
    !> largest size in one period of the vibration over that in the period before is exp(period re). 1 % for what the
    !> others leave and for the instants at which a period is looked at.
-   subroutine against_march(scene, expected, periods)
-      type(scene_type), intent(in) :: scene
-      character(len=*), intent(in) :: expected
+   subroutine against_march(case, expected, periods)
+      character(len=*), intent(in) :: case, expected
       !> How many are marched.
       integer, intent(in) :: periods
       type(bearing_model) :: model
@@ -78,7 +82,7 @@ contains
       real(wp) :: period, size_of(periods)
       integer, allocatable :: tilts(:)
       integer :: k, sample
-      model = new_bearing_model(scene)
+      model = new_bearing_model(scene_of(case))
       call find_equilibrium(model, found, error)
       call expect_no_error(error, 'equilibrium, '//expected)
       if (allocated(error)) return
@@ -109,33 +113,4 @@ contains
       call expect_close(log(size_of(periods)/size_of(periods - 1)), period*found%stability%eigenvalue%re, &
          & 1e-2_wp, 'growth, '//expected)
    end subroutine against_march
-
-   !> With films that are smooth.
-   type(scene_type) function paper_scene() result(scene)
-      scene = scene_type()
-      scene%film%solver = 'modal'
-      scene%film%cavitation = 'none'
-   end function paper_scene
-
-   !> An ordinary bearing whose pad on top carries nothing.
-   type(scene_type) function five_pads() result(scene)
-      scene = paper_scene()
-      scene%rotor%mass = 1500
-      scene%operation%speed_rpm = 9000
-      scene%operation%final_speed_rpm = 9000
-      scene%bearing%journal_radius = 63.5e-3_wp
-      scene%bearing%axial_length = 63.5e-3_wp
-      scene%bearing%assembled_clearance = 0.2e-3_wp
-      scene%bearing%machined_clearance = 0.2857e-3_wp
-      scene%bearing%viscosity = 0.022_wp
-      scene%film%cavitation = 'gumbel'
-      scene%pads%pivot_angle_deg = [-54.0_wp, 18.0_wp, 90.0_wp, 162.0_wp, 234.0_wp]
-      scene%pads%arc_deg = spread(60.0_wp, 1, 5)
-      scene%pads%pivot_ratio = spread(0.5_wp, 1, 5)
-      scene%pads%pivot_distance = spread(14e-3_wp, 1, 5)
-      scene%pads%mass = spread(0.8108_wp, 1, 5)
-      scene%pads%inertia = spread(4.055e-4_wp, 1, 5)
-      scene%pads%centre_tangential = spread(0.0_wp, 1, 5)
-      scene%pads%centre_radial = spread(-10.1e-3_wp, 1, 5)
-   end function five_pads
 end program test_small_vibrations

@@ -8,6 +8,7 @@ program test_tilting_pad_bearing
       & penetration_column
    use tilting_pad, only: pad_derivatives
    use tilting_pad_bearing, only: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing
+   use case_scenes, only: scene_of
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -79,16 +80,9 @@ contains
 
    type(scene_type) function heavy_scene(motion, friction) result(scene)
       character(len=*), intent(in) :: motion, friction
-      scene = scene_type()
-      scene%pads%motion = trim(motion)
-      scene%friction%model = trim(friction)
-      scene%rotor%gravity = 300
-      scene%pads%mass = [80.0_wp, 60.0_wp]
-      scene%pads%inertia = [0.03_wp, 0.025_wp]
-      scene%pads%centre_tangential = [3e-3_wp, -6e-3_wp]
-      scene%pads%pivot_ratio = [0.5_wp, 0.6_wp]
-      scene%film%solver = 'modal'
-      scene%film%cavitation = 'none'
+      scene = scene_of('&pads mass = 80, 60, inertia = 0.03, 0.025, centre_tangential = 3e-3, -6e-3, ' &
+         & //'pivot_ratio = 0.5, 0.6, motion = '''//trim(motion)//''' / &friction model = '''//trim(friction) &
+         & //''' / &rotor gravity = 300 / &film solver = ''modal'', cavitation = ''none'' /')
    end function heavy_scene
 
    !> The same bearing with asperities as high as the films are thick, so that differences over steps of its films are
