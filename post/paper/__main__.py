@@ -18,21 +18,28 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 from tiltpad.draw.plots import STYLE
 
-from paper import laws, lost, sticking
+from paper import laws, lost, settings, sticking, studies
 from paper.claims import check
 from paper.figures import FIGURES
 from paper.judging import Checked
 from paper.machine import machine
 from paper.page import page
 from paper.runs import Runs, run_all
-from paper.settings import FOLDERS, ROOT
-from paper.studies import REUSED, STUDIES
+from paper.settings import ROOT
 
+#: Folders of the runs, with their scenes: those of figures and claims; again with a finer film and by rule
+#: (26); and the studies'.
+FOLDERS = {
+    "paper": tuple(map(settings.kept, settings.SCENES)),
+    "refined": tuple(map(settings.refined, settings.SCENES)),
+    "rule": tuple(map(settings.balanced, settings.SCENES)),
+    "studies": (*studies.SCENES, *sticking.SCENES, *lost.SCENES),
+}
 #: Pictures by their file's name, with the folder of their runs.
 PICTURES: dict[str, tuple[Callable, str]] = (
     {f"fig{name}": (draw, "paper") for name, draw in (laws.FIGURES | FIGURES).items()}
-    | {name: (draw, "paper" if name in REUSED else "studies") for name, draw in STUDIES.items()}
-    | {name: (draw, "studies") for name, draw in (sticking.FIGURES | lost.FIGURES).items()}
+    | {name: (draw, "paper") for name, draw in studies.REUSED.items()}
+    | {name: (draw, "studies") for name, draw in (studies.FIGURES | sticking.FIGURES | lost.FIGURES).items()}
 )
 
 
@@ -42,9 +49,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("program", type=lambda word: Path(word).resolve())
     parser.add_argument("--folder", type=Path, default=Path("build/paper"), help="for the result files")
     parser.add_argument("--docs", type=Path, default=ROOT / "docs/paper", help="where page and pictures go")
-    parser.add_argument(
-        "--keep", action="store_true", help="take the result files that are there, run nothing"
-    )
+    parser.add_argument("--keep", action="store_true", help="run nothing, take the results that are there")
     return parser.parse_args()
 
 
@@ -62,17 +67,12 @@ def write_checks(checked: list[Checked], path: Path) -> None:
     """The check table, a row a claim."""
     with path.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(
-            ["where", "claim", "measured", "number", "sense", "limit", "holds", "refined", "rule_26"]
-        )
+        head = "where", "claim", "measured", "number", "sense", "limit", "holds", "refined", "rule_26"
+        writer.writerow(head)
         for each in checked:
             claim, verdict = each.claim, each.verdict
-            numbers = (
-                f"{verdict.value:.6g}",
-                verdict.sense,
-                f"{verdict.limit:g}",
-                "pass" if verdict.holds else "fail",
-            )
+            holds = "pass" if verdict.holds else "fail"
+            numbers = f"{verdict.value:.6g}", verdict.sense, f"{verdict.limit:g}", holds
             others = (f"{other.value:.6g}" for other in (each.refined, each.rule))
             writer.writerow([claim.where, claim.statement, claim.measure, *numbers, *others])
 
@@ -96,9 +96,7 @@ def main() -> None:
         for each in drawn:
             each.result()
     write_checks(checked, options.docs / "checks.csv")
-    version = subprocess.run(
-        [options.program, "--version"], text=True, capture_output=True, check=True
-    ).stdout.strip()
+    version = subprocess.check_output([options.program, "--version"], text=True).strip()
     spent = None if options.keep else time.monotonic() - started
     text = page(checked, paper, studied, machine(version, spent))
     (options.docs / "README.md").write_text(text)

@@ -1,6 +1,7 @@
 """Counterparts of the paper's figures that are drawn from runs."""
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -85,21 +86,6 @@ def friction_pairs(runs: Runs, model: str) -> Figure:
     return legend(fig, lines)
 
 
-def figure_11(runs: Runs) -> Figure:
-    """Friction pairs, Bengisu-Akay."""
-    return friction_pairs(runs, "Bengisu-Akay")
-
-
-def figure_12(runs: Runs) -> Figure:
-    """Friction pairs, LuGre with soft bristles."""
-    return friction_pairs(runs, "LuGre 1e6")
-
-
-def figure_13(runs: Runs) -> Figure:
-    """Friction pairs, LuGre with stiff bristles."""
-    return friction_pairs(runs, "LuGre 5e6")
-
-
 def figure_14(runs: Runs) -> Figure:
     """Friction coefficient over sliding velocity, a panel a model."""
     fig, (axes,) = panels(1)
@@ -111,14 +97,8 @@ def figure_14(runs: Runs) -> Figure:
             span = np.abs(velocity).max()
             steady = np.concatenate([-np.geomspace(span, 1e-9, 300), np.geomspace(1e-9, span, 300)])
             label = "steady law" if color == len(PAIRS) - 1 else None
-            ax.plot(
-                1e3 * steady,
-                stribeck_curve(run, steady),
-                color="black",
-                linestyle=":",
-                linewidth=0.7,
-                label=label,
-            )
+            look = {"color": "black", "linestyle": ":", "linewidth": 0.7, "label": label}
+            ax.plot(1e3 * steady, stribeck_curve(run, steady), **look)
         ax.set(title=named(model), xlabel=VELOCITY)
         ax.locator_params(axis="x", nbins=5)
         ax.sharey(axes[0])
@@ -171,7 +151,7 @@ def figure_pads(runs: Runs) -> Figure:
 #: Pictures of this module by the paper's numbers.
 FIGURES = {
     name.partition("_")[2]: draw for name, draw in list(globals().items()) if name.startswith("figure_")
-}
+} | {str(11 + k): partial(friction_pairs, model=model) for k, model in enumerate(MODELS)}
 
 
 def tilt_rates(lines: Sequence[tuple[str, tiltpad.Run]]) -> Figure:
@@ -201,9 +181,7 @@ def orbit(run: tiltpad.Run, ax: Axes, **look: Any) -> None:
 def trajectory(run: tiltpad.Run, ax: Axes, part: slice, **look: Any) -> None:
     """Path of the journal, axes equal."""
     shown = SHOWN["journal_y"]
-    ax.plot(
-        shown.factor * run.values("journal_z", part), shown.factor * run.values("journal_y", part), **look
-    )
+    ax.plot(*(shown.factor * run.values(f"journal_{axis}", part) for axis in "zy"), **look)
     ax.set(xlabel=SHOWN["journal_z"].label, ylabel=shown.label, box_aspect=1)
     ax.set_aspect("equal", adjustable="datalim")
 

@@ -49,14 +49,24 @@ class Claims(list[Claim]):
         return entered
 
 
+def below(value: float, limit: float) -> Verdict:
+    """What must stay below a limit."""
+    return Verdict(value, "<", limit)
+
+
+def above(value: float, limit: float) -> Verdict:
+    """What must stay above a limit."""
+    return Verdict(value, ">", limit)
+
+
 def smaller(value: float) -> Verdict:
     """A ratio clearly below 1."""
-    return Verdict(value, "<", 1 - RESOLUTION)
+    return below(value, 1 - RESOLUTION)
 
 
 def larger(value: float) -> Verdict:
     """A ratio clearly above 1."""
-    return Verdict(value, ">", 1 + RESOLUTION)
+    return above(value, 1 + RESOLUTION)
 
 
 def growth(values: Iterable[float]) -> float:

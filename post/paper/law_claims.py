@@ -5,26 +5,11 @@ from itertools import pairwise
 import numpy as np
 import tiltpad
 
-from paper.judging import Claims, Verdict, growth, larger, smaller
-from paper.laws import fang_force
-from paper.measures import (
-    height,
-    peak_to_peak,
-    rms_deviation,
-    size,
-    sticking,
-    stribeck_curve,
-)
+from paper.judging import Claims, Verdict, above, below, growth, larger, smaller
+from paper.laws import FANG_DIFFERENCES, fang_force
+from paper.measures import height, peak_to_peak, rms_deviation, size, sticking, stribeck_curve
 from paper.runs import Runs
-from paper.settings import (
-    DIFFERENCES,
-    FANG_DIFFERENCES,
-    ON_CURVE,
-    RESOLUTION,
-    RESTS,
-    STIFFNESSES,
-    VELOCITIES,
-)
+from paper.settings import DIFFERENCES, ON_CURVE, RESOLUTION, RESTS, STIFFNESSES, VELOCITIES
 
 CLAIMS = Claims()
 
@@ -44,14 +29,14 @@ def one_stribeck_curve(runs: Runs) -> Verdict:
     law = bengisu.input["friction"]
     velocity = np.geomspace(law["critical_velocity"], 1e-2, 1000)
     gap = np.abs(stribeck_curve(bengisu, velocity) - stribeck_curve(lugre, velocity)).max()
-    return Verdict(float(gap) / law["static_coefficient"], "<", ON_CURVE)
+    return below(float(gap) / law["static_coefficient"], ON_CURVE)
 
 
 # ---- parameters of the friction models -------------------------------------------------------------------
 @CLAIMS.add("Fig. 7", "With v_c = 1e-3 m/s only sliding occurs")
 def coarse_velocity_slides(runs: Runs) -> Verdict:
     """Time below the stick velocity, over that of a sinusoid of the same amplitude."""
-    return Verdict(sticking(runs[VELOCITIES["1e-3"]]), "<", RESTS)
+    return below(sticking(runs[VELOCITIES["1e-3"]]), RESTS)
 
 
 @CLAIMS.add("Fig. 7", "With lower v_c sticking is more apparent")
@@ -63,19 +48,19 @@ def fine_velocity_sticks(runs: Runs) -> Verdict:
 @CLAIMS.add("Fig. 7", "With v_c = 1e-5 m/s the pads stick")
 def fine_velocity_rests(runs: Runs) -> Verdict:
     """Time below the stick velocity, over that of a sinusoid of the same amplitude."""
-    return Verdict(sticking(runs[VELOCITIES["1e-5"]]), ">", RESTS)
+    return above(sticking(runs[VELOCITIES["1e-5"]]), RESTS)
 
 
 @CLAIMS.add("Fig. 8", "For low sigma_0 almost no sticking occurs")
 def soft_bristles_slide(runs: Runs) -> Verdict:
     """Time below the stick velocity, over that of a sinusoid of the same amplitude; sigma_0 = 1e5 1/m."""
-    return Verdict(sticking(runs[STIFFNESSES["1e5"]]), "<", RESTS)
+    return below(sticking(runs[STIFFNESSES["1e5"]]), RESTS)
 
 
 @CLAIMS.add("Fig. 8", "With higher sigma_0 the pads stick")
 def stiff_bristles_stick(runs: Runs) -> Verdict:
     """Minimum of this time over all sigma_0 from 1e6 1/m."""
-    return Verdict(min(sticking(runs[name]) for name in list(STIFFNESSES.values())[1:]), ">", RESTS)
+    return above(min(sticking(runs[name]) for name in list(STIFFNESSES.values())[1:]), RESTS)
 
 
 @CLAIMS.add("Sec. 3.1", "With a further increase of sigma_0 the results do not differ significantly")
@@ -83,9 +68,8 @@ def stiffness_saturates(runs: Runs) -> Verdict:
     """Root mean square of the difference of the tilt rates at the two highest sigma_0, over the tilt
     rate's.
     """
-    return Verdict(
-        rms_deviation(*(runs[name] for name in list(STIFFNESSES.values())[-2:]), "pad_tilt_rate"), "<", 0.1
-    )
+    lower, higher = (runs[name] for name in list(STIFFNESSES.values())[-2:])
+    return below(rms_deviation(lower, higher, "pad_tilt_rate"), 0.1)
 
 
 @CLAIMS.add("Sec. 3.1", "and only the required CPU time increases")
@@ -105,9 +89,8 @@ def tilting_only_smaller(runs: Runs) -> Verdict:
 @CLAIMS.add("Fig. 9", "TO orbits lie higher than TR")
 def tilting_only_higher(runs: Runs) -> Verdict:
     """Mean height of TO above TR over the assembled clearance, frictionless."""
-    return Verdict(
-        (height(runs["steady_to"]) - height(runs["steady_tr"])) / runs["steady_tr"].clearance, ">", RESOLUTION
-    )
+    only, radial = runs["steady_to"], runs["steady_tr"]
+    return above((height(only) - height(radial)) / radial.clearance, RESOLUTION)
 
 
 @CLAIMS.add("Sec. 4.1", "Radial motion imposes a more significant tilting motion")
@@ -150,7 +133,7 @@ for column, words in enumerate(("frictionless", "with friction")):
         """Minimum step down of the mean height from one dR to the next, over the assembled clearance."""
         found = by_difference(runs, friction)
         steps = [(height(a) - height(b)) / a.clearance for a, b in pairwise(found)]
-        return Verdict(min(steps), ">", RESOLUTION)
+        return above(min(steps), RESOLUTION)
 
     @CLAIMS.add("Fig. 10", f"... and raises the peak-to-peak tilt, {words}")
     def raises_tilt(runs: Runs, friction: int = column) -> Verdict:
@@ -173,4 +156,4 @@ def friction_flattens(runs: Runs) -> Verdict:
     """Time below the stick velocity, over that of a sinusoid of the same amplitude; the minimum of the three
     dR.
     """
-    return Verdict(min(sticking(run) for run in by_difference(runs, 1)), ">", RESTS)
+    return above(min(sticking(run) for run in by_difference(runs, 1)), RESTS)

@@ -1,5 +1,7 @@
 """Counterparts of the paper's figures of contact and friction laws, by the solver's own library."""
 
+from math import pi
+
 import matplotlib.pyplot as plt
 import numpy as np
 import tiltpad
@@ -9,9 +11,18 @@ from tiltpad.files.units import SHOWN
 
 from paper.measures import stribeck_curve
 from paper.runs import Runs
-from paper.settings import FANG_DIFFERENCES, FANG_LOAD, FANG_PENETRATION, FANG_PIVOT, LAW_DIFFERENCES, LAWS
 
 PENETRATION, FORCE = SHOWN["pad_penetration"], SHOWN["contact_force"]
+#: The example of Figs. 3 and 4: socket radius, m, load of Fig. 3, N, radius differences, um, and penetrations
+#: up to, m, of Fig. 4. The paper prints the first of them only.
+FANG_PIVOT, FANG_LOAD, FANG_DIFFERENCES, FANG_PENETRATION = 0.1, 1e4, (0, 15, 30, 60), 20e-6
+#: Contact laws beside the paper's, by their overrides.
+LAWS = {
+    "Fang, factor 4": (),
+    r"Fang, factor 2 pi": (f"pivot%penetration_factor={2 * pi:.15g}",),
+    "Hertz": ("pivot%law=hertz",),
+}
+LAW_DIFFERENCES = (15, 30)
 
 
 def pivot(difference: float, *overrides: str, socket_radius: float | None = None) -> str:

@@ -14,16 +14,7 @@ from tiltpad.draw.layout import PAGE
 from tiltpad.files.units import SHOWN
 
 from paper.runs import Runs
-from paper.settings import (
-    FOUR,
-    FOUR_SPEEDS,
-    LOST_COEFFICIENTS,
-    LOST_LAWS,
-    LOST_SPEEDS,
-    LOST_UNBALANCES,
-    ROOT,
-    lost_name,
-)
+from paper.settings import BA, FRICTIONLESS, LUGRE, ROOT, Scene, coefficients
 from paper.tables import digits, table
 
 RPM = SHOWN["speed"].label
@@ -35,6 +26,57 @@ UPPER = 3
 MARCHES, MARCH_STEP = "marches", 250
 #: A motion is synchronous if the highest tilts of its last revolutions differ by less than this part.
 ALIKE = 0.02
+#: Branches of the synchronous orbit over the speed, rpm: laws of friction, static coefficients, the dynamic
+#: ones half as large, and unbalances, kg m; that of Table 1 last.
+LOST_LAWS = {"LuGre": LUGRE, "Bengisu-Akay": BA}
+LOST_COEFFICIENTS = (0.02, 0.05, 0.075, 0.1, 0.15, 0.2, 0.3)
+LOST_UNBALANCES = (0.001, 0.010)
+LOST_SPEEDS = (2000, 14000)
+
+
+def over_speed(first: float, last: float, *, step: float, longest: float) -> tuple[str, ...]:
+    """Overrides of a branch of orbits over the speed."""
+    return (
+        "case%task=branch",
+        'branch%parameter="operation%speed_rpm"',
+        f"operation%speed_rpm={first:g}",
+        f"branch%last={last:g}",
+        f"branch%step={step:g}",
+        f"branch%max_step={longest:g}",
+        "branch%switch=.false.",
+    )
+
+
+def lost_name(law: str, unbalance: float, coefficient: float) -> str:
+    return f"lost_{law}_{unbalance:g}_{coefficient:g}"
+
+
+#: The four-pad bearing: its synchronous orbit, and that of two revolutions, down from where it is found and
+#: back again; speeds of its marches up and down.
+FOUR = "input/examples/four_pads.nml"
+FOUR_SPEEDS = (4000, 8500)
+DOUBLED = ("periodic%revolutions=2", "branch%max_points=125", 'case%title="two revolutions"')
+SCENES = (
+    *(
+        Scene(
+            lost_name(law, unbalance, f),
+            case,
+            (
+                f"rotor%unbalance={unbalance:g}",
+                *coefficients(f, f / 2),
+                *over_speed(*LOST_SPEEDS, step=100, longest=500),
+            ),
+        )
+        for law, case in LOST_LAWS.items()
+        for unbalance in LOST_UNBALANCES
+        for f in LOST_COEFFICIENTS
+    ),
+    Scene("lost_none", FRICTIONLESS, over_speed(*LOST_SPEEDS, step=100, longest=500)),
+    Scene(
+        "four_once", FOUR, (*over_speed(*FOUR_SPEEDS, step=50, longest=250), 'case%title="one revolution"')
+    ),
+    Scene("four_twice", FOUR, (*over_speed(6700, 5000, step=-50, longest=250), *DOUBLED)),
+)
 
 
 def march_up_and_down(folder: Path) -> None:
@@ -114,12 +156,9 @@ def lost_words(runs: Runs) -> str:
     """Whether the frictionless orbit is lost, and how the two unbalances differ."""
     parts = unstable(runs["lost_none"])
     first, last = LOST_SPEEDS
-    without = (
-        f"Without friction the orbit is stable from {first} to {last} rpm."
-        if not parts
-        else f"Without friction it is unstable {'; '.join(part_words(runs['lost_none'], *p) for p in parts)}."
-    )
-    said = []
+    where = "; ".join(part_words(runs["lost_none"], *part) for part in parts)
+    stable = f"the orbit is stable from {first} to {last} rpm"
+    said = [f"Without friction {f'it is unstable {where}' if parts else stable}."]
     for law, unbalance in product(LOST_LAWS, LOST_UNBALANCES):
         kept = [f for f in LOST_COEFFICIENTS if not unstable(runs[lost_name(law, unbalance, f)])]
         if kept:
@@ -127,7 +166,7 @@ def lost_words(runs: Runs) -> str:
                 f"With {law} and the unbalance of {unbalance:g} kg m it is never lost in this range for "
                 f"f_s = {', '.join(f'{f:g}' for f in kept)}."
             )
-    return " ".join([without, *said])
+    return " ".join(said)
 
 
 def doubling_figure(runs: Runs) -> Figure:
@@ -164,17 +203,11 @@ def coexisting(runs: Runs) -> str:
     """
     with tiltpad.read_study(runs.folder / MARCHES / "study.h5") as study:
         highest = study["highest_tilt"][..., UPPER - 1]
-        alike = np.nanmax(highest, axis=1) - np.nanmin(highest, axis=1) < ALIKE * np.abs(
-            np.nanmean(highest, axis=1)
-        )
-        up = {
-            s for s, w, a in zip(study.speed_rpm, study.direction, alike, strict=True) if w == "upwards" and a
-        }
-        down = {
-            s
-            for s, w, a in zip(study.speed_rpm, study.direction, alike, strict=True)
-            if w == "downwards" and not a
-        }
+        spread = np.nanmax(highest, axis=1) - np.nanmin(highest, axis=1)
+        alike = spread < ALIKE * np.abs(np.nanmean(highest, axis=1))
+        marches = list(zip(study.speed_rpm, study.direction, alike, strict=True))
+    up = {speed for speed, way, same in marches if way == "upwards" and same}
+    down = {speed for speed, way, same in marches if way == "downwards" and not same}
     both = sorted(up & down)
     if not both:
         return "Marches upwards and downwards find the same motion at every speed."

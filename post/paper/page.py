@@ -6,18 +6,8 @@ from paper import lost, sticking, studies
 from paper.judging import Checked
 from paper.reasons import WHY
 from paper.runs import Runs
-from paper.sections import CAPTIONS, SECTIONS, Section
-from paper.settings import (
-    AGREEMENT,
-    LAST,
-    LOST_SPEEDS,
-    REFINED,
-    RESOLUTION,
-    RESTS,
-    SHORT,
-    STICK_MASSES,
-    STICK_SPEEDS,
-)
+from paper.sections import SECTIONS, Section
+from paper.settings import AGREEMENT, LAST, REFINED, RESOLUTION, RESTS, SHORT
 from paper.tables import digits, table
 
 PAGE = """\
@@ -188,11 +178,11 @@ def page(checked: Sequence[Checked], paper: Runs, studied: Runs, machine: str) -
         told=sticking.TOLD_SPEED,
         cross=digits(sticking.stuck_stiffness(studied, 0, 1)),
         direct=digits(sticking.stuck_stiffness(studied, 0, 0)),
-        runs=len(STICK_MASSES) * len(STICK_SPEEDS),
+        runs=len(sticking.STICK_MASSES) * len(sticking.STICK_SPEEDS),
         thresholds=sticking.threshold_table(studied),
         whirl_words=sticking.whirl_words(studied),
-        first=LOST_SPEEDS[0],
-        last_speed=LOST_SPEEDS[1],
+        first=lost.LOST_SPEEDS[0],
+        last_speed=lost.LOST_SPEEDS[1],
         lost=lost.lost_table(studied),
         lost_words=lost.lost_words(studied),
         doubling_words=lost.doubling_words(studied),
@@ -202,47 +192,27 @@ def page(checked: Sequence[Checked], paper: Runs, studied: Runs, machine: str) -
 
 def failed_words(failed: Sequence[Checked]) -> str:
     """Which claims fail."""
-    return (
-        "\n".join(["These claims do not hold:", "", *(f"- {short(each)}" for each in failed)])
-        if failed
-        else ""
-    )
+    lines = ["These claims do not hold:", "", *(f"- {short(each)}" for each in failed)]
+    return "\n".join(lines) if failed else ""
 
 
 def section_text(section: Section, checked: Sequence[Checked]) -> str:
     """Heading, pictures, statement and checks."""
-    pictures = [f"![{CAPTIONS[name]}](fig{name}.png)" for name in section.pictures]
+    pictures = [f"![{caption}](fig{name}.png)" for name, caption in section.pictures.items()]
     rows = [row(each) for each in checked if each.claim.where in section.where]
     head = "claim", "measured", "number", "must be", "holds", "refined", "rule (26)"
-    parts = [
-        f"## {section.title}",
-        *pictures,
-        f"> {section.quote}",
-        section.note,
-        table(head, rows) if rows else "",
-    ]
+    words = f"> {section.quote}", section.note, table(head, rows) if rows else ""
+    parts = [f"## {section.title}", *pictures, *words]
     return "\n\n".join(part for part in parts if part)
 
 
 def row(each: Checked) -> tuple[str, ...]:
     """A line of the check table."""
-    verdict = each.verdict
+    claim, verdict, others = each.claim, each.verdict, (each.refined, each.rule)
     limit = f"{verdict.sense} {verdict.limit:g}"
-    others = (
-        f"{digits(other.value, 4)}{'' if other.holds else ' (no)'}" for other in (each.refined, each.rule)
-    )
-    return (
-        each.claim.statement,
-        each.claim.measure,
-        digits(verdict.value, 4),
-        limit,
-        said(verdict.holds),
-        *others,
-    )
-
-
-def said(holds: bool) -> str:
-    return "yes" if holds else "**no**"
+    said = "yes" if verdict.holds else "**no**"
+    more = (f"{digits(other.value, 4)}{'' if other.holds else ' (no)'}" for other in others)
+    return (claim.statement, claim.measure, digits(verdict.value, 4), limit, said, *more)
 
 
 def why(failed: Sequence[Checked], runs: Runs) -> str:

@@ -2,7 +2,7 @@
 
 import tiltpad
 
-from paper.judging import Claims, Verdict, fall, growth, larger, smaller
+from paper.judging import Claims, Verdict, above, below, fall, growth, larger, smaller
 from paper.measures import (
     acceleration,
     distance,
@@ -13,13 +13,7 @@ from paper.measures import (
     size,
 )
 from paper.runs import Runs
-from paper.settings import (
-    AGREEMENT,
-    LAST,
-    MODELS,
-    ON_CURVE,
-    STIFFNESSES,
-)
+from paper.settings import AGREEMENT, LAST, MODELS, ON_CURVE, STIFFNESSES
 
 CLAIMS = Claims()
 
@@ -63,7 +57,7 @@ def orbits_comparable(runs: Runs) -> Verdict:
     """
     others = MODELS["LuGre 1e6"] + MODELS["LuGre 5e6"]
     both = zip(others, 2 * MODELS["Bengisu-Akay"], strict=True)
-    return Verdict(max(distance(runs[a], runs[b]) for a, b in both), "<", AGREEMENT)
+    return below(max(distance(runs[a], runs[b]) for a, b in both), AGREEMENT)
 
 
 @CLAIMS.add("Fig. 11", "With increasing friction coefficients the sticking areas are wider (both doubled)")
@@ -116,7 +110,7 @@ def lugre_tends_to_bengisu_akay(runs: Runs) -> Verdict:
 @CLAIMS.add("Fig. 14", "Bengisu-Akay's characteristic is exactly the Stribeck curve")
 def characteristic_is_the_curve(runs: Runs) -> Verdict:
     """Maximum distance of M_f/(F_bs R_1) from (22) over f_s, all pairs."""
-    return Verdict(max(off_curve(runs[name]) for name in MODELS["Bengisu-Akay"]), "<", ON_CURVE)
+    return below(max(off_curve(runs[name]) for name in MODELS["Bengisu-Akay"]), ON_CURVE)
 
 
 @CLAIMS.add("Fig. 14", "LuGre's characteristic is a loop")
@@ -125,7 +119,7 @@ def characteristic_is_a_loop(runs: Runs) -> Verdict:
     the minimum of all pairs and both sigma_0.
     """
     names = MODELS["LuGre 1e6"] + MODELS["LuGre 5e6"]
-    return Verdict(min(loop_width(runs[name]) for name in names), ">", 0.1)
+    return above(min(loop_width(runs[name]) for name in names), 0.1)
 
 
 @CLAIMS.add("Fig. 14", "Loops appear with the higher sigma_0, with the lower they are not significant")

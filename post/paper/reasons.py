@@ -2,17 +2,9 @@
 
 import tiltpad
 
-from paper.measures import (
-    loop_width,
-    peak_to_peak,
-    size,
-)
+from paper.measures import loop_width, peak_to_peak, size
 from paper.runs import Runs
-from paper.settings import (
-    LAST,
-    MODELS,
-    STIFFNESSES,
-)
+from paper.settings import LAST, MODELS, STIFFNESSES
 
 
 def why_amplitude(runs: Runs) -> str:

@@ -5,10 +5,12 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Section:
-    """A part of the page: pictures, a quotation from the paper, and the figures or sections of its claims."""
+    """A part of the page: pictures, with what they show for those who cannot see them, a quotation from the
+    paper, and the figures or sections of its claims.
+    """
 
     title: str
-    pictures: tuple[str, ...]
+    pictures: dict[str, str]
     quote: str
     where: tuple[str, ...] = ()
     note: str = ""
@@ -17,7 +19,7 @@ class Section:
 SECTIONS = (
     Section(
         "Figs. 3 and 4: contact",
-        ("3", "4"),
+        {"3": "Contact pressure over the projected contact", "4": "Force over penetration"},
         "the pressure field generated in the BS coupling is shown in Fig. 3. [...] The resulting force "
         "generated in the BS coupling for various radius differences is shown in Fig. 4. [...] It is "
         "supposed that the snug fit [...] is the stiffest option.",
@@ -27,21 +29,21 @@ SECTIONS = (
     ),
     Section(
         "Fig. 6: friction laws",
-        ("6",),
+        {"6": "Friction coefficient over velocity"},
         "for gamma = 1, which is our setting, the resulting Stribeck curve is equal for both studied "
         "models, so the results are comparable.",
         ("Fig. 6",),
     ),
     Section(
         "Fig. 7: critical velocity",
-        ("7",),
+        {"7": "Tilt rate for several critical velocities"},
         "For v_c = 0.001 m/s only sliding friction occurs, while with lower values the friction sticking "
         "is more apparent.",
         ("Fig. 7",),
     ),
     Section(
         "Fig. 8: bristle stiffness",
-        ("8",),
+        {"8": "Tilt rate for several bristle stiffnesses"},
         "For lower sigma_0 almost no sticking occurs, while with higher sigma_0 the sticking phenomena "
         "together with presliding behaviour appear. [...] with a further increase of sigma_0 the results "
         "do not differ significantly and only the required CPU time increases.",
@@ -49,7 +51,7 @@ SECTIONS = (
     ),
     Section(
         "Fig. 9: radial motion of the pads",
-        ("9",),
+        {"9": "Orbit, tilt and tilt rate, TO and TR"},
         "the TO model yields smaller journal orbits than the TR model. At the same time, the orbits are "
         "located higher compared to the TR model. [...] the journal orbit gets larger in both cases "
         "[with friction]. [...] the larger influence of friction occurs in the TR case",
@@ -57,7 +59,7 @@ SECTIONS = (
     ),
     Section(
         "Fig. 10: radius difference",
-        ("10",),
+        {"10": "Orbit, tilt and tilt rate for several radius differences"},
         "the journal moves downwards significantly with the increasing radius difference [...] The "
         "peak-to-peak amplitudes of the tilting angle and velocity displacement increase with the radius "
         "difference [...] Therefore, the journal can perform larger orbital motions when the radius "
@@ -67,7 +69,11 @@ SECTIONS = (
     ),
     Section(
         "Figs. 11, 12 and 13: friction coefficients",
-        ("11", "12", "13"),
+        {
+            "11": "Orbit, tilt rate and hysteresis, Bengisu-Akay",
+            "12": "Orbit, tilt rate and hysteresis, LuGre 1e6",
+            "13": "Orbit, tilt rate and hysteresis, LuGre 5e6",
+        },
         "with the increasing values of friction coefficients, the journal orbit is slightly larger. "
         "[...] The journal orbits for both friction models are comparable in size and shape. [...] With "
         "the increase in friction coefficients, the sticking phenomenon areas are wider, and the "
@@ -81,7 +87,7 @@ SECTIONS = (
     ),
     Section(
         "Fig. 14: friction characteristics",
-        ("14",),
+        {"14": "Friction characteristics"},
         "The resulting curve exactly corresponds to the used Stribeck curve in the case of the "
         "Bengisu-Akay model, while in the case of the LuGre model, the hysteresis behaviour is present. "
         "The typical friction curve loops appear in the case of a higher sigma_0, while with the lower "
@@ -90,7 +96,7 @@ SECTIONS = (
     ),
     Section(
         "Section 4: low speed and small unbalance",
-        (),
+        {},
         "For lower speeds, small unbalance forces generate a small journal orbit and a small tilting "
         "motion of the pad. Hence, the pads remain in the sticking regime. Similarly, the lower "
         "unbalance causes a stick in the BS coupling concerning the given nominal rotor speed.",
@@ -99,7 +105,7 @@ SECTIONS = (
     ),
     Section(
         "Section 3: the upper pads",
-        ("pads",),
+        {"pads": "Orbit with two and four pads, tilt and contact force of the upper pads"},
         "only two lower pads are considered, and we neglect the influence of upper pads. [...] the upper "
         "pads do not have a load-carrying function [...] and they are, under some conditions, even "
         "subjected to pad fluttering.",
@@ -108,7 +114,7 @@ SECTIONS = (
     ),
     Section(
         "Fig. 15: run-up",
-        ("15",),
+        {"15": "Run-up"},
         "There is an apparent deviation in the journal trajectory for the LuGre model compared to the "
         "Bengisu-Akay model at lower rotor speed. A higher parameter value sigma_0 strengthens the "
         "deviation [...] However, the journal orbits at 6500 rpm are comparable. [...] the results for "
@@ -119,20 +125,3 @@ SECTIONS = (
         "revolutions at low and at high speed.",
     ),
 )
-
-#: What the pictures show, for those who cannot see them.
-CAPTIONS = {
-    "3": "Contact pressure over the projected contact",
-    "4": "Force over penetration",
-    "6": "Friction coefficient over velocity",
-    "7": "Tilt rate for several critical velocities",
-    "8": "Tilt rate for several bristle stiffnesses",
-    "9": "Orbit, tilt and tilt rate, TO and TR",
-    "10": "Orbit, tilt and tilt rate for several radius differences",
-    "11": "Orbit, tilt rate and hysteresis, Bengisu-Akay",
-    "12": "Orbit, tilt rate and hysteresis, LuGre 1e6",
-    "13": "Orbit, tilt rate and hysteresis, LuGre 5e6",
-    "14": "Friction characteristics",
-    "15": "Run-up",
-    "pads": "Orbit with two and four pads, tilt and contact force of the upper pads",
-}

@@ -3,23 +3,10 @@
 import numpy as np
 import tiltpad
 
-from paper.judging import Claims, Verdict, larger
-from paper.measures import (
-    breakaway,
-    distance,
-    size,
-    speed_window,
-)
+from paper.judging import Claims, Verdict, above, below, larger
+from paper.measures import breakaway, distance, size, speed_window
 from paper.runs import Runs
-from paper.settings import (
-    AGREEMENT,
-    HIGH_SPEED,
-    LAST,
-    LOW_SPEED,
-    MODELS,
-    RESOLUTION,
-    RUNUPS,
-)
+from paper.settings import AGREEMENT, HIGH_SPEED, LAST, LOW_SPEED, MODELS, RESOLUTION, RUNUPS
 
 CLAIMS = Claims()
 
@@ -30,13 +17,13 @@ def stuck_at_low_speed(runs: Runs) -> Verdict:
     """Maximum part of the static friction used, both pads and models, at the lowest speed of the paper;
     if it is below 1, no pivot breaks away.
     """
-    return Verdict(max(breakaway(runs[f"{model}_slow"]) for model in ("ba", "lugre")), "<", 1 - RESOLUTION)
+    return below(max(breakaway(runs[f"{model}_slow"]) for model in ("ba", "lugre")), 1 - RESOLUTION)
 
 
 @CLAIMS.add("Sec. 4", "A lower unbalance causes a stick at the nominal speed")
 def stuck_when_balanced(runs: Runs) -> Verdict:
     """This part of the static friction at 6500 rpm with balance grade G 1."""
-    return Verdict(max(breakaway(runs[f"{model}_fine"]) for model in ("ba", "lugre")), "<", 1 - RESOLUTION)
+    return below(max(breakaway(runs[f"{model}_fine"]) for model in ("ba", "lugre")), 1 - RESOLUTION)
 
 
 @CLAIMS.add("Sec. 3", "The upper pads flutter")
@@ -54,7 +41,7 @@ for suffix, words in (("", "LuGre"), ("_none", "frictionless")):
         """Maximum distance of the paths with four and two pads at the same shaft angle, over the orbit's
         size; cavitation 'gumbel'.
         """
-        return Verdict(distance(runs[f"four_pads{end}"], runs[f"two_pads{end}"]), "<", AGREEMENT)
+        return below(distance(runs[f"four_pads{end}"], runs[f"two_pads{end}"]), AGREEMENT)
 
 
 # ---- run-up ----------------------------------------------------------------------------------------------
@@ -69,7 +56,7 @@ def runups_differ_at_low_speed(runs: Runs) -> Verdict:
     """Maximum distance at the same shaft angle over the orbit's size, five revolutions from 2000 rpm; the
     smaller of both sigma_0.
     """
-    return Verdict(min(runup_distance(runs, model, LOW_SPEED) for model in list(RUNUPS)[1:]), ">", AGREEMENT)
+    return above(min(runup_distance(runs, model, LOW_SPEED) for model in list(RUNUPS)[1:]), AGREEMENT)
 
 
 @CLAIMS.add("Fig. 15", "A higher sigma_0 strengthens this deviation")
@@ -81,7 +68,7 @@ def stiffness_strengthens_deviation(runs: Runs) -> Verdict:
 @CLAIMS.add("Fig. 15", "The journal orbits at 6500 rpm are comparable")
 def runups_agree_at_high_speed(runs: Runs) -> Verdict:
     """This distance in the last five revolutions, the larger of both sigma_0."""
-    return Verdict(max(runup_distance(runs, model, HIGH_SPEED) for model in list(RUNUPS)[1:]), "<", AGREEMENT)
+    return below(max(runup_distance(runs, model, HIGH_SPEED) for model in list(RUNUPS)[1:]), AGREEMENT)
 
 
 @CLAIMS.add(
@@ -104,12 +91,8 @@ def runup_ends_as_steady_state(runs: Runs) -> Verdict:
     """Maximum distance of the last five revolutions from the steady run's over the orbit's size, all
     models.
     """
-    names = [MODELS[model][0] for model in RUNUPS]
-    return Verdict(
-        max(aligned_distance(runs[a], runs[b]) for a, b in zip(RUNUPS.values(), names, strict=True)),
-        "<",
-        AGREEMENT,
-    )
+    pairs = [(name, MODELS[model][0]) for model, name in RUNUPS.items()]
+    return below(max(aligned_distance(runs[a], runs[b]) for a, b in pairs), AGREEMENT)
 
 
 def aligned_distance(run: tiltpad.Run, steady: tiltpad.Run) -> float:

@@ -1,5 +1,7 @@
 """Beyond the paper: what pads that stick do to the stability of the rotor; pictures, tables and words."""
 
+from itertools import product
+
 import matplotlib.pyplot as plt
 import numpy as np
 import tiltpad
@@ -9,15 +11,7 @@ from tiltpad.draw.layout import PAGE
 from tiltpad.files.units import SHOWN
 
 from paper.runs import Runs
-from paper.settings import (
-    ROTOR_MASS,
-    STICK_MASSES,
-    STICK_SPEEDS,
-    STICK_STIFFNESSES,
-    THRESHOLD_UP_TO,
-    WHIRL_SPEEDS,
-    stick_name,
-)
+from paper.settings import LUGRE, Scene
 from paper.tables import digits, table
 
 RPM = SHOWN["speed"].label
@@ -28,6 +22,49 @@ LINES = {"stuck": "-", "locked": ":"}
 TOLD_SPEED = 6000
 #: Revolutions over which a whirl is measured.
 STRETCH = 6
+#: What sticking does to stability: the rotor's mass and other masses, kg, speeds, rpm, and bristle
+#: stiffnesses, 1/m. Thresholds are sought from the first speed up to THRESHOLD_UP_TO.
+ROTOR_MASS = 2000
+STICK_MASSES = (100, 200, 400, 700, 1000, 1500, 2000, 3000, 4000)
+STICK_SPEEDS = tuple(range(1000, 12001, 1000))
+STICK_STIFFNESSES = ("1e4", "3e4", "1e5", "2e5", "5e5", "1e6", "2e6", "5e6", "2e7", "1e8")
+THRESHOLD_UP_TO = 30000
+#: Speeds of the marches, rpm, below and above the threshold of the paper's rotor on pads that stick.
+WHIRL_SPEEDS = (8600, 9600)
+WHIRL = (
+    "rotor%unbalance=0",
+    "start%journal=2e-7,0",
+    "operation%duration=0.6",
+    "output%samples_per_revolution=60",
+    "integration%relative_tolerance=1e-7",
+)
+THRESHOLD = (
+    "case%task=coefficients",
+    f"operation%speed_rpm={STICK_SPEEDS[0]}",
+    f"coefficients%threshold_up_to_rpm={THRESHOLD_UP_TO}",
+)
+
+
+def stick_name(mass: float, speed: float) -> str:
+    return f"stick_{mass}_{speed}"
+
+
+SCENES = (
+    *(
+        Scene(
+            stick_name(mass, speed),
+            LUGRE,
+            ("case%task=coefficients", f"rotor%mass={mass}", f"operation%speed_rpm={speed}"),
+        )
+        for mass, speed in (*product(STICK_MASSES, STICK_SPEEDS), *product([ROTOR_MASS], WHIRL_SPEEDS))
+    ),
+    *(Scene(f"threshold_mass_{mass}", LUGRE, (*THRESHOLD, f"rotor%mass={mass}")) for mass in STICK_MASSES),
+    *(
+        Scene(f"threshold_stiffness_{word}", LUGRE, (*THRESHOLD, f"friction%bristle_stiffness={word}"))
+        for word in STICK_STIFFNESSES
+    ),
+    *(Scene(f"whirl_{speed}", LUGRE, (*WHIRL, f"operation%speed_rpm={speed}")) for speed in WHIRL_SPEEDS),
+)
 
 
 def thresholds(runs: Runs, kind: str, words: tuple) -> dict[str, np.ndarray]:

@@ -9,24 +9,24 @@ from tiltpad.draw.layout import PAGE
 from tiltpad.files.units import SHOWN
 
 from paper.figures import legend, named, orbit, panels
-from paper.laws import law_text, laws4
+from paper.laws import LAW_DIFFERENCES, LAWS, law_text, laws4
 from paper.measures import height, of_pad, peak_to_peak, size
 from paper.runs import Runs
 from paper.settings import (
+    BA,
+    BA_10_10,
+    FRICTIONLESS,
     GRADE,
-    GRADES,
     LAST,
-    LAW_DIFFERENCES,
-    LAWS,
-    MAP_COEFFICIENTS,
-    MAP_SPEEDS,
+    LUGRE,
     MODELS,
     PAD,
     PAIRS,
-    RULE_SPEEDS,
     RUNUPS,
-    law_name,
-    map_name,
+    Scene,
+    at_speed,
+    coefficients,
+    shorter,
 )
 from paper.tables import digits, table
 
@@ -77,20 +77,30 @@ def work_table(runs: Runs) -> str:
             power = [digits(tiltpad.friction_power(run, pad, LAST)) for pad in pads]
             share = [f"{100 * tiltpad.stick_fraction(run, pad, LAST):.0f}" for pad in pads]
             rows.append((model, pair, *work, *power, *share))
-    head = (
-        "model",
-        "f_s/f_d",
-        "work, pad 1, mJ",
-        "pad 2",
-        "power, pad 1, W",
-        "pad 2",
-        "stick, pad 1, %",
-        "pad 2",
-    )
+    head = ("model", "f_s/f_d", "work, pad 1, mJ", "pad 2", "power, pad 1, W", "pad 2", "stick, pad 1, %",
+            "pad 2")  # fmt: skip
     return table(head, rows)
 
 
 # ---- stick map -------------------------------------------------------------------------------------------
+#: Map of the stick fraction: speeds, rpm, and static friction coefficients, the dynamic ones half as large.
+MAP_SPEEDS = tuple(range(1500, 6501, 500))
+MAP_COEFFICIENTS = (0.01, 0.02, 0.035, 0.05, 0.075, 0.1, 0.15, 0.2)
+#: Only the last revolutions are kept.
+MAP_TIME = ("operation%duration=0.5", "output%start_time=0.25")
+
+
+def map_name(speed: float, coefficient: float) -> str:
+    return f"map_{speed:g}_{coefficient:g}"
+
+
+MAP = tuple(
+    Scene(map_name(speed, f), BA, (*coefficients(f, f / 2), *at_speed(speed), *MAP_TIME))
+    for speed in MAP_SPEEDS
+    for f in MAP_COEFFICIENTS
+)
+
+
 def map_figure(runs: Runs) -> Figure:
     """Stick fraction and friction power over speed and friction coefficient."""
     fig, axes = plt.subplots(1, 2, figsize=(PAGE, 2.9))
@@ -115,13 +125,8 @@ def stick_map(runs: Runs) -> np.ndarray:
 def draw_map(ax: Axes, values: np.ndarray, label: str, levels: int | np.ndarray) -> None:
     """Filled contours, with the runs as points."""
     shades = ax.contourf(MAP_SPEEDS, MAP_COEFFICIENTS, values, levels=levels, cmap="viridis")
-    ax.plot(
-        *(each.ravel() for each in np.meshgrid(MAP_SPEEDS, MAP_COEFFICIENTS)),
-        ".",
-        color="white",
-        markersize=1.5,
-        clip_on=False,
-    )
+    points = (each.ravel() for each in np.meshgrid(MAP_SPEEDS, MAP_COEFFICIENTS))
+    ax.plot(*points, ".", color="white", markersize=1.5, clip_on=False)
     ax.figure.colorbar(shades, ax=ax, label=label)
     ax.set(xlabel=RPM, ylabel=r"static friction coefficient $f_s$")
     ax.grid(visible=False)
@@ -148,6 +153,19 @@ def map_words(runs: Runs) -> str:
 
 
 # ---- contact laws ----------------------------------------------------------------------------------------
+def law_name(law: str, difference: int, friction: bool) -> str:
+    return f"law_{list(LAWS).index(law)}_{difference}_{'ba' if friction else 'none'}"
+
+
+LAW_SCENES = tuple(
+    shorter(Scene(law_name(law, difference, friction), BA_10_10 if friction else FRICTIONLESS,
+                  (*overrides, f"pivot%radius_difference={difference}e-6")))
+    for law, overrides in LAWS.items()
+    for difference in LAW_DIFFERENCES
+    for friction in (False, True)
+)  # fmt: skip
+
+
 def laws_figure(runs: Runs) -> Figure:
     """Fig. 10 by other contact laws: without friction above, with it below."""
     fig, axes = panels(2)
@@ -175,20 +193,31 @@ def laws_table(runs: Runs) -> str:
                 run = runs[law_name(law, difference, friction)]
                 part = tiltpad.last_revolutions(run, LAST)
                 penetration = of_pad(run, "pad_penetration", part).mean()
-                numbers = (
-                    1e6 * penetration,
-                    1e6 * height(run),
-                    1e6 * size(run),
-                    1e3 * peak_to_peak(run, "pad_tilt"),
-                )
-                words = law, difference, "0.1" if friction else "none"
-                rows.append((*words, *map(digits, numbers), digits(1e3 * peak_to_peak(run, "pad_tilt_rate"))))
+                tilts = (1e3 * peak_to_peak(run, name) for name in ("pad_tilt", "pad_tilt_rate"))
+                numbers = 1e6 * penetration, 1e6 * height(run), 1e6 * size(run), *tilts
+                rows.append((law, difference, "0.1" if friction else "none", *map(digits, numbers)))
     head = ("law", "dR, um", "friction", "mean penetration, um", "mean journal y, um", "orbit size, um",
             "tilt, mrad", "tilt rate, mrad/s")  # fmt: skip
     return table(head, rows)
 
 
 # ---- unbalance rule --------------------------------------------------------------------------------------
+#: Balance grades at 6500 rpm, and speeds at which rule (26) takes that speed or 6500 rpm.
+GRADES = (0.4, 1, 2.5, 4, 6.3, 10)
+RULE_SPEEDS = tuple(range(1500, 8501, 500))
+RULE_SCENES = tuple(
+    shorter(Scene(f"rule_{model}_{kind}_{value:g}", case, overrides))
+    for model, case in (("none", FRICTIONLESS), ("lugre", LUGRE))
+    for kind, values, make in (
+        ("grade", GRADES, lambda grade: at_speed(6500, grade)),
+        ("own", RULE_SPEEDS, at_speed),
+        ("highest", RULE_SPEEDS, lambda speed: (*at_speed(speed), "rotor%balance_speed_rpm=6500")),
+    )
+    for value in values
+    for overrides in [make(value)]
+)
+
+
 def rule_figure(runs: Runs) -> Figure:
     """Orbit size over the balance grade, and over the speed by the speed that rule (26) takes."""
     fig, axes = plt.subplots(1, 2, figsize=(PAGE, 2.6))
@@ -196,23 +225,15 @@ def rule_figure(runs: Runs) -> Figure:
         sizes = [1e6 * size(runs[f"rule_{model}_grade_{grade:g}"]) for grade in GRADES]
         axes[0].plot(GRADES, sizes, "o-", color=f"C{color}", markersize=3, label=words)
         for kind, dash, which in (("own", "-", "own speed"), ("highest", "--", "6500 rpm")):
-            sizes = rule_sizes(runs, model, kind)
-            axes[1].plot(
-                RULE_SPEEDS,
-                1e6 * sizes,
-                "o",
-                linestyle=dash,
-                color=f"C{color}",
-                markersize=3,
-                label=f"{words}, {which}",
-            )
+            sizes = 1e6 * rule_sizes(runs, model, kind)
+            look = {"linestyle": dash, "color": f"C{color}", "markersize": 3}
+            axes[1].plot(RULE_SPEEDS, sizes, "o", label=f"{words}, {which}", **look)
     table_1 = equivalent_grade(runs["rule_none_grade_1"])
     axes[0].axvline(table_1, color="0.4", linestyle=":", linewidth=0.8, label="Table 1")
-    axes[0].set(
-        xlabel="balance grade G (mm/s), at 6500 rpm", ylabel="orbit size (µm)", ylim=(0, None), xlim=(0, None)
-    )
-    axes[1].set(xlabel=RPM, ylabel="orbit size (µm)", ylim=(0, None))
+    axes[0].set(xlabel="balance grade G (mm/s), at 6500 rpm", xlim=(0, None))
+    axes[1].set(xlabel=RPM)
     for ax in axes:
+        ax.set(ylabel="orbit size (µm)", ylim=(0, None))
         ax.legend()
     return fig
 
@@ -226,19 +247,9 @@ def rule_sizes(runs: Runs, model: str, kind: str) -> np.ndarray:
 
 def rule_table(runs: Runs) -> str:
     """Size of the orbit over the speed, um, and its ratio with and without friction."""
-    sizes = {
-        (kind, model): rule_sizes(runs, model, kind)
-        for kind in ("own", "highest")
-        for model in ("none", "lugre")
-    }
-    rows = [
-        (
-            speed,
-            *(digits(1e6 * each[i]) for each in sizes.values()),
-            digits(sizes["own", "lugre"][i] / sizes["own", "none"][i]),
-        )
-        for i, speed in enumerate(RULE_SPEEDS)
-    ]
+    sizes = [rule_sizes(runs, model, kind) for kind in ("own", "highest") for model in ("none", "lugre")]
+    numbers = np.transpose([*(1e6 * each for each in sizes), sizes[1] / sizes[0]])
+    rows = [(speed, *map(digits, these)) for speed, these in zip(RULE_SPEEDS, numbers, strict=True)]
     head = ("speed, rpm", "its own: frictionless, um", "LuGre 0.1/0.05, um", "6500 rpm: frictionless, um",
             "LuGre 0.1/0.05, um", "its own: LuGre over frictionless")  # fmt: skip
     return table(head, rows)
@@ -268,6 +279,8 @@ def equivalent_grade(run: tiltpad.Run) -> float:
     return GRADE * run.input["rotor"]["unbalance"] / ruled_unbalance(run)
 
 
-#: Pictures of this module; those of REUSED take the runs of the figures.
-STUDIES = {"work": work_figure, "map": map_figure, "laws4": laws4, "laws": laws_figure, "rule": rule_figure}
-REUSED = ("work", "laws4")
+#: Pictures from the runs of the studies, and from those of the figures.
+FIGURES = {"map": map_figure, "laws": laws_figure, "rule": rule_figure}
+REUSED = {"work": work_figure, "laws4": laws4}
+#: The runs of the others.
+SCENES = (*MAP, *LAW_SCENES, *RULE_SCENES)
