@@ -175,7 +175,7 @@ help:
 	@echo 'make python   makes the Python environment build/venv with the package tiltpad and its compiled part'
 	@echo 'make wheel    packs build/wheel/tiltpad-*.whl: program, plots, library, for any Linux of this age or later'
 	@echo 'make lint     checks style, the order of the floors and that no name is unused; make format corrects some of it'
-	@echo 'make docs     writes the generated pages of docs (inputs, api, gallery, verification) and docs/images'
+	@echo 'make docs     writes the generated pages of docs (inputs, modules, api, gallery, verification) and docs/images'
 	@echo 'make install  puts program, plot commands, manual pages and completion into PREFIX ($(PREFIX)); PLOTS=no: no Python'
 	@echo 'make uninstall  removes them again'
 	@echo 'make clean    removes build/'
@@ -386,6 +386,7 @@ lint: python
 	$(VENV)/bin/ruff format --check --config post/pyproject.toml post tests docs
 	$(venv_python) tests/floors.py
 	$(venv_python) tests/unused.py
+	$(venv_python) docs/modules.py --check
 	$(venv_python) -m mypy --config-file post/pyproject.toml post/tiltpad
 
 format: python
@@ -395,6 +396,7 @@ format: python
 
 docs: run
 	@{ cat docs/inputs_head.md; $(B)/bin/tiltpad --reference; } > docs/inputs.md
+	$(venv_python) docs/modules.py
 	$(venv_python) docs/api.py > build/api.md && mv build/api.md docs/
 	$(venv_python) docs/gallery.py $(B)/bin/tiltpad build/gallery
 	$(venv_python) docs/examples.py $(B)/bin/tiltpad build/examples

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-#: Lowest first: each uses only those before it.
+#: Lowest first: each uses only those before it. A folder inside one may be a floor of its own ("film/table").
 FORTRAN = (
     *("base", "system", "scene", "input", "film", "pivot", "bearing", "rotor", "integrate", "model"),
     *("analysis", "storage", "results", "app"),
@@ -32,7 +32,7 @@ LONG = re.compile(r"\s*! long: \w")
 def fortran_floors(root: Path) -> Iterator[str]:
     """Uses of modules of a floor above."""
     files = sorted(root.rglob("*.[fF]90"))
-    floors = {path.stem: path.relative_to(root).parts[0] for path in files}
+    floors = {path.stem: fortran_floor(path.relative_to(root)) for path in files}
     for name in sorted(set(floors.values()) - set(FORTRAN)):
         yield f"{root / name}: is no floor; tests/floors.py lists them"
         return
@@ -42,6 +42,12 @@ def fortran_floors(root: Path) -> Iterator[str]:
             floor = floors.get(used[1].lower()) if used else None
             if floor and FORTRAN.index(floor) > FORTRAN.index(floors[path.stem]):
                 yield f"{path}:{number}: {floors[path.stem]} uses {used[1]} of {floor}, a floor above it"
+
+
+def fortran_floor(path: Path) -> str:
+    """Floor of a source: the smallest folder around it that is one, else its outermost folder."""
+    folders = [str(folder) for folder in path.parents]
+    return next((folder for folder in folders if folder in FORTRAN), path.parts[0])
 
 
 def fortran_lengths(root: Path) -> Iterator[str]:

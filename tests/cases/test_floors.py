@@ -56,6 +56,21 @@ def test_uses_that_may_be(house):
     assert not list(floors.fortran_floors(root))
 
 
+def test_a_floor_in_a_folder(house, monkeypatch):
+    monkeypatch.setattr(floors, "FORTRAN", ("film/common", "film/table", "film"))
+    root = house(
+        {
+            "film/table/a.f90": "use b\nuse c\nuse d\n",
+            "film/common/b.f90": "use e",
+            "film/c.f90": "use a\nuse b\n",
+            "film/table/inner/d.f90": "",
+            "film/common/e.f90": "",
+        }
+    )
+    (found,) = floors.fortran_floors(root)
+    assert found == f"{root}/film/table/a.f90:2: film/table uses c of film, a floor above it"
+
+
 def test_a_folder_that_is_no_floor(house):
     (found,) = floors.fortran_floors(house({"cellar/a.f90": ""}))
     assert "cellar: is no floor" in found
