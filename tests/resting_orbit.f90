@@ -1,10 +1,15 @@
-!> Orbits from which tests of orbits start.
+!> Orbits from which tests of orbits start, and single rounds of Newton's method on them.
 module resting_orbit
    use kinds, only: wp
+   use errors, only: error_type
+   use ode_model, only: ode_model_type
    use orbit_polynomials, only: orbit_type, points
+   use newton_method, only: newton_options, branch_point_type, correct
+   use parametric_ode, only: parametric_ode_type
+   use orbit_problem, only: orbit_problem_type, begin_orbits
    implicit none (type, external)
    private
-   public :: at_rest
+   public :: at_rest, newton_round
 
 contains
 
@@ -17,4 +22,21 @@ contains
       allocate (orbit%scale(states), source=1.0_wp)
       call orbit%set_mesh([(period*k/n, k=0, n)], reshape([real(wp) ::], [states, points, n], pad=[0.0_wp]))
    end function at_rest
+
+   !> One round on the orbit of a model; the multipliers before it.
+   subroutine newton_round(model, orbit, error, multipliers)
+      class(ode_model_type), intent(inout), target :: model
+      type(orbit_type), intent(inout) :: orbit
+      type(error_type), allocatable, intent(out) :: error
+      complex(wp), allocatable, intent(out), optional :: multipliers(:)
+      type(parametric_ode_type), target :: ode
+      type(orbit_problem_type) :: problem
+      type(branch_point_type) :: point
+      ode%model => model
+      ode%period = orbit%time(orbit%intervals())
+      call begin_orbits(problem, ode, orbit, 1)
+      call correct(problem, newton_options(tolerance=huge(1.0_wp)), point, error)
+      orbit = problem%orbit
+      if (present(multipliers)) multipliers = point%values
+   end subroutine newton_round
 end module resting_orbit

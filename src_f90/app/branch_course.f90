@@ -1,7 +1,7 @@
 !> How far a run of branches has come, as numbers that a checkpoint keeps: from them it goes on to the last bit.
 module branch_course
    use kinds, only: wp
-   use continuation, only: branch_point_type
+   use newton_method, only: branch_point_type
    use special_points, only: kinds_of_points
    use branch_results, only: noted_point_type
    implicit none (type, external)

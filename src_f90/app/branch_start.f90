@@ -10,12 +10,13 @@ module branch_start
    use bearing_coefficients, only: settle
    use periodic_orbit, only: periodic_orbit_type
    use orbit_polynomials, only: orbit_type, points
-   use continuation, only: branch_problem_type, branch_options, return_to, can_be_of
+   use newton_method, only: branch_problem_type, can_be_of
+   use continuation, only: branch_options, return_to
    use varied_bearing, only: varied_bearing_type
    use bearing_orbits, only: bearing_orbits_type
    use warm_oil, only: has_warm_oil
    use resting_oil, only: new_resting_oil
-   use orbit_branch, only: orbit_problem_type, begin_orbits
+   use orbit_problem, only: orbit_problem_type, begin_orbits
    use equilibrium_branch, only: equilibrium_problem_type, begin_equilibria
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type

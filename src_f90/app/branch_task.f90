@@ -5,9 +5,11 @@ module branch_task
    use text, only: to_text
    use errors, only: error_type, add_context, numerics_error, stopped
    use clock, only: wall_clock
-   use continuation, only: branch_problem_type, branch_point_type, start_branch, advance, return_to
+   use newton_method, only: branch_problem_type, branch_point_type
+   use continuation, only: start_branch, advance, return_to
    use special_points, only: special_point_type, find_special_points
-   use orbit_branch, only: orbit_problem_type, double_period, turns_at
+   use orbit_problem, only: orbit_problem_type, turns_at
+   use period_doubling, only: double_period
    use orbit_figures, only: orbit_figures_type, find_orbit_figures, figures_at_rest
    use heat_balance, only: oil_temperatures_type
    use warm_oil, only: has_warm_oil

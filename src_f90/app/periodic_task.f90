@@ -48,8 +48,8 @@ contains
       type(periodic_orbit_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
       associate (p => run%scene%periodic)
-         call find_periodic_orbit(run%model, tolerances(run, y), orbit_options(p%revolutions, p%tolerance, &
-            & p%max_iterations), y, found, error, stop_requested)
+         call find_periodic_orbit(run%model, tolerances(run, y), orbit_options(p%tolerance, p%max_iterations, &
+            & p%revolutions), y, found, error, stop_requested)
       end associate
       run%counts = found%march
       run%counts%rhs_evaluations = run%counts%rhs_evaluations + found%evaluations

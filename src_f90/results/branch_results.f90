@@ -3,7 +3,7 @@ module branch_results
    use kinds, only: wp, i8
    use errors, only: error_type
    use scene_parameter, only: scene_parameter_type
-   use continuation, only: branch_point_type
+   use newton_method, only: branch_point_type
    use special_points, only: special_point_type, kinds_of_points, kind_length
    use heat_balance, only: oil_temperatures_type
    use orbit_figures, only: orbit_figures_type

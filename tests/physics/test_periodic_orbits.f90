@@ -12,8 +12,8 @@ program test_periodic_orbits
    use force_balance, only: force_derivatives, masses
    use small_vibrations, only: find_vibrations
    use orbit_polynomials, only: orbit_type
-   use orbit_collocation, only: newton_round
-   use floquet_multipliers, only: set_multipliers, are_stable
+   use resting_orbit, only: newton_round
+   use floquet_multipliers, only: are_stable
    use periodic_orbit, only: periodic_orbit_type, orbit_options, find_periodic_orbit
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
@@ -151,25 +151,23 @@ contains
 
    !> Halves the intervals of an orbit, closes it anew and gives its multipliers.
    function refined(model, orbit) result(values)
-      type(bearing_model), intent(inout) :: model
+      type(bearing_model), intent(inout), target :: model
       type(orbit_type), intent(inout) :: orbit
       complex(wp), allocatable :: values(:)
       type(error_type), allocatable :: error
       real(wp) :: mesh(0:2*orbit%intervals())
       integer :: kink(0:2*orbit%intervals()), round
-      logical :: ok
       mesh(0::2) = orbit%time
       mesh(1::2) = 0.5_wp*(orbit%time(:orbit%intervals() - 1) + orbit%time(1:))
       kink = 0
       kink(0::2) = orbit%kink
       call orbit%change_mesh(mesh, kink)
       do round = 1, 12
-         call newton_round(model, orbit, 0.5_wp, error)
+         call newton_round(model, orbit, error, values)
          call expect_no_error(error, 'a round')
          if (orbit%correction < 1e-10_wp) exit
       end do
       call expect(orbit%correction < 1e-9_wp, 'it converges to '//to_text(orbit%correction))
-      call set_multipliers(orbit%monodromy, values, ok)
    end function refined
 
    !> A march over the period returns to the start: what it errs by in some thousand steps of 1e-8.

@@ -4,7 +4,7 @@ module branch_problems
    use kinds, only: wp, pi
    use errors, only: error_type, raise, input_error
    use small_ode, only: small_ode_type
-   use continuation, only: branch_problem_type
+   use newton_method, only: branch_problem_type
    use parametric_ode, only: parametric_ode_type
    implicit none (type, external)
    private
@@ -49,7 +49,6 @@ module branch_problems
       type(duffing), pointer :: oscillator => null()
    contains
       procedure :: set
-      procedure :: period
    end type oscillator_orbits
 
    real(wp), parameter :: spin = 1/sqrt(5.0_wp)
@@ -175,6 +174,7 @@ contains
       class(oscillator_orbits), intent(inout) :: self
       real(wp), intent(in) :: parameter
       type(error_type), allocatable, intent(out) :: error
+      self%period = 2*pi
       if (associated(self%frame)) self%frame%p = parameter
       if (.not. associated(self%oscillator)) return
       if (self%oscillator%varies_force) then
@@ -182,23 +182,20 @@ contains
       else
          self%oscillator%frequency = parameter
       end if
+      self%period = 2*pi/self%oscillator%frequency
    end subroutine set
-
-   pure real(wp) function period(self)
-      class(oscillator_orbits), intent(in) :: self
-      period = 2*pi
-      if (associated(self%oscillator)) period = 2*pi/self%oscillator%frequency
-   end function period
 end module branch_problems
 
 program test_continuation
    use kinds, only: wp, pi
    use errors, only: error_type
-   use continuation, only: branch_problem_type, branch_point_type, branch_options, start_branch, advance, return_to
+   use newton_method, only: branch_problem_type, branch_point_type
+   use continuation, only: branch_options, start_branch, advance, return_to
    use special_points, only: special_point_type, find_special_points
    use orbit_polynomials, only: orbit_type
    use resting_orbit, only: at_rest
-   use orbit_branch, only: orbit_problem_type, begin_orbits, double_period
+   use orbit_problem, only: orbit_problem_type, begin_orbits
+   use period_doubling, only: double_period
    use branch_problems, only: parabola, turning_frame, duffing, oscillator_orbits
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)

@@ -152,11 +152,9 @@ end module orbit_problems
 program test_orbit_collocation
    use kinds, only: wp, pi
    use orbit_polynomials, only: orbit_type, points, place
-   use resting_orbit, only: at_rest
-   use orbit_collocation, only: newton_round
+   use resting_orbit, only: at_rest, newton_round
    use errors, only: error_type
    use text, only: to_text
-   use floquet_multipliers, only: set_multipliers
    use orbit_problems, only: linear_problem, van_der_pol, coupled_problem, bent_problem
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
@@ -179,24 +177,22 @@ contains
    !> with 40 intervals is of (2 pi/40)^5/7200 = 1e-8. It is the same whether the displacement follows from its rate.
    subroutine linear(paired)
       logical, intent(in) :: paired
-      type(linear_problem) :: problem
+      type(linear_problem), target :: problem
       type(orbit_type) :: orbit
       type(error_type), allocatable :: error
       complex(wp), allocatable :: values(:)
       complex(wp) :: expected
-      logical :: ok
       problem%n = 3
       problem%paired = paired
       orbit = at_rest(3, 40, 2*pi)
-      call newton_round(problem, orbit, huge(1.0_wp), error)
+      call newton_round(problem, orbit, error)
       call expect_no_error(error, 'a round')
       call expect_close(orbit%start(1), 0.0_wp, 1e-6_wp, 'x at the start')
       call expect_close(orbit%start(2), 5.0_wp, 1e-6_wp, 'its velocity')
       call expect_close(orbit%start(3), -5/problem%stiffness, 1e-6_wp, 'the stiff state')
-      call newton_round(problem, orbit, huge(1.0_wp), error)
+      call newton_round(problem, orbit, error, values)
       call expect_close(orbit%correction, 0.0_wp, 1e-9_wp, 'the second round has nothing to correct')
       call expect_close(orbit%residual, 0.0_wp, 1e-9_wp, 'and its equations are satisfied')
-      call set_multipliers(orbit%monodromy, values, ok)
       expected = exp(2*pi*cmplx(-problem%damping, sqrt(1 - problem%damping**2), wp))
       call expect_close(values(1)%re, expected%re, 1e-6_wp, 'multiplier, real part')
       call expect_close(abs(values(1)%im), abs(expected%im), 1e-6_wp, 'multiplier, imaginary part')
@@ -217,15 +213,13 @@ contains
    !> Modulus of the leading multiplier of the linear problem on n intervals.
    real(wp) function modulus(n)
       integer, intent(in) :: n
-      type(linear_problem) :: problem
+      type(linear_problem), target :: problem
       type(orbit_type) :: orbit
       type(error_type), allocatable :: error
       complex(wp), allocatable :: values(:)
-      logical :: ok
       problem%n = 3
       orbit = at_rest(3, n, 2*pi)
-      call newton_round(problem, orbit, huge(1.0_wp), error)
-      call set_multipliers(orbit%monodromy, values, ok)
+      call newton_round(problem, orbit, error, values)
       modulus = abs(values(1))
    end function modulus
 
@@ -266,23 +260,21 @@ contains
    !> Van der Pol's rest, x = 0, for mu = 1 over the period T = 6.6632868593 of its limit cycle: the multipliers are
    !> exp(T (1 +- i sqrt(3))/2), far outside the unit circle. Newton's method is not led away by that.
    subroutine limit_cycle()
-      type(van_der_pol) :: problem
+      type(van_der_pol), target :: problem
       type(orbit_type) :: orbit
       type(error_type), allocatable :: error
       complex(wp), allocatable :: values(:)
       complex(wp) :: expected
       real(wp), parameter :: period = 6.6632868593_wp
       integer :: round
-      logical :: ok
       problem%n = 2
       orbit = at_rest(2, 80, period)
       orbit%start = [0.1_wp, -0.1_wp]
       do round = 1, 6
-         call newton_round(problem, orbit, huge(1.0_wp), error)
+         call newton_round(problem, orbit, error, values)
          call expect_no_error(error, 'a round')
       end do
       call expect_close(maxval(abs(orbit%start)), 0.0_wp, 1e-12_wp, 'the rest is found')
-      call set_multipliers(orbit%monodromy, values, ok)
       expected = exp(period*cmplx(0.5_wp, sqrt(0.75_wp), wp))
       call expect_close(abs(values(1)), abs(expected), 1e-6_wp*abs(expected), 'modulus of its multipliers')
       call expect_close(values(1)%re, expected%re, 1e-6_wp*abs(expected), 'and their angle')
@@ -290,7 +282,7 @@ contains
 
    !> Eliminated block by block, and all at once: the same orbit and the same monodromy matrix but for rounding.
    subroutine blocks()
-      type(coupled_problem) :: problem
+      type(coupled_problem), target :: problem
       type(orbit_type) :: orbit(2)
       type(error_type), allocatable :: error
       integer :: i
@@ -306,13 +298,13 @@ contains
       do i = 1, 2
          problem%in_blocks = i == 1
          orbit(i) = at_rest(8, 30, 2*pi)
-         call newton_round(problem, orbit(i), huge(1.0_wp), error)
+         call newton_round(problem, orbit(i), error)
          call expect_no_error(error, 'a round')
       end do
       call expect(maxval(abs(orbit(2)%start)) > 0.1_wp, 'they move')
       call expect_close(maxval(abs(orbit(1)%at - orbit(2)%at)), 0.0_wp, 1e-12_wp, 'the orbit')
       call expect_close(maxval(abs(orbit(1)%monodromy - orbit(2)%monodromy)), 0.0_wp, 1e-12_wp, 'the monodromy matrix')
-      call newton_round(problem, orbit(2), huge(1.0_wp), error)
+      call newton_round(problem, orbit(2), error)
       call expect_close(orbit(2)%residual, 0.0_wp, 1e-12_wp, 'its equations are satisfied')
    end subroutine blocks
 
@@ -320,19 +312,18 @@ contains
    !> multipliers keep their order, which a kink inside of an interval would take from them. Their product is
    !> exp(-4 pi d), and their sum is that of the two springs, each for the time between two ends.
    subroutine kinks()
-      type(bent_problem) :: problem
+      type(bent_problem), target :: problem
       type(orbit_type) :: orbit
       type(error_type), allocatable :: error
       complex(wp), allocatable :: values(:)
       real(wp) :: errors(2), last, passages(2), between, y(2)
       integer :: i, round
-      logical :: ok
       problem%n = 2
       do i = 1, 2
          orbit = at_rest(2, 15*2**i, 2*pi)
          last = huge(last)
          do round = 1, 8
-            call newton_round(problem, orbit, huge(1.0_wp), error)
+            call newton_round(problem, orbit, error, values)
             call expect_no_error(error, 'a round')
             if (last < 0.1_wp) call expect(orbit%correction < last**2 + 1e-12_wp, 'quadratic: '//to_text(last)//' to ' &
                & //to_text(orbit%correction))
@@ -343,7 +334,6 @@ contains
          passages = pack(orbit%time, orbit%kink == 1)
          call orbit%state_at(passages(1), y)
          call expect_close(y(1), problem%bend, 1e-14_wp, 'the kink is there')
-         call set_multipliers(orbit%monodromy, values, ok)
          call expect_close(real(product(values)), exp(-4*pi*problem%damping), 1e-6_wp, 'product of the multipliers')
          between = passages(2) - passages(1)
          if (orbit%start(1) > problem%bend) between = 2*pi - between

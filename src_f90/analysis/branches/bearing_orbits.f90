@@ -22,7 +22,6 @@ module bearing_orbits
       type(march_options) :: march
    contains
       procedure :: set
-      procedure :: period
       procedure :: new_mesh
       procedure :: begin_here
       procedure :: get_start
@@ -38,6 +37,8 @@ contains
       type(error_type), allocatable :: oil_error
       real(wp), allocatable :: viscosity(:)
       call self%bearing%set_value(parameter, error)
+      ! a revolution of the shaft
+      self%period = 2*pi/self%bearing%model%point%speed(0.0_wp)
       if (.not. allocated(self%oil)) return
       associate (bearing => self%bearing%model%bearing)
          allocate (viscosity(size(bearing%pads)))
@@ -46,12 +47,6 @@ contains
       end associate
       if (.not. allocated(error)) call move_alloc(oil_error, error)
    end subroutine set
-
-   !> A revolution of the shaft.
-   pure real(wp) function period(self)
-      class(bearing_orbits_type), intent(in) :: self
-      period = 2*pi/self%bearing%model%point%speed(0.0_wp)
-   end function period
 
    !> The steps of a march over the second of two periods.
    subroutine new_mesh(self, orbit, mesh)
@@ -65,7 +60,7 @@ contains
       real(wp) :: length
       integer :: k
       length = orbit%time(orbit%intervals())
-      options = mesh_options(self%march, self%period())
+      options = mesh_options(self%march, self%period)
       marched%start = orbit%start
       associate (model => self%bearing%model)
          call integrator%start(model, options, 0.0_wp, orbit%start, 2*length, error)

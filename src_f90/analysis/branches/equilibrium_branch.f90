@@ -6,7 +6,7 @@ module equilibrium_branch
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error
    use eigenvalues, only: largest_first
-   use continuation, only: branch_problem_type
+   use newton_method, only: branch_problem_type
    use force_balance, only: forces, force_derivatives, masses
    use damped_newton, only: clearances, reference_force
    use small_vibrations, only: find_vibrations

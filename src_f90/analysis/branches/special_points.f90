@@ -5,7 +5,8 @@ module special_points
    use errors, only: error_type, stopped
    use roots, only: root_bracket
    use damped_newton, only: asked_to_stop
-   use continuation, only: branch_problem_type, branch_point_type, branch_options, correct, return_to
+   use newton_method, only: branch_problem_type, branch_point_type, correct
+   use continuation, only: branch_options, return_to
    implicit none (type, external)
    private
    public :: special_point_type, find_special_points, kinds_of_points, kind_length
@@ -123,7 +124,7 @@ contains
          associate (tangent => point%tangent/problem%dot(here%tangent, point%tangent))
             call problem%move((along - point%along)*tangent, .false., ignored)
          end associate
-         call correct(problem, here%tangent, options, point, error, give_up)
+         call correct(problem, options, point, error, give_up, here%tangent)
          ok = .not. allocated(error)
          if (.not. ok) then
             if (error%status /= stopped) deallocate (error)

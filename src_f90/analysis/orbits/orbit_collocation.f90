@@ -7,14 +7,11 @@ module orbit_collocation
    use whole_vectors, only: padded
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error
-   use lapack, only: dgesv
    use ode_model, only: ode_model_type
    use orbit_polynomials, only: orbit_type, points, place
-   use kink_mesh, only: follow_kinks
    use interval_maps, only: interval_maps_type, new_interval_maps, weight
    implicit none (type, external)
    private
-   public :: newton_round
    public :: orbit_equations_type, parameter_shift_type, condense, closing_equations, move_orbit, collocated_state
 
    !> The derivatives at the end of an interval are taken this part of the way to the point before: at a kink, on the
@@ -46,28 +43,6 @@ module orbit_collocation
    real(wp), parameter :: shortest = 0.1_wp
 
 contains
-
-   !> One round of Newton's method; of a correction longer than `longest`, over the scales, only a part is made. A
-   !> numerics error where the model refuses a state or the equations have no solution: then the orbit is as it was.
-   subroutine newton_round(model, orbit, longest, error)
-      class(ode_model_type), intent(inout) :: model
-      type(orbit_type), intent(inout) :: orbit
-      real(wp), intent(in) :: longest
-      type(error_type), allocatable, intent(out) :: error
-      type(orbit_equations_type) :: equations
-      real(wp) :: matrix(model%n, model%n), change(model%n)
-      integer :: pivots(model%n), info
-      call follow_kinks(model, orbit)
-      call condense(model, orbit, equations, error)
-      if (allocated(error)) return
-      call closing_equations(orbit, equations, matrix, change)
-      call dgesv(model%n, 1, matrix, model%n, pivots, change, model%n, info)
-      if (info /= 0 .or. .not. all(abs(change) <= huge(change))) then
-         call raise(error, numerics_error, 'Newton''s equations have no solution')
-         return
-      end if
-      call move_orbit(orbit, equations, change, .true., longest)
-   end subroutine newton_round
 
    !> Linearises the equations on an orbit and eliminates the points inside of the intervals: sets the orbit's monodromy
    !> matrix and residual. A numerics error where the model refuses a state or an interval's equations have no solution.

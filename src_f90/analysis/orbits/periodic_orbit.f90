@@ -3,27 +3,25 @@
 module periodic_orbit
    use kinds, only: wp, i8, pi
    use text, only: to_text
-   use errors, only: error_type, raise, add_context, numerics_error, stopped
+   use errors, only: error_type, add_context, numerics_error
    use marching, only: march_options
    use integrator_counts, only: integrator_counts_type
    use cvode_integrator, only: integrator_type
    use equations_of_motion, only: bearing_model
-   use damped_newton, only: asked_to_stop, asked
+   use damped_newton, only: asked_to_stop
    use orbit_polynomials, only: orbit_type, points, place
-   use orbit_collocation, only: newton_round
+   use newton_method, only: newton_options, branch_point_type, correct
+   use parametric_ode, only: parametric_ode_type
+   use orbit_problem, only: orbit_problem_type, begin_orbits
    use orbit_march, only: march_period, mesh_options
    use unbalance_response, only: go_to_response
-   use floquet_multipliers, only: set_multipliers
    implicit none (type, external)
    private
    public :: periodic_orbit_type, orbit_options, find_periodic_orbit
 
-   type :: orbit_options
+   type, extends(newton_options) :: orbit_options
       !> Turns of the shaft in a period.
       integer :: revolutions = 1
-      !> What Newton's last correction may leave, over the scales; most rounds.
-      real(wp) :: tolerance = 1e-8_wp
-      integer :: max_iterations = 30
    end type orbit_options
 
    type :: periodic_orbit_type
@@ -119,42 +117,29 @@ contains
 
    !> Newton's method on the collocation of an orbit.
    subroutine close_orbit(model, options, found, error, give_up)
-      type(bearing_model), intent(inout) :: model
+      type(bearing_model), intent(inout), target :: model
       type(orbit_options), intent(in) :: options
       type(periodic_orbit_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      real(wp) :: before, left
-      logical :: stops, ok
-      integer :: most
-      most = options%max_iterations
-      if (found%marched < first_try) most = min(most, early_rounds)
-      found%iterations = 0
-      left = huge(left)
-      before = 0
-      associate (orbit => found%orbit)
-         do while (.not. left <= options%tolerance)
-            stops = asked(give_up)
-            if (stops) then
-               call raise(error, stopped, 'asked to stop')
-            else if (found%iterations == most) then
-               call raise(error, numerics_error, 'Newton''s method stopped after '//to_text(found%iterations) &
-                  & //' iterations (periodic%max_iterations) at a correction of '//to_text(orbit%correction) &
-                  & //' of the natural size of the states')
-            else
-               call newton_round(model, orbit, longest, error)
-               found%iterations = found%iterations + 1
-               found%evaluations = found%evaluations + points*orbit%intervals()
-               call add_context(error, 'iteration '//to_text(found%iterations)//' of Newton''s method')
-            end if
-            if (allocated(error)) return
-            ! by as much as this correction is shorter than the last, the next is shorter still
-            left = orbit%correction
-            if (before > 0) left = left*min(1.0_wp, left/before)
-            before = orbit%correction
-         end do
-         call set_multipliers(orbit%monodromy, found%multipliers, ok)
-      end associate
-      if (.not. ok) call raise(error, numerics_error, 'the eigenvalues of the monodromy matrix were not found')
+      type(parametric_ode_type), target :: ode
+      type(orbit_problem_type) :: problem
+      type(newton_options) :: newton
+      type(branch_point_type) :: closed
+      newton = options%newton_options
+      if (found%marched < first_try) newton%max_iterations = min(newton%max_iterations, early_rounds)
+      ode%model => model
+      ode%period = found%period/options%revolutions
+      call begin_orbits(problem, ode, found%orbit, options%revolutions)
+      problem%longest = longest
+      call correct(problem, newton, closed, error, give_up)
+      found%orbit = problem%orbit
+      found%iterations = closed%iterations
+      found%evaluations = found%evaluations + problem%tangents
+      if (allocated(error)) then
+         if (closed%iterations == options%max_iterations) call add_context(error, 'periodic%max_iterations')
+      else
+         call move_alloc(closed%values, found%multipliers)
+      end if
    end subroutine close_orbit
 end module periodic_orbit

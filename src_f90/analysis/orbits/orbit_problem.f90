@@ -1,10 +1,9 @@
-!> Periodic orbits as a problem of continuation: the unknowns are the states at the start of the period, and the
-!> collocation follows them.
-module orbit_branch
+!> Periodic orbits as a problem of Newton's method, for one or for a branch of them: the unknowns are the states at the
+!> start of the period, and the collocation follows them.
+module orbit_problem
    use kinds, only: wp, i8
    use errors, only: error_type
-   use lapack, only: dgesv
-   use continuation, only: branch_problem_type, branch_point_type, return_to
+   use newton_method, only: branch_problem_type, branch_point_type
    use orbit_polynomials, only: orbit_type, points, place
    use kink_mesh, only: follow_kinks
    use orbit_collocation, only: orbit_equations_type, parameter_shift_type, condense, closing_equations, move_orbit, &
@@ -13,12 +12,14 @@ module orbit_branch
    use floquet_multipliers, only: set_multipliers
    implicit none (type, external)
    private
-   public :: orbit_problem_type, begin_orbits, double_period, turns_at
+   public :: orbit_problem_type, begin_orbits, turns_at
 
    type, extends(branch_problem_type) :: orbit_problem_type
       type(orbit_type) :: orbit
       !> Periods of what drives the model in that of the orbit.
       integer :: turns = 1
+      !> Longest correction that is made, over the scales: of a longer one a part.
+      real(wp) :: longest = huge(1.0_wp)
       !> Evaluations of the rates with their derivatives, and without.
       integer(i8) :: tangents = 0, evaluations = 0
       class(parametric_ode_type), pointer, private :: ode => null()
@@ -57,8 +58,8 @@ contains
       class(parametric_ode_type), intent(in), target :: ode
       type(orbit_type), intent(in) :: orbit
       integer, intent(in) :: turns
-      !> Its natural change.
-      real(wp), intent(in) :: parameter, unit
+      !> Its natural change. Both are left out where the parameter stays.
+      real(wp), intent(in), optional :: parameter, unit
       integer, allocatable :: x(:), v(:)
       integer :: i
       problem%n = size(orbit%start)
@@ -70,21 +71,21 @@ contains
       problem%ode => ode
       problem%orbit = orbit
       problem%turns = turns
-      problem%parameter = parameter
-      problem%unit = unit
+      if (present(parameter)) problem%parameter = parameter
+      if (present(unit)) problem%unit = unit
    end subroutine begin_orbits
 
    !> Period of the orbit, s.
    pure real(wp) function period(self)
       class(orbit_problem_type), intent(in) :: self
-      period = self%turns*self%ode%period()
+      period = self%turns*self%ode%period
    end function period
 
    subroutine linearize(self, matrix, b, error)
       class(orbit_problem_type), intent(inout) :: self
       real(wp), intent(out) :: matrix(:, :), b(:)
       type(error_type), allocatable, intent(out) :: error
-      type(parameter_shift_type) :: shift
+      type(parameter_shift_type), allocatable :: shift
       matrix = 0
       b = 0
       call self%ode%set(self%parameter, error)
@@ -92,9 +93,12 @@ contains
       if (self%refused) return
       call set_period(self%orbit, self%period())
       call follow_kinks(self%ode%model, self%orbit)
-      call self%set_shift(shift, error)
-      self%refused = allocated(error)
-      if (self%refused) return
+      if (size(matrix, 2) > self%n) then
+         allocate (shift)
+         call self%set_shift(shift, error)
+         self%refused = allocated(error)
+         if (self%refused) return
+      end if
       call condense(self%ode%model, self%orbit, self%equations, error, shift)
       self%tangents = self%tangents + points*self%orbit%intervals()
       self%refused = self%orbit%refused
@@ -145,9 +149,11 @@ contains
       real(wp), intent(in) :: change(:)
       logical, intent(in) :: closes
       real(wp), intent(out) :: correction
-      call move_orbit(self%orbit, self%equations, change, closes, huge(1.0_wp))
+      call move_orbit(self%orbit, self%equations, change, closes, self%longest)
+      correction = self%orbit%correction
+      if (size(change) == self%n) return
       self%parameter = self%parameter + self%unit*change(self%n + 1)
-      correction = max(self%orbit%correction, abs(change(self%n + 1)))
+      correction = max(correction, abs(change(self%n + 1)))
    end subroutine move
 
    !> The mesh goes along, and with it the kinks; where the orbit has changed so much that it fits its mesh less, from a
@@ -285,41 +291,4 @@ contains
       turns_at = nint(point%place(1))
    end function turns_at
 
-   !> From a flip of a problem: the point of the branch of double period there, on which the problem stands then. Its
-   !> tangent is the disturbance that comes back with the opposite sign after a period.
-   subroutine double_period(problem, flip, point, ok)
-      type(orbit_problem_type), intent(inout) :: problem
-      type(branch_point_type), intent(in) :: flip
-      type(branch_point_type), intent(out) :: point
-      logical, intent(out) :: ok
-      type(orbit_type) :: twice
-      real(wp) :: direction(problem%n), matrix(problem%n, problem%n)
-      integer :: pivots(problem%n), info, i, n
-      call return_to(problem, flip)
-      direction = 1
-      do i = 1, 3
-         matrix = problem%orbit%monodromy
-         do n = 1, problem%n
-            matrix(n, n) = matrix(n, n) + 1
-         end do
-         call dgesv(problem%n, 1, matrix, problem%n, pivots, direction, problem%n, info)
-         ok = info == 0
-         if (.not. ok) return
-         direction = direction/sqrt(sum(problem%weight*direction**2))
-      end do
-      n = problem%orbit%intervals()
-      associate (orbit => problem%orbit, time => problem%orbit%time, kink => problem%orbit%kink)
-         twice = orbit
-         call twice%set_mesh([time, time(n) + time(1:)], reshape([orbit%at, orbit%at], [problem%n, points, 2*n]), &
-            & [kink, kink(1:)])
-      end associate
-      problem%orbit = twice
-      problem%turns = 2*problem%turns
-      call problem%get_place(point%place)
-      allocate (point%change(problem%n + 1), source=0.0_wp)
-      point%tangent = [direction, 0.0_wp]
-      point%parameter = flip%parameter
-      call return_to(problem, point)
-      call problem%spectrum(point%values, point%growth, ok)
-   end subroutine double_period
-end module orbit_branch
+end module orbit_problem

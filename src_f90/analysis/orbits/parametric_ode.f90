@@ -1,5 +1,5 @@
-!> What a branch of periodic orbits needs to know of an ODE with a parameter, beside its rates: the model at a value of
-!> it, the period that drives it, and what its solver knows of meshes.
+!> What an orbit needs to know of an ODE beside its rates: the period that drives it; and for a branch of orbits the model
+!> at a value of a parameter, and what its solver knows of meshes.
 module parametric_ode
    use kinds, only: wp
    use errors, only: error_type
@@ -9,34 +9,27 @@ module parametric_ode
    private
    public :: parametric_ode_type
 
-   type, abstract :: parametric_ode_type
+   !> As it is, that of a model without a parameter.
+   type :: parametric_ode_type
       class(ode_model_type), pointer :: model => null()
+      !> Of what drives the model as it is set, s.
+      real(wp) :: period = 0
    contains
-      procedure(set_value), deferred :: set
-      procedure(forcing_period), deferred :: period
+      procedure :: set
       procedure :: new_mesh
       procedure :: begin_here
       procedure :: get_start
       procedure :: set_start
    end type parametric_ode_type
 
-   abstract interface
-      !> Makes the model that of a value of the parameter; an error says why there can be none.
-      subroutine set_value(self, parameter, error)
-         import :: parametric_ode_type, error_type, wp
-         class(parametric_ode_type), intent(inout) :: self
-         real(wp), intent(in) :: parameter
-         type(error_type), allocatable, intent(out) :: error
-      end subroutine set_value
-
-      !> Period of what drives the model as it is set, s.
-      pure real(wp) function forcing_period(self)
-         import :: parametric_ode_type, wp
-         class(parametric_ode_type), intent(in) :: self
-      end function forcing_period
-   end interface
-
 contains
+
+   !> Makes model and period those of a value of the parameter; an error says why there can be none.
+   subroutine set(self, parameter, error)
+      class(parametric_ode_type), intent(inout) :: self
+      real(wp), intent(in) :: parameter
+      type(error_type), allocatable, intent(out) :: error
+   end subroutine set
 
    !> A mesh for an orbit near this one, as parts of its period, 0 to 1; not allocated where there is no better one.
    subroutine new_mesh(self, orbit, mesh)

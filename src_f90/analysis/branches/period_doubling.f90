@@ -1,0 +1,52 @@
+!> Branches of orbits of double period, which begin at a flip.
+module period_doubling
+   use kinds, only: wp
+   use lapack, only: dgesv
+   use newton_method, only: branch_point_type
+   use continuation, only: return_to
+   use orbit_polynomials, only: orbit_type, points
+   use orbit_problem, only: orbit_problem_type
+   implicit none (type, external)
+   private
+   public :: double_period
+
+contains
+
+   !> From a flip of a problem: the point of the branch of double period there, on which the problem stands then. Its
+   !> tangent is the disturbance that comes back with the opposite sign after a period.
+   subroutine double_period(problem, flip, point, ok)
+      type(orbit_problem_type), intent(inout) :: problem
+      type(branch_point_type), intent(in) :: flip
+      type(branch_point_type), intent(out) :: point
+      logical, intent(out) :: ok
+      type(orbit_type) :: twice
+      real(wp) :: direction(problem%n), matrix(problem%n, problem%n)
+      integer :: pivots(problem%n), info, i, n
+      call return_to(problem, flip)
+      direction = 1
+      do i = 1, 3
+         matrix = problem%orbit%monodromy
+         do n = 1, problem%n
+            matrix(n, n) = matrix(n, n) + 1
+         end do
+         call dgesv(problem%n, 1, matrix, problem%n, pivots, direction, problem%n, info)
+         ok = info == 0
+         if (.not. ok) return
+         direction = direction/sqrt(sum(problem%weight*direction**2))
+      end do
+      n = problem%orbit%intervals()
+      associate (orbit => problem%orbit, time => problem%orbit%time, kink => problem%orbit%kink)
+         twice = orbit
+         call twice%set_mesh([time, time(n) + time(1:)], reshape([orbit%at, orbit%at], [problem%n, points, 2*n]), &
+            & [kink, kink(1:)])
+      end associate
+      problem%orbit = twice
+      problem%turns = 2*problem%turns
+      call problem%get_place(point%place)
+      allocate (point%change(problem%n + 1), source=0.0_wp)
+      point%tangent = [direction, 0.0_wp]
+      point%parameter = flip%parameter
+      call return_to(problem, point)
+      call problem%spectrum(point%values, point%growth, ok)
+   end subroutine double_period
+end module period_doubling

@@ -1,0 +1,215 @@
+!> Newton's method on a problem that stands somewhere, knows its equations there and can be moved: at the value that its
+!> parameter has, or, for branches, with the parameter as one more unknown.
+module newton_method
+   use kinds, only: wp
+   use text, only: to_text
+   use errors, only: error_type, raise, add_context, numerics_error, stopped
+   use lapack, only: dgesv
+   use damped_newton, only: asked_to_stop, asked
+   implicit none (type, external)
+   private
+   public :: branch_problem_type, branch_point_type, newton_options, correct, can_be_of
+
+   !> n unknowns and a parameter. All changes are over the natural sizes of what changes.
+   type, abstract :: branch_problem_type
+      integer :: n = 0
+      !> Present value of the parameter, and natural size of its changes.
+      real(wp) :: parameter = 0, unit = 1
+      !> How much each unknown counts in the length of a branch, where the parameter counts 1.
+      real(wp), allocatable :: weight(:)
+      !> Whether the last error of `linearize` says that there can be no solution here: no Newton's method would help.
+      logical :: refused = .false.
+   contains
+      procedure(linearize_problem), deferred :: linearize
+      procedure(move_problem), deferred :: move
+      procedure :: predict
+      procedure, non_overridable :: dot
+      procedure(find_spectrum), deferred :: spectrum
+      procedure(name_kind), deferred :: kind
+      procedure(take_place), deferred :: get_place
+      procedure(put_place), deferred :: go_to
+      procedure :: fits
+   end type branch_problem_type
+
+   abstract interface
+      !> The equations where the problem stands: matrix x = b for the change x of the unknowns, (n, n), or of unknowns and
+      !> parameter, (n, n + 1).
+      subroutine linearize_problem(self, matrix, b, error)
+         import :: branch_problem_type, error_type, wp
+         class(branch_problem_type), intent(inout) :: self
+         real(wp), intent(out) :: matrix(:, :), b(:)
+         type(error_type), allocatable, intent(out) :: error
+      end subroutine linearize_problem
+
+      !> Moves the problem, which was linearised, by a change of unknowns and, if there is one more, the parameter. One
+      !> that `closes` solves these equations; the tangent and its multiples do not.
+      subroutine move_problem(self, change, closes, correction)
+         import :: branch_problem_type, wp
+         class(branch_problem_type), intent(inout) :: self
+         real(wp), intent(in) :: change(:)
+         logical, intent(in) :: closes
+         !> The largest change of all that moved.
+         real(wp), intent(out) :: correction
+      end subroutine move_problem
+
+      !> What tells stability at a solution, as it was linearised last, and how far each value is on the unstable side;
+      !> in the order of this, the largest first.
+      subroutine find_spectrum(self, values, growth, ok)
+         import :: branch_problem_type, wp
+         class(branch_problem_type), intent(inout) :: self
+         complex(wp), allocatable, intent(out) :: values(:)
+         real(wp), allocatable, intent(out) :: growth(:)
+         logical, intent(out) :: ok
+      end subroutine find_spectrum
+
+      !> What happens where this value crosses to the other side; 'fold' where the branch turns or another crosses it.
+      pure function name_kind(self, value) result(kind)
+         import :: branch_problem_type, wp
+         class(branch_problem_type), intent(in) :: self
+         complex(wp), intent(in) :: value
+         character(len=:), allocatable :: kind
+      end function name_kind
+
+      !> All that a problem needs to stand where it stands, as numbers.
+      pure subroutine take_place(self, place)
+         import :: branch_problem_type, wp
+         class(branch_problem_type), intent(in) :: self
+         real(wp), allocatable, intent(out) :: place(:)
+      end subroutine take_place
+
+      subroutine put_place(self, place)
+         import :: branch_problem_type, wp
+         class(branch_problem_type), intent(inout) :: self
+         real(wp), intent(in) :: place(:)
+      end subroutine put_place
+   end interface
+
+   type :: branch_point_type
+      real(wp) :: parameter = 0
+      !> Length of the branch up to here, and of its last step along the tangent there.
+      real(wp) :: arc_length = 0, along = 0
+      !> Where the equations were linearised last, and the correction from there: so a point is found again to the last
+      !> bit. Unit tangent.
+      real(wp), allocatable :: place(:), change(:), tangent(:)
+      complex(wp), allocatable :: values(:)
+      real(wp), allocatable :: growth(:)
+      !> Rounds of Newton's method; the last correction.
+      integer :: iterations = 0
+      real(wp) :: correction = huge(1.0_wp)
+   end type branch_point_type
+
+   type :: newton_options
+      !> What Newton's method may leave, over the natural sizes; most rounds.
+      real(wp) :: tolerance = 1e-8_wp
+      integer :: max_iterations = 20
+   end type newton_options
+
+   !> Longest correction that is made in a plane: what is further away is sought by a shorter step.
+   real(wp), parameter :: longest = 0.5_wp
+
+contains
+
+   !> Whether numbers that come from elsewhere can be a place: as many as those where the problem stands.
+   pure logical function fits(self, place)
+      class(branch_problem_type), intent(in) :: self
+      real(wp), intent(in) :: place(:)
+      real(wp), allocatable :: here(:)
+      call self%get_place(here)
+      fits = size(place) == size(here)
+   end function fits
+
+   !> Whether a point that comes from elsewhere can be one of a problem's branches.
+   pure logical function can_be_of(problem, point) result(can)
+      class(branch_problem_type), intent(in) :: problem
+      type(branch_point_type), intent(in) :: point
+      can = size(point%change) == problem%n + 1 .and. size(point%tangent) == problem%n + 1
+      if (can) can = problem%fits(point%place)
+   end function can_be_of
+
+   !> Moves by a step along the tangent to where the next point is sought. A problem may do more, once for each point.
+   subroutine predict(self, change)
+      class(branch_problem_type), intent(inout) :: self
+      real(wp), intent(in) :: change(:)
+      real(wp) :: ignored
+      call self%move(change, .false., ignored)
+   end subroutine predict
+
+   !> The product of two directions.
+   pure real(wp) function dot(self, a, b)
+      class(branch_problem_type), intent(in) :: self
+      real(wp), intent(in) :: a(:), b(:)
+      associate (n => self%n)
+         dot = sum(self%weight*a(:n)*b(:n)) + a(n + 1)*b(n + 1)
+      end associate
+   end function dot
+
+   !> Newton's method at the value of the parameter where the problem stands, or in the plane through this place across
+   !> `normal`. The plane belongs to a step along a branch: far corrections are refused, as a shorter step is better, and
+   !> the last correction must be small itself, as the tangent is that of the place before it.
+   subroutine correct(problem, options, point, error, give_up, normal)
+      class(branch_problem_type), intent(inout) :: problem
+      class(newton_options), intent(in) :: options
+      type(branch_point_type), intent(out) :: point
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      real(wp), intent(in), optional :: normal(:)
+      real(wp), allocatable :: matrix(:, :), b(:, :)
+      real(wp) :: before, left
+      logical :: stops, ok
+      integer :: n, unknowns
+      n = problem%n
+      unknowns = merge(n + 1, n, present(normal))
+      allocate (matrix(unknowns, unknowns), b(unknowns, 1 + unknowns - n))
+      before = 0
+      do
+         stops = asked(give_up)
+         if (stops) then
+            call raise(error, stopped, 'asked to stop')
+         else if (point%iterations == options%max_iterations) then
+            call raise(error, numerics_error, 'Newton''s method stopped after '//to_text(point%iterations) &
+               & //' iterations at a correction of '//to_text(point%correction)//' of the natural size of the states')
+         end if
+         if (allocated(error)) return
+         point%iterations = point%iterations + 1
+         call problem%get_place(point%place)
+         b = 0
+         call problem%linearize(matrix(:n, :), b(:n, 1), error)
+         if (present(normal)) then
+            matrix(n + 1, :n) = problem%weight*normal(:n)
+            matrix(n + 1, n + 1) = normal(n + 1)
+            b(n + 1, 2) = 1
+         end if
+         if (.not. allocated(error)) call solve(matrix, b, error)
+         if (.not. allocated(error) .and. present(normal)) then
+            if (maxval(abs(b(:, 1))) > longest) call raise(error, numerics_error, 'the correction is ' &
+               & //to_text(maxval(abs(b(:, 1))))//' of the natural size of the states')
+         end if
+         if (.not. problem%refused) call add_context(error, 'iteration '//to_text(point%iterations) &
+            & //' of Newton''s method')
+         if (allocated(error)) return
+         point%change = b(:, 1)
+         call problem%move(point%change, .true., point%correction)
+         left = point%correction
+         ! by as much as this correction is shorter than the last, the next is shorter still
+         if (before > 0 .and. .not. present(normal)) left = left*min(1.0_wp, left/before)
+         before = point%correction
+         if (left <= options%tolerance) exit
+      end do
+      point%parameter = problem%parameter
+      if (present(normal)) point%tangent = b(:, 2)/sqrt(problem%dot(b(:, 2), b(:, 2)))
+      call problem%spectrum(point%values, point%growth, ok)
+      if (.not. ok) call raise(error, numerics_error, 'the eigenvalues that tell stability were not found')
+   end subroutine correct
+
+   !> b := matrix^(-1) b.
+   subroutine solve(matrix, b, error)
+      real(wp), intent(inout) :: matrix(:, :), b(:, :)
+      type(error_type), allocatable, intent(out) :: error
+      integer :: pivots(size(b, 1)), info
+      logical :: ok
+      call dgesv(size(b, 1), size(b, 2), matrix, size(b, 1), pivots, b, size(b, 1), info)
+      ok = info == 0
+      if (ok) ok = all(abs(b) <= huge(b))
+      if (.not. ok) call raise(error, numerics_error, 'the equations have no solution')
+   end subroutine solve
+end module newton_method
