@@ -1,0 +1,65 @@
+"""The check of words (tests/words.py) finds what is not of the field, and leaves standard terms alone."""
+
+import importlib.util
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+PROGRAM = Path(__file__).parents[1] / "words.py"
+spec = importlib.util.spec_from_file_location("words", PROGRAM)
+words = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(words)
+
+
+@pytest.mark.parametrize(
+    ("line", "term"),
+    [
+        ("call pad_rest_of(x)", "equilibrium"),
+        ("the bearing comes to rest", "equilibrium"),
+        ("a ruptured film", "cavitated film"),
+        ("use kink_mesh, only: x", "switching point"),
+        ("integer :: few = 40", "the quantity"),
+        ("cells of half an octave", "logarithmic grid"),
+        ("member 12 of the study", "run (of a study)"),
+        ("the sweep has 5 values", "parameter study"),
+        ("The equilibrium is fluttering", "oscillatory instability"),
+    ],
+)
+def test_what_is_found(line, term):
+    found = [said for _, _, said in words.offences(line)]
+    assert [said for said in found if said.startswith(term)]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "the rest of the file, and the rest of it",
+        "tangent = sine/cosine",
+        "the rupture boundary; a cavitated film",
+        "one SOR sweep; a case with &sweep",
+        "pad 2 flutters",
+        "GNU Octave",
+        "few values",
+        "'scene': an alias of 'case'",
+        "period doubling (flip)",
+    ],
+)
+def test_what_is_not(line):
+    assert not list(words.offences(line))
+
+
+def test_the_command(tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text("A scene.\nTwo scenes.\n")
+    (tmp_path / "picture.png").write_bytes(b"scene")
+    listed = subprocess.run([sys.executable, PROGRAM, tmp_path], capture_output=True, text=True)
+    assert listed.returncode == 1
+    assert listed.stdout.splitlines() == [
+        f"{page}:1: scene: say case",
+        f"{page}:2: scenes: say case",
+        "     2  case",
+    ]
+    page.write_text("A case.\n")
+    assert subprocess.run([sys.executable, PROGRAM, tmp_path]).returncode == 0
