@@ -1,10 +1,14 @@
-!> What the system does with files: names, copies, links, kinds.
+!> What the system does with files and processes: names, copies, links, kinds; how children end, what they send.
 program test_files
    use files, only: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync, &
       & real_path, is_regular, file_identity
-   use processes, only: make_folder, remove_folder
+   use processes, only: make_folder, remove_folder, process_id, process_alive, host_name, processors, new_process, &
+      & end_child, limit_child, end_with_parent, ended, stop_process, record_length, open_pipe, close_pipe, &
+      & send_record, receive_record, wait_for_record, pause_seconds
    use system_errors, only: system_reason
    use scratch, only: scratch_path, file_there, write_bytes, bytes_of
+   use text, only: to_text
+   use stop_signals, only: catch_signals, stop_requested, stop_reason
    use check, only: runs, expect, report
    implicit none (type, external)
    character(len=:), allocatable :: path, other
@@ -19,30 +23,31 @@ program test_files
    if (runs('to_disk')) call to_disk()
    call delete_file(path)
    call delete_file(other)
+   if (runs('statuses')) call statuses()
+   if (runs('signals')) call signals()
+   if (runs('time_limit')) call time_limit()
+   if (runs('records')) call records()
+   if (runs('orphans')) call orphans()
+   if (runs('this_process')) call this_process()
    call report()
 
 contains
 
    subroutine names()
-      logical :: ok
       call write_bytes(path, 'first')
       call write_bytes(other, 'second')
-      ok = rename_file(path, other)
-      call expect(ok, 'a name that another file has')
+      call expect(rename_file(path, other), 'a name that another file has')
       call expect(.not. file_there(path), 'the old name is gone')
       call expect(bytes_of(other) == 'first', 'the new one has the content')
-      ok = rename_file(path, other)
-      call expect(.not. ok, 'what is not there cannot be renamed')
+      call expect(.not. rename_file(path, other), 'what is not there cannot be renamed')
       call expect(system_reason() == 'no such file or directory', 'and the system says why: '//system_reason())
       call write_bytes(path, 'second')
-      ok = exchange_files(path, other)
-      call expect(ok, 'two names exchanged')
+      call expect(exchange_files(path, other), 'two names exchanged')
       call expect(bytes_of(path) == 'first', 'the first has the other''s content')
       call expect(bytes_of(other) == 'second', 'the other has the first''s')
       call delete_file(other)
       call delete_file(other)
-      ok = exchange_files(path, other)
-      call expect(.not. ok, 'there is nothing to exchange with')
+      call expect(.not. exchange_files(path, other), 'there is nothing to exchange with')
       call expect(bytes_of(path) == 'first', 'and nothing changes')
    end subroutine names
 
@@ -58,8 +63,7 @@ contains
       call expect(file_identity(path(:index(path, '/', back=.true.))) == '-', 'nor of a folder')
       ok = rename_file(path, other)
       call expect(file_identity(other) == first, 'a new name')
-      ok = create_file(path)
-      call expect(ok, 'another file')
+      call expect(create_file(path), 'another file')
       ok = copy_file(other, path)
       call expect(file_identity(path) /= first, 'a copy')
       call delete_file(other)
@@ -72,26 +76,19 @@ contains
    end subroutine identities
 
    subroutine copies()
-      logical :: ok
       call write_bytes(path, repeat('0123456789', 100000))
       call write_bytes(other, repeat('x', 2000000))
-      ok = create_file(other)
-      call expect(.not. ok, 'what is there is not made')
-      ok = copy_file(path, other)
-      call expect(ok, 'a copy over a longer file')
+      call expect(.not. create_file(other), 'what is there is not made')
+      call expect(copy_file(path, other), 'a copy over a longer file')
       call expect(bytes_of(other) == repeat('0123456789', 100000), 'has all bytes and no others')
       call write_bytes(path, '')
-      ok = copy_file(path, other)
-      call expect(ok, 'of nothing')
+      call expect(copy_file(path, other), 'of nothing')
       call expect(bytes_of(other) == '', 'is nothing')
-      ok = copy_file(scratch_path('none'), other)
-      call expect(.not. ok, 'what is not there cannot be copied')
+      call expect(.not. copy_file(scratch_path('none'), other), 'what is not there cannot be copied')
       call delete_file(other)
-      ok = copy_file(path, other)
-      call expect(.not. ok, 'nor into one that is not there')
+      call expect(.not. copy_file(path, other), 'nor into one that is not there')
       call execute_command_line('ln -s '//scratch_path('none')//' '//other)
-      ok = create_file(other)
-      call expect(.not. ok, 'a link to nothing is not followed')
+      call expect(.not. create_file(other), 'a link to nothing is not followed')
       call expect(.not. file_there(scratch_path('none')), 'and nothing is made')
    end subroutine copies
 
@@ -133,16 +130,150 @@ contains
    end subroutine links
 
    subroutine to_disk()
-      logical :: ok
       call write_bytes(path, 'x')
       call begin_sync(path)
       call begin_sync(scratch_path('none'))
-      ok = sync_file(path)
-      call expect(ok, 'a file')
-      ok = sync_file(path(:index(path, '/', back=.true.))//'.')
-      call expect(ok, 'a folder')
-      ok = sync_file(scratch_path('none'))
-      call expect(.not. ok, 'nothing')
+      call expect(sync_file(path), 'a file')
+      call expect(sync_file(path(:index(path, '/', back=.true.))//'.'), 'a folder')
+      call expect(.not. sync_file(scratch_path('none')), 'nothing')
       call expect(bytes_of(path) == 'x', 'and leaves it as it is')
    end subroutine to_disk
+
+   subroutine expect_end(child, how_expected)
+      integer, intent(in) :: child
+      character(len=*), intent(in) :: how_expected
+      character(len=:), allocatable :: how
+      logical :: found
+      found = ended(child, .true., how)
+      call expect(found, 'ended')
+      call expect(index(how, how_expected) == 1, how_expected//': '//how)
+   end subroutine expect_end
+
+   subroutine statuses()
+      integer :: status, child
+      do status = 0, 255, 51
+         child = new_process()
+         if (child == 0) call end_child(status)
+         call expect_end(child, 'ended with status '//to_text(status)//' ')
+      end do
+      call expect(.not. process_alive(child), 'it is no more')
+      child = process_id()
+      call expect(.not. was_mine(child), 'who is no child has not ended')
+   end subroutine statuses
+
+   logical function was_mine(process)
+      integer, intent(in) :: process
+      character(len=:), allocatable :: how
+      was_mine = ended(process, .true., how)
+   end function was_mine
+
+   !> A child ends by SIGTERM, unless it notes signals; then it sees which came.
+   subroutine signals()
+      integer :: child, ends(2)
+      character(len=record_length) :: record
+      character(len=:), allocatable :: how
+      logical :: ok
+      child = new_process()
+      if (child == 0) call wait_for_ever()
+      call expect(process_alive(child), 'a child that waits')
+      ok = ended(child, .false., how)
+      call expect(.not. ok, 'has not ended')
+      call stop_process(child)
+      call expect_end(child, 'ended by signal 15')
+      call open_pipe(ends, ok)
+      child = new_process()
+      if (child == 0) then
+         call catch_signals()
+         record = merge('early', 'ready', stop_requested())
+         call send_record(ends(2), record)
+         do while (.not. stop_requested())
+            call pause_seconds(1)
+         end do
+         record = stop_reason()
+         call send_record(ends(2), record)
+         call end_child(7)
+      end if
+      call receive_record(ends(1), record, ok)
+      call expect(record == 'ready', 'no signal yet')
+      call stop_process(child)
+      call receive_record(ends(1), record, ok)
+      call expect(record == 'stopped by signal 15', 'noted: '//trim(record))
+      call expect_end(child, 'ended with status 7 ')
+      call close_pipe(ends)
+   end subroutine signals
+
+   subroutine wait_for_ever()
+      do
+         call pause_seconds(60)
+      end do
+   end subroutine wait_for_ever
+
+   !> A child with a limit of time ends by its alarm, and prints nothing.
+   subroutine time_limit()
+      integer :: child
+      child = new_process()
+      if (child == 0) then
+         call limit_child(1, 60, 1000)
+         print '(a)', '1 passed, 1000 failed'
+         call wait_for_ever()
+      end if
+      call expect_end(child, 'ended by signal 14')
+   end subroutine time_limit
+
+   !> Records arrive whole and in order; waiting for one ends where there is none.
+   subroutine records()
+      integer :: ends(2), child, k
+      character(len=record_length) :: record
+      logical :: ok, waits
+      call open_pipe(ends, ok)
+      call expect(ok, 'a pipe')
+      waits = wait_for_record(ends(1), 10)
+      call expect(.not. waits, 'an empty one')
+      child = new_process()
+      if (child == 0) then
+         do k = 1, 100
+            record = to_text(k)
+            record(record_length:) = 'x'
+            call send_record(ends(2), record)
+         end do
+         call end_child(0)
+      end if
+      do k = 1, 100
+         waits = wait_for_record(ends(1), 60000)
+         call receive_record(ends(1), record, ok)
+         call expect(waits .and. ok .and. record(:len(to_text(k)) + 1) == to_text(k) .and. &
+            & record(record_length:) == 'x', 'record '//to_text(k))
+      end do
+      waits = wait_for_record(ends(1), 0)
+      call expect(.not. waits, 'and no more')
+      call expect_end(child, 'ended with status 0 ')
+      call close_pipe(ends)
+      call receive_record(ends(1), record, ok)
+      call expect(.not. ok, 'none from a closed pipe')
+   end subroutine records
+
+   !> A child whose parent has ended, or is not who it takes for it, ends.
+   subroutine orphans()
+      integer :: child
+      child = new_process()
+      if (child == 0) then
+         call end_with_parent(1)
+         call end_child(0)
+      end if
+      call expect_end(child, 'ended with status 1 ')
+      child = new_process()
+      if (child == 0) then
+         call end_with_parent(int(process_id()))
+         call end_child(0)
+      end if
+      call expect_end(child, 'ended with status 1 ')
+   end subroutine orphans
+
+   subroutine this_process()
+      character(len=:), allocatable :: name
+      call expect(process_alive(int(process_id())), 'it runs')
+      call expect(processors() >= 1, 'on a processor')
+      name = host_name()
+      call expect(len(name) > 0 .and. index(name, ' ') == 0, 'of a machine with a name: '//name)
+   end subroutine this_process
 end program test_files
