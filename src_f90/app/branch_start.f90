@@ -8,7 +8,7 @@ module branch_start
    use static_model, only: make_fine, make_static
    use equilibrium, only: equilibrium_type, find_equilibrium
    use bearing_coefficients, only: settle
-   use periodic_orbit, only: periodic_orbit_type
+   use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
    use orbit_polynomials, only: orbit_type, points
    use newton_method, only: branch_problem_type, can_be_of
    use continuation, only: branch_options, return_to
@@ -20,10 +20,9 @@ module branch_start
    use equilibrium_branch, only: equilibrium_problem_type, begin_equilibria
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
-   use equilibrium_task, only: seek_equilibrium, note_equilibrium
+   use equilibrium_start, only: seek_equilibrium, note_equilibrium
    use march_start, only: make_start
-   use march_task, only: tolerances
-   use periodic_task, only: seek_orbit
+   use march_settings, only: march_settings_of
    use branch_course, only: branch_course_type
    implicit none (type, external)
    private
@@ -56,7 +55,6 @@ contains
       type(case_run_type), intent(inout), target :: run
       type(branches_type), intent(inout) :: b
       type(error_type), allocatable, intent(out) :: error
-      real(wp), allocatable :: nowhere(:)
       associate (given => run%scene%branch)
          call find_parameter(run%scene, given%parameter, b%parameter, error)
          if (allocated(error)) return
@@ -75,9 +73,7 @@ contains
          b%ode%bearing%parameter = b%parameter
          b%ode%model => run%model
          ! for meshes alone, wherever the branch leads
-         allocate (nowhere(run%model%n), source=0.0_wp)
-         b%ode%march = tolerances(run, nowhere)
-         b%ode%march%lowers_orders = .false.
+         b%ode%march = march_settings_of(run%model, run%earlier%count('steps'))
       end associate
    end subroutine prepare
 
@@ -112,7 +108,9 @@ contains
       if (allocated(error)) return
       if (has_warm_oil(run%model)) call rest_oil(run, b, at_rest, error)
       if (allocated(error)) return
-      call seek_orbit(run, y, found, error)
+      call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier%count('steps'), y), y, found, error, &
+         & stop_requested)
+      run%counts = found%counts()
       if (.not. allocated(error)) call begin_orbits(b%orbits, b%ode, found%orbit, run%scene%periodic%revolutions, &
          & b%first, b%way)
    end subroutine first_orbit

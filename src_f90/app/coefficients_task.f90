@@ -9,7 +9,7 @@ module coefficients_task
    use coefficient_results, only: put_coefficients
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
-   use equilibrium_task, only: seek_equilibrium, note_equilibrium
+   use equilibrium_start, only: seek_equilibrium, note_equilibrium
    use coefficients_summary, only: print_coefficients
    implicit none (type, external)
    private

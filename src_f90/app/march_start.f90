@@ -1,4 +1,4 @@
-!> Where a march starts: the state that the group &start describes.
+!> Where a march starts: the state that the group &start describes, or that of a checkpoint.
 module march_start
    use kinds, only: wp
    use text, only: to_text
@@ -14,11 +14,11 @@ module march_start
    use case_run, only: case_run_type
    use viscosity_course, only: viscosity_course_type
    use groove_course, only: find_groove_course
-   use equilibrium_task, only: create_file, start_at_equilibrium, nothing_computed
+   use equilibrium_start, only: create_file, start_at_equilibrium, nothing_computed
    use run_summary, only: print_start
    implicit none (type, external)
    private
-   public :: make_start, take_oil
+   public :: make_start, continue_from_checkpoint
 
 contains
 
@@ -111,6 +111,21 @@ contains
       if (allocated(error)) return
       run%model%oil = course
    end subroutine let_grooves_warm
+
+   !> State and time, s, of the checkpoint in the file.
+   subroutine continue_from_checkpoint(run, t, y, error)
+      type(case_run_type), intent(inout) :: run
+      real(wp), intent(out) :: t
+      real(wp), allocatable, intent(out) :: y(:)
+      type(error_type), allocatable, intent(out) :: error
+      allocate (y(run%model%n))
+      run%earlier = run%statistics()
+      call run%file%resume(t, y, run%earlier, error)
+      if (.not. allocated(error)) call take_oil(run, error)
+      if (allocated(error)) return
+      run%computed = .true.
+      if (.not. run%quiet) print '(a)', 'going on from t = '//to_text(t)//' s'
+   end subroutine continue_from_checkpoint
 
    !> The last state of another result.
    subroutine start_from_file(run, journal, pads, error)

@@ -6,16 +6,16 @@ module periodic_task
    use marching, only: sample_plan
    use march_results, only: put_asperities
    use floquet_multipliers, only: are_stable, loss_of_stability
-   use periodic_orbit, only: periodic_orbit_type, orbit_options, find_periodic_orbit
+   use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
    use periodic_results, only: put_periodic
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
-   use march_start, only: make_start
-   use march_task, only: continue_from_checkpoint, tolerances, write_spectra
-   use recorder, only: recorder_type, begin_recording
+   use march_settings, only: march_settings_of
+   use march_start, only: make_start, continue_from_checkpoint
+   use recorder, only: recorder_type, begin_recording, write_spectra
    implicit none (type, external)
    private
-   public :: run_periodic, seek_orbit
+   public :: run_periodic
 
 contains
 
@@ -31,7 +31,9 @@ contains
          call make_start(run, y, error)
       end if
       if (allocated(error)) return
-      call seek_orbit(run, y, found, error)
+      call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier%count('steps'), y), y, found, error, &
+         & stop_requested)
+      run%counts = found%counts()
       if (allocated(error)) then
          if (error%status == stopped) call stop_here(run, found, error)
          return
@@ -40,21 +42,6 @@ contains
       if (.not. run%quiet) call print_orbit(found, run%scene%periodic%revolutions)
       call record_orbit(run, found, error)
    end subroutine run_periodic
-
-   !> The orbit that the motion from state y leads to, with what it cost.
-   subroutine seek_orbit(run, y, found, error)
-      type(case_run_type), intent(inout), target :: run
-      real(wp), intent(in) :: y(:)
-      type(periodic_orbit_type), intent(out) :: found
-      type(error_type), allocatable, intent(out) :: error
-      associate (p => run%scene%periodic)
-         call find_periodic_orbit(run%model, tolerances(run, y), orbit_options(p%tolerance, p%max_iterations, &
-            & p%revolutions), y, found, error, stop_requested)
-      end associate
-      run%counts = found%march
-      run%counts%rhs_evaluations = run%counts%rhs_evaluations + found%evaluations
-      run%counts%jacobian_evaluations = run%counts%jacobian_evaluations + found%evaluations
-   end subroutine seek_orbit
 
    !> A checkpoint where a signal asks for the end: the state to which the march or Newton's method had come.
    subroutine stop_here(run, found, error)

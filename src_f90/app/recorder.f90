@@ -7,7 +7,10 @@ module recorder
    use integrator_counts, only: integrator_counts_type
    use loops, only: periodicity, new_periodicity
    use equations_of_motion, only: model_sample
-   use march_results, only: add_sample
+   use scene, only: scene_type
+   use spectra, only: one_sided_amplitude, full_amplitude
+   use march_results, only: add_sample, put_spectrum
+   use run_file, only: run_file_type
    use provenance, only: running
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
@@ -15,7 +18,7 @@ module recorder
    use progress, only: progress_type, new_progress
    implicit none (type, external)
    private
-   public :: recorder_type, begin_recording
+   public :: recorder_type, begin_recording, write_spectra
 
    type, extends(march_observer_type) :: recorder_type
       type(case_run_type), pointer, private :: run => null()
@@ -150,4 +153,32 @@ contains
          self%run%checkpoints = self%run%checkpoints + self%last_checkpoint - started
       end if
    end subroutine take_state
+
+   !> Spectra over the last whole revolutions of a run at constant speed; none where it was not sampled
+   !> over one.
+   subroutine write_spectra(scene, interval, file)
+      type(scene_type), intent(in) :: scene
+      !> Between samples, s.
+      real(wp), intent(in) :: interval
+      type(run_file_type), intent(inout) :: file
+      real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), amplitudes(:, :)
+      integer :: revolutions, n, i
+      if (abs(scene%operation%final_speed_rpm - scene%operation%speed_rpm) > 0) return
+      associate (samples => scene%output%samples_per_revolution)
+         revolutions = int(min(int(scene%output%spectrum_revolutions, i8), (file%samples() - 1)/samples))
+         n = revolutions*samples
+      end associate
+      if (revolutions == 0 .or. n < 2) return
+      call file%last_samples('journal_y', n, y)
+      call file%last_samples('journal_z', n, z)
+      if (scene%tilting()) then
+         call file%last_samples('pad_tilt', n, tilt)
+         allocate (amplitudes(n/2 + 1, scene%pad_count()))
+         do i = 1, scene%pad_count()
+            amplitudes(:, i) = one_sided_amplitude(tilt(i, :))
+         end do
+      end if
+      call put_spectrum(file%file, interval, revolutions, scene%highest_speed(), one_sided_amplitude(y(1, :)), &
+         & one_sided_amplitude(z(1, :)), full_amplitude(cmplx(y(1, :), z(1, :), wp)), amplitudes)
+   end subroutine write_spectra
 end module recorder

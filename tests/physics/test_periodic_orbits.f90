@@ -14,7 +14,7 @@ program test_periodic_orbits
    use orbit_polynomials, only: orbit_type
    use resting_orbit, only: newton_round
    use floquet_multipliers, only: are_stable
-   use periodic_orbit, only: periodic_orbit_type, orbit_options, find_periodic_orbit
+   use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
 
@@ -63,8 +63,8 @@ contains
       if (.not. allocated(error)) then
          options%relative_tolerance = tolerance
          options%absolute_tolerance = tolerance*model%scale
-         call find_periodic_orbit(model, options, orbit_options(), &
-            & model%at_rest(static%journal, static%tilt, static%penetration), found, error)
+         call find_periodic_orbit(model, options, model%at_rest(static%journal, static%tilt, &
+            & static%penetration), found, error)
       end if
       call expect_no_error(error, 'the orbit is found')
       if (allocated(error)) call expect(.false., error%message)

@@ -17,12 +17,7 @@ module periodic_orbit
    use unbalance_response, only: go_to_response
    implicit none (type, external)
    private
-   public :: periodic_orbit_type, orbit_options, find_periodic_orbit
-
-   type, extends(newton_options) :: orbit_options
-      !> Turns of the shaft in a period.
-      integer :: revolutions = 1
-   end type orbit_options
+   public :: periodic_orbit_type, find_periodic_orbit
 
    type :: periodic_orbit_type
       type(orbit_type) :: orbit
@@ -37,6 +32,8 @@ module periodic_orbit
       !> rounds.
       integer :: iterations = 0
       integer(i8) :: evaluations = 0
+   contains
+      procedure :: counts
    end type periodic_orbit_type
 
    !> Newton's method is tried once the state changes by less than this over a period, over the scales, or after so many
@@ -54,11 +51,10 @@ contains
    !> The periodic orbit that the motion from state y leads to; from a state at rest, that to which the motion near the
    !> answer of the linearised equations to the unbalance leads. A numerics error where the march ends or Newton's
    !> method finds none, or one of status `stopped`, where `give_up` says so.
-   subroutine find_periodic_orbit(model, march, options, y, found, error, give_up)
+   subroutine find_periodic_orbit(model, march, y, found, error, give_up)
       type(bearing_model), intent(inout), target :: model
       !> Tolerances of a march; they choose the mesh.
       type(march_options), intent(in) :: march
-      type(orbit_options), intent(in) :: options
       real(wp), intent(in) :: y(:)
       type(periodic_orbit_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
@@ -67,13 +63,14 @@ contains
       type(march_options) :: mesh
       type(orbit_type) :: before
       real(wp) :: close_by
-      integer :: next_try
-      found%period = options%revolutions*2*pi/model%point%speed(0.0_wp)
+      integer :: next_try, revolutions
+      revolutions = model%scene%periodic%revolutions
+      found%period = revolutions*2*pi/model%point%speed(0.0_wp)
       found%orbit%start = y
       found%orbit%scale = model%scale
-      mesh = mesh_options(march, found%period/options%revolutions)
-      close_by = merge(near, near_of_several, options%revolutions == 1)
-      if (options%revolutions == 1) call go_to_response(model, found%orbit%start)
+      mesh = mesh_options(march, found%period/revolutions)
+      close_by = merge(near, near_of_several, revolutions == 1)
+      if (revolutions == 1) call go_to_response(model, found%orbit%start)
       call integrator%start(model, mesh, 0.0_wp, found%orbit%start, last_try*found%period, error)
       next_try = first_try
       do while (.not. allocated(error))
@@ -86,12 +83,20 @@ contains
             & .or. change_in_period(found%orbit) > close_by)) cycle
          next_try = 2*found%marched
          if (change_in_period(found%orbit) > close_by) call average(found%orbit, before)
-         call close_orbit(model, options, found, error, give_up)
+         call close_orbit(model, found, error, give_up)
          if (.not. allocated(error)) return
          if (error%status == numerics_error .and. next_try <= last_try) deallocate (error)
       end do
       call add_context(error, 'no periodic orbit was found: after '//to_text(found%marched)//' periods')
    end subroutine find_periodic_orbit
+
+   !> What the march and Newton's method cost together.
+   pure type(integrator_counts_type) function counts(self)
+      class(periodic_orbit_type), intent(in) :: self
+      counts = self%march
+      counts%rhs_evaluations = counts%rhs_evaluations + self%evaluations
+      counts%jacobian_evaluations = counts%jacobian_evaluations + self%evaluations
+   end function counts
 
    !> By how much the state changes over the period, over the scales.
    pure real(wp) function change_in_period(orbit) result(change)
@@ -116,9 +121,8 @@ contains
    end subroutine average
 
    !> Newton's method on the collocation of an orbit.
-   subroutine close_orbit(model, options, found, error, give_up)
+   subroutine close_orbit(model, found, error, give_up)
       type(bearing_model), intent(inout), target :: model
-      type(orbit_options), intent(in) :: options
       type(periodic_orbit_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
@@ -126,18 +130,20 @@ contains
       type(orbit_problem_type) :: problem
       type(newton_options) :: newton
       type(branch_point_type) :: closed
-      newton = options%newton_options
-      if (found%marched < first_try) newton%max_iterations = min(newton%max_iterations, early_rounds)
-      ode%model => model
-      ode%period = found%period/options%revolutions
-      call begin_orbits(problem, ode, found%orbit, options%revolutions)
+      associate (given => model%scene%periodic)
+         newton = newton_options(given%tolerance, given%max_iterations)
+         if (found%marched < first_try) newton%max_iterations = min(newton%max_iterations, early_rounds)
+         ode%model => model
+         ode%period = found%period/given%revolutions
+         call begin_orbits(problem, ode, found%orbit, given%revolutions)
+      end associate
       problem%longest = longest
       call correct(problem, newton, closed, error, give_up)
       found%orbit = problem%orbit
       found%iterations = closed%iterations
       found%evaluations = found%evaluations + problem%tangents
       if (allocated(error)) then
-         if (closed%iterations == options%max_iterations) call add_context(error, 'periodic%max_iterations')
+         if (closed%iterations == model%scene%periodic%max_iterations) call add_context(error, 'periodic%max_iterations')
       else
          call move_alloc(closed%values, found%multipliers)
       end if
