@@ -1,11 +1,11 @@
-!> Errors as data: a library routine returns one, only the program stops.
+!> Errors as data: a library routine returns one, only the program stops. And the question whether a search is to stop.
 !>
 !> A routine that can fail has `type(error_type), allocatable, intent(out) :: error`;
 !> the caller tests `allocated(error)` and may put context in front of the message.
 module errors
    implicit none (type, external)
    private
-   public :: error_type, raise, require, add_context
+   public :: error_type, raise, require, add_context, asked_to_stop, asked
    public :: input_error, numerics_error, system_error, stopped
 
    !> What is wrong, and the exit status that belongs to it.
@@ -16,6 +16,12 @@ module errors
 
    !> Exit statuses: usage or input; the numerics failed; file or system; stopped by a signal.
    integer, parameter :: input_error = 1, numerics_error = 2, system_error = 3, stopped = 4
+
+   abstract interface
+      !> True once a search is to be given up; it then returns an error of status `stopped`.
+      logical function asked_to_stop()
+      end function asked_to_stop
+   end interface
 
 contains
 
@@ -41,4 +47,11 @@ contains
       character(len=*), intent(in) :: context
       if (allocated(error)) error%message = context//': '//error%message
    end subroutine add_context
+
+   !> The answer, where somebody is there to ask.
+   logical function asked(give_up)
+      procedure(asked_to_stop), optional :: give_up
+      asked = .false.
+      if (present(give_up)) asked = give_up()
+   end function asked
 end module errors

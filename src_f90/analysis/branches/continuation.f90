@@ -2,8 +2,7 @@
 !> the branch in the plane across it by Newton's method, so that a branch is followed where it turns back (a fold).
 module continuation
    use kinds, only: wp
-   use errors, only: error_type, stopped
-   use damped_newton, only: asked_to_stop
+   use errors, only: error_type, stopped, asked_to_stop
    use newton_method, only: branch_problem_type, branch_point_type, newton_options, correct
    implicit none (type, external)
    private

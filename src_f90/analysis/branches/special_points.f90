@@ -2,9 +2,8 @@
 !> parameter is known closely.
 module special_points
    use kinds, only: wp
-   use errors, only: error_type, stopped
+   use errors, only: error_type, stopped, asked_to_stop
    use roots, only: root_bracket
-   use damped_newton, only: asked_to_stop
    use newton_method, only: branch_problem_type, branch_point_type, correct
    use continuation, only: branch_options, return_to
    implicit none (type, external)

@@ -3,9 +3,8 @@
 module newton_method
    use kinds, only: wp
    use text, only: to_text
-   use errors, only: error_type, raise, add_context, numerics_error, stopped
+   use errors, only: error_type, raise, add_context, numerics_error, stopped, asked_to_stop, asked
    use lapack, only: dgesv
-   use damped_newton, only: asked_to_stop, asked
    implicit none (type, external)
    private
    public :: branch_problem_type, branch_point_type, newton_options, correct, can_be_of

@@ -2,10 +2,9 @@
 module orbit_march
    use kinds, only: wp, i8
    use text, only: to_text
-   use errors, only: error_type, raise, add_context, numerics_error, stopped
+   use errors, only: error_type, raise, add_context, numerics_error, stopped, asked_to_stop, asked
    use marching, only: march_options
    use cvode_integrator, only: integrator_type
-   use damped_newton, only: asked_to_stop, asked
    use orbit_polynomials, only: orbit_type, points, place
    implicit none (type, external)
    private

@@ -3,12 +3,11 @@
 module periodic_orbit
    use kinds, only: wp, i8, pi
    use text, only: to_text
-   use errors, only: error_type, add_context, numerics_error
+   use errors, only: error_type, add_context, numerics_error, asked_to_stop
    use marching, only: march_options
    use integrator_counts, only: integrator_counts_type
    use cvode_integrator, only: integrator_type
    use equations_of_motion, only: bearing_model
-   use damped_newton, only: asked_to_stop
    use orbit_polynomials, only: orbit_type, points, place
    use newton_method, only: newton_options, branch_point_type, correct
    use parametric_ode, only: parametric_ode_type

@@ -5,14 +5,14 @@ module damped_newton
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use text, only: to_text
-   use errors, only: error_type, raise, numerics_error, stopped
+   use errors, only: error_type, raise, numerics_error, stopped, asked_to_stop, asked
    use lapack, only: dgesv
    use equations_of_motion, only: bearing_model
    use force_balance, only: forces, force_derivatives, masses
    implicit none (type, external)
    private
-   public :: follow_motion, unbalanced, reference_force, clearances, asked_to_stop, asked, next_time_step, &
-      & residual_limit, newtons, longest_move, shortest_move, trace
+   public :: follow_motion, unbalanced, reference_force, clearances, next_time_step, residual_limit, &
+      & newtons, longest_move, shortest_move, trace
 
    !> Unbalanced force over the reference force at rest.
    real(wp), parameter :: residual_limit = 1e-8_wp
@@ -28,12 +28,6 @@ module damped_newton
    real(wp), parameter :: shortest_move = 1e-12_wp
    !> Trace of damping for pads whose film has ruptured everywhere, over mass and speed.
    real(wp), parameter :: trace = 1e-3_wp
-
-   abstract interface
-      !> True once the search is to be given up.
-      logical function asked_to_stop()
-      end function asked_to_stop
-   end interface
 
 contains
 
@@ -189,12 +183,6 @@ contains
       end do
       y = trial
    end subroutine take_step
-
-   logical function asked(give_up)
-      procedure(asked_to_stop), optional :: give_up
-      asked = .false.
-      if (present(give_up)) asked = give_up()
-   end function asked
 
    !> Assembled clearance in the unit of each position (tilt: at the pad's edge).
    pure function clearances(model)

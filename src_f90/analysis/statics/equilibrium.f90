@@ -7,9 +7,9 @@
 !> the journal by suction.
 module equilibrium
    use kinds, only: wp
-   use errors, only: error_type, raise, numerics_error, stopped
+   use errors, only: error_type, raise, numerics_error, stopped, asked_to_stop, asked
    use equations_of_motion, only: bearing_model
-   use damped_newton, only: follow_motion, unbalanced, asked_to_stop, asked, newtons, residual_limit
+   use damped_newton, only: follow_motion, unbalanced, newtons, residual_limit
    use small_vibrations, only: stability_at
    use pad_elimination, only: eliminate_pads
    use pad_rest, only: find_rests

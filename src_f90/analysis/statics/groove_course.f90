@@ -4,12 +4,11 @@
 module groove_course
    use kinds, only: wp, rpm
    use text, only: to_text
-   use errors, only: error_type, add_context
+   use errors, only: error_type, add_context, asked_to_stop
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
    use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance
    use viscosity_course, only: viscosity_course_type, new_viscosity_course
    use equations_of_motion, only: bearing_model
-   use damped_newton, only: asked_to_stop
    use static_model, only: make_static
    use warm_oil, only: come_to_warm_rest, find_losses
    implicit none (type, external)

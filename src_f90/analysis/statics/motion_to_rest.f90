@@ -1,10 +1,9 @@
 !> The motion itself as the way to rest: without unbalance and friction it ends where a stable equilibrium is.
 module motion_to_rest
    use kinds, only: wp, pi
-   use errors, only: error_type
+   use errors, only: error_type, asked_to_stop, asked
    use cvode_integrator, only: integrator_type, integrator_options
    use equations_of_motion, only: bearing_model
-   use damped_newton, only: asked_to_stop, asked
    implicit none (type, external)
    private
    public :: march_to_rest

@@ -2,12 +2,13 @@
 !> a time step of its own; then the journal moves under what the pads answer. A light pad that hunts holds up no other.
 module pad_elimination
    use kinds, only: wp
+   use errors, only: asked_to_stop, asked
    use two_equations, only: solved
    use kinematics, only: journal_motion, pad_state, tilt_column, tilt_rate_column, penetration_column, &
       & penetration_rate_column
    use equations_of_motion, only: bearing_model
    use force_balance, only: forces
-   use damped_newton, only: asked_to_stop, asked, reference_force, next_time_step, longest_move, shortest_move, trace
+   use damped_newton, only: reference_force, next_time_step, longest_move, shortest_move, trace
    implicit none (type, external)
    private
    public :: eliminate_pads, pad_balance, hold_second, unbalanced_forces, film_of, pad_limit

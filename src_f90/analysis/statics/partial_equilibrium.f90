@@ -3,9 +3,8 @@
 module partial_equilibrium
    use kinds, only: wp
    use text, only: to_text
-   use errors, only: error_type, raise, numerics_error, stopped
+   use errors, only: error_type, raise, numerics_error, stopped, asked_to_stop, asked
    use equations_of_motion, only: bearing_model
-   use damped_newton, only: asked_to_stop, asked
    use pad_elimination, only: eliminate_pads
    use static_model, only: equilibrium_type, describe, make_static, make_quick, start, starts
    use warm_oil, only: has_warm_oil, guess_oil, come_to_warm_rest

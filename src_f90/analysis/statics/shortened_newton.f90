@@ -2,10 +2,11 @@
 !> without inertia leaves, such as that of pads which pull, or which balance with the journal but not alone.
 module shortened_newton
    use kinds, only: wp
+   use errors, only: asked_to_stop, asked
    use lapack, only: dgesv
    use equations_of_motion, only: bearing_model
    use force_balance, only: forces, force_derivatives
-   use damped_newton, only: unbalanced, reference_force, clearances, asked_to_stop, asked, longest_move, residual_limit
+   use damped_newton, only: unbalanced, reference_force, clearances, longest_move, residual_limit
    implicit none (type, external)
    private
    public :: shorten_newton

@@ -7,8 +7,8 @@ module static_model
    use kinematics, only: journal_motion, pad_frame, pad_state
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
-   use errors, only: error_type, stopped
-   use damped_newton, only: follow_motion, asked_to_stop, residual_limit, newtons
+   use errors, only: error_type, stopped, asked_to_stop
+   use damped_newton, only: follow_motion, residual_limit, newtons
    use small_vibrations, only: stability_type
    implicit none (type, external)
    private

@@ -3,12 +3,11 @@
 module warm_oil
    use kinds, only: wp
    use text, only: to_text
-   use errors, only: error_type, raise, numerics_error
+   use errors, only: error_type, raise, numerics_error, asked_to_stop, asked
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
    use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance
    use oil_properties, only: viscosity
    use equations_of_motion, only: bearing_model
-   use damped_newton, only: asked_to_stop, asked
    use static_model, only: come_to_rest, start
    implicit none (type, external)
    private

@@ -1,9 +1,8 @@
 !> What a bearing is to a rotor that vibrates little: stiffness and damping, modes, the threshold of stability.
 module bearing_coefficients
    use kinds, only: wp
-   use errors, only: error_type, raise, numerics_error, stopped
+   use errors, only: error_type, raise, numerics_error, stopped, asked_to_stop, asked
    use equations_of_motion, only: bearing_model
-   use damped_newton, only: asked_to_stop, asked
    use small_vibrations, only: stability_at
    use static_model, only: equilibrium_type, describe
    use warm_oil, only: come_to_warm_rest

@@ -3,11 +3,10 @@
 module stability_threshold
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp
-   use errors, only: error_type
+   use errors, only: error_type, asked_to_stop, asked
    use roots, only: root_bracket
    use operating_point, only: operating_point_type
    use equations_of_motion, only: bearing_model
-   use damped_newton, only: asked_to_stop, asked
    use warm_oil, only: come_to_warm_rest
    use linear_bearing, only: linear_bearing_type, linearize
    use vibration_modes, only: find_growths
