@@ -28,12 +28,14 @@ contains
       integer(i8), intent(in) :: steps
       real(wp), intent(in), optional :: y(:)
       type(bearing_model) :: static
-      associate (integration => model%scene%integration, tolerance => options%absolute_tolerance)
+      associate (integration => model%scene%integration)
          options%relative_tolerance = integration%relative_tolerance
          options%absolute_tolerance = integration%relative_tolerance*integration%tolerance_scale*model%scale
          options%max_step = integration%max_step
          options%max_steps = integration%max_steps - steps
          options%short_step = 2*pi/(model%scene%highest_speed()*many_steps)
+      end associate
+      associate (tolerance => options%absolute_tolerance)
          if (model%smooth()) options%derivatives_age = smooth_derivatives_age
          if (.not. model%layout%radial) then
             tolerance = rigid_tolerance*tolerance
