@@ -394,7 +394,7 @@ format: python
 	$(VENV)/bin/ruff check --fix --config post/pyproject.toml post tests docs
 	$(VENV)/bin/ruff format --config post/pyproject.toml post tests docs
 
-docs: run
+docs: run $(addprefix $(B)/tests/,test_film_accuracy test_fixed_pads test_losses)
 	@{ cat docs/inputs_head.md; $(B)/bin/tiltpad --reference; } > docs/inputs.md
 	$(venv_python) docs/modules.py
 	$(venv_python) docs/api.py > build/api.md && mv build/api.md docs/

@@ -1,4 +1,4 @@
-"""Draws the films of a run over the cells of the film table that they visit (docs/theory.md, *The table*).
+"""Draws the films of a run over the cells of the film table that they visit (docs/theory/film.md).
 
 usage: cells.py RESULT.h5 PICTURE.png
 """
@@ -20,7 +20,7 @@ OCTAVE_PARTS, T_PARTS = 2, 8
 
 def films(run: tiltpad.Run) -> tuple[np.ndarray, np.ndarray]:
     """Film thicknesses at the leading and trailing edge over the clearance, (time, pad, edge), and T, (time,
-    pad), in the last revolution; by docs/theory.md, *Frames*, *Film* and *The table*. T is over 1 or below 0
+    pad), in the last revolution; by docs/theory/film.md. T is over 1 or below 0
     where a film has gone or is whole.
     """
     bearing, pads = run.input["bearing"], run.input["pads"]

@@ -23,7 +23,7 @@ module random_films
    type :: film_state
       type(pad_gap_type) :: gap
       type(film_motion) :: motion
-      !> Thickest over thinnest; share of the film that diverges (docs/theory.md, *The table*); pressure at the leading
+      !> Thickest over thinnest; share of the film that diverges (docs/theory/film.md); pressure at the leading
       !> edge over the highest of the film without it, tension or pressure.
       real(wp) :: inclination = 1, t = 0, supply = 0
       !> Thinnest film, m; force, N, and highest pressure, Pa, of the film in the same position that is just whole,

@@ -1,5 +1,5 @@
 !> Contact between pad and journal where the film is thinner than four times their roughness: the asperities' pressure
-!> by Greenwood and Tripp, with boundary friction (docs/theory.md, *Asperity contact*).
+!> by Greenwood and Tripp, with boundary friction (docs/theory/dynamics_and_friction.md, *Asperity contact*).
 !>
 !> The thickness does not depend on the axial coordinate, so a load is an integral along the part of the arc where the
 !> film is so thin. Where it is thicker all over, there is no load, exactly.

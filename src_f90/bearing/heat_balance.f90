@@ -1,5 +1,5 @@
 !> Temperatures of the oil, one a pad, from the heat that its film makes and the oil that flows through it: carried over
-!> from pad to pad, and exchanged with the shaft (docs/theory.md, *Warm oil*).
+!> from pad to pad, and exchanged with the shaft (docs/theory/heat.md, *Pad temperatures*).
 !>
 !> Along a film of conductance H to the shaft, through which a flow of heat capacity m passes, N = H/m, with
 !> f = (1 - exp(-N))/N and g = (1 - f)/N,

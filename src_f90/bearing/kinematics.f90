@@ -1,4 +1,4 @@
-!> From the state of journal and pad to the motion of the journal seen from the pad (docs/theory.md).
+!> From the state of journal and pad to the motion of the journal seen from the pad (docs/theory/film.md).
 module kinematics
    use kinds, only: wp
    use film_solver, only: film_motion

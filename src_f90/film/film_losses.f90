@@ -1,5 +1,5 @@
 !> Power that a film turns into heat, what turns the journal against it, and the flows through its edges
-!> (docs/theory.md, *Loss and flow*).
+!> (docs/theory/heat.md).
 !>
 !> Shear makes mu U^2/h of heat by the sliding of the journal's surface (Couette) and h^3/(12 mu) |grad p|^2 by what
 !> pressure drives. With the velocity w that drives the film (middle_frame) the second integrates to -w . F, F the force

@@ -34,7 +34,7 @@ module cvode_integrator
       real(wp) :: max_step = 0
       !> Steps after which the derivatives are taken anew (CVODE: 51): they are cheap, and fresh they save steps.
       integer :: derivatives_age = 5
-      !> Whether orders are lowered where BDF is found unstable, for light modes (docs/theory.md); the highest.
+      !> Whether orders are lowered where BDF is found unstable, for light modes (docs/theory); the highest.
       logical :: lowers_orders = .false.
       integer :: max_order = 5
       !> Whether the outputs of the model are wanted between the ends of steps.
@@ -76,7 +76,7 @@ module cvode_integrator
       final :: finish_last
    end type integrator_type
 
-   !> Newton's iteration ends where its correction passes the error test (CVODE: 0.1 of it; docs/theory.md).
+   !> Newton's iteration ends where its correction passes the error test (CVODE: 0.1 of it; docs/theory).
    real(c_double), parameter :: newton_coefficient = 1
    !> Failures of the error test in one step (CVODE: 7): enough to pass a small jump of the forces.
    integer(c_int), parameter :: max_failures = 20

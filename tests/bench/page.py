@@ -199,7 +199,7 @@ time is wall time without sampling, divided by the number of right-hand sides.
 ![Wall seconds per second of simulated time](images/bench_peers.png)
 
 Other programs march `steady_lugre` on this machine in the same hour, from the same equilibrium and with the
-same equations ([theory.md](theory.md)). Both are in `tests/bench/`:
+same equations ([theory](theory/film.md)). Both are in `tests/bench/`:
 
 - **SciPy**: `solve_ivp(method='BDF')`. Numba compiles the right-hand side and the film. The film uses
   projected over-relaxation on 60 x 15 cells, starts from the previous pressure, and stops when a sweep

@@ -136,7 +136,7 @@ contains
 
    !> Long bearings: Sommerfeld's force, without rupture, and half of the film, Guembel's. The ends cost a length that
    !> does not grow with the bearing, and what they do beyond that falls off exponentially: errors fall by half with L/D
-   !> doubled, and the extrapolated force errs as the modes do, 1e-4 (docs/theory.md).
+   !> doubled, and the extrapolated force errs as the modes do, 1e-4 (docs/theory/film.md).
    subroutine long_bearing()
       real(wp), parameter :: e(3) = [0.2_wp, 0.5_wp, 0.8_wp]
       type(scene_type) :: scene

@@ -36,7 +36,7 @@ def test_the_equilibrium_is_as_archived(run, scene):
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_rebuilt_forces_are_those_archived(run, scene):
-    """A sample is the polynomial of the step through the values at its ends (docs/theory.md), not a film
+    """A sample is the polynomial of the step through the values at its ends (docs/theory), not a film
     solved there, and the states for the rebuilt film are CVODE's interpolation. Both are as accurate as the
     march, 1e-5 of the scales of the states at the default tolerance; squeeze makes it several times that of
     the range of the force. The samples come from tables of converged films, the rebuilt ones from `direct`,

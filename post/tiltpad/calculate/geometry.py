@@ -80,7 +80,7 @@ def surfaces(case: Case, state: State, points: int = 91) -> Surfaces:
     arc, ratio = np.radians(of_pads(case, "arc_deg")), of_pads(case, "pivot_ratio")
     machined, back = bearing["machined_clearance"], of_pads(case, "pivot_distance")
     phi = np.linspace(-(1 - ratio) * arc, ratio * arc, points).T
-    # the journal from the pivot, in the pad's own directions (docs/theory.md)
+    # the journal from the pivot, in the pad's own directions (docs/theory/film.md)
     own, reach = pivot - state.tilt, bearing["journal_radius"] + back + state.penetration
     y = state.journal[0] - (reach + bearing["assembled_clearance"]) * np.sin(pivot)
     z = state.journal[1] - (reach + bearing["assembled_clearance"]) * np.cos(pivot)

@@ -1,4 +1,4 @@
-!> Film by axial modes: exact in the axial direction wherever nothing cavitates (docs/theory.md).
+!> Film by axial modes: exact in the axial direction wherever nothing cavitates (docs/theory/film.md).
 !>
 !> With the pressure above ambient as sum_k b_k u_k(phi) cos(lambda_k Z), lambda_k = (2k-1) pi/L and
 !> b_k = -4 (-1)^k/((2k-1) pi), the Reynolds equation (times R^2) separates into

@@ -1,6 +1,6 @@
 !> The ruptured film of a pad as a table: force = S M v, as if the film were whole and driven by v = w + |w_1| d, with d
 !> a function of the film thicknesses at both edges and of T, the part of the arc where the film diverges
-!> (docs/theory.md, *The table*).
+!> (docs/theory/film.md, *The table*).
 !>
 !> Cells are boxes with a node at every corner, which neighbours share. A cell is cut in eight where the film at its
 !> middle differs too much from what its corners say. The film of a node is solved on its own; so a cell is the same,

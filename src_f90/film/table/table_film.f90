@@ -1,4 +1,4 @@
-!> Films as tables, built where the motion goes (docs/theory.md, *The table*).
+!> Films as tables, built where the motion goes (docs/theory/film.md, *The table*).
 !>
 !> The whole film comes from one table; where it ruptures, another adds what rupture changes. Pads of the same shape
 !> share their tables. What no table has, films that nearly close and those that may rupture with different pressures

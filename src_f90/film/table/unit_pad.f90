@@ -1,4 +1,4 @@
-!> A pad in numbers without dimension: what its film depends on, and nothing else (docs/theory.md, *The table*).
+!> A pad in numbers without dimension: what its film depends on, and nothing else (docs/theory/film.md, *The table*).
 !>
 !> The frame is that of the pad's middle, lengths along the film are over the pad's radius R, film thicknesses over the
 !> machined clearance c. Wedge and squeeze drive a film together, by the velocity

@@ -1,5 +1,5 @@
 !> The whole film of a pad as a table: force = S M w, with a symmetric M of three functions of the film thicknesses at
-!> both edges (docs/theory.md, *The table*), and that of a pressure at the leading edge.
+!> both edges (docs/theory/film.md, *The table*), and that of a pressure at the leading edge.
 !>
 !> Both are analytic, so one polynomial stands for them over half an octave of either thickness; where it does not, next
 !> to a film that closes, a cell is cut in four. A cell is built when a motion first enters it, from the axial modes
