@@ -1,15 +1,18 @@
 !> The paper's bearing (Dyk et al. 2023, Tables 1 and 2) as the modules take it that know no scene.
 module paper_bearing
    use kinds, only: wp, degree
+   use film_solver, only: film_oil
    use pad_gap, only: pad_gap_type
    use contact_law, only: contact_law_type, make_contact_law
    implicit none (type, external)
    private
    public :: paper_pad, offset_pad, paper_law
-   public :: speed, clearance
+   public :: speed, clearance, paper_oil
 
    !> Shaft speed of 6,494 rpm, rad/s; machined clearance, m.
    real(wp), parameter :: speed = 680, clearance = 100e-6_wp
+   !> The oil of its films.
+   type(film_oil), parameter :: paper_oil = film_oil(19e-3_wp)
 
 contains
 
@@ -17,8 +20,8 @@ contains
    !> length (default: the paper's).
    pure type(pad_gap_type) function paper_pad(pressures, length)
       real(wp), intent(in), optional :: pressures(3), length
-      paper_pad = pad_gap_type(49.9e-3_wp, clearance, 0.1_wp, 0.5_wp*69.3_wp*degree, 0.5_wp*69.3_wp*degree, 19e-3_wp, &
-         & 0.0_wp, 0.0_wp, 0.0_wp)
+      paper_pad = pad_gap_type(49.9e-3_wp, clearance, 0.1_wp, 0.5_wp*69.3_wp*degree, 0.5_wp*69.3_wp*degree, 0.0_wp, &
+         & 0.0_wp, 0.0_wp)
       if (present(pressures)) then
          paper_pad%supply_pressure = pressures(1)
          paper_pad%ambient_pressure = pressures(2)

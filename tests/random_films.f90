@@ -10,6 +10,7 @@ module random_films
    use elimination_film, only: elimination_film_type, new_elimination_film
    use unit_pad, only: unit_pad_type, new_unit_pad
    use check, only: between
+   use paper_bearing, only: paper_oil
    implicit none (type, external)
    private
    public :: film_state, random_film, volumes_type, new_volumes, extrapolated, field_points, shown, shaft_speed
@@ -49,7 +50,7 @@ contains
          pivot = between(0.3_wp, 0.7_wp)
          associate (gap => state%gap, motion => state%motion)
             gap = pad_gap_type(49.9e-3_wp, 5e-6_wp*40**between(0.0_wp, 1.0_wp), 0.1_wp*0.25_wp*8**between(0.0_wp, &
-               & 1.0_wp), pivot*arc, (1 - pivot)*arc, 19e-3_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+               & 1.0_wp), pivot*arc, (1 - pivot)*arc, 0.0_wp, 0.0_wp, 0.0_wp)
             h = 1 - thin*(thick/thin)**[between(0.0_wp, 1.0_wp), between(0.0_wp, 1.0_wp)]
             motion%position = gap%machined_clearance/sin(arc)*[h(1)*cos(gap%trailing_angle) - h(2) &
                & *cos(gap%leading_angle), h(1)*sin(gap%trailing_angle) + h(2)*sin(gap%leading_angle)]
@@ -94,7 +95,7 @@ contains
       type(modal_film_type) :: film
       type(film_response) :: r(1)
       film = converged_film(state%gap, .false., 1e-4_wp)
-      call film%evaluate([state%motion], shaft_speed, .false., r)
+      call film%evaluate([state%motion], [paper_oil], shaft_speed, .false., r)
       state%force = max(state%force, norm2(r(1)%force))
       state%pressure = max(state%pressure, r(1)%max_pressure, -r(1)%min_pressure)
    end subroutine measure
@@ -152,7 +153,7 @@ contains
             & *[((real(half - i, wp)/half)**2, i=0, half)]
          grid = new_elimination_film(gap, columns, rows, middle(gap) + angles)
       end associate
-      call grid%evaluate(state%motion, shaft_speed, ruptures, .true., unused, r)
+      call grid%evaluate(state%motion, paper_oil, shaft_speed, ruptures, .true., unused, r)
       volumes = volumes_type(r%force, r%derivatives, r%max_pressure)
    end function new_volumes
 

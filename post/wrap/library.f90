@@ -62,7 +62,7 @@ contains
          ! one state is not worth a table
          if (scene%film%solver == 'auto') scene%film%solver = 'direct'
          model = new_bearing_model(scene)
-         if (all(viscosity > 0)) call model%bearing%set_viscosity(viscosity)
+         if (all(viscosity > 0)) model%oil%viscosity = viscosity
          y = model%state(journal_motion(journal(:2), journal(3:4)), &
             & [(pad_state(tilt(1, i), tilt(2, i), penetration(1, i), penetration(2, i)), i=1, pads)])
          call model%evaluate(time, y, .false., ok)
@@ -80,7 +80,7 @@ contains
          max_pressure = samples%max_pressure
          min_film_thickness = samples%min_film_thickness
          z = 0.5_c_double*scene%bearing%axial_length*across
-         call model%pressure_field(time, phi, z, pressure)
+         call model%pressure_field(phi, z, pressure)
       end if
       call tell(error, status, message)
    end subroutine film_pressure
@@ -108,12 +108,12 @@ contains
          ! no film of the model is solved
          if (scene%film%solver == 'auto') scene%film%solver = 'direct'
          model = new_bearing_model(scene)
-         if (all(viscosity > 0)) call model%bearing%set_viscosity(viscosity)
+         if (all(viscosity > 0)) model%oil%viscosity = viscosity
          finder = new_bearing_losses(scene)
          do k = 1, n
             call finder%find(model%bearing, journal_motion(journal(:2, k), journal(3:4, k)), &
                & [(pad_state(tilt(1, i, k), tilt(2, i, k), penetration(1, i, k), penetration(2, i, k)), i=1, pads)], &
-               & model%point%speed(time(k)), found)
+               & model%oil, model%point%speed(time(k)), found)
             do i = 1, pads
                associate (pad => found(i))
                   losses(:, i, k) = [pad%load, pad%couette, pad%pressure, pad%boundary, pad%journal_drag, &

@@ -127,7 +127,7 @@ contains
          call find_equilibrium(run%model, static, error, stop_requested)
          call add_context(error, 'the oil takes the temperatures of the equilibrium')
          if (allocated(error)) return
-         call run%model%bearing%set_viscosity(static%viscosity)
+         run%model%oil%viscosity = static%viscosity
          at_rest = run%model%at_rest(static%journal, static%tilt, static%penetration)
       end if
       call begin_oil(run%model, b, at_rest)

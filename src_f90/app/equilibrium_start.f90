@@ -55,7 +55,7 @@ contains
       type(case_run_type), intent(inout) :: run
       type(equilibrium_type), intent(in) :: static
       type(static_figures_type) :: figures
-      call run%model%bearing%set_viscosity(static%viscosity)
+      run%model%oil%viscosity = static%viscosity
       call put_equilibrium(run%file%file, static, run%scene%tilting(), run%scene%tilting_radial())
       call find_static_figures(run%model, static, figures)
       call put_figures(run%file%file, run%scene, figures)

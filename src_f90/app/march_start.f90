@@ -68,8 +68,8 @@ contains
    subroutine note_oil(run)
       type(case_run_type), intent(inout) :: run
       if (run%scene%about%task == 'branch') return
-      if (has_warm_oil(run%model)) call put_viscosity(run%file, run%model%bearing%pads%gap%viscosity)
-      if (run%model%oil%runs()) call put_course(run%file, run%model%oil)
+      if (has_warm_oil(run%model)) call put_viscosity(run%file, run%model%oil%viscosity)
+      if (run%model%oil_course%runs()) call put_course(run%file, run%model%oil_course)
    end subroutine note_oil
 
    !> Gives warm oil the viscosities of the equilibrium, which it keeps in a march that starts elsewhere or goes on from
@@ -89,7 +89,7 @@ contains
          call find_equilibrium(run%model, static, error, stop_requested)
       end if
       if (.not. allocated(error)) then
-         call run%model%bearing%set_viscosity(static%viscosity)
+         run%model%oil%viscosity = static%viscosity
          y = run%model%at_rest(static%journal, static%tilt, static%penetration)
          call let_grooves_warm(run, y, error)
          if (present(at_rest)) at_rest = y
@@ -109,7 +109,7 @@ contains
       if (run%scene%thermal%march /= 'groove' .or. .not. abs(run%model%point%acceleration) > 0) return
       call find_groove_course(run%model, y, run%scene%operation%duration, course, error, stop_requested)
       if (allocated(error)) return
-      run%model%oil = course
+      run%model%oil_course = course
    end subroutine let_grooves_warm
 
    !> State and time, s, of the checkpoint in the file.
@@ -161,7 +161,7 @@ contains
       journal%position = static%journal
       pads%tilt = static%tilt
       pads%penetration = static%penetration
-      call run%model%bearing%set_viscosity(static%viscosity)
+      run%model%oil%viscosity = static%viscosity
       do i = 1, size(held)
          if (held(i) .and. .not. run%quiet) print '(a)', 'pad '//to_text(i)//' has no rest position: it starts ' &
             & //'without tilt on its pivot'

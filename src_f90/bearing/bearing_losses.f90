@@ -3,7 +3,7 @@ module bearing_losses
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp
    use scene, only: scene_type
-   use film_solver, only: film_motion, film_ok
+   use film_solver, only: film_motion, film_oil, film_ok
    use film_losses, only: film_losses_type, film_loss
    use asperity_contact, only: asperity_load
    use kinematics, only: journal_motion, pad_state
@@ -51,12 +51,14 @@ contains
       power = self%couette + self%pressure + self%boundary
    end function power
 
-   !> Of every pad in a state, the speed in rad/s. What a pad lacks whose film is closed or not found is no number.
-   subroutine find(self, bearing, journal, pads, speed, losses)
+   !> Of every pad in a state, with the oil of each, the speed in rad/s. What a pad lacks whose film is closed or not
+   !> found is no number.
+   subroutine find(self, bearing, journal, pads, oil, speed, losses)
       class(bearing_losses_type), intent(inout) :: self
       type(tilting_pad_bearing_type), intent(in) :: bearing
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: pads(:)
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed
       type(pad_loss), intent(out) :: losses(:)
       type(film_motion) :: motion
@@ -68,8 +70,7 @@ contains
             motion = pad%motion(pad%frame(journal, pads(i)), journal, pads(i))
             call bearing%asperities%evaluate(pad%gap, pad%directions, motion, speed, asperity)
             if (asperity%touches) motion%position = asperity%film_position
-            call self%films(i)%set_viscosity(pad%gap%viscosity)
-            call self%films(i)%find(motion, speed, film)
+            call self%films(i)%find(motion, oil(i), speed, film)
             losses(i) = of_pad(pad, speed, film, asperity)
          end associate
       end do

@@ -3,7 +3,6 @@
 module components
    use kinds, only: wp, degree
    use scene, only: scene_type
-   use oil_properties, only: reference_viscosity
    use pad_gap, only: pad_gap_type
    use film_solver, only: film_solver_type
    use modal_film, only: new_modal_film
@@ -135,7 +134,7 @@ contains
          do i = 1, size(gaps)
             gaps(i) = pad_gap_type(b%journal_radius, b%machined_clearance, b%axial_length, &
                & p%pivot_ratio(i)*p%arc_deg(i)*degree, (1 - p%pivot_ratio(i))*p%arc_deg(i)*degree, &
-               & reference_viscosity(scene), b%supply_pressure, b%ambient_pressure, b%cavitation_pressure)
+               & b%supply_pressure, b%ambient_pressure, b%cavitation_pressure)
          end do
       end associate
    end function new_gaps

@@ -1,11 +1,12 @@
-!> A bearing of tilting pads: the motion of the journal, the states of the pads and the speed go in, the loads of
-!> every pad and their derivatives come out. One evaluation of the film solver serves all pads.
+!> A bearing of tilting pads: the motion of the journal, the states of the pads, their oil and the speed go in, the
+!> loads of every pad and their derivatives come out. One evaluation of the film solver serves all pads.
 module tilting_pad_bearing
    use kinds, only: wp, i8
    use clock, only: wall_clock
    use text, only: to_text
    use scene, only: scene_type
-   use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_not_converged
+   use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_counters, &
+      & film_not_converged
    use asperity_contact, only: asperity_load
    use contact_table, only: contact_table_type
    use friction, only: no_friction
@@ -41,9 +42,9 @@ module tilting_pad_bearing
       logical :: rubs = .true.
       class(film_solver_type), allocatable, private :: film
       type(contact_table_type), private :: contact
-      !> Speed of the state evaluated last, rad/s.
+      !> Of the state evaluated last: speed, rad/s, and oil of the pads; frames and motions.
       real(wp), private :: speed = 0
-      !> Of the state evaluated last.
+      type(film_oil), allocatable, private :: oil(:)
       type(pad_frame), allocatable, private :: frame(:)
       type(film_motion), allocatable, private :: motion(:)
       !> Motions at which the films are taken: those of the journal, but where it touches a pad.
@@ -65,7 +66,6 @@ module tilting_pad_bearing
       procedure :: films_rupture
       procedure :: films_converge
       procedure :: set_rupture
-      procedure :: set_viscosity
       procedure :: set_accuracy
       procedure, private :: evaluate_films
       procedure, private :: set_loads
@@ -88,7 +88,7 @@ contains
       call make_contact(scene, bearing%contact)
       associate (n => scene%pad_count())
          allocate (bearing%loads(n), bearing%derivatives(n), bearing%frame(n), bearing%motion(n), &
-            & bearing%asperity(n), bearing%film_motion(n), bearing%response(n))
+            & bearing%asperity(n), bearing%film_motion(n), bearing%oil(n), bearing%response(n))
       end associate
    end function new_tilting_pad_bearing
 
@@ -102,7 +102,6 @@ contains
       type(tilting_pad_type) :: before(size(self%pads))
       before = self%pads
       call self%set_parts(scene)
-      call self%film%set_viscosity(self%pads%gap%viscosity)
       call self%film%forget()
       if (any(before%gap%differs(self%pads%gap))) then
          call make_film(scene, film)
@@ -112,13 +111,14 @@ contains
       if (pivots_differ) call make_contact(scene, self%contact)
    end subroutine adopt
 
-   !> Sets the loads in a state, the speed in rad/s, and their derivatives where they are wanted. Refuses a state whose
-   !> film is closed or did not converge, or whose pad has turned over: then `refusal` says why. Loads of pads that are
-   !> not chosen stay what they are.
-   subroutine evaluate(self, journal, pads, speed, want_derivatives, refusal, ok, chosen)
+   !> Sets the loads in a state, with the oil of each pad, the speed in rad/s, and their derivatives where they are
+   !> wanted. Refuses a state whose film is closed or did not converge, or whose pad has turned over: then `refusal`
+   !> says why. Loads of pads that are not chosen stay what they are.
+   subroutine evaluate(self, journal, pads, oil, speed, want_derivatives, refusal, ok, chosen)
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: pads(:)
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       character(len=:), allocatable, intent(inout) :: refusal
@@ -138,7 +138,7 @@ contains
          self%film_motion(i) = self%motion(i)
          if (self%asperity(i)%touches) self%film_motion(i)%position = self%asperity(i)%film_position
       end do
-      call self%evaluate_films(speed, want_derivatives, chosen)
+      call self%evaluate_films(oil, speed, want_derivatives, chosen)
       do i = 1, size(self%pads)
          if (skipped(i)) cycle
          ok = admitted(self%pads(i), pads(i), self%response(i))
@@ -155,8 +155,9 @@ contains
    end subroutine evaluate
 
    !> The films at the motions set; some evaluations are timed, for all.
-   subroutine evaluate_films(self, speed, want_derivatives, chosen)
+   subroutine evaluate_films(self, oil, speed, want_derivatives, chosen)
       class(tilting_pad_bearing_type), intent(inout) :: self
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       logical, intent(in), optional :: chosen(:)
@@ -164,10 +165,11 @@ contains
       logical :: timed
       integer :: i
       self%speed = speed
+      self%oil(:) = oil
       timed = mod(self%evaluations, timing_stride) == 0
       ! tables are built now and then: their time must not count for evaluations without
       if (timed) started = wall_clock() - self%film%counters%building
-      call self%film%evaluate(self%film_motion, speed, want_derivatives, self%response, chosen)
+      call self%film%evaluate(self%film_motion, oil, speed, want_derivatives, self%response, chosen)
       if (timed) self%film%counters%seconds = self%film%counters%seconds &
          & + timing_stride*(wall_clock() - self%film%counters%building - started)
       self%evaluations = self%evaluations + 1
@@ -207,7 +209,7 @@ contains
       real(wp) :: output(pad_outputs*size(self%pads))
       real(wp) :: added(2)
       integer :: i, k
-      call self%film%take_pressures(self%film_motion, self%speed, self%response)
+      call self%film%take_pressures(self%film_motion, self%oil, self%speed, self%response)
       do i = 1, size(self%pads)
          associate (film => self%response(i), derivatives => self%derivatives(i)%film)
             added = 0
@@ -249,7 +251,7 @@ contains
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(pad_sample) :: sampled(size(self%pads))
       integer :: i
-      call self%film%take_pressures(self%film_motion, self%speed, self%response)
+      call self%film%take_pressures(self%film_motion, self%oil, self%speed, self%response)
       do i = 1, size(self%pads)
          associate (film => self%response(i), loads => self%loads(i))
             sampled(i) = pad_sample(loads%contact, self%pads(i)%ball_radius*loads%friction%force, film%force, &
@@ -259,12 +261,12 @@ contains
    end function sampled
 
    !> Pressure of every film in the state evaluated last, Pa, (axial position, angle, pad), at angles from the pivot,
-   !> rad, (angle, pad), and distances from the middle plane, m; speed in rad/s.
-   subroutine pressure_field(self, speed, phi, z, pressure)
+   !> rad, (angle, pad), and distances from the middle plane, m.
+   subroutine pressure_field(self, phi, z, pressure)
       class(tilting_pad_bearing_type), intent(inout) :: self
-      real(wp), intent(in) :: speed, phi(:, :), z(:)
+      real(wp), intent(in) :: phi(:, :), z(:)
       real(wp), intent(out) :: pressure(:, :, :)
-      call self%film%field(self%film_motion, speed, phi, z, pressure)
+      call self%film%field(self%film_motion, self%oil, self%speed, phi, z, pressure)
    end subroutine pressure_field
 
    !> Names the pad whose film was nearly closed in the state evaluated last, if there is one; else empty.
@@ -325,14 +327,6 @@ contains
       logical, intent(in) :: allowed
       call self%film%set_rupture(allowed)
    end subroutine set_rupture
-
-   !> Gives the oil on every pad another viscosity, Pa s.
-   subroutine set_viscosity(self, viscosity)
-      class(tilting_pad_bearing_type), intent(inout) :: self
-      real(wp), intent(in) :: viscosity(:)
-      self%pads%gap%viscosity = viscosity
-      call self%film%set_viscosity(viscosity)
-   end subroutine set_viscosity
 
    !> Makes iterative film solutions at least so close, with as many sweeps as this at least.
    subroutine set_accuracy(self, tolerance, max_sweeps)

@@ -7,7 +7,7 @@
 !> discretisations, a loaded pad keeps the modes' accuracy, and an empty pad is left to the finite volumes alone.
 module direct_film
    use kinds, only: wp
-   use film_solver, only: film_solver_type, film_motion, film_response, film_ok
+   use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_ok
    use pad_gap, only: pad_gap_type
    use modal_film, only: modal_film_type, new_modal_film
    use elimination_film, only: elimination_film_type, new_elimination_film
@@ -41,7 +41,6 @@ module direct_film
    contains
       procedure :: ruptures
       procedure :: set_rupture
-      procedure :: set_viscosity
       procedure :: forget
       procedure :: evaluate
       procedure :: field
@@ -85,14 +84,6 @@ contains
       call self%modal%set_rupture(allowed)
    end subroutine set_rupture
 
-   pure subroutine set_viscosity(self, viscosity)
-      class(direct_film_type), intent(inout) :: self
-      real(wp), intent(in) :: viscosity(:)
-      self%gaps%viscosity = viscosity
-      call self%modal%set_viscosity(viscosity)
-      if (allocated(self%volumes)) self%volumes%grid%gap%viscosity = viscosity
-   end subroutine set_viscosity
-
    pure subroutine forget(self)
       class(direct_film_type), intent(inout) :: self
       integer :: i
@@ -102,9 +93,10 @@ contains
       end do
    end subroutine forget
 
-   subroutine evaluate(self, motion, speed, want_derivatives, response, chosen)
+   subroutine evaluate(self, motion, oil, speed, want_derivatives, response, chosen)
       class(direct_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_response), intent(inout) :: response(:)
@@ -113,7 +105,7 @@ contains
       real(wp) :: force(2)
       integer :: i
       logical :: few
-      call self%modal%evaluate(motion, speed, want_derivatives, response, chosen)
+      call self%modal%evaluate(motion, oil, speed, want_derivatives, response, chosen)
       do i = 1, size(motion)
          if (present(chosen)) then
             if (.not. chosen(i)) cycle
@@ -126,15 +118,15 @@ contains
          self%counters%volumes = self%counters%volumes + 1
          few = .false.
          if (.not. share_of_modes(self%cavitation_pressure(i), response(i)) < 1) then
-            call self%volumes(i)%force_of_rupture(motion(i), speed, self%counters, force, few)
+            call self%volumes(i)%force_of_rupture(motion(i), oil(i), speed, self%counters, force, few)
          end if
          if (few) then
             if (want_derivatives) response(i)%derivatives = response(i)%derivatives &
-               & + derivatives_of_rupture(self, i, motion(i), speed, force)
+               & + derivatives_of_rupture(self, i, motion(i), oil(i), speed, force)
             response(i)%force = response(i)%force + force
             response(i)%min_pressure = self%cavitation_pressure(i)
          else
-            call change_of_rupture(self, i, motion(i), speed, want_derivatives, response(i), changed)
+            call change_of_rupture(self, i, motion(i), oil, speed, want_derivatives, response(i), changed)
             response(i) = changed
          end if
       end do
@@ -142,10 +134,11 @@ contains
 
    !> Derivatives of what slight rupture adds to a pad's force, by differences: it is solved exactly, and cheaper
    !> four times than its adjoints once. Where a neighbour is not slight any more its derivative is left out.
-   function derivatives_of_rupture(self, i, motion, speed, force) result(derivatives)
+   function derivatives_of_rupture(self, i, motion, oil, speed, force) result(derivatives)
       class(direct_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed, force(2)
       real(wp) :: derivatives(2, 4), step(4), near(2)
       integer :: k
@@ -153,16 +146,17 @@ contains
       step = steps(self%clearance(i), speed)
       derivatives = 0
       do k = 1, 4
-         call self%volumes(i)%force_of_rupture(moved(motion, k, step(k)), speed, self%counters, near, few)
+         call self%volumes(i)%force_of_rupture(moved(motion, k, step(k)), oil, speed, self%counters, near, few)
          if (few) derivatives(:, k) = (near - force)/step(k)
       end do
    end function derivatives_of_rupture
 
    !> Derivatives of c of a pad, by differences of the pressures of its modes.
-   function derivatives_of_share(self, i, motion, speed, c) result(derivatives)
+   function derivatives_of_share(self, i, motion, oil, speed, c) result(derivatives)
       class(direct_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed, c
       real(wp) :: derivatives(4), step(4)
       type(film_motion) :: near(size(self%gaps))
@@ -172,7 +166,7 @@ contains
       derivatives = 0
       do k = 1, 4
          near = moved(motion, k, step(k))
-         call self%modal%evaluate(near, speed, .false., modal, [(n == i, n=1, size(near))])
+         call self%modal%evaluate(near, oil, speed, .false., modal, [(n == i, n=1, size(near))])
          if (modal(i)%status == film_ok) derivatives(k) = &
             & (share_of_modes(self%cavitation_pressure(i), modal(i)) - c)/step(k)
       end do
@@ -196,10 +190,11 @@ contains
    end function moved
 
    !> A pad's ruptured film by elimination, from that of the modes.
-   subroutine change_of_rupture(self, i, motion, speed, want_derivatives, modal, ruptured)
+   subroutine change_of_rupture(self, i, motion, oil, speed, want_derivatives, modal, ruptured)
       class(direct_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_response), intent(in) :: modal
@@ -208,14 +203,14 @@ contains
       real(wp) :: c, differing(2), slopes(4)
       integer :: k
       c = share_of_modes(self%cavitation_pressure(i), modal)
-      call self%volumes(i)%evaluate(motion, speed, .true., want_derivatives, self%counters, ruptured)
+      call self%volumes(i)%evaluate(motion, oil(i), speed, .true., want_derivatives, self%counters, ruptured)
       if (ruptured%status /= film_ok .or. .not. c > 0) return
-      call self%volumes(i)%evaluate(motion, speed, .false., want_derivatives, self%counters, whole)
+      call self%volumes(i)%evaluate(motion, oil(i), speed, .false., want_derivatives, self%counters, whole)
       differing = modal%force - whole%force
       ruptured%force = ruptured%force + c*differing
       if (want_derivatives) ruptured%derivatives = ruptured%derivatives + c*(modal%derivatives - whole%derivatives)
       if (want_derivatives .and. c < 1 .and. norm2(differing) > coarse*norm2(ruptured%force)) then
-         slopes = derivatives_of_share(self, i, motion, speed, c)
+         slopes = derivatives_of_share(self, i, motion, oil, speed, c)
          do k = 1, 4
             ruptured%derivatives(:, k) = ruptured%derivatives(:, k) + slopes(k)*differing
          end do
@@ -241,29 +236,32 @@ contains
       if (tension < height) c = min(1.0_wp, (1 - tension/height)/(1 - loaded_tension))
    end function share_of_modes
 
-   subroutine field(self, motion, speed, phi, z, pressure)
+   subroutine field(self, motion, oil, speed, phi, z, pressure)
       class(direct_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed, phi(:, :), z(:)
       real(wp), intent(out) :: pressure(:, :, :)
-      call rebuild(self, .false., motion, speed, phi, z, pressure)
+      call rebuild(self, .false., motion, oil, speed, phi, z, pressure)
    end subroutine field
 
    !> The field, where it ruptures as accurate as the force from tables.
-   subroutine fine_field(self, motion, speed, phi, z, pressure)
+   subroutine fine_field(self, motion, oil, speed, phi, z, pressure)
       class(direct_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed, phi(:, :), z(:)
       real(wp), intent(out) :: pressure(:, :, :)
-      call rebuild(self, .true., motion, speed, phi, z, pressure)
+      call rebuild(self, .true., motion, oil, speed, phi, z, pressure)
    end subroutine fine_field
 
    !> The field. Where the film ruptures, that of volumes that follow it; or as the force: that of the finite volumes
    !> with rupture and, outside the rupture, c times (modes - finite volumes without rupture).
-   subroutine rebuild(self, follows, motion, speed, phi, z, pressure)
+   subroutine rebuild(self, follows, motion, oil, speed, phi, z, pressure)
       class(direct_film_type), intent(inout) :: self
       logical, intent(in) :: follows
       type(film_motion), intent(in) :: motion(:)
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed, phi(:, :), z(:)
       real(wp), intent(out) :: pressure(:, :, :)
       type(elimination_film_type) :: film
@@ -271,8 +269,8 @@ contains
       real(wp), dimension(size(z), size(phi, 1)) :: ruptured, whole
       real(wp) :: c
       integer :: i
-      call self%modal%evaluate(motion, speed, .false., response)
-      call self%modal%field(motion, speed, phi, z, pressure)
+      call self%modal%evaluate(motion, oil, speed, .false., response)
+      call self%modal%field(motion, oil, speed, phi, z, pressure)
       if (.not. self%projects) return
       do i = 1, size(motion)
          associate (lowest => self%cavitation_pressure(i))
@@ -280,11 +278,11 @@ contains
                pressure(:, :, i) = max(lowest, pressure(:, :, i))
             else if (follows) then
                film = new_following_film(self%gaps(i), motion(i), speed, fine_rows)
-               call film%field(motion(i), speed, .true., phi(:, i), z, pressure(:, :, i))
+               call film%field(motion(i), oil(i), speed, .true., phi(:, i), z, pressure(:, :, i))
             else
                c = share_of_modes(lowest, response(i))
-               call self%volumes(i)%field(motion(i), speed, .true., phi(:, i), z, ruptured)
-               call self%volumes(i)%field(motion(i), speed, .false., phi(:, i), z, whole)
+               call self%volumes(i)%field(motion(i), oil(i), speed, .true., phi(:, i), z, ruptured)
+               call self%volumes(i)%field(motion(i), oil(i), speed, .false., phi(:, i), z, whole)
                where (ruptured > lowest) ruptured = max(lowest, ruptured + c*(pressure(:, :, i) - whole))
                pressure(:, :, i) = ruptured
             end if

@@ -11,7 +11,7 @@
 !> far the ruptured part is filled.
 module film_losses
    use kinds, only: wp
-   use film_solver, only: film_motion, film_response, film_counters, film_ok
+   use film_solver, only: film_motion, film_oil, film_response, film_counters, film_ok
    use pad_gap, only: pad_gap_type, pad_directions
    use film_grid, only: film_grid_type
    use elimination_film, only: elimination_film_type
@@ -54,7 +54,6 @@ module film_losses
       !> Of the volumes of a ruptured film.
       integer :: rows
    contains
-      procedure :: set_viscosity
       procedure :: find
       procedure, private :: whole_film
       procedure, private :: add_rupture
@@ -93,41 +92,33 @@ contains
       self%trailing = converged_film(edge, .false., tolerance)
    end function new_film_losses
 
-   !> Gives the oil another viscosity, Pa s.
-   pure subroutine set_viscosity(self, viscosity)
-      class(film_losses_type), intent(inout) :: self
-      real(wp), intent(in) :: viscosity
-      self%gap%viscosity = viscosity
-      call self%whole%set_viscosity([viscosity])
-      call self%leading%set_viscosity([viscosity])
-      call self%trailing%set_viscosity([viscosity])
-   end subroutine set_viscosity
-
    !> Loss and flows at a motion and a journal speed, rad/s. Where the film is closed only the status is set.
-   subroutine find(self, motion, speed, loss)
+   subroutine find(self, motion, oil, speed, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(film_loss), intent(out) :: loss
       type(film_response) :: response(1)
       type(driven_film) :: driven
-      call self%whole%evaluate([motion], speed, .false., response)
+      call self%whole%evaluate([motion], [oil], speed, .false., response)
       loss%status = response(1)%status
       if (loss%status /= film_ok) return
       driven%force = response(1)%force
-      call self%whole_film(motion, speed, driven, loss)
+      call self%whole_film(motion, oil, speed, driven, loss)
       if (self%reynolds .or. self%gumbel) then
-         if (is_ruptured(self%gap%cavitation_pressure, response(1))) call self%add_rupture(motion, speed, &
-            & response(1), driven, loss)
+         if (is_ruptured(self%gap%cavitation_pressure, response(1))) call self%add_rupture(motion, oil, &
+            & speed, response(1), driven, loss)
       end if
       loss%force = driven%force
       call self%set_heat(motion, speed, driven, loss)
    end subroutine find
 
    !> Shear of sliding of the whole film, what pressure drives in at its leading edge, and the other flows.
-   subroutine whole_film(self, motion, speed, driven, loss)
+   subroutine whole_film(self, motion, oil, speed, driven, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(driven_film), intent(inout) :: driven
       type(film_loss), intent(inout) :: loss
@@ -135,16 +126,16 @@ contains
       real(wp) :: w(2), thickness(2), out, flows(2)
       associate (gap => self%gap, d => self%directions, radius => self%gap%pad_radius(), &
          & surface => speed*self%gap%journal_radius)
-         loss%couette = gap%viscosity*surface**2*radius*gap%axial_length/gap%machined_clearance &
+         loss%couette = oil%viscosity*surface**2*radius*gap%axial_length/gap%machined_clearance &
             & *span(motion%position/gap%machined_clearance, d%middle, d%half)
          w = motion%velocity + wedge_velocity(self, motion, speed)
-         call self%trailing%evaluate([mirrored(motion)], 0.0_wp, .false., response)
+         call self%trailing%evaluate([mirrored(motion)], [oil], 0.0_wp, .false., response)
          out = -dot_product(w, [-response(1)%force(1), response(1)%force(2)])
-         call self%leading%evaluate([at_rest(motion)], 0.0_wp, .false., response)
+         call self%leading%evaluate([at_rest(motion)], [oil], 0.0_wp, .false., response)
          driven%inlet = dot_product(w, response(1)%force)
          associate (rise => gap%supply_pressure - gap%ambient_pressure)
             if (abs(rise) > 0) then
-               flows = rise*self%leading%supply_flows()
+               flows = rise*self%leading%supply_flows(oil)
                driven%inlet = driven%inlet + flows(1)
                out = out + flows(2)
             end if
@@ -185,9 +176,10 @@ contains
    end function wedge_velocity
 
    !> Makes the film that of volumes with rupture and, like direct_film, a share c of (modes - volumes without rupture).
-   subroutine add_rupture(self, motion, speed, modal, driven, loss)
+   subroutine add_rupture(self, motion, oil, speed, modal, driven, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       !> That of the modes.
       type(film_response), intent(in) :: modal
@@ -199,7 +191,7 @@ contains
       integer :: k, status
       do k = 1, 2
          volumes(k) = new_following_film(self%gap, motion, speed, k*(self%rows/2))
-         call by_volumes(self, volumes(:k), motion, speed, whole(k), ruptured(k), status)
+         call by_volumes(self, volumes(:k), motion, oil, speed, whole(k), ruptured(k), status)
          loss%status = max(loss%status, status)
       end do
       c = share_of_modes(self%gap%cavitation_pressure, modal)
@@ -216,10 +208,11 @@ contains
 
    !> The film on the last of these volumes that follow it, without and with rupture; in the film before, if there is
    !> one, rupture was found already.
-   subroutine by_volumes(self, volumes, motion, speed, whole, ruptured, status)
+   subroutine by_volumes(self, volumes, motion, oil, speed, whole, ruptured, status)
       class(film_losses_type), intent(in) :: self
       type(elimination_film_type), intent(inout) :: volumes(:)
       type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(volume_flow_type), intent(out) :: whole, ruptured
       integer, intent(out) :: status
@@ -228,16 +221,16 @@ contains
       type(film_counters) :: counters
       real(wp), allocatable :: pressure(:, :), film(:, :)
       associate (surface => speed*self%gap%journal_radius, finest => volumes(size(volumes)))
-         call finest%evaluate(motion, speed, .false., .false., counters, response)
+         call finest%evaluate(motion, oil, speed, .false., .false., counters, response)
          call finest%cells(grid, pressure, film)
-         whole = flows_of_volumes(grid, surface, pressure, film > 0)
+         whole = flows_of_volumes(grid, oil, surface, pressure, film > 0)
          if (self%reynolds) then
             if (size(volumes) > 1) call finest%start_from(volumes(1))
-            call finest%evaluate(motion, speed, .true., .false., counters, response)
+            call finest%evaluate(motion, oil, speed, .true., .false., counters, response)
             call finest%cells(grid, pressure, film)
-            ruptured = flows_of_volumes(grid, surface, pressure, film > 0)
+            ruptured = flows_of_volumes(grid, oil, surface, pressure, film > 0)
          else
-            ruptured = flows_of_volumes(grid, surface, pressure, pressure > 0)
+            ruptured = flows_of_volumes(grid, oil, surface, pressure, pressure > 0)
          end if
       end associate
       status = response%status

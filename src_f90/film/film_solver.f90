@@ -4,14 +4,20 @@ module film_solver
    use kinds, only: wp, i8
    implicit none (type, external)
    private
-   public :: film_solver_type, film_motion, film_response, film_counters
+   public :: film_solver_type, film_motion, film_oil, film_response, film_counters
    public :: film_ok, film_closed, film_not_converged
 
-   !> Motion of the journal seen from a pad; with the speed, all that the film force depends on.
+   !> Motion of the journal seen from a pad; with the speed and the oil, all that the film force depends on.
    type :: film_motion
       !> (e_y', e_z'), m, and its rate, m/s, in the pad frame.
       real(wp) :: position(2) = 0, velocity(2) = 0
    end type film_motion
+
+   !> The oil in a pad's film.
+   type :: film_oil
+      !> Dynamic viscosity, Pa s.
+      real(wp) :: viscosity = 0
+   end type film_oil
 
    integer, parameter :: film_ok = 0, film_closed = 1, film_not_converged = 2
 
@@ -51,7 +57,6 @@ module film_solver
       procedure(evaluate_field), deferred :: field
       procedure(can_rupture), deferred :: ruptures
       procedure(choose_rupture), deferred :: set_rupture
-      procedure(change_viscosity), deferred :: set_viscosity
       procedure :: set_accuracy
       procedure :: forget
       procedure :: take_pressures
@@ -59,12 +64,13 @@ module film_solver
    end type film_solver_type
 
    abstract interface
-      !> The film of every pad at a motion each and a journal speed, rad/s; the answers of pads that are not chosen
-      !> stay what they are.
-      subroutine evaluate_film(self, motion, speed, want_derivatives, response, chosen)
-         import :: film_solver_type, film_motion, film_response, wp
+      !> The film of every pad at a motion and with an oil each, and a journal speed, rad/s; the answers of pads that
+      !> are not chosen stay what they are.
+      subroutine evaluate_film(self, motion, oil, speed, want_derivatives, response, chosen)
+         import :: film_solver_type, film_motion, film_oil, film_response, wp
          class(film_solver_type), intent(inout) :: self
          type(film_motion), intent(in) :: motion(:)
+         type(film_oil), intent(in) :: oil(:)
          real(wp), intent(in) :: speed
          logical, intent(in) :: want_derivatives
          type(film_response), intent(inout) :: response(:)
@@ -85,19 +91,13 @@ module film_solver
          logical, intent(in) :: allowed
       end subroutine choose_rupture
 
-      !> Gives the oil in every pad's film another viscosity, Pa s.
-      pure subroutine change_viscosity(self, viscosity)
-         import :: film_solver_type, wp
-         class(film_solver_type), intent(inout) :: self
-         real(wp), intent(in) :: viscosity(:)
-      end subroutine change_viscosity
-
       !> Pressure of every pad's film, Pa, (axial position, angle, pad), at a motion each that leaves the film open,
       !> and a journal speed, rad/s.
-      subroutine evaluate_field(self, motion, speed, phi, z, pressure)
-         import :: film_solver_type, film_motion, wp
+      subroutine evaluate_field(self, motion, oil, speed, phi, z, pressure)
+         import :: film_solver_type, film_motion, film_oil, wp
          class(film_solver_type), intent(inout) :: self
          type(film_motion), intent(in) :: motion(:)
+         type(film_oil), intent(in) :: oil(:)
          !> Angles from the pivot of a pad, rad, (angle, pad), and distances from the middle plane, m, on the pads.
          real(wp), intent(in) :: speed, phi(:, :), z(:)
          real(wp), intent(out) :: pressure(:, :, :)
@@ -121,11 +121,12 @@ contains
       class(film_solver_type), intent(inout) :: self
    end subroutine forget
 
-   !> Sets minimum and maximum pressure in the answers of the last evaluation, at the same motions and speed, where
+   !> Sets minimum and maximum pressure in the answers of the last evaluation, at the same motions, oil and speed, where
    !> `evaluate` has left them out.
-   subroutine take_pressures(self, motion, speed, response)
+   subroutine take_pressures(self, motion, oil, speed, response)
       class(film_solver_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed
       type(film_response), intent(inout) :: response(:)
    end subroutine take_pressures

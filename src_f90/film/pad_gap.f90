@@ -9,14 +9,12 @@ module pad_gap
    private
    public :: pad_gap_type, pad_directions
 
-   !> Geometry, oil and boundary pressures of one pad's film.
+   !> Geometry and boundary pressures of one pad's film.
    type :: pad_gap_type
       !> Journal radius R_J, machined clearance c_m, axial length L, m.
       real(wp) :: journal_radius, machined_clearance, axial_length
       !> Angles from the pivot to the leading and trailing edge, theta_1 and theta_2, rad, > 0.
       real(wp) :: leading_angle, trailing_angle
-      !> Dynamic viscosity, Pa s.
-      real(wp) :: viscosity
       !> Pressure at the leading edge, at the other edges, and where the film ruptures, Pa.
       real(wp) :: supply_pressure, ambient_pressure, cavitation_pressure
    contains
@@ -36,7 +34,7 @@ module pad_gap
 
 contains
 
-   !> True where two gaps are not the same, whatever oil is in them.
+   !> True where two gaps are not the same.
    elemental logical function differs(self, other)
       class(pad_gap_type), intent(in) :: self, other
       differs = any(abs(numbers(self) - numbers(other)) > 0)

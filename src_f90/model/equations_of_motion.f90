@@ -3,7 +3,8 @@ module equations_of_motion
    use kinds, only: wp
    use scene, only: scene_type
    use operating_point, only: operating_point_type
-   use film_solver, only: film_counters
+   use oil_properties, only: reference_viscosity
+   use film_solver, only: film_oil, film_counters
    use kinematics, only: journal_motion, pad_state
    use tilting_pad_bearing, only: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
    use rigid_journal, only: rigid_journal_type
@@ -33,8 +34,9 @@ module equations_of_motion
       type(state_layout_type) :: layout
       type(rigid_journal_type) :: rotor
       type(tilting_pad_bearing_type) :: bearing
-      !> Of the oil where it warms or cools in a motion.
-      type(viscosity_course_type) :: oil
+      !> The oil of each pad, and its course where it warms or cools in a motion.
+      type(film_oil), allocatable :: oil(:)
+      type(viscosity_course_type) :: oil_course
       !> Natural size of each state.
       real(wp), allocatable :: scale(:)
       type(newton_system_type), private :: newton
@@ -72,6 +74,7 @@ contains
       n = scene%pad_count()
       model%scene = scene
       model%bearing = new_tilting_pad_bearing(scene)
+      model%oil = spread(film_oil(reference_viscosity(scene)), 1, n)
       model%rotor%mass = scene%rotor%mass
       model%layout = new_state_layout(model%rotor%states, n, scene%tilting(), scene%tilting_radial(), &
          & model%bearing%friction%has_bristle)
@@ -103,6 +106,7 @@ contains
             & a%young_modulus - b%young_modulus, a%poisson_ratio - b%poisson_ratio]) > 0))
       end associate
       self%scene = scene
+      self%oil = film_oil(reference_viscosity(scene))
       self%rotor%mass = scene%rotor%mass
       point = operating_point_type(scene)
       if (.not. self%point%friction) point = point%static()
@@ -152,12 +156,8 @@ contains
       logical, intent(in) :: want_derivatives
       logical, intent(out) :: ok
       logical, intent(in), optional :: chosen(:)
-      real(wp) :: viscosity(self%layout%pads)
-      if (self%oil%runs()) then
-         call self%oil%at(t, viscosity)
-         call self%bearing%set_viscosity(viscosity)
-      end if
-      call self%bearing%evaluate(self%rotor%journal(y(:self%rotor%states)), self%layout%pad_states(y), &
+      if (self%oil_course%runs()) call self%oil_course%at(t, self%oil%viscosity)
+      call self%bearing%evaluate(self%rotor%journal(y(:self%rotor%states)), self%layout%pad_states(y), self%oil, &
          & self%point%speed(t), want_derivatives, self%refusal, ok, chosen)
    end subroutine evaluate
 
@@ -314,13 +314,13 @@ contains
       smooth = self%bearing%smooth()
    end function smooth
 
-   !> Pressure of every film at (t, y), where the model was evaluated, Pa, (axial position, angle, pad), at angles from
-   !> the pivot, rad, (angle, pad), and distances from the middle plane, m.
-   subroutine pressure_field(self, t, phi, z, pressure)
+   !> Pressure of every film where the model was evaluated last, Pa, (axial position, angle, pad), at angles from the
+   !> pivot, rad, (angle, pad), and distances from the middle plane, m.
+   subroutine pressure_field(self, phi, z, pressure)
       class(bearing_model), intent(inout) :: self
-      real(wp), intent(in) :: t, phi(:, :), z(:)
+      real(wp), intent(in) :: phi(:, :), z(:)
       real(wp), intent(out) :: pressure(:, :, :)
-      call self%bearing%pressure_field(self%point%speed(t), phi, z, pressure)
+      call self%bearing%pressure_field(phi, z, pressure)
    end subroutine pressure_field
 
    !> What the films have cost so far.

@@ -18,6 +18,7 @@ program film_bench
       & cavitation_reynolds
    use contact_law, only: contact_law_type, make_contact_law
    use contact_table, only: contact_table_type, new_contact_table
+   use paper_bearing, only: paper_oil
    implicit none (type, external)
 
    !> Journal speed, rad/s; the paper's machined clearance, m.
@@ -30,8 +31,8 @@ program film_bench
    integer, parameter :: pads = 2
    type(pad_gap_type) :: films(pads)
 
-   films = pad_gap_type(49.9e-3_wp, clearance, 100e-3_wp, 0.5_wp*69.3_wp*degree, 0.5_wp*69.3_wp*degree, 19e-3_wp, &
-      & 0.0_wp, 0.0_wp, 0.0_wp)
+   films = pad_gap_type(49.9e-3_wp, clearance, 100e-3_wp, 0.5_wp*69.3_wp*degree, 0.5_wp*69.3_wp*degree, 0.0_wp, &
+      & 0.0_wp, 0.0_wp)
    write (output_unit, '(a)') 'film,condition,state,derivatives,microseconds,error,sweeps'
    call compare('whole', [-0.35_wp, 0.5_wp], cavitation_none, 'none')
    call compare('corner ruptured', [-0.19_wp, 0.5_wp], cavitation_reynolds, 'reynolds')
@@ -144,7 +145,7 @@ contains
       type(film_response) :: response(pads)
       integer :: k
       do k = 0, round - 1
-         call film%evaluate(spread(motions(k), 1, pads), speed, .false., response)
+         call film%evaluate(spread(motions(k), 1, pads), spread(paper_oil, 1, pads), speed, .false., response)
          found(:, k) = response(1)%force
       end do
    end subroutine forces
@@ -168,7 +169,7 @@ contains
          call system_clock(start, rate)
          do
             do k = 0, round - 1
-               call film%evaluate(places(:, k), speed, want_derivatives, response)
+               call film%evaluate(places(:, k), spread(paper_oil, 1, pads), speed, want_derivatives, response)
             end do
             rounds = rounds + 1
             call system_clock(finish)

@@ -7,7 +7,7 @@ program test_cavitation
    use film_grid, only: film_grid_type, new_film_grid
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel, &
       & cavitation_reynolds
-   use paper_bearing, only: offset_pad, speed, clearance
+   use paper_bearing, only: paper_oil, offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -38,7 +38,7 @@ contains
       type(film_response), intent(out) :: r
       solver = new_sor_film([pad(rupture)], sor_options(nx, nz, tolerance=tolerance, max_sweeps=100000, &
          & cavitation=cavitation))
-      call solver%evaluate_pad(1, motion, speed, .false., r)
+      call solver%evaluate_pad(1, motion, paper_oil, speed, .false., r)
       call expect(r%status == film_ok, 'the film converges')
    end subroutine solve
 
@@ -75,9 +75,9 @@ contains
             flows = left*merge(film%ambient_pressure, p(max(1, i - 1), j), i == 1) &
                & + right*merge(film%supply_pressure, p(min(nx, i + 1), j), i == nx) + side(1)*p(i, max(1, j - 1)) &
                & + side(2)*merge(film%ambient_pressure, p(i, min(nz, j + 1)), j == nz)
-            flows = flows + 6*film%viscosity*speed*film%journal_radius*r &
+            flows = flows + 6*paper_oil%viscosity*speed*film%journal_radius*r &
                & *(thickness(motion, phi + d/2) - thickness(motion, phi - d/2))/d &
-               & + 12*film%viscosity*r**2*(motion%velocity(1)*sin(phi) + motion%velocity(2)*cos(phi))
+               & + 12*paper_oil%viscosity*r**2*(motion%velocity(1)*sin(phi) + motion%velocity(2)*cos(phi))
             change(i, j) = flows/sum_of - p(i, j)
          end do
       end do

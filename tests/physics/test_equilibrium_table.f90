@@ -5,7 +5,7 @@ program test_equilibrium_table
    use text, only: to_text
    use errors, only: error_type, numerics_error
    use scene, only: scene_type
-   use film_solver, only: film_motion, film_response
+   use film_solver, only: film_oil, film_motion, film_response
    use pad_gap, only: pad_gap_type
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_reynolds
    use equations_of_motion, only: new_bearing_model
@@ -142,7 +142,7 @@ contains
       found = found_in(scene)
       associate (b => scene%bearing, p => scene%pads)
          film = pad_gap_type(b%journal_radius, b%machined_clearance, b%axial_length, 0.55_wp*69.3_wp*degree, &
-            & 0.45_wp*69.3_wp*degree, b%viscosity, 0.0_wp, 0.0_wp, 0.0_wp)
+            & 0.45_wp*69.3_wp*degree, 0.0_wp, 0.0_wp, 0.0_wp)
          solver = new_sor_film([film, film], sor_options(tolerance=1e-10_wp, max_sweeps=100000, &
             & cavitation=cavitation_reynolds))
          total = [-2000*9.81_wp + 1e3_wp, 5e3_wp]
@@ -157,6 +157,7 @@ contains
             centre = pivot - (b%journal_radius + b%machined_clearance + p%pivot_distance(pad))*outward
             e = found%journal - centre
             call solver%evaluate_pad(pad, film_motion([dot_product(e, along), dot_product(e, outward)]), &
+               & film_oil(b%viscosity), &
                & scene%highest_speed(), .false., r)
             total = total + r%force(1)*along + r%force(2)*outward
             weight = p%mass(pad)*9.81_wp

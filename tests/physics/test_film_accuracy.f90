@@ -15,6 +15,7 @@ program test_film_accuracy
    use table_film, only: table_film_type, new_table_film
    use random_films, only: film_state, random_film, volumes_type, new_volumes, extrapolated, field_points, &
       & shown, shaft_speed
+   use paper_bearing, only: paper_oil
    use check, only: runs, expect, report
    implicit none (type, external)
 
@@ -107,7 +108,7 @@ contains
       type(modal_film_type) :: film
       type(film_response) :: r(1)
       film = fine_film(state, 1, .false.)
-      call film%evaluate([state%motion], shaft_speed, .true., r)
+      call film%evaluate([state%motion], [paper_oil], shaft_speed, .true., r)
       fine_answer = volumes_type(r(1)%force, r(1)%derivatives, r(1)%max_pressure)
    end function fine_answer
 
@@ -164,12 +165,12 @@ contains
             state = random_film(ranges(range), ranges(range + 1), .false., supplied)
             expected = fine_answer(state)
             film = converged_film(state%gap, .false., usual_error)
-            call film%evaluate([state%motion], shaft_speed, .true., found)
+            call film%evaluate([state%motion], [paper_oil], shaft_speed, .true., found)
             call compare(state, found(1), expected, modes)
             if (i > 10*times) cycle
             tables = new_tables(state, .false., .false., table_tolerances(1))
-            call tables%evaluate([state%motion], shaft_speed, .true., found)
-            call tables%take_pressures([state%motion], shaft_speed, found)
+            call tables%evaluate([state%motion], [paper_oil], shaft_speed, .true., found)
+            call tables%take_pressures([state%motion], [paper_oil], shaft_speed, found)
             call compare(state, found(1), expected, looked_up)
          end do
          call judge('modal'//name, range, modes, [usual_error, 1e-3_wp, 1e-2_wp])
@@ -221,11 +222,11 @@ contains
             state = random_film(ranges(range), ranges(range + 1), .not. supplied, supplied)
             expected = clipped(state)
             film = converged_film(state%gap, .true., usual_error)
-            call film%evaluate([state%motion], shaft_speed, .true., found)
+            call film%evaluate([state%motion], [paper_oil], shaft_speed, .true., found)
             call compare(state, found(1), expected, modes)
             tables = new_tables(state, .false., .true., table_tolerances(1))
-            call tables%evaluate([state%motion], shaft_speed, .true., found)
-            call tables%take_pressures([state%motion], shaft_speed, found)
+            call tables%evaluate([state%motion], [paper_oil], shaft_speed, .true., found)
+            call tables%take_pressures([state%motion], [paper_oil], shaft_speed, found)
             call compare(state, found(1), expected, looked_up)
          end do
          associate (limits => [merge(supply_limits(range), usual_error, supplied), 2e-2_wp, 5e-3_wp])
@@ -313,7 +314,7 @@ contains
       real(wp), intent(inout) :: missing
       type(film_response) :: r(1)
       real(wp) :: force(2)
-      call film%evaluate([state%motion], shaft_speed, .false., r)
+      call film%evaluate([state%motion], [paper_oil], shaft_speed, .false., r)
       ! the middle rule is of second order
       force = (4*field_force(film, state, state%motion, 360) - field_force(film, state, state%motion, 180))/3
       missing = max(missing, norm2(force - r(1)%force)/state%force)
@@ -328,7 +329,7 @@ contains
       real(wp) :: force(2)
       real(wp) :: phi(n, 1), arc(n), z(n/5), width(n/5), p(n/5, n, 1), rows(n)
       call field_points(state, phi(:, 1), arc, z, width)
-      call film%field([motion], shaft_speed, phi, z, p)
+      call film%field([motion], [paper_oil], shaft_speed, phi, z, p)
       rows = matmul(width, p(:, :, 1))*arc
       force = -state%gap%pad_radius()*[dot_product(rows, sin(phi(:, 1))), dot_product(rows, cos(phi(:, 1)))]
    end function field_force
@@ -371,17 +372,17 @@ contains
             expected%derivatives = grids(2)%derivatives
             do k = 1, 2
                direct = new_direct(state, k, .true., .false.)
-               call direct%evaluate([state%motion], shaft_speed, .true., found)
+               call direct%evaluate([state%motion], [paper_oil], shaft_speed, .true., found)
                call compare(state, found(1), expected, of_direct(k))
                sor = new_sor_film([state%gap], sor_options(60*k, 15*k, tolerance=1e-7_wp, max_sweeps=100000, &
                   & cavitation=cavitation_reynolds))
-               call sor%evaluate([state%motion], shaft_speed, .true., found)
+               call sor%evaluate([state%motion], [paper_oil], shaft_speed, .true., found)
                call compare(state, found(1), expected, of_sor(k))
             end do
             if (supplied) cycle
             tables = new_tables(state, .true., .false., table_tolerances(2))
-            call tables%evaluate([state%motion], shaft_speed, .true., found)
-            call tables%take_pressures([state%motion], shaft_speed, found)
+            call tables%evaluate([state%motion], [paper_oil], shaft_speed, .true., found)
+            call tables%take_pressures([state%motion], [paper_oil], shaft_speed, found)
             call compare(state, found(1), expected, looked_up)
          end do
          if (.not. supplied) call judge('auto'//name, range, looked_up, [5*table_tolerances(2), 1e-2_wp, 1e-2_wp])

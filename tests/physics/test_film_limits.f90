@@ -6,7 +6,7 @@ program test_film_limits
    use film_solver, only: film_motion, film_response, film_ok
    use pad_gap, only: pad_gap_type
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none
-   use paper_bearing, only: offset_pad, speed, clearance
+   use paper_bearing, only: paper_oil, offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
@@ -41,7 +41,7 @@ contains
       type(film_response) :: r
       solver = new_sor_film([film], sor_options(nx, 4, tolerance=1e-10_wp, max_sweeps=100000, &
          & cavitation=cavitation_none))
-      call solver%evaluate_pad(1, motion, speed, .false., r)
+      call solver%evaluate_pad(1, motion, paper_oil, speed, .false., r)
       call expect(r%status == film_ok, 'the film converges')
       force = r%force
    end function grid_force
@@ -82,8 +82,8 @@ contains
       ! Simpson's rule: an error of 1e-13
       weight = film%arc()/n/3*[1.0_wp, (merge(4.0_wp, 2.0_wp, mod(k, 2) == 1), k=1, n - 1), 1.0_wp]
       h = clearance - motion%position(1)*sin(phi) - motion%position(2)*cos(phi)
-      flow = -6*film%viscosity*speed*film%journal_radius*r*h &
-         & + 12*film%viscosity*r**2*(motion%velocity(1)*cos(phi) - motion%velocity(2)*sin(phi))
+      flow = -6*paper_oil%viscosity*speed*film%journal_radius*r*h &
+         & + 12*paper_oil%viscosity*r**2*(motion%velocity(1)*cos(phi) - motion%velocity(2)*sin(phi))
       constant = (supply - ambient - sum(weight*flow/h**3))/sum(weight/h**3)
       slope = (flow + constant)/h**3
       exact(1) = -(-(supply*cos(phi(n)) - ambient*cos(phi(0))) + sum(weight*slope*cos(phi)))
@@ -107,16 +107,16 @@ contains
       phi = [(-film%trailing_angle + film%arc()*k/n, k=0, n)]
       weight = film%arc()/n/3*[1.0_wp, (merge(4.0_wp, 2.0_wp, mod(k, 2) == 1), k=1, n - 1), 1.0_wp]
       h = clearance - motion%position(1)*sin(phi) - motion%position(2)*cos(phi)
-      right = -6*film%viscosity*speed*film%journal_radius/film%pad_radius() &
+      right = -6*paper_oil%viscosity*speed*film%journal_radius/film%pad_radius() &
          & *(motion%position(2)*sin(phi) - motion%position(1)*cos(phi)) &
-         & - 12*film%viscosity*(motion%velocity(1)*sin(phi) + motion%velocity(2)*cos(phi))
+         & - 12*paper_oil%viscosity*(motion%velocity(1)*sin(phi) + motion%velocity(2)*cos(phi))
       exact = film%pad_radius()*length**3/12*[sum(weight*right/h**3*sin(phi)), sum(weight*right/h**3*cos(phi))]
       call expect_second_order(film, motion, exact, 'narrow pad')
       force = grid_force(film, motion, 40)
       do k = 2, 12, 5
          solver = new_sor_film([film], sor_options(40, k, tolerance=1e-12_wp, max_sweeps=100000, &
             & cavitation=cavitation_none))
-         call solver%evaluate_pad(1, motion, speed, .false., r)
+         call solver%evaluate_pad(1, motion, paper_oil, speed, .false., r)
          ! solutions to 1e-10, amplified by 1/(1 - Jacobi's radius), 100 at most
          call expect_close(norm2(r%force - force), 0.0_wp, 1e-8_wp*norm2(force), 'parabola on rows '//to_text(k))
       end do
@@ -136,7 +136,7 @@ contains
       film = pad(1e4_wp, supply, ambient)
       solver = new_sor_film([film], sor_options(n, 4, tolerance=1e-12_wp, max_sweeps=100000, &
          & cavitation=cavitation_none))
-      call solver%evaluate_pad(1, film_motion([0.0_wp, 0.0_wp]), 0.0_wp, .false., r)
+      call solver%evaluate_pad(1, film_motion([0.0_wp, 0.0_wp]), paper_oil, 0.0_wp, .false., r)
       p = solver%pressure_field(1)
       expected = [(ambient + (supply - ambient)*(k - 0.5_wp)/n, k=1, n)]
       call expect_close(maxval(abs(p(:, 1) - expected)), 0.0_wp, 1e-7_wp*supply, 'pressure falls from the leading edge')

@@ -7,7 +7,7 @@ program test_film_order
    use pad_gap, only: pad_gap_type
    use sor_film, only: sor_options, new_sor_film, cavitation_none
    use modal_film, only: new_modal_film
-   use paper_bearing, only: paper_pad, speed, clearance
+   use paper_bearing, only: paper_oil, paper_pad, speed, clearance
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
@@ -40,9 +40,9 @@ contains
       step = film%arc()/n
       phi = [(-film%trailing_angle + k*step, k=0, n)]
       h = clearance - motion%position(1)*sin(phi) - motion%position(2)*cos(phi)
-      right = r**2*(-6*film%viscosity*speed*film%journal_radius/r &
+      right = r**2*(-6*paper_oil%viscosity*speed*film%journal_radius/r &
          & *(motion%position(2)*sin(phi) - motion%position(1)*cos(phi)) &
-         & - 12*film%viscosity*(motion%velocity(1)*sin(phi) + motion%velocity(2)*cos(phi)))
+         & - 12*paper_oil%viscosity*(motion%velocity(1)*sin(phi) + motion%velocity(2)*cos(phi)))
       ! h^3 at the middles of the cells, exactly
       above = (clearance - motion%position(1)*sin(phi(1:) - step/2) - motion%position(2)*cos(phi(1:) &
          & - step/2))**3/step**2
@@ -90,7 +90,7 @@ contains
       type(film_motion), intent(in) :: motion
       real(wp) :: force(2)
       type(film_response) :: r(1)
-      call solver%evaluate([motion], speed, .false., r)
+      call solver%evaluate([motion], [paper_oil], speed, .false., r)
       call expect(r(1)%status == film_ok, 'the film converges')
       force = r(1)%force
    end function solver_force

@@ -9,7 +9,7 @@ program test_film_rupture
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel
    use elimination_film, only: elimination_film_type, new_elimination_film
    use direct_film, only: direct_film_type, new_direct_film
-   use paper_bearing, only: offset_pad, speed, clearance
+   use paper_bearing, only: paper_oil, offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
@@ -72,7 +72,7 @@ contains
       class(film_solver_type), intent(inout) :: solver
       type(film_motion), intent(in) :: motion
       type(film_response) :: r(1)
-      call solver%evaluate([motion], speed, .true., r)
+      call solver%evaluate([motion], [paper_oil], speed, .true., r)
       call expect(r(1)%status == film_ok, 'the film has a solution')
       answer = r(1)
    end function answer
@@ -341,8 +341,8 @@ contains
       type(film_counters) :: counters
       type(film_response) :: ruptured, whole
       by_cells = new_elimination_film(pad(path%flooded), columns, rows)
-      call by_cells%evaluate(place(path, angle), speed, .true., .true., counters, ruptured)
-      call by_cells%evaluate(place(path, angle), speed, .false., .true., counters, whole)
+      call by_cells%evaluate(place(path, angle), paper_oil, speed, .true., .true., counters, ruptured)
+      call by_cells%evaluate(place(path, angle), paper_oil, speed, .false., .true., counters, whole)
       left_out = matmul(ruptured%derivatives - whole%derivatives, direction(path, angle))
    end function left_out
 

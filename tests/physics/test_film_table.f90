@@ -14,6 +14,7 @@ program test_film_table
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_reynolds
    use direct_film, only: new_direct_film
    use table_film, only: table_film_type, new_table_film
+   use paper_bearing, only: paper_oil
    use check, only: runs, expect, between, report
    implicit none (type, external)
 
@@ -52,7 +53,7 @@ contains
          arc = between(20.0_wp, 120.0_wp)*degree
          half = 0.5_wp*arc
          state%gap = pad_gap_type(49.9e-3_wp, clearance, 0.1_wp*0.25_wp*8**between(0.0_wp, 1.0_wp), half, half, &
-            & 19e-3_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+            & 0.0_wp, 0.0_wp, 0.0_wp)
          h = least*(most/least)**[between(0.0_wp, 1.0_wp), between(0.0_wp, 1.0_wp)]
          state%motion%position = clearance*[(h(2) - h(1))/(2*sin(half)), (1 - 0.5_wp*sum(h))/cos(half)]
          state%thinnest = state%gap%min_film_thickness(state%motion, state%gap%directions())
@@ -60,7 +61,8 @@ contains
       end do
       state%t = between(-0.3_wp, 1.0_wp)
       film = new_modal_film([state%gap], enough_cells([state%gap]), enough_modes([state%gap]), .false., 1e-5_wp)
-      call film%evaluate([film_motion(state%motion%position, 0.01_wp*[1.0_wp, tan(half)])], 0.0_wp, .false., r)
+      call film%evaluate([film_motion(state%motion%position, 0.01_wp*[1.0_wp, tan(half)])], [paper_oil], 0.0_wp, &
+         & .false., r)
       state%force = norm2(r(1)%force)
       state%motion%velocity = 0.01_wp*[sign(1.0_wp, between(-1.0_wp, 1.0_wp)), tan(half)*(1 - 2*state%t)]
    end function random_state
@@ -76,7 +78,7 @@ contains
          film = new_table_film(gaps, [new_direct_film(gaps, enough_cells(gaps), enough_modes(gaps), 80, 8, &
             & condition == reynolds, condition == gumbel, 1e-4_wp)], condition /= none, condition == gumbel, tolerance)
       end associate
-      call film%evaluate([state%motion], 0.0_wp, .true., r)
+      call film%evaluate([state%motion], [paper_oil], 0.0_wp, .true., r)
       call expect(r(1)%status == film_ok, 'the film is open')
       found = r(1)
    end function looked_up
@@ -95,7 +97,7 @@ contains
          associate (gaps => [state%gap])
             film = new_modal_film(gaps, enough_cells(gaps), enough_modes(gaps), condition == gumbel, 1e-7_wp)
          end associate
-         call film%evaluate([state%motion], 0.0_wp, .true., expected)
+         call film%evaluate([state%motion], [paper_oil], 0.0_wp, .true., expected)
          do k = 1, size(tolerances)
             found = looked_up(state, condition, tolerances(k))
             errors(i, k) = norm2(found%force - expected(1)%force)/state%force
@@ -140,7 +142,7 @@ contains
          state = random_state()
          do k = 1, 3
             grid = new_elimination_film(state%gap, columns(k), rows(k))
-            call grid%evaluate(state%motion, 0.0_wp, .true., .false., unused, r)
+            call grid%evaluate(state%motion, paper_oil, 0.0_wp, .true., .false., unused, r)
             forces(:, k) = r%force
          end do
          doubt = norm2(2*forces(:, 3) - 3*forces(:, 2) + forces(:, 1))/state%force
@@ -170,7 +172,7 @@ contains
          do k = 1, 3
             solver = new_sor_film([state%gap], sor_options(columns(k), rows(k), tolerance=1e-9_wp, max_sweeps=100000, &
                & cavitation=merge(cavitation_reynolds, cavitation_none, condition == reynolds)))
-            call solver%evaluate_pad(1, state%motion, 0.0_wp, .false., r)
+            call solver%evaluate_pad(1, state%motion, paper_oil, 0.0_wp, .false., r)
             call expect(r%status == film_ok, 'over-relaxation converges')
             forces(:, k) = r%force
          end do

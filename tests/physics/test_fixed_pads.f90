@@ -45,7 +45,7 @@ program test_fixed_pads
    use scene, only: scene_type
    use equations_of_motion, only: bearing_model, new_bearing_model
    use force_balance, only: force_derivatives
-   use film_solver, only: film_solver_type, film_motion, film_response
+   use film_solver, only: film_oil, film_solver_type, film_motion, film_response
    use pad_gap, only: pad_gap_type
    use components, only: make_film
    use random_films, only: film_state, volumes_type, new_volumes, extrapolated, shaft_speed
@@ -362,13 +362,13 @@ contains
       associate (b => scene%bearing, arc => scene%pads%arc_deg(1)*degree)
          surface = b%machined_clearance*shaft_speed
          state%gap = pad_gap_type(b%journal_radius, b%machined_clearance, b%axial_length, 0.5_wp*arc, 0.5_wp*arc, &
-            & b%viscosity, 0.0_wp, 0.0_wp, 0.0_wp)
+            & 0.0_wp, 0.0_wp, 0.0_wp)
          state%motion = film_motion(b%machined_clearance*place(1)*[sin(place(2)), cos(place(2))], &
             & surface*drive(1)*[sin(drive(2)), cos(drive(2))])
       end associate
       expected = extrapolated(new_volumes(state, 16, .true.), new_volumes(state, 32, .true.))
       whole = new_volumes(state, 16, .false.)
-      call film%evaluate([state%motion], shaft_speed, .false., found)
+      call film%evaluate([state%motion], [film_oil(bearing%bearing%viscosity)], shaft_speed, .false., found)
       error_of = norm2(found(1)%force - expected%force) &
          & /(norm2(whole%derivatives(:, 3:))*surface*(place(1)/2 + drive(1)))
    end function error_of

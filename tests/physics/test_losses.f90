@@ -5,7 +5,7 @@ program test_losses
    use errors, only: error_type
    use scene, only: scene_type
    use scene_completion, only: complete_scene
-   use film_solver, only: film_motion, film_response, film_counters, film_ok, film_closed
+   use film_solver, only: film_oil, film_motion, film_response, film_counters, film_ok, film_closed
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type
    use elimination_film, only: elimination_film_type, new_elimination_film
@@ -14,7 +14,7 @@ program test_losses
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use static_figures, only: static_figures_type, find_static_figures
-   use paper_bearing, only: paper_pad, offset_pad
+   use paper_bearing, only: paper_oil, paper_pad, offset_pad
    use check, only: runs, expect, expect_close, expect_no_error, between, report
    implicit none (type, external)
 
@@ -55,10 +55,10 @@ contains
       real(wp) :: to_flow, width, surface, drop, carried, filled
       integer :: i, k
       film = new_elimination_film(gap, columns, rows)
-      call film%evaluate(motion, speed, ruptures, .false., unused, response)
+      call film%evaluate(motion, paper_oil, speed, ruptures, .false., unused, response)
       call film%cells(grid, p, cells)
       surface = speed*gap%journal_radius
-      to_flow = grid%d_phi/(12*gap%viscosity*gap%pad_radius())
+      to_flow = grid%d_phi/(12*paper_oil%viscosity*gap%pad_radius())
       loss%force = response%force
       if (ruptures) p(:rows, :) = p(:rows, :)*cells(:rows, :)
       do k = 1, rows
@@ -79,7 +79,7 @@ contains
                carried = surface*grid%h_face(i - 1)/2 + to_flow*grid%along(i - 1)*drop
             end if
             loss%pressure = loss%pressure + width*to_flow*grid%along(i - 1)*drop**2
-            loss%couette = loss%couette + width*gap%pad_radius()*grid%d_phi*gap%viscosity*surface**2*filled &
+            loss%couette = loss%couette + width*gap%pad_radius()*grid%d_phi*paper_oil%viscosity*surface**2*filled &
                & /grid%h_cell(i)
             drop = p(k, i) - grid%ambient
             if (k < rows) drop = p(k, i) - p(k + 1, i)
@@ -107,14 +107,19 @@ contains
       loss%side = (4*loss%side - coarse%side)/3
    end function extrapolated
 
-   type(film_loss) function found(gap, motion, speed, reynolds, gumbel) result(loss)
+   !> With the paper's oil or another.
+   type(film_loss) function found(gap, motion, speed, reynolds, gumbel, oil) result(loss)
       type(pad_gap_type), intent(in) :: gap
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
       logical, intent(in) :: reynolds, gumbel
+      type(film_oil), intent(in), optional :: oil
       type(film_losses_type) :: losses
+      type(film_oil) :: used
+      used = paper_oil
+      if (present(oil)) used = oil
       losses = new_film_losses(gap, reynolds, gumbel)
-      call losses%find(motion, speed, loss)
+      call losses%find(motion, used, speed, loss)
    end function found
 
    !> Largest error of losses over both, and of flows over U h L/2 at the thicker edge and the largest of them.
@@ -171,7 +176,7 @@ contains
       loss = found(gap, film_motion(), shaft_speed, .true., .false.)
       surface = shaft_speed*gap%journal_radius
       associate (area => gap%pad_radius()*gap%arc()*gap%axial_length, c => gap%machined_clearance)
-         call expect_close(loss%couette, gap%viscosity*surface**2*area/c, 1e-12_wp*loss%couette, 'Petroff')
+         call expect_close(loss%couette, paper_oil%viscosity*surface**2*area/c, 1e-12_wp*loss%couette, 'Petroff')
          call expect_close(loss%inlet, surface*c*gap%axial_length/2, 1e-12_wp*loss%inlet, 'in')
          call expect_close(loss%outlet, loss%inlet, 1e-12_wp*loss%inlet, 'out')
       end associate
@@ -341,10 +346,10 @@ contains
       integer :: i
       do i = 1, size(tables, 2)
          length = 2*radius*tables(1, i)
-         associate (gap => pad_gap_type(radius, clearance, length, 0.9999999_wp*pi, 0.9999999_wp*pi, viscosity, &
-            & 0.0_wp, 0.0_wp, 0.0_wp), motion => film_motion([0.0_wp, clearance*tables(2, i)]))
-            loss = found(gap, motion, speed, .true., .false.)
-            whole = found(gap, motion, speed, .false., .false.)
+         associate (gap => pad_gap_type(radius, clearance, length, 0.9999999_wp*pi, 0.9999999_wp*pi, 0.0_wp, &
+            & 0.0_wp, 0.0_wp), motion => film_motion([0.0_wp, clearance*tables(2, i)]))
+            loss = found(gap, motion, speed, .true., .false., film_oil(viscosity))
+            whole = found(gap, motion, speed, .false., .false., film_oil(viscosity))
          end associate
          load = norm2(loss%force)
          friction = (whole%couette + loss%wedge)/(speed*radius*load)*radius/clearance
@@ -379,8 +384,7 @@ contains
          gap = offset_pad()
          motion = film_motion([merge(25e-6_wp, -25e-6_wp, i == 1), 45e-6_wp], [1e-3_wp, 1e-3_wp])
          thin = found(gap, motion, shaft_speed, .true., .false.)
-         gap%viscosity = 3*gap%viscosity
-         thick = found(gap, motion, shaft_speed, .true., .false.)
+         thick = found(gap, motion, shaft_speed, .true., .false., film_oil(3*paper_oil%viscosity))
          call expect(all(abs([thick%couette, thick%pressure, thick%wedge]/[thin%couette, thin%pressure, thin%wedge] &
             & - 3) < 1e-9_wp), 'losses')
          call expect(all(abs([thick%inlet, thick%outlet, thick%side] - [thin%inlet, thin%outlet, thin%side]) &
@@ -424,7 +428,7 @@ contains
       gap = paper_pad([rise, 0.0_wp, 0.0_wp])
       loss = found(gap, film_motion(), 0.0_wp, .false., .false.)
       associate (c => gap%machined_clearance, r => gap%pad_radius(), l => gap%axial_length)
-         unit = rise*c**3/(12*gap%viscosity*r)
+         unit = rise*c**3/(12*paper_oil%viscosity*r)
          inlet = r*4/pi*log(1/tan(pi*c/(2*l)))
          outlet = 0
          do k = 1, 60

@@ -50,7 +50,7 @@ contains
       call find_equilibrium(model, static, error)
       call expect_no_error(error, 'equilibrium')
       if (allocated(error)) return
-      call model%bearing%set_viscosity(static%viscosity)
+      model%oil%viscosity = static%viscosity
       call find_static_figures(model, static, figures)
    end subroutine solve
 

@@ -150,7 +150,7 @@ contains
                motion(s) = motion_at(model%bearing%pads(first(s))%position%centre_distance, tables(s)%rho(j), &
                   & tables(s)%b(k, j))
             end do
-            call film%evaluate(motion, model%point%speed(0.0_wp), .false., response)
+            call film%evaluate(motion, model%oil(first), model%point%speed(0.0_wp), .false., response)
             do s = 1, size(first)
                tables(s)%along(k, j) = response(s)%force(1)
                tables(s)%outward(k, j) = response(s)%force(2)

@@ -51,12 +51,12 @@ contains
       call make('&pads arc_deg=69.3, 60, pivot_ratio=0.5, 0.6 /', model, losses)
       journal = journal_motion([-40e-6_wp, 5e-6_wp], [1e-3_wp, -2e-3_wp])
       pads = [pad_state(-1e-4_wp, 0.1_wp, 7e-6_wp, 1e-3_wp), pad_state(8e-4_wp, -0.1_wp, 6e-6_wp, 0.0_wp)]
-      call losses%find(model%bearing, journal, pads, speed, found)
+      call losses%find(model%bearing, journal, pads, model%oil, speed, found)
       do i = 1, 2
          associate (pad => model%bearing%pads(i))
             motion = pad%motion(pad%frame(journal, pads(i)), journal, pads(i))
             single = new_film_losses(pad%gap, .true., .false.)
-            call single%find(motion, speed, film)
+            call single%find(motion, model%oil(i), speed, film)
             call expect_close(found(i)%load, norm2(film%force), 0.0_wp, 'load')
             call expect_close(found(i)%power(), film%couette + film%pressure, 1e-12_wp*film%couette, 'power')
             call expect(all(abs([found(i)%inlet - film%inlet, found(i)%outlet - film%outlet, found(i)%side &
@@ -80,7 +80,7 @@ contains
       integer :: k
       do k = 1, 2
          call make('&film solver='''//merge('auto', 'sor ', k == 1)//''' /', model, losses)
-         call losses%find(model%bearing, journal_motion([-50e-6_wp, 0.0_wp]), pads, speed, found(:, k))
+         call losses%find(model%bearing, journal_motion([-50e-6_wp, 0.0_wp]), pads, model%oil, speed, found(:, k))
       end do
       call expect(all(abs(found(:, 1)%power() - found(:, 2)%power()) <= 0), 'the same')
    end subroutine any_solver
@@ -104,9 +104,9 @@ contains
          frame = model%bearing%pads(i)%frame(journal, pads(i))
          pads(i)%tilt = frame%along/model%bearing%pads(i)%position%centre_distance
       end do
-      call losses%find(model%bearing, journal, pads, speed, found)
+      call losses%find(model%bearing, journal, pads, model%oil, speed, found)
       refusal = ''
-      call model%bearing%evaluate(journal, pads, speed, .false., refusal, ok)
+      call model%bearing%evaluate(journal, pads, model%oil, speed, .false., refusal, ok)
       call expect(ok .and. all(model%bearing%asperity%touches), 'they touch')
       call expect_close(found(1)%boundary, 0.2_wp*model%bearing%asperity(1)%carried()*speed*49.9e-3_wp, &
          & 1e-3_wp*found(1)%boundary, 'boundary friction')
@@ -114,7 +114,7 @@ contains
          & 1e-12_wp*found(1)%power(), 'apart')
       call expect(found(1)%load > model%bearing%asperity(1)%carried(), 'film and asperities carry')
       call make('&asperity friction_coefficient=0 /', model, losses)
-      call losses%find(model%bearing, journal, pads, speed, found)
+      call losses%find(model%bearing, journal, pads, model%oil, speed, found)
       call expect(found(1)%boundary <= 0 .and. found(1)%couette > 0, 'none')
    end subroutine boundary_friction
 
@@ -125,7 +125,8 @@ contains
       type(pad_loss) :: found(2)
       type(pad_state), parameter :: pads(2) = pad_state()
       call make('&film cavitation=''none'' /', model, losses)
-      call losses%find(model%bearing, journal_motion([-30e-6_wp, 0.0_wp], [-1e-2_wp, 0.0_wp]), pads, 0.0_wp, found)
+      call losses%find(model%bearing, journal_motion([-30e-6_wp, 0.0_wp], [-1e-2_wp, 0.0_wp]), pads, model%oil, &
+         & 0.0_wp, found)
       call expect(all(found%couette <= 0 .and. abs(found%journal_drag) <= 0 .and. found%pressure > 0), 'squeeze')
       call expect(all(found%side > 0 .and. found%outlet > 0 .and. found%inlet < 0), 'it flows out everywhere')
    end subroutine standing_shaft
@@ -136,7 +137,7 @@ contains
       type(pad_loss) :: found(2)
       type(pad_state), parameter :: pads(2) = pad_state()
       call make('&asperity model=''none'' /', model, losses)
-      call losses%find(model%bearing, journal_motion([0.0_wp, 130e-6_wp]), pads, speed, found)
+      call losses%find(model%bearing, journal_motion([0.0_wp, 130e-6_wp]), pads, model%oil, speed, found)
       call expect(ieee_is_nan(found(1)%power()) .and. ieee_is_nan(found(1)%inlet), 'no numbers')
       call expect(found(2)%power() > 0, 'the other pad has them')
    end subroutine closed_film

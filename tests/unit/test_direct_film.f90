@@ -3,12 +3,12 @@
 program test_direct_film
    use kinds, only: wp, degree
    use text, only: to_text
-   use film_solver, only: film_motion, film_response, film_counters, film_ok, film_closed
+   use film_solver, only: film_oil, film_motion, film_response, film_counters, film_ok, film_closed
    use pad_gap, only: pad_gap_type
    use modal_film, only: modal_film_type, new_modal_film
    use elimination_film, only: elimination_film_type, new_elimination_film
    use direct_film, only: direct_film_type, new_direct_film
-   use paper_bearing, only: paper_pad, offset_pad, speed, clearance
+   use paper_bearing, only: paper_oil, paper_pad, offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -58,8 +58,8 @@ contains
       motion%position = clearance*[between(-0.5_wp, -0.3_wp), between(0.0_wp, 0.5_wp)]
       motion%velocity = clearance*speed*[0.0_wp, between(0.05_wp, 0.2_wp)]
       call solvers(auto, by_modes, by_cells)
-      call auto%evaluate([motion], speed, .true., found)
-      call by_modes%evaluate([motion], speed, .true., expected)
+      call auto%evaluate([motion], [paper_oil], speed, .true., found)
+      call by_modes%evaluate([motion], [paper_oil], speed, .true., expected)
       call expect_same(found(1), expected(1), 'a whole film')
       call expect_close(norm2(found(1)%force - expected(1)%force), 0.0_wp, 0.0_wp, 'to the last bit')
       call expect(auto%counters%modal == 1 .and. auto%counters%volumes == 0, 'is counted as one')
@@ -78,10 +78,10 @@ contains
       motion%position = clearance*[between(-0.12_wp, -0.10_wp), between(0.4_wp, 0.5_wp)]
       motion%velocity = 0
       call solvers(auto, by_modes, by_cells)
-      call auto%evaluate([motion], speed, .true., found)
-      call by_modes%evaluate([motion], speed, .true., of_modes)
-      call by_cells%evaluate(motion, speed, .true., .false., counters, ruptured)
-      call by_cells%evaluate(motion, speed, .false., .false., counters, unruptured)
+      call auto%evaluate([motion], [paper_oil], speed, .true., found)
+      call by_modes%evaluate([motion], [paper_oil], speed, .true., of_modes)
+      call by_cells%evaluate(motion, paper_oil, speed, .true., .false., counters, ruptured)
+      call by_cells%evaluate(motion, paper_oil, speed, .false., .false., counters, unruptured)
       change = ruptured%force - unruptured%force
       call expect(-of_modes(1)%min_pressure < 0.1_wp*of_modes(1)%max_pressure, 'a loaded film')
       call expect(norm2(change) > 1e-6_wp*norm2(of_modes(1)%force), 'that ruptures')
@@ -95,9 +95,9 @@ contains
          shift(k) = step
          forward = film_motion(motion%position + shift(:2), motion%velocity + shift(3:))
          back = film_motion(motion%position - shift(:2), motion%velocity - shift(3:))
-         call auto%evaluate([forward], speed, .false., moved)
+         call auto%evaluate([forward], [paper_oil], speed, .false., moved)
          change = moved(1)%force
-         call auto%evaluate([back], speed, .false., moved)
+         call auto%evaluate([back], [paper_oil], speed, .false., moved)
          change = (change - moved(1)%force)/(2*step)
          ! the force bends where a cell begins to rupture, seldom within such a step
          call expect_close(norm2(found(1)%derivatives(:, k) - change), 0.0_wp, 1e-3_wp*norm2(change), &
@@ -118,10 +118,10 @@ contains
       motion%position = clearance*[between(-0.05_wp, 0.0_wp), between(0.4_wp, 0.5_wp)]
       motion%velocity = 0
       call solvers(auto, by_modes, by_cells)
-      call auto%evaluate([motion], speed, .true., found)
-      call by_modes%evaluate([motion], speed, .true., of_modes)
-      call by_cells%evaluate(motion, speed, .true., .true., counters, expected)
-      call by_cells%evaluate(motion, speed, .false., .true., counters, unruptured)
+      call auto%evaluate([motion], [paper_oil], speed, .true., found)
+      call by_modes%evaluate([motion], [paper_oil], speed, .true., of_modes)
+      call by_cells%evaluate(motion, paper_oil, speed, .true., .true., counters, expected)
+      call by_cells%evaluate(motion, paper_oil, speed, .false., .true., counters, unruptured)
       share = (1 + of_modes(1)%min_pressure/of_modes(1)%max_pressure)/0.9_wp
       call expect(share > 0 .and. share < 1, 'a share between: '//to_text(share))
       expected%force = expected%force + share*(of_modes(1)%force - unruptured%force)
@@ -135,13 +135,14 @@ contains
       type(direct_film_type) :: auto
       type(film_motion) :: motion, forward, back
       type(film_response) :: found(1), moved(1)
+      type(film_oil), parameter :: oil = film_oil(0.00216_wp)
       real(wp), parameter :: turning = 310.5_wp, arc = 78*degree, thin = 9e-5_wp
       real(wp) :: change(2), shift(4), step
       integer :: k
-      auto = new_direct_film([pad_gap_type(0.0315_wp, thin, 0.00786_wp, 0.55_wp*arc, 0.45_wp*arc, 0.00216_wp, &
-         & 5.4e5_wp, 0.0_wp, 0.0_wp)], 16, 4, 16, 8, .true., .false.)
+      auto = new_direct_film([pad_gap_type(0.0315_wp, thin, 0.00786_wp, 0.55_wp*arc, 0.45_wp*arc, 5.4e5_wp, &
+         & 0.0_wp, 0.0_wp)], 16, 4, 16, 8, .true., .false.)
       motion = film_motion([-1.1628e-5_wp, 8.8232e-5_wp], [1.13e-5_wp, 1.78e-6_wp])
-      call auto%evaluate([motion], turning, .true., found)
+      call auto%evaluate([motion], [oil], turning, .true., found)
       call expect(auto%counters%volumes == 1, 'the film ruptures')
       do k = 1, 4
          step = 1e-6_wp*thin*merge(1.0_wp, turning, k <= 2)
@@ -149,9 +150,9 @@ contains
          shift(k) = step
          forward = film_motion(motion%position + shift(:2), motion%velocity + shift(3:))
          back = film_motion(motion%position - shift(:2), motion%velocity - shift(3:))
-         call auto%evaluate([forward], turning, .false., moved)
+         call auto%evaluate([forward], [oil], turning, .false., moved)
          change = moved(1)%force
-         call auto%evaluate([back], turning, .false., moved)
+         call auto%evaluate([back], [oil], turning, .false., moved)
          change = (change - moved(1)%force)/(2*step)
          call expect_close(norm2(found(1)%derivatives(:, k) - change), 0.0_wp, 1e-3_wp*norm2(change), &
             & 'slope '//to_text(k)//' on a coarse grid')
@@ -169,9 +170,9 @@ contains
       motion%position = clearance*[0.2_wp, 0.3_wp]
       motion%velocity = 0
       call solvers(auto, by_modes, by_cells)
-      call auto%evaluate([motion], speed, .true., found)
-      call by_modes%evaluate([motion], speed, .true., of_modes)
-      call by_cells%evaluate(motion, speed, .true., .true., counters, expected)
+      call auto%evaluate([motion], [paper_oil], speed, .true., found)
+      call by_modes%evaluate([motion], [paper_oil], speed, .true., of_modes)
+      call by_cells%evaluate(motion, paper_oil, speed, .true., .true., counters, expected)
       call expect(-of_modes(1)%min_pressure > of_modes(1)%max_pressure, 'the whole film draws')
       call expect(norm2(expected%force) > 0, 'and a part of it presses')
       call expect_same(found(1), expected, 'an empty pad')
@@ -181,7 +182,7 @@ contains
       type(direct_film_type) :: auto
       type(film_response) :: found(1)
       auto = new_direct_film([paper_pad()], cells, modes, columns, rows, .true., .false.)
-      call auto%evaluate([film_motion([0.0_wp, 1.1_wp*clearance], [0.0_wp, 0.0_wp])], speed, .true., found)
+      call auto%evaluate([film_motion([0.0_wp, 1.1_wp*clearance], [0.0_wp, 0.0_wp])], [paper_oil], speed, .true., found)
       call expect(found(1)%status == film_closed, 'a closed film')
       call expect_close(found(1)%min_film_thickness, -0.1_wp*clearance, 1e-18_wp, 'and by how much')
       call expect(auto%counters%modal == 0 .and. auto%counters%volumes == 0, 'none was solved')
@@ -196,14 +197,14 @@ contains
       integer :: k
       together = new_direct_film([paper_pad(), offset_pad(), paper_pad([2e5_wp, 1e5_wp, 0.0_wp])], cells, modes, &
          & columns, rows, .true., .false.)
-      call together%evaluate(motions, speed, .true., found)
+      call together%evaluate(motions, spread(paper_oil, 1, size(motions)), speed, .true., found)
       call expect(all(found%status == film_ok), 'three pads')
       do k = 1, 3
          if (k == 1) alone = new_direct_film([paper_pad()], cells, modes, columns, rows, .true., .false.)
          if (k == 2) alone = new_direct_film([offset_pad()], cells, modes, columns, rows, .true., .false.)
          if (k == 3) alone = new_direct_film([paper_pad([2e5_wp, 1e5_wp, 0.0_wp])], cells, modes, columns, rows, &
             & .true., .false.)
-         call alone%evaluate(motions(k:k), speed, .true., expected)
+         call alone%evaluate(motions(k:k), [paper_oil], speed, .true., expected)
          call expect_same(found(k), expected(1), 'pad '//to_text(k))
       end do
    end subroutine each_pad_its_own

@@ -6,7 +6,7 @@ program test_elimination_film
    use pad_gap, only: pad_gap_type
    use elimination_film, only: elimination_film_type, new_elimination_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_reynolds
-   use paper_bearing, only: paper_pad, speed, clearance
+   use paper_bearing, only: paper_oil, paper_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -63,8 +63,8 @@ contains
       ruptured = 0
       do trial = 1, trials
          motion = random_motion()
-         call direct%evaluate(motion, speed, ruptures, .true., counters, r)
-         call sor%evaluate_pad(1, motion, speed, .true., expected)
+         call direct%evaluate(motion, paper_oil, speed, ruptures, .true., counters, r)
+         call sor%evaluate_pad(1, motion, paper_oil, speed, .true., expected)
          if (r%status /= film_ok) worst = huge(worst)
          if (any(sor%pressure_field(1) <= pressures(3))) ruptured = ruptured + 1
          worst = max(worst, deviation(r%force, expected%force))
@@ -111,11 +111,11 @@ contains
       do trial = 1, 300
          motion%position = clearance*[between(-0.5_wp, -0.05_wp), between(0.0_wp, 0.6_wp)]
          motion%velocity = clearance*speed*[between(-0.02_wp, 0.02_wp), between(-0.02_wp, 0.02_wp)]
-         call by_few%force_of_rupture(motion, speed, counters, force, few)
+         call by_few%force_of_rupture(motion, paper_oil, speed, counters, force, few)
          if (.not. few) cycle
          said = said + 1
-         call direct%evaluate(motion, speed, .true., .false., counters, r)
-         call direct%evaluate(motion, speed, .false., .false., counters, whole)
+         call direct%evaluate(motion, paper_oil, speed, .true., .false., counters, r)
+         call direct%evaluate(motion, paper_oil, speed, .false., .false., counters, whole)
          if (norm2(r%force - whole%force) > 1e-6_wp*norm2(whole%force)) with_rupture = with_rupture + 1
          worst = max(worst, norm2(force - (r%force - whole%force))/norm2(whole%force))
       end do
@@ -135,11 +135,11 @@ contains
       do trial = 1, 50
          motion = random_motion()
          cold = new_elimination_film(paper_pad(), 60, 15)
-         call warm%evaluate(motion, speed, .true., .false., counters, r)
-         call cold%evaluate(motion, speed, .true., .false., counters, expected)
+         call warm%evaluate(motion, paper_oil, speed, .true., .false., counters, r)
+         call cold%evaluate(motion, paper_oil, speed, .true., .false., counters, expected)
          call expect_close(norm2(r%force - expected%force), 0.0_wp, 1e-12_wp*norm2(expected%force), 'any start')
          ! without rupture nothing is remembered
-         call warm%evaluate(motion, speed, .false., .false., counters, r)
+         call warm%evaluate(motion, paper_oil, speed, .false., .false., counters, r)
       end do
    end subroutine any_start
 
@@ -151,12 +151,12 @@ contains
       type(film_response) :: r, before
       direct = new_elimination_film(paper_pad(), 24, 6)
       motion%position = clearance*[-0.2_wp, 0.3_wp]
-      call direct%evaluate(motion, speed, .true., .true., counters, before)
+      call direct%evaluate(motion, paper_oil, speed, .true., .true., counters, before)
       motion%velocity = [0.0_wp, -10*clearance*speed]
-      call direct%evaluate(motion, speed, .true., .true., counters, r)
+      call direct%evaluate(motion, paper_oil, speed, .true., .true., counters, r)
       call expect(r%status == film_ok .and. all(abs(r%force) <= 0) .and. all(abs(r%derivatives) <= 0), 'nothing left')
       motion%velocity = 0
-      call direct%evaluate(motion, speed, .true., .true., counters, r)
+      call direct%evaluate(motion, paper_oil, speed, .true., .true., counters, r)
       call expect_close(r%force(2), before%force(2), 1e-12_wp*abs(before%force(2)), 'the film comes back')
       call expect(all(abs(r%derivatives - before%derivatives) <= 1e-10_wp*maxval(abs(before%derivatives))), &
          & 'so do its slopes')
@@ -174,9 +174,9 @@ contains
       gap%trailing_angle = gap%leading_angle
       associate (motion => film_motion([0.0_wp, -0.97_wp*clearance]))
          film = new_elimination_film(gap, 160, 2)
-         call film%evaluate(motion, speed, .true., .false., counters, coarse)
+         call film%evaluate(motion, paper_oil, speed, .true., .false., counters, coarse)
          film = new_elimination_film(gap, 640, 2)
-         call film%evaluate(motion, speed, .true., .false., counters, fine)
+         call film%evaluate(motion, paper_oil, speed, .true., .false., counters, fine)
       end associate
       call expect(fine%status == film_ok, 'the rupture settles')
       call expect(deviation(coarse%force, fine%force) < 2e-3_wp, 'where it does on fewer columns')
@@ -187,7 +187,8 @@ contains
       type(film_counters) :: counters
       type(film_response) :: r
       direct = new_elimination_film(paper_pad(), 24, 6)
-      call direct%evaluate(film_motion([0.0_wp, clearance], [0.0_wp, 0.0_wp]), speed, .true., .true., counters, r)
+      call direct%evaluate(film_motion([0.0_wp, clearance], [0.0_wp, 0.0_wp]), paper_oil, speed, .true., .true., &
+         & counters, r)
       call expect(r%status == film_closed, 'a closed film is refused')
    end subroutine closed_film
 end program test_elimination_film

@@ -7,7 +7,7 @@ program test_film_field
    use modal_film, only: modal_film_type, new_modal_film
    use sor_film, only: sor_film_type, new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
    use direct_film, only: direct_film_type, new_direct_film
-   use paper_bearing, only: offset_pad, speed
+   use paper_bearing, only: paper_oil, offset_pad, speed
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
@@ -51,7 +51,7 @@ contains
       type(film_motion), intent(in) :: motion
       real(wp), allocatable :: p(:, :), all(:, :, :)
       allocate (all(across, along, 1))
-      call solver%field([motion], speed, angles(), places(), all)
+      call solver%field([motion], [paper_oil], speed, angles(), places(), all)
       p = all(:, :, 1)
    end function field_of
 
@@ -66,7 +66,7 @@ contains
       area = 50e-3_wp*(theta_1 + theta_2)/along*length/across
       p = field_of(solver, motion)
       force = -area*[sum(matmul(p, sin(phi))), sum(matmul(p, cos(phi)))]
-      call solver%evaluate([motion], speed, .false., response)
+      call solver%evaluate([motion], [paper_oil], speed, .false., response)
       missing = norm2(force - response(1)%force)/norm2(response(1)%force)
    end function missing
 
@@ -185,7 +185,7 @@ contains
       class(film_solver_type), intent(inout) :: solver
       real(wp) :: p(3, 3, 1), phi(3, 1)
       phi(:, 1) = [-theta_2, 0.1_wp, theta_1]
-      call solver%field([film_motion([-20*um, 40*um])], 0.0_wp, phi, [0.0_wp, length/3, length/2], p)
+      call solver%field([film_motion([-20*um, 40*um])], [paper_oil], 0.0_wp, phi, [0.0_wp, length/3, length/2], p)
       unevenness = maxval(abs(p/3e5_wp - 1))
    end function unevenness
 
@@ -200,7 +200,7 @@ contains
       x = [0.0_wp, 1e-4_wp, 0.01_wp, 0.2_wp]*arc
       phi(:, 1) = theta_1 - x
       solver = new_modal_film([offset_pad([rise, 0.0_wp, 0.0_wp])], 24, 16, gumbel=.false.)
-      call solver%field([film_motion([0.0_wp, 0.0_wp])], 0.0_wp, phi, z, p)
+      call solver%field([film_motion([0.0_wp, 0.0_wp])], [paper_oil], 0.0_wp, phi, z, p)
       do i = 1, 4
          exact = rise*plate(z, x(i))
          do k = 1, 5
@@ -229,7 +229,7 @@ contains
       phi(:, 1) = reshape(angles(), [along])
       phi(:, 2) = -phi(along:1:-1, 1)
       solver = new_direct_film(films, 24, 8, 80, 8, .true., .false.)
-      call solver%field([whole, whole], speed, phi, places(), p)
+      call solver%field([whole, whole], [paper_oil, paper_oil], speed, phi, places(), p)
       call expect(maxval(abs(p(:, :, 1) - p(:, :, 2))) > 0.01_wp*maxval(p), 'two pads, two fields')
       alone = new_direct_film(films(:1), 24, 8, 80, 8, .true., .false.)
       call expect_close(maxval(abs(p(:, :, 1) - field_of(alone, whole))), 0.0_wp, 0.0_wp, 'the first pad''s own')

@@ -1,17 +1,17 @@
-!> Films whose oil gets another viscosity: every solver, with and without pressures around the pads, answers as one that
-!> was made with this viscosity, bit for bit; so do losses and flows.
+!> Films whose oil changes: every solver, with and without pressures around the pads, answers as one that has never seen
+!> another oil, bit for bit; so do losses and flows.
 program test_film_viscosity
    use kinds, only: wp
    use scene, only: scene_type
-   use film_solver, only: film_solver_type, film_motion, film_response
+   use film_solver, only: film_solver_type, film_motion, film_oil, film_response
    use film_losses, only: film_losses_type, film_loss
    use components, only: make_film, new_losses
    use paper_bearing, only: speed, clearance
    use check, only: runs, expect, report
    implicit none (type, external)
 
-   !> Of the first and of the second pad, Pa s, from the start, and from then on.
-   real(wp), parameter :: before = 19e-3_wp, after(2) = [31e-3_wp, 7e-3_wp]
+   !> Of the first and of the second pad, from the start, and from then on.
+   type(film_oil), parameter :: before(2) = film_oil(19e-3_wp), after(2) = [film_oil(31e-3_wp), film_oil(7e-3_wp)]
    character(len=*), parameter :: solvers(*) = [character(len=6) :: 'auto', 'direct', 'modal', 'sor', 'fine']
    character(len=*), parameter :: conditions(*) = [character(len=8) :: 'none', 'gumbel', 'reynolds']
    integer :: i, k
@@ -31,15 +31,13 @@ program test_film_viscosity
 
 contains
 
-   !> The paper's bearing with these films and this viscosity.
-   type(scene_type) function scene_with(solver, condition, supplied, viscosity) result(scene)
+   !> The paper's bearing with these films.
+   type(scene_type) function scene_with(solver, condition, supplied) result(scene)
       character(len=*), intent(in) :: solver, condition
       logical, intent(in) :: supplied
-      real(wp), intent(in) :: viscosity
       scene = scene_type()
       scene%film%solver = trim(solver)
       scene%film%cavitation = trim(condition)
-      scene%bearing%viscosity = viscosity
       if (supplied) then
          scene%bearing%supply_pressure = 3e5_wp
          scene%bearing%ambient_pressure = 1e5_wp
@@ -58,18 +56,16 @@ contains
       class(film_solver_type), allocatable :: film, fresh
       type(film_response) :: changed(2), made(2)
       integer :: pad
-      call make_film(scene_with(solver, condition, supplied, before), film)
-      call film%evaluate(motions(), speed, .true., changed)
-      call film%set_viscosity(after)
+      call make_film(scene_with(solver, condition, supplied), film)
+      call film%evaluate(motions(), before, speed, .true., changed)
       ! over-relaxation starts from its last field
-      if (solver == 'sor') call make_film(scene_with(solver, condition, supplied, before), film)
-      if (solver == 'sor') call film%set_viscosity(after)
-      call film%evaluate(motions(), speed, .true., changed)
-      call film%take_pressures(motions(), speed, changed)
+      call film%forget()
+      call film%evaluate(motions(), after, speed, .true., changed)
+      call film%take_pressures(motions(), after, speed, changed)
       do pad = 1, 2
-         call make_film(scene_with(solver, condition, supplied, after(pad)), fresh)
-         call fresh%evaluate(motions(), speed, .true., made)
-         call fresh%take_pressures(motions(), speed, made)
+         call make_film(scene_with(solver, condition, supplied), fresh)
+         call fresh%evaluate(motions(), spread(after(pad), 1, 2), speed, .true., made)
+         call fresh%take_pressures(motions(), spread(after(pad), 1, 2), speed, made)
          call expect(.not. any(abs(changed(pad)%force - made(pad)%force) > 0), 'force')
          call expect(.not. any(abs(changed(pad)%derivatives - made(pad)%derivatives) > 0), 'derivatives')
          call expect(.not. any(abs([changed(pad)%max_pressure - made(pad)%max_pressure, &
@@ -83,14 +79,13 @@ contains
       type(film_motion) :: motion(2)
       type(film_loss) :: changed, made
       integer :: pad
-      losses = new_losses(scene_with('auto', condition, condition == 'none', before))
+      losses = new_losses(scene_with('auto', condition, condition == 'none'))
       motion = motions()
       do pad = 1, 2
-         call losses(pad)%find(motion(pad), speed, changed)
-         call losses(pad)%set_viscosity(after(pad))
-         call losses(pad)%find(motion(pad), speed, changed)
-         fresh = new_losses(scene_with('auto', condition, condition == 'none', after(pad)))
-         call fresh(pad)%find(motion(pad), speed, made)
+         call losses(pad)%find(motion(pad), before(pad), speed, changed)
+         call losses(pad)%find(motion(pad), after(pad), speed, changed)
+         fresh = new_losses(scene_with('auto', condition, condition == 'none'))
+         call fresh(pad)%find(motion(pad), after(pad), speed, made)
          call expect(.not. any(abs([changed%force - made%force, changed%couette - made%couette, &
             & changed%pressure - made%pressure, changed%wedge - made%wedge, changed%inlet - made%inlet, &
             & changed%outlet - made%outlet, changed%side - made%side]) > 0), 'losses and flows')

@@ -6,7 +6,7 @@ program test_middle_frame
    use pad_gap, only: pad_gap_type
    use unit_pad, only: new_unit_pad, thickness_scale
    use middle_frame, only: middle_frame_type, middle_motion, middle_force, new_middle_frame
-   use paper_bearing, only: offset_pad, speed, clearance
+   use paper_bearing, only: paper_oil, offset_pad, speed, clearance
    use check, only: runs, expect_close, between, report
    implicit none (type, external)
 
@@ -37,12 +37,12 @@ contains
       type(middle_motion) :: seen
       real(wp) :: angles(2), h(2)
       motion = random_motion()
-      seen = frame%motion(motion, speed)
+      seen = frame%motion(motion, paper_oil, speed)
       angles = [gap%leading_angle, -gap%trailing_angle]
       h = gap%thickness(motion, sin(angles), cos(angles))/clearance
       call expect_close(seen%edges(1), h(1), 1e-13_wp, 'leading edge')
       call expect_close(seen%edges(2), h(2), 1e-13_wp, 'trailing edge')
-      call expect_close(seen%scale, gap%viscosity*gap%pad_radius()**4/clearance**3*thickness_scale(h(1), h(2)), &
+      call expect_close(seen%scale, paper_oil%viscosity*gap%pad_radius()**4/clearance**3*thickness_scale(h(1), h(2)), &
          & 1e-12_wp*seen%scale, 'scale')
    end subroutine edges
 
@@ -55,7 +55,7 @@ contains
       real(wp) :: phi, from_middle, wedge, squeeze
       integer :: i
       motion = random_motion()
-      seen = frame%motion(motion, speed)
+      seen = frame%motion(motion, paper_oil, speed)
       do i = 0, 4
          phi = -gap%trailing_angle + i*gap%arc()/4
          from_middle = phi - 0.5_wp*(gap%leading_angle - gap%trailing_angle)
@@ -84,7 +84,7 @@ contains
       real(wp) :: derivatives(2, 4), shift(4), difference(2), step
       integer :: k
       motion = random_motion()
-      associate (seen => frame%motion(motion, speed))
+      associate (seen => frame%motion(motion, paper_oil, speed))
          derivatives = frame%derivatives(seen, any_force(seen))
       end associate
       do k = 1, 4
@@ -93,8 +93,8 @@ contains
          shift(k) = step
          ahead = film_motion(motion%position + shift(:2), motion%velocity + shift(3:))
          back = film_motion(motion%position - shift(:2), motion%velocity - shift(3:))
-         difference = (frame%force(any_force(frame%motion(ahead, speed))) &
-            & - frame%force(any_force(frame%motion(back, speed))))/(2*step)
+         difference = (frame%force(any_force(frame%motion(ahead, paper_oil, speed))) &
+            & - frame%force(any_force(frame%motion(back, paper_oil, speed))))/(2*step)
          call expect_close(norm2(derivatives(:, k) - difference), 0.0_wp, 1e-8_wp*norm2(derivatives), &
             & 'slope '//to_text(k))
       end do

@@ -8,7 +8,7 @@ program test_modal_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_gumbel, &
       & cavitation_reynolds
    use direct_film, only: direct_film_type, new_direct_film
-   use paper_bearing, only: offset_pad, speed, clearance
+   use paper_bearing, only: paper_oil, offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -40,7 +40,7 @@ contains
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: at_speed
       type(film_response) :: all(1)
-      call solver%evaluate([motion], at_speed, .true., all)
+      call solver%evaluate([motion], [paper_oil], at_speed, .true., all)
       answer = all(1)
    end function answer
 
@@ -192,7 +192,7 @@ contains
       r_clipped = answer(clipped, torn, speed)
       fine = new_sor_film([offset_pad([1e5_wp, 1e5_wp, 0.0_wp])], sor_options(120, 30, tolerance=1e-8_wp, &
          & cavitation=cavitation_gumbel))
-      call fine%evaluate_pad(1, torn, speed, .false., r_fine)
+      call fine%evaluate_pad(1, torn, paper_oil, speed, .false., r_fine)
       call expect(-r_clipped%force(2) > -r%force(2), 'clipping takes tension away')
       call expect_close(norm2(r_clipped%force - r_fine%force), 0.0_wp, 1e-2_wp*norm2(r_fine%force), &
          & 'clipped modes against clipped cells')
@@ -225,9 +225,9 @@ contains
       modal = new_modal_film(films, 24, 8, gumbel=.false.)
       sor = new_sor_film(films, options)
       motion = [film_motion([-3e-5_wp, 5e-5_wp], [0.0_wp, 2e-3_wp]), film_motion([5e-6_wp, 5e-5_wp])]
-      call auto%evaluate(motion, speed, .true., r)
-      call modal%evaluate(motion, speed, .true., by_modes)
-      call sor%evaluate_pad(2, motion(2), speed, .true., by_cells)
+      call auto%evaluate(motion, spread(paper_oil, 1, size(motion)), speed, .true., r)
+      call modal%evaluate(motion, spread(paper_oil, 1, size(motion)), speed, .true., by_modes)
+      call sor%evaluate_pad(2, motion(2), paper_oil, speed, .true., by_cells)
       call expect_close(norm2(r(1)%force - by_modes(1)%force), 0.0_wp, 0.0_wp, 'modes for the whole film')
       call expect(by_modes(2)%min_pressure < 0 .and. by_modes(2)%max_pressure > 0, 'one film is torn in part')
       ! both solve the same equations; the tolerance is that of over-relaxation

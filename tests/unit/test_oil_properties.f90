@@ -6,8 +6,7 @@ program test_oil_properties
    use namelist_writer, only: scene_text
    use oil_properties, only: viscosity, viscosity_slope, density, reference_viscosity, kinematic_points, grades
    use bearing_numbers, only: sommerfeld_number
-   use tilting_pad, only: tilting_pad_type
-   use components, only: new_pads
+   use equations_of_motion, only: bearing_model, new_bearing_model
    use checked_case, only: derived_text
    use viscosity_course, only: viscosity_course_type, new_viscosity_course
    use check, only: runs, expect, expect_close, report
@@ -131,10 +130,10 @@ contains
    subroutine expect_films(s, mu)
       type(scene_type), intent(in) :: s
       real(wp), intent(in) :: mu
-      type(tilting_pad_type) :: pads(2)
-      pads = new_pads(s)
+      type(bearing_model) :: model
+      model = new_bearing_model(s)
       call expect_close(reference_viscosity(s), mu, 1e-15_wp, 'viscosity')
-      call expect_close(pads(2)%gap%viscosity, mu, 1e-15_wp, 'of the films')
+      call expect_close(model%oil(2)%viscosity, mu, 1e-15_wp, 'of the films')
       call expect_close(sommerfeld_number(s)/sommerfeld_number(scene_type()), mu/19e-3_wp, 1e-13_wp, &
          & 'Sommerfeld number')
    end subroutine expect_films

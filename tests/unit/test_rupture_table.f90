@@ -15,7 +15,7 @@ program test_rupture_table
    real(wp), parameter :: half_arc = 35*degree, tolerance = 1e-4_wp
    type(unit_pad_type) :: pad
 
-   associate (gap => pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp))
+   associate (gap => pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 0.0_wp, 0.0_wp, 0.0_wp))
       pad = new_unit_pad(gap)
    end associate
    if (runs('against_drive')) call against_drive(.false.)

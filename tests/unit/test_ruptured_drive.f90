@@ -4,7 +4,7 @@ program test_ruptured_drive
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_counters
    use pad_gap, only: pad_gap_type
-   use unit_pad, only: unit_pad_type, new_unit_pad
+   use unit_pad, only: unit_oil, unit_pad_type, new_unit_pad
    use elimination_film, only: elimination_film_type, new_elimination_film
    use modal_film, only: modal_film_type, new_modal_film
    use ruptured_drive, only: ruptured_drive_type, drive_type, new_ruptured_drive
@@ -20,7 +20,7 @@ program test_ruptured_drive
    type(pad_gap_type) :: gap
    integer :: i
 
-   gap = pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+   gap = pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 0.0_wp, 0.0_wp, 0.0_wp)
    pad = new_unit_pad(gap)
    do i = 1, size(films, 2)
       if (runs('against_even_grids')) call against_even_grids(films(:2, i), films(3, i))
@@ -51,7 +51,7 @@ contains
       type(modal_film_type) :: film
       type(film_response) :: r(1)
       film = new_modal_film([gap], 96, 32, .false., 1e-7_wp)
-      call film%evaluate([film_motion(pad%position(edges), drive)], 0.0_wp, .false., r)
+      call film%evaluate([film_motion(pad%position(edges), drive)], [unit_oil], 0.0_wp, .false., r)
       force = r(1)%force
    end function whole_force
 
@@ -71,7 +71,7 @@ contains
       drive = solver%at(edges, pad%tangent*(1 - 2*t))
       do k = 1, 3
          grid = new_elimination_film(gap, columns(k), rows(k))
-         call grid%evaluate(film_motion(pad%position(edges), w_of(t)), 0.0_wp, .true., .false., unused, r)
+         call grid%evaluate(film_motion(pad%position(edges), w_of(t)), unit_oil, 0.0_wp, .true., .false., unused, r)
          forces(:, k) = r%force
       end do
       best = 2*forces(:, 3) - forces(:, 2)
@@ -94,7 +94,7 @@ contains
       solver = new_ruptured_drive(pad, .true., tolerance)
       drive = solver%at(edges, pad%tangent*(1 - 2*t))
       film = new_modal_film([gap], 192, 64, .true., 1e-7_wp)
-      call film%evaluate([film_motion(pad%position(edges), w_of(t))], 0.0_wp, .false., r)
+      call film%evaluate([film_motion(pad%position(edges), w_of(t))], [unit_oil], 0.0_wp, .false., r)
       call expect_close(norm2(whole_force(edges, drive%value) - r(1)%force)/norm2(whole_force(edges, w_of(0.0_wp))), &
          & 0.0_wp, tolerance, 'force, T = '//to_text(t))
    end subroutine against_clipped_modes

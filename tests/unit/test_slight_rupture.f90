@@ -6,7 +6,7 @@ program test_slight_rupture
    use film_grid, only: film_grid_type, new_film_grid
    use grid_modes, only: grid_modes_type, new_grid_modes
    use slight_rupture, only: force_of_few
-   use paper_bearing, only: paper_pad, speed, clearance
+   use paper_bearing, only: paper_oil, paper_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -41,7 +41,7 @@ contains
       real(wp), allocatable, intent(out) :: film(:, :)
       grid = new_film_grid(paper_pad([ambient, ambient, 0.0_wp]), columns, rows)
       basis = new_grid_modes(grid)
-      call grid%set_motion(motion, speed)
+      call grid%set_motion(motion, paper_oil, speed)
       allocate (film(basis%m, columns), source=0.0_wp)
       film(:rows, :) = 1
    end subroutine film_at

@@ -6,7 +6,7 @@ program test_sor_film
    use pad_gap, only: pad_gap_type
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel, &
       & cavitation_reynolds
-   use paper_bearing, only: paper_pad, speed, clearance
+   use paper_bearing, only: paper_oil, paper_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -80,14 +80,15 @@ contains
       worst = 0
       do trial = 1, 40
          motion = random_motion()
-         call solver%evaluate_pad(1, motion, speed, .true., r)
+         call solver%evaluate_pad(1, motion, paper_oil, speed, .true., r)
          call expect(r%status == film_ok, 'the film converges, '//trim(names(cavitation)))
          film = solver%pressure_field(1) > 0
          if (.not. any(film)) cycle
          do column = 1, 4
             same = .true.
             do k = 1, 4
-               call solver%evaluate_pad(1, moved(motion, column, offsets(k)*scale(column)), speed, .false., at(k))
+               call solver%evaluate_pad(1, moved(motion, column, offsets(k)*scale(column)), paper_oil, speed, &
+                  & .false., at(k))
                here = solver%pressure_field(1) > 0
                same = same .and. (all(film .eqv. here) .or. cavitation == cavitation_none)
             end do
@@ -129,11 +130,11 @@ contains
       warm = new_sor_film([paper_pad()], options(cavitation, tolerance))
       worst = 0
       do trial = 1, 10
-         call warm%evaluate_pad(1, random_motion(), speed, .true., other)
+         call warm%evaluate_pad(1, random_motion(), paper_oil, speed, .true., other)
          motion = carrying_motion()
-         call warm%evaluate_pad(1, motion, speed, .true., from_warm)
+         call warm%evaluate_pad(1, motion, paper_oil, speed, .true., from_warm)
          cold = new_sor_film([paper_pad()], options(cavitation, tolerance))
-         call cold%evaluate_pad(1, motion, speed, .true., from_cold)
+         call cold%evaluate_pad(1, motion, paper_oil, speed, .true., from_cold)
          worst = max(worst, norm2(from_warm%force - from_cold%force)/norm2(from_cold%force))
          worst = max(worst, norm2(from_warm%derivatives(:, 1:2) - from_cold%derivatives(:, 1:2)) &
             & /norm2(from_cold%derivatives(:, 1:2)))
@@ -151,7 +152,7 @@ contains
       type(film_response) :: r
       real(wp) :: exact
       solver = new_sor_film([paper_pad([p, p, 0.0_wp])], options(cavitation, 1e-12_wp))
-      call solver%evaluate_pad(1, film_motion([-2e-5_wp, 4e-5_wp]), 0.0_wp, .false., r)
+      call solver%evaluate_pad(1, film_motion([-2e-5_wp, 4e-5_wp]), paper_oil, 0.0_wp, .false., r)
       exact = -p*0.1_wp*50e-3_wp*2*sin(half)
       call expect_close(maxval(abs(solver%pressure_field(1)/p - 1)), 0.0_wp, 1e-10_wp, 'uniform pressure, ' &
          & //trim(names(cavitation)))
@@ -172,8 +173,8 @@ contains
       motion = film_motion([1e-5_wp, 5e-5_wp], [1e-3_wp, -2e-3_wp])
       solver = new_sor_film([paper_pad([2e5_wp, 1e5_wp, 0.0_wp])], options(cavitation, 1e-8_wp))
       raised = new_sor_film([paper_pad([2e5_wp, 1e5_wp, 0.0_wp] + shift)], options(cavitation, 1e-8_wp))
-      call solver%evaluate_pad(1, motion, speed, .true., r)
-      call raised%evaluate_pad(1, motion, speed, .true., raised_r)
+      call solver%evaluate_pad(1, motion, paper_oil, speed, .true., r)
+      call raised%evaluate_pad(1, motion, paper_oil, speed, .true., raised_r)
       force = -shift*0.1_wp*50e-3_wp*2*sin(half)*(0.5_wp*d)/sin(0.5_wp*d)
       call expect_close(maxval(abs(raised%pressure_field(1) - solver%pressure_field(1) - shift)), 0.0_wp, &
          & 1e-12_wp*maxval(raised%pressure_field(1)), 'pressures raised, '//trim(names(cavitation)))
@@ -197,9 +198,9 @@ contains
       type(film_response) :: full, empty
       integer(i8) :: sweeps
       solver = new_sor_film([paper_pad()], options(cavitation, 1e-6_wp))
-      call solver%evaluate_pad(1, film_motion([-2e-5_wp, 4e-5_wp]), speed, .true., full)
+      call solver%evaluate_pad(1, film_motion([-2e-5_wp, 4e-5_wp]), paper_oil, speed, .true., full)
       sweeps = solver%counters%passes
-      call solver%evaluate_pad(1, film_motion([2e-5_wp, 4e-5_wp], [0.0_wp, -0.05_wp]), speed, .true., empty)
+      call solver%evaluate_pad(1, film_motion([2e-5_wp, 4e-5_wp], [0.0_wp, -0.05_wp]), paper_oil, speed, .true., empty)
       call expect(full%status == film_ok .and. empty%status == film_ok, 'full and empty film are fine, ' &
          & //trim(names(cavitation)))
       call expect_close(norm2(empty%force) + norm2(empty%derivatives), 0.0_wp, 0.0_wp, 'an empty film is nothing, ' &
@@ -212,12 +213,12 @@ contains
       type(sor_film_type) :: solver
       type(film_response) :: r
       solver = new_sor_film([paper_pad()], options(cavitation_reynolds, 1e-8_wp))
-      call solver%evaluate_pad(1, film_motion([0.0_wp, 1.1_wp*clearance]), speed, .true., r)
+      call solver%evaluate_pad(1, film_motion([0.0_wp, 1.1_wp*clearance]), paper_oil, speed, .true., r)
       call expect(r%status == film_closed, 'a journal in the pad closes the film')
       call expect_close(r%min_film_thickness, -0.1_wp*clearance, 1e-18_wp, 'by how much')
-      call solver%evaluate_pad(1, film_motion([0.0_wp, clearance]), speed, .true., r)
+      call solver%evaluate_pad(1, film_motion([0.0_wp, clearance]), paper_oil, speed, .true., r)
       call expect(r%status == film_closed, 'touching closes the film')
-      call solver%evaluate_pad(1, film_motion([0.0_wp, 0.5_wp*clearance]), speed, .true., r)
+      call solver%evaluate_pad(1, film_motion([0.0_wp, 0.5_wp*clearance]), paper_oil, speed, .true., r)
       call expect(r%status == film_ok .and. r%force(2) < 0, 'the film opens again')
       call expect_close(r%min_film_thickness, 0.5_wp*clearance, 1e-18_wp, 'minimum thickness')
    end subroutine closed_film
@@ -230,14 +231,14 @@ contains
       few = options(cavitation_reynolds, 1e-8_wp)
       few%max_sweeps = 8
       solver = new_sor_film([paper_pad()], few)
-      call solver%evaluate_pad(1, film_motion([-2e-5_wp, 5e-5_wp]), speed, .false., r)
+      call solver%evaluate_pad(1, film_motion([-2e-5_wp, 5e-5_wp]), paper_oil, speed, .false., r)
       call expect(r%status == film_not_converged, 'the cap on the sweeps is told')
       call expect(r%residual > 1e-8_wp, 'with the residual')
       call expect(solver%counters%passes == 8 .and. solver%counters%volumes == 1, 'and the sweeps are counted')
       call expect(all(abs(solver%pressure_field(1)) <= 0), 'what did not converge is dropped')
       few%max_sweeps = 5000
       fresh = new_sor_film([paper_pad()], few)
-      call fresh%evaluate_pad(1, film_motion([-2e-5_wp, 5e-5_wp]), speed, .false., r)
+      call fresh%evaluate_pad(1, film_motion([-2e-5_wp, 5e-5_wp]), paper_oil, speed, .false., r)
       call expect(r%status == film_ok, 'enough sweeps converge')
    end subroutine sweep_cap
 
@@ -265,7 +266,7 @@ contains
       type(film_response) :: r
       solver = new_sor_film([paper_pad(length=length)], sor_options(nx, nz, relaxation, &
          & 1e-6_wp, 1000, cavitation_none))
-      call solver%evaluate_pad(1, film_motion([-3e-5_wp, 4e-5_wp]), speed, .false., r)
+      call solver%evaluate_pad(1, film_motion([-3e-5_wp, 4e-5_wp]), paper_oil, speed, .false., r)
       sweeps_at = solver%counters%passes
       if (r%status /= film_ok) sweeps_at = huge(sweeps_at)
    end function sweeps_at
@@ -281,11 +282,11 @@ contains
       films(2) = paper_pad([1e5_wp, 0.0_wp, 0.0_wp], 0.05_wp)
       motion = [film_motion([-2e-5_wp, 5e-5_wp]), film_motion([1e-5_wp, 2e-5_wp])]
       both = new_sor_film(films, options(cavitation_reynolds, 1e-8_wp))
-      call both%evaluate(motion, speed, .true., together)
+      call both%evaluate(motion, spread(paper_oil, 1, size(motion)), speed, .true., together)
       call expect(both%counters%volumes == 2, 'two pads are two films')
       do k = 1, 2
          single = new_sor_film(films(k:k), options(cavitation_reynolds, 1e-8_wp))
-         call single%evaluate_pad(1, motion(k), speed, .true., alone)
+         call single%evaluate_pad(1, motion(k), paper_oil, speed, .true., alone)
          call expect_close(norm2(together(k)%force - alone%force), 0.0_wp, 0.0_wp, 'force of pad '//to_text(k))
          call expect_close(norm2(together(k)%derivatives - alone%derivatives), 0.0_wp, 0.0_wp, &
             & 'slopes of pad '//to_text(k))

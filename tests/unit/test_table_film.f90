@@ -9,7 +9,7 @@ program test_table_film
    use modal_film, only: modal_film_type, new_modal_film
    use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: table_film_type, new_table_film
-   use paper_bearing, only: paper_pad, offset_pad, speed, clearance
+   use paper_bearing, only: paper_oil, paper_pad, offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -74,7 +74,8 @@ contains
       real(wp) :: middle
       middle = 0.5_wp*(gap%leading_angle - gap%trailing_angle)
       film = new_modal_film([gap], enough_cells([gap]), enough_modes([gap]), .false., tolerance)
-      call film%evaluate([film_motion(motion%position, 0.25_wp*clearance*speed*[sin(middle), cos(middle)])], 0.0_wp, &
+      call film%evaluate([film_motion(motion%position, 0.25_wp*clearance*speed*[sin(middle), cos(middle)])], &
+         & [paper_oil], 0.0_wp, &
          & .false., r)
       squeezed = norm2(r(1)%force)
    end function squeezed
@@ -105,8 +106,8 @@ contains
       worst_slope = 0
       do trial = 1, 20
          motion = loaded_motion()
-         call film%evaluate([(motion, k=1, 4)], speed, .true., found)
-         call fine%evaluate([(motion, k=1, 4)], speed, .true., expected)
+         call film%evaluate([(motion, k=1, 4)], spread(paper_oil, 1, 4), speed, .true., found)
+         call fine%evaluate([(motion, k=1, 4)], spread(paper_oil, 1, 4), speed, .true., expected)
          do k = 1, 4
             worst = max(worst, norm2(found(k)%force - expected(k)%force)/squeezed(gaps(k), motion))
             worst_slope = max(worst_slope, norm2((found(k)%derivatives(:, :2) - expected(k)%derivatives(:, :2))) &
@@ -137,8 +138,8 @@ contains
          exact = new_direct_film([gap], 384, 64, 80, 8, .false., .true.)
          motion%position = clearance*[-0.3_wp, 0.3_wp]
          motion%velocity = clearance*speed*[0.02_wp, -0.1_wp]
-         call film%evaluate([motion], speed, .true., found)
-         call exact%evaluate([motion], speed, .true., expected)
+         call film%evaluate([motion], [paper_oil], speed, .true., found)
+         call exact%evaluate([motion], [paper_oil], speed, .true., expected)
          call expect(found(1)%status == film_ok, 'an open film')
          call expect((film%counters%looked_up == 1) .eqv. angles(k) < 149, 'what has a table, '//to_text(angles(k)))
          error = norm2(found(1)%force - expected(1)%force)/max(norm2(expected(1)%force), squeezed(gap, motion))
@@ -157,9 +158,9 @@ contains
          do k = 1, 5
             motion = film_motion(clearance*[between(-0.4_wp, 0.4_wp), between(-0.4_wp, 0.4_wp)], &
                & -clearance*speed*[0.0_wp, 2.0_wp])
-            call film%evaluate([motion], speed, .true., found)
+            call film%evaluate([motion], [paper_oil], speed, .true., found)
             call expect(norm2(found(1)%force) <= 0 .and. norm2(found(1)%derivatives) <= 0, 'no force')
-            call film%take_pressures([motion], speed, found)
+            call film%take_pressures([motion], [paper_oil], speed, found)
             call expect(abs(found(1)%max_pressure) <= 0 .and. abs(found(1)%min_pressure) <= 0, 'no pressure')
          end do
          call expect(film%counters%cells == 0, 'and no cell')
@@ -179,16 +180,16 @@ contains
          exact = solver(paper_pad(), condition)
          do k = 1, size(along)
             motion = film_motion(clearance*[0.2_wp, 0.3_wp], [along(k), 0.01_wp])
-            call film%evaluate([motion], 0.0_wp, .true., found)
-            call exact%evaluate([motion], 0.0_wp, .true., expected)
+            call film%evaluate([motion], [paper_oil], 0.0_wp, .true., found)
+            call exact%evaluate([motion], [paper_oil], 0.0_wp, .true., expected)
             call expect_close(norm2(found(1)%force - expected(1)%force), 0.0_wp, tolerance*norm2(expected(1)%force), &
                & 'it closes')
             motion%velocity(2) = -0.01_wp
-            call film%evaluate([motion], 0.0_wp, .true., found)
+            call film%evaluate([motion], [paper_oil], 0.0_wp, .true., found)
             call expect_close(norm2(found(1)%force)/norm2(expected(1)%force), merge(1.0_wp, 0.0_wp, &
                & condition == none), 2*tolerance, 'it opens')
             motion%velocity(2) = 0
-            call film%evaluate([motion], 0.0_wp, .true., found)
+            call film%evaluate([motion], [paper_oil], 0.0_wp, .true., found)
             call expect(norm2(found(1)%force) < 1e-6_wp*norm2(expected(1)%force), 'it rests')
          end do
       end do
@@ -211,9 +212,10 @@ contains
          motion = film_motion(clearance*[between(-0.4_wp, 0.4_wp), between(-0.2_wp, 0.4_wp)], &
             & clearance*speed*[between(-0.5_wp, 0.5_wp), between(-0.2_wp, 0.2_wp)])
          film = tables([gap], condition)
-         call film%evaluate([motion], speed, .true., found)
+         call film%evaluate([motion], [paper_oil], speed, .true., found)
          film = tables([behind], condition)
-         call film%evaluate([film_motion(sides*motion%position, sides*motion%velocity)], -speed, .true., seen)
+         call film%evaluate([film_motion(sides*motion%position, sides*motion%velocity)], [paper_oil], -speed, &
+            & .true., seen)
          call expect_close(norm2(found(1)%force - sides*seen(1)%force), 0.0_wp, &
             & 1e-10_wp*squeezed(gap, motion), 'force in the mirror')
          do m = 1, 4
@@ -238,15 +240,17 @@ contains
       do trial = 1, 5
          motion = film_motion(clearance*[between(-0.4_wp, 0.4_wp), between(-0.2_wp, 0.4_wp)], &
             & clearance*speed*[between(-0.5_wp, 0.5_wp), between(-0.2_wp, 0.2_wp)])
-         call film%evaluate([motion], speed, .true., found)
+         call film%evaluate([motion], [paper_oil], speed, .true., found)
          do k = 1, 4
             step = 1e-6_wp*clearance*merge(1.0_wp, speed, k <= 2)
             shift = 0
             shift(k) = step
-            call film%evaluate([film_motion(motion%position + shift(:2), motion%velocity + shift(3:))], speed, &
+            call film%evaluate([film_motion(motion%position + shift(:2), motion%velocity + shift(3:))], [paper_oil], &
+               & speed, &
                & .false., moved)
             difference = moved(1)%force
-            call film%evaluate([film_motion(motion%position - shift(:2), motion%velocity - shift(3:))], speed, &
+            call film%evaluate([film_motion(motion%position - shift(:2), motion%velocity - shift(3:))], [paper_oil], &
+               & speed, &
                & .false., moved)
             difference = (difference - moved(1)%force)/(2*step)
             ! T bends its slopes within the step
@@ -268,16 +272,16 @@ contains
       do k = 1, n
          motions(k) = film_motion(clearance*[between(-0.4_wp, 0.4_wp), between(-0.2_wp, 0.4_wp)], &
             & clearance*speed*[between(-0.5_wp, 0.5_wp), between(-0.2_wp, 0.2_wp)])
-         call film%evaluate(motions(k:k), speed, .true., forth(k:k))
-         call film%take_pressures(motions(k:k), speed, forth(k:k))
+         call film%evaluate(motions(k:k), [paper_oil], speed, .true., forth(k:k))
+         call film%take_pressures(motions(k:k), [paper_oil], speed, forth(k:k))
          if (k == n/2) copy = film
       end do
       do k = n, 1, -1
-         call film%evaluate(motions(k:k), speed, .true., back)
-         call film%take_pressures(motions(k:k), speed, back)
+         call film%evaluate(motions(k:k), [paper_oil], speed, .true., back)
+         call film%take_pressures(motions(k:k), [paper_oil], speed, back)
          call expect_same_bits(back(1), forth(k), 'back')
          call expect(.not. abs(back(1)%max_pressure - forth(k)%max_pressure) > 0, 'highest pressure, back')
-         call copy%evaluate(motions(k:k), speed, .true., back)
+         call copy%evaluate(motions(k:k), [paper_oil], speed, .true., back)
          call expect_same_bits(back(1), forth(k), 'of a copy')
       end do
    end subroutine repeats
@@ -296,18 +300,18 @@ contains
             film = tables([paper_pad(around(:, k))], condition)
             exact = solver(paper_pad(around(:, k)), condition)
             motion = film_motion(clearance*[0.2_wp, 0.3_wp], clearance*speed*[0.0_wp, 0.01_wp])
-            call film%evaluate([motion], speed, .true., found)
-            call exact%evaluate([motion], speed, .true., expected)
+            call film%evaluate([motion], [paper_oil], speed, .true., found)
+            call exact%evaluate([motion], [paper_oil], speed, .true., expected)
             call expect_same_bits(found(1), expected(1), 'it ruptures, pressures '//to_text(k))
             call expect(film%counters%looked_up == 0 .and. film%counters%cells == 0, 'no table')
-            call film%take_pressures([motion], speed, found)
+            call film%take_pressures([motion], [paper_oil], speed, found)
             call expect(.not. abs(found(1)%max_pressure - expected(1)%max_pressure) > 0, 'pressures stay')
             motion%velocity(2) = 0.5_wp*clearance*speed
-            call film%evaluate([motion], speed, .true., found)
-            call exact%evaluate([motion], speed, .true., expected)
+            call film%evaluate([motion], [paper_oil], speed, .true., found)
+            call exact%evaluate([motion], [paper_oil], speed, .true., expected)
             call expect_same_bits(found(1), expected(1), 'it is whole, pressures '//to_text(k))
             call film%set_rupture(.false.)
-            call film%evaluate([motion], speed, .true., found)
+            call film%evaluate([motion], [paper_oil], speed, .true., found)
             call expect(film%counters%looked_up == 1, 'where it may not rupture it is looked up')
             call expect_close(norm2(found(1)%force - expected(1)%force), 0.0_wp, 2*tolerance*norm2(expected(1)%force), &
                & 'it is whole')
@@ -330,18 +334,18 @@ contains
          ! ruptured, whole, empty
          motion = film_motion(clearance*[0.2_wp, 0.3_wp], clearance*speed*[0.0_wp, 0.01_wp])
          if (k > 1) motion%velocity(2) = merge(1, -1, k == 2)*clearance*speed
-         call film%evaluate([motion], speed, .true., found)
-         call dry%evaluate([motion], speed, .true., without)
-         call exact%evaluate([motion], speed, .true., expected)
-         call exact_dry%evaluate([motion], speed, .true., expected_without)
+         call film%evaluate([motion], [paper_oil], speed, .true., found)
+         call dry%evaluate([motion], [paper_oil], speed, .true., without)
+         call exact%evaluate([motion], [paper_oil], speed, .true., expected)
+         call exact_dry%evaluate([motion], [paper_oil], speed, .true., expected_without)
          ! the solver sums that pressure over 80 columns by the middle rule
          call expect_close(norm2(found(1)%force - without(1)%force - (expected(1)%force - expected_without(1)%force)), &
             & 0.0_wp, 1.1_wp*(70*degree/80)**2/24*norm2(expected(1)%force - expected_without(1)%force), &
             & 'force of the pressure around the pad')
          call expect_close(norm2(found(1)%derivatives - without(1)%derivatives), 0.0_wp, &
             & 1e-12_wp*norm2(found(1)%derivatives), 'it has no slopes')
-         call film%take_pressures([motion], speed, found)
-         call dry%take_pressures([motion], speed, without)
+         call film%take_pressures([motion], [paper_oil], speed, found)
+         call dry%take_pressures([motion], [paper_oil], speed, without)
          call expect_close(found(1)%max_pressure, without(1)%max_pressure + 4e5_wp, 1e-3_wp, 'highest pressure')
          call expect_close(found(1)%min_pressure, 4e5_wp, 1e-3_wp, 'lowest pressure')
       end do
@@ -358,9 +362,9 @@ contains
       do k = 1, 6
          motions(k) = film_motion(clearance*[-0.02_wp*k, 0.3_wp], clearance*speed*[0.0_wp, 0.01_wp])
       end do
-      call film%evaluate(motions, speed, .true., found)
+      call film%evaluate(motions, spread(paper_oil, 1, size(motions)), speed, .true., found)
       do k = 6, 1, -1
-         call alone%evaluate(motions(k:k), speed, .true., expected)
+         call alone%evaluate(motions(k:k), [paper_oil], speed, .true., expected)
          call expect_same_bits(found(k), expected(1), 'pad '//to_text(k))
       end do
       call expect(film%counters%cells == alone%counters%cells, 'cells are built once')
@@ -382,10 +386,10 @@ contains
          motions(k) = loaded_motion()
       end do
       film = tables(gaps, gumbel)
-      call film%evaluate(motions, speed, .true., found)
+      call film%evaluate(motions, spread(paper_oil, 1, size(motions)), speed, .true., found)
       do k = n, 1, -1
          alone = tables(gaps(k:k), gumbel)
-         call alone%evaluate(motions(k:k), speed, .true., expected)
+         call alone%evaluate(motions(k:k), [paper_oil], speed, .true., expected)
          call expect_same_bits(found(k), expected(1), 'pad '//to_text(k))
       end do
    end subroutine many_pads
@@ -402,15 +406,15 @@ contains
       exact = solver(paper_pad(), reynolds)
       do k = -2, 0
          motion = film_motion([0.0_wp, (1 - 0.1_wp*k)*clearance], [0.0_wp, 0.0_wp])
-         call film%evaluate([motion], speed, .true., found)
+         call film%evaluate([motion], [paper_oil], speed, .true., found)
          call expect(found(1)%status == film_closed, 'a closed film')
          call expect_close(found(1)%min_film_thickness, 0.1_wp*k*clearance, 1e-18_wp, 'and by how much')
       end do
       call expect(film%counters%looked_up == 0, 'none is looked up')
       do k = 1, 7
          motion = film_motion([0.0_wp, (1 - 0.1_wp**k)*clearance], [0.0_wp, 0.0_wp])
-         call film%evaluate([motion], speed, .true., found)
-         call exact%evaluate([motion], speed, .true., expected)
+         call film%evaluate([motion], [paper_oil], speed, .true., found)
+         call exact%evaluate([motion], [paper_oil], speed, .true., expected)
          call expect(found(1)%status == expected(1)%status, 'as the solver without tables')
          error = norm2(found(1)%force - expected(1)%force)/squeezed(paper_pad(), motion)
          call expect(error < 5e-3_wp, 'nearly closed '//to_text(k)//', error '//to_text(error))
@@ -426,20 +430,20 @@ contains
       film = tables([paper_pad()], reynolds)
       whole = tables([paper_pad()], none)
       call expect(film%ruptures() .and. .not. whole%ruptures(), 'as they were made')
-      call film%evaluate([motion], speed, .true., first)
-      call whole%evaluate([motion], speed, .true., expected)
+      call film%evaluate([motion], [paper_oil], speed, .true., first)
+      call whole%evaluate([motion], [paper_oil], speed, .true., expected)
       call film%set_rupture(.false.)
-      call film%evaluate([motion], speed, .true., found)
+      call film%evaluate([motion], [paper_oil], speed, .true., found)
       call expect(.not. film%ruptures(), 'none ruptures')
       call expect_same_bits(found(1), expected(1), 'rupture forbidden')
-      call film%take_pressures([motion], speed, found)
+      call film%take_pressures([motion], [paper_oil], speed, found)
       call expect(found(1)%min_pressure < 0, 'and there is tension')
       call film%set_rupture(.true.)
-      call film%evaluate([motion], speed, .true., found)
+      call film%evaluate([motion], [paper_oil], speed, .true., found)
       call expect_same_bits(found(1), first(1), 'rupture allowed again')
       call whole%set_rupture(.true.)
       call expect(.not. whole%ruptures(), 'made without rupture')
-      call whole%evaluate([motion], speed, .true., found)
+      call whole%evaluate([motion], [paper_oil], speed, .true., found)
       call expect_same_bits(found(1), expected(1), 'made without rupture')
    end subroutine set_rupture
 
@@ -452,13 +456,13 @@ contains
       motion = loaded_motion()
       film = tables([paper_pad()], reynolds)
       exact = solver(paper_pad(), reynolds)
-      call film%evaluate([motion], speed, .true., found)
+      call film%evaluate([motion], [paper_oil], speed, .true., found)
       call expect(film%counters%looked_up == 1, 'looked up')
       call film%set_accuracy(1e-9_wp, 100)
-      call film%evaluate([motion], speed, .true., found)
-      call exact%evaluate([motion], speed, .true., expected)
+      call film%evaluate([motion], [paper_oil], speed, .true., found)
+      call exact%evaluate([motion], [paper_oil], speed, .true., expected)
       call expect_same_bits(found(1), expected(1), 'solved')
-      call film%take_pressures([motion], speed, found)
+      call film%take_pressures([motion], [paper_oil], speed, found)
       call expect(.not. abs(found(1)%max_pressure - expected(1)%max_pressure) > 0, 'with its pressures')
       call expect(film%counters%looked_up == 1, 'not looked up')
       call expect(film%counters%modal + film%counters%volumes == 1, 'counted as solved')
@@ -485,10 +489,11 @@ contains
          do trial = 1, 20
             motion = film_motion(clearance*[between(-0.4_wp, 0.4_wp), between(-0.2_wp, 0.4_wp)], &
                & clearance*speed*[between(-0.5_wp, 0.5_wp), between(-0.2_wp, 0.2_wp)])
-            call film%evaluate([motion], speed, .false., found)
-            call film%take_pressures([motion], speed, found)
-            call fine%field([motion], speed, phi, [0.0_wp], along)
-            call fine%field([film_motion(motion%position, clearance*speed*[0.0_wp, 0.25_wp])], 0.0_wp, phi, [0.0_wp], &
+            call film%evaluate([motion], [paper_oil], speed, .false., found)
+            call film%take_pressures([motion], [paper_oil], speed, found)
+            call fine%field([motion], [paper_oil], speed, phi, [0.0_wp], along)
+            call fine%field([film_motion(motion%position, clearance*speed*[0.0_wp, 0.25_wp])], [paper_oil], 0.0_wp, &
+               & phi, [0.0_wp], &
                & squeezed_film)
             if (supply < 0) along = max(0.0_wp, along)
             associate (highest => max(gap%supply_pressure, maxval(along)), lowest => min(0.0_wp, minval(along)), &

@@ -4,6 +4,7 @@ program test_tilting_pad_bearing
    use kinds, only: wp
    use text, only: to_text
    use scene, only: scene_type
+   use film_solver, only: film_oil
    use kinematics, only: journal_motion, pad_state, columns, journal_columns, tilt_column, tilt_rate_column, &
       & penetration_column
    use tilting_pad, only: pad_derivatives
@@ -13,6 +14,7 @@ program test_tilting_pad_bearing
    implicit none (type, external)
 
    real(wp), parameter :: speed = 680
+   type(film_oil), parameter :: oil(2) = film_oil(19e-3_wp)
    character(len=*), parameter :: motions(2) = [character(len=14) :: 'tilting_radial', 'tilting_only']
    character(len=*), parameter :: frictions(3) = [character(len=12) :: 'none', 'bengisu_akay', 'lugre']
    character(len=*), parameter :: solvers(4) = [character(len=6) :: 'modal', 'direct', 'sor', 'auto']
@@ -53,13 +55,13 @@ contains
       scene%film%solver = solver
       bearing = new_tilting_pad_bearing(scene)
       call draw(journal, pads)
-      call bearing%evaluate(journal, pads, speed, .true., refusal, ok)
+      call bearing%evaluate(journal, pads, oil, speed, .true., refusal, ok)
       all_pads = bearing
       moved = pads
       moved%tilt = pads%tilt + 1e-5_wp
-      call bearing%evaluate(journal, moved, speed, .true., refusal, ok, [.false., .true.])
+      call bearing%evaluate(journal, moved, oil, speed, .true., refusal, ok, [.false., .true.])
       call expect_close(difference(bearing, all_pads, 1), 0.0_wp, 0.0_wp, solver//': a pad that is not chosen')
-      call all_pads%evaluate(journal, moved, speed, .true., refusal, ok)
+      call all_pads%evaluate(journal, moved, oil, speed, .true., refusal, ok)
       call expect_close(difference(bearing, all_pads, 2), 0.0_wp, 1e-9_wp, solver//': a chosen pad')
       call expect(difference(bearing, all_pads, 1) > 1e-3_wp, solver//': the move is felt')
    end subroutine chosen_pads
@@ -155,7 +157,7 @@ contains
       if (rough) bearing = rough_bearing(motion, friction)
       call draw(journal, pads)
       if (motion == 'fixed') pads = pad_state()
-      call bearing%evaluate(journal, pads, speed, .true., refusal, all_ok)
+      call bearing%evaluate(journal, pads, oil, speed, .true., refusal, all_ok)
       call expect(all(bearing%asperity%touches .eqv. rough), 'asperities touch, or not, '//what)
       taken = bearing%derivatives
       do pad = 1, 2
@@ -171,7 +173,7 @@ contains
                moved_journal = journal
                moved = pads
                call move(column, pad, offsets(k)*steps(column), moved_journal, moved)
-               call bearing%evaluate(moved_journal, moved, speed, .false., refusal, ok)
+               call bearing%evaluate(moved_journal, moved, oil, speed, .false., refusal, ok)
                all_ok = all_ok .and. ok
                associate (loads => bearing%loads(pad))
                   expected(:, column) = expected(:, column) + weights(k)*[loads%journal, loads%moment, loads%radial, &
@@ -188,7 +190,7 @@ contains
                & 1e-7_wp*maxval(abs(expected(row, :))), 'load '//to_text(row)//' of pad ' &
                & //to_text(pad)//', '//what)
          end do
-         call bearing%evaluate(journal, pads, speed, .false., refusal, ok)
+         call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
       end do
       call expect(all_ok, 'all states are admitted, '//what)
    end subroutine derivatives
@@ -234,7 +236,7 @@ contains
       if (rough) bearing = rough_bearing(motion, friction)
       call draw(journal, pads)
       if (motion == 'fixed') pads = pad_state()
-      call bearing%evaluate(journal, pads, speed, .true., refusal, ok)
+      call bearing%evaluate(journal, pads, oil, speed, .true., refusal, ok)
       call expect(ok, 'a state with films')
       evaluated = bearing%sampled()
       nothing = 0
@@ -283,13 +285,13 @@ contains
          ! the wedge of the second pad opens: its film ruptures
          journal%position = [-3e-5_wp, 0.0_wp]
          pads = [pad_state(2e-4_wp, 0.3_wp, 5e-6_wp), pad_state(-6e-4_wp, 0.3_wp, 5e-6_wp)]
-         call bearing%evaluate(journal, pads, speed, .false., refusal, ok)
+         call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect(ok .and. abs(bearing%loads(1)%friction%force) > 0, 'friction acts, '//solvers(k))
          ruptured = bearing%loads(2)%journal
          bearing%rubs = .false.
          call bearing%set_rupture(.false.)
          call expect(bearing%smooth() .and. .not. bearing%films_rupture(), 'neither, '//solvers(k))
-         call bearing%evaluate(journal, pads, speed, .false., refusal, ok)
+         call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect_close(bearing%loads(1)%friction%force, 0.0_wp, 0.0_wp, 'no friction, '//solvers(k))
          whole = bearing%loads(2)%journal
          call expect(norm2(whole - ruptured) > 1e-2_wp*norm2(ruptured), &
@@ -297,12 +299,12 @@ contains
          scene%film%cavitation = 'none'
          bearing%rubs = .true.
          call bearing%set_rupture(.true.)
-         call bearing%evaluate(journal, pads, speed, .false., refusal, ok)
+         call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect_close(norm2(bearing%loads(2)%journal - ruptured), 0.0_wp, 1e-5_wp*norm2(ruptured), &
             & 'and back, within the tolerance of sor, '//solvers(k))
          bearing = new_tilting_pad_bearing(scene)
          call expect(.not. bearing%films_rupture(), 'no rupture by the input, '//solvers(k))
-         call bearing%evaluate(journal, pads, speed, .false., refusal, ok)
+         call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect_close(norm2(bearing%loads(2)%journal - whole), 0.0_wp, 1e-5_wp*norm2(whole), &
             & 'the whole film is that of the input without rupture, '//solvers(k))
       end do

@@ -5,7 +5,7 @@ program test_whole_table
    use text, only: to_text
    use film_solver, only: film_motion, film_response
    use pad_gap, only: pad_gap_type
-   use unit_pad, only: unit_pad_type, new_unit_pad, thickness_scale
+   use unit_pad, only: unit_oil, unit_pad_type, new_unit_pad, thickness_scale
    use modal_film, only: modal_film_type, new_modal_film
    use square_patch, only: lanes
    use octaves, only: interval, lower_end
@@ -18,7 +18,7 @@ program test_whole_table
    type(modal_film_type) :: fine, fine_supplied
    integer :: i
 
-   associate (gap => pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp))
+   associate (gap => pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 0.0_wp, 0.0_wp, 0.0_wp))
       pad = new_unit_pad(gap)
    end associate
    fine = new_modal_film([pad%gap(0.0_wp)], 96, 32, .false., 1e-7_wp)
@@ -54,9 +54,9 @@ contains
       real(wp), intent(out) :: driven(3), supplied(2)
       type(film_response) :: along(1), outward(1), still(1)
       associate (position => pad%position(edges))
-         call fine%evaluate([film_motion(position, [1.0_wp, 0.0_wp])], 0.0_wp, .false., along)
-         call fine%evaluate([film_motion(position, [0.0_wp, 1.0_wp])], 0.0_wp, .false., outward)
-         call fine_supplied%evaluate([film_motion(position)], 0.0_wp, .false., still)
+         call fine%evaluate([film_motion(position, [1.0_wp, 0.0_wp])], [unit_oil], 0.0_wp, .false., along)
+         call fine%evaluate([film_motion(position, [0.0_wp, 1.0_wp])], [unit_oil], 0.0_wp, .false., outward)
+         call fine_supplied%evaluate([film_motion(position)], [unit_oil], 0.0_wp, .false., still)
       end associate
       driven = [along(1)%force, outward(1)%force(2)]/thickness_scale(edges(1), edges(2))
       supplied = still(1)%force
@@ -227,9 +227,10 @@ contains
       call expect(good, 'a film that is open')
       film = new_modal_film([pad%gap(supply/minval(edges)**2)], 48, 16, .false., 1e-6_wp)
       phi(:, 1) = [((2*k - 1.0_wp - n)/n*half_arc, k=1, n)]
-      call film%field([film_motion(pad%position(edges), w)], 0.0_wp, phi, [0.0_wp], pressure)
+      call film%field([film_motion(pad%position(edges), w)], [unit_oil], 0.0_wp, phi, [0.0_wp], pressure)
       ! over that of the same film squeezed as fast
-      call film%field([film_motion(pad%position(edges), norm2(w)*[0.0_wp, 1.0_wp])], 0.0_wp, phi, [0.0_wp], onset)
+      call film%field([film_motion(pad%position(edges), norm2(w)*[0.0_wp, 1.0_wp])], [unit_oil], 0.0_wp, phi, &
+         & [0.0_wp], onset)
       call expect_close(found/maxval(onset), max(0.0_wp, supply/minval(edges)**2, maxval(pressure))/maxval(onset), &
          & 5e-3_wp, 'highest pressure')
    end subroutine highest_pressure

@@ -35,16 +35,11 @@ contains
       real(wp), intent(in) :: parameter
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: oil_error
-      real(wp), allocatable :: viscosity(:)
       call self%bearing%set_value(parameter, error)
       ! a revolution of the shaft
       self%period = 2*pi/self%bearing%model%point%speed(0.0_wp)
       if (.not. allocated(self%oil)) return
-      associate (bearing => self%bearing%model%bearing)
-         allocate (viscosity(size(bearing%pads)))
-         call self%oil%find(parameter, viscosity, oil_error)
-         call bearing%set_viscosity(viscosity)
-      end associate
+      call self%oil%find(parameter, self%bearing%model%oil%viscosity, oil_error)
       if (.not. allocated(error)) call move_alloc(oil_error, error)
    end subroutine set
 

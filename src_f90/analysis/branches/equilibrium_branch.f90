@@ -60,7 +60,7 @@ contains
       associate (model => bearing%model)
          problem%positions = y(model%layout%positions())
          problem%viscosity = [real(wp) ::]
-         if (has_warm_oil(model)) problem%viscosity = model%bearing%pads%gap%viscosity
+         if (has_warm_oil(model)) problem%viscosity = model%oil%viscosity
          problem%n = size(problem%positions) + size(problem%viscosity)
          problem%scale = clearances(model)
          allocate (problem%force(size(problem%positions)), source=reference_force(model))
@@ -127,7 +127,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       logical :: ok
       associate (model => self%bearing%model, n => size(self%positions))
-         if (size(self%viscosity) > 0) call model%bearing%set_viscosity(self%viscosity)
+         if (size(self%viscosity) > 0) model%oil%viscosity = self%viscosity
          call model%evaluate(0.0_wp, self%state(), want_derivatives, ok)
          imbalance(:n) = forces(model, 0.0_wp)
          imbalance(n + 1:) = 0
@@ -209,7 +209,7 @@ contains
    subroutine temperatures(self, oil)
       class(equilibrium_problem_type), intent(inout) :: self
       type(oil_temperatures_type), intent(out) :: oil
-      call self%bearing%model%bearing%set_viscosity(self%viscosity)
+      self%bearing%model%oil%viscosity = self%viscosity
       call find_temperatures(self%bearing%model, self%state(), self%balance, oil)
    end subroutine temperatures
 end module equilibrium_branch

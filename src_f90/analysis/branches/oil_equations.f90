@@ -56,8 +56,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       logical :: ok
       call begin_balance(model, y, balance)
-      call set_lack(balance%heat, balance%losses, model%bearing%pads%gap%viscosity, model%point%speed(0.0_wp), &
-         & balance%lack, ok)
+      call set_lack(balance%heat, balance%losses, model%oil%viscosity, model%point%speed(0.0_wp), balance%lack, &
+         & ok)
       call judge(model, balance%heat, balance%losses, ok, 0.0_wp, error)
    end subroutine find_lack
 
@@ -93,7 +93,7 @@ contains
       none = 0
       call model%take_sample(0.0_wp, y, none, sample)
       change = difference*minval(sample%loads%min_film_thickness)/model%scene%bearing%assembled_clearance
-      films = model%bearing%pads%gap%viscosity
+      films = model%oil%viscosity
       thicker = films*exp(difference)
       x = model%layout%positions()
       journal = model%layout%rotor/2
@@ -108,9 +108,9 @@ contains
             call set_slope(own(i), merge_loss(i), films, change)
          end do
       end do
-      call model%bearing%set_viscosity(thicker)
+      model%oil%viscosity = thicker
       call find_losses(model, balance%finder, y, moved)
-      call model%bearing%set_viscosity(films)
+      model%oil%viscosity = films
       do i = 1, size(moved)
          call set_slope(size(x) + i, merge_loss(i), [films(:i - 1), thicker(i), films(i + 1:)], difference)
       end do
@@ -154,14 +154,14 @@ contains
       real(wp) :: films(model%layout%pads), now(size(slopes, 1))
       integer :: i
       logical :: ok
-      films = model%bearing%pads%gap%viscosity
+      films = model%oil%viscosity
       now = forces(model, 0.0_wp)
       do i = 1, size(films)
-         call model%bearing%set_viscosity([films(:i - 1), films(i)*exp(difference), films(i + 1:)])
+         model%oil%viscosity = [films(:i - 1), films(i)*exp(difference), films(i + 1:)]
          call model%evaluate(0.0_wp, y, .false., ok)
          slopes(:, i) = (forces(model, 0.0_wp) - now)/difference
       end do
-      call model%bearing%set_viscosity(films)
+      model%oil%viscosity = films
       call model%evaluate(0.0_wp, y, .false., ok)
    end subroutine find_force_slopes
 
@@ -173,7 +173,6 @@ contains
       type(oil_temperatures_type), intent(out) :: oil
       logical :: ok
       call begin_balance(model, y, balance)
-      call balance%heat%temperatures(balance%losses, model%bearing%pads%gap%viscosity, model%point%speed(0.0_wp), oil, &
-         & ok)
+      call balance%heat%temperatures(balance%losses, model%oil%viscosity, model%point%speed(0.0_wp), oil, ok)
    end subroutine find_temperatures
 end module oil_equations

@@ -41,7 +41,7 @@ contains
       real(wp), intent(in) :: y(:)
       self%bearing = bearing
       self%start%y = y
-      self%start%viscosity = bearing%model%bearing%pads%gap%viscosity
+      self%start%viscosity = bearing%model%oil%viscosity
       self%found = self%start
       self%before = self%start
    end function new_resting_oil
@@ -65,10 +65,10 @@ contains
          call self%bearing%set_value(value, ignored)
          rest = self%start
          associate (model => self%bearing%model)
-            call model%bearing%set_viscosity(rest%viscosity)
+            model%oil%viscosity = rest%viscosity
             call come_to_warm_rest(model, rest%y, residual, error)
             call add_context(error, 'the oil takes the temperatures of the equilibrium')
-            rest%viscosity = model%bearing%pads%gap%viscosity
+            rest%viscosity = model%oil%viscosity
          end associate
          if (.not. allocated(error)) then
             rest%value = value
@@ -112,7 +112,7 @@ contains
       real(wp), allocatable, intent(out) :: viscosity(:)
       type(error_type), allocatable :: ignored
       call self%bearing%set_value(self%found%value, ignored)
-      call self%bearing%model%bearing%set_viscosity(self%found%viscosity)
+      self%bearing%model%oil%viscosity = self%found%viscosity
       call find_temperatures(self%bearing%model, self%found%y, self%balance, oil)
       viscosity = self%found%viscosity
    end subroutine get_found

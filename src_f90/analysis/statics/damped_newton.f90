@@ -241,7 +241,7 @@ contains
       type(bearing_model), intent(in) :: model
       associate (gap => model%bearing%pads%gap, loads => model%bearing%loads)
          reference_force = max(norm2(model%point%load), maxval(model%bearing%pads%weight), &
-            & maxval(gap%viscosity*model%point%speed(0.0_wp)*gap%journal_radius**2*gap%arc()*gap%axial_length &
+            & maxval(model%oil%viscosity*model%point%speed(0.0_wp)*gap%journal_radius**2*gap%arc()*gap%axial_length &
             & /gap%machined_clearance), &
             & least_load*maxval(hypot(loads%journal(1), loads%journal(2))))
       end associate

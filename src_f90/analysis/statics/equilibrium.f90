@@ -171,7 +171,7 @@ contains
       integer :: method, k
       logical :: ok
       if (allocated(found%tilt)) deallocate (found%tilt)
-      call make_quick(static%scene, static%bearing%pads%gap%viscosity, static%point%rupture, quick)
+      call make_quick(static%scene, static%oil%viscosity, static%point%rupture, quick)
       do method = by_pads, by_suction
          do k = 1, starts
             if (asked(give_up)) return

@@ -56,7 +56,7 @@ contains
             call add_context(error, 'oil of the run-up at '//to_text(static%point%speed_rpm)//' rpm')
             if (allocated(error)) return
          end if
-         viscosity(:, k) = static%bearing%pads%gap%viscosity
+         viscosity(:, k) = static%oil%viscosity
          call find_losses(static, finder, state, losses)
          associate (speed => static%point%speed(0.0_wp))
             if (k == 0) then

@@ -52,8 +52,7 @@ contains
       pads = model%layout%pad_states(y)
       do i = 1, size(at_rest)
          if (at_rest(i)) cycle
-         call make_quick(scene_of_pad(model%scene, i), model%bearing%pads(i:i)%gap%viscosity, model%point%rupture, &
-            & alone)
+         call make_quick(scene_of_pad(model%scene, i), model%oil(i:i)%viscosity, model%point%rupture, alone)
          call find_rest(alone, journal, pads(i), at_rest(i))
       end do
       y = model%state(journal, pads)

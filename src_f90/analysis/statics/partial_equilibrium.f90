@@ -29,7 +29,7 @@ contains
       integer :: k
       call make_static(model, model%point%rupture, static)
       if (has_warm_oil(model)) call guess_oil(static, 1)
-      call make_quick(model%scene, static%bearing%pads%gap%viscosity, model%point%rupture, quick)
+      call make_quick(model%scene, static%oil%viscosity, model%point%rupture, quick)
       do k = 1, starts
          y = start(quick, k)
          call eliminate_pads(quick, y, at_rest, ok, give_up)

@@ -46,7 +46,8 @@ contains
       allocate (figures%pads(size(static%tilt)))
       losses = new_bearing_losses(model%scene)
       call losses%find(model%bearing, journal_motion(static%journal), [(pad_state(static%tilt(i), &
-         & penetration=static%penetration(i)), i=1, size(static%tilt))], model%point%speed(0.0_wp), figures%pads)
+         & penetration=static%penetration(i)), i=1, size(static%tilt))], model%oil, model%point%speed(0.0_wp), &
+         & figures%pads)
       associate (pads => figures%pads, heat => model%scene%oil%density*model%scene%oil%specific_heat)
          ! oil that leaves at the sides is warmed half of the way
          figures%temperature_rise = rise(pads%power(), heat*(pads%inlet + pads%outlet)/2)

@@ -64,7 +64,7 @@ contains
       changed = scene
       changed%film%solver = 'loose'
       call make_static(new_bearing_model(changed), rupture, quick)
-      call quick%bearing%set_viscosity(viscosity)
+      quick%oil%viscosity = viscosity
    end subroutine make_quick
 
    !> The same with films that are converged, where the scene leaves their solver to the program.
@@ -168,6 +168,6 @@ contains
       found%contact_force = samples%contact_force
       found%min_film_thickness = samples%min_film_thickness
       found%max_pressure = samples%max_pressure
-      found%viscosity = model%bearing%pads%gap%viscosity
+      found%viscosity = model%oil%viscosity
    end subroutine describe
 end module static_model

@@ -53,11 +53,11 @@ contains
          finder = new_bearing_losses(model%scene)
          balance = new_heat_balance(model%scene)
          call find_losses(model, finder, start(model, middle_start), losses)
-         now = model%bearing%pads%gap%viscosity
+         now = model%oil%viscosity
          call balance%viscosities(losses, now, model%point%speed(0.0_wp), balanced, ok)
          if (ok) wanted = balanced
       end if
-      call model%bearing%set_viscosity(wanted)
+      model%oil%viscosity = wanted
    end subroutine guess_oil
 
    !> Losses and flows in the state y.
@@ -67,7 +67,7 @@ contains
       real(wp), intent(in) :: y(:)
       type(pad_loss), intent(out) :: losses(:)
       call finder%find(model%bearing, model%rotor%journal(y(:model%rotor%states)), model%layout%pad_states(y), &
-         & model%point%speed(0.0_wp), losses)
+         & model%oil, model%point%speed(0.0_wp), losses)
    end subroutine find_losses
 
    !> Brings a state that is nearly at rest to rest, as come_to_rest does, and the oil, where it is warm, to the
@@ -100,7 +100,7 @@ contains
          call follow(model, y, step, residual, error, give_up, held)
          if (allocated(error)) return
          call find_losses(model, finder, y, losses)
-         now = model%bearing%pads%gap%viscosity
+         now = model%oil%viscosity
          call balance%viscosities(losses, now, model%point%speed(0.0_wp), wanted, ok, kept)
          if (.not. ok) exit
          lack = log(wanted/now)
@@ -123,15 +123,15 @@ contains
       procedure(asked_to_stop), optional :: give_up
       logical, intent(in), optional :: held(:)
       real(wp) :: trial(size(y)), before(size(step))
-      before = model%bearing%pads%gap%viscosity
-      call model%bearing%set_viscosity(before*exp(step))
+      before = model%oil%viscosity
+      model%oil%viscosity = before*exp(step)
       do
          trial = y
          call come_to_rest(model, trial, residual, error, give_up, held)
          if (.not. allocated(error)) exit
          if (asked(give_up) .or. .not. maxval(abs(step)) > shortest_step) return
          step = step/4
-         call model%bearing%set_viscosity(before*exp(step))
+         model%oil%viscosity = before*exp(step)
       end do
       y = trial
    end subroutine follow
@@ -150,8 +150,7 @@ contains
       integer :: hottest
       logical :: ok
       ok = solved
-      if (ok) call balance%temperatures(losses, model%bearing%pads%gap%viscosity, model%point%speed(0.0_wp), oil, ok, &
-         & kept)
+      if (ok) call balance%temperatures(losses, model%oil%viscosity, model%point%speed(0.0_wp), oil, ok, kept)
       if (.not. ok) then
          call raise(error, numerics_error, 'the oil has no heat balance: neither its flow nor the shaft carries the ' &
             & //'heat of the films off; it needs fresh oil (oil%carry_over below 1) or exchange with the shaft ' &

@@ -36,7 +36,7 @@ contains
       procedure(asked_to_stop), optional :: give_up
       logical :: ok
       y = model%at_rest(found%journal, found%tilt, found%penetration)
-      call model%bearing%set_viscosity(found%viscosity)
+      model%oil%viscosity = found%viscosity
       call come_to_warm_rest(model, y, found%residual, error, give_up)
       if (allocated(error)) return
       call describe(model, y, found)

@@ -7,6 +7,7 @@
 !> what the inclination of the film and the length of the arc change is a sum that converges.
 module modal_edges
    use kinds, only: wp, pi
+   use film_solver, only: film_oil
    use modal_pad, only: modal_pad_type
    use modal_sweeps, only: lanes
    implicit none (type, external)
@@ -15,10 +16,11 @@ module modal_edges
 
 contains
 
-   !> Flows in at the leading and out at the trailing edge, m^3/s, of the pad's last solution, which a pressure of 1 Pa
-   !> at the leading edge alone has driven.
-   pure function edge_flows(pad) result(flows)
+   !> Flows in at the leading and out at the trailing edge, m^3/s, of the pad's last solution, with this oil, which a
+   !> pressure of 1 Pa at the leading edge alone has driven.
+   pure function edge_flows(pad, oil) result(flows)
       type(modal_pad_type), intent(in) :: pad
+      type(film_oil), intent(in) :: oil
       real(wp) :: flows(2)
       real(wp) :: falling, leading(lanes), trailing(lanes)
       integer :: b
@@ -40,7 +42,7 @@ contains
                flows(2) = flows(2) + sum(c*trailing)
             end associate
          end do
-         flows = flows*[h(n), h(0)]**3*gap%machined_clearance**3/(12*gap%viscosity*pad%radius)
+         flows = flows*[h(n), h(0)]**3*gap%machined_clearance**3/(12*oil%viscosity*pad%radius)
       end associate
 
    contains

@@ -12,7 +12,7 @@
 !> below the cavitation pressure is taken out of the force.
 module modal_film
    use kinds, only: wp
-   use film_solver, only: film_solver_type, film_motion, film_response, film_closed
+   use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_closed
    use pad_gap, only: pad_gap_type, pad_directions
    use clipped_quadrature, only: clipped_weights
    use film_resolution, only: resolution_type, new_resolution, most_levels, enough_cells, enough_modes
@@ -42,7 +42,6 @@ module modal_film
    contains
       procedure :: ruptures
       procedure :: set_rupture
-      procedure :: set_viscosity
       procedure :: evaluate => evaluate_all
       procedure :: field => field_all
       procedure :: supply_flows
@@ -96,19 +95,10 @@ contains
       end do
    end subroutine set_rupture
 
-   pure subroutine set_viscosity(self, viscosity)
-      class(modal_film_type), intent(inout) :: self
-      real(wp), intent(in) :: viscosity(:)
-      integer :: i
-      do i = 1, size(viscosity)
-         self%gaps(i)%viscosity = viscosity(i)
-         self%pads(:, i)%gap%viscosity = viscosity(i)
-      end do
-   end subroutine set_viscosity
-
-   subroutine evaluate_all(self, motion, speed, want_derivatives, response, chosen)
+   subroutine evaluate_all(self, motion, oil, speed, want_derivatives, response, chosen)
       class(modal_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_response), intent(inout) :: response(:)
@@ -135,7 +125,7 @@ contains
                call self%resolutions(i)%make_pad(gap, level, self%pads(level, i))
                call set_weights(self%pads(level, i), self%gumbel)
             end if
-            call set_motion(self%pads(level, i), motion(i), speed, along)
+            call set_motion(self%pads(level, i), motion(i), oil(i), speed, along)
             call evaluate_pad(self%pads(level, i), self%gumbel, want_derivatives, response(i))
          end associate
       end do
@@ -161,26 +151,28 @@ contains
       if (want_derivatives) response%derivatives = force_slopes(pad, rise)
    end subroutine evaluate_pad
 
-   subroutine field_all(self, motion, speed, phi, z, pressure)
+   subroutine field_all(self, motion, oil, speed, phi, z, pressure)
       class(modal_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed, phi(:, :), z(:)
       real(wp), intent(out) :: pressure(:, :, :)
       type(film_response) :: response(size(motion))
       integer :: i
-      call self%evaluate(motion, speed, .false., response)
+      call self%evaluate(motion, oil, speed, .false., response)
       do i = 1, size(motion)
          pressure(:, :, i) = field_of_modes(self%pads(self%level(i), i), phi(:, i), z)
          if (self%gumbel) pressure(:, :, i) = max(pressure(:, :, i), self%gaps(i)%cavitation_pressure)
       end do
    end subroutine field_all
 
-   !> Flows in at the leading and out at the trailing edge of the first pad, m^3/s, in its last film, which a pressure
-   !> of 1 Pa at the leading edge alone has driven.
-   pure function supply_flows(self)
+   !> Flows in at the leading and out at the trailing edge of the first pad, m^3/s, in its last film, with this oil,
+   !> which a pressure of 1 Pa at the leading edge alone has driven.
+   pure function supply_flows(self, oil)
       class(modal_film_type), intent(in) :: self
+      type(film_oil), intent(in) :: oil
       real(wp) :: supply_flows(2)
-      supply_flows = edge_flows(self%pads(self%level(1), 1))
+      supply_flows = edge_flows(self%pads(self%level(1), 1), oil)
    end function supply_flows
 
    !> Force of the whole film, minimum and maximum pressure.

@@ -1,7 +1,7 @@
 !> One pad of the axial modes at one resolution: its nodes, its modes, and the fields of the last solution (modal_film).
 module modal_pad
    use kinds, only: wp
-   use film_solver, only: film_motion
+   use film_solver, only: film_motion, film_oil
    use pad_gap, only: pad_gap_type, pad_directions
    use axial_modes, only: axial_modes_type, new_axial_modes
    use clipped_quadrature, only: gregory_weights, clipped_weights
@@ -96,18 +96,19 @@ contains
       end if
    end subroutine set_weights
 
-   !> Nodes and source at a motion that leaves the film open, and a journal speed, rad/s.
-   pure subroutine set_motion(pad, motion, speed, along)
+   !> Nodes and source at a motion that leaves the film open, with an oil, and a journal speed, rad/s.
+   pure subroutine set_motion(pad, motion, oil, speed, along)
       type(modal_pad_type), intent(inout) :: pad
       type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
       !> The arc's span (sommerfeld_nodes).
       real(wp), intent(in) :: speed, along
       associate (gap => pad%gap)
          pad%e = motion%position/gap%machined_clearance
          pad%w = motion%velocity
          pad%d = along/pad%n
-         pad%wedge = -6*gap%viscosity*pad%radius*speed*gap%journal_radius/gap%machined_clearance**2
-         pad%squeeze = -12*gap%viscosity*pad%radius**2/gap%machined_clearance**3
+         pad%wedge = -6*oil%viscosity*pad%radius*speed*gap%journal_radius/gap%machined_clearance**2
+         pad%squeeze = -12*oil%viscosity*pad%radius**2/gap%machined_clearance**3
       end associate
       call place_nodes(pad%n, pad%d, pad%e, pad%directions, pad%h, pad%sine, pad%cosine)
       call set_nodes(pad%n, pad%d, pad%e, [pad%wedge*pad%e(2) + pad%squeeze*pad%w(1), &

@@ -5,7 +5,7 @@ module following_volumes
    use kinds, only: wp
    use film_solver, only: film_motion
    use pad_gap, only: pad_gap_type
-   use unit_pad, only: unit_pad_type, new_unit_pad
+   use unit_pad, only: unit_pad_type, unit_oil, new_unit_pad
    use middle_frame, only: middle_motion, middle_frame_type, new_middle_frame
    use elimination_film, only: elimination_film_type, new_elimination_film
    implicit none (type, external)
@@ -33,7 +33,7 @@ contains
       half = columns_a_row*rows/2
       pad = new_unit_pad(gap)
       frame = new_middle_frame(gap, pad)
-      seen = frame%motion(motion, speed)
+      seen = frame%motion(motion, unit_oil, speed)
       zero = -atan2(sign(1.0_wp, seen%w(1))*seen%w(2), abs(seen%w(1)))
       zero = min(max(zero, -farthest*pad%half_arc), farthest*pad%half_arc)
       associate (position => pad%position(seen%edges))

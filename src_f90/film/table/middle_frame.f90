@@ -2,7 +2,7 @@
 !> their derivatives back.
 module middle_frame
    use kinds, only: wp
-   use film_solver, only: film_motion
+   use film_solver, only: film_motion, film_oil
    use pad_gap, only: pad_gap_type, pad_directions
    use unit_pad, only: unit_pad_type, thickness_scale
    implicit none (type, external)
@@ -14,17 +14,17 @@ module middle_frame
       private
       !> Sine and cosine of the angle from pivot to middle; of half the arc, over the clearance.
       real(wp) :: sine, cosine, edge_sine, edge_cosine
-      !> mu R^4/c^3, N s/m; R_J/(2 R).
-      real(wp) :: unit_force, half_speed
+      !> R^4, m^4; c^3, m^3; R_J/(2 R).
+      real(wp) :: radius_4, clearance_3, half_speed
    contains
-      procedure :: set_viscosity
       procedure :: motion
       procedure :: force
       procedure :: derivatives
    end type middle_frame_type
 
    !> A motion in the frame of the middle: film thicknesses at the leading and trailing edge over the clearance; the
-   !> velocity w that drives the film, m/s; its turn with the journal, 1/s; S, N s/m.
+   !> velocity w that drives the film, m/s; its turn with the journal, 1/s; S, N s/m,
+   !> that is mu R^4/c^3 times the thickness scale.
    type :: middle_motion
       real(wp) :: edges(2), w(2), turn, scale
    end type middle_motion
@@ -47,20 +47,15 @@ contains
       frame%edge_sine = pad%sine/gap%machined_clearance
       frame%edge_cosine = pad%cosine/gap%machined_clearance
       frame%half_speed = gap%journal_radius/(2*gap%pad_radius())
-      call frame%set_viscosity(gap)
+      frame%radius_4 = gap%pad_radius()**4
+      frame%clearance_3 = gap%machined_clearance**3
    end function new_middle_frame
 
-   !> Takes the viscosity of the oil from the gap.
-   pure subroutine set_viscosity(self, gap)
-      class(middle_frame_type), intent(inout) :: self
-      type(pad_gap_type), intent(in) :: gap
-      self%unit_force = gap%viscosity*gap%pad_radius()**4/gap%machined_clearance**3
-   end subroutine set_viscosity
-
-   !> The motion of the journal, seen from the middle, at a journal speed, rad/s.
-   pure type(middle_motion) function motion(self, seen, speed)
+   !> The motion of the journal, seen from the middle, with an oil, at a journal speed, rad/s.
+   pure type(middle_motion) function motion(self, seen, oil, speed)
       class(middle_frame_type), intent(in) :: self
       type(film_motion), intent(in) :: seen
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       real(wp) :: at(2)
       associate (s => self%sine, c => self%cosine, e => seen%position, v => seen%velocity)
@@ -68,7 +63,7 @@ contains
          motion%turn = self%half_speed*speed
          motion%w = [v(1)*c - v(2)*s + motion%turn*at(2), v(1)*s + v(2)*c - motion%turn*at(1)]
          motion%edges = 1 - at(2)*self%edge_cosine + [-at(1), at(1)]*self%edge_sine
-         motion%scale = self%unit_force*thickness_scale(motion%edges(1), motion%edges(2))
+         motion%scale = oil%viscosity*self%radius_4/self%clearance_3*thickness_scale(motion%edges(1), motion%edges(2))
       end associate
    end function motion
 

@@ -6,7 +6,7 @@
 module pressure_profile
    use kinds, only: wp
    use film_solver, only: film_motion
-   use unit_pad, only: unit_pad_type
+   use unit_pad, only: unit_pad_type, unit_oil
    use modal_film, only: modal_film_type
    use square_patch, only: node_points, fitted, patch_values
    implicit none (type, external)
@@ -50,12 +50,12 @@ contains
          do i = 1, nodes
             associate (position => pad%position(middle + s([i, k])/per_half))
                square = (1 - position(1)*profile%sines - position(2)*profile%cosines)**2
-               call film%field([film_motion(position, [1.0_wp, 0.0_wp])], 0.0_wp, phi, [0.0_wp], pressure)
+               call film%field([film_motion(position, [1.0_wp, 0.0_wp])], [unit_oil], 0.0_wp, phi, [0.0_wp], pressure)
                values(:, 1, i, k) = pressure(1, :, 1)*square
-               call film%field([film_motion(position, [0.0_wp, 1.0_wp])], 0.0_wp, phi, [0.0_wp], pressure)
+               call film%field([film_motion(position, [0.0_wp, 1.0_wp])], [unit_oil], 0.0_wp, phi, [0.0_wp], pressure)
                values(:, 2, i, k) = pressure(1, :, 1)*square
                if (.not. supplied) cycle
-               call supplied_film%field([film_motion(position)], 0.0_wp, phi, [0.0_wp], pressure)
+               call supplied_film%field([film_motion(position)], [unit_oil], 0.0_wp, phi, [0.0_wp], pressure)
                values(:, 3, i, k) = pressure(1, :, 1)*square
             end associate
          end do

@@ -11,7 +11,7 @@ module ruptured_drive
    use kinds, only: wp
    use two_equations, only: solved
    use film_solver, only: film_motion, film_response, film_counters, film_ok
-   use unit_pad, only: unit_pad_type
+   use unit_pad, only: unit_pad_type, unit_oil
    use film_grid, only: new_film_grid
    use elimination_film, only: elimination_film_type, new_elimination_film
    use modal_film, only: modal_film_type, converged_film
@@ -116,18 +116,18 @@ contains
       line = angles(self%pad, motion, -self%pad%half_arc, self%columns/2, 1)
       call make_grid(self, line, 2, coarse_whole)
       call make_grid(self, angles(self%pad, motion, -self%pad%half_arc, self%columns/2, 2), 1, fine_whole)
-      call coarse_whole%evaluate(motion, 0.0_wp, .true., .true., unused, coarse_ruptured)
+      call coarse_whole%evaluate(motion, unit_oil, 0.0_wp, .true., .true., unused, coarse_ruptured)
       empty = coarse_whole%empty_columns() - margin
       if (empty > 0) then
          rim = line(empty)
          call make_grid(self, angles(self%pad, motion, rim, self%columns/2, 1), 2, coarse)
          call make_grid(self, angles(self%pad, motion, rim, self%columns/2, 2), 1, fine)
-         call coarse%evaluate(motion, 0.0_wp, .true., .true., unused, coarse_ruptured)
+         call coarse%evaluate(motion, unit_oil, 0.0_wp, .true., .true., unused, coarse_ruptured)
          call fine%start_from(coarse)
-         call fine%evaluate(motion, 0.0_wp, .true., .true., unused, ruptured)
+         call fine%evaluate(motion, unit_oil, 0.0_wp, .true., .true., unused, ruptured)
       else
          call fine_whole%start_from(coarse_whole)
-         call fine_whole%evaluate(motion, 0.0_wp, .true., .true., unused, ruptured)
+         call fine_whole%evaluate(motion, unit_oil, 0.0_wp, .true., .true., unused, ruptured)
       end if
       call compare(self%pad, motion, coarse_ruptured, coarse_whole, coarse_drive)
       call compare(self%pad, motion, ruptured, fine_whole, drive)
@@ -155,10 +155,10 @@ contains
       type(drive_type), intent(inout) :: drive
       type(film_response) :: whole
       type(film_counters) :: unused
-      call volumes%evaluate(motion, 0.0_wp, .false., .true., unused, whole)
+      call volumes%evaluate(motion, unit_oil, 0.0_wp, .false., .true., unused, whole)
       call set_drive(pad, ruptured, whole, drive)
       if (.not. drive%ok) return
-      call volumes%drive_anew(film_motion(motion%position, drive%value), 0.0_wp, whole)
+      call volumes%drive_anew(film_motion(motion%position, drive%value), unit_oil, 0.0_wp, whole)
       call set_slopes(ruptured, whole, drive)
    end subroutine compare
 
@@ -168,11 +168,11 @@ contains
       type(film_motion), intent(in) :: motion
       type(drive_type) :: drive
       type(film_response), dimension(1) :: ruptured, whole
-      call self%whole%evaluate([motion], 0.0_wp, .true., whole)
-      call self%clipped%evaluate([motion], 0.0_wp, .true., ruptured)
+      call self%whole%evaluate([motion], [unit_oil], 0.0_wp, .true., whole)
+      call self%clipped%evaluate([motion], [unit_oil], 0.0_wp, .true., ruptured)
       call set_drive(self%pad, ruptured(1), whole(1), drive)
       if (.not. drive%ok) return
-      call self%whole%evaluate([film_motion(motion%position, drive%value)], 0.0_wp, .true., whole)
+      call self%whole%evaluate([film_motion(motion%position, drive%value)], [unit_oil], 0.0_wp, .true., whole)
       call set_slopes(ruptured(1), whole(1), drive)
    end function by_modes
 

@@ -5,7 +5,7 @@
 !> around them, is left to the solver whose films are tabulated.
 module table_film
    use kinds, only: wp
-   use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_closed
+   use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_counters, film_closed
    use pad_gap, only: pad_gap_type
    use direct_film, only: direct_film_type
    use unit_pad, only: unit_pad_type, new_unit_pad
@@ -39,7 +39,6 @@ module table_film
    contains
       procedure :: ruptures
       procedure :: set_rupture
-      procedure :: set_viscosity
       procedure :: set_accuracy
       procedure :: forget
       procedure :: evaluate
@@ -122,16 +121,6 @@ contains
       end do
    end subroutine set_rupture
 
-   pure subroutine set_viscosity(self, viscosity)
-      class(table_film_type), intent(inout) :: self
-      real(wp), intent(in) :: viscosity(:)
-      integer :: i
-      do i = 1, size(viscosity)
-         call self%pads(i)%set_viscosity(viscosity(i))
-         call self%single(i)%set_viscosity(viscosity(i:i))
-      end do
-   end subroutine set_viscosity
-
    !> From here on every film is solved: who asks for more accuracy, as the search for rest, goes far and stays nowhere.
    subroutine set_accuracy(self, tolerance, max_sweeps)
       class(table_film_type), intent(inout) :: self
@@ -148,9 +137,10 @@ contains
       end do
    end subroutine forget
 
-   subroutine evaluate(self, motion, speed, want_derivatives, response, chosen)
+   subroutine evaluate(self, motion, oil, speed, want_derivatives, response, chosen)
       class(table_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_response), intent(inout) :: response(:)
@@ -168,12 +158,12 @@ contains
                response(i)%status = film_closed
                cycle
             end if
-            if (pad%shape > 0 .and. self%tabulates) call pad%look_up(self%shapes(pad%shape), motion(i), speed, &
-               & self%may_rupture, want_derivatives, response(i))
+            if (pad%shape > 0 .and. self%tabulates) call pad%look_up(self%shapes(pad%shape), motion(i), oil(i), &
+               & speed, self%may_rupture, want_derivatives, response(i))
             if (pad%found) then
                self%counters%looked_up = self%counters%looked_up + 1
             else
-               call self%single(i)%evaluate(motion(i:i), speed, want_derivatives, response(i:i))
+               call self%single(i)%evaluate(motion(i:i), oil(i:i), speed, want_derivatives, response(i:i))
             end if
          end associate
       end do
@@ -202,30 +192,32 @@ contains
    end subroutine count_work
 
    !> The pressures of films from the tables.
-   subroutine take_pressures(self, motion, speed, response)
+   subroutine take_pressures(self, motion, oil, speed, response)
       class(table_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed
       type(film_response), intent(inout) :: response(:)
       integer :: i
       do i = 1, size(motion)
          if (self%pads(i)%found) call self%pads(i)%look_up_pressures(self%shapes(self%pads(i)%shape), motion(i), &
-            & speed, self%may_rupture, response(i))
+            & oil(i), speed, self%may_rupture, response(i))
       end do
    end subroutine take_pressures
 
    !> Fields are solved.
-   subroutine field(self, motion, speed, phi, z, pressure)
+   subroutine field(self, motion, oil, speed, phi, z, pressure)
       class(table_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed, phi(:, :), z(:)
       real(wp), intent(out) :: pressure(:, :, :)
       integer :: i
       do i = 1, size(motion)
          if (self%pads(i)%shape > 0 .and. self%pads(i)%even_pressure .and. self%tabulates) then
-            call self%single(i)%fine_field(motion(i:i), speed, phi(:, i:i), z, pressure(:, :, i:i))
+            call self%single(i)%fine_field(motion(i:i), oil(i:i), speed, phi(:, i:i), z, pressure(:, :, i:i))
          else
-            call self%single(i)%field(motion(i:i), speed, phi(:, i:i), z, pressure(:, :, i:i))
+            call self%single(i)%field(motion(i:i), oil(i:i), speed, phi(:, i:i), z, pressure(:, :, i:i))
          end if
       end do
    end subroutine field

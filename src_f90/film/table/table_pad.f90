@@ -1,7 +1,7 @@
 !> One pad's film from the tables of its shape: the force with its derivatives, and the highest pressure.
 module table_pad
    use kinds, only: wp
-   use film_solver, only: film_motion, film_response
+   use film_solver, only: film_motion, film_oil, film_response
    use pad_gap, only: pad_gap_type, pad_directions
    use unit_pad, only: unit_pad_type
    use middle_frame, only: middle_frame_type, middle_motion, middle_force, new_middle_frame
@@ -36,11 +36,8 @@ module table_pad
       real(wp), private :: rise, square
       !> Force of the ambient pressure, N, in the pad frame.
       real(wp), private :: ambient_force(2)
-      !> Pressure over that of the unit pad, Pa s/m.
-      real(wp), private :: unit_pressure
       integer, private :: whole_cell = 0, rupture_cell = 0
    contains
-      procedure :: set_viscosity
       procedure :: look_up
       procedure :: look_up_pressures
       procedure, private :: set_drive
@@ -75,23 +72,14 @@ contains
       pad%ambient_force = -gap%pad_radius()*gap%ambient_pressure*gap%axial_length &
          & *[pad%directions%trailing(2) - pad%directions%leading(2), &
          & pad%directions%leading(1) - pad%directions%trailing(1)]
-      call pad%set_viscosity(gap%viscosity)
    end function new_table_pad
 
-   !> Gives the oil another viscosity, Pa s: the tables stay.
-   pure subroutine set_viscosity(self, viscosity)
-      class(table_pad_type), intent(inout) :: self
-      real(wp), intent(in) :: viscosity
-      self%gap%viscosity = viscosity
-      call self%frame%set_viscosity(self%gap)
-      self%unit_pressure = viscosity*self%square/self%gap%machined_clearance**3
-   end subroutine set_viscosity
-
    !> Force and its derivatives of an open film; `found` is false where the tables do not have it.
-   subroutine look_up(self, tables, motion, speed, may_rupture, want_derivatives, response)
+   subroutine look_up(self, tables, motion, oil, speed, may_rupture, want_derivatives, response)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
       type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: may_rupture, want_derivatives
       type(film_response), intent(inout) :: response
@@ -100,7 +88,7 @@ contains
       real(wp) :: room
       logical :: diverges
       type(pad_drive) :: drive
-      seen = self%frame%motion(motion, speed)
+      seen = self%frame%motion(motion, oil, speed)
       room = abs(seen%w(1))*tables%pad%tangent
       ! T > 0
       diverges = may_rupture .and. seen%w(2) < room
@@ -190,20 +178,24 @@ contains
    end subroutine add_supply
 
    !> Minimum and maximum pressure of a film that was found, in the middle plane.
-   subroutine look_up_pressures(self, tables, motion, speed, may_rupture, response)
+   subroutine look_up_pressures(self, tables, motion, oil, speed, may_rupture, response)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
       type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: may_rupture
       type(film_response), intent(inout) :: response
       type(middle_motion) :: seen
       type(pad_drive) :: drive
+      !> Pressure over that of the unit pad, Pa s/m.
+      real(wp) :: unit_pressure
       real(wp) :: room, rise, highest, lowest
       logical :: good
-      seen = self%frame%motion(motion, speed)
+      seen = self%frame%motion(motion, oil, speed)
       room = abs(seen%w(1))*tables%pad%tangent
-      rise = self%rise/self%unit_pressure
+      unit_pressure = oil%viscosity*self%square/self%gap%machined_clearance**3
+      rise = self%rise/unit_pressure
       highest = 0
       lowest = 0
       drive = pad_drive(seen%w, 0, identity)
@@ -214,8 +206,8 @@ contains
       if (.not. may_rupture) call tables%whole%highest_pressure(seen%edges, -seen%w, -rise, self%whole_cell, &
          & lowest, good)
       highest = highest/max(drive%pressure_ratio, least_ratio)
-      response%max_pressure = self%gap%ambient_pressure + self%unit_pressure*highest
+      response%max_pressure = self%gap%ambient_pressure + unit_pressure*highest
       response%min_pressure = min(self%gap%ambient_pressure, self%gap%supply_pressure, &
-         & self%gap%ambient_pressure - self%unit_pressure*lowest)
+         & self%gap%ambient_pressure - unit_pressure*lowest)
    end subroutine look_up_pressures
 end module table_pad

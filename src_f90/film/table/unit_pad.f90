@@ -6,11 +6,15 @@
 !> and its force is mu R^4/c^3 times one that follows from the film thicknesses at the two edges and from w alone.
 module unit_pad
    use kinds, only: wp
+   use film_solver, only: film_oil
    use pad_gap, only: pad_gap_type
    use sommerfeld_nodes, only: span, place_nodes
    implicit none (type, external)
    private
-   public :: unit_pad_type, new_unit_pad, thickness_scale
+   public :: unit_pad_type, unit_oil, new_unit_pad, thickness_scale
+
+   !> The oil in the films of such pads.
+   type(film_oil), parameter :: unit_oil = film_oil(1.0_wp)
 
    type :: unit_pad_type
       !> Half the arc, rad; axial length over pad radius.
@@ -73,12 +77,12 @@ contains
       angles(n) = to
    end function spread_angles
 
-   !> The pad for the solvers of films: radius, clearance and viscosity 1, pressure at the leading edge alone.
+   !> The pad for the solvers of films: radius and clearance 1, pressure at the leading edge alone.
    pure type(pad_gap_type) function gap(self, supply_pressure)
       class(unit_pad_type), intent(in) :: self
       real(wp), intent(in) :: supply_pressure
-      gap = pad_gap_type(0.0_wp, 1.0_wp, self%length, self%half_arc, self%half_arc, 1.0_wp, supply_pressure, &
-         & 0.0_wp, 0.0_wp)
+      gap = pad_gap_type(0.0_wp, 1.0_wp, self%length, self%half_arc, self%half_arc, supply_pressure, 0.0_wp, &
+         & 0.0_wp)
    end function gap
 
    !> What forces are tabulated over: their growth as the film becomes thin.

@@ -8,7 +8,7 @@ module whole_table
    use kinds, only: wp, i8
    use clock, only: wall_clock
    use film_solver, only: film_motion, film_response, film_ok
-   use unit_pad, only: unit_pad_type, thickness_scale
+   use unit_pad, only: unit_pad_type, unit_oil, thickness_scale
    use film_resolution, only: usual_error
    use modal_film, only: modal_film_type, converged_film
    use square_patch, only: nodes, lanes, node_points, fitted, evaluate_patch
@@ -115,7 +115,8 @@ contains
       real(wp), intent(out) :: value(lanes), slope(lanes, 2)
       type(film_response) :: still(1)
       if (self%solves) then
-         call self%supplied_film%evaluate([film_motion(self%pad%position(edges))], 0.0_wp, want_slopes, still)
+         call self%supplied_film%evaluate([film_motion(self%pad%position(edges))], [unit_oil], &
+            & 0.0_wp, want_slopes, still)
          value = [still(1)%force, 0.0_wp, 0.0_wp]
          slope = 0
          if (want_slopes) slope(:2, :) = over_edges(self%pad, still(1))
@@ -134,8 +135,10 @@ contains
       logical, intent(out) :: open
       type(film_response), dimension(1) :: along, outward
       integer :: i
-      call self%film%evaluate([film_motion(self%pad%position(edges), [1.0_wp, 0.0_wp])], 0.0_wp, want_slopes, along)
-      call self%film%evaluate([film_motion(self%pad%position(edges), [0.0_wp, 1.0_wp])], 0.0_wp, want_slopes, outward)
+      call self%film%evaluate([film_motion(self%pad%position(edges), [1.0_wp, 0.0_wp])], [unit_oil], &
+         & 0.0_wp, want_slopes, along)
+      call self%film%evaluate([film_motion(self%pad%position(edges), [0.0_wp, 1.0_wp])], [unit_oil], &
+         & 0.0_wp, want_slopes, outward)
       open = along(1)%status == film_ok
       value = symmetric(along(1)%force, outward(1)%force)/thickness_scale(edges(1), edges(2))
       slope = 0
@@ -207,10 +210,11 @@ contains
       logical, intent(out) :: open
       type(film_response) :: film(1)
       if (abs(supply) > 0) then
-         call self%supplied_film%evaluate([film_motion(self%pad%position(edges), w/supply)], 0.0_wp, .false., film)
+         call self%supplied_film%evaluate([film_motion(self%pad%position(edges), w/supply)], [unit_oil], &
+            & 0.0_wp, .false., film)
          pressure = max(supply*film(1)%max_pressure, supply*film(1)%min_pressure)
       else
-         call self%film%evaluate([film_motion(self%pad%position(edges), w)], 0.0_wp, .false., film)
+         call self%film%evaluate([film_motion(self%pad%position(edges), w)], [unit_oil], 0.0_wp, .false., film)
          pressure = film(1)%max_pressure
       end if
       open = film(1)%status == film_ok
@@ -321,9 +325,10 @@ contains
       logical, intent(out) :: open
       type(film_response), dimension(1) :: along, outward, still
       associate (position => self%pad%position(edges))
-         call self%film%evaluate([film_motion(position, [1.0_wp, 0.0_wp])], 0.0_wp, .false., along)
-         call self%film%evaluate([film_motion(position, [0.0_wp, 1.0_wp])], 0.0_wp, .false., outward)
-         if (self%supplied) call self%supplied_film%evaluate([film_motion(position)], 0.0_wp, .false., still)
+         call self%film%evaluate([film_motion(position, [1.0_wp, 0.0_wp])], [unit_oil], 0.0_wp, .false., along)
+         call self%film%evaluate([film_motion(position, [0.0_wp, 1.0_wp])], [unit_oil], 0.0_wp, .false., outward)
+         if (self%supplied) call self%supplied_film%evaluate([film_motion(position)], [unit_oil], &
+            & 0.0_wp, .false., still)
       end associate
       open = along(1)%status == film_ok
       driven = symmetric(along(1)%force, outward(1)%force)/thickness_scale(edges(1), edges(2))

@@ -6,7 +6,7 @@
 !> set of the last motion (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13, 2002, theorem 3.2).
 module elimination_film
    use kinds, only: wp
-   use film_solver, only: film_motion, film_response, film_counters, film_closed, film_not_converged
+   use film_solver, only: film_motion, film_oil, film_response, film_counters, film_closed, film_not_converged
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type, new_film_grid
    use volume_equations, only: volume_equations_type, new_volume_equations
@@ -55,9 +55,10 @@ contains
 
    !> The film at a motion and a journal speed, rad/s, with the Reynolds condition or without rupture.
    !> Counts a pad and the eliminations.
-   subroutine evaluate(self, motion, speed, ruptures, want_derivatives, counters, response)
+   subroutine evaluate(self, motion, oil, speed, ruptures, want_derivatives, counters, response)
       class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: ruptures, want_derivatives
       type(film_counters), intent(inout) :: counters
@@ -70,7 +71,7 @@ contains
             response%status = film_closed
             return
          end if
-         call grid%set_motion(motion, speed)
+         call grid%set_motion(motion, oil, speed)
          do round = 1, max(max_rounds, rounds_a_column*grid%columns)
             call self%eliminate(ruptures)
             call self%solve(-grid%source, -grid%edge_source, self%pressure)
@@ -85,23 +86,24 @@ contains
       if (.not. want_derivatives) return
       if (self%ends_between .and. self%first <= self%grid%columns) call end_between(self)
       call find_adjoints(self)
-      call set_derivatives(self, speed, response)
+      call set_derivatives(self, response)
    end subroutine evaluate
 
    !> The last film, which was whole and evaluated with its derivatives, at another velocity in the same position: its
    !> equations are the same but for their right-hand side.
-   subroutine drive_anew(self, motion, speed, response)
+   subroutine drive_anew(self, motion, oil, speed, response)
       class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(film_response), intent(out) :: response
       associate (grid => self%grid)
          response%min_film_thickness = grid%gap%min_film_thickness(motion, grid%directions)
-         call grid%set_motion(motion, speed)
+         call grid%set_motion(motion, oil, speed)
          call self%solve(-grid%source, -grid%edge_source, self%pressure)
       end associate
       call sum_up(self, response)
-      call set_derivatives(self, speed, response)
+      call set_derivatives(self, response)
    end subroutine drive_anew
 
    !> Pivots and blocks for changes of the pressure in a film that ends between its cells.
@@ -133,15 +135,14 @@ contains
    end subroutine find_adjoints
 
    !> The derivatives of both forces over position and velocity.
-   pure subroutine set_derivatives(self, speed, response)
+   pure subroutine set_derivatives(self, response)
       type(elimination_film_type), intent(in) :: self
-      real(wp), intent(in) :: speed
       type(film_response), intent(inout) :: response
       real(wp) :: along(0:self%grid%columns), across(self%grid%columns), total(self%grid%columns)
       integer :: m
       do m = 1, 2
          call self%multiply(self%pressure, self%adjoint(:, :, m), along, across, total)
-         response%derivatives(m, :) = self%grid%derivatives_of_products(speed, along, across, total)
+         response%derivatives(m, :) = self%grid%derivatives_of_products(along, across, total)
       end do
    end subroutine set_derivatives
 
@@ -168,9 +169,10 @@ contains
 
    !> Pressure, Pa, (axial position, angle), at a motion that leaves the film open and a journal speed, rad/s, with the
    !> Reynolds condition or without rupture.
-   subroutine field(self, motion, speed, ruptures, phi, z, pressure)
+   subroutine field(self, motion, oil, speed, ruptures, phi, z, pressure)
       class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: ruptures
       !> Angles from the pivot, rad, and distances from the middle plane, m, within the pad.
@@ -180,7 +182,7 @@ contains
       type(film_response) :: response
       type(film_grid_type) :: grid
       real(wp), allocatable :: p(:, :), film(:, :)
-      call self%evaluate(motion, speed, ruptures, .false., counters, response)
+      call self%evaluate(motion, oil, speed, ruptures, .false., counters, response)
       call self%cells(grid, p, film)
       pressure = grid%pressure_at(p, ruptures, phi, z)
    end subroutine field
@@ -203,14 +205,15 @@ contains
 
    !> Force with the Reynolds condition less force without rupture, N, where only a few cells rupture; else
    !> `few` is false, and `evaluate` has to be asked.
-   subroutine force_of_rupture(self, motion, speed, counters, force, few)
+   subroutine force_of_rupture(self, motion, oil, speed, counters, force, few)
       class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(film_counters), intent(inout) :: counters
       real(wp), intent(out) :: force(2)
       logical, intent(out) :: few
-      call self%grid%set_motion(motion, speed)
+      call self%grid%set_motion(motion, oil, speed)
       call force_of_few(self%grid, self%basis, self%film, force, few)
       counters%passes = counters%passes + 1
    end subroutine force_of_rupture

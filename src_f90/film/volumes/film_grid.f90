@@ -10,7 +10,7 @@
 !> pressure. Fields are (row, column).
 module film_grid
    use kinds, only: wp
-   use film_solver, only: film_motion
+   use film_solver, only: film_motion, film_oil
    use pad_gap, only: pad_gap_type, pad_directions
    implicit none (type, external)
    private
@@ -42,6 +42,8 @@ module film_grid
       real(wp), allocatable :: h_cell(:), h_face(:)
       !> Conductances through the faces along the arc (0:columns), and between uniform rows of a column.
       real(wp), allocatable :: along(:), beside(:)
+      !> Factors of the difference of h over a cell and of dh/dt in the right-hand side.
+      real(wp) :: wedge, squeeze
       !> Right-hand side of a column: in every row, and what the side adds in the edge row.
       real(wp), allocatable :: source(:), edge_source(:)
    contains
@@ -104,36 +106,26 @@ contains
       allocate (grid%h_cell(columns), grid%beside(columns), grid%source(columns), grid%edge_source(columns))
    end function new_film_grid
 
-   !> Film thickness, conductances and right-hand side at a motion and a journal speed, rad/s.
-   pure subroutine set_motion(self, motion, speed)
+   !> Film thickness, conductances and right-hand side at a motion, with an oil, and a journal speed, rad/s.
+   pure subroutine set_motion(self, motion, oil, speed)
       class(film_grid_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       associate (n => self%columns)
+         self%wedge = -6*oil%viscosity*speed*self%gap%journal_radius*self%gap%pad_radius()/self%d_phi
+         self%squeeze = 12*oil%viscosity*self%gap%pad_radius()**2
          self%h_cell(:) = self%gap%thickness(motion, self%sin_cell, self%cos_cell)
          self%h_face(:) = self%gap%thickness(motion, self%sin_face, self%cos_face)
          self%along(:) = self%h_face**3/(self%d_phi**2*self%between)
          self%beside(:) = self%width*self%h_cell**3*(self%gap%pad_radius()/self%d_z)**2
-         self%source(:) = wedge(self, speed)*(self%h_face(1:n) - self%h_face(0:n - 1)) &
-            & - squeeze(self)*self%width*(motion%velocity(1)*self%sin_cell + motion%velocity(2)*self%cos_cell)
+         self%source(:) = self%wedge*(self%h_face(1:n) - self%h_face(0:n - 1)) &
+            & - self%squeeze*self%width*(motion%velocity(1)*self%sin_cell + motion%velocity(2)*self%cos_cell)
          self%source(1) = self%source(1) - self%along(0)*self%ambient
          self%source(n) = self%source(n) - self%along(n)*self%supply
          self%edge_source(:) = -self%outward(self%rows)*self%beside*self%ambient
       end associate
    end subroutine set_motion
-
-   !> Factor of the difference of h over a cell in the right-hand side.
-   pure real(wp) function wedge(self, speed)
-      class(film_grid_type), intent(in) :: self
-      real(wp), intent(in) :: speed
-      wedge = -6*self%gap%viscosity*speed*self%gap%journal_radius*self%gap%pad_radius()/self%d_phi
-   end function wedge
-
-   !> Factor of dh/dt in the right-hand side.
-   pure real(wp) function squeeze(self)
-      class(film_grid_type), intent(in) :: self
-      squeeze = 12*self%gap%viscosity*self%gap%pad_radius()**2
-   end function squeeze
 
    !> What a row of mean height counts in the two forces, (column, force), m^2: area of two mirrored cells, in
    !> that direction.
@@ -159,9 +151,8 @@ contains
    !> Derivatives of a force over position and velocity by its adjoint. With L p = -s and F = g . p, let L a = -g,
    !> a = 0 where the film has ruptured; then dF = a . (ds + dL p), and a . dL p is a sum over faces, with
    !> differences of a and p over each.
-   pure function derivatives(self, speed, p, a)
+   pure function derivatives(self, p, a)
       class(film_grid_type), intent(in) :: self
-      real(wp), intent(in) :: speed
       !> Pressure and adjoint, (row, column).
       real(wp), intent(in) :: p(:, :), a(:, :)
       real(wp) :: derivatives(4)
@@ -180,27 +171,27 @@ contains
             total(i) = sum(height*a(:rows, i))
          end do
       end associate
-      derivatives = self%derivatives_of_products(speed, over_face, over_side, total)
+      derivatives = self%derivatives_of_products(over_face, over_side, total)
    end function derivatives
 
    !> The same from products of p and a, summed over the rows and weighted by their heights: of their differences over
    !> each face along the arc; of those over the faces between the rows of a column, times `outward`; and a's own sums.
-   pure function derivatives_of_products(self, speed, along, across, total) result(derivatives)
+   pure function derivatives_of_products(self, along, across, total) result(derivatives)
       class(film_grid_type), intent(in) :: self
-      real(wp), intent(in) :: speed, along(0:), across(:), total(:)
+      real(wp), intent(in) :: along(0:), across(:), total(:)
       real(wp) :: derivatives(4)
       real(wp) :: over_face(0:self%columns), over_side(self%columns)
       over_face = along*3*self%h_face**2/(self%d_phi**2*self%between)
       over_side = across*3*self%width*(self%h_cell*(self%gap%pad_radius()/self%d_z))**2
       derivatives(1) = over_position(self%sin_face, self%sin_cell)
       derivatives(2) = over_position(self%cos_face, self%cos_cell)
-      derivatives(3) = -squeeze(self)*dot_product(self%width*self%sin_cell, total)
-      derivatives(4) = -squeeze(self)*dot_product(self%width*self%cos_cell, total)
+      derivatives(3) = -self%squeeze*dot_product(self%width*self%sin_cell, total)
+      derivatives(4) = -self%squeeze*dot_product(self%width*self%cos_cell, total)
    contains
       !> Derivative over e_y' (sines) or e_z' (cosines): dh = -sin(phi) de_y' - cos(phi) de_z'.
       pure real(wp) function over_position(at_face, at_cell)
          real(wp), intent(in) :: at_face(0:), at_cell(:)
-         over_position = -dot_product(wedge(self, speed)*(at_face(1:) - at_face(:self%columns - 1)), total) &
+         over_position = -dot_product(self%wedge*(at_face(1:) - at_face(:self%columns - 1)), total) &
             & - dot_product(at_face, over_face) - dot_product(at_cell, over_side)
       end function over_position
    end function derivatives_of_products

@@ -6,7 +6,7 @@
 !> up with idle cells (`whole = 0`) to a multiple of the vector length; so a sweep over one colour vectorises.
 module sor_film
    use kinds, only: wp, pi
-   use film_solver, only: film_solver_type, film_motion, film_response, film_closed, film_not_converged
+   use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_closed, film_not_converged
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type, new_film_grid
    use sor_sweeps, only: relax, relative_residual
@@ -57,7 +57,6 @@ module sor_film
    contains
       procedure :: ruptures
       procedure :: set_rupture
-      procedure :: set_viscosity
       procedure :: forget
       procedure :: evaluate => evaluate_all
       procedure :: field => field_all
@@ -126,12 +125,6 @@ contains
       self%cavitation = merge(self%options%cavitation, cavitation_none, allowed)
    end subroutine set_rupture
 
-   pure subroutine set_viscosity(self, viscosity)
-      class(sor_film_type), intent(inout) :: self
-      real(wp), intent(in) :: viscosity(:)
-      self%pads%grid%gap%viscosity = viscosity
-   end subroutine set_viscosity
-
    pure subroutine forget(self)
       class(sor_film_type), intent(inout) :: self
       integer :: i
@@ -141,9 +134,10 @@ contains
       end do
    end subroutine forget
 
-   subroutine evaluate_all(self, motion, speed, want_derivatives, response, chosen)
+   subroutine evaluate_all(self, motion, oil, speed, want_derivatives, response, chosen)
       class(sor_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_response), intent(inout) :: response(:)
@@ -153,18 +147,19 @@ contains
          if (present(chosen)) then
             if (.not. chosen(i)) cycle
          end if
-         call self%evaluate_pad(i, motion(i), speed, want_derivatives, response(i))
+         call self%evaluate_pad(i, motion(i), oil(i), speed, want_derivatives, response(i))
       end do
    end subroutine evaluate_all
 
-   subroutine field_all(self, motion, speed, phi, z, pressure)
+   subroutine field_all(self, motion, oil, speed, phi, z, pressure)
       class(sor_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
+      type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed, phi(:, :), z(:)
       real(wp), intent(out) :: pressure(:, :, :)
       type(film_response) :: response(size(motion))
       integer :: i
-      call self%evaluate(motion, speed, .false., response)
+      call self%evaluate(motion, oil, speed, .false., response)
       do i = 1, size(motion)
          associate (pad => self%pads(i), grid => self%pads(i)%grid)
             pressure(:, :, i) = grid%pressure_at(natural(pad%pressure(1:grid%columns/2, 1:grid%rows, :)), &
@@ -173,10 +168,11 @@ contains
       end do
    end subroutine field_all
 
-   subroutine evaluate_pad(self, i, motion, speed, want_derivatives, response)
+   subroutine evaluate_pad(self, i, motion, oil, speed, want_derivatives, response)
       class(sor_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_response), intent(out) :: response
@@ -189,7 +185,7 @@ contains
             response%status = film_closed
             return
          end if
-         call pad%grid%set_motion(motion, speed)
+         call pad%grid%set_motion(motion, oil, speed)
          call set_operator(pad)
          self%counters%volumes = self%counters%volumes + 1
          floor = -huge(floor)
@@ -205,7 +201,7 @@ contains
                response%max_pressure = gap%cavitation_pressure &
                   & + max(floor, maxval(edges), maxval(pad%pressure, mask=pad%cells > 0))
             end associate
-            if (want_derivatives) call add_derivatives(self, pad, speed, response, ok)
+            if (want_derivatives) call add_derivatives(self, pad, response, ok)
          end if
          if (.not. ok) then
             response%status = film_not_converged
@@ -263,10 +259,9 @@ contains
    end subroutine solve
 
    !> Force derivatives by adjoints, on the cells that are film.
-   subroutine add_derivatives(self, pad, speed, response, ok)
+   subroutine add_derivatives(self, pad, response, ok)
       class(sor_film_type), intent(inout) :: self
       type(sor_pad), intent(inout) :: pad
-      real(wp), intent(in) :: speed
       type(film_response), intent(inout) :: response
       logical, intent(out) :: ok
       real(wp) :: weight(pad%grid%columns/2, 2), p(pad%grid%rows, pad%grid%columns), residual
@@ -296,7 +291,7 @@ contains
             pad%adjoint(:, :, :, m) = pad%adjoint(:, :, :, m)*region
             call solve(self, pad, pad%source, region, -huge(residual), pad%adjoint(:, :, :, m), residual, ok)
             if (.not. ok) return
-            response%derivatives(m, :) = grid%derivatives(speed, p, natural(pad%adjoint(1:nk, 1:nz, :, m)))
+            response%derivatives(m, :) = grid%derivatives(p, natural(pad%adjoint(1:nk, 1:nz, :, m)))
          end do
       end associate
    end subroutine add_derivatives

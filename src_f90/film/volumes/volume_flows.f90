@@ -5,6 +5,7 @@
 !> height and a share of its width.
 module volume_flows
    use kinds, only: wp
+   use film_solver, only: film_oil
    use film_grid, only: film_grid_type
    implicit none (type, external)
    private
@@ -24,9 +25,10 @@ module volume_flows
 
 contains
 
-   !> The flows at the motion that the grid has been set to and a speed of the journal's surface, m/s.
-   pure type(volume_flow_type) function flows_of_volumes(grid, surface_speed, pressure, filled) result(flow)
+   !> The flows at the motion that the grid has been set to, with its oil, and a speed of the journal's surface, m/s.
+   pure type(volume_flow_type) function flows_of_volumes(grid, oil, surface_speed, pressure, filled) result(flow)
       type(film_grid_type), intent(in) :: grid
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: surface_speed
       !> Above the cavitation pressure, Pa, (row, column); where the film is. Elsewhere the pressure counts only for
       !> the flow across the edge of the film.
@@ -37,7 +39,7 @@ contains
       held = merge(pressure(:grid%rows, :), 0.0_wp, filled(:grid%rows, :))
       flow%force = grid%force(matmul(grid%height, held))
       do k = 1, grid%rows
-         call add_row(grid, surface_speed, k, pressure, filled, flow)
+         call add_row(grid, oil, surface_speed, k, pressure, filled, flow)
       end do
    end function flows_of_volumes
 
@@ -54,8 +56,9 @@ contains
    end function finer
 
    !> Adds a row of cells, from the leading edge downstream.
-   pure subroutine add_row(grid, surface_speed, k, pressure, filled, flow)
+   pure subroutine add_row(grid, oil, surface_speed, k, pressure, filled, flow)
       type(film_grid_type), intent(in) :: grid
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: surface_speed
       integer, intent(in) :: k
       real(wp), intent(in) :: pressure(:, :)
@@ -67,7 +70,7 @@ contains
       real(wp) :: area
       integer :: i
       associate (gap => grid%gap, n => grid%columns, p => pressure)
-         unit = grid%d_phi/(12*gap%viscosity*gap%pad_radius())
+         unit = grid%d_phi/(12*oil%viscosity*gap%pad_radius())
          both = 2*grid%d_z*grid%height(k)
          upstream = .true.
          carried = 0
@@ -91,7 +94,7 @@ contains
                carried = arriving + unit*grid%beside(i)*from_beside(grid, k, p(:, i), filled(:, i))
                area = both*gap%pad_radius()*grid%d_phi*grid%width(i)
                flow%void = flow%void + area*[grid%sin_cell(i), grid%cos_cell(i)]
-               flow%lacking = flow%lacking + area*gap%viscosity*surface_speed/grid%h_cell(i) &
+               flow%lacking = flow%lacking + area*oil%viscosity*surface_speed/grid%h_cell(i) &
                   & *max(0.0_wp, surface_speed - (arriving + carried)/grid%h_cell(i))
             end if
             upstream = filled(k, i)
