@@ -1,45 +1,7 @@
 !> Bearings of fixed pads: the limits of Ocvirk and Sommerfeld, the table of Lund and Thomsen, the threshold of oil
 !> whirl and the marches on both sides of it.
-!> Watches the journal of a march.
-module journal_orbit
-   use kinds, only: wp, i8
-   use errors, only: error_type
-   use march_observer, only: march_observer_type
-   implicit none (type, external)
-   private
-   public :: orbit_observer
-
-   !> Samples of a revolution.
-   integer, parameter, public :: samples = 60
-
-   type, extends(march_observer_type) :: orbit_observer
-      !> Places of the journal, (y or z, sample), m, and how many there are.
-      real(wp), allocatable :: places(:, :)
-      integer :: taken = 0
-   contains
-      procedure :: sample
-      procedure :: report
-   end type orbit_observer
-
-contains
-
-   subroutine sample(self, t, y, output, error)
-      class(orbit_observer), intent(inout) :: self
-      real(wp), intent(in) :: t, y(:), output(:)
-      type(error_type), allocatable, intent(out) :: error
-      self%taken = self%taken + 1
-      self%places(:, self%taken) = y(1:2)
-   end subroutine sample
-
-   subroutine report(self, t, steps)
-      class(orbit_observer), intent(inout) :: self
-      real(wp), intent(in) :: t
-      integer(i8), intent(in) :: steps
-   end subroutine report
-end module journal_orbit
-
 program test_fixed_pads
-   use kinds, only: wp, i8, pi, rpm, degree
+   use kinds, only: wp, pi, rpm, degree
    use text, only: to_text
    use errors, only: error_type
    use scene, only: scene_type
@@ -52,12 +14,13 @@ program test_fixed_pads
    use kinematics, only: journal_motion, pad_state
    use equilibrium, only: equilibrium_type, find_equilibrium
    use pad_behaviour, only: whirl_of
-   use marching, only: march, march_options, sample_plan
-   use integrator_counts, only: integrator_counts_type
-   use journal_orbit, only: orbit_observer, samples
+   use sampled_march, only: march_samples
    use case_scenes, only: scene_of, listed
    use check, only: runs, expect, expect_close, expect_no_error, between, report
    implicit none (type, external)
+
+   !> Samples of a revolution.
+   integer, parameter :: samples = 60
 
    !> A state of rest in numbers without dimension: Sommerfeld number, eccentricity ratio, attitude angle, deg, and
    !> K c/W and C c omega/W along the load (x) and across it (y), xx xy yx yy.
@@ -473,21 +436,11 @@ contains
       real(wp), intent(in) :: beside
       integer, intent(in) :: revolutions
       real(wp), allocatable, intent(out) :: places(:, :)
-      type(orbit_observer) :: observer
-      type(march_options) :: options
-      type(integrator_counts_type) :: counts
-      type(error_type), allocatable :: error
-      real(wp) :: y(model%n), period
+      real(wp), allocatable :: y(:)
       y = model%at_rest(found%journal + [beside*model%scene%bearing%assembled_clearance, 0.0_wp], found%tilt, &
          & found%penetration)
-      options%relative_tolerance = 1e-7_wp
-      options%absolute_tolerance = 1e-7_wp*model%scale
-      options%derivatives_age = 2
-      period = 2*pi/model%point%speed(0.0_wp)
-      allocate (observer%places(2, samples*revolutions), source=0.0_wp)
-      call march(model, options, 0.0_wp, revolutions*period, sample_plan(0.0_wp, period/samples, &
-         & int(samples*revolutions, i8)), y, observer, counts, error)
-      call expect_no_error(error, 'the march ends well')
-      places = observer%places
+      allocate (places(2, samples*revolutions))
+      call march_samples(model, model%scale, [1e-7_wp, 1e-7_wp], y, 0.0_wp, &
+         & 2*pi/model%point%speed(0.0_wp)/samples, places)
    end subroutine march_from
 end program test_fixed_pads

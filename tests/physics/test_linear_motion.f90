@@ -33,7 +33,7 @@ program test_linear_motion
    use errors, only: error_type
    use scene, only: scene_type
    use operating_point, only: operating_point_type
-   use cvode_integrator, only: integrator_type, integrator_options
+   use sampled_march, only: march_samples
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use static_model, only: make_fine
@@ -130,28 +130,16 @@ contains
       complex(wp) :: x(2)
       integer, parameter :: samples = 64
       real(wp), parameter :: until = 0.16_wp
-      type(integrator_type) :: integrator
-      type(integrator_options) :: options
-      type(error_type), allocatable :: error
-      real(wp) :: values(model%n + model%outputs), period, t
-      integer :: sample
-      options%relative_tolerance = 1e-9_wp
-      options%absolute_tolerance = 1e-13_wp*model%scale
-      period = 2*pi/model%frequency
-      call integrator%start(model, options, 0.0_wp, rest, until + 2*period, error)
+      real(wp) :: states(model%n, samples), interval
+      integer :: k
+      interval = 2*pi/model%frequency/samples
+      call march_samples(model, model%scale, [1e-9_wp, 1e-13_wp], rest, until, interval, states)
       x = 0
-      sample = 0
-      do while (.not. allocated(error) .and. sample < samples)
-         call integrator%step(error)
-         do while (sample < samples)
-            t = until + sample*period/samples
-            if (t > integrator%time()) exit
-            call integrator%interpolate(t, values)
-            x = x + (values(1:2) - rest(1:2))*exp(cmplx(0.0_wp, -model%frequency*t, wp))*2/samples
-            sample = sample + 1
-         end do
+      do k = 1, samples
+         associate (angle => model%frequency*(until + (k - 1)*interval))
+            x = x + (states(1:2, k) - rest(1:2))*exp(cmplx(0.0_wp, -angle, wp))*2/samples
+         end associate
       end do
-      call expect_no_error(error, 'march under a force')
    end function amplitude
 
    !> The threshold of a light rotor is near this speed, and 2 % below and above it a small motion dies away and grows
@@ -195,11 +183,8 @@ contains
       integer, parameter :: samples = 100, periods = 6, last = 4
       type(bearing_model), target :: moving
       type(operating_point_type) :: point
-      type(integrator_type) :: integrator
-      type(integrator_options) :: options
-      type(error_type), allocatable :: error
-      real(wp) :: y(size(rest)), values(model%n + model%outputs), period, fastest(periods)
-      integer :: sample, k
+      real(wp) :: y(size(rest)), states(model%n, periods*samples), period, fastest(periods)
+      integer :: k
       moving = model
       point = moving%point
       point%friction = .true.
@@ -214,22 +199,9 @@ contains
             end do
          end if
       end associate
-      options%relative_tolerance = 1e-9_wp
-      options%absolute_tolerance = 1e-13_wp*moving%scale
       period = 2*pi/modes%eigenvalue(1)%im
-      fastest = 0
-      call integrator%start(moving, options, 0.0_wp, y, (periods + 1)*period, error)
-      sample = 0
-      do while (.not. allocated(error) .and. sample < periods*samples)
-         call integrator%step(error)
-         do while (period*sample/samples <= integrator%time() .and. sample < periods*samples)
-            call integrator%interpolate(period*sample/samples, values)
-            k = 1 + sample/samples
-            fastest(k) = max(fastest(k), norm2(values(3:4)))
-            sample = sample + 1
-         end do
-      end do
-      call expect_no_error(error, 'march from a disturbance')
+      call march_samples(moving, moving%scale, [1e-9_wp, 1e-13_wp], y, 0.0_wp, period/samples, states)
+      fastest = [(maxval(norm2(states(3:4, (k - 1)*samples + 1:k*samples), 1)), k=1, periods)]
       growth = log(fastest(periods)/fastest(periods - last))/(last*period)
    end function growth
 end program test_linear_motion
