@@ -12,11 +12,20 @@ PROGRAM = os.environ.get("TILTPAD", str(ROOT / "build/bin/tiltpad"))
 
 @pytest.fixture(scope="session")
 def tiltpad():
-    """Runs the program: tiltpad(*arguments, cwd=...) gives a CompletedProcess with text output."""
+    """Runs the program: tiltpad(*arguments, cwd=...) gives a CompletedProcess with text output.
 
-    def run(*arguments, cwd=None, timeout=300, **options):
-        command = [PROGRAM, *map(str, arguments)]
-        return subprocess.run(command, cwd=cwd, timeout=timeout, text=True, capture_output=True, **options)
+    `overrides` are set by --set. With `status` it must end so, and say one line of error where that is not
+    0, and none where it is.
+    """
+
+    def run(*arguments, cwd=None, timeout=300, overrides=(), status=None, **options):
+        command = [PROGRAM, *map(str, arguments), *(word for each in overrides for word in ("--set", each))]
+        done = subprocess.run(command, cwd=cwd, timeout=timeout, text=True, capture_output=True, **options)
+        if status is not None:
+            assert done.returncode == status, done.stderr
+            assert done.stderr.count("\n") == (status != 0), done.stderr
+            assert status == 0 or done.stderr.startswith("tiltpad: error: ")
+        return done
 
     return run
 

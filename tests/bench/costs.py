@@ -34,14 +34,13 @@ def films(rows: list[Row]) -> str:
         build = f"{row.film_nodes}", short(1e3 * row.building_seconds) if row.building_seconds else ""
         times = short(row.wall_seconds), short(1e6 * film_time(row)), over, *build
         lines.append((LABELS[row.scene], row.setting, *times, small(row.error)))
-    head = "scene", "film", "wall s", "film, us per pad", "over table", "nodes", "building ms", "error"
-    return table(head, lines) if lines else NOT_RUN
+    return table("scene | film | wall s | film, us per pad | over table | nodes | building ms | error", lines)
 
 
 def film_checks(rows: list[Row]) -> str:
     """Errors of films alone."""
     lines = [(LABELS[row.scene], row.setting, *signals(row)) for row in rows if row.group == CHECK]
-    return table(("scene", "film", *SIGNALS), lines) if lines else NOT_RUN
+    return table(f"scene | film | {SIGNALS}", lines)
 
 
 def visits(rows: list[Row]) -> str:
@@ -52,17 +51,8 @@ def visits(rows: list[Row]) -> str:
         share = f"{row.building_seconds / row.wall_seconds:.0%}"
         solved = f"{row.film_solved / row.film_evaluations:.1%}"
         lines.append((LABELS[row.scene], *counts, short(1e3 * row.building_seconds), share, solved))
-    head = (
-        "scene",
-        "rotor s",
-        "films",
-        "cells",
-        "nodes",
-        "building ms",
-        "of the run",
-        "films left to `direct`",
-    )
-    return table(head, lines) if lines else NOT_RUN
+    counts = "rotor s | films | cells | nodes"
+    return table(f"scene | {counts} | building ms | of the run | films left to `direct`", lines)
 
 
 def kernels(rows: list[Row]) -> str:
@@ -70,24 +60,12 @@ def kernels(rows: list[Row]) -> str:
     rows = [row for row in rows if row.group != TABLE]
     forces = [row for row in rows if row.setting == "force"]
     derivatives = {(row.scene, row.group): row for row in rows if row.setting != "force"}
-    lines = [
-        (
-            row.scene,
-            row.group,
-            short(1e6 * row.film_seconds),
-            short(1e6 * derivatives[row.scene, row.group].film_seconds),
-            small(row.error),
-        )
-        for row in forces
-    ]
-    head = (
-        "film, cavitation",
-        "solver, cells along the arc",
-        "force, us",
-        "force and derivatives, us",
-        "error",
-    )
-    return table(head, lines) if lines else NOT_RUN
+    lines = []
+    for row in forces:
+        both = row.film_seconds, derivatives[row.scene, row.group].film_seconds
+        lines.append((row.scene, row.group, *(short(1e6 * each) for each in both), small(row.error)))
+    head = "film, cavitation | solver, cells along the arc | force, us | force and derivatives, us | error"
+    return table(head, lines)
 
 
 def skips(rows: list[Row]) -> str:
@@ -95,12 +73,9 @@ def skips(rows: list[Row]) -> str:
     lines = []
     for without, kept in zip(rows[::2], rows[1::2], strict=True):
         saved = 1 - without.wall_seconds / kept.wall_seconds
-        steps = f"{without.steps}, {kept.steps}"
-        lines.append(
-            (without.scene, short(without.wall_seconds), short(kept.wall_seconds), f"{saved:.0%}", steps)
-        )
-    head = "omitted work", "wall s", "wall s with it", "saved", "steps without, with"
-    return table(head, lines) if lines else NOT_RUN
+        times = short(without.wall_seconds), short(kept.wall_seconds)
+        lines.append((without.scene, *times, f"{saved:.0%}", f"{without.steps}, {kept.steps}"))
+    return table("omitted work | wall s | wall s with it | saved | steps without, with", lines)
 
 
 def skips_words(runs: list[Row], kernels: list[Row]) -> str:
@@ -131,7 +106,7 @@ def tolerances(rows: list[Row]) -> str:
     """Scaled and scalar absolute tolerances."""
     found = [row for row in rows if row.group == SCIPY and row.rotor_seconds == TOLERANCE_SPAN]
     lines = [(row.setting, short(row.wall_seconds), row.rhs, small(row.error_same_film)) for row in found]
-    return table(("absolute tolerances", "wall s", "right-hand sides", "error"), lines) if lines else NOT_RUN
+    return table("absolute tolerances | wall s | right-hand sides | error", lines)
 
 
 def tolerances_words(rows: list[Row]) -> str:
@@ -156,8 +131,9 @@ def pads(rows: list[Row]) -> str:
         times = short(side), short(side / int(row.setting) if side else None)
         counts = row.setting, short(row.wall_seconds), row.steps, row.rhs
         lines.append((*counts, *times, f"{row.memory_mb:.0f}", row.note))
-    head = "pads", "wall s", "steps", "right-hand sides", "us per right-hand side", "us per pad", "MB", ""
-    return table(head, lines) if lines else NOT_RUN
+    return table(
+        "pads | wall s | steps | right-hand sides | us per right-hand side | us per pad | MB | ", lines
+    )
 
 
 def pads_words(rows: list[Row]) -> str:
@@ -185,9 +161,8 @@ def peers(rows: list[Row]) -> str:
         times = short(row.wall_seconds), short(each), short(OF * each), short(each / base)
         errors = small(error_of(row, rows)), small(row.error_same_film)
         lines.append((name, f"{row.rotor_seconds:g} s", *times, *errors, f"{row.memory_mb:.0f}"))
-    all_of_it = f"{OF} s would take"
-    head = "", "marched", "wall s", "wall s per second", all_of_it, "over tiltpad", "error", "same film", "MB"
-    return table(head, lines) if lines else NOT_RUN
+    times = f"wall s | wall s per second | {OF} s would take"
+    return table(f" | marched | {times} | over tiltpad | error | same film | MB", lines)
 
 
 def rate(row: Row | None) -> float | None:
@@ -227,9 +202,8 @@ def checkpoints(rows: list[Row]) -> str:
         rate = float(row.note.split()[0]) / row.wall_seconds
         times = short(row.wall_seconds), short(row.checkpoint_seconds, 2), short(row.copy_seconds, 2)
         lines.append((row.scene, f"{rate:.1f}", *times, f"{share:.1%}", verdict(share, CHECKPOINT_SHARE)))
-    times = "wall s", "checkpoints s", "copy of the file s"
-    head = "scene", "MB/s written", *times, "share", f"below {CHECKPOINT_SHARE:.0%}"
-    return table(head, lines) if lines else NOT_RUN
+    times = "wall s | checkpoints s | copy of the file s"
+    return table(f"scene | MB/s written | {times} | share | below {CHECKPOINT_SHARE:.0%}", lines)
 
 
 def study(rows: list[Row]) -> str:
@@ -255,4 +229,4 @@ def study(rows: list[Row]) -> str:
         ("collecting into one file", f"{short(collected)} s", f"{COLLECT_SECONDS} s",
          verdict(collected, COLLECT_SECONDS)),
     ]  # fmt: skip
-    return table(("quantity", "measured", "to reach", ""), lines)
+    return table("quantity | measured | to reach | ", lines)

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from errors import deviations
 from runner import Row, Runner
 from settings import LADDER, MAIN
-from tables import NOT_RUN, short, small, table, verdict
+from tables import short, small, table, verdict
 
 #: Friction: none, LuGre, Bengisu-Akay.
 SCENES = MAIN[:3]
@@ -46,10 +46,8 @@ def compared(rows: list[Row]) -> str:
         march, orbit = found["march"], found["periodic"]
         ratio = orbit.wall_seconds / march.wall_seconds
         words = f"`{scene.name}` ({scene.label})", short(march.wall_seconds), short(orbit.wall_seconds)
-        errors = orbit.error_pad_tilt, orbit.error_friction_moment, orbit.error
-        lines.append(
-            (*words, short(ratio), verdict(ratio, RATIO), *map(small, errors), verdict(orbit.error, ERROR))
-        )
-    head = "", "march, s", "orbit, s", "ratio", f"to reach: {RATIO:g}"
-    head = *head, "tilt", "friction moment", "error", f"to reach: {ERROR:.0e}"
-    return table(head, lines) if lines else NOT_RUN
+        errors = map(small, (orbit.error_pad_tilt, orbit.error_friction_moment, orbit.error))
+        reached = verdict(ratio, RATIO), *errors, verdict(orbit.error, ERROR)
+        lines.append((*words, short(ratio), *reached))
+    errors = f"tilt | friction moment | error | to reach: {ERROR:.0e}"
+    return table(f" | march, s | orbit, s | ratio | to reach: {RATIO:g} | {errors}", lines)

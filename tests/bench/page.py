@@ -3,24 +3,11 @@
 import costs
 import maps
 import orbits
+import settings
 import tables
 import warm
 from errors import JUMP
 from runner import Row
-from settings import (
-    ALLOWED,
-    CHECK_TOLERANCE,
-    CHECKPOINT_SECONDS,
-    FILM_REFERENCE,
-    FILM_TOLERANCE,
-    FINE,
-    MEMBERS,
-    PEER_ABSOLUTE,
-    PEER_FILM_TOLERANCE,
-    PEER_RELATIVE,
-    REFINED,
-    TOLERANCE_SPAN,
-)
 
 PAGE = """\
 # Benchmarks
@@ -249,11 +236,11 @@ def page(rows: dict[str, list[Row]], machine: str) -> str:
     """The whole page."""
     return PAGE.format(
         machine=machine,
-        allowed=ALLOWED,
+        allowed=settings.ALLOWED,
         figures=tables.figures(rows["diagram"], rows["films"], rows["kernels"]),
-        fine_intro=f"The setting {FINE[0]}:",
+        fine_intro=f"The setting {settings.FINE[0]}:",
         fine=tables.fine(rows["diagram"]),
-        film_tolerance=FILM_TOLERANCE,
+        film_tolerance=settings.FILM_TOLERANCE,
         jump=JUMP,
         ladder=tables.ladder(rows["ladder"]),
         ladder_words=tables.ladder_words(rows["ladder"]),
@@ -262,9 +249,9 @@ def page(rows: dict[str, list[Row]], machine: str) -> str:
         cases=tables.cases(rows["cases"]),
         cases_words=tables.cases_words(rows["cases"]),
         cases_notes=tables.cases_notes(rows["cases"]),
-        reference=REFINED[-1][0],
-        film_reference=FILM_REFERENCE[0],
-        check_tolerance=CHECK_TOLERANCE,
+        reference=settings.REFINED[-1][0],
+        film_reference=settings.FILM_REFERENCE[0],
+        check_tolerance=settings.CHECK_TOLERANCE,
         film_checks=costs.film_checks(rows["films"]),
         visits=costs.visits(rows["visits"]),
         films=costs.films(rows["films"]),
@@ -274,14 +261,14 @@ def page(rows: dict[str, list[Row]], machine: str) -> str:
         orbit_rounds=orbits.ROUNDS,
         orbit_reference=orbits.REFERENCE,
         orbits=orbits.compared(rows["orbits"]),
-        checkpoint_seconds=CHECKPOINT_SECONDS,
+        checkpoint_seconds=settings.CHECKPOINT_SECONDS,
         checkpoints=costs.checkpoints(rows["production"]),
-        members=MEMBERS,
+        members=settings.MEMBERS,
         study=costs.study(rows["production"]),
-        absolute=PEER_ABSOLUTE,
-        relative=PEER_RELATIVE,
-        peer_film_tolerance=PEER_FILM_TOLERANCE,
-        tolerance_span=TOLERANCE_SPAN,
+        absolute=settings.PEER_ABSOLUTE,
+        relative=settings.PEER_RELATIVE,
+        peer_film_tolerance=settings.PEER_FILM_TOLERANCE,
+        tolerance_span=settings.TOLERANCE_SPAN,
         tolerances=costs.tolerances(rows["peers"]),
         tolerances_words=costs.tolerances_words(rows["peers"]),
         pads=costs.pads(rows["pads"]),

@@ -7,23 +7,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+import settings
 import tiltpad
 from errors import Deviation
 from peer_model import COLUMNS, ROWS, STATES, Bearing, compliance
 from runner import Launched, Row, Runner, launch
-from settings import (
-    JACOBIAN_SPAN,
-    LONG_SPAN,
-    OCTAVE_SPAN,
-    PEER_ABSOLUTE,
-    PEER_FILM,
-    PEER_FILM_TOLERANCE,
-    PEER_REFERENCE,
-    PEER_RELATIVE,
-    PEER_SCENE,
-    PEER_TIGHT,
-    TOLERANCE_SPAN,
-)
 from tiltpad.calculate.deviations import SIGNALS, deviation, natural_scale
 
 HERE = Path(__file__).parent
@@ -33,30 +21,30 @@ TILTPAD, SHORT, SCIPY, OCTAVE = "tiltpad", "tiltpad, short", "SciPy BDF", "Octav
 SCALED, SCALAR = "scaled tolerances", "scalar tolerance"
 OWN, DIFFERENCED = "", ", SciPy's own Jacobian"
 MARCHES = (
-    (LONG_SPAN, SCALED, OWN),
-    (JACOBIAN_SPAN, SCALED, DIFFERENCED),
-    (TOLERANCE_SPAN, SCALED, OWN),
-    (TOLERANCE_SPAN, SCALAR, OWN),
+    (settings.LONG_SPAN, SCALED, OWN),
+    (settings.JACOBIAN_SPAN, SCALED, DIFFERENCED),
+    (settings.TOLERANCE_SPAN, SCALED, OWN),
+    (settings.TOLERANCE_SPAN, SCALAR, OWN),
 )
 
 
 def peers(runner: Runner) -> Iterator[Row]:
     """tiltpad with its defaults, with the peers' film, and the peers."""
-    spans = {LONG_SPAN, JACOBIAN_SPAN, TOLERANCE_SPAN, OCTAVE_SPAN}
+    spans = {settings.LONG_SPAN, settings.JACOBIAN_SPAN, settings.TOLERANCE_SPAN, settings.OCTAVE_SPAN}
     files = {span: pair(runner, span) for span in sorted(spans)}
-    row, path = runner.run(PEER_SCENE, TILTPAD, "defaults")
+    row, path = runner.run(settings.PEER_SCENE, TILTPAD, "defaults")
     path.unlink()
     yield row
-    for setting, film in (("defaults", ()), ("the peers' film", PEER_FILM)):
-        more = (*film, f"operation%duration={LONG_SPAN}")
-        row, path = runner.run(PEER_SCENE, SHORT, setting, more)
+    for setting, film in (("defaults", ()), ("the peers' film", settings.PEER_FILM)):
+        more = (*film, f"operation%duration={settings.LONG_SPAN}")
+        row, path = runner.run(settings.PEER_SCENE, SHORT, setting, more)
         with tiltpad.read(path) as run:
-            compare(row, {name: run[name] for name in SIGNALS}, files[LONG_SPAN])
+            compare(row, {name: run[name] for name in SIGNALS}, files[settings.LONG_SPAN])
         path.unlink()
         yield row
     for march in MARCHES:
         yield scipy(runner, *march, files[march[0]])
-    yield octave(runner, files[OCTAVE_SPAN])
+    yield octave(runner, files[settings.OCTAVE_SPAN])
     for path in sum(files.values(), ()):
         path.unlink()
 
@@ -64,9 +52,9 @@ def peers(runner: Runner) -> Iterator[Row]:
 def pair(runner: Runner, span: float) -> tuple[Path, Path]:
     """Converged runs over a span: with the film of the modes, and with the film of the peers."""
     paths = []
-    for label, overrides in (PEER_REFERENCE, ("the peers' film", PEER_TIGHT)):
+    for label, overrides in (settings.PEER_REFERENCE, ("the peers' film", settings.PEER_TIGHT)):
         more = (*overrides, f"operation%duration={span}")
-        row, path = runner.run(PEER_SCENE, "reference", label, more, timed=False)
+        row, path = runner.run(settings.PEER_SCENE, "reference", label, more, timed=False)
         if row.note:
             raise RuntimeError(f"no reference for the peers: {row.note}")
         paths.append(path)
@@ -94,11 +82,11 @@ def scipy(runner: Runner, span: float, kind: str, jacobian: str, files: tuple[Pa
     """SciPy's march over a span."""
     result = runner.folder / "scipy.npz"
     os.environ["NUMBA_CACHE_DIR"] = str(runner.folder)
-    words = ["--scaled"] if kind == SCALED else ["--absolute", PEER_ABSOLUTE]
+    words = ["--scaled"] if kind == SCALED else ["--absolute", settings.PEER_ABSOLUTE]
     words += ["--own-jacobian"] if jacobian == OWN else []
-    words += ["--relative", PEER_RELATIVE, "--film-tolerance", PEER_FILM_TOLERANCE]
+    words += ["--relative", settings.PEER_RELATIVE, "--film-tolerance", settings.PEER_FILM_TOLERANCE]
     done = launch([sys.executable, HERE / "peer_scipy.py", files[1], result, *words])
-    row = Row(runner.part, PEER_SCENE.name, SCIPY, kind + jacobian, " ".join(map(str, words)))
+    row = Row(runner.part, settings.PEER_SCENE.name, SCIPY, kind + jacobian, " ".join(map(str, words)))
     if done.status:
         return failed(row, done)
     found = dict(np.load(result))
@@ -111,8 +99,8 @@ def scipy(runner: Runner, span: float, kind: str, jacobian: str, files: tuple[Pa
 def octave(runner: Runner, files: tuple[Path, Path]) -> Row:
     """Octave's march over a span, where there is Octave."""
     setting = "scalar tolerance, sparse direct film"
-    row = Row(runner.part, PEER_SCENE.name, OCTAVE, setting, f"RelTol {PEER_RELATIVE:g}, AbsTol "
-              f"{PEER_ABSOLUTE:g}")  # fmt: skip
+    words = f"RelTol {settings.PEER_RELATIVE:g}, AbsTol {settings.PEER_ABSOLUTE:g}"
+    row = Row(runner.part, settings.PEER_SCENE.name, OCTAVE, setting, words)
     if not shutil.which(PROGRAM):
         row.note = "not installed"
         return row
@@ -131,7 +119,7 @@ def octave(runner: Runner, files: tuple[Path, Path]) -> Row:
         "pad_tilt": values[:, 5 : 5 + STATES * pads : STATES],
         "friction_moment": values[:, -pads:],
     }
-    enter(row, done, OCTAVE_SPAN, float(seconds), int(evaluations))
+    enter(row, done, settings.OCTAVE_SPAN, float(seconds), int(evaluations))
     compare(row, found, files)
     return row
 
@@ -148,7 +136,7 @@ def failed(row: Row, done: Launched) -> Row:
 
 def scene(run: tiltpad.Run) -> str:
     """The scene, its first state and the times of its samples as Octave reads them."""
-    bearing = Bearing(run.input, PEER_FILM_TOLERANCE)
+    bearing = Bearing(run.input, settings.PEER_FILM_TOLERANCE)
     pivot, inputs = run.input["pivot"], run.input["bearing"]
     names = "theta", "pivot", "centre", "pad_mass", "inertia", "centre_radial"
     values = dict(zip(names, bearing.pads.T, strict=True))
@@ -163,7 +151,7 @@ def scene(run: tiltpad.Run) -> str:
         "inner": inputs["journal_radius"], "viscosity": inputs["viscosity"], "speed": bearing.speed,
         "outer": pivot["socket_radius"], "difference": pivot["radius_difference"],
         "compliance": compliance(pivot), "factor": pivot["penetration_factor"],
-        "relative": PEER_RELATIVE, "absolute": PEER_ABSOLUTE,
+        "relative": settings.PEER_RELATIVE, "absolute": settings.PEER_ABSOLUTE,
     }  # fmt: skip
     equilibrium = run.equilibrium
     first = [equilibrium["journal_y"], equilibrium["journal_z"], 0, 0]

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 
 from diagram import LAST, WHOLE
+from paper.tables import table as markdown
 from runner import Row
 from settings import (
     ALLOWED,
@@ -23,15 +24,14 @@ from settings import (
 )
 
 LABELS = {scene.name: scene.label for scene in (*MAIN, *UNRUPTURED, *FILM_SCENES, *VISITS)}
-SIGNALS = ("journal y", "journal z", "tilt", "friction moment")
+SIGNALS = "journal y | journal z | tilt | friction moment"
 NOT_RUN = "Not run."
 
 
-def table(head: Iterable, rows: Iterable[Iterable]) -> str:
-    """A Markdown table."""
-    head = list(head)
-    lines = [head, ["---"] * len(head), *rows]
-    return "\n".join("| " + " | ".join(map(str, line)) + " |" for line in lines)
+def table(head: str, rows: Iterable[Iterable]) -> str:
+    """A Markdown table under a head whose columns are separated by bars; without rows it was not run."""
+    rows = list(rows)
+    return markdown([each.strip() for each in head.split("|")], rows) if rows else NOT_RUN
 
 
 def short(value: float | None, digits: int = 3) -> str:
@@ -89,22 +89,13 @@ def figures(rows: list[Row], film_rows: list[Row], kernels: list[Row]) -> str:
         words = f"film time of a pad, sor 60 x 15 over the table ({scene.label})"
         lines.append((words, FILM_RATIO, f"{ratio:.0f}", reached, "", ""))
     for name in ONE_FILMS:
-        row = next(
-            (
-                row
-                for row in kernels
-                if (row.scene, row.group) == (name, ONE_SOLVER) and row.setting != "force"
-            ),
-            None,
-        )
-        if row:
+        place = (name, ONE_SOLVER)
+        for row in (row for row in kernels if (row.scene, row.group) == place and row.setting != "force"):
             time = 1e6 * row.film_seconds
             figure = f"{FILM_MICROSECONDS:g} us", f"{short(time)} us", verdict(time, FILM_MICROSECONDS)
-            lines.append(
-                (f"one film with derivatives from the table ({name})", *figure, small(row.error), "")
-            )
-    head = "default settings", "to reach", "measured", "", "error", f"error below {ALLOWED:g}"
-    return table(head, lines)
+            words = f"one film with derivatives from the table ({name})"
+            lines.append((words, *figure, small(row.error), ""))
+    return table(f"default settings | to reach | measured | | error | error below {ALLOWED:g}", lines)
 
 
 def film_time(row: Row) -> float:
@@ -125,8 +116,7 @@ def fine(rows: list[Row]) -> str:
         if row.setting == FINE[0]:
             reached = verdict(row.error, FINE_ALLOWED)
             lines.append((LABELS[row.scene], short(row.wall_seconds), *signals(row), reached))
-    head = "scene", "wall s", *SIGNALS, f"{FINE_ALLOWED:g} or better"
-    return table(head, lines) if lines else NOT_RUN
+    return table(f"scene | wall s | {SIGNALS} | {FINE_ALLOWED:g} or better", lines)
 
 
 def ladder(rows: list[Row]) -> str:
@@ -135,7 +125,7 @@ def ladder(rows: list[Row]) -> str:
     for row in rows:
         errors = [row.note or "reference", "", "", ""] if row.error is None else signals(row)
         lines.append((LABELS[row.scene], row.setting, row.group, row.steps or "", *errors))
-    return table(("scene", "film and tolerance", "over", "steps", *SIGNALS), lines) if lines else NOT_RUN
+    return table(f"scene | film and tolerance | over | steps | {SIGNALS}", lines)
 
 
 def ladder_words(rows: list[Row]) -> str:
@@ -197,8 +187,8 @@ def settings(rows: list[Row]) -> str:
         each = (small(runs[scene.name].error) if scene.name in runs else "" for scene in MAIN)
         mark = "**" if error is not None and error < ALLOWED else ""
         lines.append((described(group, setting), short(time), f"{mark}{small(error)}{mark}", *each))
-    head = "setting", "wall s, all", "maximum error", *(scene.label for scene in MAIN)
-    return table(head, lines) if lines else NOT_RUN
+    scenes = " | ".join(scene.label for scene in MAIN)
+    return table(f"setting | wall s, all | maximum error | {scenes}", lines)
 
 
 def cases(rows: list[Row]) -> str:
@@ -209,19 +199,8 @@ def cases(rows: list[Row]) -> str:
         jump = f"{row.jump_degrees:.1e}" if row.jump_degrees else "-"
         errors = *signals(row), bold(row.error), jump, small(row.reference_moved)
         lines.append((f"`{row.scene}`", *cost, row.film_cells, row.film_nodes, *errors))
-    head = (
-        "scene",
-        "wall s",
-        "steps",
-        "MB",
-        "cells",
-        "nodes",
-        *SIGNALS,
-        "error",
-        "jumps, deg",
-        "reference change",
-    )
-    return table(head, lines) if lines else NOT_RUN
+    counts = "wall s | steps | MB | cells | nodes"
+    return table(f"scene | {counts} | {SIGNALS} | error | jumps, deg | reference change", lines)
 
 
 def bold(error: float | None) -> str:

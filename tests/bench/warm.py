@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from runner import Row, Runner, launch
 from settings import ROOT, Scene
-from tables import NOT_RUN, short, table, verdict
+from tables import short, table, verdict
 
 #: The examples with warm oil, and their tasks.
 SCENES = tuple(
@@ -76,8 +76,7 @@ def compared(rows: list[Row]) -> str:
         else:
             cold = next(each for each in rows if (each.scene, each.overrides.split()[0]) == key(row))
             lines.append(of_single(row, cold))
-    head = "", "task", "oil", "wall s", "over one viscosity", "to reach", ""
-    return table(head, lines) if lines else NOT_RUN
+    return table(" | task | oil | wall s | over one viscosity | to reach | ", lines)
 
 
 def key(row: Row) -> tuple[str, str]:

@@ -11,11 +11,11 @@ TASK = "case%task=coefficients"
 def case(tiltpad, root, tmp_path):
     """Runs a case of input/paper with overrides; gives the process and the path of its result."""
 
-    def run(name, *overrides):
+    def run(name, *overrides, status=0):
         path = tmp_path / "found.h5"
-        options = [word for override in overrides for word in ("--set", override)]
-        arguments = ("--output", path, "--overwrite", "--quiet", *options)
-        return tiltpad(root / "input/paper" / f"{name}.nml", *arguments), path
+        arguments = ("--output", path, "--overwrite", "--quiet")
+        case = root / "input/paper" / f"{name}.nml"
+        return tiltpad(case, *arguments, overrides=overrides, status=status), path
 
     return run
 
@@ -30,10 +30,8 @@ def condensed(matrices, pivot, nu):
 
 def test_file_fits_its_own_matrices(case):
     """Coefficients and modes follow from the full matrices: the same by numpy, to rounding."""
-    done, path = case(
-        "steady_lugre", TASK, "coefficients%frequency_ratio=0.25,1", "coefficients%cross_stiffness=2e7"
-    )
-    assert done.returncode == 0, done.stderr
+    changes = ("coefficients%frequency_ratio=0.25,1", "coefficients%cross_stiffness=2e7")
+    _, path = case("steady_lugre", TASK, *changes)
     with h5py.File(path) as file:
         assert list(file["pivot"].asstr()) == ["free", "stuck", "locked"]
         names = ["y", "z", "tilt_1", "penetration_1", "tilt_2", "penetration_2"]
@@ -109,8 +107,6 @@ def test_sweep_goes_on_without_equilibrium(tiltpad, root, tmp_path):
     ],
 )
 def test_refused(case, overrides, words):
-    done, path = case("steady_tr", *overrides)
-    assert done.returncode == 1
+    done, path = case("steady_tr", *overrides, status=1)
     assert words in done.stderr
-    assert done.stderr.count("\n") == 1
     assert not path.exists()

@@ -178,7 +178,6 @@ def test_fixed_pads(run, tmp_path):
 )
 def test_what_is_refused(run, tmp_path, overrides, names):
     done = run(LUGRE, *overrides, status=1)
-    assert done.stderr.count("\n") == 1
     for name in names:
         assert name in done.stderr
     assert not (tmp_path / "case.h5").exists()
@@ -228,8 +227,7 @@ def test_a_signal(start, tmp_path):
 def test_a_stopped_search_goes_on_to_the_same_orbit(start, tiltpad, run, tmp_path):
     run(LUGRE, PERIODIC, *LONG, name="whole")
     stopped_search(start, tmp_path, "whole.nml", *LONG)
-    done = tiltpad("--resume", "part.h5", "-q", cwd=tmp_path)
-    assert (done.returncode, done.stderr) == (0, "")
+    tiltpad("--resume", "part.h5", "-q", cwd=tmp_path, status=0)
     with h5py.File(tmp_path / "whole.h5") as whole, h5py.File(tmp_path / "part.h5") as part:
         assert part.attrs["complete"] == 1
         np.testing.assert_allclose(part["journal_y"][:], whole["journal_y"][:], atol=1e-10)
@@ -238,8 +236,7 @@ def test_a_stopped_search_goes_on_to_the_same_orbit(start, tiltpad, run, tmp_pat
 def test_a_sweep(tiltpad, tmp_path):
     (tmp_path / "case.nml").write_text(LUGRE)
     sweep = (PERIODIC, "sweep%operation%speed_rpm=3000,6500")
-    done = tiltpad("case.nml", "-q", *options(sweep), cwd=tmp_path)
-    assert (done.returncode, done.stderr) == (0, "")
+    tiltpad("case.nml", "-q", overrides=sweep, cwd=tmp_path, status=0)
     periods = []
     for number in (1, 2):
         with h5py.File(tmp_path / f"case/000{number}.h5") as file:

@@ -1,17 +1,15 @@
 !> Energy over a march: kinetic energy of journal and pads, their height, and what pivots and asperities store change
 !> by the work of films, unbalance and friction. That work is marched along as one more state.
 module energy_ledger
-   use kinds, only: wp, i8
-   use errors, only: error_type
+   use kinds, only: wp
    use ode_model, only: ode_model_type
-   use march_observer, only: march_observer_type
    use film_solver, only: film_motion
    use kinematics, only: journal_motion, pad_state
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model
    implicit none (type, external)
    private
-   public :: ledger, energy_of, silent
+   public :: ledger, energy_of
 
    !> The bearing with the work done, the friction's share of it, and the sum of its amounts.
    type, extends(ode_model_type) :: ledger
@@ -24,12 +22,6 @@ module energy_ledger
       procedure :: rhs_and_jacobian => ledger_rhs_and_jacobian
       procedure :: solve => ledger_solve
    end type ledger
-
-   type, extends(march_observer_type) :: silent
-   contains
-      procedure :: sample => no_sample
-      procedure :: report => no_report
-   end type silent
 
 contains
 
@@ -222,30 +214,17 @@ contains
          stored = stored + force*2*s*depth/n*merge(1.0_wp, merge(4.0_wp, 2.0_wp, mod(k, 2) == 1), k == n)/3
       end do
    end function stored
-
-   subroutine no_sample(self, t, y, output, error)
-      class(silent), intent(inout) :: self
-      real(wp), intent(in) :: t, y(:), output(:)
-      type(error_type), allocatable, intent(out) :: error
-   end subroutine no_sample
-
-   subroutine no_report(self, t, steps)
-      class(silent), intent(inout) :: self
-      real(wp), intent(in) :: t
-      integer(i8), intent(in) :: steps
-   end subroutine no_report
 end module energy_ledger
 
 program test_energy_balance
-   use kinds, only: wp
+   use kinds, only: wp, i8
    use text, only: to_text, exact_text
    use errors, only: error_type
    use scene, only: scene_type
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
-   use marching, only: march, march_options, sample_plan
-   use integrator_counts, only: integrator_counts_type
-   use energy_ledger, only: ledger, energy_of, silent
+   use sampled_march, only: march_samples
+   use energy_ledger, only: ledger, energy_of
    use case_scenes, only: scene_of
    use check, only: runs, expect, expect_no_error, report
    implicit none (type, external)
@@ -381,27 +360,21 @@ contains
       real(wp), intent(in) :: start(:), tolerance
       real(wp), intent(out) :: gap, flow, rubbed, steps
       logical, intent(out) :: touched
-      type(ledger) :: model
-      type(silent) :: observer
-      type(march_options) :: options
-      type(integrator_counts_type) :: statistics
-      type(error_type), allocatable :: error
-      real(wp), allocatable :: y(:)
+      type(ledger), target :: model
+      real(wp), allocatable :: y(:, :)
+      integer(i8) :: count
       model%bearing = new_bearing_model(scene)
       model%n = model%bearing%n + 3
+      allocate (y(model%n, 1))
       associate (n => model%bearing%n)
-         y = [start, 0.0_wp, 0.0_wp, 0.0_wp]
-         options%relative_tolerance = tolerance
          ! work: of the order of the load times the clearance
-         options%absolute_tolerance = tolerance*[model%bearing%scale, 1.0_wp, 1.0_wp, 1.0_wp]
-         call march(model, options, 0.0_wp, 6e-3_wp, sample_plan(), y, observer, statistics, error)
-         call expect_no_error(error, 'the march ends well')
-         if (allocated(error)) call expect(.false., error%message)
-         gap = abs(sum(energy_of(model%bearing, y(:n)) - energy_of(model%bearing, start)) - y(n + 1))
-         rubbed = y(n + 2)
-         flow = y(n + 3)
+         call march_samples(model, [model%bearing%scale, 1.0_wp, 1.0_wp, 1.0_wp], [tolerance, tolerance], &
+            & [start, 0.0_wp, 0.0_wp, 0.0_wp], 6e-3_wp, 0.0_wp, y, count)
+         gap = abs(sum(energy_of(model%bearing, y(:n, 1)) - energy_of(model%bearing, start)) - y(n + 1, 1))
+         rubbed = y(n + 2, 1)
+         flow = y(n + 3, 1)
       end associate
       touched = model%touched
-      steps = real(statistics%steps, wp)
+      steps = real(count, wp)
    end subroutine marched
 end program test_energy_balance

@@ -134,8 +134,7 @@ def test_scenes_are_accepted(tiltpad, root):
         assert len({scene.name for scene in scenes}) == len(scenes)
         for scene in scenes:
             options = [word for each in scene.overrides for word in ("--set", each)]
-            done = tiltpad("--check", root / scene.case, *options)
-            assert done.returncode == 0, f"{scene.name}: {done.stderr}"
+            tiltpad("--check", root / scene.case, *options, status=0)
 
 
 def test_failed_run_is_told(program, tmp_path):

@@ -47,8 +47,7 @@ def longer(tiltpad, tmp_path_factory):
         "&operation speed_rpm=4000, final_speed_rpm=6500, duration=0.5 /\n&friction model='lugre' /\n"
         "&output samples_per_revolution=90 /\n"
     )
-    done = tiltpad("--quiet", "a.nml", cwd=folder)
-    assert done.returncode == 0, done.stderr
+    tiltpad("--quiet", "a.nml", cwd=folder, status=0)
     return folder / "a.h5"
 
 

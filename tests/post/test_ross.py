@@ -167,7 +167,7 @@ def test_several_members_at_one_speed(tiltpad, tmp_path):
     (tmp_path / "case.nml").write_text("&case task='coefficients' /\n")
     swept = ["sweep%operation%speed_rpm=3000,4000", "sweep%rotor%mass=1000,2000", "sweep%order=product"]
     words = [word for each in swept for word in ("--set", each)]
-    assert tiltpad("--quiet", "case.nml", *words, "--output", "loads", cwd=tmp_path).returncode == 0
+    tiltpad("--quiet", "case.nml", *words, "--output", "loads", cwd=tmp_path, status=0)
     package.collect(tmp_path / "loads", tmp_path / "loads.h5")
     with package.read_study(tmp_path / "loads.h5") as study:
         with pytest.raises(ValueError, match="several members at 3000 rpm, which differ in mass: choose"):
