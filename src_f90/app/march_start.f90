@@ -120,7 +120,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       allocate (y(run%model%n))
       run%earlier = run%statistics()
-      call run%file%resume(t, y, run%earlier, error)
+      call run%file%resume(t, run%earlier, error, y)
       if (.not. allocated(error)) call take_oil(run, error)
       if (allocated(error)) return
       run%computed = .true.

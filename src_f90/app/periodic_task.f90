@@ -50,7 +50,7 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       type(error_type), allocatable :: file_error
       error%message = stop_reason()//' while the periodic orbit was sought'
-      call run%file%checkpoint(0.0_wp, found%orbit%start, run%statistics(), stopped, error%message, file_error)
+      call run%file%checkpoint(0.0_wp, run%statistics(), stopped, error%message, file_error, found%orbit%start)
       if (allocated(file_error)) call move_alloc(file_error, error)
    end subroutine stop_here
 

@@ -143,10 +143,10 @@ contains
       started = wall_clock()
       if (stop_requested()) then
          reason = stop_reason()//' at t = '//to_text(t)//' s'
-         call self%run%file%checkpoint(t, y, self%run%statistics(), stopped, reason, error)
+         call self%run%file%checkpoint(t, self%run%statistics(), stopped, reason, error, y)
          if (.not. allocated(error)) call raise(error, stopped, reason)
       else
-         call self%run%file%checkpoint(t, y, self%run%statistics(), running, '', error)
+         call self%run%file%checkpoint(t, self%run%statistics(), running, '', error, y)
          call self%progress%note('checkpoint at t = '//to_text(t)//' s')
          self%checkpoint_due = .false.
          self%last_checkpoint = wall_clock()

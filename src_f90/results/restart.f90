@@ -56,7 +56,7 @@ contains
       if (allocated(error)) return
       call file%get_flag('complete', complete)
       call file%get_text('input', input)
-      found%checkpoint = file%has('checkpoint/state')
+      found%checkpoint = file%has('checkpoint/time')
       found%reason = ''
       if (file%has_attribute('exit_status')) call file%get_flag('exit_status', found%status)
       if (found%status /= 0) call file%get_text('reason', found%reason)

@@ -19,6 +19,7 @@ module run_file
       procedure :: create
       procedure :: resume
       procedure :: put_member
+      procedure :: begin_checkpoint
       procedure :: checkpoint
       procedure :: finish
    end type run_file_type
@@ -52,25 +53,27 @@ contains
    end subroutine create
 
    !> Continues the file of the name claimed from its checkpoint: simulated time t, s, and state.
-   subroutine resume(self, t, state, statistics, error)
+   subroutine resume(self, t, statistics, error, state)
       class(run_file_type), intent(inout) :: self
       real(wp), intent(out) :: t
-      !> Of the size that the scene has, or not allocated: then it gets that of the file.
-      real(wp), allocatable, intent(inout) :: state(:)
       !> The list of figures, which get the values in the file.
       type(run_statistics_type), intent(inout) :: statistics
       type(error_type), allocatable, intent(out) :: error
+      !> Of a march; of the size that the scene has.
+      real(wp), intent(inout), optional :: state(:)
+      logical :: ok
       t = 0
       call self%reopen(error)
       if (.not. allocated(error)) then
          call upgrade(self%file)
          t = self%file%get_real('checkpoint/time')
-         if (.not. allocated(state)) allocate (state(self%file%list_size('checkpoint/state')))
-         call self%file%get_list('checkpoint/state', state)
+         if (present(state)) call self%file%get_list('checkpoint/state', state)
          call statistics%read(self%file)
          call self%provenance%resume(self%file, t)
          call self%error_of(error)
-         if (.not. allocated(error) .and. .not. all(ieee_is_finite([t, state]))) call raise(error, system_error, &
+         ok = ieee_is_finite(t)
+         if (present(state)) ok = ok .and. all(ieee_is_finite(state))
+         if (.not. allocated(error) .and. .not. ok) call raise(error, system_error, &
             & self%path()//': damaged: its checkpoint is not a number')
       end if
       if (allocated(error)) call self%abandon()
@@ -86,24 +89,32 @@ contains
       call self%file%put_text('sweep_marks', tag%marks)
    end subroutine put_member
 
-   !> Publishes what there is, with the state y at time t, s, from which the run can continue. With an exit status
-   !> other than `running`, which needs its reason, this is the end of the file's writing.
-   subroutine checkpoint(self, t, y, statistics, status, reason, error)
+   !> Begins a new checkpoint, at time t, s: what the run goes on from belongs into its group.
+   subroutine begin_checkpoint(self, t)
       class(run_file_type), intent(inout) :: self
-      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(in) :: t
+      ! what it holds may have another size than in the last
+      call self%file%delete('checkpoint')
+      call self%file%make_group('checkpoint')
+      call self%file%put_real('checkpoint/time', t, 's', 'time from which the run can go on')
+   end subroutine begin_checkpoint
+
+   !> Publishes what there is, with the checkpoint that was begun or, of a march, with the state y. With an exit status
+   !> other than `running`, which needs its reason, this is the end of the file's writing.
+   subroutine checkpoint(self, t, statistics, status, reason, error, y)
+      class(run_file_type), intent(inout) :: self
+      real(wp), intent(in) :: t
       type(run_statistics_type), intent(in) :: statistics
       integer, intent(in) :: status
       character(len=*), intent(in) :: reason
       type(error_type), allocatable, intent(out) :: error
-      associate (file => self%file)
-         ! its state may have another size than the last
-         call file%delete('checkpoint')
-         call file%make_group('checkpoint')
-         call file%put_real('checkpoint/time', t, 's', 'time from which the run can go on')
-         call file%put_list('checkpoint/state', y, '1', 'state of the march at that time', '')
-         call statistics%write(file)
-         call self%provenance%note(file, t, status, reason)
-      end associate
+      real(wp), intent(in), optional :: y(:)
+      if (present(y)) then
+         call self%begin_checkpoint(t)
+         call self%file%put_list('checkpoint/state', y, '1', 'state of the march at that time', '')
+      end if
+      call statistics%write(self%file)
+      call self%provenance%note(self%file, t, status, reason)
       call self%publish(status == running, error)
    end subroutine checkpoint
 

@@ -97,7 +97,7 @@ def test_slices_of_a_branch_join_to_the_bit(run, tiltpad, tmp_path, loaded, case
 
 @pytest.fixture
 def stopped(start, tmp_path):
-    """stopped(case): where a checkpoint of this case has its point, among its numbers."""
+    """stopped(case): the result of this case with a checkpoint."""
 
     def stop(case):
         (tmp_path / "case.nml").write_text(case)
@@ -105,37 +105,63 @@ def stopped(start, tmp_path):
         wait_for_checkpoint(tmp_path / "case.h5", process)
         process.terminate()
         one_error(process, 4)
-        with h5py.File(tmp_path / "case.h5") as file:
-            return 5 + 6 * int(file["checkpoint/state"][3])
+        return tmp_path / "case.h5"
 
     return stop
 
 
+#: Lists of a checkpoint, each with the place of a number that others depend on.
+OF_ORBITS = {"periods": 0, "intervals": 0, "interval_ends": 1, "switching_points": 1}
+
+
 @pytest.mark.parametrize("case", [EQUILIBRIA, LUGRE], ids=["equilibria", "lugre"])
-def test_a_checkpoint_that_is_none(tiltpad, tmp_path, stopped, case):
-    """Numbers of special points and flips, sizes of the point, and of orbits turns, intervals and kinks."""
-    point, path = stopped(case), tmp_path / "case.h5"
+def test_a_checkpoint_that_is_none(tiltpad, stopped, case):
+    """Numbers that cannot be, and lists that are too short or not there."""
+    path = stopped(case)
     good = path.read_bytes()
-    places = [3, 4, *range(point + 3, point + 6)]
-    if case == LUGRE:
-        with h5py.File(path) as file:
-            intervals = int(file["checkpoint/state"][point + 9])
-        places += [point + 6, point + 9, point + 10 + intervals + 1]
-    for place in places:
+
+    def spoiled(spoil):
+        path.write_bytes(good)
+        with h5py.File(path, "r+") as file:
+            spoil(file["checkpoint"])
+        done = tiltpad("--resume", "case.h5", "-q", cwd=path.parent, status=3)
+        assert not list(path.parent.glob("*.part"))
+        return done.stderr
+
+    def shorten(point, name):
+        values = point[name][:-1]
+        del point[name]
+        if len(values):
+            point[name] = values
+
+    none = "tiltpad: error: case.h5: damaged: its checkpoint is none of this branch\n"
+    with h5py.File(path) as file:
+        lists = [name for name, each in file["checkpoint/point"].items() if each.shape]
+        assert all(each.attrs["units"] and each.attrs["long_name"] for each in file["checkpoint/point"].values())
+    for name in lists:
+        assert spoiled(lambda group, name=name: shorten(group["point"], name)) == none, name
+        assert spoiled(lambda group, name=name: group["point"][name].__setitem__(0, np.nan)) == none, name
+    for name, place in OF_ORBITS.items() if case == LUGRE else ():
         for value in (-2, 3e9, 1e300, -1e300):
-            path.write_bytes(good)
-            with h5py.File(path, "r+") as file:
-                file["checkpoint/state"][place] = value
-            done = tiltpad("--resume", "case.h5", "-q", cwd=tmp_path, status=3)
-            assert done.stderr == (
-                "tiltpad: error: case.h5: damaged: its checkpoint is none of this branch\n"
-            )
-            assert not list(tmp_path.glob("*.part"))
-    path.write_bytes(good)
+            change = lambda group, n=name, p=place, v=value: group["point"][n].__setitem__(p, v)  # noqa: E731
+            assert spoiled(change) == none, (name, value)
+    assert spoiled(lambda group: group["branch"].__setitem__((), 0)) == none
+    assert "damaged" in spoiled(lambda group: group.__delitem__("step"))
+    assert "damaged" in spoiled(lambda group: group.file.attrs.__delitem__("branch_ends"))
+
+
+def test_a_checkpoint_of_another_version(tiltpad, stopped):
+    """One whose state is a list of numbers without names is refused in a line."""
+    path = stopped(EQUILIBRIA)
     with h5py.File(path, "r+") as file:
-        del file.attrs["branch_ends"]
-    done = tiltpad("--resume", "case.h5", "-q", cwd=tmp_path, status=3)
-    assert "damaged" in done.stderr
+        time = file["checkpoint/time"][()]
+        del file["checkpoint"]
+        file["checkpoint/time"] = time
+        file["checkpoint/state"] = [1.0, 2.0, 3.0]
+    done = tiltpad("--resume", "case.h5", "-q", cwd=path.parent, status=3)
+    assert done.stderr == (
+        "tiltpad: error: case.h5: its checkpoint is of another version of tiltpad; start the run anew\n"
+    )
 
 
 def test_checkpoints_of_equilibria_have_their_time(run, tmp_path, tiltpad, loaded):

@@ -4,7 +4,7 @@ module branch_problems
    use kinds, only: wp, pi
    use errors, only: error_type, raise, input_error
    use small_ode, only: small_ode_type
-   use newton_method, only: branch_problem_type
+   use newton_method, only: branch_problem_type, place_part_type
    use parametric_ode, only: parametric_ode_type
    implicit none (type, external)
    private
@@ -19,6 +19,7 @@ module branch_problems
       procedure :: spectrum => parabola_spectrum
       procedure :: kind => parabola_kind
       procedure :: get_place => parabola_place
+      procedure :: parts => parabola_parts
       procedure :: go_to => put_parabola
    end type parabola
 
@@ -98,6 +99,13 @@ contains
       real(wp), allocatable, intent(out) :: place(:)
       place = [self%parameter, self%x]
    end subroutine parabola_place
+
+   pure function parabola_parts(self, place) result(parts)
+      class(parabola), intent(in) :: self
+      real(wp), intent(in) :: place(:)
+      type(place_part_type), allocatable :: parts(:)
+      parts = [place_part_type('parameter', 1), place_part_type('x', size(place) - 1)]
+   end function parabola_parts
 
    subroutine put_parabola(self, place)
       class(parabola), intent(inout) :: self

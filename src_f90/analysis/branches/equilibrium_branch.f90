@@ -6,7 +6,7 @@ module equilibrium_branch
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error
    use eigenvalues, only: largest_first
-   use newton_method, only: branch_problem_type
+   use newton_method, only: branch_problem_type, place_part_type
    use force_balance, only: forces, force_derivatives, masses
    use damped_newton, only: clearances, reference_force
    use small_vibrations, only: find_vibrations
@@ -36,6 +36,7 @@ module equilibrium_branch
       procedure :: spectrum
       procedure :: kind => kind_of
       procedure :: get_place
+      procedure :: parts => parts_of
       procedure :: go_to
       procedure :: state
       procedure :: temperatures
@@ -196,6 +197,17 @@ contains
       real(wp), allocatable, intent(out) :: place(:)
       place = [self%parameter, self%positions, self%viscosity]
    end subroutine get_place
+
+   pure function parts_of(self, place) result(parts)
+      class(equilibrium_problem_type), intent(in) :: self
+      real(wp), intent(in) :: place(:)
+      type(place_part_type), allocatable :: parts(:)
+      integer :: n
+      n = size(self%positions)
+      parts = [place_part_type('parameter', 1, '', 'parameter where the equations were linearised'), &
+         & place_part_type('positions', n, '1', 'displacements of journal and pads, m, and tilts, rad'), &
+         & place_part_type('viscosity', size(place) - 1 - n, 'Pa s', 'viscosity of the film')]
+   end function parts_of
 
    subroutine go_to(self, place)
       class(equilibrium_problem_type), intent(inout) :: self

@@ -5,10 +5,10 @@ module period_doubling
    use newton_method, only: branch_point_type
    use continuation, only: return_to
    use orbit_polynomials, only: orbit_type, points
-   use orbit_problem, only: orbit_problem_type
+   use orbit_problem, only: orbit_problem_type, turns_at
    implicit none (type, external)
    private
-   public :: double_period
+   public :: double_period, half_apart, forget_flips
 
 contains
 
@@ -49,4 +49,31 @@ contains
       call return_to(problem, point)
       call problem%spectrum(point%values, point%growth, ok)
    end subroutine double_period
+
+   !> By how much an orbit is elsewhere half a period later, in the measure of the branch: by nothing where it is that
+   !> of half the period. Empty where the problem stands at no orbit.
+   pure function half_apart(problem)
+      type(orbit_problem_type), intent(in) :: problem
+      real(wp), allocatable :: half_apart(:)
+      real(wp) :: y(problem%n)
+      half_apart = [real(wp) ::]
+      if (problem%n == 0) return
+      associate (orbit => problem%orbit)
+         call orbit%state_at(0.5_wp*orbit%time(orbit%intervals()), y)
+         half_apart = problem%weight*(y - orbit%start)/orbit%scale
+      end associate
+   end function half_apart
+
+   !> A branch of double period, of orbits of so many turns, that ends at another flip between two points need not be
+   !> followed from there again.
+   pure subroutine forget_flips(flips, here, next, turns)
+      type(branch_point_type), allocatable, intent(inout) :: flips(:)
+      type(branch_point_type), intent(in) :: here, next
+      integer, intent(in) :: turns
+      real(wp) :: step
+      integer :: k
+      step = abs(next%parameter - here%parameter)
+      flips = pack(flips, [(abs(flips(k)%parameter - next%parameter) > 2*step .or. 2*turns_at(flips(k)) /= turns, &
+         & k=1, size(flips))])
+   end subroutine forget_flips
 end module period_doubling

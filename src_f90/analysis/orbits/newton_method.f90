@@ -7,7 +7,15 @@ module newton_method
    use lapack, only: dgesv
    implicit none (type, external)
    private
-   public :: branch_problem_type, branch_point_type, newton_options, correct, can_be_of
+   public :: branch_problem_type, place_part_type, branch_point_type, newton_options, correct, can_be_of
+
+   !> A stretch of the numbers of a place, as a file names it.
+   type :: place_part_type
+      character(len=20) :: name = ''
+      integer :: size = 0
+      character(len=4) :: units = '1'
+      character(len=64) :: long_name = ''
+   end type place_part_type
 
    !> n unknowns and a parameter. All changes are over the natural sizes of what changes.
    type, abstract :: branch_problem_type
@@ -26,6 +34,7 @@ module newton_method
       procedure(find_spectrum), deferred :: spectrum
       procedure(name_kind), deferred :: kind
       procedure(take_place), deferred :: get_place
+      procedure(name_parts), deferred :: parts
       procedure(put_place), deferred :: go_to
       procedure :: fits
    end type branch_problem_type
@@ -75,6 +84,14 @@ module newton_method
          class(branch_problem_type), intent(in) :: self
          real(wp), allocatable, intent(out) :: place(:)
       end subroutine take_place
+
+      !> What the numbers of a place are, in their order.
+      pure function name_parts(self, place) result(parts)
+         import :: branch_problem_type, place_part_type, wp
+         class(branch_problem_type), intent(in) :: self
+         real(wp), intent(in) :: place(:)
+         type(place_part_type), allocatable :: parts(:)
+      end function name_parts
 
       subroutine put_place(self, place)
          import :: branch_problem_type, wp

@@ -3,7 +3,7 @@
 module orbit_problem
    use kinds, only: wp, i8
    use errors, only: error_type
-   use newton_method, only: branch_problem_type, branch_point_type
+   use newton_method, only: branch_problem_type, place_part_type, branch_point_type
    use orbit_polynomials, only: orbit_type, points, place
    use kink_mesh, only: follow_kinks
    use orbit_collocation, only: orbit_equations_type, parameter_shift_type, condense, closing_equations, move_orbit, &
@@ -34,6 +34,7 @@ module orbit_problem
       procedure :: spectrum
       procedure :: kind => kind_of
       procedure :: get_place
+      procedure :: parts => parts_of
       procedure :: go_to
       procedure :: fits
       procedure :: period
@@ -245,6 +246,25 @@ contains
             & real(orbit%kink, wp), orbit%start, orbit%at, sought]
       end associate
    end subroutine get_place
+
+   pure function parts_of(self, place) result(parts)
+      class(orbit_problem_type), intent(in) :: self
+      real(wp), intent(in) :: place(:)
+      type(place_part_type), allocatable :: parts(:)
+      integer :: ends, inside
+      ends = nint(place(4)) + 1
+      inside = self%n*points*(ends - 1)
+      parts = [place_part_type('periods', 1, '1', 'periods of the forcing in that of the orbit'), &
+         & place_part_type('parameter', 1, '', 'parameter where the equations were linearised'), &
+         & place_part_type('first_defect', 1, '1', 'defect of the first orbit on the mesh; below 0: not known yet'), &
+         & place_part_type('intervals', 1, '1', 'intervals of the mesh'), &
+         & place_part_type('interval_ends', ends, 's', 'ends of the intervals'), &
+         & place_part_type('switching_points', ends, '1', 'switching point at each end; 0: none, -1: none any longer'), &
+         & place_part_type('start', self%n, '1', 'state at the start of the period'), &
+         & place_part_type('states', inside, '1', 'states at the points of the intervals, one after the other'), &
+         & place_part_type('equilibrium', size(place) - 4 - 2*ends - self%n - inside, '1', &
+         & 'state and viscosities from which equilibria are sought')]
+   end function parts_of
 
    !> The mesh grows, every turn has an interval, and kinks are among those of the model.
    pure logical function fits(self, place)

@@ -1,0 +1,309 @@
+!> The branches of a bearing over a number of its input: what is followed, how far it has come, and the next point.
+module branch_progress
+   use kinds, only: wp, i8
+   use text, only: to_text
+   use errors, only: error_type, asked_to_stop, add_context, numerics_error, stopped
+   use scene, only: branch_type
+   use scene_parameter, only: scene_parameter_type, find_parameter
+   use equations_of_motion, only: bearing_model
+   use static_model, only: make_fine, make_static
+   use march_settings, only: march_settings_of
+   use orbit_polynomials, only: orbit_type, points
+   use orbit_problem, only: orbit_problem_type, begin_orbits
+   use newton_method, only: branch_problem_type, place_part_type, branch_point_type, can_be_of
+   use continuation, only: branch_options, start_branch, advance, return_to
+   use special_points, only: special_point_type, find_special_points
+   use period_doubling, only: double_period, half_apart, forget_flips
+   use varied_bearing, only: varied_bearing_type
+   use bearing_orbits, only: bearing_orbits_type
+   use warm_oil, only: has_warm_oil
+   use resting_oil, only: new_resting_oil
+   use equilibrium_branch, only: equilibrium_problem_type, begin_equilibria
+   implicit none (type, external)
+   private
+   public :: branch_progress_type
+
+   type :: branch_progress_type
+      !> What the case asks for.
+      type(branch_type) :: given
+      type(scene_parameter_type) :: parameter
+      type(branch_options) :: options
+      !> Value of the case, and the size of the way from there.
+      real(wp) :: first = 0, way = 0
+      !> Either is followed.
+      logical :: of_orbits = .true.
+      type(orbit_problem_type) :: orbits
+      type(equilibrium_problem_type) :: equilibria
+      type(bearing_orbits_type) :: ode
+      !> At rest: of equilibria, with converged films; of orbits with warm oil, for its viscosities.
+      type(bearing_model) :: static
+      !> Number of the branch that is followed, and of its points; the length of the next step.
+      integer :: branch = 1, points = 0
+      real(wp) :: length = 0
+      type(branch_point_type) :: here
+      !> Orbits of fewer turns of the shaft are followed where their period doubles.
+      integer, private :: longest_turns = 0
+      !> Flips from which branches are still to be followed.
+      type(branch_point_type), allocatable :: flips(:)
+   contains
+      procedure :: prepare
+      procedure :: begin_oil
+      procedure :: begin_with_orbit
+      procedure :: begin_with_equilibrium
+      procedure :: begin_anywhere
+      procedure :: first_point
+      procedure :: go_on
+      procedure :: take_step
+      procedure :: stand_at
+      procedure :: place
+      procedure :: parts
+      procedure :: begin_double
+   end type branch_progress_type
+
+   !> The largest step over the first, where the case leaves it open.
+   real(wp), parameter :: usual_growth = 10
+   !> First step of a branch of double period over that of the first: it starts across the parameter.
+   real(wp), parameter :: across = 0.3_wp
+   !> How far behind the last point of a branch, over the first step, is looked for a reason of its end.
+   real(wp), parameter :: near = 1e-2_wp
+   !> Periods are doubled up to this many of the first branch's.
+   integer, parameter :: longest_period = 8
+
+contains
+
+   !> What follows from the case of a model; marches have taken so many steps already.
+   subroutine prepare(self, model, steps, error)
+      class(branch_progress_type), intent(inout) :: self
+      type(bearing_model), intent(in), target :: model
+      integer(i8), intent(in) :: steps
+      type(error_type), allocatable, intent(out) :: error
+      associate (given => model%scene%branch)
+         call find_parameter(model%scene, given%parameter, self%parameter, error)
+         if (allocated(error)) return
+         self%first = self%parameter%value(model%scene)
+         self%way = abs(given%last - self%first)
+         self%of_orbits = given%of == 'periodic'
+         self%options%low = min(given%last, self%first)
+         self%options%high = max(given%last, self%first)
+         self%options%first_step = abs(given%step)/self%way
+         self%options%max_step = given%max_step/self%way
+         if (.not. given%max_step > 0) self%options%max_step = usual_growth*self%options%first_step
+      end associate
+      self%given = model%scene%branch
+      self%longest_turns = longest_period*model%scene%periodic%revolutions
+      self%length = self%options%first_step
+      allocate (self%flips(0))
+      if (self%of_orbits) then
+         self%options%tolerance = model%scene%periodic%tolerance
+         self%ode%bearing%model => model
+         self%ode%bearing%parameter = self%parameter
+         self%ode%model => model
+         ! for meshes alone, wherever the branch leads
+         self%ode%march = march_settings_of(model, steps)
+      else
+         call make_fine(model, self%static)
+      end if
+   end subroutine prepare
+
+   !> The problem that is followed.
+   function followed(branches) result(problem)
+      type(branch_progress_type), intent(in), target :: branches
+      class(branch_problem_type), pointer :: problem
+      problem => branches%equilibria
+      if (branches%of_orbits) problem => branches%orbits
+   end function followed
+
+   !> Gives orbits the viscosities of warm oil from the equilibrium, whose state this is and whose viscosities the model
+   !> has.
+   subroutine begin_oil(self, model, at_rest)
+      class(branch_progress_type), intent(inout), target :: self
+      type(bearing_model), intent(in) :: model
+      real(wp), intent(in) :: at_rest(:)
+      call make_static(model, model%point%rupture, self%static)
+      self%ode%oil = new_resting_oil(varied_bearing_type(self%static, self%parameter), at_rest)
+   end subroutine begin_oil
+
+   subroutine begin_with_orbit(self, orbit, turns)
+      class(branch_progress_type), intent(inout), target :: self
+      type(orbit_type), intent(in) :: orbit
+      !> Revolutions of the shaft in it.
+      integer, intent(in) :: turns
+      call begin_orbits(self%orbits, self%ode, orbit, turns, self%first, self%way)
+   end subroutine begin_with_orbit
+
+   !> With the state of an equilibrium of `static`.
+   subroutine begin_with_equilibrium(self, y)
+      class(branch_progress_type), intent(inout), target :: self
+      real(wp), intent(in) :: y(:)
+      call begin_equilibria(self%equilibria, varied_bearing_type(self%static, self%parameter), y, self%first, self%way)
+   end subroutine begin_with_equilibrium
+
+   !> Where `go_on` will lead to the place of a checkpoint.
+   subroutine begin_anywhere(self, model)
+      class(branch_progress_type), intent(inout), target :: self
+      type(bearing_model), intent(in) :: model
+      real(wp) :: nowhere(model%n)
+      type(orbit_type) :: orbit
+      nowhere = 0
+      if (self%of_orbits) then
+         call orbit%set_mesh([0.0_wp, 1.0_wp], spread(spread(nowhere, 2, points), 3, 1))
+         orbit%start = nowhere
+         orbit%scale = model%scale
+         if (has_warm_oil(model)) call self%begin_oil(model, nowhere)
+         call self%begin_with_orbit(orbit, 1)
+      else
+         call self%begin_with_equilibrium(nowhere)
+      end if
+   end subroutine begin_anywhere
+
+   !> Goes to the first point of the first branch.
+   subroutine first_point(self, error)
+      class(branch_progress_type), intent(inout), target :: self
+      type(error_type), allocatable, intent(out) :: error
+      class(branch_problem_type), pointer :: problem
+      problem => followed(self)
+      call start_branch(problem, self%options, self%options%high > self%first, self%here, error)
+      call add_context(error, 'the first point of the branch')
+      self%points = 1
+   end subroutine first_point
+
+   !> Takes the problem to where its branch had come; `ok` is false where there is no such point.
+   subroutine go_on(self, ok)
+      class(branch_progress_type), intent(inout), target :: self
+      logical, intent(out) :: ok
+      class(branch_problem_type), pointer :: problem
+      type(error_type), allocatable :: refusal
+      complex(wp), allocatable :: values(:)
+      real(wp), allocatable :: growth(:)
+      integer :: k
+      problem => followed(self)
+      ok = can_be_of(problem, self%here) .and. all([(can_be_of(problem, self%flips(k)), k=1, size(self%flips))])
+      if (.not. ok) return
+      call return_to(problem, self%here, refusal)
+      ok = .not. allocated(refusal)
+      if (ok) call problem%spectrum(values, growth, ok)
+      if (ok) ok = size(growth) == size(self%here%growth)
+   end subroutine go_on
+
+   !> Goes from `here` to the next point, with the special points before it, at none of which the problem need stand
+   !> then. Where the branch has ended `at_end` says why, else it is empty; `found` is false where it has ended without
+   !> another point. An error of status `stopped` leaves all as it was.
+   subroutine take_step(self, special, found, at_end, error, give_up)
+      class(branch_progress_type), intent(inout), target :: self
+      type(special_point_type), allocatable, intent(out) :: special(:)
+      logical, intent(out) :: found
+      character(len=:), allocatable, intent(out) :: at_end
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      class(branch_problem_type), pointer :: problem
+      type(branch_point_type) :: next
+      real(wp), allocatable :: split(:)
+      real(wp) :: length
+      logical :: ends
+      problem => followed(self)
+      allocate (special(0))
+      found = .false.
+      at_end = ''
+      split = half_apart(self%orbits)
+      length = self%length
+      call advance(problem, self%options, self%here, length, next, ends, error, give_up)
+      if (allocated(error)) then
+         if (.not. problem%refused) call blame_oil(self, problem%refused, error)
+         if (error%status == numerics_error .and. .not. problem%refused) call add_context(error, 'branch ' &
+            & //to_text(self%branch)//' was lost behind '//self%given%parameter//' = ' &
+            & //to_text(self%here%parameter)//', its point '//to_text(self%points))
+         if (error%status == stopped .or. .not. problem%refused) return
+         at_end = 'there is nothing beyond: '//error%message
+         deallocate (error)
+         return
+      end if
+      if (self%branch > 1 .and. self%points > 0) then
+         if (dot_product(split, half_apart(self%orbits)) < 0) then
+            at_end = 'it comes back to the branch that it left'
+            call forget_flips(self%flips, self%here, next, self%orbits%turns)
+            return
+         end if
+      end if
+      ! where a branch of double period begins a multiplier is 1
+      if (self%points > 0) call find_special_points(problem, self%options, self%here, next, special, error, give_up)
+      if (allocated(error)) return
+      call note_flips(self, special)
+      found = .true.
+      self%here = next
+      self%points = self%points + 1
+      ! not before: a stop goes on from the point before, with its length
+      self%length = length
+      if (ends) at_end = trim(merge('the first value', 'the last value ', abs(next%parameter - self%first) <= 0))
+      if (self%points >= self%given%max_points .and. .not. ends) at_end = 'after '//to_text(self%given%max_points) &
+         & //' points (branch%max_points)'
+   end subroutine take_step
+
+   !> Keeps the flips among special points from which a branch is to be followed.
+   pure subroutine note_flips(branches, special)
+      type(branch_progress_type), intent(inout) :: branches
+      type(special_point_type), intent(in) :: special(:)
+      integer :: k
+      if (branches%given%switch /= '.true.' .or. branches%orbits%turns >= branches%longest_turns) return
+      do k = 1, size(special)
+         if (special(k)%kind == 'flip') branches%flips = [branches%flips, special(k)%point]
+      end do
+   end subroutine note_flips
+
+   !> A branch of orbits that is lost where the rest turns back from which its oil takes its viscosities has ended: near
+   !> such a rest nothing is smooth over the parameter.
+   subroutine blame_oil(branches, ended, error)
+      type(branch_progress_type), intent(inout) :: branches
+      logical, intent(inout) :: ended
+      type(error_type), allocatable, intent(inout) :: error
+      type(error_type), allocatable :: without_rest
+      if (error%status == stopped .or. .not. allocated(branches%ode%oil)) return
+      associate (here => branches%here, step => branches%options%first_step*branches%orbits%unit)
+         call branches%ode%set(here%parameter + sign(near*step, here%tangent(size(here%tangent))), without_rest)
+      end associate
+      ended = allocated(without_rest)
+      if (ended) call move_alloc(without_rest, error)
+   end subroutine blame_oil
+
+   !> Lets the problem stand at a point that was found.
+   subroutine stand_at(self, point)
+      class(branch_progress_type), intent(inout), target :: self
+      type(branch_point_type), intent(in) :: point
+      class(branch_problem_type), pointer :: problem
+      problem => followed(self)
+      call return_to(problem, point)
+   end subroutine stand_at
+
+   !> Where the problem stands, as numbers; and what these are.
+   function place(self)
+      class(branch_progress_type), intent(in), target :: self
+      real(wp), allocatable :: place(:)
+      class(branch_problem_type), pointer :: problem
+      problem => followed(self)
+      call problem%get_place(place)
+   end function place
+
+   function parts(self, place)
+      class(branch_progress_type), intent(in), target :: self
+      real(wp), intent(in) :: place(:)
+      type(place_part_type), allocatable :: parts(:)
+      class(branch_problem_type), pointer :: problem
+      problem => followed(self)
+      parts = problem%parts(place)
+   end function parts
+
+   !> Goes to the start of the next branch of double period, if there are `more`.
+   subroutine begin_double(self, more)
+      class(branch_progress_type), intent(inout) :: self
+      logical, intent(out) :: more
+      type(branch_point_type) :: flip
+      more = .false.
+      do while (size(self%flips) > 0 .and. .not. more)
+         flip = self%flips(1)
+         self%flips = self%flips(2:)
+         call double_period(self%orbits, flip, self%here, more)
+      end do
+      if (more) self%branch = self%branch + 1
+      self%points = 0
+      self%length = across*self%options%first_step
+   end subroutine begin_double
+end module branch_progress
