@@ -12,7 +12,7 @@ from pathlib import Path
 
 #: Lowest first: each uses only those before it. A folder inside one may be a floor of its own ("film/table").
 FORTRAN = (
-    *("base", "system", "scene", "input", "film", "pivot", "bearing", "rotor", "integrate", "model"),
+    *("base", "system", "scene", "input", "film", "pivot", "rotor", "bearing", "integrate", "model"),
     *("analysis", "storage", "results", "app"),
 )
 #: How high the folders of the Python package are; those of one height do not use each other.

@@ -9,7 +9,8 @@ module tiltpad_library
    use scene, only: scene_type
    use scene_namelist, only: scene_from_text
    use components, only: make_law, make_friction
-   use kinematics, only: journal_motion, pad_state
+   use rigid_journal, only: journal_motion
+   use kinematics, only: pad_state
    use tilting_pad_bearing, only: pad_sample
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
    use equations_of_motion, only: bearing_model, new_bearing_model

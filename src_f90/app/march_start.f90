@@ -4,7 +4,8 @@ module march_start
    use text, only: to_text
    use errors, only: error_type, raise, add_context, input_error, numerics_error, stopped
    use files, only: real_path
-   use kinematics, only: journal_motion, pad_state
+   use rigid_journal, only: journal_motion
+   use kinematics, only: pad_state
    use equilibrium, only: equilibrium_type, find_equilibrium
    use partial_equilibrium, only: find_partial_equilibrium
    use warm_oil, only: has_warm_oil

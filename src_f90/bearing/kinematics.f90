@@ -4,7 +4,7 @@ module kinematics
    use film_solver, only: film_motion
    implicit none (type, external)
    private
-   public :: journal_motion, pad_state, pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global
+   public :: pad_state, pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global
    public :: columns, journal_columns, tilt_column, tilt_rate_column, penetration_column, penetration_rate_column
    public :: position_columns, rate_columns
 
@@ -15,11 +15,6 @@ module kinematics
    !> Those of displacements, and of their rates in the same order.
    integer, parameter :: position_columns(4) = [1, 2, tilt_column, penetration_column]
    integer, parameter :: rate_columns(4) = [3, 4, tilt_rate_column, penetration_rate_column]
-
-   !> Motion of the journal in a bearing: (y, z), m, and rates, m/s.
-   type :: journal_motion
-      real(wp) :: position(2) = 0, velocity(2) = 0
-   end type journal_motion
 
    !> State of a pad; what a pad lacks stays 0.
    type :: pad_state

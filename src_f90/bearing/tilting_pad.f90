@@ -7,8 +7,9 @@ module tilting_pad
    use asperity_contact, only: asperity_load
    use contact_table, only: contact_table_type
    use friction, only: friction_law, friction_response
-   use kinematics, only: journal_motion, pad_state, pad_position, pad_frame, frame_of, motion_of, motion_derivatives, &
-      & to_global, columns, tilt_column, tilt_rate_column, penetration_column
+   use rigid_journal, only: journal_motion
+   use kinematics, only: pad_state, pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global, &
+      & columns, tilt_column, tilt_rate_column, penetration_column, position_columns, rate_columns
    implicit none (type, external)
    private
    public :: tilting_pad_type, pad_loads, pad_derivatives
@@ -32,7 +33,7 @@ module tilting_pad
       procedure :: motion
       procedure :: loads
       procedure :: derivatives
-      procedure :: friction_derivatives
+      procedure :: add_friction
       procedure :: masses
       procedure :: inverse_masses
    end type tilting_pad_type
@@ -54,6 +55,8 @@ module tilting_pad
       !> Of the film force on the journal in the pad frame; of `journal`, `contact`, `moment` and `radial` of the loads.
       real(wp) :: film(2, columns) = 0, journal(2, columns) = 0
       real(wp) :: contact(columns) = 0, moment(columns) = 0, radial(columns) = 0
+   contains
+      procedure :: as_matrices
    end type pad_derivatives
 
 contains
@@ -149,18 +152,39 @@ contains
       end associate
    end subroutine derivatives
 
-   !> What friction adds to the derivatives of the moment: over the columns, and over the bristles' deflection.
-   pure subroutine friction_derivatives(self, friction, contact, over_columns, over_deflection)
+   !> The derivatives of the force on the journal, moment and radial force over displacements and over their rates: rows
+   !> and columns in the order journal y, z, tilt, penetration.
+   pure subroutine as_matrices(self, over_positions, over_rates)
+      class(pad_derivatives), intent(in) :: self
+      real(wp), intent(out) :: over_positions(4, 4), over_rates(4, 4)
+      over_positions(1:2, :) = self%journal(:, position_columns)
+      over_positions(3, :) = self%moment(position_columns)
+      over_positions(4, :) = self%radial(position_columns)
+      over_rates(1:2, :) = self%journal(:, rate_columns)
+      over_rates(3, :) = self%moment(rate_columns)
+      over_rates(4, :) = self%radial(rate_columns)
+   end subroutine as_matrices
+
+   !> Adds what the moment of friction does to such matrices, in whose last two rows it counts as `per_moment` says, and
+   !> what it does to these rows per deflection of the bristles.
+   pure subroutine add_friction(self, friction, contact, per_moment, over_positions, over_rates, over_deflection)
       class(tilting_pad_type), intent(in) :: self
       type(friction_response), intent(in) :: friction
       !> Derivatives of the contact force.
-      real(wp), intent(in) :: contact(columns)
-      real(wp), intent(out) :: over_columns(columns), over_deflection
-      over_columns = -self%ball_radius*friction%force_normal*contact
-      over_columns(tilt_rate_column) = -self%ball_radius*friction%force_normal*contact(tilt_rate_column) &
+      real(wp), intent(in) :: contact(columns), per_moment(2)
+      real(wp), intent(inout) :: over_positions(4, 4), over_rates(4, 4)
+      real(wp), intent(out) :: over_deflection(2)
+      real(wp) :: moment(columns)
+      integer :: k
+      moment = -self%ball_radius*friction%force_normal*contact
+      moment(tilt_rate_column) = -self%ball_radius*friction%force_normal*contact(tilt_rate_column) &
          & - self%ball_radius**2*friction%force_velocity
-      over_deflection = -self%ball_radius*friction%force_deflection
-   end subroutine friction_derivatives
+      do k = 1, 4
+         over_positions(3:4, k) = over_positions(3:4, k) + per_moment*moment(position_columns(k))
+         over_rates(3:4, k) = over_rates(3:4, k) + per_moment*moment(rate_columns(k))
+      end do
+      over_deflection = per_moment*(-self%ball_radius*friction%force_deflection)
+   end subroutine add_friction
 
    !> Mass matrix of eqs (3)-(4): moment and force per rate of tilt rate and penetration rate.
    pure function masses(self)

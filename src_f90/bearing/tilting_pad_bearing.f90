@@ -10,7 +10,8 @@ module tilting_pad_bearing
    use asperity_contact, only: asperity_load
    use contact_table, only: contact_table_type
    use friction, only: no_friction
-   use kinematics, only: journal_motion, pad_state, pad_frame, columns
+   use rigid_journal, only: journal_motion
+   use kinematics, only: pad_state, pad_frame, columns
    use tilting_pad, only: tilting_pad_type, pad_loads, pad_derivatives
    use pad_admission, only: admitted, why_not
    use components, only: make_film, make_contact

@@ -5,9 +5,9 @@ module equations_of_motion
    use operating_point, only: operating_point_type
    use oil_properties, only: reference_viscosity
    use film_solver, only: film_oil, film_counters
-   use kinematics, only: journal_motion, pad_state
+   use kinematics, only: pad_state
    use tilting_pad_bearing, only: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
-   use rigid_journal, only: rigid_journal_type
+   use rigid_journal, only: rigid_journal_type, journal_motion
    use ode_model, only: ode_model_type
    use viscosity_course, only: viscosity_course_type
    use state_layout, only: state_layout_type, new_state_layout, at_tilt, at_tilt_rate, at_penetration, &

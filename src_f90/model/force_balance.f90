@@ -2,12 +2,11 @@
 !> other, in the order of layout%positions(). What statics and small vibrations are made of.
 module force_balance
    use kinds, only: wp
-   use kinematics, only: columns, position_columns, rate_columns
    use friction, only: friction_response
    use equations_of_motion, only: bearing_model
    implicit none (type, external)
    private
-   public :: forces, force_derivatives, masses, add_sticking
+   public :: forces, force_derivatives, pad_derivatives, masses, add_sticking
 
 contains
 
@@ -36,40 +35,33 @@ contains
    pure subroutine force_derivatives(model, over_positions, over_rates)
       type(bearing_model), intent(in) :: model
       real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
-      real(wp) :: of_pad(2, columns), friction(columns), over_deflection
+      real(wp) :: positions(4, 4), rates(4, 4)
       integer :: i
       over_positions = 0
       over_rates = 0
       do i = 1, model%layout%pads
-         associate (pad => model%bearing%derivatives(i))
-            call model%bearing%pads(i)%friction_derivatives(model%bearing%loads(i)%friction, pad%contact, friction, &
-               & over_deflection)
-            of_pad(1, :) = pad%moment + friction
-            of_pad(2, :) = pad%radial
-            call add(position_columns, over_positions)
-            call add(rate_columns, over_rates)
+         call pad_derivatives(model, i, positions, rates)
+         associate (at => model%layout%positions_of(i), n => 2 + model%layout%motion/2)
+            over_positions(at, at) = over_positions(at, at) + positions(:n, :n)
+            over_rates(at, at) = over_rates(at, at) + rates(:n, :n)
          end associate
       end do
-
-   contains
-
-      !> Adds the derivatives of the journal's force and of the pad's own over some of the columns.
-      pure subroutine add(of_columns, matrix)
-         integer, intent(in) :: of_columns(:)
-         real(wp), intent(inout) :: matrix(:, :)
-         integer :: own, last, rotor
-         rotor = model%layout%rotor/2
-         own = model%layout%first_position(i)
-         last = own + model%layout%motion/2 - 1
-         associate (journal => model%bearing%derivatives(i)%journal(:, of_columns), pad => of_pad(:, of_columns), &
-            & n => last - own + 1)
-            matrix(:rotor, :rotor) = matrix(:rotor, :rotor) + journal(:, :rotor)
-            matrix(:rotor, own:last) = journal(:, rotor + 1:rotor + n)
-            matrix(own:last, :rotor) = pad(:n, :rotor)
-            matrix(own:last, own:last) = pad(:n, rotor + 1:rotor + n)
-         end associate
-      end subroutine add
    end subroutine force_derivatives
+
+   !> What a pad adds to these: derivatives of the force on the journal along y and z, of its own moment and radial force
+   !> over the displacements of the journal, its tilt and penetration, and over their rates.
+   pure subroutine pad_derivatives(model, pad, over_positions, over_rates)
+      type(bearing_model), intent(in) :: model
+      integer, intent(in) :: pad
+      real(wp), intent(out) :: over_positions(4, 4), over_rates(4, 4)
+      real(wp), parameter :: moment(2) = [1.0_wp, 0.0_wp]
+      real(wp) :: over_deflection(2)
+      associate (bearing => model%bearing)
+         call bearing%derivatives(pad)%as_matrices(over_positions, over_rates)
+         call bearing%pads(pad)%add_friction(bearing%loads(pad)%friction, bearing%derivatives(pad)%contact, moment, &
+            & over_positions, over_rates, over_deflection)
+      end associate
+   end subroutine pad_derivatives
 
    !> Adds to the derivatives of the forces at rest what friction adds where the pivots stick, under the contact forces
    !> evaluated last: bristles that are not deflected move with the pivot; a law without them has its slope at no

@@ -2,7 +2,6 @@
 !> last.
 module newton_system
    use kinds, only: wp
-   use kinematics, only: columns, position_columns, rate_columns
    use tilting_pad_bearing, only: tilting_pad_bearing_type
    use rigid_journal, only: rigid_journal_type
    use state_layout, only: state_layout_type
@@ -25,7 +24,6 @@ module newton_system
       procedure :: linearize
       procedure :: solve
       procedure :: jacobian
-      procedure, private :: add_friction
    end type newton_system_type
 
 contains
@@ -45,42 +43,41 @@ contains
       class(newton_system_type), intent(inout) :: self
       type(rigid_journal_type), intent(in) :: rotor
       type(tilting_pad_bearing_type), intent(in) :: bearing
-      real(wp) :: accelerations(4, columns), journal(rotor%states, columns)
-      integer :: i, k
+      real(wp) :: over_positions(4, 4), over_rates(4, 4)
+      integer :: i
       do i = 1, self%layout%pads
-         associate (pad => bearing%derivatives(i), per_mass => bearing%per_mass(:, :, i))
-            journal = rotor%rate_derivatives(pad%journal)
-            accelerations(1:2, :) = journal(self%rate_at(1:2), :)
-            do k = 1, columns
-               accelerations(3:4, k) = per_mass(:, 1)*pad%moment(k) + per_mass(:, 2)*pad%radial(k)
-            end do
-         end associate
-         self%over_positions(:, :, i) = accelerations(:, position_columns)
-         self%over_rates(:, :, i) = accelerations(:, rate_columns)
+         call bearing%derivatives(i)%as_matrices(over_positions, over_rates)
+         self%over_positions(:, :, i) = accelerations(over_positions, bearing%per_mass(:, :, i))
+         self%over_rates(:, :, i) = accelerations(over_rates, bearing%per_mass(:, :, i))
       end do
+
+   contains
+
+      !> Derivatives of the accelerations from those of the forces on journal and pad.
+      pure function accelerations(forces, per_mass)
+         real(wp), intent(in) :: forces(4, 4), per_mass(2, 2)
+         real(wp) :: accelerations(4, 4), journal(rotor%states, 4)
+         integer :: k
+         journal = rotor%rate_derivatives(forces(1:2, :))
+         accelerations(1:2, :) = journal(self%rate_at(1:2), :)
+         do k = 1, 4
+            accelerations(3:4, k) = per_mass(:, 1)*forces(3, k) + per_mass(:, 2)*forces(4, k)
+         end do
+      end function accelerations
    end subroutine linearize
 
    !> A pad's over_positions and over_rates with friction as evaluated last; and what its accelerations gain per
    !> deflection of the bristles.
-   pure subroutine add_friction(self, bearing, pad, over_positions, over_rates, over_deflection)
+   pure subroutine with_friction(self, bearing, pad, over_positions, over_rates, over_deflection)
       class(newton_system_type), intent(in) :: self
       type(tilting_pad_bearing_type), intent(in) :: bearing
       integer, intent(in) :: pad
       real(wp), intent(out) :: over_positions(4, 4), over_rates(4, 4), over_deflection(2)
-      real(wp) :: moment(columns), deflection
-      integer :: k
-      call bearing%pads(pad)%friction_derivatives(bearing%loads(pad)%friction, &
-         & bearing%derivatives(pad)%contact, moment, deflection)
       over_positions = self%over_positions(:, :, pad)
       over_rates = self%over_rates(:, :, pad)
-      associate (per_moment => bearing%per_mass(:, 1, pad))
-         do k = 1, 4
-            over_positions(3:4, k) = over_positions(3:4, k) + per_moment*moment(position_columns(k))
-            over_rates(3:4, k) = over_rates(3:4, k) + per_moment*moment(rate_columns(k))
-         end do
-         over_deflection = per_moment*deflection
-      end associate
-   end subroutine add_friction
+      call bearing%pads(pad)%add_friction(bearing%loads(pad)%friction, bearing%derivatives(pad)%contact, &
+         & bearing%per_mass(:, 1, pad), over_positions, over_rates, over_deflection)
+   end subroutine with_friction
 
    !> b := (1 - gamma J)^(-1) b. Displacements follow from their rates u, x = b_x + gamma u, and so do bristles; u alone
    !> is solved for.
@@ -131,7 +128,7 @@ contains
       real(wp), intent(inout) :: u(:)
       real(wp) :: over_positions(4, 4), over_rates(4, 4), over_deflection(2), known(4), of_pad(4)
       integer :: k, own, m
-      call self%add_friction(bearing, pad, over_positions, over_rates, over_deflection)
+      call with_friction(self, bearing, pad, over_positions, over_rates, over_deflection)
       own = self%layout%first_position(pad)
       m = self%layout%motion/2
       of_pad = 0
@@ -167,18 +164,17 @@ contains
       type(rigid_journal_type), intent(in) :: rotor
       real(wp) :: matrix(self%layout%n, self%layout%n)
       real(wp) :: over_positions(4, 4), over_rates(4, 4), over_deflection(2)
-      integer :: i, k, at(4), own, m
+      integer :: i, k, m, at(2 + self%layout%motion/2)
       matrix = 0
       matrix(:self%layout%rotor, :self%layout%rotor) = rotor%own_derivatives()
       m = self%layout%motion/2
       do i = 1, self%layout%pads
-         call self%add_friction(bearing, i, over_positions, over_rates, over_deflection)
-         own = self%layout%first_position(i)
-         at = [1, 2, own, own + m - 1]
-         do k = own, own + m - 1
-            matrix(self%position_at(k), self%rate_at(k)) = 1
-         end do
-         associate (u => self%rate_at(at(:2 + m)), x => self%position_at(at(:2 + m)))
+         call with_friction(self, bearing, i, over_positions, over_rates, over_deflection)
+         at = self%layout%positions_of(i)
+         associate (u => self%rate_at(at), x => self%position_at(at))
+            do k = 3, 2 + m
+               matrix(x(k), u(k)) = 1
+            end do
             matrix(u, x) = matrix(u, x) + over_positions(:2 + m, :2 + m)
             matrix(u, u) = matrix(u, u) + over_rates(:2 + m, :2 + m)
             if (self%layout%bristles) then

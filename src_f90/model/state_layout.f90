@@ -33,6 +33,7 @@ module state_layout
       procedure :: n_positions
       procedure :: position_names
       procedure :: first_position
+      procedure :: positions_of
       procedure :: pad_states
       procedure :: put_pads
       procedure :: over_columns
@@ -138,6 +139,14 @@ contains
       integer, intent(in) :: pad
       first_position = self%rotor/2 + (pad - 1)*(self%motion/2) + 1
    end function first_position
+
+   !> Places of the rotor's displacements and of those of a pad among `positions`.
+   pure function positions_of(self, pad) result(places)
+      class(state_layout_type), intent(in) :: self
+      integer, intent(in) :: pad
+      integer :: places(self%rotor/2 + self%motion/2), k
+      places = [(k, k=1, self%rotor/2), (self%first_position(pad) + k, k=0, self%motion/2 - 1)]
+   end function positions_of
 
    !> The states of the pads; what they lack is 0.
    pure function pad_states(self, y) result(pads)

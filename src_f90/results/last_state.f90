@@ -6,7 +6,8 @@ module last_state
    use errors, only: error_type, raise, system_error
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: hdf5_series_type
-   use kinematics, only: journal_motion, pad_state
+   use rigid_journal, only: journal_motion
+   use kinematics, only: pad_state
    use state_layout, only: state_layout_type
    use restart, only: restart_type, read_result, open_result
    implicit none (type, external)

@@ -3,13 +3,17 @@
 module rigid_journal
    use kinds, only: wp
    use operating_point, only: operating_point_type
-   use kinematics, only: journal_motion
    implicit none (type, external)
    private
-   public :: rigid_journal_type
+   public :: rigid_journal_type, journal_motion
 
    !> States: y, z, their rates.
    integer, parameter :: y_z(2) = [1, 2], rates_of_y_z(2) = [3, 4]
+
+   !> Motion of the journal in a bearing: (y, z), m, and rates, m/s.
+   type :: journal_motion
+      real(wp) :: position(2) = 0, velocity(2) = 0
+   end type journal_motion
 
    type :: rigid_journal_type
       !> Number of states: displacements, and as many rates.

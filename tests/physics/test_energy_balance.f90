@@ -4,7 +4,8 @@ module energy_ledger
    use kinds, only: wp
    use ode_model, only: ode_model_type
    use film_solver, only: film_motion
-   use kinematics, only: journal_motion, pad_state
+   use rigid_journal, only: journal_motion
+   use kinematics, only: pad_state
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model
    implicit none (type, external)

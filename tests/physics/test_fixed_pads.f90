@@ -11,7 +11,8 @@ program test_fixed_pads
    use pad_gap, only: pad_gap_type
    use components, only: make_film
    use random_films, only: film_state, volumes_type, new_volumes, extrapolated, shaft_speed
-   use kinematics, only: journal_motion, pad_state
+   use rigid_journal, only: journal_motion
+   use kinematics, only: pad_state
    use equilibrium, only: equilibrium_type, find_equilibrium
    use pad_behaviour, only: whirl_of
    use sampled_march, only: march_samples

@@ -8,7 +8,8 @@ program test_bearing_losses
    use scene_namelist, only: scene_from_text
    use film_solver, only: film_motion
    use film_losses, only: film_losses_type, film_loss, new_film_losses
-   use kinematics, only: journal_motion, pad_state, pad_frame
+   use rigid_journal, only: journal_motion
+   use kinematics, only: pad_state, pad_frame
    use equations_of_motion, only: bearing_model, new_bearing_model
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
    use check, only: runs, expect, expect_close, expect_no_error, report

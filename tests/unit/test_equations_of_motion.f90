@@ -3,7 +3,8 @@ program test_equations_of_motion
    use kinds, only: wp
    use text, only: to_text
    use scene, only: scene_type, unset
-   use kinematics, only: journal_motion, pad_state
+   use rigid_journal, only: journal_motion
+   use kinematics, only: pad_state
    use operating_point, only: operating_point_type
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model

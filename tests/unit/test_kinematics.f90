@@ -4,11 +4,11 @@ program test_kinematics
    use text, only: to_text
    use film_solver, only: film_motion
    use pad_gap, only: pad_gap_type
-   use kinematics, only: pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global, journal_motion
+   use kinematics, only: pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global
    use paper_bearing, only: offset_pad
    use scene, only: scene_type
    use operating_point, only: operating_point_type
-   use rigid_journal, only: rigid_journal_type
+   use rigid_journal, only: rigid_journal_type, journal_motion
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
    !> The paper's bearing: R_J, c_m, c_r, kappa, m.

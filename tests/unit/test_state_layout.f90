@@ -2,8 +2,9 @@
 program test_state_layout
    use kinds, only: wp
    use text, only: to_text
+   use rigid_journal, only: journal_motion
    use kinematics, only: pad_state, columns, tilt_column, tilt_rate_column, penetration_column, &
-      & penetration_rate_column, journal_motion
+      & penetration_rate_column
    use state_layout, only: state_layout_type, new_state_layout
    use scene, only: scene_type
    use equations_of_motion, only: bearing_model, new_bearing_model

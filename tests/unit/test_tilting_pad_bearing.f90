@@ -5,8 +5,9 @@ program test_tilting_pad_bearing
    use text, only: to_text
    use scene, only: scene_type
    use film_solver, only: film_oil
-   use kinematics, only: journal_motion, pad_state, columns, journal_columns, tilt_column, tilt_rate_column, &
-      & penetration_column
+   use rigid_journal, only: journal_motion
+   use kinematics, only: pad_state, columns, journal_columns, tilt_column, tilt_rate_column, penetration_column, &
+      & position_columns, rate_columns
    use tilting_pad, only: pad_derivatives
    use tilting_pad_bearing, only: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing
    use case_scenes, only: scene_of
@@ -148,7 +149,8 @@ contains
       type(journal_motion) :: journal, moved_journal
       type(pad_state) :: pads(2), moved(2)
       type(pad_derivatives) :: taken(2)
-      real(wp) :: found(5, columns), expected(5, columns), of_moment(columns), over_deflection
+      real(wp) :: found(5, columns), expected(5, columns), over_positions(4, 4), over_rates(4, 4)
+      real(wp) :: over_deflection(2)
       character(len=:), allocatable :: refusal, what
       logical :: ok, all_ok
       integer :: pad, column, k, row
@@ -161,11 +163,11 @@ contains
       call expect(all(bearing%asperity%touches .eqv. rough), 'asperities touch, or not, '//what)
       taken = bearing%derivatives
       do pad = 1, 2
-         call bearing%pads(pad)%friction_derivatives(bearing%loads(pad)%friction, taken(pad)%contact, of_moment, &
-            & over_deflection)
-         found(1:2, :) = taken(pad)%journal
-         found(3, :) = taken(pad)%moment + of_moment
-         found(4, :) = taken(pad)%radial
+         call taken(pad)%as_matrices(over_positions, over_rates)
+         call bearing%pads(pad)%add_friction(bearing%loads(pad)%friction, taken(pad)%contact, [1.0_wp, 0.0_wp], &
+            & over_positions, over_rates, over_deflection)
+         found(:4, position_columns) = over_positions
+         found(:4, rate_columns) = over_rates
          found(5, :) = taken(pad)%contact
          expected = 0
          do column = 1, columns

@@ -4,10 +4,10 @@ module pad_elimination
    use kinds, only: wp
    use errors, only: asked_to_stop, asked
    use two_equations, only: solved
-   use kinematics, only: journal_motion, pad_state, tilt_column, tilt_rate_column, penetration_column, &
-      & penetration_rate_column
+   use rigid_journal, only: journal_motion
+   use kinematics, only: pad_state
    use equations_of_motion, only: bearing_model
-   use force_balance, only: forces
+   use force_balance, only: forces, pad_derivatives
    use damped_newton, only: reference_force, next_time_step, longest_move, shortest_move, trace
    implicit none (type, external)
    private
@@ -19,8 +19,6 @@ module pad_elimination
    integer, parameter :: pad_iterations = 40, journal_iterations = 60
    !> Least part of a film that a move leaves.
    real(wp), parameter :: least_film = 0.3_wp
-   integer, parameter :: own(2) = [tilt_column, penetration_column]
-   integer, parameter :: rates(2) = [tilt_rate_column, penetration_rate_column]
 
 contains
 
@@ -124,13 +122,11 @@ contains
       type(bearing_model), intent(in) :: model
       integer, intent(in) :: i
       real(wp), intent(out) :: force(2), stiffness(2, 2), damping(2, 2)
-      associate (loads => model%bearing%loads(i), derivatives => model%bearing%derivatives(i))
-         force = [loads%moment, loads%radial]
-         stiffness(1, :) = derivatives%moment(own)
-         stiffness(2, :) = derivatives%radial(own)
-         damping(1, :) = derivatives%moment(rates)
-         damping(2, :) = derivatives%radial(rates)
-      end associate
+      real(wp) :: over_positions(4, 4), over_rates(4, 4)
+      force = [model%bearing%loads(i)%moment, model%bearing%loads(i)%radial]
+      call pad_derivatives(model, i, over_positions, over_rates)
+      stiffness = over_positions(3:4, 3:4)
+      damping = over_rates(3:4, 3:4)
    end subroutine pad_balance
 
    !> Makes the second position one that does not move.
@@ -172,25 +168,25 @@ contains
       type(bearing_model), intent(in) :: model
       logical, intent(in) :: at_rest(:)
       real(wp), intent(out) :: stiffness(2, 2), damping(2, 2), follow(:, :, :)
-      real(wp) :: force(2), of_pad(2, 2), ignored(2, 2), over_journal(2, 2)
+      real(wp) :: force(2), of_pad(2, 2), ignored(2, 2), over_positions(4, 4), over_rates(4, 4)
       integer :: i, k
       stiffness = 0
       damping = 0
       follow = 0
       do i = 1, size(at_rest)
-         associate (derivatives => model%bearing%derivatives(i))
-            stiffness = stiffness + derivatives%journal(:, 1:2)
-            damping = damping + derivatives%journal(:, 3:4)
-            if (.not. at_rest(i) .or. .not. model%layout%tilting) cycle
-            call pad_balance(model, i, force, of_pad, ignored)
-            if (.not. model%layout%radial) call hold_second(force, of_pad, ignored)
-            over_journal(1, :) = derivatives%moment(1:2)
-            over_journal(2, :) = merge(derivatives%radial(1:2), 0.0_wp, model%layout%radial)
-            do k = 1, 2
-               follow(:, k, i) = solved(of_pad, -over_journal(:, k))
-            end do
-            stiffness = stiffness + matmul(derivatives%journal(:, own), follow(:, :, i))
-         end associate
+         call pad_derivatives(model, i, over_positions, over_rates)
+         stiffness = stiffness + over_positions(1:2, 1:2)
+         damping = damping + over_rates(1:2, 1:2)
+         if (.not. at_rest(i) .or. .not. model%layout%tilting) cycle
+         call pad_balance(model, i, force, of_pad, ignored)
+         if (.not. model%layout%radial) then
+            call hold_second(force, of_pad, ignored)
+            over_positions(4, 1:2) = 0
+         end if
+         do k = 1, 2
+            follow(:, k, i) = solved(of_pad, -over_positions(3:4, k))
+         end do
+         stiffness = stiffness + matmul(over_positions(1:2, 3:4), follow(:, :, i))
       end do
    end subroutine reduce
 

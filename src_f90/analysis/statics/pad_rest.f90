@@ -4,7 +4,8 @@ module pad_rest
    use kinds, only: wp, pi
    use roots, only: root_bracket
    use scene, only: scene_type
-   use kinematics, only: journal_motion, pad_state, pad_frame
+   use rigid_journal, only: journal_motion
+   use kinematics, only: pad_state, pad_frame
    use equations_of_motion, only: bearing_model
    use two_equations, only: solved
    use damped_newton, only: reference_force, longest_move

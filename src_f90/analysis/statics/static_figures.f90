@@ -4,7 +4,8 @@ module static_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
    use kinds, only: wp
    use bearing_numbers, only: eccentricity_ratio, attitude_angle
-   use kinematics, only: journal_motion, pad_state
+   use rigid_journal, only: journal_motion
+   use kinematics, only: pad_state
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
    use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance
    use equations_of_motion, only: bearing_model

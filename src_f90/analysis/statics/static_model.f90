@@ -4,7 +4,8 @@ module static_model
    use kinds, only: wp
    use scene, only: scene_type
    use operating_point, only: operating_point_type
-   use kinematics, only: journal_motion, pad_frame, pad_state
+   use rigid_journal, only: journal_motion
+   use kinematics, only: pad_frame, pad_state
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
    use errors, only: error_type, stopped, asked_to_stop
