@@ -62,7 +62,8 @@ contains
       call one('branch', real(branch, wp), '1', 'branch number: 1 the first, then those of double period')
       call one('parameter', point%parameter, parameter%unit, parameter%meaning)
       call one('arc_length', point%arc_length, '1', 'length of the branch')
-      call one('stable', merge(1.0_wp, 0.0_wp, all(point%growth < 0)), '1', '1 where small disturbances die away'//frozen)
+      call one('stable', merge(1.0_wp, 0.0_wp, all(point%growth < 0)), '1', &
+         & '1 where small disturbances die away'//frozen)
       call one('iterations', real(point%iterations, wp), '1', 'iterations of Newton''s method')
       call one('journal_y_max', figures%highest(1), 'm', 'highest journal displacement, vertical')
       call one('journal_y_min', figures%lowest(1), 'm', 'lowest journal displacement, vertical')
@@ -94,7 +95,8 @@ contains
       end subroutine put_oil
 
       subroutine put_orbit()
-         call one('journal_y_amplitude', figures%amplitude(1), 'm', 'vertical journal vibration with the shaft, amplitude')
+         call one('journal_y_amplitude', figures%amplitude(1), 'm', &
+            & 'vertical journal vibration with the shaft, amplitude')
          call one('journal_y_phase', figures%phase(1), 'rad', 'angle by which it comes after the unbalance')
          call one('journal_z_amplitude', figures%amplitude(2), 'm', &
             & 'horizontal journal vibration with the shaft, amplitude')

@@ -1,6 +1,6 @@
 !> Force, slopes and highest pressure of every solver at its default resolution, on random films (random_films) in three
-!> ranges of inclination. Prints the largest errors, which are those of docs/verification.md. With a number as an argument
-!> the program takes so many times as many films.
+!> ranges of inclination. Prints the largest errors, which are those of docs/verification.md. With a number as an
+!> argument the program takes that many times as many films.
 !>
 !> Errors of force and highest pressure are over those of the film in the same position that is just whole; of slopes
 !> over the position likewise, times the thinnest film.

@@ -40,8 +40,8 @@ module newton_method
    end type branch_problem_type
 
    abstract interface
-      !> The equations where the problem stands: matrix x = b for the change x of the unknowns, (n, n), or of unknowns and
-      !> parameter, (n, n + 1).
+      !> The equations where the problem stands: matrix x = b for the change x of the unknowns, (n, n), or of unknowns
+      !> and parameter, (n, n + 1).
       subroutine linearize_problem(self, matrix, b, error)
          import :: branch_problem_type, error_type, wp
          class(branch_problem_type), intent(inout) :: self
@@ -160,8 +160,8 @@ contains
    end function dot
 
    !> Newton's method at the value of the parameter where the problem stands, or in the plane through this place across
-   !> `normal`. The plane belongs to a step along a branch: far corrections are refused, as a shorter step is better, and
-   !> the last correction must be small itself, as the tangent is that of the place before it.
+   !> `normal`. The plane belongs to a step along a branch: far corrections are refused, as a shorter step is better,
+   !> and the last correction must be small itself, as the tangent is that of the place before it.
    subroutine correct(problem, options, point, error, give_up, normal)
       class(branch_problem_type), intent(inout) :: problem
       class(newton_options), intent(in) :: options

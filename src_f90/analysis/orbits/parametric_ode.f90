@@ -1,5 +1,5 @@
-!> What an orbit needs to know of an ODE beside its rates: the period that drives it; and for a branch of orbits the model
-!> at a value of a parameter, and what its solver knows of meshes.
+!> What an orbit needs to know of an ODE beside its rates: the period that drives it; and for a branch of orbits the
+!> model at a value of a parameter, and what its solver knows of meshes.
 module parametric_ode
    use kinds, only: wp
    use errors, only: error_type
