@@ -259,7 +259,8 @@ contains
          & place_part_type('first_defect', 1, '1', 'defect of the first orbit on the mesh; below 0: not known yet'), &
          & place_part_type('intervals', 1, '1', 'intervals of the mesh'), &
          & place_part_type('interval_ends', ends, 's', 'ends of the intervals'), &
-         & place_part_type('switching_points', ends, '1', 'switching point at each end; 0: none, -1: none any longer'), &
+         & place_part_type('switching_points', ends, '1', &
+            & 'switching point at each end; 0: none, -1: none any longer'), &
          & place_part_type('start', self%n, '1', 'state at the start of the period'), &
          & place_part_type('states', inside, '1', 'states at the points of the intervals, one after the other'), &
          & place_part_type('equilibrium', size(place) - 4 - 2*ends - self%n - inside, '1', &

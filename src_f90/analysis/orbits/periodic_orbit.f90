@@ -142,8 +142,9 @@ contains
       found%iterations = closed%iterations
       found%evaluations = found%evaluations + problem%tangents
       if (allocated(error)) then
-         if (closed%iterations == model%scene%periodic%max_iterations) &
-            & call add_context(error, 'periodic%max_iterations')
+         if (closed%iterations == model%scene%periodic%max_iterations) then
+            call add_context(error, 'periodic%max_iterations')
+         end if
       else
          call move_alloc(closed%values, found%multipliers)
       end if
