@@ -14,7 +14,7 @@ module branch_task
    use branch_progress, only: branch_progress_type
    use orbit_figures, only: orbit_figures_type, find_orbit_figures, figures_at_rest
    use heat_balance, only: oil_temperatures_type
-   use warm_oil, only: has_warm_oil
+   use heat_balance_equations, only: has_warm_oil
    use branch_results, only: branch_orbit_type, noted_point_type, begin_branches, add_point, put_special_points, noted
    use branch_checkpoint, only: put_branches, get_branches
    use provenance, only: running

@@ -8,13 +8,13 @@ module march_start
    use kinematics, only: pad_state
    use equilibrium, only: equilibrium_type, find_equilibrium
    use partial_equilibrium, only: find_partial_equilibrium
-   use warm_oil, only: has_warm_oil
+   use heat_balance_equations, only: has_warm_oil
    use last_state, only: read_last_state
    use march_results, only: put_viscosity, put_course
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use viscosity_course, only: viscosity_course_type
-   use groove_course, only: find_groove_course
+   use groove_transient, only: find_groove_transient
    use equilibrium_start, only: create_file, start_at_equilibrium, nothing_computed
    use run_summary, only: print_start
    implicit none (type, external)
@@ -108,7 +108,7 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       type(viscosity_course_type) :: course
       if (run%scene%thermal%march /= 'groove' .or. .not. abs(run%model%point%acceleration) > 0) return
-      call find_groove_course(run%model, y, run%scene%operation%duration, course, error, stop_requested)
+      call find_groove_transient(run%model, y, run%scene%operation%duration, course, error, stop_requested)
       if (allocated(error)) return
       run%model%oil_course = course
    end subroutine let_grooves_warm

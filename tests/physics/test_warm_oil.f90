@@ -11,7 +11,7 @@ program test_warm_oil
    use static_figures, only: static_figures_type, find_static_figures
    use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
    use viscosity_course, only: viscosity_course_type
-   use groove_course, only: find_groove_course
+   use groove_transient, only: find_groove_transient
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
 
@@ -219,7 +219,7 @@ contains
       scene%oil%groove_volume = volume
       scene%operation%duration = duration
       call solve(scene, static, figures, model)
-      call find_groove_course(model, model%at_rest(static%journal, static%tilt, static%penetration), duration, course, &
+      call find_groove_transient(model, model%at_rest(static%journal, static%tilt, static%penetration), duration, course, &
          & error)
       call expect_no_error(error, 'course')
       if (.not. allocated(error)) call course%at(duration, viscosities)

@@ -9,7 +9,7 @@ module bearing_orbits
    use orbit_march, only: march_period, mesh_options
    use parametric_ode, only: parametric_ode_type
    use varied_bearing, only: varied_bearing_type
-   use resting_oil, only: resting_oil_type
+   use frozen_viscosity, only: frozen_viscosity_type
    implicit none (type, external)
    private
    public :: bearing_orbits_type
@@ -17,7 +17,7 @@ module bearing_orbits
    type, extends(parametric_ode_type) :: bearing_orbits_type
       type(varied_bearing_type) :: bearing
       !> Where the oil is warm.
-      type(resting_oil_type), allocatable :: oil
+      type(frozen_viscosity_type), allocatable :: oil
       !> How the motion is marched, for a mesh.
       type(march_options) :: march
    contains

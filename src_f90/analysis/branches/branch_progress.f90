@@ -16,8 +16,8 @@ module branch_progress
    use period_doubling, only: double_period, half_apart, forget_flips
    use varied_bearing, only: varied_bearing_type
    use bearing_orbits, only: bearing_orbits_type
-   use warm_oil, only: has_warm_oil
-   use resting_oil, only: new_resting_oil
+   use heat_balance_equations, only: has_warm_oil
+   use frozen_viscosity, only: new_frozen_viscosity
    use equilibrium_branch, only: equilibrium_problem_type, begin_equilibria
    implicit none (type, external)
    private
@@ -120,7 +120,7 @@ contains
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: at_rest(:)
       call make_static(model, model%point%rupture, self%static)
-      self%ode%oil = new_resting_oil(varied_bearing_type(self%static, self%parameter), at_rest)
+      self%ode%oil = new_frozen_viscosity(varied_bearing_type(self%static, self%parameter), at_rest)
    end subroutine begin_oil
 
    subroutine begin_with_orbit(self, orbit, turns)

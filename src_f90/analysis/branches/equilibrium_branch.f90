@@ -11,8 +11,8 @@ module equilibrium_branch
    use damped_newton, only: clearances, reference_force
    use small_vibrations, only: find_vibrations
    use heat_balance, only: oil_temperatures_type
-   use warm_oil, only: has_warm_oil
-   use oil_equations, only: state_balance_type, find_lack, find_lack_slopes, find_force_slopes, find_temperatures
+   use heat_balance_equations, only: state_balance_type, has_warm_oil, find_lack, find_lack_slopes, &
+      & find_force_slopes, find_temperatures, check_heat
    use varied_bearing, only: varied_bearing_type
    implicit none (type, external)
    private
@@ -135,7 +135,8 @@ contains
          if (.not. ok) then
             call raise(error, numerics_error, model%refusal)
          else if (size(self%viscosity) > 0) then
-            call find_lack(model, self%state(), self%balance, error)
+            call find_lack(model, self%state(), self%balance)
+            call check_heat(model, self%balance, error)
             imbalance(n + 1:) = self%balance%lack
          end if
       end associate

@@ -17,7 +17,8 @@ module equilibrium
    use shortened_newton, only: shorten_newton
    use static_model, only: equilibrium_type, describe, make_static, make_quick, come_to_rest, start, &
       & starts, pull_pads
-   use warm_oil, only: has_warm_oil, guess_oil, guesses, come_to_warm_rest
+   use heat_balance_equations, only: has_warm_oil
+   use thermal_equilibrium, only: guess_oil, guesses, come_to_warm_rest
    use equilibrium_refusal, only: search_traces, refusal
    implicit none (type, external)
    private

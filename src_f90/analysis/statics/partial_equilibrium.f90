@@ -7,7 +7,8 @@ module partial_equilibrium
    use equations_of_motion, only: bearing_model
    use pad_elimination, only: eliminate_pads
    use static_model, only: equilibrium_type, describe, make_static, make_quick, start, starts
-   use warm_oil, only: has_warm_oil, guess_oil, come_to_warm_rest
+   use heat_balance_equations, only: has_warm_oil
+   use thermal_equilibrium, only: guess_oil, come_to_warm_rest
    implicit none (type, external)
    private
    public :: find_partial_equilibrium

@@ -4,13 +4,11 @@ module static_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
    use kinds, only: wp
    use bearing_numbers, only: eccentricity_ratio, attitude_angle
-   use rigid_journal, only: journal_motion
-   use kinematics, only: pad_state
-   use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
-   use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance
+   use bearing_losses, only: pad_loss
+   use heat_balance, only: oil_temperatures_type
    use equations_of_motion, only: bearing_model
    use static_model, only: equilibrium_type
-   use warm_oil, only: has_warm_oil
+   use heat_balance_equations, only: state_balance_type, has_warm_oil, find_losses
    implicit none (type, external)
    private
    public :: static_figures_type, find_static_figures
@@ -38,17 +36,12 @@ contains
       type(bearing_model), intent(in) :: model
       type(equilibrium_type), intent(in) :: static
       type(static_figures_type), intent(out) :: figures
-      type(bearing_losses_type) :: losses
-      type(heat_balance_type) :: balance
+      type(state_balance_type) :: balance
       logical :: balanced
-      integer :: i
       figures%eccentricity_ratio = eccentricity_ratio(model%scene, static%journal)
       figures%attitude_angle = attitude_angle(model%scene, static%journal)
-      allocate (figures%pads(size(static%tilt)))
-      losses = new_bearing_losses(model%scene)
-      call losses%find(model%bearing, journal_motion(static%journal), [(pad_state(static%tilt(i), &
-         & penetration=static%penetration(i)), i=1, size(static%tilt))], model%oil, model%point%speed(0.0_wp), &
-         & figures%pads)
+      call find_losses(model, model%at_rest(static%journal, static%tilt, static%penetration), balance)
+      figures%pads = balance%losses
       associate (pads => figures%pads, heat => model%scene%oil%density*model%scene%oil%specific_heat)
          ! oil that leaves at the sides is warmed half of the way
          figures%temperature_rise = rise(pads%power(), heat*(pads%inlet + pads%outlet)/2)
@@ -56,9 +49,8 @@ contains
          figures%rise_side = rise(sum(pads%power()), heat*sum(pads%side))
       end associate
       if (.not. has_warm_oil(model)) return
-      balance = new_heat_balance(model%scene)
       allocate (figures%oil)
-      call balance%temperatures(figures%pads, static%viscosity, model%point%speed(0.0_wp), figures%oil, balanced)
+      call balance%heat%temperatures(figures%pads, static%viscosity, model%point%speed(0.0_wp), figures%oil, balanced)
       if (.not. balanced) deallocate (figures%oil)
    end subroutine find_static_figures
 

@@ -5,7 +5,7 @@ module bearing_coefficients
    use equations_of_motion, only: bearing_model
    use small_vibrations, only: stability_at
    use static_model, only: equilibrium_type, describe
-   use warm_oil, only: come_to_warm_rest
+   use thermal_equilibrium, only: come_to_warm_rest
    use linear_bearing, only: linear_bearing_type, linearize
    use vibration_modes, only: vibration_modes_type, find_modes
    use stability_threshold, only: find_thresholds

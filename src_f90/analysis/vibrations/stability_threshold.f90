@@ -7,7 +7,7 @@ module stability_threshold
    use roots, only: root_bracket
    use operating_point, only: operating_point_type
    use equations_of_motion, only: bearing_model
-   use warm_oil, only: come_to_warm_rest
+   use thermal_equilibrium, only: come_to_warm_rest
    use linear_bearing, only: linear_bearing_type, linearize
    use vibration_modes, only: find_growths
    implicit none (type, external)

@@ -1,19 +1,19 @@
 !> The oil of a run-up: while the speed changes, the oil in the groove before each pad is renewed in its own time by
 !> what enters it, and the films take the temperatures to which it leads, in the bearing at rest. The shaft keeps its
 !> own.
-module groove_course
+module groove_transient
    use kinds, only: wp, rpm
    use text, only: to_text
    use errors, only: error_type, add_context, asked_to_stop
-   use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
-   use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance
+   use heat_balance, only: oil_temperatures_type
    use viscosity_course, only: viscosity_course_type, new_viscosity_course
    use equations_of_motion, only: bearing_model
    use static_model, only: make_static
-   use warm_oil, only: come_to_warm_rest, find_losses
+   use heat_balance_equations, only: state_balance_type, find_temperatures
+   use thermal_equilibrium, only: come_to_warm_rest
    implicit none (type, external)
    private
-   public :: find_groove_course
+   public :: find_groove_transient
 
    !> Change of the speed between two nodes, over itself, at most; least nodes.
    real(wp), parameter :: change_of_speed = 0.03_wp
@@ -25,27 +25,22 @@ contains
 
    !> The course of the viscosities in a march of a model from its equilibrium y, whose viscosities it has, over a
    !> duration, s. An error where a speed has no equilibrium.
-   subroutine find_groove_course(model, y, duration, course, error, give_up)
+   subroutine find_groove_transient(model, y, duration, course, error, give_up)
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: y(:), duration
       type(viscosity_course_type), intent(out) :: course
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       type(bearing_model) :: static
-      type(bearing_losses_type) :: finder
-      type(heat_balance_type) :: balance
+      type(state_balance_type) :: balance
       type(oil_temperatures_type) :: oil, next
-      type(pad_loss) :: losses(model%layout%pads)
-      real(wp), dimension(size(losses)) :: entering, before, rate, time_constant
+      real(wp), dimension(model%layout%pads) :: entering, before, rate, time_constant
       real(wp), allocatable :: time(:), viscosity(:, :)
       real(wp) :: state(size(y)), residual
       integer :: k
-      logical :: ok
       call set_nodes(model, duration, time)
-      allocate (viscosity(size(losses), 0:ubound(time, 1)))
+      allocate (viscosity(size(entering), 0:ubound(time, 1)))
       call make_static(model, model%point%rupture, static)
-      finder = new_bearing_losses(model%scene)
-      balance = new_heat_balance(model%scene)
       state = y
       entering = 0
       do k = 0, ubound(time, 1)
@@ -57,22 +52,19 @@ contains
             if (allocated(error)) return
          end if
          viscosity(:, k) = static%oil%viscosity
-         call find_losses(static, finder, state, losses)
-         associate (speed => static%point%speed(0.0_wp))
-            if (k == 0) then
-               call balance%temperatures(losses, viscosity(:, k), speed, oil, ok)
-               next = oil
-            else
-               call balance%temperatures(losses, viscosity(:, k), speed, next, ok, oil)
-            end if
-            before = entering
-            call balance%renewal(losses, next, speed, entering, time_constant)
-         end associate
+         if (k == 0) then
+            call find_temperatures(static, state, balance, oil)
+            next = oil
+         else
+            call find_temperatures(static, state, balance, next, kept=oil)
+         end if
+         before = entering
+         call balance%heat%renewal(balance%losses, next, static%point%speed(0.0_wp), entering, time_constant)
          rate = 0
          if (k > 0) rate = (entering - before)/(time(k) - time(k - 1))
       end do
       course = new_viscosity_course(time, viscosity)
-   end subroutine find_groove_course
+   end subroutine find_groove_transient
 
    !> Times, s, between which the speed changes by equal factors; near standstill nothing is followed.
    subroutine set_nodes(model, duration, time)
@@ -94,4 +86,4 @@ contains
       real(wp), intent(in) :: entering, rate, time_constant, step
       inlet = entering + rate*(step - time_constant) + (inlet - entering + rate*time_constant)*exp(-step/time_constant)
    end subroutine renew
-end module groove_course
+end module groove_transient

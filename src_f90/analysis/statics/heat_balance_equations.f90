@@ -1,38 +1,51 @@
-!> The heat balance of warm oil as equations beside the balance of forces: what the viscosities of a state lack to those
-!> that its losses and flows lead to, and how this changes with positions and viscosities. Derivatives are differences.
-module oil_equations
+!> The heat balance as equations beside the balance of forces: what the viscosities of a state lack to those that its
+!> losses and flows lead to, how this changes with positions and viscosities, and which balances are refused. Derivatives
+!> are differences.
+module heat_balance_equations
    use kinds, only: wp
-   use errors, only: error_type
+   use text, only: to_text
+   use errors, only: error_type, raise, numerics_error
    use pad_gap, only: pad_gap_type
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
    use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance
    use equations_of_motion, only: bearing_model, model_sample
    use force_balance, only: forces
-   use warm_oil, only: find_losses, judge
    implicit none (type, external)
    private
-   public :: state_balance_type, find_lack, find_lack_slopes, find_force_slopes, find_temperatures
+   public :: state_balance_type, has_warm_oil, find_losses, find_lack, find_lack_slopes, find_force_slopes, &
+      & find_temperatures, check_heat
 
+   !> Mineral oils boil and crack from about here on, C.
+   real(wp), parameter :: boiling = 300
+   !> Highest temperature that is named, C: no law of viscosity goes further.
+   real(wp), parameter :: beyond = 500
    !> The difference of positions over the thinnest film, and of the logarithms of viscosities. Losses and flows are
    !> known to 1e-5; what they miss changes slowly.
    real(wp), parameter :: difference = 1e-3_wp
 
    !> A state's heat balance. It may be used for one state after another.
    type :: state_balance_type
-      private
-      !> What finds losses takes time to make; the gaps that it was made for.
-      type(bearing_losses_type) :: finder
-      type(pad_gap_type), allocatable :: gaps(:)
       type(heat_balance_type) :: heat
       type(pad_loss), allocatable :: losses(:)
-      !> The logarithms of the viscosities that the state leads to, over those that it has.
-      real(wp), allocatable, public :: lack(:)
+      !> The logarithms of the viscosities that the state leads to, over those that it has; 0 where neither flow nor
+      !> shaft carries the heat off, which is then not balanced.
+      real(wp), allocatable :: lack(:)
+      logical :: balanced = .false.
+      !> What finds losses takes time to make; the gaps that it was made for.
+      type(bearing_losses_type), private :: finder
+      type(pad_gap_type), allocatable, private :: gaps(:)
    end type state_balance_type
 
 contains
 
-   !> For the state y of a model with its viscosities.
-   subroutine begin_balance(model, y, balance)
+   !> True where the oil of a model has temperatures.
+   pure logical function has_warm_oil(model)
+      type(bearing_model), intent(in) :: model
+      has_warm_oil = model%scene%thermal%model /= 'none'
+   end function has_warm_oil
+
+   !> Losses and flows of the state y of a model with its viscosities.
+   subroutine find_losses(model, y, balance)
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(state_balance_type), intent(inout) :: balance
@@ -45,31 +58,41 @@ contains
       end if
       balance%heat = new_heat_balance(model%scene)
       if (.not. allocated(balance%losses)) allocate (balance%losses(model%layout%pads), balance%lack(model%layout%pads))
-      call find_losses(model, balance%finder, y, balance%losses)
-   end subroutine begin_balance
+      call find_again(model, y, balance, balance%losses)
+   end subroutine find_losses
 
-   !> What the viscosities lack in a state y. An error where its heat has no balance or the oil boils.
-   subroutine find_lack(model, y, balance, error)
+   !> The same beside a state whose losses were found.
+   subroutine find_again(model, y, balance, losses)
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(state_balance_type), intent(inout) :: balance
-      type(error_type), allocatable, intent(out) :: error
-      logical :: ok
-      call begin_balance(model, y, balance)
+      type(pad_loss), intent(out) :: losses(:)
+      call balance%finder%find(model%bearing, model%rotor%journal(y(:model%rotor%states)), model%layout%pad_states(y), &
+         & model%oil, model%point%speed(0.0_wp), losses)
+   end subroutine find_again
+
+   !> What the viscosities lack in a state y.
+   subroutine find_lack(model, y, balance, kept)
+      type(bearing_model), intent(in) :: model
+      real(wp), intent(in) :: y(:)
+      type(state_balance_type), intent(inout) :: balance
+      !> Where grooves and shaft keep their temperatures: these.
+      type(oil_temperatures_type), intent(in), optional :: kept
+      call find_losses(model, y, balance)
       call set_lack(balance%heat, balance%losses, model%oil%viscosity, model%point%speed(0.0_wp), balance%lack, &
-         & ok)
-      call judge(model, balance%heat, balance%losses, ok, 0.0_wp, error)
+         & balance%balanced, kept)
    end subroutine find_lack
 
-   !> The same with these losses of films of these viscosities at a speed, rad/s; 0 where there is no balance.
-   subroutine set_lack(heat, losses, films, speed, lack, ok)
+   !> The same with these losses of films of these viscosities at a speed, rad/s.
+   subroutine set_lack(heat, losses, films, speed, lack, ok, kept)
       type(heat_balance_type), intent(in) :: heat
       type(pad_loss), intent(in) :: losses(:)
       real(wp), intent(in) :: films(:), speed
       real(wp), intent(out) :: lack(:)
       logical, intent(out) :: ok
+      type(oil_temperatures_type), intent(in), optional :: kept
       real(wp) :: wanted(size(films))
-      call heat%viscosities(losses, films, speed, wanted, ok)
+      call heat%viscosities(losses, films, speed, wanted, ok, kept)
       lack = 0
       if (ok) lack = log(wanted/films)
    end subroutine set_lack
@@ -109,7 +132,7 @@ contains
          end do
       end do
       model%oil%viscosity = thicker
-      call find_losses(model, balance%finder, y, moved)
+      call find_again(model, y, balance, moved)
       model%oil%viscosity = films
       do i = 1, size(moved)
          call set_slope(size(x) + i, merge_loss(i), [films(:i - 1), thicker(i), films(i + 1:)], difference)
@@ -123,7 +146,7 @@ contains
          real(wp) :: there(size(y))
          there = y
          there(x(which)) = there(x(which)) + change*sizes(which)
-         call find_losses(model, balance%finder, there, moved)
+         call find_again(model, there, balance, moved)
       end subroutine find_moved
 
       !> The losses where one pad alone is moved.
@@ -165,14 +188,40 @@ contains
       call model%evaluate(0.0_wp, y, .false., ok)
    end subroutine find_force_slopes
 
-   !> The temperatures of the oil in a state y at rest whose heat has a balance.
-   subroutine find_temperatures(model, y, balance, oil)
+   !> The temperatures of the oil in a state y whose heat has a balance.
+   subroutine find_temperatures(model, y, balance, oil, kept)
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(state_balance_type), intent(inout) :: balance
       type(oil_temperatures_type), intent(out) :: oil
-      logical :: ok
-      call begin_balance(model, y, balance)
-      call balance%heat%temperatures(balance%losses, model%oil%viscosity, model%point%speed(0.0_wp), oil, ok)
+      type(oil_temperatures_type), intent(in), optional :: kept
+      call find_losses(model, y, balance)
+      call balance%heat%temperatures(balance%losses, model%oil%viscosity, model%point%speed(0.0_wp), oil, &
+         & balance%balanced, kept)
    end subroutine find_temperatures
-end module oil_equations
+
+   !> Refuses a state whose heat, found last by find_lack, has no balance, or at which oil boils.
+   subroutine check_heat(model, balance, error, kept)
+      type(bearing_model), intent(in) :: model
+      type(state_balance_type), intent(in) :: balance
+      type(error_type), allocatable, intent(out) :: error
+      type(oil_temperatures_type), intent(in), optional :: kept
+      type(oil_temperatures_type) :: oil
+      integer :: hottest
+      logical :: ok
+      ok = balance%balanced
+      if (ok) call balance%heat%temperatures(balance%losses, model%oil%viscosity, &
+         & model%point%speed(0.0_wp), oil, ok, kept)
+      if (.not. ok) then
+         call raise(error, numerics_error, 'the oil has no heat balance: neither its flow nor the shaft carries the ' &
+            & //'heat of the films off; it needs fresh oil (oil%carry_over below 1) or exchange with the shaft ' &
+            & //'(oil%wall_exchange)')
+         return
+      end if
+      hottest = maxloc(oil%outlet, dim=1)
+      if (oil%outlet(hottest) > boiling) call raise(error, numerics_error, 'the oil would leave pad ' &
+         & //to_text(hottest)//' at '//to_text(nint(min(oil%outlet(hottest), beyond)))//' C or more, above ' &
+         & //to_text(nint(boiling))//' C, where mineral oil boils: film and asperities make more heat than its flow ' &
+         & //'carries off; try cooler or more oil, less load or more clearance')
+   end subroutine check_heat
+end module heat_balance_equations

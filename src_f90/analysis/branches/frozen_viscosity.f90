@@ -1,16 +1,16 @@
 !> The viscosities of warm oil for orbits over a parameter: those of the bearing at rest at a value of it, which a
 !> motion keeps. All searches around a point of a branch begin at the same rest, so that what they find is smooth over
 !> the parameter, and the same again where a branch is taken up.
-module resting_oil
+module frozen_viscosity
    use kinds, only: wp
    use errors, only: error_type, add_context
    use heat_balance, only: oil_temperatures_type
-   use warm_oil, only: come_to_warm_rest
-   use oil_equations, only: state_balance_type, find_temperatures
+   use thermal_equilibrium, only: come_to_warm_rest
+   use heat_balance_equations, only: state_balance_type, find_temperatures
    use varied_bearing, only: varied_bearing_type
    implicit none (type, external)
    private
-   public :: resting_oil_type, new_resting_oil
+   public :: frozen_viscosity_type, new_frozen_viscosity
 
    !> A state at rest and the viscosities there, Pa s, at a value of the parameter.
    type :: rest_type
@@ -18,7 +18,7 @@ module resting_oil
       real(wp), allocatable :: y(:), viscosity(:)
    end type rest_type
 
-   type :: resting_oil_type
+   type :: frozen_viscosity_type
       private
       !> With a static model.
       type(varied_bearing_type) :: bearing
@@ -31,12 +31,12 @@ module resting_oil
       procedure :: get_start
       procedure :: set_start
       procedure :: get_found
-   end type resting_oil_type
+   end type frozen_viscosity_type
 
 contains
 
    !> The oil of a bearing whose model, a static one, is at rest in y with the viscosities of this rest.
-   type(resting_oil_type) function new_resting_oil(bearing, y) result(self)
+   type(frozen_viscosity_type) function new_frozen_viscosity(bearing, y) result(self)
       type(varied_bearing_type), intent(in) :: bearing
       real(wp), intent(in) :: y(:)
       self%bearing = bearing
@@ -44,12 +44,12 @@ contains
       self%start%viscosity = bearing%model%oil%viscosity
       self%found = self%start
       self%before = self%start
-   end function new_resting_oil
+   end function new_frozen_viscosity
 
    !> The viscosities at a value of the parameter; an error, with those found last, where the bearing does not come to
    !> rest or its heat has no balance.
    subroutine find(self, value, viscosity, error)
-      class(resting_oil_type), intent(inout) :: self
+      class(frozen_viscosity_type), intent(inout) :: self
       real(wp), intent(in) :: value
       real(wp), intent(out) :: viscosity(:)
       type(error_type), allocatable, intent(out) :: error
@@ -81,21 +81,21 @@ contains
 
    !> Lets searches begin at what was found last.
    pure subroutine begin_here(self)
-      class(resting_oil_type), intent(inout) :: self
+      class(frozen_viscosity_type), intent(inout) :: self
       self%start%y = self%found%y
       self%start%viscosity = self%found%viscosity
    end subroutine begin_here
 
    !> Where searches begin, as numbers.
    pure subroutine get_start(self, numbers)
-      class(resting_oil_type), intent(in) :: self
+      class(frozen_viscosity_type), intent(in) :: self
       real(wp), allocatable, intent(out) :: numbers(:)
       numbers = [self%start%y, self%start%viscosity]
    end subroutine get_start
 
    !> Lets searches begin there, and forgets what others have found.
    pure subroutine set_start(self, numbers)
-      class(resting_oil_type), intent(inout) :: self
+      class(frozen_viscosity_type), intent(inout) :: self
       real(wp), intent(in) :: numbers(:)
       associate (n => size(self%start%y))
          self%start%y = numbers(:n)
@@ -107,7 +107,7 @@ contains
 
    !> Temperatures and viscosities, Pa s, that were found last.
    subroutine get_found(self, oil, viscosity)
-      class(resting_oil_type), intent(inout) :: self
+      class(frozen_viscosity_type), intent(inout) :: self
       type(oil_temperatures_type), intent(out) :: oil
       real(wp), allocatable, intent(out) :: viscosity(:)
       type(error_type), allocatable :: ignored
@@ -116,4 +116,4 @@ contains
       call find_temperatures(self%bearing%model, self%found%y, self%balance, oil)
       viscosity = self%found%viscosity
    end subroutine get_found
-end module resting_oil
+end module frozen_viscosity
