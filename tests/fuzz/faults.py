@@ -108,34 +108,15 @@ def bad_set(dice: Random, scene: dict[str, tuple], variables: dict[str, Variable
     group, name = key.encode().split(b"%")
     good = dice.choice(list(variables.values()))
     value = default(good, good.default[0])
-    argument = dice.choice(
-        (
-            b"",
-            b"%",
-            b"=",
-            group,
-            name + b"=" + value,
-            group + b"%" + name,
-            group + b"%" + name + b"=",
-            group + b"%" + name + b"=1 /",
-            group + b"%" + name + b"=1 x=2",
-            group + b"%" + name + b"=1 &end",
-            group + b"%" + name + b"=1 !",
-            group + b"%=1",
-            b"%" + name + b"=1",
-            b"&" + group + b" " + name + b"=1 /",
-            group + b"%no=1",
-            b"no%" + name + b"=1",
-            group + b"%" + name + b"='x",
-            b"case%title='\x01'",
-            b"case%title='\x1b[2J'",
-            b"case%title='a\nb'",
-            b"case%title='a\rb'",
-            b"case%title='\xff'",
-            group + b"%" + name + b"(0)=1",
-            group + b"." + name + b"=1",
-            group + b"%" + name + b"=" + b"x" * dice.choice((1, 100, 4000)),
-        )
+    forms = (
+        "|%|=|GROUP|NAME=VALUE|GROUP%NAME|GROUP%NAME=|GROUP%NAME=1 /|GROUP%NAME=1 x=2|GROUP%NAME=1 &end"
+        "|GROUP%NAME=1 !|GROUP%=1|%NAME=1|&GROUP NAME=1 /|GROUP%no=1|no%NAME=1|GROUP%NAME='x"
+        "|case%title='\x01'|case%title='\x1b[2J'|case%title='a\nb'|case%title='a\rb'|case%title='\xff'"
+        "|GROUP%NAME(0)=1|GROUP.NAME=1|GROUP%NAME=LONG"
     )
+    argument = dice.choice(forms.split("|")).encode("latin-1")
+    long = b"x" * dice.choice((1, 100, 4000))
+    for form, word in ((b"GROUP", group), (b"NAME", name), (b"VALUE", value), (b"LONG", long)):
+        argument = argument.replace(form, word)
     text = spelling.case(dice, scene, variables)
     return Fault(Case(text.text, (*text.sets, argument)), "bad_set", (b"--set",))

@@ -7,9 +7,10 @@ program test_fixed_pads
    use scene, only: scene_type
    use equations_of_motion, only: bearing_model, new_bearing_model
    use force_balance, only: force_derivatives
-   use film_solver, only: film_oil, film_solver_type, film_motion, film_response
+   use film_solver, only: film_solver_type, film_motion, film_response
    use pad_gap, only: pad_gap_type
    use components, only: make_film
+   use paper_bearing, only: paper_oil
    use random_films, only: film_state, volumes_type, new_volumes, extrapolated, shaft_speed
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_state
@@ -332,7 +333,7 @@ contains
       end associate
       expected = extrapolated(new_volumes(state, 16, .true.), new_volumes(state, 32, .true.))
       whole = new_volumes(state, 16, .false.)
-      call film%evaluate([state%motion], [film_oil(bearing%bearing%viscosity)], shaft_speed, .false., found)
+      call film%evaluate([state%motion], [paper_oil], shaft_speed, .false., found)
       error_of = norm2(found(1)%force - expected%force) &
          & /(norm2(whole%derivatives(:, 3:))*surface*(place(1)/2 + drive(1)))
    end function error_of

@@ -129,91 +129,76 @@ contains
       call expect_no_error(error, 'accepted: '//text)
    end subroutine parse
 
-   !> Assignment i is group%name = the values, joined by bars; quoted ones in quotes.
-   subroutine expect_assignment(found, i, expected)
+   !> The assignments as group%name=the values, joined by bars, quoted ones in quotes; semicolons between them.
+   function as_text(found) result(text)
       type(namelist_type), intent(in) :: found
-      integer, intent(in) :: i
-      character(len=*), intent(in) :: expected
-      character(len=:), allocatable :: as_text
-      integer :: k
-      call expect(i <= size(found%assignments), 'assignment '//to_text(i)//' is there')
-      if (i > size(found%assignments)) return
-      associate (a => found%assignments(i))
-         as_text = a%group//'%'//a%name
-         if (a%subscript > 0) as_text = as_text//'('//to_text(a%subscript)//')'
-         as_text = as_text//'='
-         do k = 1, size(a%values)
-            if (k > 1) as_text = as_text//'|'
-            if (a%values(k)%quoted) then
-               as_text = as_text//'"'//a%values(k)%text//'"'
-            else
-               as_text = as_text//a%values(k)%text
-            end if
-         end do
-      end associate
-      call expect(as_text == expected .and. len(as_text) == len(expected), expected//' came out as '//as_text)
-   end subroutine expect_assignment
+      character(len=:), allocatable :: text
+      integer :: i, k
+      text = ''
+      do i = 1, size(found%assignments)
+         associate (a => found%assignments(i))
+            if (i > 1) text = text//'; '
+            text = text//a%group//'%'//a%name
+            if (a%subscript > 0) text = text//'('//to_text(a%subscript)//')'
+            text = text//'='
+            do k = 1, size(a%values)
+               if (k > 1) text = text//'|'
+               if (a%values(k)%quoted) then
+                  text = text//'"'//a%values(k)%text//'"'
+               else
+                  text = text//a%values(k)%text
+               end if
+            end do
+         end associate
+      end do
+   end function as_text
+
+   !> The text is accepted and read as these assignments.
+   subroutine expect_read(text, expected)
+      character(len=*), intent(in) :: text, expected
+      type(namelist_type) :: found
+      call parse(text, found)
+      call expect_text(as_text(found), expected)
+   end subroutine expect_read
 
    subroutine plain()
       type(namelist_type) :: found
       call parse('&rotor mass = 2000 unbalance=0.01 /'//newline//'&film solver = ''sor'' /', found)
       call expect(size(found%groups) == 2 .and. size(found%assignments) == 3, 'two groups, three assignments')
       call expect(found%groups(1)%group == 'rotor' .and. found%groups(2)%group == 'film', 'names of groups')
-      call expect_assignment(found, 1, 'rotor%mass=2000')
-      call expect_assignment(found, 2, 'rotor%unbalance=0.01')
-      call expect_assignment(found, 3, 'film%solver="sor"')
+      call expect_text(as_text(found), 'rotor%mass=2000; rotor%unbalance=0.01; film%solver="sor"')
       call parse('&film'//newline//'/'//newline, found)
       call expect(size(found%groups) == 1 .and. size(found%assignments) == 0, 'an empty group')
    end subroutine plain
 
    !> Blanks, tabs, commas, line ends of either kind, comments, capitals.
    subroutine separators()
-      type(namelist_type) :: found
-      call parse('! head / & ''quote'//newline//'&ROTOR'//return//newline//tab//'Mass=1,'//return//newline &
+      call expect_read('! head / & ''quote'//newline//'&ROTOR'//return//newline//tab//'Mass=1,'//return//newline &
          & //'static_LOAD = 1.0,'//tab//'2D0 ! a comment, with / and &end and = '//return//newline//'/' &
          & //return//newline, &
-         & found)
-      call expect_assignment(found, 1, 'rotor%mass=1')
-      call expect_assignment(found, 2, 'rotor%static_load=1.0|2D0')
-      call parse('&a x=1,y=2,/', found)
-      call expect_assignment(found, 2, 'a%y=2')
-      call parse('&a x = 1 '//newline//' 2'//newline//',3'//newline//'y = 4/ &b z=5/', found)
-      call expect_assignment(found, 1, 'a%x=1|2|3')
-      call expect_assignment(found, 2, 'a%y=4')
-      call expect_assignment(found, 3, 'b%z=5')
-      call parse('&a x = 1!comment'//newline//'/! the end', found)
-      call expect_assignment(found, 1, 'a%x=1')
+         & 'rotor%mass=1; rotor%static_load=1.0|2D0')
+      call expect_read('&a x=1,y=2,/', 'a%x=1; a%y=2')
+      call expect_read('&a x = 1 '//newline//' 2'//newline//',3'//newline//'y = 4/ &b z=5/', &
+         & 'a%x=1|2|3; a%y=4; b%z=5')
+      call expect_read('&a x = 1!comment'//newline//'/! the end', 'a%x=1')
    end subroutine separators
 
    !> Whatever stands in quotes is text; a doubled quote is one.
    subroutine quotes()
-      type(namelist_type) :: found
-      call parse('&case title = ''a/b ! c & d = e, "f"'' task="it''s"/', found)
-      call expect_assignment(found, 1, 'case%title="a/b ! c & d = e, "f""')
-      call expect_assignment(found, 2, 'case%task="it''s"')
-      call parse('&case title = ''it''''s ''''quoted'''''', b = "a""b", c = '''', d = '' two  blanks ''/', found)
-      call expect_assignment(found, 1, 'case%title="it''s ''quoted''"')
-      call expect_assignment(found, 2, 'case%b="a"b"')
-      call expect_assignment(found, 3, 'case%c=""')
-      call expect_assignment(found, 4, 'case%d=" two  blanks "')
+      call expect_read('&case title = ''a/b ! c & d = e, "f"'' task="it''s"/', &
+         & 'case%title="a/b ! c & d = e, "f""; case%task="it''s"')
+      call expect_read('&case title = ''it''''s ''''quoted'''''', b = "a""b", c = '''', d = '' two  blanks ''/', &
+         & 'case%title="it''s ''quoted''"; case%b="a"b"; case%c=""; case%d=" two  blanks "')
    end subroutine quotes
 
    subroutine subscripts_and_repeats()
-      type(namelist_type) :: found
-      call parse('&pads mass(2) = 0.9, arc_deg = 3*1.0, 2*69.3 pivot_ratio(1)=.5 pivot_ratio(02) = +5.E-1/', found)
-      call expect_assignment(found, 1, 'pads%mass(2)=0.9')
-      call expect_assignment(found, 2, 'pads%arc_deg=3*1.0|2*69.3')
-      call expect_assignment(found, 3, 'pads%pivot_ratio(1)=.5')
-      call expect_assignment(found, 4, 'pads%pivot_ratio(2)=+5.E-1')
+      call expect_read('&pads mass(2) = 0.9, arc_deg = 3*1.0, 2*69.3 pivot_ratio(1)=.5 pivot_ratio(02) = +5.E-1/', &
+         & 'pads%mass(2)=0.9; pads%arc_deg=3*1.0|2*69.3; pads%pivot_ratio(1)=.5; pads%pivot_ratio(2)=+5.E-1')
    end subroutine subscripts_and_repeats
 
    subroutine endings()
-      type(namelist_type) :: found
-      call parse('&a x=1 &end &b y=2 &END', found)
-      call expect_assignment(found, 1, 'a%x=1')
-      call expect_assignment(found, 2, 'b%y=2')
-      call parse('&a x=1/,&b y=2/', found)
-      call expect_assignment(found, 2, 'b%y=2')
+      call expect_read('&a x=1 &end &b y=2 &END', 'a%x=1; b%y=2')
+      call expect_read('&a x=1/,&b y=2/', 'a%x=1; b%y=2')
    end subroutine endings
 
    !> Every group and assignment knows its line.
@@ -234,13 +219,12 @@ contains
       call parse_override('A%X = 3', found, error)
       call expect_no_error(error, 'an override')
       call expect(size(found%assignments) == 2, 'replaces')
-      call expect_assignment(found, 1, 'a%y=2')
-      call expect_assignment(found, 2, 'a%x=3')
+      call expect_text(as_text(found), 'a%y=2; a%x=3')
       call expect(found%assignments(2)%origin == '--set', 'and says where it comes from')
       call parse_override('b%title=''a/b''', found, error)
-      call expect_assignment(found, 3, 'b%title="a/b"')
+      call expect_text(as_text(found), 'a%y=2; a%x=3; b%title="a/b"')
       call parse_override('a%y(2)=1,2', found, error)
-      call expect_assignment(found, 4, 'a%y(2)=1|2')
+      call expect_text(as_text(found), 'a%y=2; a%x=3; b%title="a/b"; a%y(2)=1|2')
       call expect(size(found%assignments) == 4, 'another element is another assignment')
       call parse('&a x(2)=5 y=2*1 /', found)
       call parse_override('a%x(2)=6', found, error)
@@ -256,16 +240,14 @@ contains
       type(namelist_type) :: found
       type(error_type), allocatable :: error
       call parse('&sweep order = ''zip'', a%x = 1:5:2, a%y(2) = 1:8:*2, 3 / &a x=1/', found)
-      call expect_assignment(found, 1, 'sweep%order="zip"')
-      call expect_assignment(found, 2, 'sweep%a%x=1:5:2')
-      call expect_assignment(found, 3, 'sweep%a%y(2)=1:8:*2|3')
+      call expect_text(as_text(found), 'sweep%order="zip"; sweep%a%x=1:5:2; sweep%a%y(2)=1:8:*2|3; a%x=1')
       call parse_override('sweep%a%x=7,8', found, error)
       call expect(.not. allocated(error) .and. size(found%assignments) == 4, 'an override of a sweep')
-      call expect_assignment(found, 2, 'sweep%a%x=7|8')
+      call expect_text(as_text(found), 'sweep%order="zip"; sweep%a%x=7|8; sweep%a%y(2)=1:8:*2|3; a%x=1')
       call parse_override('sweep%a%y(2)=9', found, error)
-      call expect_assignment(found, 3, 'sweep%a%y(2)=9')
+      call expect_text(as_text(found), 'sweep%order="zip"; sweep%a%x=7|8; sweep%a%y(2)=9; a%x=1')
       call parse_override('sweep%a%z=1', found, error)
-      call expect_assignment(found, 5, 'sweep%a%z=1')
+      call expect_text(as_text(found), 'sweep%order="zip"; sweep%a%x=7|8; sweep%a%y(2)=9; a%x=1; sweep%a%z=1')
    end subroutine sweeps
 
    !> The message names file and line and has the words.
