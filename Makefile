@@ -100,18 +100,15 @@ LIBS := $$(cat $(B)/lib/flags)
 ifneq ($(filter any x86-64-v3,$(MODE)),)
 LIBS += $($(family).alone) -s
 endif
-# these have arrays as long as a run: not on the stack, wherever FFLAGS puts the short ones of the march
-run_long := $(addprefix src_f90/,$(addprefix analysis/,spectra.f90 loops.f90 pad_behaviour.f90 \
-            orbits/kink_mesh.f90 orbits/orbit_march.f90) $(addsuffix /*.f90,system input storage results app))
 COMPILE = $(FC) $($(family).standard) $(FFLAGS) $(INCLUDE) $($(family).modules)$(B)/mod
 
 # ---- system packages ---------------------------------------------------------------------------
-PACKAGES := gfortran libc6-dev libsundials-dev libsundials-fortran-dev libhdf5-dev libfftw3-dev \
+packages := gfortran libc6-dev libsundials-dev libsundials-fortran-dev libhdf5-dev libfftw3-dev \
             liblapack-dev libblas-dev python3 python3-venv python3-dev
-# for one test alone, which is skipped without it: a browser that opens a report
-TEST_PACKAGES := chromium-headless-shell
-# for make test-slurm alone
-SLURM_PACKAGES := slurmctld slurmd slurm-client munge
+# for one test of make test: a browser that opens a report; for make test-slurm; for make test-debian13
+packages.test   := chromium-headless-shell
+packages.slurm  := slurmctld slurmd slurm-client munge
+packages.debian := debootstrap
 
 wrapper := post/wrap/library.f90
 sources := $(sort $(shell find src_f90 tests -name '*.[fF]90')) $(wrapper)
@@ -119,6 +116,12 @@ c_sources := $(sort $(shell find src_f90 -name '*.c'))
 object = $(patsubst %,$(B)/obj/%.o,$1)
 # what a program is linked from: the modules that it uses (build/depend.mk), so that a test builds what it needs alone
 objects_of = $(call object,$(linked.$1) $(basename $(notdir $(c_sources)))) $(B)/lib/unused.o
+# which modules each source uses, and which say that they have arrays as long as a run
+$(shell mkdir -p $(B)/obj $(B)/mod; awk -f src_f90/dependencies.awk $(sources) > $(B)/depend.mk)
+include $(B)/depend.mk
+# such arrays are not on the stack, wherever FFLAGS puts the short ones of the march
+run_long := $(sort $(heap) $(basename $(notdir $(filter $(addprefix src_f90/,$(addsuffix /%.f90,\
+            system input storage results app)),$(sources)))))
 test_names := $(basename $(notdir $(filter tests/unit/test_% tests/physics/test_%,$(sources))))
 test_programs := $(addprefix $(B)/tests/,$(test_names))
 programs := $(B)/bin/tiltpad $(test_programs) $(B)/fuzz/fuzz_input $(B)/bench/film_bench $(B)/stress/global_search
@@ -140,7 +143,6 @@ module build_info
    character(len=*), parameter :: program_flags = ''$(foreach flag,$(FFLAGS), &$(newline)     & //' $(subst ','',$(flag))')
 end module build_info
 endef
-$(shell mkdir -p $(B)/obj $(B)/mod)
 $(file >$(B)/obj/build_info.new,$(build_info))
 $(file >$(B)/flags.new,$(COMPILE) $(prefixes) $(LAPACK) $(ARCHIVES) long:$($(family).heap) $(run_long))
 $(shell for f in $(B)/obj/build_info.f90:$(B)/obj/build_info.new $(B)/flags:$(B)/flags.new; do \
@@ -233,39 +235,14 @@ build/deps-checked:
 ifneq ($(strip $(prefixes)),)
 	@echo 'prefixes given: nothing is installed'
 else
-	@$(call install_missing,$(PACKAGES))
+	@src_f90/packages.sh $(packages)
 endif
 	@touch $@
 
-build/deps-test: build/deps-checked
-ifeq ($(strip $(prefixes)),)
-	@($(call install_missing,$(TEST_PACKAGES))) || echo 'tests that need them are skipped'
-endif
+# for some tests alone, which are skipped without them
+build/deps-%: build/deps-checked
+	@$(if $(strip $(prefixes)),,src_f90/packages.sh $(packages.$*) || echo 'tests that need them are skipped')
 	@touch $@
-
-build/deps-debian: build/deps-checked
-	@($(call install_missing,debootstrap)) || echo 'the test is skipped'
-	@touch $@
-
-build/deps-slurm: build/deps-checked
-	@($(call install_missing,$(SLURM_PACKAGES))) || echo 'tests that need them are skipped'
-	@touch $@
-
-# shell commands that install those of some Debian packages that are missing
-define install_missing
-if command -v dpkg-query >/dev/null; then \
-   missing=; for p in $(1); do \
-     dpkg-query -W -f '$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || missing="$$missing $$p"; done; \
-   if [ -n "$$missing" ]; then \
-     if [ "$$(id -u)" = 0 ]; then sudo=; \
-     elif sudo -n true 2>/dev/null; then sudo=sudo; \
-     else echo "missing packages; install them and call make again:"; echo "  apt-get install$$missing"; exit 1; fi; \
-     echo "installing:$$missing"; \
-     $$sudo apt-get update -qq && \
-     $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends $$missing >/dev/null || exit 1; \
-   fi; \
-else echo 'no Debian packages here: taking libraries from the compiler'"'"'s own paths'; fi
-endef
 
 python: $(VENV)/ready wrap
 
@@ -336,10 +313,6 @@ $(ross)/ready: tests/post/ross_requirements.txt | build/deps-checked
 # ---- build -------------------------------------------------------------------------------------
 build: $(B)/bin/tiltpad
 
-# which modules each source uses
-$(shell awk -f src_f90/dependencies.awk $(sources) > $(B)/depend.mk)
-include $(B)/depend.mk
-
 $(programs): $$(call objects_of,$$(@F))
 	@mkdir -p $(@D)
 	@echo 'linking $@'
@@ -361,7 +334,7 @@ $(B)/lib/flags: src_f90/libraries.sh $(B)/flags | build/deps-checked
 $(B)/lib/unused.o: $(B)/lib/flags
 	$(CC) -O1 -fPIC -w -c $(B)/lib/unused.c -o $@
 
-$(patsubst %.f90,$(B)/obj/%.o,$(notdir $(wildcard $(run_long)))): private override FFLAGS += $($(family).heap)
+$(call object,$(run_long)): private override FFLAGS += $($(family).heap)
 
 test-programs: $(test_programs)
 

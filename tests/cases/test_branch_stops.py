@@ -136,8 +136,9 @@ def test_a_checkpoint_that_is_none(tiltpad, stopped, case):
 
     none = "tiltpad: error: case.h5: damaged: its checkpoint is none of this branch\n"
     with h5py.File(path) as file:
-        lists = [name for name, each in file["checkpoint/point"].items() if each.shape]
-        assert all(each.attrs["units"] and each.attrs["long_name"] for each in file["checkpoint/point"].values())
+        point = file["checkpoint/point"]
+        lists = [name for name, each in point.items() if each.shape]
+        assert all(each.attrs["units"] and each.attrs["long_name"] for each in point.values())
     for name in lists:
         assert spoiled(lambda group, name=name: shorten(group["point"], name)) == none, name
         assert spoiled(lambda group, name=name: group["point"][name].__setitem__(0, np.nan)) == none, name

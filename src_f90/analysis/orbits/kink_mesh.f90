@@ -1,6 +1,7 @@
 !> The kinks that an orbit passes: intervals of its collocation end there, or the polynomials would lose their order.
 !> Such an end goes with the orbit as Newton's method corrects it; here it is found that there is, or is no longer, one.
 module kink_mesh
+   ! heap: arrays as long as a run
    use kinds, only: wp
    use roots, only: root_bracket
    use ode_model, only: ode_model_type

@@ -1,5 +1,6 @@
 !> A march that brings a periodic orbit near: period after period, and the last one as intervals of a collocation.
 module orbit_march
+   ! heap: arrays as long as a run
    use kinds, only: wp, i8
    use text, only: to_text
    use errors, only: error_type, raise, add_context, numerics_error, stopped, asked_to_stop, asked
