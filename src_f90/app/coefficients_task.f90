@@ -6,6 +6,7 @@ module coefficients_task
    use equations_of_motion, only: bearing_model
    use static_model, only: make_fine
    use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
+   use stability_threshold, only: find_thresholds
    use coefficient_results, only: put_coefficients
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
@@ -30,7 +31,10 @@ contains
       call settle(fine, static, y, error, stop_requested)
       if (.not. allocated(error)) then
          call note_equilibrium(run, static)
-         call find_coefficients(fine, y, found, error, stop_requested)
+         call find_coefficients(fine, y, found, error)
+      end if
+      if (.not. allocated(error) .and. run%scene%coefficients%threshold_up_to_rpm > 0) then
+         call find_thresholds(fine, y, found, error, stop_requested)
       end if
       if (allocated(error)) then
          call add_context(error, 'with converged films')

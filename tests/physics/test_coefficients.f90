@@ -12,6 +12,7 @@ program test_coefficients
    use equilibrium, only: equilibrium_type, find_equilibrium
    use static_model, only: make_fine
    use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
+   use stability_threshold, only: find_thresholds
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
 
@@ -47,6 +48,9 @@ contains
          call settle(converged, rest, state, error)
       end if
       if (.not. allocated(error)) call find_coefficients(converged, state, found, error)
+      if (.not. allocated(error) .and. scene%coefficients%threshold_up_to_rpm > 0) then
+         call find_thresholds(converged, state, found, error)
+      end if
       call expect_no_error(error, what)
       if (present(static)) static = rest
       if (present(fine)) fine = converged

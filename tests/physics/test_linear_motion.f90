@@ -38,6 +38,7 @@ program test_linear_motion
    use equilibrium, only: equilibrium_type, find_equilibrium
    use static_model, only: make_fine
    use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
+   use stability_threshold, only: find_thresholds
    use vibration_modes, only: vibration_modes_type
    use forced_motion, only: forced_model
    use check, only: runs, expect, expect_close, expect_no_error, report
@@ -64,6 +65,9 @@ contains
       call make_fine(whole, model)
       if (.not. allocated(error)) call settle(model, static, y, error)
       if (.not. allocated(error)) call find_coefficients(model, y, found, error)
+      if (.not. allocated(error) .and. scene%coefficients%threshold_up_to_rpm > 0) then
+         call find_thresholds(model, y, found, error)
+      end if
       call expect_no_error(error, 'analysis')
    end subroutine analyse
 

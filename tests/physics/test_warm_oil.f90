@@ -10,6 +10,7 @@ program test_warm_oil
    use static_model, only: make_fine
    use static_figures, only: static_figures_type, find_static_figures
    use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
+   use stability_threshold, only: find_thresholds
    use viscosity_course, only: viscosity_course_type
    use groove_transient, only: find_groove_transient
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
@@ -65,6 +66,9 @@ contains
       call make_fine(model, fine)
       call settle(fine, static, y, error)
       if (.not. allocated(error)) call find_coefficients(fine, y, found, error)
+      if (.not. allocated(error) .and. model%scene%coefficients%threshold_up_to_rpm > 0) then
+         call find_thresholds(fine, y, found, error)
+      end if
       call expect_no_error(error, 'coefficients')
    end subroutine coefficients
 

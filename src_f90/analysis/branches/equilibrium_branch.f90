@@ -7,9 +7,10 @@ module equilibrium_branch
    use errors, only: error_type, raise, numerics_error
    use eigenvalues, only: largest_first
    use newton_method, only: branch_problem_type, place_part_type
-   use force_balance, only: forces, force_derivatives, masses
+   use force_balance, only: forces, force_derivatives
    use damped_newton, only: clearances, reference_force
-   use small_vibrations, only: find_vibrations
+   use linear_bearing, only: linear_bearing_of, pivot_name
+   use vibration_modes, only: rotor_eigenvalues
    use heat_balance, only: oil_temperatures_type
    use heat_balance_equations, only: state_balance_type, has_warm_oil, find_lack, find_lack_slopes, &
       & find_force_slopes, find_temperatures, check_heat
@@ -23,6 +24,9 @@ module equilibrium_branch
       real(wp), allocatable :: positions(:)
       !> Of warm oil on every pad, Pa s; else there are none.
       real(wp), allocatable :: viscosity(:)
+      !> How the pivots behave in the vibrations that tell stability, and the cross-coupled stiffness of the rotor, N/m.
+      character(len=pivot_name) :: pivot = 'free'
+      real(wp) :: cross_stiffness = 0
       type(varied_bearing_type), private :: bearing
       !> Natural sizes of unknowns, and of what is out of balance.
       real(wp), allocatable, private :: scale(:), force(:)
@@ -175,10 +179,12 @@ contains
       complex(wp), allocatable, intent(out) :: values(:)
       real(wp), allocatable, intent(out) :: growth(:)
       logical, intent(out) :: ok
-      allocate (values(2*size(self%positions)))
-      call find_vibrations(masses(self%bearing%model), self%stiffness, self%damping, values, ok)
-      values = values(largest_first(values%re))
-      growth = values%re/self%bearing%model%point%speed(0.0_wp)
+      associate (model => self%bearing%model)
+         call rotor_eigenvalues(linear_bearing_of(model, self%pivot, self%stiffness, self%damping), model%rotor%mass, &
+            & self%cross_stiffness, values, ok)
+         values = values(largest_first(values%re))
+         growth = values%re/model%point%speed(0.0_wp)
+      end associate
    end subroutine spectrum
 
    !> Where the oil keeps its viscosities in a motion, one without frequency may grow where no branch turns.

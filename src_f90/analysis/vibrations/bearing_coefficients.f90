@@ -1,14 +1,13 @@
-!> What a bearing is to a rotor that vibrates little: stiffness and damping, modes, the threshold of stability.
+!> What a bearing is to a rotor that vibrates little: stiffness and damping, modes, and room for its threshold speeds.
 module bearing_coefficients
    use kinds, only: wp
-   use errors, only: error_type, raise, numerics_error, stopped, asked_to_stop, asked
+   use errors, only: error_type, raise, asked_to_stop, numerics_error
    use equations_of_motion, only: bearing_model
    use small_vibrations, only: stability_at
    use static_model, only: equilibrium_type, describe
    use thermal_equilibrium, only: come_to_warm_rest
    use linear_bearing, only: linear_bearing_type, linearize
    use vibration_modes, only: vibration_modes_type, find_modes
-   use stability_threshold, only: find_thresholds
    implicit none (type, external)
    private
    public :: bearing_coefficients_type, settle, find_coefficients
@@ -45,12 +44,11 @@ contains
    end subroutine settle
 
    !> The coefficients that the scene asks for, of a model without friction at rest in y.
-   subroutine find_coefficients(model, y, found, error, give_up)
+   subroutine find_coefficients(model, y, found, error)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)
       type(bearing_coefficients_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       logical :: ok
       integer :: i, k
       associate (given => model%scene%coefficients, speed => model%point%speed(0.0_wp))
@@ -76,9 +74,6 @@ contains
                end if
             end do
          end associate
-         if (given%threshold_up_to_rpm > 0) call find_thresholds(model, y, given%threshold_up_to_rpm, &
-            & given%cross_stiffness, found%thresholds, found%sought_up_to, give_up)
-         if (asked(give_up)) call raise(error, stopped, 'stopped while the threshold of stability was sought')
       end associate
    end subroutine find_coefficients
 

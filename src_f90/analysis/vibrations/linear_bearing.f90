@@ -7,7 +7,7 @@ module linear_bearing
    use force_balance, only: force_derivatives, add_sticking, masses
    implicit none (type, external)
    private
-   public :: linear_bearing_type, linearize
+   public :: linear_bearing_type, linearize, linear_bearing_of, pivot_name
 
    !> Length of the names of pivots.
    integer, parameter :: pivot_name = 6
@@ -40,28 +40,35 @@ contains
       type(linear_bearing_type), allocatable, intent(out) :: bearings(:)
       logical, intent(out) :: ok
       real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: over_positions, over_rates
-      integer :: i, k
+      integer :: i
       call model%evaluate(0.0_wp, y, .true., ok)
       if (.not. ok) return
       call force_derivatives(model, over_positions, over_rates)
       associate (pivots => pivots_of(model))
-         allocate (bearings(size(pivots)))
-         bearings%pivot = pivots
+         bearings = [(linear_bearing_of(model, pivots(i), over_positions, over_rates), i=1, size(pivots))]
       end associate
-      do i = 1, size(bearings)
-         associate (bearing => bearings(i))
-            allocate (bearing%moves(size(over_rates, 1)), source=.true.)
-            if (bearing%pivot == 'stuck') call add_sticking(model, over_positions, over_rates)
-            if (bearing%pivot == 'locked' .and. model%layout%tilting) then
-               bearing%moves(model%layout%first_position([(k, k=1, model%layout%pads)])) = .false.
-            end if
-            bearing%mass = masses(model)
-            bearing%mass(:journal, :journal) = 0
-            bearing%stiffness = -over_positions
-            bearing%damping = -over_rates
-         end associate
-      end do
    end subroutine linearize
+
+   !> The bearing of a model with pivots that behave in one of these ways, from the derivatives of the forces in the
+   !> state where it was evaluated last.
+   pure type(linear_bearing_type) function linear_bearing_of(model, pivot, over_positions, over_rates) result(bearing)
+      type(bearing_model), intent(in) :: model
+      character(len=*), intent(in) :: pivot
+      real(wp), intent(in) :: over_positions(:, :), over_rates(:, :)
+      integer :: k
+      bearing%pivot = pivot
+      allocate (bearing%moves(size(over_rates, 1)), source=.true.)
+      if (pivot == 'locked' .and. model%layout%tilting) then
+         bearing%moves(model%layout%first_position([(k, k=1, model%layout%pads)])) = .false.
+      end if
+      bearing%mass = masses(model)
+      bearing%mass(:journal, :journal) = 0
+      bearing%stiffness = over_positions
+      bearing%damping = over_rates
+      if (pivot == 'stuck') call add_sticking(model, bearing%stiffness, bearing%damping)
+      bearing%stiffness = -bearing%stiffness
+      bearing%damping = -bearing%damping
+   end function linear_bearing_of
 
    !> The ways that the pivots of a model's scene may behave; fixed pads have one.
    pure function pivots_of(model) result(pivots)

@@ -2,12 +2,11 @@
 module vibration_modes
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi
-   use eigenvalues, only: largest_first
    use small_vibrations, only: find_vibrations
    use linear_bearing, only: linear_bearing_type
    implicit none (type, external)
    private
-   public :: vibration_modes_type, find_modes, find_growths
+   public :: vibration_modes_type, find_modes, rotor_eigenvalues
 
    !> The modes in the order of their damping ratios, the least first, so that the first says whether the rest is
    !> stable; of a pair of eigenvalues the one with a positive imaginary part; among ratios of 1 the slowest first.
@@ -41,8 +40,7 @@ contains
       logical, allocatable :: waiting(:)
       integer :: i, n, next
       kept = pack([(i, i=1, size(bearing%moves))], bearing%moves)
-      allocate (values(2*size(kept)), shapes(size(kept), 2*size(kept)))
-      call solve(bearing, kept, rotor_mass, cross_stiffness, values, ok, shapes)
+      call rotor_eigenvalues(bearing, rotor_mass, cross_stiffness, values, ok, shapes)
       if (.not. ok) return
       ratio = damping_ratio(values)
       waiting = values%im >= 0
@@ -60,31 +58,19 @@ contains
       where (modes%eigenvalue%im > 0) modes%log_decrement = -2*pi*modes%eigenvalue%re/modes%eigenvalue%im
    end subroutine find_modes
 
-   !> The real parts of all eigenvalues, 1/s, the largest first.
-   subroutine find_growths(bearing, rotor_mass, cross_stiffness, growths, ok)
+   !> The eigenvalues, 1/s, of a bearing with a rotor as above, and the shapes of the positions that move.
+   subroutine rotor_eigenvalues(bearing, rotor_mass, cross_stiffness, values, ok, shapes)
       type(linear_bearing_type), intent(in) :: bearing
       real(wp), intent(in) :: rotor_mass, cross_stiffness
-      real(wp), allocatable, intent(out) :: growths(:)
+      complex(wp), allocatable, intent(out) :: values(:)
       logical, intent(out) :: ok
-      complex(wp), allocatable :: values(:)
+      complex(wp), allocatable, intent(out), optional :: shapes(:, :)
+      real(wp), allocatable, dimension(:, :) :: mass, stiffness
       integer, allocatable :: kept(:)
       integer :: i
       kept = pack([(i, i=1, size(bearing%moves))], bearing%moves)
       allocate (values(2*size(kept)))
-      call solve(bearing, kept, rotor_mass, cross_stiffness, values, ok)
-      growths = values(largest_first(values%re))%re
-   end subroutine find_growths
-
-   !> The eigenvalues of the positions kept, with the rotor.
-   subroutine solve(bearing, kept, rotor_mass, cross_stiffness, values, ok, shapes)
-      type(linear_bearing_type), intent(in) :: bearing
-      integer, intent(in) :: kept(:)
-      real(wp), intent(in) :: rotor_mass, cross_stiffness
-      complex(wp), intent(out) :: values(:)
-      logical, intent(out) :: ok
-      complex(wp), intent(out), optional :: shapes(:, :)
-      real(wp), dimension(size(kept), size(kept)) :: mass, stiffness
-      integer :: i
+      if (present(shapes)) allocate (shapes(size(kept), 2*size(kept)))
       mass = bearing%mass(kept, kept)
       stiffness = bearing%stiffness(kept, kept)
       do i = 1, journal
@@ -94,7 +80,7 @@ contains
       stiffness(1, 2) = stiffness(1, 2) + cross_stiffness
       stiffness(2, 1) = stiffness(2, 1) - cross_stiffness
       call find_vibrations(mass, -stiffness, -bearing%damping(kept, kept), values, ok, shapes)
-   end subroutine solve
+   end subroutine rotor_eigenvalues
 
    !> The one of least ratio, and of these the one of least size.
    pure integer function least(ratio, length, waiting)
