@@ -209,7 +209,7 @@ SCENES ?= 300
 SEED   ?= 1
 stress: build python $(B)/stress/global_search
 	PYTHONPATH=post $(venv_python) tests/stress/stress.py $(B)/bin/tiltpad --search $(B)/stress/global_search \
-	   --scenes $(SCENES) --seed $(SEED) --flutter --report docs/stability.md
+	   --scenes $(SCENES) --seed $(SEED) --flutter --searches --report docs/stability.md
 
 # MINUTES and SEED choose what is drawn
 MINUTES ?= 5

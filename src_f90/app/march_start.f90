@@ -6,8 +6,7 @@ module march_start
    use files, only: real_path
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_state
-   use equilibrium, only: equilibrium_type, find_equilibrium
-   use partial_equilibrium, only: find_partial_equilibrium
+   use equilibrium, only: equilibrium_type, find_equilibrium, find_partial_equilibrium
    use heat_balance_equations, only: has_warm_oil
    use last_state, only: read_last_state
    use march_results, only: put_viscosity, put_course

@@ -35,6 +35,7 @@ contains
       call file%put_real('equilibrium/eigenvalue_imag', found%stability%eigenvalue%im, '1/s', &
          & 'angular frequency of the small motion that grows most')
       call file%put_text('equilibrium_stability', found%stability%name)
+      call file%put_text('equilibrium_search', found%search)
    end subroutine put_equilibrium
 
    !> Writes where the journal lies, what the pads carry, losses, flows and temperature rises.

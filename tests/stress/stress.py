@@ -1,7 +1,7 @@
 """Stress test: random scenes over wide ranges of every input; each ends in a result or a named refusal.
 
 usage: stress.py TILTPAD [--scenes N | --only N,N,..] [--seed S] [--fixed] [--jobs J] [--compare SHARE]
-                 [--search PROGRAM] [--keep FOLDER] [--record FILE] [--flutter] [--report FILE]
+                 [--search PROGRAM] [--keep FOLDER] [--record FILE] [--flutter] [--searches] [--report FILE]
 
 Scenes that fail are kept as namelists, to be run again. With a record, a long test may be stopped
 at any time: the same command goes on where it ended. The last line reads "N passed, N failed".
@@ -19,7 +19,8 @@ from pathlib import Path
 
 from flutter import flutter
 from report import page
-from stress_judge import Comparison, Result, judge
+from searches import searches
+from stress_judge import MISSED, Comparison, Result, judge
 from stress_scenes import Dice, draw, text
 
 
@@ -38,6 +39,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--keep", type=Path, default=Path("build/stress"), help="folder for scenes that fail")
     parser.add_argument("--record", type=Path, help="results so far; what is in it is not run again")
     parser.add_argument("--flutter", action="store_true", help="also a fluttering pad over the speed")
+    parser.add_argument("--searches", action="store_true", help="also which search finds what")
     parser.add_argument("--report", type=Path, help="Markdown page to write")
     parser.add_argument("--verbose", action="store_true", help="a line for every scene")
     return parser.parse_args()
@@ -116,14 +118,19 @@ def main() -> int:
     summary = page(results, options.seed)
     if options.flutter:
         summary += flutter(options.program, options.jobs)
+    if options.searches:
+        summary += searches(options.program, options.jobs)
     if options.report:
         options.report.write_text(summary)
     else:
         print(summary)
     failed = sum(bool(result.faults) for result in results)
     print(f"{time.monotonic() - started:.0f} s")
+    missed = sum(result.missed for result in results)
+    if too_many := missed > MISSED * max(len(results), 100):
+        print(f"FAILED: {missed} scenes were refused that have an equilibrium")
     print(f"{len(results) - failed} passed, {failed} failed")
-    return int(failed > 0)
+    return int(failed > 0 or too_many)
 
 
 if __name__ == "__main__":

@@ -6,8 +6,7 @@ program test_partial_equilibrium
    use scene, only: scene_type
    use equations_of_motion, only: bearing_model, new_bearing_model
    use force_balance, only: forces
-   use equilibrium, only: equilibrium_type, find_equilibrium
-   use partial_equilibrium, only: find_partial_equilibrium
+   use equilibrium, only: equilibrium_type, find_equilibrium, find_partial_equilibrium
    use case_scenes, only: scene_of
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)

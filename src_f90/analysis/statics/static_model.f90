@@ -13,7 +13,7 @@ module static_model
    use small_vibrations, only: stability_type
    implicit none (type, external)
    private
-   public :: equilibrium_type, describe, make_static, make_quick, make_fine, come_to_rest, start, starts, pull_pads
+   public :: equilibrium_type, describe, make_static, make_quick, make_fine, come_to_rest, start, starts
 
    type :: equilibrium_type
       !> Journal, m; per pad tilt, rad, penetration, m (0 tilting-only), contact force, N.
@@ -26,6 +26,8 @@ module static_model
       !> Largest unbalanced force over the reference force (damped_newton).
       real(wp) :: residual = huge(1.0_wp)
       type(stability_type) :: stability
+      !> Which search found it.
+      character(len=:), allocatable :: search
    end type equilibrium_type
 
    !> Accuracy of films that are solved by iteration: below the residual limit.
@@ -97,26 +99,6 @@ contains
       call model%evaluate(0.0_wp, y, .false., ok)
       if (ok) deallocate (error)
    end subroutine come_to_rest
-
-   !> Moves a start to where films that do not rupture may hold the journal by suction: the journal to the other side,
-   !> the pads tilted so that every film diverges.
-   subroutine pull_pads(model, y)
-      type(bearing_model), intent(in) :: model
-      real(wp), intent(inout) :: y(:)
-      type(journal_motion) :: journal
-      type(pad_state) :: pads(model%layout%pads)
-      type(pad_frame) :: frame
-      integer :: i
-      journal = model%rotor%journal(y(:model%rotor%states))
-      journal%position = -journal%position
-      pads = model%layout%pad_states(y)
-      do i = 1, size(pads)
-         frame = model%bearing%pads(i)%frame(journal, pads(i))
-         pads(i)%tilt = (frame%along - model%scene%bearing%machined_clearance/6) &
-            & /model%bearing%pads(i)%position%centre_distance
-      end do
-      y = model%state(journal, pads)
-   end subroutine pull_pads
 
    !> Start k: the journal at its fraction of the clearance down the load (among fixed pads from the middle of their
    !> bores), pivots carrying a share of it, and pads that tilt tilted so that every film converges.
