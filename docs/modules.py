@@ -16,6 +16,8 @@ import floors  # noqa: E402
 
 PAGE = ROOT / "docs/architecture.md"
 BEGIN, END = "<!-- written by docs/modules.py -->\n", "<!-- end -->\n"
+#: Letters of a long sentence, and of a first part that says too little.
+LONG, SHORT = 130, 20
 SENTENCE = re.compile(r"(.+?[.])(?:\s|$)")
 
 
@@ -33,9 +35,11 @@ def python_says(path: Path) -> str:
 
 
 def sentence(text: str) -> str:
-    """The first sentence of a text, without its full stop and without pointers to other pages."""
+    """The first sentence of a text, without full stop and pointers to pages; of a long one its first part."""
     found = SENTENCE.match(re.sub(r" \(docs/[^)]*\)", "", text))
-    return (found[1] if found else text).removesuffix(".")
+    said = (found[1] if found else text).removesuffix(".")
+    first = re.split(r"[:;] ", said)[0]
+    return first if len(said) > LONG and len(first) > SHORT else said
 
 
 def folders(root: Path, pattern: str, order: tuple[str, ...]) -> Iterator[tuple[str, list[Path]]]:
