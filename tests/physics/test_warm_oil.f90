@@ -223,8 +223,8 @@ contains
       scene%oil%groove_volume = volume
       scene%operation%duration = duration
       call solve(scene, static, figures, model)
-      call find_groove_transient(model, model%at_rest(static%journal, static%tilt, static%penetration), duration, course, &
-         & error)
+      call find_groove_transient(model, model%at_rest(static%journal, static%tilt, static%penetration), duration, &
+         & course, error)
       call expect_no_error(error, 'course')
       if (.not. allocated(error)) call course%at(duration, viscosities)
    end function after_run_up

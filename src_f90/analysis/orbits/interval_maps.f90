@@ -4,7 +4,7 @@
 !> neither with its cube nor with its square. Displacements x, x' = v, follow from their rates and are no unknowns.
 module interval_maps
    use kinds, only: wp
-   use whole_vectors, only: lanes, padded
+   use whole_vectors, only: lanes, padded, apply
    use ode_model, only: ode_model_type
    use orbit_polynomials, only: points
    implicit none (type, external)
@@ -220,7 +220,7 @@ contains
       real(wp) :: sum(size(of_block, 1))
       integer :: r, i, first
       do r = 1, size(rows, 2)
-         sum = combined(size(of_block, 1), size(across, 1), of_block, across(:, r))
+         sum = apply(size(of_block, 1), size(across, 1), of_block, across(:, r))
          first = 0
          do i = 1, 3
             associate (part => rows(behind(i) + 1:behind(i) + numbers(i), r))
@@ -316,28 +316,10 @@ contains
                if (size(known, 1) == 1) then
                   at(1, to(r), i) = dot_product(known(1, :), factor)
                else
-                  at(:, to(r), i) = combined(size(known, 1), size(known, 2), known, factor)
+                  at(:, to(r), i) = apply(size(known, 1), size(known, 2), known, factor)
                end if
             end associate
          end do
       end do
    end subroutine multiply
-
-   !> n columns of whole vectors, times their factors, added up.
-   pure function combined(m, n, columns, factor) result(sum)
-      integer, intent(in) :: m, n
-      real(wp), intent(in) :: columns(m, n), factor(n)
-      real(wp) :: sum(m), part(lanes)
-      integer :: i, k, first
-      do first = 0, m - 1, lanes
-         part = 0
-         do i = 1, n
-            !$omp simd
-            do k = 1, lanes
-               part(k) = part(k) + factor(i)*columns(first + k, i)
-            end do
-         end do
-         sum(first + 1:first + lanes) = part
-      end do
-   end function combined
 end module interval_maps

@@ -5,7 +5,7 @@ module column_sweeps
    use whole_vectors, only: lanes
    implicit none (type, external)
    private
-   public :: green_chain, factor_chain, solve_chain, finish_chain, multiply_columns, weighted, apply, invert
+   public :: green_chain, factor_chain, solve_chain, finish_chain, multiply_columns, weighted, invert
 
 contains
 
@@ -163,28 +163,6 @@ contains
       end do
       weighted = ((part(1) + part(5)) + (part(2) + part(6))) + ((part(3) + part(7)) + (part(4) + part(8)))
    end function weighted
-
-   !> Block (m, rows) times vector.
-   pure function apply(m, rows, block, x)
-      integer, intent(in) :: m, rows
-      real(wp), intent(in) :: block(m, rows), x(rows)
-      !> Sums over odd and even columns, so that one need not wait for the other.
-      real(wp) :: apply(m), odd(lanes), even(lanes)
-      integer :: j, k, first
-      do first = 0, m - 1, lanes
-         odd = 0
-         even = 0
-         do j = 1, rows - 1, 2
-            !$omp simd
-            do k = 1, lanes
-               odd(k) = odd(k) + block(first + k, j)*x(j)
-               even(k) = even(k) + block(first + k, j + 1)*x(j + 1)
-            end do
-         end do
-         if (mod(rows, 2) == 1) odd = odd + block(first + 1:first + lanes, rows)*x(rows)
-         apply(first + 1:first + lanes) = odd + even
-      end do
-   end function apply
 
    !> Inverse, in place, of the part of a symmetric positive definite block where mask > 0; 0 elsewhere.
    !> Gauss-Jordan by symmetric sweeps, which need no pivoting.

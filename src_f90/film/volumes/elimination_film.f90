@@ -12,7 +12,8 @@ module elimination_film
    use volume_equations, only: volume_equations_type, new_volume_equations
    use film_rim, only: rim_conductance
    use slight_rupture, only: force_of_few
-   use column_sweeps, only: weighted, apply
+   use whole_vectors, only: apply
+   use column_sweeps, only: weighted
    implicit none (type, external)
    private
    public :: elimination_film_type, new_elimination_film

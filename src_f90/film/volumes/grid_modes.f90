@@ -4,8 +4,7 @@
 module grid_modes
    use kinds, only: wp
    use lapack, only: dstev
-   use whole_vectors, only: padded
-   use column_sweeps, only: apply
+   use whole_vectors, only: padded, apply
    use film_grid, only: film_grid_type
    implicit none (type, external)
    private
