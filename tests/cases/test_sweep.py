@@ -282,13 +282,8 @@ def test_file_names_have_the_digits_of_the_last_member(tiltpad, case):
 
 # ---- members that fail ---------------------------------------------------------------------------
 def test_a_failing_member_among_good_ones(tiltpad, case):
-    folder = case(
-        sweep(
-            "operation%speed_rpm=3000,4000",
-            "integration%max_steps=100000,20",
-            base="&operation duration=0.01 /\n",
-        )
-    )
+    values = ("operation%speed_rpm=3000,4000", "integration%max_steps=100000,20")
+    folder = case(sweep(*values, base="&operation duration=0.01 /\n"))
     stdout, errors = result(tiltpad("case.nml", cwd=folder), status=2)
     assert re.match(r"4 members: 2 done, 2 failed; ", stdout)
     quiet = tiltpad("--quiet", "--jobs", 1, "case.nml", "-o", "Case", cwd=folder)
@@ -364,11 +359,8 @@ def test_a_child_runs_many_members_and_leaves_nothing_open(program, tiltpad, cas
     folder = case(sweep("rotor%mass=2000:2119:1"))
     seen = set()
     limit = (24, resource.getrlimit(resource.RLIMIT_NOFILE)[1])
-    with subprocess.Popen(
-        [program, "--quiet", "--jobs", "2", "case.nml"],
-        cwd=folder,
-        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, limit),
-    ) as process:
+    few = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_NOFILE, limit)}
+    with subprocess.Popen([program, "--quiet", "--jobs", "2", "case.nml"], cwd=folder, **few) as process:
         while process.poll() is None:
             seen.update(children(process))
             time.sleep(0.001)
@@ -480,14 +472,19 @@ def test_nothing_is_printed_twice(tiltpad, case):
 
 
 # ---- what is refused -----------------------------------------------------------------------------
-def refused(tiltpad, folder, *arguments, names=(), status=1):
-    before = sorted(folder.rglob("*"))
-    stdout, errors = result(tiltpad(*arguments, cwd=folder), status=status)
-    assert (stdout, len(errors)) == ("", 1)
-    for name in names:
-        assert name in errors[0]
-    assert sorted(folder.rglob("*")) == before
-    return errors[0]
+@pytest.fixture
+def refused(tiltpad, tmp_path):
+    """refused("case.nml", names=("mass",)): a run in the folder of the case that must be refused."""
+
+    def run(*arguments, names=(), status=1):
+        before = sorted(tmp_path.rglob("*"))
+        done = tiltpad(*arguments, cwd=tmp_path, status=status)
+        assert done.stdout == ""
+        for name in names:
+            assert name in done.stderr
+        assert sorted(tmp_path.rglob("*")) == before
+
+    return run
 
 
 # of the sweep itself: line, what the message must name
@@ -521,10 +518,10 @@ SWEEPS = {
 
 @pytest.mark.parametrize("line", SWEEPS, ids=lambda line: line or "empty")
 @pytest.mark.parametrize("options", [(), ("--check",), ("--count",), ("--member", "1")], ids=" ".join)
-def test_sweep_refused(tiltpad, case, line, options):
+def test_sweep_refused(refused, case, line, options):
     """Whatever is asked for, also where the sweep is not run."""
-    folder = case(sweep(*line.split(", ")) if line else "\n&sweep /\n")
-    refused(tiltpad, folder, "case.nml", *options, names=["case.nml", *SWEEPS[line]])
+    case(sweep(*line.split(", ")) if line else "\n&sweep /\n")
+    refused("case.nml", *options, names=["case.nml", *SWEEPS[line]])
 
 
 @pytest.mark.parametrize("options", [(), ("--check",)], ids=" ".join)
@@ -539,14 +536,15 @@ def test_sweep_refused(tiltpad, case, line, options):
         ("pads%pivot_angle_deg(1)=-90,-80", ["line 3, member 1", "pads%pivot_angle_deg", "subscript"]),
     ],
 )
-def test_a_bad_member_is_named_and_nothing_runs(tiltpad, case, options, line, names):
-    refused(tiltpad, case(sweep(line)), "case.nml", *options, names=names)
+def test_a_bad_member_is_named_and_nothing_runs(refused, case, options, line, names):
+    case(sweep(line))
+    refused("case.nml", *options, names=names)
 
 
-def test_only_the_member_that_runs_must_be_good(tiltpad, case):
+def test_only_the_member_that_runs_must_be_good(tiltpad, refused, case):
     folder = case(sweep("rotor%mass=2000,-1"))
     result(tiltpad("--member", 1, "case.nml", cwd=folder))
-    refused(tiltpad, folder, "--member", 2, "case.nml", names=["line 3, member 2: rotor%mass = -1"])
+    refused("--member", 2, "case.nml", names=["line 3, member 2: rotor%mass = -1"])
 
 
 # command lines: arguments, what the message must name
@@ -576,22 +574,21 @@ LINES = {
 
 
 @pytest.mark.parametrize("key", LINES)
-def test_command_line(tiltpad, case, key):
+def test_command_line(refused, case, key):
     arguments, names = LINES[key]
-    refused(tiltpad, case(sweep("rotor%mass=1000,2000")), "case.nml", *arguments, names=names)
+    case(sweep("rotor%mass=1000,2000"))
+    refused("case.nml", *arguments, names=names)
 
 
 @pytest.mark.parametrize("option", ["--member", "--jobs"])
-def test_a_case_without_a_sweep(tiltpad, case, option):
-    refused(tiltpad, case(QUICK), "case.nml", option, 1, names=["case.nml", "&sweep", option])
+def test_a_case_without_a_sweep(refused, case, option):
+    """With the option's value, and without."""
+    case(QUICK)
+    refused("case.nml", option, 1, names=["case.nml", "&sweep", option])
+    refused("case.nml", option, names=[option, "value"])
 
 
-def test_an_option_without_its_value(tiltpad, case):
-    for option in ("--member", "--jobs"):
-        refused(tiltpad, case(QUICK), "case.nml", option, names=[option, "value"])
-
-
-def test_folder_that_cannot_be(tiltpad, case):
+def test_folder_that_cannot_be(refused, case):
     folder = case(sweep("rotor%mass=1000,2000"))
     (folder / "file").write_text("a file")
     outputs = {"none/runs": "no such file", "file": "not a directory", "file/runs": "not a directory"}
@@ -600,28 +597,19 @@ def test_folder_that_cannot_be(tiltpad, case):
     outputs[300 * "x"] = "too long"
     for output, reason in outputs.items():
         for options in ((), ("--member", "2")):
-            refused(
-                tiltpad,
-                folder,
-                "case.nml",
-                *options,
-                "-o",
-                output,
-                names=["folder", output, reason],
-                status=3,
-            )
+            refused("case.nml", *options, "-o", output, names=["folder", output, reason], status=3)
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root writes everywhere")
-def test_folder_that_is_shut(tiltpad, case):
+def test_folder_that_is_shut(refused, case):
     folder = case(sweep("rotor%mass=1000,2000"))
     (folder / "shut").mkdir(mode=0o500)
-    refused(tiltpad, folder, "case.nml", "-o", "shut", names=["shut", "ermission"], status=3)
+    refused("case.nml", "-o", "shut", names=["shut", "ermission"], status=3)
 
 
-def test_default_folder_is_the_case_itself(tiltpad, tmp_path):
+def test_default_folder_is_the_case_itself(refused, tmp_path):
     (tmp_path / "noend").write_text(sweep("rotor%mass=1000,2000"))
-    refused(tiltpad, tmp_path, "noend", names=["noend"])
+    refused("noend", names=["noend"])
 
 
 # prints the most memory that a command took, kilobytes; a child begins with its parent's
