@@ -498,9 +498,6 @@ contains
       type(error_type), allocatable :: error
       sweep = sweep_of('&sweep'//newline//assignment//'/')
       call sweep%scene(k, scene, error)
-      call expect(allocated(error), 'a bad member: '//assignment)
-      if (.not. allocated(error)) return
-      call expect(error%status == input_error, 'an error of the input')
-      call expect(index(error%message, words) > 0, 'says "'//words//'": '//error%message)
+      call expect_error(error, input_error, words, 'a bad member: '//assignment)
    end subroutine expect_bad
 end program test_sweep
