@@ -46,11 +46,6 @@ int clock_gettime(clockid_t clock, struct timespec *now)
 """
 
 
-def options(overrides):
-    """The words of a command line that set these variables."""
-    return [word for each in overrides for word in ("--set", each)]
-
-
 def wait_for(condition, process=None):
     """Until the condition holds. A process, where one is given, must not end before."""
     end = time.monotonic() + PATIENCE
@@ -125,10 +120,11 @@ def start(program):
     """start(folder, *arguments, **options): the program under way; killed where the test leaves it so."""
     processes = []
 
-    def begin(folder, *arguments, **options):
+    def begin(folder, *arguments, overrides=(), **options):
         own = {"env": os.environ | {"GFORTRAN_UNBUFFERED_PRECONNECTED": "yes"}} | options
         pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
-        processes.append(subprocess.Popen([program, *map(str, arguments)], cwd=folder, **pipes | own))
+        words = [*map(str, arguments), *(word for each in overrides for word in ("--set", each))]
+        processes.append(subprocess.Popen([program, *words], cwd=folder, **pipes | own))
         return processes[-1]
 
     yield begin

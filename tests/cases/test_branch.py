@@ -3,7 +3,7 @@
 import h5py
 import numpy as np
 import pytest
-from conftest import EVERY_STEP, one_error, options, wait_for_checkpoint
+from conftest import EVERY_STEP, one_error, wait_for_checkpoint
 
 #: Its journal loses its stability at the threshold that the task coefficients finds.
 LIGHT = "&rotor mass=200 /\n&operation speed_rpm=14000 /\n"
@@ -69,7 +69,7 @@ def test_the_last_orbit_is_that_of_its_speed(run, tmp_path, text, last, step):
 def test_a_stopped_branch_goes_on_with_the_same_bits(start, tiltpad, run, tmp_path, text, last):
     more = (*SPEED, f"branch%last={last}", "branch%step=10", "branch%max_step=10")
     run(text, *more, name="whole")
-    process = start(tmp_path, "whole.nml", "-q", "-o", "part.h5", *options(more), *EVERY_STEP)
+    process = start(tmp_path, "whole.nml", "-q", "-o", "part.h5", *EVERY_STEP, overrides=more)
     wait_for_checkpoint(tmp_path / "part.h5", process)
     process.terminate()
     one_error(process, 4)

@@ -3,7 +3,7 @@
 import h5py
 import numpy as np
 import pytest
-from conftest import one_error, options, wait_for_line
+from conftest import one_error, wait_for_line
 
 LUGRE = "&friction model='lugre' / &output samples_per_revolution=90 /\n"
 PERIODIC = "case%task='periodic'"
@@ -210,7 +210,7 @@ def test_a_march_that_ends(run):
 
 def stopped_search(start, folder, case, *overrides):
     """What a run says that is stopped behind its equilibrium, while it marches to the orbit."""
-    process = start(folder, case, "-o", "part.h5", *options((PERIODIC, *overrides)))
+    process = start(folder, case, "-o", "part.h5", overrides=(PERIODIC, *overrides))
     wait_for_line(process, "equilibrium")
     process.terminate()
     return one_error(process, 4)

@@ -125,8 +125,7 @@ def test_set_of_a_sweep(tiltpad, case):
     folder = case(sweep("rotor%mass=1:3:1", "rotor%unbalance=0.1,0.2,0.3"))
 
     def count(*overrides):
-        options = [word for override in overrides for word in ("--set", override)]
-        return int(result(tiltpad("--count", "case.nml", *options, cwd=folder))[0])
+        return int(result(tiltpad("--count", "case.nml", overrides=overrides, cwd=folder))[0])
 
     assert count() == 9
     assert count("sweep%order='zip'") == 3

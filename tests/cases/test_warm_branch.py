@@ -1,13 +1,9 @@
 """Branches with warm oil: temperatures, thresholds, agreement with single runs, runaway heat, going on."""
 
-import signal
-import subprocess
-import time
-
 import h5py
 import numpy as np
 import pytest
-from conftest import options
+from conftest import publication, wait_for
 
 WARM = "&film cavitation='none' /\n&oil grade=46 /\n&thermal model='pad' /\n"
 LIGHT = "&rotor mass=200 /\n&operation speed_rpm=13500 /\n" + WARM
@@ -113,19 +109,18 @@ def test_heat_that_runs_away_turns_the_branch_back(run, tmp_path):
         (HEAVY, (*ORBITS, "branch%step=0.1", "branch%max_step=0.1")),
     ],
 )
-def test_a_stopped_branch_goes_on_with_the_same_bits(program, tiltpad, run, tmp_path, case, overrides):
+def test_a_stopped_branch_goes_on_with_the_same_bits(start, tiltpad, run, tmp_path, case, overrides):
     """Stopped after its first checkpoint, and again after the next, unless it ends before."""
     run(case, *overrides, name="whole")
     part = tmp_path / "part.h5"
-    begin = ["whole.nml", "-o", "part.h5", *options((*overrides, "output%checkpoint_seconds=1e-3"))]
+    often = (*overrides, "output%checkpoint_seconds=1e-3")
     ends = []
-    for words in (begin, ["--resume", "part.h5"]):
-        published = part.stat().st_mtime_ns if part.exists() else None
-        with subprocess.Popen([program, *words, "-q"], cwd=tmp_path, stderr=subprocess.PIPE) as process:
-            while process.poll() is None and not (part.exists() and part.stat().st_mtime_ns != published):
-                time.sleep(0.001)
-            process.send_signal(signal.SIGTERM)
-            process.communicate()
+    for words, changes in ((("whole.nml", "-o", "part.h5"), often), (("--resume", "part.h5"), ())):
+        before = publication(part)
+        process = start(tmp_path, *words, "-q", overrides=changes)
+        wait_for(lambda: process.poll() is not None or publication(part) not in (None, before))  # noqa: B023
+        process.terminate()
+        process.communicate()
         ends.append(process.returncode)
     tiltpad("--resume", "part.h5", "-q", cwd=tmp_path, status=0)
     assert 4 in ends

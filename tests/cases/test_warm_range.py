@@ -24,8 +24,8 @@ def sweep(tiltpad, tmp_path):
     (tmp_path / "case.nml").write_text(CASE)
 
     def run(*overrides):
-        options = [word for each in overrides for word in ("--set", each)]
-        done = tiltpad("case.nml", "--quiet", "--overwrite", "--output", "range", *options, cwd=tmp_path)
+        words = ("case.nml", "--quiet", "--overwrite", "--output", "range")
+        done = tiltpad(*words, overrides=overrides, cwd=tmp_path)
         lines = [line for line in done.stderr.splitlines() if "error: member" in line]
         assert done.returncode == (2 if lines else 0)
         return {int(line.split("error: member ")[1].split()[0]): line for line in lines}

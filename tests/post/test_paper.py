@@ -133,8 +133,7 @@ def test_scenes_are_accepted(tiltpad, root):
     for scenes in command.FOLDERS.values():
         assert len({scene.name for scene in scenes}) == len(scenes)
         for scene in scenes:
-            options = [word for each in scene.overrides for word in ("--set", each)]
-            tiltpad("--check", root / scene.case, *options, status=0)
+            tiltpad("--check", root / scene.case, overrides=scene.overrides, status=0)
 
 
 def test_failed_run_is_told(program, tmp_path):
