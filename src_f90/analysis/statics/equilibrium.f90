@@ -1,9 +1,10 @@
 !> Static equilibrium of journal and pads at constant speed: no unbalance, no friction.
 !>
-!> The first search is pseudo-transient continuation (damped_newton) from the best of some positions along the load; where
-!> it fails, from the equilibrium with full films. Where these fail, or find an equilibrium that no motion dwells in, a
-!> wider one follows from all these positions: by small problems of the pads, by Newton's method, damped, and by small
-!> problems of the pads whose equilibria are sought over all their tilts. docs/stability.md counts what each finds.
+!> The first search is pseudo-transient continuation (damped_newton) from the best of some positions along the load;
+!> where it fails, from the equilibrium with full films. Where these fail, or find an equilibrium that no motion dwells
+!> in, a wider one follows from all these positions: by small problems of the pads, by Newton's method, damped, and by
+!> small problems of the pads whose equilibria are sought over all their tilts. docs/stability.md counts what each
+!> finds.
 module equilibrium
    use kinds, only: wp
    use text, only: to_text
@@ -23,9 +24,9 @@ module equilibrium
 
    !> The methods of the wider search, in their order.
    character(len=*), parameter :: methods(*) = [character(len=14) :: 'pads', 'newton', 'pad equilibria']
-   !> Iterations from an equilibrium of quick films to that of the model's own: the 535 of docs/stability.md that succeed
-   !> take 35 at most. Iterations of the first search from a start along the load, after which full films lead to the
-   !> equilibrium of most unloaded pads: of 813 searches that succeed 90 % end within 42.
+   !> Iterations from an equilibrium of quick films to that of the model's own: the 535 of docs/stability.md that
+   !> succeed take 35 at most. Iterations of the first search from a start along the load, after which full films lead
+   !> to the equilibrium of most unloaded pads: of 813 searches that succeed 90 % end within 42.
    integer, parameter :: few = 40, patience = 60
    !> Residual of quick films from which on this is tried.
    real(wp), parameter :: near = 0.1_wp
@@ -100,8 +101,8 @@ contains
       end if
    end subroutine find_isothermal
 
-   !> From the best start along the load; with films that rupture also from the equilibrium with full films: on the way a
-   !> pad may lose its film and with it all stiffness.
+   !> From the best start along the load; with films that rupture also from the equilibrium with full films: on the way
+   !> a pad may lose its film and with it all stiffness.
    subroutine search_first(model, static, y, residual, by_full_films, films_fail, error, give_up)
       type(bearing_model), intent(in) :: model
       type(bearing_model), intent(inout) :: static

@@ -1,6 +1,6 @@
 !> The heat balance as equations beside the balance of forces: what the viscosities of a state lack to those that its
-!> losses and flows lead to, how this changes with positions and viscosities, and which balances are refused. Derivatives
-!> are differences.
+!> losses and flows lead to, how this changes with positions and viscosities, and which balances are refused.
+!> Derivatives are differences.
 module heat_balance_equations
    use kinds, only: wp
    use text, only: to_text

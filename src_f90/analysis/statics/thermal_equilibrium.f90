@@ -1,6 +1,7 @@
 !> Thermal equilibrium: the bearing comes to rest with some viscosities, a heat balance of its losses and flows there
 !> gives others, until they agree. Broyden's method finds them: Newton's with the differences of
-!> heat_balance_equations takes 1.3 times the time on input/examples/warm_five_pads.nml, and 1.8 times on warm_paper.nml.
+!> heat_balance_equations takes 1.3 times the time on input/examples/warm_five_pads.nml, and 1.8 times on
+!> warm_paper.nml.
 module thermal_equilibrium
    use kinds, only: wp
    use text, only: to_text
@@ -83,8 +84,9 @@ contains
       call check_heat(model, balance, error, kept)
       if (allocated(error)) return
       associate (lack => maxval(abs(balance%lack)))
-         if (.not. lack <= largest_leap) call raise(error, numerics_error, 'the temperatures of the oil do not settle: ' &
-            & //'after '//to_text(most_rounds)//' rounds its viscosity still changes by '//to_text(100*lack)//' %')
+         if (.not. lack <= largest_leap) call raise(error, numerics_error, 'the temperatures of the oil do not ' &
+            & //'settle: after '//to_text(most_rounds)//' rounds its viscosity still changes by ' &
+            & //to_text(100*lack)//' %')
       end associate
    end subroutine come_to_warm_rest
 
