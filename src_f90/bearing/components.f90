@@ -8,7 +8,7 @@ module components
    use modal_film, only: new_modal_film
    use film_resolution, only: enough_cells, enough_modes, usual_error
    use direct_film, only: direct_film_type, new_direct_film
-   use table_film, only: new_table_film, has_tables
+   use table_film, only: new_table_film, new_converged_film, has_tables
    use film_losses, only: film_losses_type, new_film_losses
    use sor_film, only: new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
    use contact_law, only: contact_law_type, make_contact_law
@@ -19,18 +19,27 @@ module components
    use tilting_pad, only: tilting_pad_type
    implicit none (type, external)
    private
-   public :: make_film, new_losses, make_law, make_contact, make_friction, new_asperities, new_pads
+   public :: make_film, march_films, static_films, converged_films, quick_films
+   public :: new_losses, make_law, make_contact, make_friction, new_asperities, new_pads
+
+   !> What films are for: a march; the search for an equilibrium, which goes far and stays nowhere; what is linearised
+   !> at a single state, with converged films; long ways of which only the end counts.
+   integer, parameter :: march_films = 1, static_films = 2, converged_films = 3, quick_films = 4
 
    !> Finite volumes along the arc and along half the width where the input leaves them to the solver, by the
    !> errors in docs/benchmarks.md.
    integer, parameter :: sor_volumes(2) = [60, 15], rupture_volumes(2) = [80, 8]
-   !> The films of 'fine', which is no word of the input: for what is linearised at a single state. Errors of whole
-   !> films, of clipped ones and of ruptured ones; volumes where no table knows the film.
-   real(wp), parameter :: fine_whole_error = 4e-7_wp, fine_error = 1e-6_wp, fine_ruptured_error = 1.3e-5_wp
-   integer, parameter :: fine_volumes(2) = [160, 16]
-   !> Error of those of 'loose', which is no word of the input either: for ways that are long and of which only the end
-   !> counts.
-   real(wp), parameter :: loose_error = 1e-2_wp
+   !> Of converged films, errors of full films, of clipped ones and of cavitated ones (test_film_accuracy); volumes
+   !> where no table knows the film.
+   real(wp), parameter :: converged_full_error = 4e-7_wp, converged_error = 1e-6_wp, &
+      & converged_cavitated_error = 1.3e-5_wp
+   integer, parameter :: converged_volumes(2) = [160, 16]
+   !> Error of quick films.
+   real(wp), parameter :: quick_error = 1e-2_wp
+   !> Residual and sweeps of over-relaxation in statics: a tenth of the unbalanced force that an equilibrium may leave
+   !> (damped_newton).
+   real(wp), parameter :: static_residual = 1e-9_wp
+   integer, parameter :: static_sweeps = 100000
    !> So many volumes serve an arc of this length, rad, and shorter ones.
    real(wp), parameter :: usual_arc = 120*degree
    !> Residual of over-relaxation over the relative tolerance of the march, at most, and what rounding leaves: films
@@ -41,64 +50,95 @@ contains
 
    !> The film solver of all pads. No function: gfortran never frees the result of one whose type is chosen within,
    !> and Python makes a solver for every instant.
-   subroutine make_film(scene, film)
+   subroutine make_film(scene, accuracy, film)
       type(scene_type), intent(in) :: scene
+      !> One of the four above.
+      integer, intent(in) :: accuracy
       class(film_solver_type), allocatable, intent(out) :: film
       type(pad_gap_type) :: gaps(scene%pad_count())
-      type(direct_film_type), allocatable :: single(:)
-      type(sor_options) :: options
-      integer :: cavitation, cells, modes, volumes(2), i
-      real(wp), allocatable :: error, whole_error
-      real(wp) :: tolerance
+      integer :: cells, modes, volumes(2)
+      logical :: reynolds, gumbel
+      real(wp), allocatable :: error
       gaps = new_gaps(scene)
       associate (f => scene%film)
-         cavitation = cavitation_of(f%cavitation)
+         reynolds = f%cavitation == 'reynolds'
+         gumbel = f%cavitation == 'gumbel'
          cells = merge(f%circumferential_cells, enough_cells(gaps), f%circumferential_cells > 0)
          modes = merge(f%axial_modes, enough_modes(gaps), f%axial_modes > 0)
          ! what the input sets stays the same for every film
-         if (f%circumferential_cells + f%axial_modes == 0) error = merge(loose_error, usual_error, f%solver == 'loose')
-         if (f%solver == 'fine') error = fine_error
-         volumes = merge(sor_volumes, rupture_volumes, f%solver == 'sor')
-         if (f%solver == 'fine' .and. .not. all(has_tables(gaps))) volumes = fine_volumes
-         volumes(1) = volumes(1)*max(1, nint(maxval(gaps%arc())/usual_arc))
-         associate (given => [f%circumferential_cells, f%axial_cells])
-            volumes = merge(given, volumes, given > 0)
-         end associate
+         if (f%circumferential_cells + f%axial_modes == 0) error = merge(quick_error, usual_error, &
+            & accuracy == quick_films)
+         volumes = volumes_of(scene, gaps, rupture_volumes)
+         if (accuracy == quick_films) then
+            film = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
+            return
+         end if
+         select case (f%solver)
+         case ('sor')
+            film = new_sor_film(gaps, sor_settings(scene, gaps, accuracy))
+         case ('modal')
+            film = new_modal_film(gaps, cells, modes, gumbel, error)
+         case ('direct')
+            film = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
+         case default
+            if (accuracy == march_films) then
+               ! cavitated films by volumes are dear, by modes they are cheap
+               associate (usual => merge(1, 4, gumbel)*scene%integration%relative_tolerance)
+                  film = new_table_film(gaps, single_films(), reynolds .or. gumbel, gumbel, &
+                     & merge(f%table_tolerance, usual, f%table_tolerance > 0))
+               end associate
+            else if (accuracy == converged_films) then
+               error = converged_error
+               if (.not. all(has_tables(gaps))) volumes = volumes_of(scene, gaps, converged_volumes)
+               if (f%table_tolerance > 0) then
+                  film = new_converged_film(gaps, single_films(), reynolds .or. gumbel, gumbel, f%table_tolerance)
+               else
+                  film = new_converged_film(gaps, single_films(), reynolds .or. gumbel, gumbel, &
+                     & merge(converged_error, converged_cavitated_error, gumbel), converged_full_error)
+               end if
+            else
+               film = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
+            end if
+         end select
+      end associate
+   contains
+      !> Of every pad the solver for what tables leave. One by one: gfortran never frees the elements of a list of them.
+      function single_films() result(single)
+         type(direct_film_type), allocatable :: single(:)
+         integer :: i
+         allocate (single(size(gaps)))
+         do i = 1, size(gaps)
+            single(i) = new_direct_film(gaps(i:i), cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
+         end do
+      end function single_films
+   end subroutine make_film
+
+   !> Volumes along the longest arc and along half the width, from those of a usual arc, unless the input names them.
+   pure function volumes_of(scene, gaps, usual) result(volumes)
+      type(scene_type), intent(in) :: scene
+      type(pad_gap_type), intent(in) :: gaps(:)
+      integer, intent(in) :: usual(2)
+      integer :: volumes(2)
+      associate (given => [scene%film%circumferential_cells, scene%film%axial_cells])
+         volumes = merge(given, usual*[max(1, nint(maxval(gaps%arc())/usual_arc)), 1], given > 0)
+      end associate
+   end function volumes_of
+
+   pure type(sor_options) function sor_settings(scene, gaps, accuracy) result(options)
+      type(scene_type), intent(in) :: scene
+      type(pad_gap_type), intent(in) :: gaps(:)
+      integer, intent(in) :: accuracy
+      integer :: volumes(2)
+      volumes = volumes_of(scene, gaps, sor_volumes)
+      associate (f => scene%film)
          options = sor_options(volumes(1), volumes(2), f%relaxation, &
             & min(f%tolerance, max(least_residual, sor_tolerance*scene%integration%relative_tolerance)), &
-            & f%max_sweeps, cavitation)
-         if (f%solver == 'sor') then
-            film = new_sor_film(gaps, options)
-         else if (f%solver == 'modal') then
-            film = new_modal_film(gaps, cells, modes, cavitation == cavitation_gumbel, error)
-         else
-            associate (reynolds => cavitation == cavitation_reynolds, gumbel => cavitation == cavitation_gumbel)
-               if (f%solver == 'direct' .or. f%solver == 'loose') then
-                  film = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
-               else
-                  ! one by one: gfortran never frees the elements of a list of them
-                  allocate (single(size(gaps)))
-                  do i = 1, size(gaps)
-                     single(i) = &
-                        & new_direct_film(gaps(i:i), cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
-                  end do
-                  ! ruptured films by volumes are dear, by modes they are cheap
-                  tolerance = merge(1, 4, gumbel)*scene%integration%relative_tolerance
-                  if (f%solver == 'fine') tolerance = merge(fine_error, fine_ruptured_error, gumbel)
-                  if (f%table_tolerance > 0) then
-                     tolerance = f%table_tolerance
-                  else if (f%solver == 'fine') then
-                     whole_error = fine_whole_error
-                  end if
-                  film = new_table_film(gaps, single, reynolds .or. gumbel, gumbel, tolerance, f%solver == 'fine', &
-                     & whole_error)
-               end if
-            end associate
-         end if
-         film%tolerance = options%tolerance
-         film%max_sweeps = options%max_sweeps
+            & f%max_sweeps, cavitation_of(f%cavitation))
       end associate
-   end subroutine make_film
+      if (accuracy == march_films) return
+      options%tolerance = min(options%tolerance, static_residual)
+      options%max_sweeps = max(options%max_sweeps, static_sweeps)
+   end function sor_settings
 
    !> The number by which films know a condition of cavitation.
    pure integer function cavitation_of(name) result(cavitation)

@@ -20,13 +20,11 @@ contains
    end function admitted
 
    !> Why a pad's state is not admitted.
-   function why_not(pad, number, state, film, max_sweeps) result(reason)
+   function why_not(pad, number, state, film) result(reason)
       type(tilting_pad_type), intent(in) :: pad
       integer, intent(in) :: number
       type(pad_state), intent(in) :: state
       type(film_response), intent(in) :: film
-      !> Those of a film that is solved by iteration.
-      integer, intent(in) :: max_sweeps
       character(len=:), allocatable :: reason, thickness
       thickness = ': thickness '//to_text(film%min_film_thickness)//' m'
       if (.not. abs(state%tilt) < pad%largest_tilt) then
@@ -38,7 +36,7 @@ contains
             & //'other volumes (film%circumferential_cells, film%axial_cells)'
       else if (film%status == film_not_converged) then
          reason = 'the film of pad '//to_text(number)//' did not converge: residual '//to_text(film%residual) &
-            & //' after film%max_sweeps = '//to_text(max_sweeps)
+            & //' after film%max_sweeps = '//to_text(film%max_sweeps)
       else
          reason = 'the film force of pad '//to_text(number)//' is not finite'//thickness
       end if

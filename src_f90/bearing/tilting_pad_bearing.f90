@@ -14,7 +14,7 @@ module tilting_pad_bearing
    use kinematics, only: pad_state, pad_frame, columns
    use tilting_pad, only: tilting_pad_type, pad_loads, pad_derivatives
    use pad_admission, only: admitted, why_not
-   use components, only: make_film, make_contact
+   use components, only: make_film, make_contact, march_films, static_films
    use bearing_parts, only: bearing_parts_type
    implicit none (type, external)
    private
@@ -42,6 +42,8 @@ module tilting_pad_bearing
       !> False: the pivots slide freely, whatever the law.
       logical :: rubs = .true.
       class(film_solver_type), allocatable, private :: film
+      !> What its films are for (components).
+      integer, private :: accuracy = march_films
       type(contact_table_type), private :: contact
       !> Of the state evaluated last: speed, rad/s, and oil of the pads; frames and motions.
       real(wp), private :: speed = 0
@@ -67,7 +69,7 @@ module tilting_pad_bearing
       procedure :: films_rupture
       procedure :: films_converge
       procedure :: set_rupture
-      procedure :: set_accuracy
+      procedure :: use_in_statics
       procedure, private :: evaluate_films
       procedure, private :: set_loads
    end type tilting_pad_bearing_type
@@ -80,12 +82,14 @@ module tilting_pad_bearing
 
 contains
 
-   !> The bearing of a valid scene.
-   function new_tilting_pad_bearing(scene) result(bearing)
+   !> The bearing of a valid scene with films for a march or, as components has it, for something else.
+   function new_tilting_pad_bearing(scene, accuracy) result(bearing)
       type(scene_type), intent(in) :: scene
+      integer, intent(in), optional :: accuracy
       type(tilting_pad_bearing_type) :: bearing
       call bearing%set_parts(scene)
-      call make_film(scene, bearing%film)
+      if (present(accuracy)) bearing%accuracy = accuracy
+      call make_film(scene, bearing%accuracy, bearing%film)
       call make_contact(scene, bearing%contact)
       associate (n => scene%pad_count())
          allocate (bearing%loads(n), bearing%derivatives(n), bearing%frame(n), bearing%motion(n), &
@@ -99,18 +103,33 @@ contains
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(scene_type), intent(in) :: scene
       logical, intent(in) :: pivots_differ
-      class(film_solver_type), allocatable :: film
       type(tilting_pad_type) :: before(size(self%pads))
       before = self%pads
       call self%set_parts(scene)
       call self%film%forget()
-      if (any(before%gap%differs(self%pads%gap))) then
-         call make_film(scene, film)
-         call film%take_over(self%film)
-         call move_alloc(film, self%film)
-      end if
+      if (any(before%gap%differs(self%pads%gap))) call make_films_anew(self, scene)
       if (pivots_differ) call make_contact(scene, self%contact)
    end subroutine adopt
+
+   !> Has films of a march solved where they are asked for, closely, from here on.
+   subroutine use_in_statics(self, scene)
+      class(tilting_pad_bearing_type), intent(inout) :: self
+      type(scene_type), intent(in) :: scene
+      if (self%accuracy /= march_films) return
+      self%accuracy = static_films
+      call make_films_anew(self, scene)
+   end subroutine use_in_statics
+
+   !> Another film solver that goes on in the place of the present one.
+   subroutine make_films_anew(self, scene)
+      class(tilting_pad_bearing_type), intent(inout) :: self
+      type(scene_type), intent(in) :: scene
+      class(film_solver_type), allocatable :: film
+      call make_film(scene, self%accuracy, film)
+      film%counters = self%film%counters
+      call film%set_rupture(self%film%ruptures())
+      call move_alloc(film, self%film)
+   end subroutine make_films_anew
 
    !> Sets the loads in a state, with the oil of each pad, the speed in rad/s, and their derivatives where they are
    !> wanted. Refuses a state whose film is closed or did not converge, or whose pad has turned over: then `refusal`
@@ -144,7 +163,7 @@ contains
          if (skipped(i)) cycle
          ok = admitted(self%pads(i), pads(i), self%response(i))
          if (ok) cycle
-         refusal = why_not(self%pads(i), i, pads(i), self%response(i), self%film%max_sweeps)
+         refusal = why_not(self%pads(i), i, pads(i), self%response(i))
          return
       end do
       do i = 1, size(self%pads)
@@ -328,12 +347,4 @@ contains
       logical, intent(in) :: allowed
       call self%film%set_rupture(allowed)
    end subroutine set_rupture
-
-   !> Makes iterative film solutions at least so close, with as many sweeps as this at least.
-   subroutine set_accuracy(self, tolerance, max_sweeps)
-      class(tilting_pad_bearing_type), intent(inout) :: self
-      real(wp), intent(in) :: tolerance
-      integer, intent(in) :: max_sweeps
-      call self%film%set_accuracy(tolerance, max_sweeps)
-   end subroutine set_accuracy
 end module tilting_pad_bearing

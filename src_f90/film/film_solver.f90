@@ -30,8 +30,9 @@ module film_solver
       real(wp) :: derivatives(2, 4) = 0
       !> Minimum and maximum pressure, Pa (a solver may leave them to `take_pressures`); minimum film thickness, m.
       real(wp) :: min_pressure = 0, max_pressure = 0, min_film_thickness = 0
-      !> Relative residual of an iterative solution; 0 for a direct one.
+      !> Relative residual of an iterative solution, and the sweeps after which it is given up; 0 for a direct one.
       real(wp) :: residual = 0
+      integer :: max_sweeps = 0
    end type film_response
 
    !> Work done since the solver was made.
@@ -48,19 +49,13 @@ module film_solver
 
    type, abstract :: film_solver_type
       type(film_counters) :: counters
-      !> An iterative solution ends at this relative residual, or has failed after so many sweeps. Direct solvers
-      !> do without.
-      real(wp) :: tolerance = 0
-      integer :: max_sweeps = 0
    contains
       procedure(evaluate_film), deferred :: evaluate
       procedure(evaluate_field), deferred :: field
       procedure(can_rupture), deferred :: ruptures
       procedure(choose_rupture), deferred :: set_rupture
-      procedure :: set_accuracy
       procedure :: forget
       procedure :: take_pressures
-      procedure, non_overridable :: take_over
    end type film_solver_type
 
    abstract interface
@@ -106,15 +101,6 @@ module film_solver
 
 contains
 
-   !> Makes solutions at least so close: an iterative one ends at this residual, after as many sweeps as this at least.
-   subroutine set_accuracy(self, tolerance, max_sweeps)
-      class(film_solver_type), intent(inout) :: self
-      real(wp), intent(in) :: tolerance
-      integer, intent(in) :: max_sweeps
-      self%tolerance = min(self%tolerance, tolerance)
-      self%max_sweeps = max(self%max_sweeps, max_sweeps)
-   end subroutine set_accuracy
-
    !> Forgets the films that were solved last, from which the next ones would start: what is solved then is the same to
    !> the last bit, wherever one comes from.
    pure subroutine forget(self)
@@ -130,14 +116,4 @@ contains
       real(wp), intent(in) :: speed
       type(film_response), intent(inout) :: response(:)
    end subroutine take_pressures
-
-   !> Goes on in the place of another solver of the same kind, for films that differ in numbers.
-   subroutine take_over(self, other)
-      class(film_solver_type), intent(inout) :: self
-      class(film_solver_type), intent(in) :: other
-      self%counters = other%counters
-      self%tolerance = other%tolerance
-      self%max_sweeps = other%max_sweeps
-      call self%set_rupture(other%ruptures())
-   end subroutine take_over
 end module film_solver

@@ -66,14 +66,16 @@ module equations_of_motion
 
 contains
 
-   !> The model of a valid scene, at its operating point.
-   function new_bearing_model(scene) result(model)
+   !> The model of a valid scene, at its operating point, with films for a march or, as components has it, for something
+   !> else.
+   function new_bearing_model(scene, accuracy) result(model)
       type(scene_type), intent(in) :: scene
+      integer, intent(in), optional :: accuracy
       type(bearing_model) :: model
       integer :: n
       n = scene%pad_count()
       model%scene = scene
-      model%bearing = new_tilting_pad_bearing(scene)
+      model%bearing = new_tilting_pad_bearing(scene, accuracy)
       model%oil = spread(film_oil(reference_viscosity(scene)), 1, n)
       model%rotor%mass = scene%rotor%mass
       model%layout = new_state_layout(model%rotor%states, n, scene%tilting(), scene%tilting_radial(), &

@@ -9,7 +9,7 @@ program test_fixed_pads
    use force_balance, only: force_derivatives
    use film_solver, only: film_solver_type, film_motion, film_response
    use pad_gap, only: pad_gap_type
-   use components, only: make_film
+   use components, only: make_film, march_films
    use paper_bearing, only: paper_oil
    use random_films, only: film_state, volumes_type, new_volumes, extrapolated, shaft_speed
    use rigid_journal, only: journal_motion
@@ -323,7 +323,7 @@ contains
          scene%film%circumferential_cells = finer*80*max(1, nint(scene%pads%arc_deg(1)/120))
          scene%film%axial_cells = finer*8
       end if
-      call make_film(scene, film)
+      call make_film(scene, march_films, film)
       associate (b => scene%bearing, arc => scene%pads%arc_deg(1)*degree)
          surface = b%machined_clearance*shaft_speed
          state%gap = pad_gap_type(b%journal_radius, b%machined_clearance, b%axial_length, 0.5_wp*arc, 0.5_wp*arc, &

@@ -7,6 +7,7 @@ program test_periodic_orbits
    use scene, only: scene_type
    use marching, only: march_options
    use cvode_integrator, only: integrator_type
+   use components, only: converged_films
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use force_balance, only: force_derivatives, masses
@@ -46,7 +47,6 @@ contains
       scene%pads%motion = motion
       scene%friction%model = friction
       scene%film%cavitation = 'none'
-      scene%film%solver = 'fine'
    end function paper
 
    !> The orbit that the motion from the equilibrium leads to.
@@ -58,7 +58,7 @@ contains
       type(equilibrium_type) :: static
       type(march_options) :: options
       type(error_type), allocatable :: error
-      model = new_bearing_model(scene)
+      model = new_bearing_model(scene, converged_films)
       call find_equilibrium(model, static, error)
       if (.not. allocated(error)) then
          options%relative_tolerance = tolerance

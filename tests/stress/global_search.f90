@@ -19,7 +19,7 @@ program global_search
    use two_equations, only: solved
    use lapack, only: dgesv
    use film_solver, only: film_solver_type, film_motion, film_response, film_ok
-   use components, only: make_film
+   use components, only: make_film, march_films
    use tilting_pad, only: tilting_pad_type
    use operating_point, only: operating_point_type
    use equations_of_motion, only: bearing_model, new_bearing_model
@@ -139,7 +139,7 @@ contains
       shapes%pads%arc_deg = scene%pads%arc_deg(first)
       shapes%pads%pivot_ratio = scene%pads%pivot_ratio(first)
       shapes%pads%pivot_distance = scene%pads%pivot_distance(first)
-      call make_film(shapes, film)
+      call make_film(shapes, march_films, film)
       allocate (tables(size(first)), motion(size(first)), response(size(first)))
       do s = 1, size(first)
          call set_places(model, first(s), tables(s))

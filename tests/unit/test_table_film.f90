@@ -33,7 +33,6 @@ program test_table_film
    if (runs('many_pads')) call many_pads()
    if (runs('closed')) call closed()
    if (runs('set_rupture')) call set_rupture()
-   if (runs('set_accuracy')) call set_accuracy()
    if (runs('pressures')) call pressures()
    call report()
 
@@ -446,27 +445,6 @@ contains
       call whole%evaluate([motion], [paper_oil], speed, .true., found)
       call expect_same_bits(found(1), expected(1), 'made without rupture')
    end subroutine set_rupture
-
-   !> Who asks for more accuracy gets solved films.
-   subroutine set_accuracy()
-      type(table_film_type) :: film
-      type(direct_film_type) :: exact
-      type(film_response) :: found(1), expected(1)
-      type(film_motion) :: motion
-      motion = loaded_motion()
-      film = tables([paper_pad()], reynolds)
-      exact = solver(paper_pad(), reynolds)
-      call film%evaluate([motion], [paper_oil], speed, .true., found)
-      call expect(film%counters%looked_up == 1, 'looked up')
-      call film%set_accuracy(1e-9_wp, 100)
-      call film%evaluate([motion], [paper_oil], speed, .true., found)
-      call exact%evaluate([motion], [paper_oil], speed, .true., expected)
-      call expect_same_bits(found(1), expected(1), 'solved')
-      call film%take_pressures([motion], [paper_oil], speed, found)
-      call expect(.not. abs(found(1)%max_pressure - expected(1)%max_pressure) > 0, 'with its pressures')
-      call expect(film%counters%looked_up == 1, 'not looked up')
-      call expect(film%counters%modal + film%counters%volumes == 1, 'counted as solved')
-   end subroutine set_accuracy
 
    !> Highest and lowest pressures in the middle plane against fine modes at 400 angles, over the highest of the film
    !> that is squeezed: within what a curve through 12 points along the arc tells.

@@ -4,12 +4,13 @@ module static_model
    use kinds, only: wp
    use scene, only: scene_type
    use operating_point, only: operating_point_type
+   use components, only: converged_films, quick_films
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_frame, pad_state
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
    use errors, only: error_type, stopped, asked_to_stop
-   use damped_newton, only: follow_motion, residual_limit, newtons
+   use damped_newton, only: follow_motion, newtons
    use small_vibrations, only: stability_type
    implicit none (type, external)
    private
@@ -30,10 +31,6 @@ module static_model
       character(len=:), allocatable :: search
    end type equilibrium_type
 
-   !> Accuracy of films that are solved by iteration: below the residual limit.
-   real(wp), parameter :: film_tolerance = 0.1_wp*residual_limit
-   integer, parameter :: film_sweeps = 100000
-
    !> Unbalanced force over the reference force that leaps of ruptured films may leave.
    real(wp), parameter :: largest_leap = 1e-5_wp
 
@@ -48,13 +45,19 @@ contains
       type(bearing_model), intent(in) :: model
       logical, intent(in) :: rupture
       type(bearing_model), intent(out) :: static
+      static = model
+      call stand_still(static, rupture)
+      call static%bearing%use_in_statics(static%scene)
+   end subroutine make_static
+
+   subroutine stand_still(model, rupture)
+      type(bearing_model), intent(inout) :: model
+      logical, intent(in) :: rupture
       type(operating_point_type) :: point
       point = model%point%static()
       point%rupture = rupture
-      static = model
-      call static%set_point(point)
-      call static%bearing%set_accuracy(film_tolerance, film_sweeps)
-   end subroutine make_static
+      call model%set_point(point)
+   end subroutine stand_still
 
    !> A static model of a scene with films solved loosely: quick, and nearly the scene's.
    subroutine make_quick(scene, viscosity, rupture, quick)
@@ -63,10 +66,8 @@ contains
       real(wp), intent(in) :: viscosity(:)
       logical, intent(in) :: rupture
       type(bearing_model), intent(out) :: quick
-      type(scene_type) :: changed
-      changed = scene
-      changed%film%solver = 'loose'
-      call make_static(new_bearing_model(changed), rupture, quick)
+      quick = new_bearing_model(scene, quick_films)
+      call stand_still(quick, rupture)
       quick%oil%viscosity = viscosity
    end subroutine make_quick
 
@@ -74,10 +75,8 @@ contains
    subroutine make_fine(model, fine)
       type(bearing_model), intent(in) :: model
       type(bearing_model), intent(out) :: fine
-      type(scene_type) :: scene
-      scene = model%scene
-      if (scene%film%solver == 'auto') scene%film%solver = 'fine'
-      call make_static(new_bearing_model(scene), model%point%rupture, fine)
+      fine = new_bearing_model(model%scene, converged_films)
+      call stand_still(fine, model%point%rupture)
    end subroutine make_fine
 
    !> Brings a state that is nearly at rest to rest by Newton's method. Volumes of ruptured films make their force leap

@@ -6,10 +6,11 @@
 !> middle differs too much from what its corners say. The film of a node is solved on its own; so a cell is the same,
 !> whatever came before.
 module rupture_table
-   use kinds, only: wp, i8
+   use kinds, only: wp
    use clock, only: wall_clock
-   use unit_pad, only: unit_pad_type, thickness_scale
-   use ruptured_drive, only: ruptured_drive_type, drive_type, new_ruptured_drive, least_tolerance
+   use unit_pad, only: unit_pad_type
+   use ruptured_drive, only: least_tolerance
+   use cavitated_film, only: cavitated_film_type, solved_cavitated_film_type, node_type, new_solved_cavitated_film
    use octaves, only: interval, lower_end
    use cell_index, only: cell_index_type, cell_key
    use cubic_patch, only: lanes, terms, corner_data, corners, cubic_transform, evaluate_cubic
@@ -19,26 +20,12 @@ module rupture_table
 
    !> Cells that are not cut are half an octave long in the thicknesses, and 1/8 in T; they may be cut so often.
    integer, parameter :: octave_level = 1, parts = 8, deepest = 3
-   !> Film thickness over the clearance above which forces matter less, and are no longer measured by themselves.
-   real(wp), parameter :: thick_film = 1.0_wp
    !> What a cell that is not cut any more may err by: as much as the solver that would stand in for it.
    real(wp), parameter :: error_of_solver = 1e-3_wp
    !> Most cells, and most nodes, unless told otherwise.
    integer, parameter :: usual_most = 20000
-   !> Films that are remembered: of a state of all pads.
-   integer, parameter :: memory = 24
    !> How much an error of the slopes at a cell's middle, times its size, counts.
    real(wp), parameter :: share_of_slopes = 0.15_wp
-
-   !> Functions: the two components of d, the highest pressure of the whole film driven by v over that of the ruptured
-   !> one, and 0. Their values, and derivatives over both thicknesses and T, (function, value or derivative).
-   type :: node_type
-      real(wp) :: data(lanes, corner_data) = 0
-      !> Error of the force over that of the film that is just whole, per error of d.
-      real(wp) :: weight(2, 2) = 0
-      !> Whether the film is open and was solved.
-      logical :: ok = .false.
-   end type node_type
 
    type :: cell_type
       real(wp) :: lower(3), upper(3), per_size(3)
@@ -47,16 +34,10 @@ module rupture_table
       real(wp) :: coefficients(lanes, terms)
    end type cell_type
 
-   type :: rupture_table_type
+   type, extends(cavitated_film_type) :: rupture_table_type
       private
-      type(unit_pad_type) :: pad
-      type(ruptured_drive_type) :: drive
-      !> Whether no cell is built, and every film is solved.
-      logical :: solves = .false.
-      !> The films solved last, one after the other, and where; for `solves`.
-      type(node_type), allocatable :: remembered(:)
-      real(wp), allocatable :: remembered_at(:, :)
-      integer :: remember_next = 0
+      !> What the table is built from.
+      type(solved_cavitated_film_type) :: films
       !> Error of the force over that of the film that is just whole, T = 0.
       real(wp) :: tolerance
       !> Terms of a cubic from the data at its corners, once it is needed.
@@ -67,37 +48,27 @@ module rupture_table
       !> Most cells, and most nodes: when either are used up all are forgotten. Cells and nodes in use.
       integer :: most = usual_most
       integer :: used_cells = 0, used_nodes = 0
-      !> Cells and nodes built ever, and the time it took, s.
-      integer(i8), public :: built_cells = 0, built_nodes = 0
-      real(wp), public :: seconds = 0
    contains
       procedure :: look_up
       procedure, private :: find_cell
       procedure, private :: build
       procedure, private :: find_node
-      procedure, private :: solved_node
-      procedure, private :: solve_once
    end type rupture_table_type
 
 contains
 
    !> An empty table for a pad, with the condition of Reynolds or Guembel: forces to a tolerance, over that at T = 0.
-   !> At least the corners and the middle of a cell must find room in it. With `solves` it stays empty.
-   function new_rupture_table(pad, gumbel, tolerance, most, solves) result(table)
+   !> At least the corners and the middle of a cell must find room in it.
+   function new_rupture_table(pad, gumbel, tolerance, most) result(table)
       type(unit_pad_type), intent(in) :: pad
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: tolerance
       integer, intent(in), optional :: most
-      logical, intent(in), optional :: solves
       type(rupture_table_type) :: table
-      table%pad = pad
       ! beyond what the nodes keep to, cells would be cut for nothing
       table%tolerance = max(tolerance, least_tolerance)
-      table%drive = new_ruptured_drive(pad, gumbel, table%tolerance)
+      table%films = new_solved_cavitated_film(pad, gumbel, table%tolerance)
       if (present(most)) table%most = max(most, corners + 1)
-      if (present(solves)) table%solves = solves
-      if (table%solves) allocate (table%remembered(memory), table%remembered_at(3, memory))
-      if (table%solves) table%remembered_at = huge(1.0_wp)
    end function new_rupture_table
 
    !> The functions and, if they are wanted, their derivatives over both thicknesses and T, (function, axis), for an
@@ -110,17 +81,9 @@ contains
       integer, intent(inout) :: last
       real(wp), intent(out) :: value(lanes), slope(lanes, 3)
       logical, intent(out) :: good
-      type(node_type) :: node
       real(wp) :: place(3)
       integer :: axis
       place = [edges, t]
-      if (self%solves) then
-         call self%solve_once(place, node)
-         value = node%data(:, 1)
-         slope = node%data(:, 2:)
-         good = node%ok
-         return
-      end if
       if (.not. holds(self, last, place)) call self%find_cell(place, last)
       associate (cell => self%cells(last))
          good = cell%good
@@ -130,24 +93,6 @@ contains
          end do
       end associate
    end subroutine look_up
-
-   !> The node at a place, from memory if it is among the last that were solved: a state is often evaluated again, for
-   !> its derivatives.
-   subroutine solve_once(self, place, node)
-      class(rupture_table_type), intent(inout) :: self
-      real(wp), intent(in) :: place(3)
-      type(node_type), intent(out) :: node
-      integer :: i
-      do i = 1, size(self%remembered)
-         if (any(abs(self%remembered_at(:, i) - place) > 0)) cycle
-         node = self%remembered(i)
-         return
-      end do
-      node = self%solved_node(place(:2), place(3))
-      self%remember_next = modulo(self%remember_next, size(self%remembered)) + 1
-      self%remembered(self%remember_next) = node
-      self%remembered_at(:, self%remember_next) = place
-   end subroutine solve_once
 
    !> True where a cell of this number holds this place and is not cut.
    pure logical function holds(self, number, place)
@@ -264,39 +209,12 @@ contains
             call move_alloc(more, self%nodes)
          end if
          self%used_nodes = self%used_nodes + 1
-         node = self%solved_node(lower_end(at(:2), octave_level + deepest + 1), &
-            & at(3)/real(parts*2**(deepest + 1), wp))
+         call self%films%solve(lower_end(at(:2), octave_level + deepest + 1), at(3)/real(parts*2**(deepest + 1), wp), &
+            & node)
+         self%built_nodes = self%films%built_nodes
          self%nodes(self%used_nodes) = node
          call self%node_index%add(key, self%used_nodes)
       end associate
    end subroutine find_node
 
-   !> The functions at a node.
-   type(node_type) function solved_node(self, edges, t) result(node)
-      class(rupture_table_type), intent(inout) :: self
-      real(wp), intent(in) :: edges(2), t
-      type(drive_type) :: drive
-      real(wp) :: w(2)
-      node%ok = .true.
-      ! whole
-      if (.not. t > 0) then
-         node%data(3, 1) = 1
-         return
-      end if
-      associate (tangent => self%pad%tangent)
-         w = [1.0_wp, tangent*(1 - 2*t)]
-         ! at T = 1 nothing is left of the film; as it goes to nothing smoothly, only w changes
-         if (t < 1) then
-            self%built_nodes = self%built_nodes + 1
-            drive = self%drive%at(edges, w(2))
-            node%ok = drive%ok
-            node%data(3, 1) = drive%pressure_ratio
-            node%weight = drive%weight*min(1.0_wp, thickness_scale(edges(1), edges(2)) &
-               & /thickness_scale(thick_film, thick_film))
-         end if
-         node%data(:2, 1) = drive%value - w
-         node%data(:2, 2:3) = drive%slopes(:, :2)
-         node%data(:2, 4) = -2*tangent*(drive%slopes(:, 3) - [0.0_wp, 1.0_wp])
-      end associate
-   end function solved_node
 end module rupture_table

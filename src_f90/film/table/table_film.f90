@@ -9,12 +9,14 @@ module table_film
    use pad_gap, only: pad_gap_type
    use direct_film, only: direct_film_type
    use unit_pad, only: unit_pad_type, new_unit_pad
+   use full_film, only: new_solved_full_film
+   use cavitated_film, only: new_solved_cavitated_film
    use whole_table, only: new_whole_table
    use rupture_table, only: new_rupture_table
    use table_pad, only: table_pad_type, shape_tables, new_table_pad
    implicit none (type, external)
    private
-   public :: table_film_type, new_table_film, has_tables
+   public :: table_film_type, new_table_film, new_converged_film, has_tables
 
    !> Pads with half arcs above this, rad, have no table: their film is not told by its thickness at the edges.
    real(wp), parameter :: largest_half_arc = 1.3_wp
@@ -32,14 +34,9 @@ module table_film
       type(direct_film_type), allocatable :: single(:)
       !> Whether the solver was made for films that rupture, and whether they may.
       logical :: made_to_rupture, may_rupture
-      !> False: every film is solved by `single`.
-      logical :: tabulates = .true.
-      !> Whether the tables are empty and solve every film themselves, closely.
-      logical :: solves
    contains
       procedure :: ruptures
       procedure :: set_rupture
-      procedure :: set_accuracy
       procedure :: forget
       procedure :: evaluate
       procedure :: take_pressures
@@ -50,49 +47,81 @@ module table_film
 contains
 
    !> Tables for the films in these gaps, that rupture by Guembel's condition, by that of Reynolds or not at all, with
-   !> errors of this tolerance over the force. With `solves` no table is built: what would be looked up is solved at the
-   !> motion itself, which is quicker where motions are few, and has exact derivatives.
-   function new_table_film(gaps, single, ruptures, gumbel, tolerance, solves, whole_tolerance) result(solver)
+   !> errors of this tolerance over the force.
+   function new_table_film(gaps, single, ruptures, gumbel, tolerance) result(solver)
       type(pad_gap_type), intent(in) :: gaps(:)
       !> Of every pad the solver for what is in no table.
       type(direct_film_type), intent(in) :: single(:)
       logical, intent(in) :: ruptures, gumbel
       real(wp), intent(in) :: tolerance
-      logical, intent(in), optional :: solves
-      !> Error of whole films, if it is not the usual share of that.
-      real(wp), intent(in), optional :: whole_tolerance
       type(table_film_type) :: solver
-      logical :: supplied
-      real(wp) :: of_whole
+      integer :: k
+      solver = sorted_by_shape(gaps, single, ruptures)
+      do k = 1, size(solver%shapes)
+         associate (shape => solver%shapes(k))
+            shape%whole = new_whole_table(shape%pad, shape%supplied, share_of_whole*tolerance, most_whole/size(gaps))
+            shape%rupture = new_rupture_table(shape%pad, gumbel, tolerance, most_ruptured/size(gaps))
+         end associate
+      end do
+   end function new_table_film
+
+   !> The same films, solved at the motions themselves: quicker where motions are few, with exact derivatives. Errors of
+   !> what rupture changes and of full films are these.
+   function new_converged_film(gaps, single, ruptures, gumbel, tolerance, full_tolerance) result(solver)
+      type(pad_gap_type), intent(in) :: gaps(:)
+      type(direct_film_type), intent(in) :: single(:)
+      logical, intent(in) :: ruptures, gumbel
+      real(wp), intent(in) :: tolerance
+      real(wp), intent(in), optional :: full_tolerance
+      type(table_film_type) :: solver
+      real(wp) :: of_full
+      integer :: k
+      of_full = share_of_whole*tolerance
+      if (present(full_tolerance)) of_full = full_tolerance
+      solver = sorted_by_shape(gaps, single, ruptures)
+      do k = 1, size(solver%shapes)
+         associate (shape => solver%shapes(k))
+            shape%whole = new_solved_full_film(shape%pad, of_full)
+            shape%rupture = new_solved_cavitated_film(shape%pad, gumbel, tolerance)
+         end associate
+      end do
+   end function new_converged_film
+
+   !> The pads with the shapes that they share.
+   function sorted_by_shape(gaps, single, ruptures) result(solver)
+      type(pad_gap_type), intent(in) :: gaps(:)
+      type(direct_film_type), intent(in) :: single(:)
+      logical, intent(in) :: ruptures
+      type(table_film_type) :: solver
+      type(unit_pad_type) :: pads(size(gaps))
+      logical :: supplied(size(gaps))
       integer :: i, k, n
       solver%single = single
       solver%made_to_rupture = ruptures
       solver%may_rupture = ruptures
-      solver%solves = .false.
-      if (present(solves)) solver%solves = solves
-      of_whole = share_of_whole*tolerance
-      if (present(whole_tolerance)) of_whole = whole_tolerance
-      allocate (solver%pads(size(gaps)), solver%shapes(size(gaps)))
+      allocate (solver%pads(size(gaps)))
       n = 0
       do i = 1, size(gaps)
-         associate (gap => gaps(i), shapes => solver%shapes, unit => new_unit_pad(gaps(i)))
+         associate (gap => gaps(i), unit => new_unit_pad(gaps(i)))
             solver%pads(i) = new_table_pad(gap, unit)
             if (.not. has_tables(gap)) cycle
-            supplied = abs(gap%supply_pressure - gap%ambient_pressure) > 0
             do k = 1, n
-               if (same(shapes(k)%pad, unit) .and. (shapes(k)%supplied .eqv. supplied)) exit
+               if (same(pads(k), unit) .and. (supplied(k) .eqv. abs(solver%pads(i)%rise) > 0)) exit
             end do
             if (k > n) then
                n = k
-               shapes(k)%pad = unit
-               shapes(k)%supplied = supplied
-               shapes(k)%whole = new_whole_table(unit, supplied, of_whole, most_whole/size(gaps), solves)
-               shapes(k)%rupture = new_rupture_table(unit, gumbel, tolerance, most_ruptured/size(gaps), solves)
+               pads(k) = unit
+               supplied(k) = abs(solver%pads(i)%rise) > 0
             end if
             solver%pads(i)%shape = k
          end associate
       end do
-   end function new_table_film
+      allocate (solver%shapes(n))
+      do k = 1, n
+         solver%shapes(k)%pad = pads(k)
+         solver%shapes(k)%supplied = supplied(k)
+      end do
+   end function sorted_by_shape
 
    !> True where the film in a gap is told by its thickness at the edges.
    elemental logical function has_tables(gap)
@@ -120,14 +149,6 @@ contains
          call self%single(i)%set_rupture(allowed)
       end do
    end subroutine set_rupture
-
-   !> From here on every film is solved: who asks for more accuracy, as the search for rest, goes far and stays nowhere.
-   subroutine set_accuracy(self, tolerance, max_sweeps)
-      class(table_film_type), intent(inout) :: self
-      real(wp), intent(in) :: tolerance
-      integer, intent(in) :: max_sweeps
-      self%tabulates = self%solves
-   end subroutine set_accuracy
 
    pure subroutine forget(self)
       class(table_film_type), intent(inout) :: self
@@ -158,7 +179,7 @@ contains
                response(i)%status = film_closed
                cycle
             end if
-            if (pad%shape > 0 .and. self%tabulates) call pad%look_up(self%shapes(pad%shape), motion(i), oil(i), &
+            if (pad%shape > 0) call pad%look_up(self%shapes(pad%shape), motion(i), oil(i), &
                & speed, self%may_rupture, want_derivatives, response(i))
             if (pad%found) then
                self%counters%looked_up = self%counters%looked_up + 1
@@ -185,9 +206,14 @@ contains
                end associate
             end do
          end if
-         counters%cells = sum(shapes%whole%built + shapes%rupture%built_cells)
-         counters%nodes = sum(shapes%rupture%built_nodes)
-         counters%building = sum(shapes%whole%seconds + shapes%rupture%seconds)
+         counters%cells = 0
+         counters%nodes = 0
+         counters%building = 0
+         do i = 1, size(shapes)
+            counters%cells = counters%cells + shapes(i)%whole%built + shapes(i)%rupture%built_cells
+            counters%nodes = counters%nodes + shapes(i)%rupture%built_nodes
+            counters%building = counters%building + shapes(i)%whole%seconds + shapes(i)%rupture%seconds
+         end do
       end associate
    end subroutine count_work
 
@@ -214,7 +240,7 @@ contains
       real(wp), intent(out) :: pressure(:, :, :)
       integer :: i
       do i = 1, size(motion)
-         if (self%pads(i)%shape > 0 .and. self%pads(i)%even_pressure .and. self%tabulates) then
+         if (self%pads(i)%shape > 0 .and. self%pads(i)%even_pressure) then
             call self%single(i)%fine_field(motion(i:i), oil(i:i), speed, phi(:, i:i), z, pressure(:, :, i:i))
          else
             call self%single(i)%field(motion(i:i), oil(i:i), speed, phi(:, i:i), z, pressure(:, :, i:i))

@@ -6,19 +6,19 @@ module table_pad
    use unit_pad, only: unit_pad_type
    use middle_frame, only: middle_frame_type, middle_motion, middle_force, new_middle_frame
    use square_patch, only: lanes
-   use whole_table, only: whole_table_type
-   use rupture_table, only: rupture_table_type
+   use full_film, only: full_film_type
+   use cavitated_film, only: cavitated_film_type
    implicit none (type, external)
    private
    public :: table_pad_type, shape_tables, new_table_pad
 
-   !> The tables of pads of one shape.
+   !> The films of pads of one shape, from tables or solved.
    type :: shape_tables
       type(unit_pad_type) :: pad
       !> Whether they have a pressure of their own at the leading edge.
       logical :: supplied = .false.
-      type(whole_table_type) :: whole
-      type(rupture_table_type) :: rupture
+      class(full_film_type), allocatable :: whole
+      class(cavitated_film_type), allocatable :: rupture
    end type shape_tables
 
    !> A pad: its gap, how it differs from its shape, and the cells it was in last.
@@ -33,7 +33,8 @@ module table_pad
       !> Whether all pressures around the pad are equal: then the tables know ruptured films, too.
       logical :: even_pressure
       !> Pressure at the leading edge above the ambient pressure, Pa; R^2, m^2.
-      real(wp), private :: rise, square
+      real(wp) :: rise
+      real(wp), private :: square
       !> Force of the ambient pressure, N, in the pad frame.
       real(wp), private :: ambient_force(2)
       integer, private :: whole_cell = 0, rupture_cell = 0

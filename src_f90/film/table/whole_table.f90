@@ -5,12 +5,11 @@
 !> to a film that closes, a cell is cut in four. A cell is built when a motion first enters it, from the axial modes
 !> alone: what is in it does not depend on what came before.
 module whole_table
-   use kinds, only: wp, i8
+   use kinds, only: wp
    use clock, only: wall_clock
-   use film_solver, only: film_motion, film_response, film_ok
-   use unit_pad, only: unit_pad_type, unit_oil, thickness_scale
+   use unit_pad, only: unit_pad_type
    use film_resolution, only: usual_error
-   use modal_film, only: modal_film_type, converged_film
+   use full_film, only: full_film_type, solved_full_film_type, new_solved_full_film
    use square_patch, only: nodes, lanes, node_points, fitted, evaluate_patch
    use pressure_profile, only: pressure_profile_type, new_pressure_profile
    use octaves, only: interval, lower_end
@@ -23,8 +22,6 @@ module whole_table
    integer, parameter :: first_level = 1, last_level = 6
    !> Most cells, unless told otherwise.
    integer, parameter :: usual_most = 4000
-   !> Error of a node over the tolerance.
-   real(wp), parameter :: share_of_nodes = 0.1_wp
    !> Where a new cell is checked: its corners and its middle.
    real(wp), parameter :: checks(2, 5) = reshape([-1, -1, 1, -1, -1, 1, 1, 1, 0, 0], [2, 5])
 
@@ -39,52 +36,41 @@ module whole_table
       type(pressure_profile_type), allocatable :: profile
    end type cell_type
 
-   type :: whole_table_type
+   type, extends(full_film_type) :: whole_table_type
       private
       type(unit_pad_type) :: pad
-      !> Without pressure around the pad, and with a pressure 1 at its leading edge.
-      type(modal_film_type) :: film, supplied_film
-      !> Error of M over its norm; whether there is a pressure at the leading edge; whether no cell is built, and every
-      !> film is solved.
+      !> What the table is built from.
+      type(solved_full_film_type) :: films
+      !> Error of M over its norm; whether there is a pressure at the leading edge.
       real(wp) :: tolerance
-      logical :: supplied, solves = .false.
+      logical :: supplied
       type(cell_index_type) :: index
       type(cell_type), allocatable :: cells(:)
       !> Most cells: when they are used up all are forgotten. Cells in use.
       integer :: most = usual_most, used = 0
-      !> Cells built ever, and the time it took, s.
-      integer(i8), public :: built = 0
-      real(wp), public :: seconds = 0
    contains
       procedure :: look_up
       procedure :: look_up_supply
       procedure :: highest_pressure
-      procedure, private :: solve
-      procedure, private :: solve_pressure
       procedure, private :: find_cell
       procedure, private :: new_cell
       procedure, private :: build
-      procedure, private :: node
    end type whole_table_type
 
 contains
 
-   !> An empty table for a pad, with a pressure at its leading edge or without: M to a tolerance, over its norm. With
-   !> `solves` it stays empty.
-   function new_whole_table(pad, supplied, tolerance, most, solves) result(table)
+   !> An empty table for a pad, with a pressure at its leading edge or without: M to a tolerance, over its norm.
+   function new_whole_table(pad, supplied, tolerance, most) result(table)
       type(unit_pad_type), intent(in) :: pad
       logical, intent(in) :: supplied
       real(wp), intent(in) :: tolerance
       integer, intent(in), optional :: most
-      logical, intent(in), optional :: solves
       type(whole_table_type) :: table
       table%pad = pad
       table%supplied = supplied
       table%tolerance = tolerance
       if (present(most)) table%most = most
-      if (present(solves)) table%solves = solves
-      table%film = converged_film(pad%gap(0.0_wp), .false., share_of_nodes*tolerance)
-      table%supplied_film = converged_film(pad%gap(1.0_wp), .false., share_of_nodes*tolerance)
+      table%films = new_solved_full_film(pad, tolerance)
    end function new_whole_table
 
    !> M_11, M_12, M_22, 0 and, if they are wanted, their derivatives over both thicknesses, (function, edge), of an open
@@ -97,10 +83,6 @@ contains
       integer, intent(inout) :: last
       real(wp), intent(out) :: value(lanes), slope(lanes, 2)
       logical, intent(out) :: good
-      if (self%solves) then
-         call self%solve(edges, want_slopes, value, slope, good)
-         return
-      end if
       if (.not. holds(self, last, edges)) call self%find_cell(edges, last)
       good = self%cells(last)%good
       call evaluate_in(self%cells(last), self%cells(last)%driven, edges, want_slopes, value, slope)
@@ -113,60 +95,9 @@ contains
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
       real(wp), intent(out) :: value(lanes), slope(lanes, 2)
-      type(film_response) :: still(1)
-      if (self%solves) then
-         call self%supplied_film%evaluate([film_motion(self%pad%position(edges))], [unit_oil], &
-            & 0.0_wp, want_slopes, still)
-         value = [still(1)%force, 0.0_wp, 0.0_wp]
-         slope = 0
-         if (want_slopes) slope(:2, :) = over_edges(self%pad, still(1))
-         return
-      end if
       if (.not. holds(self, last, edges)) call self%find_cell(edges, last)
       call evaluate_in(self%cells(last), self%cells(last)%supplied, edges, want_slopes, value, slope)
    end subroutine look_up_supply
-
-   !> What `look_up` answers, from the axial modes.
-   subroutine solve(self, edges, want_slopes, value, slope, open)
-      class(whole_table_type), intent(inout) :: self
-      real(wp), intent(in) :: edges(2)
-      logical, intent(in) :: want_slopes
-      real(wp), intent(out) :: value(lanes), slope(lanes, 2)
-      logical, intent(out) :: open
-      type(film_response), dimension(1) :: along, outward
-      integer :: i
-      call self%film%evaluate([film_motion(self%pad%position(edges), [1.0_wp, 0.0_wp])], [unit_oil], &
-         & 0.0_wp, want_slopes, along)
-      call self%film%evaluate([film_motion(self%pad%position(edges), [0.0_wp, 1.0_wp])], [unit_oil], &
-         & 0.0_wp, want_slopes, outward)
-      open = along(1)%status == film_ok
-      value = symmetric(along(1)%force, outward(1)%force)/thickness_scale(edges(1), edges(2))
-      slope = 0
-      if (.not. want_slopes) return
-      associate (of_along => over_edges(self%pad, along(1)), of_outward => over_edges(self%pad, outward(1)))
-         do i = 1, 2
-            slope(:, i) = symmetric(of_along(:, i), of_outward(:, i))/thickness_scale(edges(1), edges(2)) &
-               & + 1.5_wp*value/edges(i)
-         end do
-      end associate
-   end subroutine solve
-
-   !> M_11, M_12, M_22, 0 from the columns of M, which is symmetric by reciprocity; what the discretisation adds to that
-   !> is shared.
-   pure function symmetric(along, outward) result(m)
-      real(wp), intent(in) :: along(2), outward(2)
-      real(wp) :: m(lanes)
-      m = [along(1), 0.5_wp*(along(2) + outward(1)), outward(2), 0.0_wp]
-   end function symmetric
-
-   !> Derivatives of a force over the thicknesses at both edges, (component, edge).
-   pure function over_edges(pad, film) result(slopes)
-      type(unit_pad_type), intent(in) :: pad
-      type(film_response), intent(in) :: film
-      real(wp) :: slopes(2, 2)
-      slopes(1, :) = pad%over_edges(film%derivatives(1, :2))
-      slopes(2, :) = pad%over_edges(film%derivatives(2, :2))
-   end function over_edges
 
    !> Four of a cell's functions, with these coefficients, and their derivatives over both thicknesses.
    pure subroutine evaluate_in(cell, coefficients, edges, want_slopes, value, slope)
@@ -187,38 +118,16 @@ contains
       integer, intent(inout) :: last
       real(wp), intent(out) :: pressure
       logical, intent(out) :: good
-      if (self%solves) then
-         call self%solve_pressure(edges, w, supply, pressure, good)
-         return
-      end if
       if (.not. holds(self, last, edges)) call self%find_cell(edges, last)
       pressure = 0
       associate (cell => self%cells(last))
          good = cell%good
          if (.not. good) return
-         if (.not. allocated(cell%profile)) cell%profile = new_pressure_profile(self%pad, self%film, &
-            & self%supplied_film, self%supplied, cell%middle, cell%per_half)
+         if (.not. allocated(cell%profile)) cell%profile = new_pressure_profile(self%pad, &
+            & self%films%film, self%films%supplied_film, self%supplied, cell%middle, cell%per_half)
          pressure = cell%profile%highest(edges, (edges - cell%middle)*cell%per_half, [w, supply])
       end associate
    end subroutine highest_pressure
-
-   !> The same from the axial modes: that of a pressure 1 at the leading edge, scaled.
-   subroutine solve_pressure(self, edges, w, supply, pressure, open)
-      class(whole_table_type), intent(inout) :: self
-      real(wp), intent(in) :: edges(2), w(2), supply
-      real(wp), intent(out) :: pressure
-      logical, intent(out) :: open
-      type(film_response) :: film(1)
-      if (abs(supply) > 0) then
-         call self%supplied_film%evaluate([film_motion(self%pad%position(edges), w/supply)], [unit_oil], &
-            & 0.0_wp, .false., film)
-         pressure = max(supply*film(1)%max_pressure, supply*film(1)%min_pressure)
-      else
-         call self%film%evaluate([film_motion(self%pad%position(edges), w)], [unit_oil], 0.0_wp, .false., film)
-         pressure = film(1)%max_pressure
-      end if
-      open = film(1)%status == film_ok
-   end subroutine solve_pressure
 
    !> True where a cell of this number holds these thicknesses and is not cut.
    pure logical function holds(self, number, edges)
@@ -282,11 +191,11 @@ contains
       integer, intent(in) :: level, place(2)
       type(cell_type), intent(inout) :: cell
       real(wp), dimension(lanes, nodes, nodes) :: driven, supplied
-      real(wp) :: exact(lanes), found(lanes), slope(lanes, 2), unused(lanes)
+      real(wp) :: exact(lanes), found(lanes), slope(lanes, 2)
       !> A cell that is not cut any more serves where it is as close as the solver that would stand in for it.
       real(wp) :: allowed
       real(wp) :: points(nodes)
-      integer :: i, k
+      integer :: i, k, unused
       logical :: open
       points = node_points(nodes)
       cell%lower = lower_end(place, level)
@@ -301,14 +210,17 @@ contains
       if (allocated(cell%profile)) deallocate (cell%profile)
       do k = 1, nodes
          do i = 1, nodes
-            call self%node(cell%middle + points([i, k])/cell%per_half, driven(:, i, k), supplied(:, i, k), open)
+            associate (edges => cell%middle + points([i, k])/cell%per_half)
+               call self%films%look_up(edges, .false., unused, driven(:, i, k), slope, open)
+               if (self%supplied) call self%films%look_up_supply(edges, .false., unused, supplied(:, i, k), slope)
+            end associate
             if (.not. open) return
          end do
       end do
       cell%driven = fitted(driven)
       if (self%supplied) cell%supplied = fitted(supplied)
       do i = 1, size(checks, 2)
-         call self%node(cell%middle + checks(:, i)/cell%per_half, exact, unused, open)
+         call self%films%look_up(cell%middle + checks(:, i)/cell%per_half, .false., unused, exact, slope, open)
          if (.not. open) return
          call evaluate_patch(cell%driven, checks(:, i), .false., found, slope)
          if (norm2(found - exact) > allowed*norm2(exact)) return
@@ -317,21 +229,4 @@ contains
       cell%cut = .false.
    end subroutine build
 
-   !> The functions at a pair of thicknesses, from the axial modes, unless the film is closed.
-   subroutine node(self, edges, driven, supplied, open)
-      class(whole_table_type), intent(inout) :: self
-      real(wp), intent(in) :: edges(2)
-      real(wp), intent(out) :: driven(lanes), supplied(lanes)
-      logical, intent(out) :: open
-      type(film_response), dimension(1) :: along, outward, still
-      associate (position => self%pad%position(edges))
-         call self%film%evaluate([film_motion(position, [1.0_wp, 0.0_wp])], [unit_oil], 0.0_wp, .false., along)
-         call self%film%evaluate([film_motion(position, [0.0_wp, 1.0_wp])], [unit_oil], 0.0_wp, .false., outward)
-         if (self%supplied) call self%supplied_film%evaluate([film_motion(position)], [unit_oil], &
-            & 0.0_wp, .false., still)
-      end associate
-      open = along(1)%status == film_ok
-      driven = symmetric(along(1)%force, outward(1)%force)/thickness_scale(edges(1), edges(2))
-      supplied = [still(1)%force, 0.0_wp, 0.0_wp]
-   end subroutine node
 end module whole_table

@@ -50,7 +50,7 @@ module sor_film
 
    type, extends(film_solver_type) :: sor_film_type
       private
-      type(sor_options) :: options
+      type(sor_options), public :: options
       !> The one in force.
       integer :: cavitation
       type(sor_pad), allocatable :: pads(:)
@@ -76,8 +76,6 @@ contains
       integer :: i
       solver%options = options
       solver%cavitation = options%cavitation
-      solver%tolerance = options%tolerance
-      solver%max_sweeps = options%max_sweeps
       allocate (solver%pads(size(gaps)))
       do i = 1, size(gaps)
          call init_pad(solver%pads(i), gaps(i), options)
@@ -205,6 +203,7 @@ contains
          end if
          if (.not. ok) then
             response%status = film_not_converged
+            response%max_sweeps = self%options%max_sweeps
             ! fields that did not converge are no start for the next ones
             pad%pressure = 0
             pad%adjoint = 0
@@ -247,13 +246,13 @@ contains
       integer :: nk, nz, sweeps
       nk = ubound(field, 1) - 1
       nz = ubound(field, 2) - 1
-      do sweeps = sweeps_per_look, self%max_sweeps + sweeps_per_look - 1, sweeps_per_look
+      do sweeps = sweeps_per_look, self%options%max_sweeps + sweeps_per_look - 1, sweeps_per_look
          call relax(nk, nz, sweeps_per_look, pad%relaxation, floor, pad%before, pad%after, pad%beside, &
             & pad%grid%inward, pad%grid%outward, pad%per_diagonal, source, whole, field)
          residual = relative_residual(nk, nz, floor, pad%before, pad%after, pad%beside, pad%grid%inward, &
             & pad%grid%outward, pad%per_diagonal, source, whole, field)
          self%counters%passes = self%counters%passes + sweeps_per_look
-         ok = residual <= self%tolerance
+         ok = residual <= self%options%tolerance
          if (ok) return
       end do
    end subroutine solve
