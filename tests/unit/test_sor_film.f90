@@ -229,14 +229,14 @@ contains
       type(sor_options) :: few
       type(film_response) :: r
       few = options(cavitation_reynolds, 1e-8_wp)
-      few%options%max_sweeps = 8
+      few%max_sweeps = 8
       solver = new_sor_film([paper_pad()], few)
       call solver%evaluate_pad(1, film_motion([-2e-5_wp, 5e-5_wp]), paper_oil, speed, .false., r)
       call expect(r%status == film_not_converged, 'the cap on the sweeps is told')
       call expect(r%residual > 1e-8_wp, 'with the residual')
       call expect(solver%counters%passes == 8 .and. solver%counters%volumes == 1, 'and the sweeps are counted')
       call expect(all(abs(solver%pressure_field(1)) <= 0), 'what did not converge is dropped')
-      few%options%max_sweeps = 5000
+      few%max_sweeps = 5000
       fresh = new_sor_film([paper_pad()], few)
       call fresh%evaluate_pad(1, film_motion([-2e-5_wp, 5e-5_wp]), paper_oil, speed, .false., r)
       call expect(r%status == film_ok, 'enough sweeps converge')
