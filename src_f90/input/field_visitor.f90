@@ -4,7 +4,10 @@ module field_visitor
    use text, only: to_text
    implicit none (type, external)
    private
-   public :: field_type, field, choice, visitor_type
+   public :: field_type, field, choice, visitor_type, logical_words
+
+   !> The words of a variable that is true or false.
+   character(len=*), parameter :: logical_words = '.true. .false.'
 
    !> An input variable, without its value.
    type :: field_type
@@ -38,6 +41,8 @@ module field_visitor
       procedure(visit_list), deferred :: list
       !> One real.
       procedure, non_overridable :: number
+      !> A logical, by its words.
+      procedure, non_overridable :: flag
    end type visitor_type
 
    abstract interface
@@ -120,6 +125,16 @@ contains
       call self%numbers(values, field)
       value = values(1)
    end subroutine number
+
+   subroutine flag(self, value, field)
+      class(visitor_type), intent(inout) :: self
+      logical, intent(inout) :: value
+      type(field_type), intent(in) :: field
+      character(len=:), allocatable :: word
+      word = trim(merge('.true. ', '.false.', value))
+      call self%word(word, field)
+      value = word == '.true.'
+   end subroutine flag
 
    pure logical function allows(self, x)
       class(field_type), intent(in) :: self

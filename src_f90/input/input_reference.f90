@@ -3,7 +3,7 @@ module input_reference
    use kinds, only: wp
    use text, only: to_text
    use scene, only: scene_type, max_pads, is_set
-   use field_visitor, only: visitor_type, field_type
+   use field_visitor, only: visitor_type, field_type, logical_words
    use scene_fields, only: visit_scene
    implicit none (type, external)
    private
@@ -61,7 +61,11 @@ contains
       character(len=:), allocatable :: allowed
       allowed = field%choices
       if (allowed == '') allowed = 'any text'
-      call self%row(field, '`'''//value//'''`', allowed)
+      if (allowed == logical_words) then
+         call self%row(field, '`'//value//'`', allowed)
+      else
+         call self%row(field, '`'''//value//'''`', allowed)
+      end if
    end subroutine write_word
 
    subroutine write_whole(self, value, field)

@@ -4,7 +4,7 @@ module namelist_writer
    use text, only: to_text, exact_text
    use scene, only: scene_type, is_set
    use assignments, only: token_type, value_text
-   use field_visitor, only: visitor_type, field_type
+   use field_visitor, only: visitor_type, field_type, logical_words
    use scene_fields, only: visit_scene
    implicit none (type, external)
    private
@@ -60,7 +60,7 @@ contains
       if (value == '' .and. field%choices /= '') return
       token%text = value
       ! a logical value is a word that needs no quotes
-      token%quoted = field%choices /= '.true. .false.'
+      token%quoted = field%choices /= logical_words
       call self%line(field%name, value_text(token))
    end subroutine write_word
 

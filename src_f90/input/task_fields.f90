@@ -1,7 +1,7 @@
 !> The input variables of single tasks, for the list of all (scene_fields).
 module task_fields
    use kinds, only: wp
-   use field_visitor, only: visitor_type, field, choice
+   use field_visitor, only: visitor_type, field, choice, logical_words
    use scene, only: coefficients_type, periodic_type, branch_type, most_ratios
    implicit none (type, external)
    private
@@ -50,7 +50,7 @@ contains
       call v%number(branch%max_step, field('max_step', 0.0_wp, 1e15_wp, '', 'its largest change from point to ' &
          & //'point; 0: ten times the first'))
       call v%whole(branch%max_points, field('max_points', 2.0_wp, 1e5_wp, '1', 'maximum number of points of a branch'))
-      call v%word(branch%switch, choice('switch', '.true. .false.', &
+      call v%flag(branch%switch, choice('switch', logical_words, &
          & 'periodic: whether the orbits of double period are followed, too, where the period doubles'))
    end subroutine visit_branch
 end module task_fields

@@ -194,8 +194,8 @@ module scene
       real(wp) :: last = unset, step = unset, max_step = 0
       !> Most points of a branch.
       integer :: max_points = 500
-      !> '.true.': the branch of double period is followed where one begins.
-      character(len=:), allocatable :: switch
+      !> Whether the branch of double period is followed where one begins.
+      logical :: switch = .true.
    end type branch_type
 
    type :: scene_type
@@ -267,7 +267,6 @@ contains
       scene%coefficients%frequency_ratio = [1.0_wp]
       scene%branch%of = 'periodic'
       scene%branch%parameter = ''
-      scene%branch%switch = '.true.'
       call scene%set_final_speed()
    end function new_scene
 

@@ -92,7 +92,7 @@ contains
             call require(.not. is_set(b%step), 'branch%step = '//to_text(b%step)//only, error)
             call require(.not. b%max_step > 0, 'branch%max_step = '//to_text(b%max_step)//only, error)
             call require(b%max_points == default%max_points, 'branch%max_points = '//to_text(b%max_points)//only, error)
-            call require(b%switch == '.true.', 'branch%switch = '//b%switch//only, error)
+            call require(b%switch, 'branch%switch = .false.'//only, error)
             return
          end if
          call require(b%parameter /= '', 'branch%parameter = '''': must name a number of the input, such as ' &
@@ -109,7 +109,7 @@ contains
          call require(.not. any(abs([s%journal, s%journal_velocity, s%pad_tilt, s%pad_tilt_rate, &
             & s%pad_penetration, s%pad_penetration_rate]) > 0), 'start%journal = '//to_text(s%journal(1)) &
             & //', ...: a disturbance'//without, error)
-         call require(b%switch == '.true.', 'branch%switch = '//b%switch//without, error)
+         call require(b%switch, 'branch%switch = .false.'//without, error)
       end associate
    end subroutine check_branch
 end module task_checks

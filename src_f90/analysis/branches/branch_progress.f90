@@ -243,7 +243,7 @@ contains
       type(branch_progress_type), intent(inout) :: branches
       type(special_point_type), intent(in) :: special(:)
       integer :: k
-      if (branches%given%switch /= '.true.' .or. branches%orbits%turns >= branches%longest_turns) return
+      if (.not. branches%given%switch .or. branches%orbits%turns >= branches%longest_turns) return
       do k = 1, size(special)
          if (special(k)%kind == 'flip') branches%flips = [branches%flips, special(k)%point]
       end do
