@@ -108,7 +108,7 @@ contains
       call make_start(run, y, error, at_rest)
       if (.not. allocated(error) .and. has_warm_oil(run%model)) call rest_oil(run, b, at_rest, error)
       if (allocated(error)) return
-      call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier%count('steps'), y), y, found, &
+      call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier%count('steps')), y, found, &
          & error, stop_requested)
       run%counts = found%counts()
       if (.not. allocated(error)) call b%begin_with_orbit(found%orbit, run%scene%periodic%revolutions)

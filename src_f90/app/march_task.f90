@@ -36,7 +36,7 @@ contains
       if (run%resumed) call check_samples(run, plan, t, error)
       if (allocated(error)) return
       call begin_recording(observer, run, t)
-      call march(run%model, march_settings_of(run%model, run%earlier%count('steps'), y), t, &
+      call march(run%model, march_settings_of(run%model, run%earlier%count('steps')), t, &
          & run%scene%operation%duration, plan, y, observer, counts, error)
       run%counts = counts
       call observer%progress%clear()

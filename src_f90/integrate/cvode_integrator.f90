@@ -4,8 +4,8 @@ module cvode_integrator
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
    use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodewftolerances, fcvodesetuserdata, &
       & fcvodesetlinearsolver, fcvodesetlinsysfn, fcvodesetlinearsolutionscaling, fcvodesetjacevalfrequency, &
-      & fcvodesetlsetupfrequency, fcvodegetcurrentgamma, fcvodesetnonlinconvcoef, fcvodesetstablimdet, &
-      & fcvodesetmaxord, fcvodesetmaxerrtestfails, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, fcvode, &
+      & fcvodesetlsetupfrequency, fcvodegetcurrentgamma, fcvodesetnonlinconvcoef, fcvodesetmaxord, &
+      & fcvodesetmaxerrtestfails, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, fcvode, &
       & fcvodefree, fcvodegetnumrhsevals, fcvodegetnumjacevals, fcvodegetnumerrtestfails, &
       & fcvodegetnumnonlinsolvconvfails, fcvodegetcurrentstep, fcvodegetlastorder, cv_bdf, cv_one_step, &
       & cv_first_rhsfunc_err
@@ -34,8 +34,7 @@ module cvode_integrator
       real(wp) :: max_step = 0
       !> Steps after which the derivatives are taken anew (CVODE: 51): they are cheap, and fresh they save steps.
       integer :: derivatives_age = 5
-      !> Whether orders are lowered where BDF is found unstable, for light modes (docs/theory); the highest.
-      logical :: lowers_orders = .false.
+      !> Highest order of BDF.
       integer :: max_order = 5
       !> Whether the outputs of the model are wanted between the ends of steps.
       logical :: keeps_outputs = .true.
@@ -122,7 +121,6 @@ contains
          flag = fcvodesetjacevalfrequency(core%memory, int(options%derivatives_age, c_long))
          flag = fcvodesetlsetupfrequency(core%memory, int(options%derivatives_age, c_long))
          flag = fcvodesetnonlinconvcoef(core%memory, newton_coefficient)
-         if (options%lowers_orders) flag = fcvodesetstablimdet(core%memory, 1_c_int)
          flag = fcvodesetmaxord(core%memory, int(options%max_order, c_int))
          flag = fcvodesetmaxerrtestfails(core%memory, max_failures)
          flag = fcvodesetmaxstep(core%memory, options%max_step)

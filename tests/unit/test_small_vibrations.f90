@@ -7,13 +7,12 @@ program test_small_vibrations
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use static_model, only: make_static
-   use small_vibrations, only: stability_type, stability_of, find_vibrations, are_light
+   use small_vibrations, only: stability_type, stability_of, find_vibrations
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
 
    if (runs('oscillators')) call oscillators()
    if (runs('names')) call names()
-   if (runs('light_modes')) call light_modes()
    ! films that are smooth; and an ordinary bearing whose pad on top carries nothing
    if (runs('stable_march')) call against_march('&film solver = ''modal'', cavitation = ''none'' /', 'stable', 4)
    if (runs('fluttering_march')) call against_march('&film solver = ''modal'', cavitation = ''gumbel'' / ' &
@@ -56,13 +55,6 @@ contains
       stability = stability_of([damped, (1e-4_wp, 0.0_wp)], 1e-3_wp)
       call expect(stability%name == 'stable', 'a growth of rounding: '//stability%name)
    end subroutine names
-
-   !> Fast against a shaft of 100 rad/s, and lightly damped; a slow mode, a damped one, and a decay are not.
-   subroutine light_modes()
-      call expect(all(are_light([(-20.0_wp, 400.0_wp), (-20.0_wp, -400.0_wp), (1.0_wp, 400.0_wp)], 100.0_wp)), 'light')
-      call expect(.not. any(are_light([(-2.0_wp, 200.0_wp), (-80.0_wp, 400.0_wp), (-1.0_wp, 0.0_wp)], 100.0_wp)), &
-         & 'not light')
-   end subroutine light_modes
 
    !> A small disturbance grows or decays as the eigenvalue of largest real part says, once the others have died: its
    !> largest size in one period of the vibration over that in the period before is exp(period re). 1 % for what the

@@ -7,7 +7,7 @@ module small_vibrations
    use force_balance, only: force_derivatives, masses
    implicit none (type, external)
    private
-   public :: stability_type, stability_at, stability_of, find_vibrations, has_light_modes, are_light
+   public :: stability_type, stability_at, stability_of, find_vibrations
 
    !> How a state at rest answers a small disturbance.
    type :: stability_type
@@ -19,9 +19,6 @@ module small_vibrations
 
    !> Growth in a radian of the shaft that counts as none: films without any stiffness leave eigenvalues of rounding.
    real(wp), parameter :: no_growth = 1e-6_wp
-   !> Vibrations faster than the shaft by this factor, with damping ratios below this, are light: BDF of the orders 3
-   !> to 5 is unstable for damping ratios below 0.07, 0.29 and 0.62.
-   real(wp), parameter :: faster = 3, light_damping = 0.15_wp
 
 contains
 
@@ -33,41 +30,13 @@ contains
       !> False where the films have no derivatives or the eigenvalues are not found.
       logical, intent(out) :: ok
       complex(wp) :: values(2*model%layout%n_positions())
-      call eigenvalues_at(model, y, values, ok)
-      if (ok) stability = stability_of(values, no_growth*model%point%speed(0.0_wp))
-   end subroutine stability_at
-
-   !> True where a model in the state y has light modes, for a shaft of this speed, rad/s.
-   logical function has_light_modes(model, y, speed)
-      type(bearing_model), intent(inout) :: model
-      real(wp), intent(in) :: y(:), speed
-      complex(wp) :: values(2*model%layout%n_positions())
-      logical :: ok
-      call eigenvalues_at(model, y, values, ok)
-      has_light_modes = .false.
-      if (ok) has_light_modes = any(are_light(values, speed))
-   end function has_light_modes
-
-   !> Whether eigenvalues, 1/s, are those of light modes, for a shaft of this speed, rad/s.
-   elemental logical function are_light(value, speed)
-      complex(wp), intent(in) :: value
-      real(wp), intent(in) :: speed
-      are_light = abs(value%im) > faster*speed .and. -value%re < light_damping*abs(value)
-   end function are_light
-
-   !> Eigenvalues, 1/s, of the motion linearised in the state y.
-   subroutine eigenvalues_at(model, y, values, ok)
-      type(bearing_model), intent(inout) :: model
-      real(wp), intent(in) :: y(:)
-      complex(wp), intent(out) :: values(:)
-      logical, intent(out) :: ok
       real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: stiffness, damping
-      values = 0
       call model%evaluate(0.0_wp, y, .true., ok)
       if (.not. ok) return
       call force_derivatives(model, stiffness, damping)
       call find_vibrations(masses(model), stiffness, damping, values, ok)
-   end subroutine eigenvalues_at
+      if (ok) stability = stability_of(values, no_growth*model%point%speed(0.0_wp))
+   end subroutine stability_at
 
    !> What eigenvalues, 1/s, say, with a growth, 1/s, that counts as none.
    pure type(stability_type) function stability_of(values, no_growth) result(stability)
