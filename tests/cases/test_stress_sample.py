@@ -12,8 +12,8 @@ from stress_judge import cause_of, judge, searched  # noqa: E402
 from stress_scenes import draw, text  # noqa: E402
 
 # scenes (seed, number) whose equilibrium the first search misses, by the method that finds it: pads one by
-# one (163, 172, 225), Newton from another start (144), the rest of an unloaded pad (15, 48, 70, 297, and 492 and
-# 603 of seed 2); and films without load that press with 670 kN (205)
+# one (163, 172, 225), Newton from another start (144), the rest of an unloaded pad (15, 48, 70, 297, and 492
+# and 603 of seed 2); and films without load that press with 670 kN (205)
 HARD = {
     (1, 15): "stable",
     (1, 48): "stable",

@@ -6,8 +6,8 @@ from stress_scenes import STEEL, Dice, Scene
 
 
 def draw(seed: int, number: int) -> Scene:
-    """Three to six pads, D 30 to 500 mm, L/D 0.4 to 1, clearance 0.8 to 2.5 per mille, preload 0 to 0.6, load on or
-    between pivots, 0.1 to 4 MPa, shafts of 10 to 90 m/s; half of them with temperatures of the oil."""
+    """Three to six pads, D 30 to 500 mm, L/D 0.4 to 1, clearance 0.8 to 2.5 per mille, preload 0 to 0.6, load
+    on or between pivots, 0.1 to 4 MPa, shafts of 10 to 90 m/s; half of them with temperatures of the oil."""
     dice = Dice(f"ordinary {seed}/{number}")
     radius = dice.log(0.015, 0.25)
     length = 2 * radius * dice.uniform(0.4, 1.0)
@@ -22,10 +22,16 @@ def draw(seed: int, number: int) -> Scene:
     scene["rotor"] = {"mass": load / 9.81}
     scene["operation"] = {"speed_rpm": dice.log(10, 90) / radius * 30 / math.pi, "duration": 1.0}
     scene["pads"] = pads(dice, radius)
-    scene["pivot"] = {"socket_radius": radius * dice.uniform(0.2, 0.4), "radius_difference": dice.log(1e-6, 1e-4)}
+    scene["pivot"] = {
+        "socket_radius": radius * dice.uniform(0.2, 0.4),
+        "radius_difference": dice.log(1e-6, 1e-4),
+    }
     scene["film"] = {"cavitation": dice.choice(("reynolds", "reynolds", "gumbel"))}
     if dice.chance(0.5):
-        scene["oil"] = {"grade": dice.choice((22, 32, 46, 68)), "supply_temperature": dice.uniform(30.0, 55.0)}
+        scene["oil"] = {
+            "grade": dice.choice((22, 32, 46, 68)),
+            "supply_temperature": dice.uniform(30.0, 55.0),
+        }
         scene["thermal"] = {"model": "pad"}
     else:
         scene["bearing"]["viscosity"] = dice.log(6e-3, 5e-2)

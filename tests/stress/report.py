@@ -24,11 +24,11 @@ that most scenes are bearings, though not always good ones.
 A scene passes if it ends with a complete result whose numbers are finite and physically possible (contact
 forces >= 0, film thickness > 0 unless asperities touch, friction within its bound, equally spaced
 samples). It also passes if it ends with a refusal of one line that says why, where and when; the results
-up to this point are then kept and finite. After a refusal for want of an equilibrium a global search of its own
-(`tests/stress/global_search.f90`: slow, and independent of the one in the program) looks for one that is stable
-or fluttering; where it finds one the scene is missed, and the test fails if more than {missed_share:.0%} of the
-scenes are. No scene may hang: `integration%max_steps` limits the work, and the tables
-count a scene that reaches this limit separately ("step budget"). A run is asked to stop after
+up to this point are then kept and finite. After a refusal for want of an equilibrium a global search of its
+own (`tests/stress/global_search.f90`: slow, and independent of the one in the program) looks for one that is
+stable or fluttering; where it finds one the scene is missed, and the test fails if more than
+{missed_share:.0%} of the scenes are. No scene may hang: `integration%max_steps` limits the work, and the
+tables count a scene that reaches this limit separately ("step budget"). A run is asked to stop after
 {budget} s of CPU time, which few take, whose films are dear ("time budget"); one that goes on is hung.
 
 **{passed} passed, {failed} failed.** This command wrote the page:

@@ -28,17 +28,17 @@ SEARCHES = {
 SECTION = """
 ## Searches of an equilibrium
 
-The searches follow each other until one finds an equilibrium that is stable; the table counts those that found
-what was kept, in {scenes} scenes (seeds {seeds}) and {bearings} bearings as they are built
+The searches follow each other until one finds an equilibrium that is stable; the table counts those that
+found what was kept, in {scenes} scenes (seeds {seeds}) and {bearings} bearings as they are built
 (`tests/stress/ordinary_bearings.py`: three to six pads, 30 to 500 mm, 0.1 to 4 MPa, 10 to 90 m/s).
 
 {rows}
 
 A search stays in the program if it finds more than one in 200 that none before it finds. Newton's method in
 parts of its steps, the motion itself, and pads tilted so that full films pull the journal did not: what they
-cost, and the program is without, are scenes 25, 262 and 317 of seed 1 and 93, 187, 247, 313 and 422 of seed 2,
-which are refused, and none of the bearings. Two scenes that fluttered less there (273, and 176 of seed 2) now
-start elsewhere. `stress.py --searches` counts again.
+cost, and the program is without, are scenes 25, 262 and 317 of seed 1 and 93, 187, 247, 313 and 422 of
+seed 2, which are refused, and none of the bearings. Two scenes that fluttered less there (273, and 176 of
+seed 2) now start elsewhere. `stress.py --searches` counts again.
 """
 
 
@@ -47,7 +47,9 @@ def searches(program: Path, jobs: int) -> str:
     scenes = [stress_scenes.draw(seed, n) for seed in SEEDS for n in range(1, SCENES + 1)]
     bearings = [ordinary_bearings.draw(1, n) for n in range(1, BEARINGS + 1)]
     with ThreadPoolExecutor(jobs) as pool:
-        counts = [Counter(pool.map(lambda scene: search_of(program, scene), each)) for each in (scenes, bearings)]
+        counts = [
+            Counter(pool.map(lambda scene: search_of(program, scene), each)) for each in (scenes, bearings)
+        ]
     return section(*counts)
 
 

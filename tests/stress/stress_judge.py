@@ -143,7 +143,7 @@ def cause_of(message: str) -> str:
 
 
 def searched(search: Path, case: Path) -> tuple[str, list[str]]:
-    """What the global search finds: 'stable', 'fluttering', 'divergent' or 'none'; and what was wrong with it."""
+    """What the global search finds ('stable', 'fluttering', 'divergent' or 'none'), and its own faults."""
     done = limited([search, case.name], case.parent, SEARCHED)
     if done.hung:
         return "not ended", []

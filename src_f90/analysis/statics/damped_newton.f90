@@ -21,6 +21,8 @@ module damped_newton
    real(wp), parameter :: least_load = 1e-2_wp
    !> First time step, in radians of the shaft, that makes this Newton's own method.
    real(wp), parameter :: newtons = 1e6_wp
+   !> Of 709 searches with this limit that succeed in the bearings of docs/stability.md, *Searches of an equilibrium*,
+   !> 90 % end within 131 and 99.5 % within 360.
    integer, parameter :: max_iterations = 400
    !> Longest move of journal or pad edge in one iteration, in assembled clearances.
    real(wp), parameter :: longest_move = 0.2_wp

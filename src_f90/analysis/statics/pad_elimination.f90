@@ -16,6 +16,8 @@ module pad_elimination
    !> Unbalanced forces over the reference force at which a pad and the journal rest: near enough for Newton's method
    !> on the whole.
    real(wp), parameter :: pad_limit = 1e-9_wp, journal_limit = 1e-6_wp
+   !> Of what comes to rest in the 1400 bearings of docs/stability.md, *Searches of an equilibrium*, 99.5 % of 72000
+   !> pads do so within 31 iterations and 99.5 % of 1475 journals within 53.
    integer, parameter :: pad_iterations = 40, journal_iterations = 60
    !> Least part of a film that a move leaves.
    real(wp), parameter :: least_film = 0.3_wp
