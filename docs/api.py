@@ -58,7 +58,7 @@ def main() -> None:
     section(
         "tiltpad.behaviour",
         behaviour,
-        [behaviour.of_pads, behaviour.remarks, behaviour.dominant, behaviour.Behaviour],
+        [behaviour.remarks, behaviour.marks],
     )
     section(
         "tiltpad.summary",

@@ -4,7 +4,7 @@ module loops
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: loop_area, periodicity, new_periodicity
+   public :: path_integral, harmonic, slow_share, periodicity, new_periodicity
 
    !> Compares each revolution of sampled signals with the one before.
    type :: periodicity
@@ -21,12 +21,44 @@ module loops
 
 contains
 
-   !> Area of the closed loop through the points (x, y), positive when it runs clockwise, as the loop of
-   !> a friction moment over the tilt does: then it is the work lost in a cycle. Trapezoidal rule.
-   pure real(wp) function loop_area(x, y)
+   !> Integral of y over x along the path through the points, by the trapezoidal rule. Of a closed loop, as that of a
+   !> friction moment over the tilt, it is the area, positive when it runs clockwise: the work lost in a cycle.
+   pure real(wp) function path_integral(x, y)
       real(wp), intent(in) :: x(:), y(:)
-      loop_area = 0.5_wp*sum((cshift(x, 1) - x)*(cshift(y, 1) + y))
-   end function loop_area
+      integer :: n
+      n = size(x)
+      path_integral = 0.5_wp*sum((x(2:) - x(:n - 1))*(y(2:) + y(:n - 1)))
+   end function path_integral
+
+   !> The part of values that turns with the order: amplitude times exp(i phase). The values are the real part of it
+   !> times exp(i order angle), their mean and others. The rising angles, rad, are whole turns of the order.
+   pure complex(wp) function harmonic(angle, values, order)
+      real(wp), intent(in) :: angle(:), values(:), order
+      complex(wp) :: turning(size(angle))
+      integer :: n
+      n = size(angle)
+      turning = values*exp(cmplx(0.0_wp, -order*angle, wp))
+      harmonic = sum((angle(2:) - angle(:n - 1))*(turning(2:) + turning(:n - 1)))/(angle(n) - angle(1))
+   end function harmonic
+
+   !> Share of the time in which a velocity, straight between samples, stays within +-limit.
+   pure real(wp) function slow_share(time, velocity, limit)
+      real(wp), intent(in) :: time(:), velocity(:), limit
+      real(wp) :: slow, ends(2)
+      integer :: i
+      slow = 0
+      do i = 1, size(time) - 1
+         associate (start => velocity(i), rise => velocity(i + 1) - velocity(i), step => time(i + 1) - time(i))
+            if (abs(rise) > 0) then
+               ends = ([-limit, limit] - start)/rise
+               slow = slow + step*max(0.0_wp, min(1.0_wp, maxval(ends)) - max(0.0_wp, minval(ends)))
+            else if (abs(start) < limit) then
+               slow = slow + step
+            end if
+         end associate
+      end do
+      slow_share = slow/(time(size(time)) - time(1))
+   end function slow_share
 
    !> For so many signals, sampled so often in a revolution, of which so many whole revolutions have passed unseen.
    pure function new_periodicity(samples, signals, passed) result(orbit)

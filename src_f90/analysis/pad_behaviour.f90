@@ -3,10 +3,10 @@
 module pad_behaviour
    ! heap: arrays as long as a run
    use kinds, only: wp, pi
-   use spectra, only: one_sided_amplitude
+   use spectra, only: hann_amplitude
    implicit none (type, external)
    private
-   public :: pad_behaviour_type, behaviour_of, whirl_of, dominant
+   public :: pad_behaviour_type, behaviour_of, whirl_of, dominant, evenly
 
    type :: pad_behaviour_type
       !> Mean contact force of the pivot, N; shares of the time in which it carries nothing, and in which the film is so
@@ -28,62 +28,64 @@ module pad_behaviour
 
 contains
 
-   !> What the pads do by the samples (pad, time) of contact force, N, tilt, rad, and asperity force, N, over so many
-   !> whole revolutions at one speed; 0 where there are no whole revolutions.
-   function behaviour_of(contact, tilt, asperity, revolutions, edge) result(found)
-      real(wp), intent(in) :: contact(:, :), tilt(:, :), asperity(:, :)
-      integer, intent(in) :: revolutions
+   !> What the pads do beside rubbing, by samples (pad, time) of contact force, N, and tilt, rad, this at equal steps of
+   !> the shaft angle, over so many revolutions.
+   subroutine behaviour_of(found, contact, tilt, revolutions, edge)
+      type(pad_behaviour_type), intent(inout) :: found(:)
+      real(wp), intent(in) :: contact(:, :), tilt(:, :)
+      real(wp), intent(in) :: revolutions
       !> Tilt that moves the pad's edge by the clearance, rad.
       real(wp), intent(in) :: edge(:)
-      type(pad_behaviour_type) :: found(size(contact, 1))
       integer :: i, n
       n = size(contact, 2)
       do i = 1, size(found)
          found(i)%load = sum(contact(i, :))/n
          found(i)%lifted = count(contact(i, :) <= 0)/real(n, wp)
-         found(i)%rubbing = count(asperity(i, :) > 0)/real(n, wp)
          if (revolutions < enough) cycle
-         call dominant(tilt(i, :), revolutions, found(i)%order, found(i)%amplitude)
+         call dominant(tilt(i, :), revolutions, 0.0_wp, found(i)%order, found(i)%amplitude)
          found(i)%flutters = found(i)%amplitude > visible*edge(i) &
             & .and. abs(found(i)%order - anint(found(i)%order)) > off_whole
       end do
       found%unloaded = found%load < smallest_share*max(sum(found%load), tiny(1.0_wp))
-   end function behaviour_of
+   end subroutine behaviour_of
 
-   !> Order and amplitude, m, of the largest part of the journal's motion (y, z), m, over whole revolutions, along that
-   !> of both directions in which it is larger; and whether it is a whirl other than that of the unbalance.
+   !> Order and amplitude, m, of the largest part of the journal's motion (y, z), m, that is no multiple of the shaft's,
+   !> at equal steps of the shaft angle, along that of both directions in which it is larger; and whether it is seen.
    subroutine whirl_of(y, z, revolutions, clearance, order, amplitude, whirls)
-      real(wp), intent(in) :: y(:), z(:), clearance
-      integer, intent(in) :: revolutions
+      real(wp), intent(in) :: y(:), z(:), revolutions, clearance
       real(wp), intent(out) :: order, amplitude
       logical, intent(out) :: whirls
-      real(wp) :: other_order, other
+      real(wp) :: other_order, other, apart
       order = -1
       amplitude = 0
       if (revolutions >= enough) then
-         call dominant(y, revolutions, order, amplitude)
-         call dominant(z, revolutions, other_order, other)
+         apart = max(off_whole, drift/revolutions)
+         call dominant(y, revolutions, apart, order, amplitude)
+         call dominant(z, revolutions, apart, other_order, other)
          if (other > amplitude) order = other_order
          amplitude = max(amplitude, other)
       end if
-      whirls = amplitude > visible*clearance .and. abs(order - anint(order)) > off_whole
+      whirls = amplitude > visible*clearance
    end subroutine whirl_of
 
-   !> Order and amplitude of the largest part of values at equal steps over whole revolutions. A Hann window and the
-   !> higher neighbour tell them between the lines of the spectrum. Mean and drift do not count.
-   subroutine dominant(values, revolutions, order, amplitude)
-      real(wp), intent(in) :: values(:)
-      integer, intent(in) :: revolutions
+   !> Order and amplitude of the largest part of values at equal steps over so many revolutions. A Hann window and the
+   !> higher neighbour tell them between the lines of the spectrum. Mean and drift do not count, nor do orders that are
+   !> closer to a whole number than `apart`.
+   subroutine dominant(values, revolutions, apart, order, amplitude)
+      real(wp), intent(in) :: values(:), revolutions, apart
       real(wp), intent(out) :: order, amplitude
-      real(wp) :: weighted(size(values)), lines(0:size(values)/2), ratio, beside, lost
+      real(wp) :: lines(0:size(values)/2), ratio, beside, lost
       integer :: k, n, top, side
       n = size(values)
       order = -1
       amplitude = 0
-      weighted = (values - sum(values)/n)*[(2*sin(pi*k/n)**2, k=0, n - 1)]
-      lines = one_sided_amplitude(weighted)
+      lines = hann_amplitude(values)
       lines(:min(drift, size(lines)) - 1) = 0
-      top = maxloc(lines(:n/2 - 1), dim=1) - 1
+      top = 0
+      do k = 1, n/2 - 1
+         if (lines(k) <= lines(top)) cycle
+         if (abs(k/revolutions - anint(k/revolutions)) >= apart) top = k
+      end do
       if (top < 1) return
       if (.not. lines(top) > 0) return
       side = merge(1, -1, lines(top + 1) >= lines(top - 1))
@@ -94,4 +96,28 @@ contains
       order = (top + side*beside)/revolutions
       amplitude = lines(top)/lost
    end subroutine dominant
+   !> Values at equal steps of the rising angle, by the cubic through the four nearest samples.
+   pure function evenly(angle, values) result(even)
+      real(wp), intent(in) :: angle(:), values(:)
+      real(wp) :: even(size(values)), at, weight
+      integer :: i, k, other, n, first
+      n = size(angle)
+      even = values
+      if (n < 4) return
+      first = 1
+      do i = 2, n - 1
+         at = angle(1) + (i - 1)*(angle(n) - angle(1))/(n - 1)
+         do while (first < n - 3 .and. angle(first + 2) < at)
+            first = first + 1
+         end do
+         even(i) = 0
+         do k = first, first + 3
+            weight = 1
+            do other = first, first + 3
+               if (other /= k) weight = weight*(at - angle(other))/(angle(k) - angle(other))
+            end do
+            even(i) = even(i) + weight*values(k)
+         end do
+      end do
+   end function evenly
 end module pad_behaviour

@@ -6,6 +6,8 @@ module case_run
    use integrator_counts, only: integrator_counts_type
    use equations_of_motion, only: bearing_model
    use run_file, only: run_file_type
+   use run_extremes, only: run_extremes_type
+   use march_figures, only: put_march_figures
    use run_statistics, only: run_statistics_type
    use clock, only: wall_clock
    implicit none (type, external)
@@ -25,6 +27,8 @@ module case_run
       logical :: computed = .false.
       type(run_file_type) :: file
       type(bearing_model) :: model
+      !> Of all samples.
+      type(run_extremes_type) :: extremes
       !> Simulated time reached, s.
       real(wp) :: reached = 0
       !> What the integration cost; wall time of sampling without its writing, and of the checkpoints, s.
@@ -35,6 +39,7 @@ module case_run
       type(run_statistics_type) :: earlier
    contains
       procedure :: statistics
+      procedure :: note_figures
    end type case_run_type
 
 contains
@@ -52,6 +57,13 @@ contains
       run%quiet = quiet
       run%started = wall_clock()
    end subroutine begin_run
+
+   !> Writes the figures of the samples so far.
+   subroutine note_figures(self)
+      class(case_run_type), intent(inout) :: self
+      if (self%scene%about%task == 'branch') return
+      call put_march_figures(self%file, self%scene, self%extremes, norm2(self%model%point%load))
+   end subroutine note_figures
 
    !> What the run has cost so far, over all its stretches: the list of all figures.
    type(run_statistics_type) function statistics(self)

@@ -1,11 +1,10 @@
 !> The task 'march': from its start, or from a checkpoint, over the duration; samples and their spectra.
 module march_task
    use kinds, only: wp
-   use errors, only: error_type, raise, system_error, numerics_error
+   use errors, only: error_type, raise, system_error
    use marching, only: march, sample_plan
    use integrator_counts, only: integrator_counts_type
    use result_size, only: sample_interval, sample_count
-   use march_results, only: put_asperities
    use case_run, only: case_run_type
    use march_settings, only: march_settings_of
    use march_start, only: make_start, continue_from_checkpoint
@@ -33,7 +32,10 @@ contains
       if (allocated(error)) return
       call run%file%begin_series('time', sample_count(run%scene))
       plan = planned(run)
-      if (run%resumed) call check_samples(run, plan, t, error)
+      if (run%resumed) then
+         call run%extremes%read(run%file%file, plan%interval)
+         call check_samples(run, plan, t, error)
+      end if
       if (allocated(error)) return
       call begin_recording(observer, run, t)
       call march(run%model, march_settings_of(run%model, run%earlier%count('steps')), t, &
@@ -41,10 +43,6 @@ contains
       run%counts = counts
       call observer%progress%clear()
       if (.not. allocated(error)) call write_spectra(run%scene, plan%interval, run%file)
-      if (allocated(error)) then
-         if (error%status /= numerics_error) return
-      end if
-      call put_asperities(run%file, plan%interval, norm2(run%model%point%load))
    end subroutine run_march
 
    type(sample_plan) function planned(run) result(plan)

@@ -4,7 +4,6 @@ module periodic_task
    use text, only: to_text, fixed_text
    use errors, only: error_type, raise, stopped, numerics_error
    use marching, only: sample_plan
-   use march_results, only: put_asperities
    use floquet_multipliers, only: are_stable, loss_of_stability
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
    use periodic_results, only: put_periodic
@@ -54,7 +53,7 @@ contains
       if (allocated(file_error)) call move_alloc(file_error, error)
    end subroutine stop_here
 
-   !> Samples of the orbit over its period, their spectra and the asperities' contact.
+   !> Samples of the orbit over its period, and their spectra.
    subroutine record_orbit(run, found, error)
       type(case_run_type), intent(inout), target :: run
       type(periodic_orbit_type), intent(in) :: found
@@ -81,7 +80,6 @@ contains
          if (allocated(error)) return
       end do
       call write_spectra(run%scene, plan%interval, run%file)
-      call put_asperities(run%file, plan%interval, norm2(run%model%point%load))
    end subroutine record_orbit
 
    !> Period, stability and effort.

@@ -102,6 +102,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       call self%run%model%take_sample(t, y, output, self%taken)
       call add_sample(self%run%file, self%taken, error)
+      call self%run%extremes%add(self%taken)
       self%run%reached = t
       associate (limit => self%run%scene%integration%stop_when_periodic)
          if (limit > 0) then
@@ -141,6 +142,7 @@ contains
       self%run%reached = t
       self%run%counts = counts
       started = wall_clock()
+      call self%run%note_figures()
       if (stop_requested()) then
          reason = stop_reason()//' at t = '//to_text(t)//' s'
          call self%run%file%checkpoint(t, self%run%statistics(), stopped, reason, error, y)

@@ -13,7 +13,6 @@ module run_case
    use branch_task, only: run_branch
    use march_task, only: run_march
    use run_summary, only: print_notes, print_march, print_cost
-   use pad_remarks, only: print_pad_remarks
    implicit none (type, external)
    private
    public :: run_scene, way_out
@@ -90,7 +89,13 @@ contains
       if (.not. is_regular(run%path)) return
       call read_result(run%path, found, error)
       if (allocated(error)) then
-         if (.not. go_on) error%message = error%message//'; it is not replaced'
+         if (found%older .and. overwrite) then
+            deallocate (error)
+         else if (found%older) then
+            error%message = error%message//way_out
+         else if (.not. go_on) then
+            error%message = error%message//'; it is not replaced'
+         end if
          return
       end if
       call refuse_other_scene(run%path, run%scene, run%tag, go_on, found, error)
@@ -114,12 +119,13 @@ contains
       type(case_run_type), intent(inout) :: run
       type(error_type), allocatable, intent(inout) :: error
       type(error_type), allocatable :: file_error
+      logical :: ended
+      ended = .not. allocated(error)
+      if (.not. ended) ended = error%status == numerics_error .and. run%computed
+      if (ended) call run%note_figures()
       if (.not. allocated(error)) then
          if (.not. run%quiet .and. run%file%samples() > 0) then
-            if (run%scene%about%task /= 'branch') then
-               call print_march(run%file, run%scene)
-               call print_pad_remarks(run%file, run%scene)
-            end if
+            if (run%scene%about%task /= 'branch') call print_march(run%file%file, run%scene)
             call print_cost(run%statistics())
          end if
          call run%file%finish(run%reached, run%statistics(), 0, '', file_error)

@@ -1,9 +1,8 @@
 !> What a run prints of its results.
 module run_summary
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use kinds, only: wp, i8, pi, degree
+   use kinds, only: wp, pi, degree
    use text, only: to_text, fixed_text
-   use loops, only: loop_area
    use scene, only: scene_type
    use result_size, only: size_note
    use checked_case, only: notes
@@ -11,7 +10,8 @@ module run_summary
    use bearing_numbers, only: load, specific_load, sommerfeld_number
    use equilibrium, only: equilibrium_type
    use static_figures, only: static_figures_type
-   use run_file, only: run_file_type
+   use hdf5_file, only: hdf5_type
+   use summary_group, only: figure, pad_figures, has_figure
    use run_statistics, only: run_statistics_type
    implicit none (type, external)
    private
@@ -112,39 +112,47 @@ contains
          & //' C'
    end subroutine print_temperatures
 
-   !> Key figures of the last revolution (or of what there is).
+   !> Figures of the last revolution (or of what there is), and what is unusual.
    subroutine print_march(file, scene)
-      type(run_file_type), intent(inout) :: file
+      type(hdf5_type), intent(inout) :: file
       type(scene_type), intent(in) :: scene
-      real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), moment(:, :), film(:, :), pressure(:, :), contact(:, :)
-      character(len=:), allocatable :: before, after
-      integer :: n, i
-      n = int(min(int(scene%output%samples_per_revolution, i8), file%samples()))
-      call file%last_samples('journal_y', n, y)
-      call file%last_samples('journal_z', n, z)
-      if (scene%tilting()) then
-         call file%last_samples('pad_tilt', n, tilt)
-         call file%last_samples('friction_moment', n, moment)
-         call file%last_samples('contact_force', n, contact)
-      end if
-      call file%last_samples('min_film_thickness', n, film)
-      call file%last_samples('max_pressure', n, pressure)
-      print '(a)', 'last revolution: journal y '//micro(minval(y))//' to '//micro(maxval(y))//', z ' &
-         & //micro(minval(z))//' to '//micro(maxval(z))//' um'
+      character(len=:), allocatable :: before, after, diagnosis
+      integer :: i
+      print '(a)', 'last revolution: journal y '//micro(figure(file, 'journal_y_min'))//' to ' &
+         & //micro(figure(file, 'journal_y_max'))//', z '//micro(figure(file, 'journal_z_min'))//' to ' &
+         & //micro(figure(file, 'journal_z_max'))//' um'
       before = ''
       after = ''
-      do i = 1, size(film, 1)
-         if (scene%tilting()) then
-            before = 'tilt '//milli(minval(tilt(i, :)))//' to '//milli(maxval(tilt(i, :)))//' mrad, '
-            after = ', mean contact '//fixed_text(sum(contact(i, :))/n, 1)//' N'
-            if (scene%friction%model /= 'none') after = after//', friction work ' &
-               & //fixed_text(1e3_wp*loop_area(tilt(i, :), moment(i, :)), 3)//' mJ'
-         end if
-         print '(a)', '  pad '//to_text(i)//': '//before//'minimum film thickness '//micro(minval(film(i, :))) &
-            & //' um, maximum pressure '//mega(maxval(pressure(i, :)))//' MPa'//after
-      end do
+      associate (lowest => pad_figures(file, 'pad_tilt_min'), highest => pad_figures(file, 'pad_tilt_max'), &
+            & contact => pad_figures(file, 'pad_contact_force'), work => pad_figures(file, 'pad_friction_work'), &
+            & film => pad_figures(file, 'pad_min_film_thickness'), pressure => pad_figures(file, 'pad_max_pressure'))
+         do i = 1, size(film)
+            if (scene%tilting()) then
+               before = 'tilt '//milli(lowest(i))//' to '//milli(highest(i))//' mrad, '
+               after = ', mean contact '//fixed_text(contact(i), 1)//' N'
+               if (has_figure(file, 'pad_friction_work')) after = after//', friction work ' &
+                  & //fixed_text(1e3_wp*work(i), 3)//' mJ'
+            end if
+            print '(a)', '  pad '//to_text(i)//': '//before//'minimum film thickness '//micro(film(i)) &
+               & //' um, maximum pressure '//mega(pressure(i))//' MPa'//after
+         end do
+      end associate
       call print_asperities(file)
+      call file%get_text('diagnosis', diagnosis)
+      call print_indented(diagnosis)
    end subroutine print_march
+
+   !> Prints lines behind two blanks; nothing of an empty text.
+   subroutine print_indented(lines)
+      character(len=*), intent(in) :: lines
+      integer :: first, length
+      first = 1
+      do while (first <= len(lines))
+         length = index(lines(first:)//achar(10), achar(10)) - 1
+         print '(a)', '  '//lines(first:first + length - 1)
+         first = first + length + 1
+      end do
+   end subroutine print_indented
 
    !> What a run cost.
    subroutine print_cost(statistics)
@@ -172,24 +180,19 @@ contains
 
    !> Which pads touched the journal in the whole run, how hard and how long.
    subroutine print_asperities(file)
-      type(run_file_type), intent(inout) :: file
-      real(wp), allocatable :: pads(:, :), force(:), share(:), time(:)
+      type(hdf5_type), intent(inout) :: file
       character(len=:), allocatable :: of_load
       integer :: i
-      if (.not. file%file%has('asperities')) return
-      call file%last_samples('max_pressure', 1, pads)
-      allocate (force(size(pads)), time(size(pads)))
-      allocate (share(size(pads)), source=0.0_wp)
-      call file%file%get_list('asperities/highest_force', force)
-      call file%file%get_list('asperities/contact_time', time)
-      if (file%file%has('asperities/highest_share')) call file%file%get_list('asperities/highest_share', share)
-      do i = 1, size(force)
-         if (.not. force(i) > 0) cycle
-         of_load = ''
-         if (share(i) > 0) of_load = ', '//fixed_text(100*share(i), 2)//' % of the load'
-         print '(a)', '  pad '//to_text(i)//' touched the journal for '//fixed_text(1e3_wp*time(i), 3) &
-            & //' ms of the run; its asperities bore up to '//fixed_text(force(i), 1)//' N'//of_load
-      end do
+      associate (force => pad_figures(file, 'pad_asperity_force'), share => pad_figures(file, 'pad_asperity_share'), &
+            & time => pad_figures(file, 'pad_asperity_time'))
+         do i = 1, size(force)
+            if (.not. force(i) > 0) cycle
+            of_load = ''
+            if (share(i) > 0) of_load = ', '//fixed_text(100*share(i), 2)//' % of the load'
+            print '(a)', '  pad '//to_text(i)//' touched the journal for '//fixed_text(1e3_wp*time(i), 3) &
+               & //' ms of the run; its asperities bore up to '//fixed_text(force(i), 1)//' N'//of_load
+         end do
+      end associate
    end subroutine print_asperities
 
    !> Metres as micrometres, radians as milliradians, pascals as megapascals.

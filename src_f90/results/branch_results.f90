@@ -56,6 +56,10 @@ contains
       real(wp), intent(in), optional :: viscosity(:)
       type(branch_orbit_type), intent(in), optional :: orbit
       character(len=:), allocatable :: frozen
+      real(wp), allocatable :: values(:)
+      logical :: first
+      first = .not. file%table%is_declared()
+      values = [real(wp) ::]
       frozen = ''
       if (present(oil)) frozen = ', at frozen viscosity'
       call one('point', real(file%samples() + 1, wp), '1', 'point number')
@@ -81,7 +85,7 @@ contains
          call each('eigenvalue_real', real(point%values, wp), '1/s', 'eigenvalue, real part'//frozen, 'mode')
          call each('eigenvalue_imag', aimag(point%values), '1/s', 'eigenvalue, imaginary part'//frozen, 'mode')
       end if
-      call file%table%add(file%file)
+      call file%table%add(file%file, values)
       call file%error_of(error)
    contains
       subroutine put_oil()
@@ -111,13 +115,15 @@ contains
       subroutine one(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value
-         call file%table%put(file%file, name, value, units, long_name)
+         if (first) call file%table%declare(file%file, name, 1, '', units, long_name)
+         values = [values, value]
       end subroutine one
 
-      subroutine each(name, values, units, long_name, across)
+      subroutine each(name, several, units, long_name, across)
          character(len=*), intent(in) :: name, units, long_name, across
-         real(wp), intent(in) :: values(:)
-         call file%table%put(file%file, name, values, across, units, long_name)
+         real(wp), intent(in) :: several(:)
+         if (first) call file%table%declare(file%file, name, size(several), across, units, long_name)
+         values = [values, several]
       end subroutine each
    end subroutine add_point
 

@@ -4,6 +4,7 @@ module coefficient_results
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi
    use hdf5_file, only: hdf5_type
+   use summary_group, only: put_figure
    use bearing_coefficients, only: bearing_coefficients_type
    implicit none (type, external)
    private
@@ -106,6 +107,8 @@ contains
       call file%put_table('modes/eigenvalue_real', re, '1/s', 'growth of the mode', of_modes)
       call file%put_table('modes/eigenvalue_imag', im, '1/s', 'angular frequency of the mode', of_modes)
       call file%put_table('modes/frequency', frequency, 'Hz', 'frequency of the mode', of_modes)
+      ! those in vibration stand in the order of their damping
+      call put_figure(file, 'least_damping_ratio', ratio(1, :), '1', 'least damping ratio of all modes', 'pivot')
       call file%put_table('modes/damping_ratio', ratio, '1', 'damping ratio of the mode', of_modes)
       call file%put_table('modes/log_decrement', decrement, '1', 'logarithmic decrement of the mode', of_modes)
       call file%put_array('modes/shape_real', [shape_re], shape(shape_re), 'SI', &

@@ -7,6 +7,7 @@ module equilibrium_results
    use bearing_numbers, only: load, specific_load, sommerfeld_number
    use equilibrium, only: equilibrium_type
    use static_figures, only: static_figures_type
+   use summary_group, only: put_figure
    implicit none (type, external)
    private
    public :: put_equilibrium, put_figures, put_temperatures
@@ -36,6 +37,12 @@ contains
          & 'angular frequency of the small motion that grows most')
       call file%put_text('equilibrium_stability', found%stability%name)
       call file%put_text('equilibrium_search', found%search)
+      call put_figure(file, 'equilibrium_stable', merge(1.0_wp, 0.0_wp, found%stability%name == 'stable'), '1', &
+         & '1 where the equilibrium is stable')
+      call put_figure(file, 'equilibrium_min_film_thickness', minval(found%min_film_thickness), 'm', &
+         & 'minimum film thickness at the equilibrium')
+      call put_figure(file, 'equilibrium_max_pressure', maxval(found%max_pressure), 'Pa', &
+         & 'maximum pressure at the equilibrium')
    end subroutine put_equilibrium
 
    !> Writes where the journal lies, what the pads carry, losses, flows and temperature rises.
@@ -99,6 +106,8 @@ contains
       call temperature('mean', oil%mean, 'mean temperature of the film')
       call temperature('outlet', oil%outlet, 'temperature of the oil at the trailing edge')
       call temperature('maximum', oil%maximum, 'maximum temperature of the pad')
+      call put_figure(file, 'equilibrium_maximum_temperature', maxval(oil%maximum), 'degC', &
+         & 'maximum temperature of all pads')
       call file%put_list('equilibrium/viscosity', viscosity, 'Pa s', 'viscosity of the film', 'pad')
       call file%put_real('equilibrium/shaft_temperature', oil%shaft, 'degC', 'temperature of the shaft')
       call file%put_real('equilibrium/drain_temperature', oil%drain, 'degC', &

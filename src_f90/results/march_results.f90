@@ -9,7 +9,10 @@ module march_results
    use run_file, only: run_file_type
    implicit none (type, external)
    private
-   public :: add_sample, put_spectrum, put_asperities, put_viscosity, put_course
+   public :: add_sample, put_spectrum, put_viscosity, put_course
+
+   !> Values of a sample: of the journal, and of a pad at most.
+   integer, parameter :: of_journal = 7, of_pad = 12
 
 contains
 
@@ -18,6 +21,11 @@ contains
       type(run_file_type), intent(inout) :: file
       type(model_sample), intent(in) :: sample
       type(error_type), allocatable, intent(out) :: error
+      real(wp) :: values(of_journal + of_pad*size(sample%states))
+      logical :: first
+      integer :: i, k, n
+      first = .not. file%table%is_declared()
+      n = 0
       call one('time', sample%time, 's', 'time')
       call one('shaft_angle', sample%shaft_angle, 'rad', 'shaft angle')
       call one('speed', sample%speed, 'rad/s', 'shaft speed')
@@ -27,72 +35,50 @@ contains
          call one('journal_vy', velocity(1), 'm/s', 'journal velocity, vertical')
          call one('journal_vz', velocity(2), 'm/s', 'journal velocity, horizontal')
       end associate
-      associate (states => sample%states, loads => sample%loads)
-         if (sample%tilting) then
-            call each('contact_force', loads%contact_force, 'N', 'pivot contact force')
-            call each('friction_moment', loads%friction_moment, 'N m', 'pivot friction moment')
-         end if
-         call each('film_force_tangential', loads%film_force(1), 'N', 'film force on the journal along the pad (y'')')
-         call each('film_force_radial', loads%film_force(2), 'N', 'film force on the journal outward (z'')')
-         call each('min_film_thickness', loads%min_film_thickness, 'm', 'minimum film thickness')
-         call each('max_pressure', loads%max_pressure, 'Pa', 'maximum film pressure')
-         if (sample%tilting) then
-            call each('pad_tilt', states%tilt, 'rad', 'pad tilt')
-            call each('pad_tilt_rate', states%tilt_rate, 'rad/s', 'pad tilt rate')
-         end if
-         if (sample%radial) then
-            call each('pad_penetration', states%penetration, 'm', 'pivot penetration')
-            call each('pad_penetration_rate', states%penetration_rate, 'm/s', 'pivot penetration rate')
-         end if
-         if (sample%bristles) call each('bristle_deflection', states%deflection, 'm', 'bristle deflection')
-         if (sample%asperities) call each('asperity_force', loads%asperity_force, 'N', &
-            & 'normal force between the asperities of pad and journal')
-      end associate
-      call file%table%add(file%file)
+      do i = 1, size(sample%states)
+         k = 0
+         associate (state => sample%states(i), pad => sample%loads(i))
+            if (sample%tilting) then
+               call each('contact_force', pad%contact_force, 'N', 'pivot contact force')
+               call each('friction_moment', pad%friction_moment, 'N m', 'pivot friction moment')
+            end if
+            call each('film_force_tangential', pad%film_force(1), 'N', 'film force on the journal along the pad (y'')')
+            call each('film_force_radial', pad%film_force(2), 'N', 'film force on the journal outward (z'')')
+            call each('min_film_thickness', pad%min_film_thickness, 'm', 'minimum film thickness')
+            call each('max_pressure', pad%max_pressure, 'Pa', 'maximum film pressure')
+            if (sample%tilting) then
+               call each('pad_tilt', state%tilt, 'rad', 'pad tilt')
+               call each('pad_tilt_rate', state%tilt_rate, 'rad/s', 'pad tilt rate')
+            end if
+            if (sample%radial) then
+               call each('pad_penetration', state%penetration, 'm', 'pivot penetration')
+               call each('pad_penetration_rate', state%penetration_rate, 'm/s', 'pivot penetration rate')
+            end if
+            if (sample%bristles) call each('bristle_deflection', state%deflection, 'm', 'bristle deflection')
+            if (sample%asperities) call each('asperity_force', pad%asperity_force, 'N', &
+               & 'normal force between the asperities of pad and journal')
+         end associate
+      end do
+      call file%table%add(file%file, values(:n + k*size(sample%states)))
       call file%error_of(error)
    contains
       subroutine one(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value
-         call file%table%put(file%file, name, value, units, long_name)
+         if (first) call file%table%declare(file%file, name, 1, '', units, long_name)
+         n = n + 1
+         values(n) = value
       end subroutine one
 
-      subroutine each(name, values, units, long_name)
+      !> Of pad i; the k-th series of the pads.
+      subroutine each(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
-         real(wp), intent(in) :: values(:)
-         call file%table%put(file%file, name, values, 'pad', units, long_name)
+         real(wp), intent(in) :: value
+         if (first .and. i == 1) call file%table%declare(file%file, name, size(sample%states), 'pad', units, long_name)
+         values(n + k*size(sample%states) + i) = value
+         k = k + 1
       end subroutine each
    end subroutine add_sample
-
-   !> What the asperities bore in all samples, taken at this interval, s, with this load on the journal, N.
-   subroutine put_asperities(file, interval, load)
-      type(run_file_type), intent(inout) :: file
-      real(wp), intent(in) :: interval, load
-      !> Samples that are read at once.
-      integer(i8), parameter :: block = 65536
-      real(wp), allocatable :: force(:, :), highest(:)
-      integer(i8), allocatable :: touches(:)
-      integer(i8) :: skip
-      if (file%samples() == 0) return
-      if (.not. file%file%has('asperity_force')) return
-      skip = 0
-      do while (skip < file%samples())
-         call file%part_of_samples('asperity_force', skip, int(min(block, file%samples() - skip)), force)
-         if (skip == 0) then
-            highest = 0*force(:, 1)
-            touches = int(highest, i8)
-         end if
-         highest = max(highest, maxval(force, dim=2))
-         touches = touches + count(force > 0, dim=2)
-         skip = skip + block
-      end do
-      if (.not. file%file%has('asperities')) call file%file%make_group('asperities')
-      call file%file%put_list('asperities/highest_force', highest, 'N', 'highest asperity force of the samples', 'pad')
-      if (load > 0) call file%file%put_list('asperities/highest_share', highest/load, '1', &
-         & 'highest asperity force over the load', 'pad')
-      call file%file%put_list('asperities/contact_time', touches*interval, 's', 'time in which asperities touched', &
-         & 'pad')
-   end subroutine put_asperities
 
    !> Writes the viscosity of the oil on each pad, Pa s, which warm oil keeps in a march.
    subroutine put_viscosity(file, viscosity)

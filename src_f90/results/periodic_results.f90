@@ -2,6 +2,7 @@
 module periodic_results
    use kinds, only: wp, i8
    use hdf5_file, only: hdf5_type
+   use summary_group, only: put_figure
    use periodic_orbit, only: periodic_orbit_type
    use floquet_multipliers, only: are_stable
    implicit none (type, external)
@@ -27,6 +28,9 @@ contains
          call file%put_count('periodic/evaluations', found%evaluations, &
             & 'evaluations of the equations with their derivatives in all iterations')
          call file%put_count('periodic/marched_periods', int(found%marched, i8), 'periods of the march before them')
+         call put_figure(file, 'leading_multiplier_real', values(1)%re, '1', 'leading multiplier, real part')
+         call put_figure(file, 'leading_multiplier_imag', values(1)%im, '1', 'leading multiplier, imaginary part')
+         call put_figure(file, 'leading_multiplier_modulus', abs(values(1)), '1', 'leading multiplier, modulus')
          call file%put_list('periodic/multiplier_real', values%re, '1', 'multiplier, real part', 'multiplier')
          call file%put_list('periodic/multiplier_imag', values%im, '1', 'multiplier, imaginary part', 'multiplier')
          call file%put_count('periodic/stable', merge(1_i8, 0_i8, are_stable(found%multipliers)), &

@@ -8,8 +8,10 @@ module provenance
    use processes, only: host_name
    implicit none (type, external)
    private
-   public :: provenance_type, running
+   public :: provenance_type, running, format_version
 
+   !> Version of the names in a file. A new one needs its former names in post/tiltpad/files/former_names.py.
+   integer, parameter :: format_version = 3
    !> The exit status in a file whose run has not ended, or was killed.
    integer, parameter :: running = -1
 
@@ -34,6 +36,7 @@ contains
       type(hdf5_type), intent(inout) :: file
       self%started = now()
       self%earlier = ''
+      call file%put_flag('format_version', format_version)
       call file%put_text('program', 'tiltpad')
       call file%put_text('created', self%started)
       call self%put_maker(file)

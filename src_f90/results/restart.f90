@@ -8,7 +8,7 @@ module restart
    use namelist_writer, only: scene_text
    use hdf5_file, only: hdf5_type
    use hdf5_trial, only: try_reading
-   use file_format, only: format_version
+   use provenance, only: format_version
    use sweep, only: member_tag
    use files, only: is_regular
    implicit none (type, external)
@@ -20,6 +20,8 @@ module restart
       type(scene_type) :: scene
       !> Which member of a sweep it is.
       type(member_tag) :: tag
+      !> True where an earlier version of the program wrote it; the rest is not known then.
+      logical :: older = .false.
       !> True where nothing is left to do.
       logical :: complete = .false.
       !> How the run ended, and whether there is a checkpoint.
@@ -52,7 +54,7 @@ contains
       type(hdf5_type) :: file
       character(len=:), allocatable :: input
       integer :: complete
-      call open_result(path, file, error)
+      call open_result(path, file, error, found%older)
       if (allocated(error)) return
       call file%get_flag('complete', complete)
       call file%get_text('input', input)
@@ -74,8 +76,6 @@ contains
          error%status = system_error
          call add_context(error, path//': its input cannot be read')
       end if
-      ! a run of a program that had no asperities goes on without
-      if (index(input, newline//'&asperity') == 0) found%scene%asperity%model = 'none'
       found%complete = complete == 1
    end subroutine read_result
 
@@ -93,13 +93,16 @@ contains
    end subroutine refuse_end
 
    !> Opens the file for reading if it is a result that this program knows.
-   subroutine open_result(path, file, error)
+   subroutine open_result(path, file, error, older)
       character(len=*), intent(in) :: path
       type(hdf5_type), intent(inout) :: file
       type(error_type), allocatable, intent(out) :: error
+      !> True where it is refused because an earlier version wrote it.
+      logical, intent(out), optional :: older
       character(len=:), allocatable :: program, refusal
       integer :: version
       logical :: exists
+      if (present(older)) older = .false.
       inquire (file=path, exist=exists)
       if (.not. exists) then
          call raise(error, system_error, path//': no such file')
@@ -127,9 +130,10 @@ contains
          if (version > format_version) then
             call raise(error, system_error, path//': format_version '//to_text(version) &
                & //', written by a later version of tiltpad; update the program')
-         else if (version < 1 .and. .not. allocated(file%failure)) then
+         else if (version < format_version .and. .not. allocated(file%failure)) then
             call raise(error, system_error, path//': format_version '//to_text(version) &
-               & //' is unknown; versions 1 to '//to_text(format_version)//' can be read')
+               & //', written by an earlier version of tiltpad; only Python reads it')
+            if (present(older)) older = .true.
          end if
       end if
       if (.not. allocated(error) .and. allocated(file%failure)) call raise(error, system_error, path//': damaged: ' &

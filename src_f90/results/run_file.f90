@@ -1,12 +1,12 @@
 !> The file of a run: what it is, its checkpoints, how a run continues from one, and its end.
 module run_file
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kinds, only: wp, degree
+   use kinds, only: wp, degree, pi
    use errors, only: error_type, raise, system_error
    use scene, only: scene_type
    use sweep, only: member_tag
    use growing_file, only: growing_file_type
-   use file_format, only: format_version, upgrade
+   use summary_group, only: put_figure
    use provenance, only: provenance_type, running
    use run_statistics, only: run_statistics_type
    implicit none (type, external)
@@ -41,11 +41,12 @@ contains
       call self%provenance%begin(self%file)
       associate (file => self%file)
          call file%put_flag('complete', 0)
-         call file%put_flag('format_version', format_version)
          call file%put_text('title', scene%about%title)
          call file%put_text('task', scene%about%task)
          call file%put_text('input', input)
          call file%put_list('pad', [(real(i, wp), i=1, scene%pad_count())], '1', 'pad number', 'pad')
+         if (scene%about%task /= 'branch') call put_figure(file, 'speed', scene%operation%speed_rpm*pi/30, 'rad/s', &
+            & 'shaft speed at the end')
          call file%put_list('pivot_angle', scene%pads%pivot_angle_deg*degree, 'rad', 'pivot angle', 'pad')
       end associate
       call self%error_of(error)
@@ -65,7 +66,6 @@ contains
       t = 0
       call self%reopen(error)
       if (.not. allocated(error)) then
-         call upgrade(self%file)
          t = self%file%get_real('checkpoint/time')
          if (present(state)) call self%file%get_list('checkpoint/state', state)
          call statistics%read(self%file)

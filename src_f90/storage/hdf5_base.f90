@@ -7,7 +7,7 @@ module hdf5_base
       & h5sclose_f, h5s_scalar_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, h5tis_variable_str_f, h5tget_super_f, &
       & h5tget_size_f, h5t_string, h5t_cset_utf8_f, h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, &
       & h5aget_type_f, h5adelete_f, h5aexists_f, h5aget_space_f, h5sget_simple_extent_npoints_f, h5lexists_f, &
-      & h5ldelete_f, h5lmove_f, h5t_native_integer
+      & h5ldelete_f, h5t_native_integer
    use c_strings, only: fortran_text
    use processes, only: set_environment
    use system_errors, only: write_refusal, forget_missing
@@ -34,9 +34,8 @@ module hdf5_base
       !> True where there is a dataset or group, or a root attribute, of that name.
       procedure :: has
       procedure :: has_attribute
-      !> Deletes, or renames, a dataset or group.
+      !> Deletes a dataset or group.
       procedure :: delete
-      procedure :: rename
       !> Root attributes; one of the name is replaced.
       procedure :: put_text
       procedure :: put_flag
@@ -160,15 +159,6 @@ contains
       call h5ldelete_f(self%id, path, status)
       call self%check(status, 'delete '//path)
    end subroutine delete
-
-   subroutine rename(self, old, new)
-      class(hdf5_base_type), intent(inout) :: self
-      character(len=*), intent(in) :: old, new
-      integer :: status
-      if (.not. self%has(old)) return
-      call h5lmove_f(self%id, old, self%id, new, status)
-      call self%check(status, 'rename '//old)
-   end subroutine rename
 
    subroutine make_group(self, name)
       class(hdf5_base_type), intent(inout) :: self

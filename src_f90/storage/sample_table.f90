@@ -23,9 +23,6 @@ module sample_table
       !> How many samples there will be, as far as is known.
       integer(i8) :: expected = 0
       type(series_type), allocatable :: series(:)
-      !> Values of the sample that is being put, and how many they are so far.
-      real(wp), allocatable :: sample(:)
-      integer :: filled = 0
       !> Samples held back, series after series with room for a chunk each, and how many there are.
       real(wp), allocatable :: buffer(:)
       integer :: held = 0
@@ -38,9 +35,9 @@ module sample_table
    contains
       !> Starts from the samples that are in the file, if any.
       procedure :: begin
-      !> Puts a value, or values, of the next sample: in every sample the same series, in the same order.
-      generic :: put => put_value, put_values
-      !> Adds the sample, all of whose values are put.
+      !> Names a series; all before the first sample.
+      procedure :: declare
+      procedure :: is_declared
       procedure :: add
       procedure :: write => write_held
       procedure :: last
@@ -48,9 +45,6 @@ module sample_table
       procedure :: copy_missing
       procedure :: open => open_all
       procedure :: close => close_all
-      procedure, private :: put_value
-      procedure, private :: put_values
-      procedure, private :: declare
    end type sample_table_type
 
 contains
@@ -65,8 +59,6 @@ contains
       self%expected = expected
       if (allocated(self%buffer)) deallocate (self%buffer)
       self%series = [series_type ::]
-      self%sample = [real(wp) ::]
-      self%filled = 0
       self%place = [integer ::]
       self%stride = [integer ::]
       self%held = 0
@@ -77,29 +69,8 @@ contains
       call scale%close(file)
    end subroutine begin
 
-   !> A value of the series `name` over the axis.
-   subroutine put_value(self, file, name, value, units, long_name)
-      class(sample_table_type), intent(inout) :: self
-      type(hdf5_type), intent(inout) :: file
-      character(len=*), intent(in) :: name, units, long_name
-      real(wp), intent(in) :: value
-      if (.not. allocated(self%buffer)) call self%declare(file, name, 1, '', units, long_name)
-      self%filled = self%filled + 1
-      self%sample(self%filled) = value
-   end subroutine put_value
-
-   !> Values of the series `name` over the axis and another scale, `across`.
-   subroutine put_values(self, file, name, values, across, units, long_name)
-      class(sample_table_type), intent(inout) :: self
-      type(hdf5_type), intent(inout) :: file
-      character(len=*), intent(in) :: name, across, units, long_name
-      real(wp), intent(in) :: values(:)
-      if (.not. allocated(self%buffer)) call self%declare(file, name, size(values), across, units, long_name)
-      self%sample(self%filled + 1:self%filled + size(values)) = values
-      self%filled = self%filled + size(values)
-   end subroutine put_values
-
-   !> A further series. One that is in the file must have this width and be as long as all others.
+   !> A series of so many values over the axis, or, where `across` names another scale, over both. One that is in the
+   !> file must have this width and be as long as all others.
    subroutine declare(self, file, name, width, across, units, long_name)
       class(sample_table_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file
@@ -119,22 +90,28 @@ contains
             & 'find all samples of '//name)
       end if
       self%series = [self%series, new]
-      self%sample = [self%sample, (0.0_wp, i=1, width)]
       self%place = [self%place, (chunk_samples*new%before + i, i=1, width)]
       self%stride = [self%stride, (width, i=1, width)]
    end subroutine declare
 
-   subroutine add(self, file)
+   !> Whether the series have names.
+   pure logical function is_declared(self)
+      class(sample_table_type), intent(in) :: self
+      is_declared = size(self%series) > 0
+   end function is_declared
+
+   !> A sample: the values of all series, in the order in which they were declared.
+   subroutine add(self, file, values)
       class(sample_table_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file
+      real(wp), intent(in), contiguous :: values(:)
       integer :: i
-      if (.not. allocated(self%buffer)) allocate (self%buffer(chunk_samples*self%filled))
+      if (.not. allocated(self%buffer)) allocate (self%buffer(chunk_samples*size(values)))
       ! chunks of the file are filled up, also after a checkpoint in the middle of one
       if (self%held > 0 .and. mod(self%samples, int(chunk_samples, i8)) == 0) call self%write(file)
-      do i = 1, self%filled
-         self%buffer(self%place(i) + self%stride(i)*self%held) = self%sample(i)
+      do i = 1, size(values)
+         self%buffer(self%place(i) + self%stride(i)*self%held) = values(i)
       end do
-      self%filled = 0
       self%held = self%held + 1
       self%samples = self%samples + 1
    end subroutine add

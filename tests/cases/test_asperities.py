@@ -55,11 +55,11 @@ def test_an_edge_that_strikes_the_journal(run):
 def test_what_the_file_says_of_contact(run):
     _, file = run(FIVE_PADS)
     force = file["asperity_force"][:]
-    np.testing.assert_array_equal(file["asperities/highest_force"], force.max(axis=0))
+    np.testing.assert_array_equal(file["summary/pad_asperity_force"], force.max(axis=0))
     share = force.max(axis=0) / (1500 * 9.81)
-    np.testing.assert_allclose(file["asperities/highest_share"], share, rtol=1e-12)
+    np.testing.assert_allclose(file["summary/pad_asperity_share"], share, rtol=1e-12)
     step = file["time"][1] - file["time"][0]
-    np.testing.assert_allclose(file["asperities/contact_time"], step * (force > 0).sum(axis=0), rtol=1e-9)
+    np.testing.assert_allclose(file["summary/pad_asperity_time"], step * (force > 0).sum(axis=0), rtol=1e-9)
 
 
 def test_without_asperities_a_film_that_closes_ends_the_run(run):
@@ -77,7 +77,7 @@ def test_a_pad_dropped_on_a_rotating_journal(run):
     weight = 0.8108 * 9.81
     asperities, film = file["asperity_force"][:, 2], file["film_force_radial"][:, 2]
     rubbing = np.flatnonzero(asperities > 0)
-    assert 0.03 < file["asperities/contact_time"][2] < 0.2
+    assert 0.03 < file["summary/pad_asperity_time"][2] < 0.2
     assert asperities[rubbing].mean() > 0.2 * weight
     middle = slice(rubbing[len(rubbing) // 4], rubbing[3 * len(rubbing) // 4])
     # the asperities push along the radius at the edge, 34.65 degrees from the pivot, and friction 0.1 across

@@ -123,7 +123,7 @@ def test_what_is_no_result_is_not_replaced(refused, case):
     with h5py.File(case / "other.h5", "w") as file:
         file["x"] = 1
     with h5py.File(case / "study.h5", "w") as file:
-        file.attrs.update({"program": "tiltpad", "format_version": 2, "task": "study", "input": "&case /"})
+        file.attrs.update({"program": "tiltpad", "format_version": 3, "task": "study", "input": "&case /"})
     before = contents(case)
     for name in ("other.nml", "empty", "other.h5", "study.h5"):
         for options in ([], ["--overwrite"]):

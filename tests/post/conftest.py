@@ -160,7 +160,8 @@ def made(result, opened, tmp_path):
             acceleration = (final - first) / time[-1]
             angle = first * time + acceleration * time**2 / 2
             own = {"time": time, "shaft_angle": angle, "speed": first + acceleration * time} | signals
-            source.copy("equilibrium", file)
+            for name in ("equilibrium", "summary"):
+                source.copy(name, file)
             datasets = {name: each for name, each in source.items() if isinstance(each, h5py.Dataset)}
             for name, dataset in datasets.items():
                 if len(dataset) != len(source["time"]):
@@ -201,8 +202,11 @@ def sweep(tiltpad):
                 file.attrs.update({"exit_status": done.returncode, "reason": done.stderr.strip()})
                 if number in failed:
                     file.attrs.update({"complete": 0, "exit_status": 2, "reason": "no equilibrium found"})
-                    for name in [name for name in file if name not in ("pad", "pivot_angle", "statistics")]:
+                    kept = ("pad", "pivot_angle", "statistics", "summary")
+                    for name in [name for name in file if name not in kept]:
                         del file[name]
+                    for name in [name for name in file["summary"] if name != "speed"]:
+                        del file[f"summary/{name}"]
         return folder
 
     return run

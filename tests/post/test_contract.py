@@ -28,9 +28,9 @@ SERIES = {
     "asperity_force": (PADS, "N"),
 }
 ASPERITIES = {
-    "asperities/highest_force": (("pad",), "N"),
-    "asperities/highest_share": (("pad",), "1"),
-    "asperities/contact_time": (("pad",), "s"),
+    "summary/pad_asperity_force": (("pad",), "N"),
+    "summary/pad_asperity_share": (("pad",), "1"),
+    "summary/pad_asperity_time": (("pad",), "s"),
 }
 CONSTANT = {"pad": (("pad",), "1"), "pivot_angle": (("pad",), "rad")}
 EQUILIBRIUM = {
@@ -146,7 +146,7 @@ def test_pads_and_samples(file, scene):
 
 def test_attributes(file, scene):
     attributes = file.attrs
-    assert attributes["format_version"] == 2
+    assert attributes["format_version"] == 3
     assert attributes["complete"] == 1
     assert attributes["program"] == "tiltpad"
     assert attributes["title"] == ("Steady, it's LuGre" if scene == "lugre" else "")

@@ -1,4 +1,4 @@
-"""Files of format_version 1: they are read with today's names, alone and beside files of version 2."""
+"""Files of format_version 2: they are read with today's names; what they do not have is missing."""
 
 import shutil
 
@@ -6,82 +6,80 @@ import h5py
 import numpy as np
 import pytest
 import tiltpad
-from tiltpad import command, report
+from tiltpad import command
+from tiltpad.files import archive, former_names
 
-#: Names that changed with format_version 2: those of 1, and today's.
-RENAMED = {"film_sor": "film_volumes", "sor_sweeps": "film_passes"}
-
-
-def rewritten(file: h5py.File, version: int, group: str = "statistics/") -> None:
-    """Gives a file the names of a format_version."""
-    for former, today in RENAMED.items():
-        there, wanted = (former, today) if version == 2 else (today, former)
-        if group + there in file:
-            file.move(group + there, group + wanted)
-    file.attrs["format_version"] = version
+#: Renamings as later versions may have them: of a group, of what is in one, and of series.
+RENAMED = {
+    "statistics": "cost",
+    "cost/steps": "cost/time_steps",
+    "spectrum/frequency": "spectrum/hertz",
+    "journal_y": "journal_vertical",
+    "equilibrium/pad_tilt": "equilibrium/tilt",
+}
 
 
 @pytest.fixture
-def versions(result, tmp_path):
-    """The same result, whose pads are solved on finite volumes, in both versions."""
-    (tmp_path / "runs").mkdir()
-    paths = {version: tmp_path / f"runs/version{version}.h5" for version in (1, 2)}
-    for version, path in paths.items():
-        shutil.copy(result("sor"), path)
-        with h5py.File(path, "r+") as file:
-            rewritten(file, version)
-            assert ("statistics/film_sor" in file) == (version == 1)
-            assert ("statistics/film_volumes" in file) == (version == 2)
-    return paths
+def former(result, tmp_path):
+    """former(names): a result as version 2 had it, when those names are the former ones."""
+    path = tmp_path / "version2.h5"
+    shutil.copy(result("lugre"), path)
+    with h5py.File(path, "r+") as file:
+        file.attrs["format_version"] = 2
+        del file["summary"]
+        del file.attrs["diagnosis"]
+    return path
 
 
-def test_counts_have_today_s_names(versions):
-    with tiltpad.read(versions[1]) as former, tiltpad.read(versions[2]) as today:
-        assert former.names("statistics") == today.names("statistics")
-        assert set(RENAMED.values()) <= set(former.statistics)
-        assert former.statistics == today.statistics
-        for name, now in RENAMED.items():
-            with h5py.File(versions[1]) as file:
-                assert former[f"statistics/{now}"] == file[f"statistics/{name}"][()]
-            assert former["statistics/film_volumes"] > 0
-            assert f"statistics/{name}" not in former
-            assert former.about(f"statistics/{now}", "units") == "1"
-            with pytest.raises(tiltpad.NotInRunError, match=f"no statistics/{name} in this run"):
-                former[f"statistics/{name}"]
+def test_today_s_names_of_a_former_file(former, run, monkeypatch):
+    for module in (archive, former_names):
+        monkeypatch.setattr(module, "FORMER_NAMES", RENAMED)
+    monkeypatch.setattr(archive.Archive, "GROUPS", (*archive.Archive.GROUPS, "cost"))
+    with tiltpad.read(former) as old, h5py.File(former) as file:
+        assert {"journal_vertical", "cost"} <= set(old.names())
+        assert not {"journal_y", "statistics"} & set(old.names())
+        assert {"time_steps", "rhs_evaluations"} <= set(old.names("cost"))
+        assert old["cost/time_steps"] == file["statistics/steps"][()]
+        np.testing.assert_array_equal(old.journal_vertical, file["journal_y"])
+        assert old.about("journal_vertical", "units") == "m"
+        assert old.scales("spectrum/journal_z") == ("spectrum/hertz",)
+        assert old.scales("equilibrium/tilt") == ("pad",)
+        # scripts of before go on
+        np.testing.assert_array_equal(old["journal_y"], old["journal_vertical"])
+        assert old["statistics/steps"] == old["cost/time_steps"]
 
 
-def test_the_report_shows_them(versions):
-    pages = []
-    for path in versions.values():
-        with tiltpad.read(path) as run:
-            pages.append(report.statistics(run))
-    assert pages[0] == pages[1]
-
-
-def test_a_folder_of_both_versions_is_one_study(versions, tmp_path, capsys):
-    folder = versions[1].parent
-    tiltpad.collect(folder, tmp_path / "study.h5")
+def test_a_former_run_has_no_summary(former, tmp_path, capsys):
+    with tiltpad.read(former) as run:
+        assert tiltpad.behaviour.remarks(run) == []
+        assert tiltpad.friction_work(run, 1) > 0
+        with pytest.raises(tiltpad.NotInRunError, match="no summary in this run: version 2 of the format"):
+            tiltpad.stick_fraction(run, 1)
+    assert command.report([str(former), "-o", str(tmp_path / "page.html")]) == 0
+    assert command.collect([str(former), "-o", str(tmp_path / "study.h5")]) == 0
     with tiltpad.read_study(tmp_path / "study.h5") as study:
-        assert study.format_version == 2
-        assert study.film_volumes[0] == study.film_volumes[1] > 0
-        assert study.film_passes[0] == study.film_passes[1] > 0
-        assert not set(RENAMED) & set(study.names())
+        assert study.status == 0
+        assert study.equilibrium_total_power_loss > 0
+        assert "orbit_y" not in study
 
 
-def test_a_study_of_version_1(sweep, tmp_path, capsys):
+def test_a_former_study(sweep, tmp_path, capsys):
     values = {"operation%speed_rpm": [3000, 5000]}
-    scene = "&operation duration=0.05 / &output samples_per_revolution=40 / &film solver='sor' /"
-    tiltpad.collect(sweep(tmp_path / "speeds", scene, values), tmp_path / "study.h5")
+    tiltpad.collect(sweep(tmp_path / "speeds", "&case task='equilibrium' /", values), tmp_path / "study.h5")
     shutil.copy(tmp_path / "study.h5", tmp_path / "former.h5")
     with h5py.File(tmp_path / "former.h5", "r+") as file:
-        rewritten(file, 1, "")
+        file.attrs["format_version"] = 2
+        for name, today in former_names.FORMER_NAMES.items():
+            if today in file:
+                file.move(today, name)
+        assert "equilibrium_y" in file
     with (
         tiltpad.read_study(tmp_path / "study.h5") as today,
         tiltpad.read_study(tmp_path / "former.h5") as former,
     ):
         assert former.names() == today.names()
-        for name in RENAMED.values():
-            assert (former[name] > 0).all()
+        for name in ("equilibrium_journal_y", "equilibrium_total_power_loss"):
             np.testing.assert_array_equal(former[name], today[name])
-    words = ["study", str(tmp_path / "former.h5"), "--show", "film_passes", "-o", str(tmp_path / "a.png")]
+        np.testing.assert_array_equal(today["equilibrium_y"], today["equilibrium_journal_y"])
+    words = ["study", f"{tmp_path}/former.h5", "--show", "equilibrium_journal_y", "-o", f"{tmp_path}/a.png"]
     assert command.main(words) == 0, capsys.readouterr().err

@@ -126,6 +126,7 @@ FALSE = {
     "a number for a group": linked("statistics", 1.0),
     "names with blanks": lambda file: file.__setitem__("statistics/a b\nc", 1.0),
     "format_version 0": attribute(format_version=np.int32(0)),
+    "format_version 1": attribute(format_version=np.int32(1)),
     "format_version -3": attribute(format_version=np.int32(-3)),
     "format_version 99": attribute(format_version=np.int32(99)),
     "format_version as text": attribute(format_version="2"),

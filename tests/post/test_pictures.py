@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import tiltpad
 from PIL import Image
-from tiltpad import behaviour, command, figures, units
+from tiltpad import command, figures, units
 from tiltpad.calculate import differences, signals
 from tiltpad.draw import bearing, layout, orbits
 from tiltpad.running import resolved
@@ -136,20 +136,6 @@ def test_a_band_of_half_the_order_is_no_sawtooth(made):
     assert len(high) == 65
     assert high[1:-1].min() > 0.99
     assert low[1:-1].max() < -0.99
-
-
-def test_a_whirl_of_half_the_order_is_named(made):
-    case = made(
-        "fixed",
-        0.6,
-        journal_y=lambda time, angle: 2e-5 * np.cos(angle) + 3e-6 * np.cos(0.48 * angle),
-        journal_z=lambda time, angle: 2e-5 * np.sin(angle),
-    )
-    found = behaviour.whirl(case)
-    assert found == (pytest.approx(0.48, abs=1e-3), pytest.approx(3e-6, rel=0.01), True)
-    words = "The journal whirls at 0.48 of the shaft speed, about half of it, amplitude 3.00 µm."
-    assert found.words() == words
-    assert words in tiltpad.report.remarks(case)
 
 
 @pytest.mark.parametrize(

@@ -71,7 +71,7 @@ def test_a_closed_file_can_be_overwritten(run):
         ("fixed", "spectrum/pad_tilt", "pad motion is 'fixed'"),
         ("runup", "spectrum/journal_y", "no spectrum in this run: the speed changes"),
         ("equilibrium", "journal_y", "no journal_y in this run: its task is 'equilibrium'"),
-        ("lugre", "journal_x", "no journal_x in this run: there are asperities, asperity_force, "),
+        ("lugre", "journal_x", "no journal_x in this run: there are asperity_force, "),
         ("lugre", "contact_forces", "time (did you mean contact_force?)"),
     ],
 )
@@ -121,8 +121,8 @@ def test_another_program_s_file(tmp_path):
 
 
 def test_a_later_format(changed):
-    path = changed("none", lambda file: file.attrs.modify("format_version", 3))
-    with pytest.raises(tiltpad.RunError, match="format_version 3 is newer than 2"):
+    path = changed("none", lambda file: file.attrs.modify("format_version", 4))
+    with pytest.raises(tiltpad.RunError, match="format_version 4 is newer than 3"):
         tiltpad.read(path)
 
 

@@ -51,7 +51,7 @@ def test_parameters_and_results_are_those_of_the_members(study, copy):
     np.testing.assert_array_equal(study.member, range(1, 7))
     np.testing.assert_array_equal(study.speed_rpm, np.repeat(SPEEDS, 2))
     assert list(study["model"]) == MODELS * 3
-    assert (study.title, study.task, study.format_version, study.members) == ("Grid", "study", 2, 6)
+    assert (study.title, study.task, study.format_version, study.members) == ("Grid", "study", 3, 6)
     for k in (0, 5):
         with tiltpad.read(copy / f"{k + 1:04d}.h5") as run:
             y, z = tiltpad.orbit_size(run)
@@ -62,8 +62,8 @@ def test_parameters_and_results_are_those_of_the_members(study, copy):
             )
             assert study.min_film_thickness[k] == run.values("min_film_thickness", last).min()
             assert study.steps[k] == run["statistics/steps"]
-            assert study.equilibrium_power_loss[k] == run["equilibrium/total_power_loss"]
-            assert study.sommerfeld_number[k] == run["equilibrium/sommerfeld_number"]
+            assert study.equilibrium_total_power_loss[k] == run["equilibrium/total_power_loss"]
+            assert study.equilibrium_sommerfeld_number[k] == run["equilibrium/sommerfeld_number"]
             np.testing.assert_array_equal(study.pad_equilibrium_side_flow[k], run["equilibrium/side_flow"])
             points = tiltpad.poincare(run)
             kept = study.poincare_y[k][np.isfinite(study.poincare_y[k])]
@@ -82,7 +82,7 @@ def test_what_failed_is_nan_with_its_reason(study):
     np.testing.assert_array_equal(study.status, [0, 0, 0, 2, 0, 0])
     assert list(study.reason) == ["", "", "", "no equilibrium found", "", ""]
     assert list(study.done) == [True, True, True, False, True, True]
-    for name in ("orbit_y", "max_pressure", "equilibrium_y", "poincare_y", "pad_tilt_size"):
+    for name in ("orbit_y", "max_pressure", "equilibrium_journal_y", "poincare_y", "pad_tilt_size"):
         bad = np.isnan(study[name]).reshape(6, -1).all(axis=1)
         assert list(bad) == [False, False, False, True, False, False], name
 
@@ -278,7 +278,7 @@ def test_runs_that_are_no_members(result, tmp_path):
         assert np.isfinite(study.pad_max_pressure[1]).all()
         assert np.isnan(study.orbit_y[2])
         # a march looks its contact up in a table
-        assert study.equilibrium_y[2] == pytest.approx(study.equilibrium_y[0], rel=1e-6)
+        assert study.equilibrium_journal_y[2] == pytest.approx(study.equilibrium_journal_y[0], rel=1e-6)
 
 
 def test_names_of_parameters():

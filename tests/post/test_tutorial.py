@@ -11,7 +11,6 @@ from pathlib import Path
 import numpy as np
 import tiltpad
 from tiltpad import command
-from tiltpad.calculate import behaviour
 
 BLOCK = re.compile(r"```(\w+)( fails| ross)?\n(.*?)```", re.DOTALL)
 #: Commands of the package that need no process of their own, each of which would load matplotlib.
@@ -90,7 +89,7 @@ def figures(folder):
         sizes = [1e6 * tiltpad.orbit_size(run)[0] for run in (smooth, rough)]
         yield "from {:.1f} to {:.1f} um in the vertical".format(*sizes)
     with result("plain.h5") as run:
-        yield f"whirls at {behaviour.whirl(run).order:.2f} of the shaft speed"
+        yield f"whirls at {run['summary/whirl_order']:.2f} of the shaft speed"
     with result("threshold.h5") as run:
         yield f"from which speed on: {run['modes/threshold_rpm'][-1]:.0f} rpm"
     with result("warm.h5") as run:

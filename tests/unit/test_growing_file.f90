@@ -53,10 +53,12 @@ contains
       type(growing_file_type), intent(inout) :: file
       integer, intent(in) :: first, last
       integer :: k
+      if (.not. file%table%is_declared()) then
+         call file%table%declare(file%file, 'frequency', 1, '', 'Hz', 'frequency')
+         call file%table%declare(file%file, 'amplitude', 2, 'pad', 'm', 'amplitude')
+      end if
       do k = first, last
-         call file%table%put(file%file, 'frequency', real(k, wp), 'Hz', 'frequency')
-         call file%table%put(file%file, 'amplitude', amplitude(k), 'pad', 'm', 'amplitude')
-         call file%table%add(file%file)
+         call file%table%add(file%file, [real(k, wp), amplitude(k)])
       end do
    end subroutine add_samples
 

@@ -1,10 +1,9 @@
-!> Statistics of a run: a list that adds, writes and reads itself; older names of its figures in files.
+!> Statistics of a run: a list that adds, writes and reads itself.
 program test_run_statistics
    use kinds, only: wp, i8
    use files, only: delete_file
    use hdf5_file, only: hdf5_type
    use run_statistics, only: run_statistics_type
-   use file_format, only: format_version, upgrade
    use scratch, only: scratch_path
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
@@ -13,7 +12,6 @@ program test_run_statistics
    path = scratch_path('run.h5')
    if (runs('adding')) call adding()
    if (runs('file')) call file_round_trip()
-   if (runs('version_1')) call version_1()
    call delete_file(path)
    call report()
 
@@ -60,28 +58,4 @@ contains
       call file%close()
       call expect(allocated(file%failure), 'which is kept')
    end subroutine file_round_trip
-
-   !> A file of version 1 gets the present names and version; one of the present version stays as it is.
-   subroutine version_1()
-      type(run_statistics_type) :: list
-      type(hdf5_type) :: file
-      integer :: version, k
-      call file%create(path)
-      call file%put_flag('format_version', 1)
-      call file%make_group('statistics')
-      call file%put_count('statistics/film_sor', 5_i8, 'films')
-      call file%put_count('statistics/sor_sweeps', 9_i8, 'sweeps')
-      call list%put('film_volumes', 0_i8, '')
-      call list%put('film_passes', 0_i8, '')
-      do k = 1, 2
-         call upgrade(file)
-         call file%get_flag('format_version', version)
-         call expect(version == format_version, 'the present version')
-         call list%read(file)
-         call expect(list%count('film_volumes') == 5 .and. list%count('film_passes') == 9, 'the present names')
-         call expect(.not. any([file%has('statistics/film_sor'), file%has('statistics/sor_sweeps')]), 'and no others')
-      end do
-      call expect(.not. allocated(file%failure), 'all is well')
-      call file%close()
-   end subroutine version_1
 end program test_run_statistics

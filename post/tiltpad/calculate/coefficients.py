@@ -7,11 +7,19 @@ import numpy as np
 
 from tiltpad.calculate.selection import selected
 from tiltpad.files.archive import NotInRunError
-from tiltpad.files.read import COEFFICIENTS, MODES, Run
+from tiltpad.files.read import Run
 from tiltpad.files.study import Study
 
 #: The one dataset that is there only where it was asked for.
 SOUGHT = "threshold_rpm"
+#: What is used of the groups of a result.
+GROUPS = {
+    "coefficients": ("stiffness", "damping", "full_stiffness", "full_damping", "full_mass"),
+    "modes": (
+        *("eigenvalue_real", "eigenvalue_imag", "frequency", "damping_ratio", "log_decrement"),
+        *("shape_real", "shape_imag", SOUGHT),
+    ),
+}
 #: The two positions of the journal come first.
 JOURNAL = 2
 
@@ -135,13 +143,13 @@ def series(
         place = chosen[np.argsort((source[over] if over else speed)[chosen], kind="stable")]
         speed, parameters = speed[place], {name: source[name][place] for name in source.parameters}
     values = {}
-    for group, dimensions in (("coefficients", COEFFICIENTS), ("modes", MODES)):
-        for name in dimensions:
+    for group, names in GROUPS.items():
+        for name in names:
             path = f"{group}/{name}" if single else name
             if name == SOUGHT and path not in source:
                 continue
             each = source[path][None] if single else source[path][place]
-            values[name] = each[:, k] if dimensions[name][0] == "pivot" else each
+            values[name] = each[:, k] if "pivot" in (source.scales(path) or ()) else each
     return Series(own, speed, values, parameters)
 
 

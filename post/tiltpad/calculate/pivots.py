@@ -10,9 +10,6 @@ from tiltpad.calculate.signals import last_revolutions, lasted, needs_revolution
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 
-#: A pivot sticks below this share of the velocity over which friction falls from static to dynamic.
-STICKING = 0.05
-
 
 def ball_radius(run: Run) -> float:
     """R1, m: socket radius less the radius difference."""
@@ -86,10 +83,8 @@ def stick_velocity(run: Run) -> float:
     Bengisu-Akay (v_c where chi is 0). The values of the paper give 5e-5 m/s for both. It is not v_c, which
     only smooths the law, and not a share of the motion, which a pad at rest would have too.
     """
-    law = run.input["friction"]
-    if friction_model(run) == "lugre":
-        return STICKING * law["stribeck_velocity"]
-    return STICKING / law["decay"] if law["decay"] > 0 else law["critical_velocity"]
+    friction_model(run)
+    return float(run["summary/stick_velocity"])
 
 
 def sticking(run: Run, pad: int = 1, last: float = 1, below: float | None = None) -> np.ndarray:

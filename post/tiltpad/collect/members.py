@@ -1,4 +1,4 @@
-"""Members of a study: how a run ended, results of its last revolution, Poincare points, cost."""
+"""Members of a study: how a run ended, the figures in its file, Poincare points."""
 
 import re
 from collections.abc import Sequence
@@ -8,21 +8,26 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tiltpad.calculate import pivots, signals
+from tiltpad.calculate import signals
 from tiltpad.collect.parameters import swept
 from tiltpad.files.archive import NotInRunError, RunError, damaged, reading
-from tiltpad.files.read import LABELS, Run, read
-from tiltpad.files.study import FIGURES, POINTS, QUANTITIES, REVOLUTIONS
+from tiltpad.files.read import Run, read
+from tiltpad.files.study import POINTS, REVOLUTIONS
 
 #: Exit status of a member that was done, and those of one that did not end: running or killed, stopped.
 DONE, UNENDED = 0, (-1, 4)
 #: Most members of a sweep.
 MOST = 100_000
-#: Names as the program writes them: of a swept variable, and of a number of the cost.
+#: Names as the program writes them: of a swept variable, and of a dataset.
 VARIABLE = re.compile(r"[a-z]\w*%[a-z]\w*(\(\d+\))?", re.ASCII)
-COST = re.compile(r"[a-z]\w*", re.ASCII)
-#: A whole revolution, less a rounding error.
-WHOLE = 1 - 1e-9
+DATASET = re.compile(r"[a-z]\w*", re.ASCII)
+#: Groups of a member's file that are columns of a study, and what stands before the names in them.
+GROUPS = {
+    **dict.fromkeys(("summary", "coefficients", "modes", "statistics"), ""),
+    **{group: f"{group}_" for group in ("equilibrium", "periodic")},
+}
+#: Figures that also a run has that was not done.
+OF_ANY = ("speed", "time_reached", "equilibrium_")
 
 
 class Member(NamedTuple):
@@ -37,9 +42,9 @@ class Member(NamedTuple):
                           they are not known
         input             resolved namelist, empty where the file cannot be read
         origin            version, title and input text
-        values            results by names of tiltpad.files.study, with their dimensions less the member
-        labels            values of its dimensions, where they are not counted from 1
-        cost              the numbers of its group statistics
+        values            its columns of the study, with their dimensions less the member
+        found             of those that are datasets of its file: their names there, and these dimensions
+        labels            values of its dimensions
     """
 
     path: Path
@@ -52,8 +57,8 @@ class Member(NamedTuple):
     input: dict[str, dict[str, Any]] = {}
     origin: dict[str, str] = {}
     values: dict[str, Any] = {}
+    found: dict[str, tuple[str, tuple[str, ...]]] = {}
     labels: dict[str, Sequence[Any]] = {}
-    cost: dict[str, float] = {}
 
 
 def member(path: Path) -> Member:
@@ -85,25 +90,18 @@ def measured(path: Path, run: Run) -> Member:
     if not complete and status == DONE:
         status = UNENDED[0]
     reason = f"{attributes.get('reason', '')}" if status != DONE else ""
-    values: dict[str, Any] = {
-        "complete": float(complete),
-        "time_reached": float(run.values("time", -1)) if run.samples else 0.0,
-    }
+    values: dict[str, Any] = {"complete": float(complete)}
     if "resumes" in attributes:
         values["resumes"] = float(attributes["resumes"])
-    with suppress(NotInRunError):
-        values |= at_rest(run)
-    with suppress(NotInRunError):
-        values |= vibrations(run)
+    found = columns(run, complete and status == DONE)
+    values |= {name: run[own] for name, (own, _) in found.items()}
     if complete and status == DONE:
-        with suppress(NotInRunError):
-            part = signals.last_revolutions(run)
-            values |= motion(run, part)
-            values |= friction(run, part)
         with suppress(NotInRunError):
             points = signals.poincare(run, REVOLUTIONS, states=tuple(POINTS.values()))
             values |= {name: points[state] for name, state in POINTS.items() if state in points}
             values |= ends_of_revolutions(run, len(points["time"]))
+    count = len(values.get("poincare_y", ()))
+    known = dict.fromkeys(each for _, dimensions in found.values() for each in dimensions)
     return Member(
         path,
         number,
@@ -115,8 +113,8 @@ def measured(path: Path, run: Run) -> Member:
         run.input,
         {name: attributes[name] for name in ("version", "title", "input")},
         values,
-        labels(run, values),
-        cost(run),
+        found,
+        {name: run[name].tolist() for name in (*known, "pad")} | {"revolution": range(1 - count, 1)},
     )
 
 
@@ -137,66 +135,22 @@ def place(attributes: dict[str, Any]) -> tuple[int | None, int | None, dict[str,
     return number, members, sweep, marks if len(marks) == len(("before", "own", "all")) else None
 
 
-def at_rest(run: Run) -> dict[str, Any]:
-    """The equilibrium."""
-    known = {name: run[f"equilibrium/{own}"] for name, own in FIGURES.items() if f"equilibrium/{own}" in run}
-    if (hottest := "equilibrium/maximum_temperature") in run:
-        known["equilibrium_maximum_temperature"] = run[hottest].max()
-    return known | {
-        "equilibrium_y": float(run["equilibrium/journal_y"]),
-        "equilibrium_z": float(run["equilibrium/journal_z"]),
-        "equilibrium_min_film_thickness": run["equilibrium/min_film_thickness"].min(),
-        "equilibrium_max_pressure": run["equilibrium/max_pressure"].max(),
-    }
+def columns(run: Run, done: bool) -> dict[str, tuple[str, tuple[str, ...]]]:
+    """Names and dimensions of the datasets that are columns of a study, by the columns' names.
 
-
-def vibrations(run: Run) -> dict[str, Any]:
-    """Coefficients and modes; of a run without equilibrium only the speed."""
-    if run.task != "coefficients":
-        raise NotInRunError(f"{run.path}: no coefficients in this run")
-    values: dict[str, Any] = {"speed": run.input["operation"]["speed_rpm"] * np.pi / 30}
-    with suppress(NotInRunError):
-        values |= {
-            name: run[f"coefficients/{name}"] for name in run.names("coefficients") if name in QUANTITIES
-        }
-    with suppress(NotInRunError):
-        values |= {name: run[f"modes/{name}"] for name in run.names("modes") if name in QUANTITIES}
-        values["least_damping_ratio"] = np.nanmin(values["damping_ratio"], axis=1)
-    return values
-
-
-def labels(run: Run, values: dict[str, Any]) -> dict[str, Sequence[Any]]:
-    """Values of the dimensions that are not counted from 1."""
-    found = {name: list(run[name]) for name in (*LABELS, "frequency_ratio") if name in run}
-    points = len(values.get("poincare_y", ()))
-    return found | {"revolution": range(1 - points, 1)}
-
-
-def motion(run: Run, part: slice) -> dict[str, Any]:
-    """The motion in the last revolution, the samples `part`; NotInRunError where the run was shorter."""
-    if signals.turned(run, part) < WHOLE:
-        raise NotInRunError(f"{run.path}: no revolution in this run")
-    y, z = (run.values(name, part) for name in ("journal_y", "journal_z"))
-    tilting = "pad_tilt" in run
-    # a periodic orbit of several revolutions is taken as a whole
-    whole = slice(run.samples) if run.task == "periodic" else part
-    first = {name: signals.first_harmonic(run, name, whole) for name in ("journal_y", "journal_z")}
-    film, peak = run.values("min_film_thickness", part), run.values("max_pressure", part)
-    return {
-        "speed": float(run.values("speed", -1)),
-        "orbit_y": np.ptp(y),
-        "orbit_z": np.ptp(z),
-        "orbit_size": max(np.ptp(y), np.ptp(z)),
-        "mean_y": y.mean(),
-        "mean_z": z.mean(),
-        **{f"{name}_amplitude": abs(each) for name, each in first.items()},
-        **{f"{name}_phase": -np.angle(each) for name, each in first.items()},
-        "min_film_thickness": film.min(),
-        "max_pressure": peak.max(),
-        **({"pad_tilt_size": np.ptp(run.values("pad_tilt", part), axis=0)} if tilting else {}),
-        "pad_min_film_thickness": film.min(axis=0),
-        "pad_max_pressure": peak.max(axis=0),
-    }
+    What pads have a value of is called so, where it is not already; of a run that was not done only what
+    it had before.
+    """
+    found: dict[str, tuple[str, tuple[str, ...]]] = {}
+    for group, before in GROUPS.items():
+        for own in run.names(group) if group in run else ():
+            if not DATASET.fullmatch(own):
+                continue
+            dimensions = run.scales(f"{group}/{own}")
+            pads = "pad_" if dimensions == ("pad",) and not own.startswith("pad_") else ""
+            if dimensions is not None and (done or group != "summary" or own.startswith(OF_ANY)):
+                found[f"{pads}{before}{own}"] = f"{group}/{own}", dimensions
+    return found
 
 
 def ends_of_revolutions(run: Run, count: int) -> dict[str, Any]:
@@ -211,34 +165,6 @@ def ends_of_revolutions(run: Run, count: int) -> dict[str, Any]:
             own[count - len(each) :] = each
             values[f"{way}_{state.rpartition('_')[2]}"] = own
     return values
-
-
-def friction(run: Run, part: slice) -> dict[str, Any]:
-    """Friction of the pivots in the samples `part`; NotInRunError where there is none."""
-    limit = pivots.stick_velocity(run)
-    names = ("time", "pad_tilt", "pad_tilt_rate", "friction_moment")
-    time, tilt, rate, moment = (run.values(name, part) for name in names)
-    sliding, duration = pivots.ball_radius(run) * rate, signals.lasted(run, part)
-    pads = range(run.pads)
-    work = np.array([pivots.path_integral(tilt[:, k], moment[:, k]) for k in pads])
-    stuck = [np.diff(pivots.slow_intervals(time, sliding[:, k], limit)).sum() / duration for k in pads]
-    return {
-        "friction_work": work.sum(),
-        "stick_fraction": np.mean(stuck),
-        "pad_friction_work": work,
-        "pad_stick_fraction": np.array(stuck),
-    }
-
-
-def cost(run: Run) -> dict[str, float]:
-    """The numbers of the group statistics; none where the run has no such group."""
-    if "statistics" not in run:
-        return {}
-    return {
-        name: float(value)
-        for name, value in run["statistics"].items()
-        if COST.fullmatch(name) and name not in QUANTITIES
-    }
 
 
 def planned(members: Sequence[Member]) -> int:

@@ -2,10 +2,10 @@
 
 import os
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import h5py
 import numpy as np
@@ -13,10 +13,36 @@ import numpy as np
 from tiltpad.collect.members import Member, planned
 from tiltpad.collect.parameters import differing, parameters
 from tiltpad.files.archive import FORMAT_VERSION, RunError, plain
-from tiltpad.files.namelist import count
-from tiltpad.files.read import COEFFICIENTS, LABELS, read
-from tiltpad.files.study import DIMENSIONS, MEMBER, QUANTITIES, Quantity
+from tiltpad.files.read import read
+from tiltpad.files.study import MEMBER
 
+
+class Column(NamedTuple):
+    """An array over the members: further dimensions, unit, meaning."""
+
+    dimensions: tuple[str, ...]
+    units: str
+    long_name: str
+
+
+REVOLUTION, OF_PADS = ("revolution",), ("revolution", "pad")
+#: Columns that are no datasets of the members' files.
+OWN = {
+    "status": Column((), "1", "exit status: 0 done, nan if the file cannot be read"),
+    "complete": Column((), "1", "1 where the run reached its end"),
+    "resumes": Column((), "1", "times that the run was resumed"),
+    **{
+        f"{kind}_{state}": Column(OF_PADS if state == "tilt" else REVOLUTION, unit, f"{name} {words}")
+        for state, unit, name in (("y", "m", "journal y"), ("z", "m", "journal z"), ("tilt", "rad", "tilt"))
+        for kind, words in (
+            ("poincare", "once a revolution"),
+            ("lowest", "at its lowest in a revolution"),
+            ("highest", "at its highest in a revolution"),
+        )
+    },
+}
+#: Meanings of the dimensions that the members' files do not have.
+COUNTED = {"member": "number of the member", "revolution": "revolutions before the last Poincare point"}
 #: Texts of a member with their meaning.
 TEXTS = {"reason": "reason of the failure", "file": "result file, relative to the folder of this file"}
 
@@ -47,7 +73,9 @@ def fill(file: h5py.File, members: Sequence[Member], missing: Sequence[int], fol
     else:
         own = differing([each.input for each in readable])
         known = {each.path: values for each, values in zip(readable, own, strict=True)}
-    taken = {*MEMBER, *DIMENSIONS, *TEXTS, "members", *QUANTITIES}.union(*(each.cost for each in members))
+    columns = described(members)
+    wanted = {dimension for each in columns.values() for dimension in each.dimensions}
+    taken = {*COUNTED, *TEXTS, "members", *OWN, *wanted, *columns}
     found = parameters([known.get(each.path) for each in members], taken)
     titles = {each.origin["title"] for each in readable}
     file.attrs.update(
@@ -65,97 +93,75 @@ def fill(file: h5py.File, members: Sequence[Member], missing: Sequence[int], fol
             "missing": ranges(missing),
         }
     )
-    labels = scales(file, members)
+    labels = scales(file, members, columns)
     coordinates = " ".join(each.name for each in found)
     for one in found:
         put(file, one.name, one.values, MEMBER, one.units, one.long_name)
     paths = [os.path.relpath(each.path.resolve(), folder) for each in members]
     for name, texts in (("reason", [each.reason for each in members]), ("file", paths)):
         put(file, name, texts, MEMBER, "", TEXTS[name], coordinates)
-    for name, quantity, values in tables(members, labels):
-        put(file, name, values, quantity.dimensions, quantity.units, quantity.long_name, coordinates)
+    put(file, "status", [each.status for each in members], MEMBER, *OWN["status"][1:], coordinates)
+    for name, (dimensions, unit, meant) in columns.items():
+        values = placed(name, dimensions, members, labels)
+        put(file, name, values, (*MEMBER, *dimensions), unit, meant, coordinates)
     links = file.create_group("members")
     digits = max(4, len(str(members[-1].number)))
     for each, path in zip(members, paths, strict=True):
         links[f"{each.number:0{digits}d}"] = h5py.ExternalLink(path, "/")
 
 
-def scales(file: h5py.File, members: Sequence[Member]) -> dict[str, list[Any]]:
-    """Writes the dimensions; gives the values of each: those that any of the members has.
-
-    Members have their numbers, revolutions are counted from the last one, which is 0.
-    """
-    labels: dict[str, dict[Any, None]] = {name: {} for name in DIMENSIONS}
+def described(members: Sequence[Member]) -> dict[str, Column]:
+    """The columns that any member has, as the file of the first member that has one describes it."""
+    found = {name: OWN[name] for name in OWN if any(name in each.values for each in members)}
     for each in members:
-        for name, values in each.values.items():
-            for dimension, size in zip(QUANTITIES[name].dimensions[1:], np.shape(values), strict=True):
-                labels[dimension].update(dict.fromkeys(own_labels(each, dimension, size)))
-        if each.input:
-            labels["pad"].update(dict.fromkeys(range(1, count(each.input["pads"]["pivot_angle_deg"]) + 1)))
-    found = {name: in_order(name, list(values)) for name, values in labels.items() if values}
-    numbers = [each.number for each in members]
-    for name, own in ({"member": numbers} | found).items():
+        new = {name: own for name, own in each.found.items() if name not in found}
+        if new:
+            with warnings.catch_warnings(action="ignore"), read(each.path) as run:
+                for name, (path, dimensions) in new.items():
+                    found[name] = Column(dimensions, run.about(path, "units"), run.about(path, "long_name"))
+    return found
+
+
+def scales(
+    file: h5py.File, members: Sequence[Member], columns: dict[str, Column]
+) -> dict[str, dict[Any, int]]:
+    """Writes the dimensions; gives the places of the values of each: those that any of the members has.
+
+    Members have their numbers, revolutions are counted from the last one, which is 0. Numbers rise; texts
+    stay in the order of the members.
+    """
+    wanted = {dimension for each in columns.values() for dimension in each.dimensions} | {"pad"}
+    found: dict[str, list[Any]] = {"member": [each.number for each in members]}
+    for name in sorted(wanted):
+        values = list(dict.fromkeys(value for each in members for value in each.labels.get(name, ())))
+        found[name] = values if any(isinstance(value, str) for value in values) else sorted(values)
+    for name, own in ((name, own) for name, own in found.items() if own):
         if isinstance(own[0], str):
             file.create_dataset(name, data=own, dtype=h5py.string_dtype())
         else:
             file[name] = np.array(own)
         file[name].make_scale(name)
-        meaning = DIMENSIONS.get(name, "number of the member")
-        file[name].attrs.update({"units": "1", "long_name": meaning})
-    return found
+        file[name].attrs.update({"units": "1", "long_name": COUNTED.get(name) or meaning(members, name)})
+    return {name: {label: k for k, label in enumerate(own)} for name, own in found.items()}
 
 
-def own_labels(one: Member, dimension: str, size: int) -> Sequence[Any]:
-    """What a member's values along a dimension belong to; numbers from 1 where it has no labels."""
-    return one.labels.get(dimension, range(1, size + 1))
-
-
-def in_order(name: str, values: list[Any]) -> list[Any]:
-    """Numbers rise; texts stay in the order of the members."""
-    return values if name in LABELS else sorted(values)
-
-
-def tables(
-    members: Sequence[Member], labels: dict[str, list[Any]]
-) -> Iterator[tuple[str, Quantity, np.ndarray]]:
-    """Name, meaning and array of every quantity that a member has; nan for members that do not have it."""
-    yield "status", QUANTITIES["status"], np.array([each.status for each in members], dtype=float)
-    for name, quantity in QUANTITIES.items():
-        having = [each for each in members if name in each.values]
-        if having:
-            group = "coefficients" if name in COEFFICIENTS else "modes"
-            about = quantity if quantity.units else meaning(having[0].path, f"{group}/{name}")
-            values = placed(name, quantity.dimensions[1:], members, labels)
-            yield name, about._replace(dimensions=quantity.dimensions), values
-    measured = [each for each in members if each.cost]
-    for name in dict.fromkeys(name for each in measured for name in each.cost):
-        first = next(each for each in measured if name in each.cost)
-        values = np.array([each.cost.get(name, np.nan) for each in members])
-        yield name, meaning(first.path, f"statistics/{name}"), values
-
-
-def meaning(path: Path, name: str) -> Quantity:
-    """Unit and meaning of a number for each member, from a file that has it."""
+def meaning(members: Sequence[Member], dimension: str) -> str:
+    """What a dimension is, from the file of a member that has it."""
+    path = next(each.path for each in members if dimension in each.labels)
     with warnings.catch_warnings(action="ignore"), read(path) as run:
-        units, long_name = (run.about(name, each) for each in ("units", "long_name"))
-    return Quantity(MEMBER, units, long_name)
+        return run.about(dimension, "long_name")
 
 
 def placed(
-    name: str, dimensions: Sequence[str], members: Sequence[Member], labels: dict[str, list[Any]]
+    name: str, dimensions: Sequence[str], members: Sequence[Member], labels: dict[str, dict[Any, int]]
 ) -> np.ndarray:
     """One array of the members' own, each value at the place of its labels; nan where there is none."""
-    places = {each: {label: k for k, label in enumerate(labels[each])} for each in dimensions}
-    table = np.full((len(members), *map(len, places.values())), np.nan)
+    table = np.full((len(members), *(len(labels[each]) for each in dimensions)), np.nan)
     for k, each in enumerate(members):
-        if name in each.values:
-            values = np.asarray(each.values[name], dtype=float)
-            part = [
-                [places[dimension][label] for label in own_labels(each, dimension, size)]
-                for dimension, size in zip(dimensions, values.shape, strict=True)
-            ]
+        if name in each.values and each.found.get(name, ("", dimensions))[1] == dimensions:
+            part = [[labels[own][label] for label in each.labels[own]] for own in dimensions]
             place: Any = (k, *np.ix_(*part))
-            table[place] = values
+            table[place] = each.values[name]
     return table
 
 

@@ -24,8 +24,8 @@ from tiltpad.calculate.selection import (
 from tiltpad.draw.layout import DENSE, dots, part_color
 from tiltpad.draw.plots import on_axes
 from tiltpad.files import units
-from tiltpad.files.study import PIVOTS, POINTS, QUANTITIES, Study
-from tiltpad.files.units import SHOWN, Shown
+from tiltpad.files.study import PIVOTS, POINTS, Study
+from tiltpad.files.units import Shown, described
 
 #: Kinds of diagrams.
 KINDS = ("lines", "map", "bifurcation")
@@ -77,7 +77,7 @@ def diagram(
     if show is None:
         first = next((name for name in DEFAULTS if name in study), DEFAULTS[0])
         show = "poincare_y" if revolutions else first
-    if show in study and show in QUANTITIES and QUANTITIES[show].dimensions == PIVOTS:
+    if show in study and study.scales(show) == PIVOTS:
         shown = of_pivot(study, show, pivot)
     else:
         shown = result(study, show, revolutions, pad)
@@ -87,7 +87,7 @@ def diagram(
 def of_pivot(study: Study, name: str, pivot: str | None) -> Result:
     """A result of pivots, (member,): of the ones that are asked for, or of the first."""
     own, k = chosen_pivot(study, pivot)
-    shown = SHOWN[name]
+    shown = described(study, name)
     return study[name][:, k], shown._replace(text=f"{shown.text}, pivots {own}")
 
 
@@ -194,34 +194,28 @@ def default_kind(study: Study, show: str | None, over: str, others: Sequence[str
 
 def result(study: Study, name: str, revolutions: bool, pad: int | None) -> Result:
     """A result, (member,) or with `revolutions` (member, revolution); with `pad` that of a pad."""
-    if name in QUANTITIES and name not in study:
+    if name in (*DEFAULTS, *POINTS) and name not in study:
         raise ValueError(f"{study.path}: no {name} in this study: no member has it")
     results = [
         each
         for each in study.names()
         if each not in ("member", "file", "reason", *study.parameters) and study.about(each, "units")
     ]
-    scales = ["member", *(["revolution"] if revolutions else []), *(["pad"] if pad is not None else [])]
-    if not all(each in study for each in scales):
+    wanted = ("member", *(["revolution"] if revolutions else []), *(["pad"] if pad is not None else []))
+    if not all(each in study for each in wanted):
         raise ValueError(f"{study.path}: no Poincare points in this study: no member has them")
-    shape = tuple(study.item(each).shape[0] for each in scales)
     what = f"{'Poincare points' if revolutions else 'a result'}{' of a pad' if pad is not None else ''}"
-    has = QUANTITIES[name].dimensions if name in results and name in QUANTITIES else ()
+    has = study.scales(name) or () if name in results else ()
     if "pad" in has and pad is None:
         raise ArgumentError("{show}: {own} has a value for each pad: choose one by {pad}", own=name)
     if "revolution" in has and not revolutions:
         raise ArgumentError("{show}: {own} is once a revolution: {kind} bifurcation", own=name)
-    needs(name, [each for each in results if study.item(each).shape == shape], "show", what)
-    values, shown = study[name], SHOWN.get(POINTS.get(name, name.removeprefix("pad_")))
-    if shown is None:
-        units = study.about(name, "units")
-        shown = Shown(study.about(name, "long_name") or name, 1, "" if units == "1" else units)
+    needs(name, [each for each in results if study.scales(each) == wanted], "show", what)
+    values, shown = study[name], described(study, name, POINTS.get(name, name.removeprefix("pad_")))
     if pad is None:
         return values, shown
-    if not 1 <= pad <= shape[-1]:
-        raise ArgumentError(
-            "{pad} {own}: must be 1 to {last}, the pads of this study", own=pad, last=shape[-1]
-        )
+    if not 1 <= pad <= (last := study.length("pad")):
+        raise ArgumentError("{pad} {own}: must be 1 to {last}, the pads of this study", own=pad, last=last)
     return values[..., pad - 1], shown._replace(text=f"{shown.text}, pad {pad}")
 
 

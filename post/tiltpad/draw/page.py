@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
 from tiltpad.draw import plots
-from tiltpad.files.units import fitted, numbers
+from tiltpad.files.units import Shown, fitted, numbers
 
 #: Pictures of runs and studies and their captions.
 PICTURES = {
@@ -67,10 +67,10 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]], words: bool = Fals
     )
 
 
-def row(text: str, quantity: str, values: Sequence[float]) -> tuple[str, ...]:
-    """Numbers of a quantity between their name and their unit, which suits the largest of them."""
+def row(quantity: Shown, values: Sequence[float]) -> tuple[str, ...]:
+    """Numbers of a quantity between its name and its unit, which suits the largest of them."""
     shown = fitted(quantity, values)
-    return (text, *numbers(shown, values), shown.unit)
+    return (shown.text, *numbers(shown, values), shown.unit)
 
 
 def picture(name: str, draw: Callable[[], Figure], caption: str | None = None, remarks: bool = True) -> str:

@@ -17,7 +17,6 @@ from matplotlib.patches import Arc, Circle, FancyArrowPatch
 from matplotlib.ticker import MaxNLocator
 
 from tiltpad.calculate import behaviour, library, pivots, signals, spectra
-from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run, needs_run
 from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN
@@ -112,7 +111,7 @@ def clearance(run: Run, ax: Axes, marks: bool = True) -> Axes:
         ax.add_patch(Circle((0, 0), radius, fill=False, linewidth=0.8, color="0.3"))
     note = {"ha": "center", "fontsize": "small", "color": "0.3"}
     arc, ratio = (np.atleast_1d(run.input["pads"][name]) for name in ("arc_deg", "pivot_ratio"))
-    found = pad_marks(run) if marks else {}
+    found = behaviour.marks(run) if marks else {}
     for pad, angle in enumerate(np.degrees(run.pivot_angle)):
         mark = found.get(pad + 1, "")
         ends = {"theta1": angle - (1 - ratio[pad]) * arc[pad], "theta2": angle + ratio[pad] * arc[pad]}
@@ -139,14 +138,6 @@ def clearance(run: Run, ax: Axes, marks: bool = True) -> Axes:
     ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
     ax.set(xlabel=SHOWN["journal_z"].label, ylabel=SHOWN["journal_y"].label, aspect="equal")
     return ax
-
-
-def pad_marks(run: Run) -> dict[int, str]:
-    """Words on pads that are unloaded, flutter or rub; none where the run was not sampled."""
-    try:
-        return {each.pad: each.mark for each in behaviour.of_pads(run) if each.mark}
-    except NotInRunError:
-        return {}
 
 
 @on_axes

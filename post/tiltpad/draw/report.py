@@ -63,13 +63,8 @@ def orbit_stability(run: Run) -> str:
 
 def remarks(run: Run) -> str:
     """Whirl, unloaded, lifted, fluttering and rubbing pads, and the peaks of a run-up, in words."""
-    try:
-        found = behaviour.of_pads(run)
-        said = paragraph(behaviour.whirl(run).words())
-    except NotInRunError:
-        return ""
-    said += "".join(paragraph(each.words(), warning=each.rubbing > 0) for each in found)
-    return said + paragraph(peaks(run))
+    said = [paragraph(each, warning="rubs" in each) for each in behaviour.remarks(run)]
+    return "".join(said) + paragraph(peaks(run))
 
 
 def peaks(run: Run) -> str:
@@ -86,19 +81,19 @@ def peaks(run: Run) -> str:
 
 
 def key_figures(run: Run) -> str:
-    rows = [row(text, quantity, list(np.atleast_1d(value))) for text, quantity, value in summary.journal(run)]
+    rows = [row(shown, list(np.atleast_1d(value))) for _, shown, value in summary.journal(run)]
     return table(("journal and film", "value", "unit"), rows)
 
 
 def pad_figures(run: Run) -> str:
     head = ("pad", *(f"{pad}" for pad in range(1, run.pads + 1)), "unit")
     angles = ("pivot angle", *(f"{angle:g}" for angle in np.round(np.degrees(run.pivot_angle), 6)), "deg")
-    rows = [row(text, quantity, list(np.atleast_1d(values))) for text, quantity, values in summary.pads(run)]
-    note = (
-        f"Last revolution; friction and sticking over the last {summary.LAST}; lifting, rubbing and dominant "
-        f"order over the last {behaviour.LAST}; or over all if there are fewer."
-    )
-    return table(head, [angles, *rows]) + (f"<p>{note}</p>" if run.samples else "")
+    rows = [row(shown, list(np.atleast_1d(values))) for _, shown, values in summary.pads(run)]
+    note = ""
+    if "summary/last_revolutions" in run:
+        over = f"lifting, rubbing and dominant order over the last {run['summary/last_revolutions']:.0f}"
+        note = f"<p>Last revolution; {over}.</p>"
+    return table(head, [angles, *rows]) + note
 
 
 def spectrum_peaks(run: Run) -> str:
@@ -117,7 +112,7 @@ def spectrum_peaks(run: Run) -> str:
         )
         for each in found
     ]
-    note = f"Highest peaks of the last {summary.LAST} revolutions, or of all if there are fewer."
+    note = f"Highest peaks of the last {run['spectrum/revolutions']} revolutions."
     return table(head, rows) + f"<p>{note}</p>" if rows else ""
 
 

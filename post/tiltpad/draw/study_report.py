@@ -13,13 +13,13 @@ from tiltpad.draw.diagrams import label
 from tiltpad.draw.page import page, paragraph, picture, section, table
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.study import Study
-from tiltpad.files.units import SHOWN, digits
+from tiltpad.files.units import described, digits
 
 #: Results of the table and of the curves, those that the study has.
 KEYS = (
     *("orbit_size", "min_film_thickness", "max_pressure", "friction_work", "stick_fraction"),
     *("equilibrium_eccentricity_ratio", "equilibrium_min_film_thickness", "equilibrium_max_pressure"),
-    *("equilibrium_power_loss", "least_damping_ratio", "threshold_rpm"),
+    *("equilibrium_total_power_loss", "least_damping_ratio", "threshold_rpm"),
 )
 #: Columns of the table, and its rows.
 COLUMNS, ROWS = 6, 300
@@ -75,7 +75,7 @@ def named(study: Study) -> list[str]:
 def members(study: Study) -> str:
     """Parameters and key results of every member."""
     keys = [name for name in KEYS if name in study and np.isfinite(values(study, name)).any()][:COLUMNS]
-    shown = [SHOWN[name] for name in keys]
+    shown = [described(study, name) for name in keys]
     columns = [values(study, name) for name in keys]
     rows = [
         (
@@ -102,7 +102,7 @@ def curves(study: Study) -> Iterator[str]:
     for name in KEYS:
         if name in study and study.parameters and np.isfinite(values(study, name)).any():
             try:
-                caption = f"{SHOWN[name].text.replace('$', '')}.".capitalize()
+                caption = f"{described(study, name).text.replace('$', '')}.".capitalize()
                 yield picture(name, partial(figures.study, study, name), caption, remarks=False)
             except ValueError:
                 continue

@@ -28,7 +28,7 @@ from tiltpad.draw.layout import (
 )
 from tiltpad.draw.vibrations import axis_label, parts, title
 from tiltpad.files.archive import NotInRunError
-from tiltpad.files.read import WARM, Run
+from tiltpad.files.read import Run
 from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN
 
@@ -38,6 +38,12 @@ PLACES = {"inlet": "<", "mean": "o", "outlet": ">", "maximum": "^"}
 SHAFT = {"color": "0.3", "linestyle": "--", "label": "shaft"}
 DRAIN = {"color": "0.3", "linestyle": ":", "label": "drain"}
 SUPPLY = {"color": "0.3", "linestyle": "-", "linewidth": 0.8, "label": "supply"}
+
+#: What is drawn of a heat balance, and how the names in studies begin.
+DRAWN = {
+    **dict.fromkeys(("mean_temperature", "maximum_temperature", "viscosity"), "pad_"),
+    **dict.fromkeys(("shaft_temperature", "drain_temperature"), ""),
+}
 
 
 @of_several
@@ -91,7 +97,7 @@ def of_branch(run: Run, pad: int | None) -> Figure:
     pads = shown_pads([run], pad)
     for number in np.unique(run["branch"]):
         own = np.flatnonzero(run["branch"] == number)
-        found = {name: run[name][own] for name in WARM}
+        found = {name: run[name][own] for name in DRAWN}
         draw(run["parameter"][own], found, pads, panels["temperature"], panels["viscosity"])
     finish(fig, panels, pads, parameter_of(run).label, [run])
     return fig
@@ -119,10 +125,7 @@ def over_parameter(
     order = np.flatnonzero(selected(study, where) & np.isfinite(place))
     order = order[np.argsort(place[order], kind="stable")]
     x = place[order]
-    found = {
-        name: study[f"{'pad_' if dimensions else ''}equilibrium_{name}"][order]
-        for name, dimensions in WARM.items()
-    }
+    found = {name: study[f"{pads}equilibrium_{name}"][order] for name, pads in DRAWN.items()}
     mean = found["mean_temperature"]
     pads = list(range(1, mean.shape[1] + 1))
     if pad is not None and pad not in pads:

@@ -18,11 +18,10 @@ import numpy as np
 from h5py import h5d, h5l, h5t, h5z
 
 from tiltpad.files import heaps
+from tiltpad.files.former_names import FORMER_NAMES, renamed
 
-#: Newest format_version that this reader knows, of results and of studies.
-FORMAT_VERSION = 2
-#: Names in files of format_version 1 that are others today: today's name, and the one in the file.
-NAMES_OF_1 = {"film_volumes": "film_sor", "film_passes": "sor_sweeps"}
+#: Oldest and newest format_version that this reader knows, of results and of studies.
+OLDEST_VERSION, FORMAT_VERSION = 2, 3
 #: Attributes of every file, and those that are numbers.
 REQUIRED = ("version", "created", "title", "task", "input")
 NUMBERS = ("format_version", "complete", "exit_status", "resumes", "member", "members")
@@ -58,6 +57,10 @@ class Archive:
         "modes",
         "members",
         "special_points",
+        "asperities",
+        "oil",
+        "periodic",
+        "summary",
     )
     #: Kinds of numpy's types that its datasets may have.
     KINDS = "fiu"
@@ -65,6 +68,7 @@ class Archive:
     INTERNAL = (
         *("check_whole", "check_dataset", "scales", "sound", "without", "item", "own", "found", "listed"),
         *("former", "size", "why_not", "end", "in_words", "is_series", "KINDS", "OWN", "GROUPS", "INTERNAL"),
+        *("scale", "today"),
     )
     #: Its own attributes: where one is not set yet, no dataset of that name is looked for.
     OWN = ("file", "path", "attributes", "former", "found", "listed", "size")
@@ -82,7 +86,8 @@ class Archive:
                     plain(name): plain(attrs[name]) for name in attrs if simple(attrs, name)
                 }
             check_origin(self.path, self.attributes)
-            self.former = NAMES_OF_1 if self.attributes["format_version"] == 1 else {}
+            former = FORMER_NAMES if self.attributes["format_version"] < FORMAT_VERSION else {}
+            self.former = {today: old for old, today in former.items()}
             self.check_whole()
         except BaseException:
             self.file.close()
@@ -92,15 +97,7 @@ class Archive:
         return self.values(name)
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("_") or name in (
-            "file",
-            "path",
-            "attributes",
-            "former",
-            "found",
-            "listed",
-            "size",
-        ):
+        if name.startswith("_") or name in self.OWN:
             raise AttributeError(name)
         return self.attributes[name] if name in self.attributes else self.values(name)
 
@@ -130,10 +127,9 @@ class Archive:
         """Names of the datasets and groups in the file or in a group of it, in alphabetical order."""
         if group not in self.listed:
             found = self.item(group) if group else self.file
-            today = {own: name for name, own in self.former.items()}
             with reading(self.path, group or "the list of datasets"):
                 there = [plain(name) for name in found] if isinstance(found, h5py.Group) else []
-            self.listed[group] = sorted(today.get(own, own) for own in there)
+            self.listed[group] = sorted(self.today(f"{group}/{own}".lstrip("/")) for own in there)
         return self.listed[group]
 
     def values(self, name: str, part: slice | int = slice(None)) -> Any:
@@ -149,16 +145,19 @@ class Archive:
     def item(self, name: str) -> h5py.Dataset | h5py.Group:
         """A dataset or group, its type and size checked; nothing of it is read yet."""
         if name not in self.found:
+            if name not in self and (today := renamed(name)) in self:
+                return self.item(today)
             if name not in self:
                 group = name.split("/")[0]
                 missing = name if group in self else group
                 raise NotInRunError(self.without(missing))
             with reading(self.path, name):
-                group, slash, own = name.rpartition("/")
-                found = self.own(group + slash + self.former.get(own, own))
+                group, slash, _ = name.rpartition("/")
+                own = self.former.get(name, name).rpartition("/")[2]
+                found = self.own(self.former.get(group, group) + slash + own)
                 if not isinstance(found, h5py.Group):
                     self.check_dataset(name, found)
-                elif self.scales(name) is not None:
+                elif name not in self.GROUPS:
                     raise ValueError("a group and not an array of numbers")
             self.found[name] = found
         return self.found[name]
@@ -171,6 +170,33 @@ class Archive:
                 raise ValueError(f"{part} is a link and not in this file")
             found = found[part]
         return found
+
+    def today(self, path: str) -> str:
+        """What a dataset of this file is called today in its group."""
+        return (renamed(path) if self.former else path).rpartition("/")[2]
+
+    def scales(self, name: str, found: h5py.Dataset | None = None) -> tuple[str, ...] | None:
+        """Dimensions of a dataset by the names of their scales; a scale is its own; None: unknown."""
+        found = self.item(name) if found is None else found
+        if found.shape == ():
+            return ()
+        attrs = found.attrs
+        if "DIMENSION_LIST" not in attrs:
+            return (name,) if found.is_scale else None
+        kept = attrs.get_id("DIMENSION_LIST")
+        kind = kept.get_type()
+        # the library can crash over any other list
+        references = kind.get_class() == h5t.VLEN and kind.get_super().equal(h5t.STD_REF_OBJ)
+        if not references or kept.shape != (found.ndim,):
+            raise ValueError("its dimensions are none")
+        group = name.rpartition("/")[0]
+        return tuple(self.scale(group, self.file[each[0]]) for each in attrs["DIMENSION_LIST"])
+
+    def scale(self, group: str, found: h5py.Dataset) -> str:
+        """Name of a scale that a dataset of this group refers to."""
+        own = plain(found.attrs["NAME"]) if simple(found.attrs, "NAME") else ""
+        inner = self.today(f"{group}/{own}")
+        return f"{group}/{inner}" if group and inner in self.names(group) else self.today(own)
 
     def length(self, name: str) -> int:
         """Number of values along a dimension, by the name of its scale."""
@@ -210,15 +236,12 @@ class Archive:
         compressed = found.id.get_create_plist().get_nfilters() > 0
         if claimed > (max(COMPRESSION * self.size, SMALL) if compressed else self.size):
             raise ValueError(f"it claims {claimed} bytes, more than the file holds")
-        scales = self.scales(name)
+        scales = self.scales(name, found)
         if scales == (name,):
             fits(found.shape[1:], ())
             found.shape[0]  # a scalar has none
         elif scales is not None:
             fits(found.shape, [self.length(each) for each in scales])
-
-    def scales(self, name: str) -> Sequence[str] | None:
-        """Dimensions that a dataset must have (a scale: its own name); None for an unknown dataset."""
 
     def sound(self, name: str, values: Any) -> Any:
         """The values that were read; ValueError where they are impossible."""
@@ -330,10 +353,9 @@ def check_origin(path: str, attributes: dict[str, Any]) -> None:
             f"{path}: format_version {version} is newer than {FORMAT_VERSION}, the newest this reader knows; "
             "update the Python package tiltpad"
         )
-    if version < 1:
-        raise RunError(
-            f"{path}: format_version {version} is unknown; versions 1 to {FORMAT_VERSION} can be read"
-        )
+    if version < OLDEST_VERSION:
+        known = f"versions {OLDEST_VERSION} to {FORMAT_VERSION} can be read"
+        raise RunError(f"{path}: format_version {version} is unknown; {known}")
 
 
 def fits(shape: Sequence[int], wanted: Sequence[int]) -> None:

@@ -15,112 +15,12 @@ from tiltpad.files.archive import Archive, NotInRunError, RunError, damaged, mea
 
 #: Datasets over which the others are drawn and integrated; they must be finite.
 AXES = ("time", "shaft_angle", "speed", "pivot_angle")
-#: Dimensions whose values are texts.
-LABELS = ("pivot", "row", "column", "position_row", "position_column")
-#: All arrays of texts.
-TEXTS = (*LABELS, "special_points/kind")
-#: Dimensions of the groups coefficients and modes.
-COEFFICIENTS = {
-    **dict.fromkeys(("stiffness", "damping"), ("pivot", "frequency_ratio", "row", "column")),
-    **dict.fromkeys(("full_stiffness", "full_damping"), ("pivot", "position_row", "position_column")),
-    "full_mass": ("position_row", "position_column"),
-}
-MODES = {
-    **dict.fromkeys(("eigenvalue_real", "eigenvalue_imag"), ("pivot", "mode")),
-    **dict.fromkeys(("frequency", "damping_ratio", "log_decrement"), ("pivot", "mode")),
-    **dict.fromkeys(("shape_real", "shape_imag"), ("pivot", "mode", "position_row")),
-    "threshold_rpm": ("pivot",),
-}
-#: Dimensions of what a heat balance adds to the group equilibrium.
-WARM = {
-    **dict.fromkeys(("inlet_temperature", "mean_temperature", "outlet_temperature"), ("pad",)),
-    **dict.fromkeys(("maximum_temperature", "viscosity"), ("pad",)),
-    **dict.fromkeys(("shaft_temperature", "drain_temperature"), ()),
-}
-#: Dimensions of what the task branch writes; some names are those of series over the time.
-BRANCH = {
-    **dict.fromkeys(("point", "branch", "parameter", "arc_length", "stable", "iterations"), ("point",)),
-    **dict.fromkeys(("journal_y_max", "journal_y_min", "journal_z_max", "journal_z_min"), ("point",)),
-    **dict.fromkeys(("journal_y_amplitude", "journal_z_amplitude"), ("point",)),
-    **dict.fromkeys(("journal_y_phase", "journal_z_phase"), ("point",)),
-    **dict.fromkeys(("period", "revolutions", "intervals"), ("point",)),
-    **dict.fromkeys(("pad_tilt_max", "pad_tilt_min", "min_film_thickness"), ("point", "pad")),
-    **{name: ("point", *dimensions) for name, dimensions in WARM.items()},
-    **dict.fromkeys(("multiplier_real", "multiplier_imag"), ("point", "mode")),
-    **dict.fromkeys(("eigenvalue_real", "eigenvalue_imag"), ("point", "mode")),
-    **dict.fromkeys(
-        (
-            *("special_points/point", "special_points/branch", "special_points/parameter"),
-            *("special_points/value_real", "special_points/value_imag"),
-        ),
-        ("special_points/point",),
-    ),
-    "special_points/kind": ("special_points/kind",),
-}
-#: Single numbers of the group periodic.
-PERIODIC = (
-    *("period", "revolutions", "residual", "iterations", "intervals", "evaluations", "marched_periods"),
-    "stable",
-)
-#: Dimensions of the known datasets; those of a later program are read as they are.
-DIMENSIONS = {
-    **dict.fromkeys(
-        ("time", "shaft_angle", "speed", "journal_y", "journal_z", "journal_vy", "journal_vz"), ("time",)
-    ),
-    **dict.fromkeys(
-        (
-            *("pad_tilt", "pad_tilt_rate", "pad_penetration", "pad_penetration_rate", "bristle_deflection"),
-            *("contact_force", "friction_moment", "film_force_tangential", "film_force_radial"),
-            *("min_film_thickness", "max_pressure", "asperity_force"),
-        ),
-        ("time", "pad"),
-    ),
-    **dict.fromkeys(("pad", "pivot_angle", "viscosity"), ("pad",)),
-    **dict.fromkeys(("equilibrium/journal_y", "equilibrium/journal_z", "equilibrium/residual"), ()),
-    **dict.fromkeys(("equilibrium/eigenvalue_real", "equilibrium/eigenvalue_imag"), ()),
-    **dict.fromkeys(
-        (
-            *("equilibrium/eccentricity_ratio", "equilibrium/attitude_angle", "equilibrium/specific_load"),
-            *("equilibrium/sommerfeld_number", "equilibrium/total_power_loss"),
-            *("equilibrium/total_inlet_flow", "equilibrium/total_outlet_flow", "equilibrium/total_side_flow"),
-            *("equilibrium/temperature_rise_fresh", "equilibrium/temperature_rise_side"),
-        ),
-        (),
-    ),
-    **dict.fromkeys(
-        (
-            *("equilibrium/pad_tilt", "equilibrium/pad_penetration", "equilibrium/contact_force"),
-            *("equilibrium/min_film_thickness", "equilibrium/max_pressure", "equilibrium/load"),
-            *("equilibrium/power_loss", "equilibrium/couette_loss", "equilibrium/pressure_loss"),
-            *("equilibrium/boundary_loss", "equilibrium/journal_drag", "equilibrium/pad_drag"),
-            *("equilibrium/inlet_flow", "equilibrium/outlet_flow", "equilibrium/side_flow"),
-            *("equilibrium/temperature_rise",),
-            *("asperities/highest_force", "asperities/highest_share", "asperities/contact_time"),
-        ),
-        ("pad",),
-    ),
-    **{f"equilibrium/{name}": dimensions for name, dimensions in WARM.items()},
-    **dict.fromkeys(
-        ("spectrum/frequency", "spectrum/order", "spectrum/journal_y", "spectrum/journal_z"),
-        ("spectrum/frequency",),
-    ),
-    "spectrum/pad_tilt": ("pad", "spectrum/frequency"),
-    "oil/time": ("oil/time",),
-    "oil/viscosity": ("oil/time", "pad"),
-    **dict.fromkeys(("spectrum/full_frequency", "spectrum/journal_full"), ("spectrum/full_frequency",)),
-    **dict.fromkeys(("spectrum/revolutions", "checkpoint/time"), ()),
-    **{f"coefficients/{name}": dimensions for name, dimensions in COEFFICIENTS.items()},
-    **{f"modes/{name}": dimensions for name, dimensions in MODES.items()},
-    **dict.fromkeys((f"periodic/{name}" for name in PERIODIC), ()),
-    **dict.fromkeys(("periodic/multiplier_real", "periodic/multiplier_imag"), ("multiplier",)),
-    **{name: (name,) for name in (*LABELS, "frequency_ratio", "mode", "multiplier")},
-}
 #: Groups of a file, and the tasks that write them.
 TASKS = {"coefficients": "coefficients", "modes": "coefficients", "periodic": "periodic"}
 #: What only pads that tilt have.
 OF_TILTING = ("pad_tilt", "contact_force", "friction_moment")
-#: A group of single numbers.
-NUMBERS = "statistics"
+#: Series of branches, by which a run without them is told that it is none.
+OF_BRANCHES = ("point", "branch", "parameter", "multiplier_real", "eigenvalue_real")
 
 
 class IncompleteRunWarning(UserWarning):
@@ -206,7 +106,7 @@ class Run(Archive):
 
     def is_series(self, name: str) -> bool:
         """True for datasets over the time."""
-        return DIMENSIONS.get(name, ())[:1] == ("time",)
+        return name not in self.GROUPS and (self.scales(name) or ())[:1] == ("time",)
 
     def first(self, name: str, value: float) -> int:
         """Index of the first sample at or above a value in a rising dataset; reads only a few of them."""
@@ -253,15 +153,10 @@ class Run(Archive):
         if "pad" in self and (there := self.length("pad")) != self.pads:
             raise damaged(self.path, "pad", f"{there} pads, and {self.pads} in the input")
 
-    def scales(self, name: str) -> Sequence[str] | None:
-        if name.startswith(f"{NUMBERS}/"):
-            return ()
-        return BRANCH[name] if self.is_branch and name in BRANCH else DIMENSIONS.get(name)
-
     def sound(self, name: str, values: Any) -> Any:
-        if (np.asarray(values).dtype.kind == "S") != (name in TEXTS):
-            raise ValueError("not an array of texts" if name in TEXTS else "not an array of numbers")
-        if name in TEXTS:
+        if np.asarray(values).dtype.kind == "S":
+            if self.scales(name) != (name,):
+                raise ValueError("not an array of numbers")
             return np.array([plain(each).rstrip() for each in values])
         if name in AXES and not np.isfinite(values).all():
             raise ValueError("it is not finite")
@@ -292,15 +187,17 @@ class Run(Archive):
         if motion == "fixed" and any(each in name for each in OF_TILTING):
             return "pad motion is 'fixed'"
         thermal = self.input.get("thermal", {}).get("model", "none")
-        if name.removeprefix("equilibrium/") in WARM and thermal == "none":
+        if name.endswith(("_temperature", "viscosity")) and thermal == "none":
             return "it has no heat balance (thermal%model = 'none')"
         if name.startswith("equilibrium") and (start := self.input.get("start", {}).get("from")):
             return f"it did not start at one (start%from = '{start}')"
         if (needed := TASKS.get(name.partition("/")[0])) and needed != self.task:
             return f"its task is '{self.task}', not '{needed}'"
+        if name == "summary":
+            return f"version {self.format_version} of the format, or it ended before its first sample"
         if name in TASKS:
             return f"{self.attributes.get('reason', '')}" or "it did not come to its end"
-        if name in BRANCH and not self.is_branch and name not in DIMENSIONS:
+        if name in OF_BRANCHES and not self.is_branch:
             return f"its task is '{self.task}'"
         if self.task in ("equilibrium", "coefficients", "branch"):
             return f"its task is '{self.task}', nothing was marched in time"

@@ -2,123 +2,17 @@
 
 import csv
 import os
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from tiltpad.files.archive import Archive, RunError, damaged, plain, reading
-from tiltpad.files.read import COEFFICIENTS, MODES, WARM, Run, StudyError, read
+from tiltpad.files.read import Run, StudyError, read
 
-#: Dimensions of the arrays.
-MEMBER, PADS, PIVOTS = ("member",), ("member", "pad"), ("member", "pivot")
-#: All dimensions but the members, with their meaning.
-DIMENSIONS = {
-    "pad": "number of the pad",
-    "revolution": "revolutions before the last Poincare point",
-    "pivot": "pivots in small vibrations",
-    "frequency_ratio": "whirl frequency over shaft speed",
-    "row": "direction of the force on the journal",
-    "column": "direction of the journal's motion",
-    "position_row": "position that the force belongs to",
-    "position_column": "position that moves",
-    "mode": "number of the mode",
-}
+#: The dimension of all arrays, and of what has a value for each of the pivots in small vibrations.
+MEMBER, PIVOTS = ("member",), ("member", "pivot")
 #: Maximum number of revolutions of which Poincare points are kept.
 REVOLUTIONS = 50
-
-
-class Quantity(NamedTuple):
-    """A result of every member in a study: dimensions, unit, meaning.
-
-    Where unit and meaning are empty, they are those in the members' files.
-    """
-
-    dimensions: tuple[str, ...]
-    units: str
-    long_name: str
-
-
-#: Results of a member, beside its cost. Motion, film and friction are those of the last revolution.
-QUANTITIES = {
-    "status": Quantity(MEMBER, "1", "exit status: 0 done, nan if the file cannot be read"),
-    "complete": Quantity(MEMBER, "1", "1 where the run reached its end"),
-    "time_reached": Quantity(MEMBER, "s", "time reached"),
-    "resumes": Quantity(MEMBER, "1", "times that the run was resumed"),
-    "speed": Quantity(MEMBER, "rad/s", "shaft speed at the end"),
-    "orbit_y": Quantity(MEMBER, "m", "orbit in y, peak to peak"),
-    "orbit_z": Quantity(MEMBER, "m", "orbit in z, peak to peak"),
-    "orbit_size": Quantity(MEMBER, "m", "orbit, the larger of both peak to peak"),
-    "mean_y": Quantity(MEMBER, "m", "mean of journal y"),
-    "mean_z": Quantity(MEMBER, "m", "mean of journal z"),
-    "journal_y_amplitude": Quantity(MEMBER, "m", "amplitude of journal y, first harmonic"),
-    "journal_z_amplitude": Quantity(MEMBER, "m", "amplitude of journal z, first harmonic"),
-    "journal_y_phase": Quantity(MEMBER, "rad", "angle by which it comes after the unbalance"),
-    "journal_z_phase": Quantity(MEMBER, "rad", "angle by which it comes after the unbalance"),
-    "min_film_thickness": Quantity(MEMBER, "m", "minimum film thickness"),
-    "max_pressure": Quantity(MEMBER, "Pa", "maximum pressure"),
-    "friction_work": Quantity(MEMBER, "J", "friction work a revolution, all pads"),
-    "stick_fraction": Quantity(MEMBER, "1", "share of time that pivots stick, mean of the pads"),
-    "pad_tilt_size": Quantity(PADS, "rad", "tilt, peak to peak"),
-    "pad_min_film_thickness": Quantity(PADS, "m", "minimum film thickness of the pad"),
-    "pad_max_pressure": Quantity(PADS, "Pa", "maximum pressure of the pad"),
-    "pad_friction_work": Quantity(PADS, "J", "friction work a revolution"),
-    "pad_stick_fraction": Quantity(PADS, "1", "share of time that the pivot sticks"),
-    "equilibrium_y": Quantity(MEMBER, "m", "journal y at the equilibrium"),
-    "equilibrium_z": Quantity(MEMBER, "m", "journal z at the equilibrium"),
-    "equilibrium_min_film_thickness": Quantity(MEMBER, "m", "minimum film thickness at the equilibrium"),
-    "equilibrium_max_pressure": Quantity(MEMBER, "Pa", "maximum pressure at the equilibrium"),
-    "sommerfeld_number": Quantity(MEMBER, "1", "Sommerfeld number"),
-    "specific_load": Quantity(MEMBER, "Pa", "specific load"),
-    "equilibrium_eccentricity_ratio": Quantity(MEMBER, "1", "eccentricity ratio at the equilibrium"),
-    "equilibrium_attitude_angle": Quantity(MEMBER, "rad", "attitude angle at the equilibrium"),
-    "equilibrium_power_loss": Quantity(MEMBER, "W", "power loss of all pads at the equilibrium"),
-    "equilibrium_inlet_flow": Quantity(MEMBER, "m^3/s", "flow in at all leading edges at the equilibrium"),
-    "equilibrium_side_flow": Quantity(MEMBER, "m^3/s", "flow out at all sides at the equilibrium"),
-    "equilibrium_temperature_rise_fresh": Quantity(
-        MEMBER, "K", "warming of the oil if every pad draws fresh oil alone"
-    ),
-    "equilibrium_temperature_rise_side": Quantity(
-        MEMBER, "K", "warming of the oil if fresh oil replaces only what leaves at the sides"
-    ),
-    "pad_equilibrium_load": Quantity(PADS, "N", "force of film and asperities at the equilibrium"),
-    "pad_equilibrium_power_loss": Quantity(PADS, "W", "power loss at the equilibrium"),
-    "pad_equilibrium_inlet_flow": Quantity(PADS, "m^3/s", "flow in at the leading edge at the equilibrium"),
-    "pad_equilibrium_side_flow": Quantity(PADS, "m^3/s", "flow out at both sides at the equilibrium"),
-    "pad_equilibrium_inlet_temperature": Quantity(PADS, "degC", "temperature at the leading edge"),
-    "pad_equilibrium_mean_temperature": Quantity(PADS, "degC", "mean temperature of the film"),
-    "pad_equilibrium_outlet_temperature": Quantity(PADS, "degC", "temperature at the trailing edge"),
-    "pad_equilibrium_maximum_temperature": Quantity(PADS, "degC", "maximum temperature of the pad"),
-    "pad_equilibrium_viscosity": Quantity(PADS, "Pa s", "viscosity of the film"),
-    "equilibrium_maximum_temperature": Quantity(MEMBER, "degC", "maximum temperature of all pads"),
-    "equilibrium_shaft_temperature": Quantity(MEMBER, "degC", "temperature of the shaft"),
-    "equilibrium_drain_temperature": Quantity(MEMBER, "degC", "temperature of the oil that leaves"),
-    "poincare_y": Quantity(("member", "revolution"), "m", "journal y once a revolution"),
-    "poincare_z": Quantity(("member", "revolution"), "m", "journal z once a revolution"),
-    "poincare_tilt": Quantity(("member", "revolution", "pad"), "rad", "tilt once a revolution"),
-    "lowest_y": Quantity(("member", "revolution"), "m", "lowest journal y in a revolution"),
-    "lowest_z": Quantity(("member", "revolution"), "m", "lowest journal z in a revolution"),
-    "lowest_tilt": Quantity(("member", "revolution", "pad"), "rad", "lowest tilt in a revolution"),
-    "highest_y": Quantity(("member", "revolution"), "m", "highest journal y in a revolution"),
-    "highest_z": Quantity(("member", "revolution"), "m", "highest journal z in a revolution"),
-    "highest_tilt": Quantity(("member", "revolution", "pad"), "rad", "highest tilt in a revolution"),
-    **{name: Quantity(("member", *each), "", "") for name, each in (COEFFICIENTS | MODES).items()},
-    "least_damping_ratio": Quantity(PIVOTS, "1", "least damping ratio of all modes"),
-}
-#: Those that a run has in its group `equilibrium`, by their names there; files of earlier programs lack them.
-FIGURES = {
-    **{name: name for name in ("sommerfeld_number", "specific_load")},
-    **{
-        f"equilibrium_{name}": name
-        for name in (
-            *("eccentricity_ratio", "attitude_angle"),
-            *("temperature_rise_fresh", "temperature_rise_side"),
-        )
-    },
-    **{f"equilibrium_{name}": f"total_{name}" for name in ("power_loss", "inlet_flow", "side_flow")},
-    **{f"{'pad_' if each else ''}equilibrium_{name}": name for name, each in WARM.items()},
-    **{f"pad_equilibrium_{name}": name for name in ("load", "power_loss", "inlet_flow", "side_flow")},
-}
 #: States that Poincare points are kept of.
 POINTS = {"poincare_y": "journal_y", "poincare_z": "journal_z", "poincare_tilt": "pad_tilt"}
 
@@ -184,8 +78,9 @@ class Study(Archive):
 
     def to_csv(self, path: str | os.PathLike) -> None:
         """Writes parameters and results of one number, a row for each member."""
-        others = {*MEMBER, *DIMENSIONS, *self.parameters, *self.GROUPS}
-        single = [name for name in self.names() if name not in others and self.item(name).ndim == 1]
+        others = {*MEMBER, *self.parameters, *self.GROUPS}
+        there = [name for name in self.names() if name not in others]
+        single = [name for name in there if self.scales(name) == MEMBER]
         names = ["member", *self.parameters, *single]
         with open(path, "w", newline="", encoding="utf-8") as file:
             rows = csv.writer(file, lineterminator="\n")
@@ -224,13 +119,6 @@ class Study(Archive):
         for name in ("member", "status", *self.parameters):
             if name not in self:
                 raise damaged(self.path, name, "it is missing")
-
-    def scales(self, name: str) -> Sequence[str] | None:
-        if name in MEMBER or name in DIMENSIONS:
-            return (name,)
-        if name in QUANTITIES:
-            return QUANTITIES[name].dimensions
-        return MEMBER if name in self.parameters or name in ("file", "reason") else None
 
     def sound(self, name: str, values: Any) -> Any:
         if np.asarray(values).dtype.kind != "O":

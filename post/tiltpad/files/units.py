@@ -6,6 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tiltpad.files.archive import Archive
+
 
 class Shown(NamedTuple):
     """A quantity in a picture: value in SI units times `factor`, in `unit`."""
@@ -51,47 +53,10 @@ SHOWN = {
     "pressure": Shown("film pressure", 1e-6, "MPa"),
     "phi": Shown("angle from pivot", 180 / pi, "deg"),
     "orbit_size": Shown("orbit, peak to peak", 1e6, "µm"),
-    "orbit_y": Shown("orbit, peak to peak of $y$", 1e6, "µm"),
-    "orbit_z": Shown("orbit, peak to peak of $z$", 1e6, "µm"),
-    "mean_y": Shown("mean of journal $y$", 1e6, "µm"),
-    "mean_z": Shown("mean of journal $z$", 1e6, "µm"),
-    "journal_y_amplitude": Shown("amplitude of $y$, order 1", 1e6, "µm"),
-    "journal_z_amplitude": Shown("amplitude of $z$, order 1", 1e6, "µm"),
-    "journal_y_phase": Shown("phase lag of $y$, order 1", 180 / pi, "deg"),
-    "journal_z_phase": Shown("phase lag of $z$, order 1", 180 / pi, "deg"),
-    "friction_work": Shown("friction work a revolution", 1e3, "mJ"),
     "stick_fraction": Shown("share of time that pivots stick", 100, "%"),
-    "equilibrium_y": Shown("journal $y$ at equilibrium", 1e6, "µm"),
-    "equilibrium_z": Shown("journal $z$ at equilibrium", 1e6, "µm"),
-    "equilibrium_min_film_thickness": Shown("minimum film thickness at equilibrium", 1e6, "µm"),
-    "equilibrium_max_pressure": Shown("maximum pressure at equilibrium", 1e-6, "MPa"),
-    "attitude_angle": Shown("attitude angle", 180 / pi, "deg"),
-    "sommerfeld_number": Shown("Sommerfeld number", 1, ""),
-    "specific_load": Shown("specific load", 1e-6, "MPa"),
     "power_loss": Shown("power loss", 1e-3, "kW"),
-    "oil_flow": Shown("oil flow", 6e4, "l/min"),
-    "temperature_rise": Shown("warming of the oil", 1, "K"),
-    "equilibrium_eccentricity_ratio": Shown("eccentricity ratio at equilibrium", 1, ""),
-    "equilibrium_attitude_angle": Shown("attitude angle at equilibrium", 180 / pi, "deg"),
-    "equilibrium_power_loss": Shown("power loss at equilibrium", 1e-3, "kW"),
-    "equilibrium_inlet_flow": Shown("inlet flow at equilibrium", 6e4, "l/min"),
-    "equilibrium_side_flow": Shown("side flow at equilibrium", 6e4, "l/min"),
-    "equilibrium_temperature_rise_fresh": Shown("warming of the oil, all of it fresh", 1, "K"),
-    "equilibrium_temperature_rise_side": Shown("warming of the oil, the sides' replaced", 1, "K"),
     "temperature": Shown("temperature", 1, "°C"),
     "viscosity": Shown("viscosity", 1e3, "mPa s"),
-    **{
-        f"equilibrium_{name}": Shown(f"{text} at equilibrium", 1, "°C")
-        for name, text in (
-            ("inlet_temperature", "inlet temperature"),
-            ("mean_temperature", "mean temperature"),
-            ("outlet_temperature", "outlet temperature"),
-            ("maximum_temperature", "maximum temperature"),
-            ("shaft_temperature", "shaft temperature"),
-            ("drain_temperature", "drain temperature"),
-        )
-    },
-    "equilibrium_viscosity": Shown("viscosity at equilibrium", 1e3, "mPa s"),
     "period": Shown("period", 1e3, "ms"),
     "multiplier_real": Shown("multiplier, real part", 1, ""),
     "multiplier_imag": Shown("multiplier, imaginary part", 1, ""),
@@ -103,6 +68,15 @@ SHOWN = {
     "threshold_rpm": Shown("threshold of stability", 1, "rpm"),
     "axial": Shown("axial position", 1e3, "mm"),
 }
+
+#: Units of files, with the factor and unit in which they are shown.
+UNITS_SHOWN = {
+    **{"m": (1e6, "µm"), "rad": (1e3, "mrad"), "N": (1e-3, "kN"), "Pa": (1e-6, "MPa"), "W": (1e-3, "kW")},
+    **{"J": (1e3, "mJ"), "m^3/s": (6e4, "l/min"), "rad/s": (30 / pi, "rpm"), "degC": (1, "°C")},
+    **{"Pa s": (1e3, "mPa s"), "m/s": (1e3, "mm/s"), "1": (1, "")},
+}
+#: How names of angles end that are shown in degrees.
+IN_DEGREES = ("_angle", "_phase")
 
 #: A thousandth of a unit, for values that are small in it.
 THOUSANDTH = {
@@ -155,9 +129,19 @@ def shown(text: str, unit: str, values: Sequence[float] | np.ndarray) -> Shown:
     return Shown(text, 1, "" if unit == "1" else unit)
 
 
-def fitted(quantity: str, values: Sequence[float] | np.ndarray) -> Shown:
+def described(file: Archive, name: str, quantity: str = "") -> Shown:
+    """How a dataset is shown: as the quantity of this name (or its own), else as its file describes it."""
+    own = name.rpartition("/")[2]
+    if known := SHOWN.get(quantity or own):
+        return known
+    unit, text = file.about(name, "units"), file.about(name, "long_name") or own
+    if unit == "1" and text.startswith("share "):
+        return Shown(text, 100, "%")
+    return Shown(text, *((180 / pi, "deg") if own.endswith(IN_DEGREES) else UNITS_SHOWN.get(unit, (1, unit))))
+
+
+def fitted(own: Shown, values: Sequence[float] | np.ndarray) -> Shown:
     """A quantity in its unit, or in a smaller one where the largest of the values is below 0.01 in it."""
-    own = SHOWN[quantity]
     largest = np.nanmax(np.abs(values), initial=0)
     while 0 < own.factor * largest < 0.01 and own.unit in THOUSANDTH:
         own = Shown(own.text, 1e3 * own.factor, THOUSANDTH[own.unit])
@@ -194,7 +178,7 @@ def numbers(shown: Shown, values: Sequence[float] | np.ndarray, count: int = 4) 
 
 def in_words(quantity: str, values: Sequence[float] | np.ndarray) -> str:
     """Values with their unit: "2.38, 2.99 mJ"; of many values the lowest and the highest."""
-    shown = fitted(quantity, values)
+    shown = fitted(SHOWN[quantity], values)
     if len(values) > 4 and np.isfinite(values).any():
         return f"{' to '.join(numbers(shown, [np.nanmin(values), np.nanmax(values)], 3))} {shown.unit}"
     return f"{', '.join(numbers(shown, values, 3))} {shown.unit}"

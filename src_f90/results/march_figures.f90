@@ -1,0 +1,341 @@
+!> Figures of a march or a periodic orbit, from its samples: of the last revolution, of the last revolutions (as many as
+!> the spectra may have), and of the whole run. Console, report and studies take them from the file.
+module march_figures
+   ! heap: arrays as long as the last revolutions
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use kinds, only: wp, i8, pi, degree
+   use text, only: to_text, fixed_text
+   use scene, only: scene_type
+   use loops, only: path_integral, harmonic, slow_share
+   use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, evenly
+   use run_file, only: run_file_type
+   use run_extremes, only: run_extremes_type
+   use summary_group, only: put_figure
+   implicit none (type, external)
+   private
+   public :: put_march_figures, pad_diagnosis
+
+   !> Part of a revolution that a whole one may lack by rounding.
+   real(wp), parameter :: rounding = 1e-9_wp
+   !> A pivot sticks below this share of the velocity over which friction falls from static to dynamic; the values of
+   !> the paper give 5e-5 m/s for both laws.
+   real(wp), parameter :: sticking = 0.05_wp
+
+contains
+
+   !> Writes all figures of the samples so far, with this load on the journal, N.
+   subroutine put_march_figures(file, scene, extremes, load)
+      type(run_file_type), intent(inout) :: file
+      type(scene_type), intent(in) :: scene
+      type(run_extremes_type), intent(in) :: extremes
+      real(wp), intent(in) :: load
+      real(wp), allocatable :: time(:, :), angle(:, :), speed(:, :)
+      real(wp) :: revolutions
+      integer :: n
+      if (file%samples() == 0) return
+      call file%part_of_samples('shaft_angle', 0_i8, 1, angle)
+      revolutions = angle(1, 1)
+      n = last_revolutions(file, 1)
+      call file%last_samples('shaft_angle', n, angle)
+      call file%last_samples('time', n, time)
+      call file%last_samples('speed', 1, speed)
+      revolutions = (angle(1, n) - revolutions)/(2*pi)
+      call put_figure(file%file, 'time_reached', time(1, n), 's', 'time reached')
+      call put_figure(file%file, 'speed', speed(1, 1), 'rad/s', 'shaft speed at the end')
+      call put_figure(file%file, 'revolutions', revolutions, '1', 'shaft revolutions sampled')
+      call extremes%write(file%file, load, (time(1, n) - time(1, 1))/max(1, n - 1))
+      call put_journal(file, n)
+      call put_film(file, n)
+      if (scene%tilting()) call put_tilt(file, n)
+      call put_last_revolutions(file, scene, int(revolutions + rounding))
+      if (revolutions < 1 - rounding) return
+      call put_harmonics(file, scene, int(revolutions + rounding))
+      if (scene%tilting() .and. scene%friction%model /= 'none') call put_friction(file, scene, time(1, :), &
+         & (angle(1, n) - angle(1, 1))/(2*pi))
+   end subroutine put_march_figures
+
+   !> Samples of the last `count` revolutions, both ends included; all where there are fewer.
+   integer function last_revolutions(file, count) result(n)
+      type(run_file_type), intent(inout) :: file
+      integer, intent(in) :: count
+      real(wp), allocatable :: angle(:, :)
+      real(wp) :: start
+      integer(i8) :: low, high, middle
+      high = file%samples() - 1
+      low = 0
+      if (high > 0) then
+         call file%last_samples('shaft_angle', 2, angle)
+         ! half a sample more, so that rounding loses none
+         start = angle(1, 2) - 2*pi*count - 0.5_wp*(angle(1, 2) - angle(1, 1))
+         do while (low < high)
+            middle = (low + high)/2
+            call file%part_of_samples('shaft_angle', middle, 1, angle)
+            if (angle(1, 1) < start) then
+               low = middle + 1
+            else
+               high = middle
+            end if
+         end do
+      end if
+      n = int(file%samples() - low)
+   end function last_revolutions
+
+   !> The orbit of the journal in the last n samples.
+   subroutine put_journal(file, n)
+      type(run_file_type), intent(inout) :: file
+      integer, intent(in) :: n
+      real(wp), allocatable :: y(:, :), z(:, :)
+      call file%last_samples('journal_y', n, y)
+      call file%last_samples('journal_z', n, z)
+      call put_figure(file%file, 'journal_y_max', maxval(y), 'm', 'highest journal displacement, vertical')
+      call put_figure(file%file, 'journal_y_min', minval(y), 'm', 'lowest journal displacement, vertical')
+      call put_figure(file%file, 'journal_z_max', maxval(z), 'm', 'highest journal displacement, horizontal')
+      call put_figure(file%file, 'journal_z_min', minval(z), 'm', 'lowest journal displacement, horizontal')
+      associate (size_y => maxval(y) - minval(y), size_z => maxval(z) - minval(z))
+         call put_figure(file%file, 'orbit_y', size_y, 'm', 'orbit, peak to peak of y')
+         call put_figure(file%file, 'orbit_z', size_z, 'm', 'orbit, peak to peak of z')
+         call put_figure(file%file, 'orbit_size', max(size_y, size_z), 'm', 'orbit, the larger of both peak to peak')
+      end associate
+      call put_figure(file%file, 'mean_y', mean(y(1, :)), 'm', 'orbit, mean y')
+      call put_figure(file%file, 'mean_z', mean(z(1, :)), 'm', 'orbit, mean z')
+   end subroutine put_journal
+
+   !> The mean of samples over a revolution, of whose two ends one counts.
+   pure real(wp) function mean(values)
+      real(wp), intent(in) :: values(:)
+      integer :: first
+      first = min(2, size(values))
+      mean = sum(values(first:))/(size(values) - first + 1)
+   end function mean
+
+   !> Film and pressure in the last n samples.
+   subroutine put_film(file, n)
+      type(run_file_type), intent(inout) :: file
+      integer, intent(in) :: n
+      real(wp), allocatable :: film(:, :), pressure(:, :)
+      call file%last_samples('min_film_thickness', n, film)
+      call file%last_samples('max_pressure', n, pressure)
+      call put_figure(file%file, 'min_film_thickness', minval(film), 'm', 'minimum film thickness, last revolution')
+      call put_figure(file%file, 'max_pressure', maxval(pressure), 'Pa', 'maximum pressure, last revolution')
+      call put_figure(file%file, 'pad_min_film_thickness', minval(film, dim=2), 'm', 'minimum film thickness')
+      call put_figure(file%file, 'pad_max_pressure', maxval(pressure, dim=2), 'Pa', 'maximum pressure')
+   end subroutine put_film
+
+   !> Tilts and contact in the last n samples.
+   subroutine put_tilt(file, n)
+      type(run_file_type), intent(inout) :: file
+      integer, intent(in) :: n
+      real(wp), allocatable :: tilt(:, :), contact(:, :)
+      integer :: i
+      call file%last_samples('pad_tilt', n, tilt)
+      call file%last_samples('contact_force', n, contact)
+      associate (highest => maxval(tilt, dim=2), lowest => minval(tilt, dim=2))
+         call put_figure(file%file, 'pad_tilt_max', highest, 'rad', 'highest tilt')
+         call put_figure(file%file, 'pad_tilt_min', lowest, 'rad', 'lowest tilt')
+         call put_figure(file%file, 'pad_tilt_size', highest - lowest, 'rad', 'tilt, peak to peak')
+      end associate
+      call put_figure(file%file, 'pad_contact_force', [(mean(contact(i, :)), i=1, size(contact, 1))], 'N', &
+         & 'mean contact force')
+   end subroutine put_tilt
+
+   !> Vibrations with the shaft, and at half its speed, over the last revolution and the last two; of a periodic orbit
+   !> over all of it.
+   subroutine put_harmonics(file, scene, revolutions)
+      type(run_file_type), intent(inout) :: file
+      type(scene_type), intent(in) :: scene
+      integer, intent(in) :: revolutions
+      complex(wp), allocatable :: y(:), z(:), tilt(:)
+      integer :: n, whole
+      whole = merge(revolutions, 1, scene%about%task == 'periodic')
+      n = last_revolutions(file, whole)
+      y = parts('journal_y', 1.0_wp)
+      z = parts('journal_z', 1.0_wp)
+      call put_figure(file%file, 'journal_y_amplitude', abs(y(1)), 'm', &
+         & 'vertical journal vibration with the shaft, amplitude')
+      call put_figure(file%file, 'journal_z_amplitude', abs(z(1)), 'm', &
+         & 'horizontal journal vibration with the shaft, amplitude')
+      call put_figure(file%file, 'journal_y_phase', lag(y(1)), 'rad', 'angle by which it comes after the unbalance')
+      call put_figure(file%file, 'journal_z_phase', lag(z(1)), 'rad', 'angle by which it comes after the unbalance')
+      if (scene%tilting()) then
+         tilt = parts('pad_tilt', 1.0_wp)
+         call put_figure(file%file, 'pad_tilt_amplitude', abs(tilt), 'rad', 'tilt with the shaft, amplitude')
+      end if
+      if (revolutions < 2) return
+      n = last_revolutions(file, max(2, whole - mod(whole, 2)))
+      y = parts('journal_y', 0.5_wp)
+      z = parts('journal_z', 0.5_wp)
+      call put_figure(file%file, 'journal_y_half_amplitude', abs(y(1)), 'm', &
+         & 'vertical journal vibration at half the shaft speed, amplitude')
+      call put_figure(file%file, 'journal_z_half_amplitude', abs(z(1)), 'm', &
+         & 'horizontal journal vibration at half the shaft speed, amplitude')
+      if (.not. scene%tilting()) return
+      tilt = parts('pad_tilt', 0.5_wp)
+      call put_figure(file%file, 'pad_tilt_half_amplitude', abs(tilt), 'rad', &
+         & 'tilt at half the shaft speed, amplitude')
+   contains
+      !> The part of this order of each row of a series.
+      function parts(name, order)
+         character(len=*), intent(in) :: name
+         real(wp), intent(in) :: order
+         complex(wp), allocatable :: parts(:)
+         real(wp), allocatable :: angle(:, :), values(:, :)
+         integer :: i
+         call file%last_samples('shaft_angle', n, angle)
+         call file%last_samples(name, n, values)
+         parts = [(harmonic(angle(1, :), values(i, :), order), i=1, size(values, 1))]
+      end function parts
+
+      pure real(wp) function lag(part)
+         complex(wp), intent(in) :: part
+         lag = -atan2(part%im, part%re)
+      end function lag
+   end subroutine put_harmonics
+
+   !> What friction in the pivots does in the last samples, at these times, s, in so many revolutions.
+   subroutine put_friction(file, scene, time, turns)
+      type(run_file_type), intent(inout) :: file
+      type(scene_type), intent(in) :: scene
+      real(wp), intent(in) :: time(:), turns
+      real(wp), allocatable :: tilt(:, :), rate(:, :), moment(:, :)
+      real(wp), dimension(scene%pad_count()) :: work, stuck
+      real(wp) :: slow
+      integer :: i, n
+      n = size(time)
+      call file%last_samples('pad_tilt', n, tilt)
+      call file%last_samples('pad_tilt_rate', n, rate)
+      call file%last_samples('friction_moment', n, moment)
+      associate (law => scene%friction, pivot => scene%pivot)
+         slow = law%critical_velocity
+         if (law%model == 'lugre') then
+            slow = sticking*law%stribeck_velocity
+         else if (law%decay > 0) then
+            slow = sticking/law%decay
+         end if
+         do i = 1, size(work)
+            work(i) = path_integral(tilt(i, :), moment(i, :))
+            stuck(i) = slow_share(time, (pivot%socket_radius - pivot%radius_difference)*rate(i, :), slow)
+         end do
+      end associate
+      call put_figure(file%file, 'friction_work', sum(work)/turns, 'J', 'friction work a revolution, all pads')
+      call put_figure(file%file, 'pad_friction_work', work/turns, 'J', 'friction work a revolution')
+      call put_figure(file%file, 'pad_friction_power', work/(time(n) - time(1)), 'W', 'mean friction power')
+      call put_figure(file%file, 'pad_friction_moment', maxval(abs(moment), dim=2), 'N m', 'maximum friction moment')
+      call put_figure(file%file, 'stick_velocity', slow, 'm/s', 'sliding velocity below which a pivot sticks')
+      call put_figure(file%file, 'stick_fraction', sum(stuck)/size(stuck), '1', &
+         & 'share of time that pivots stick, mean of the pads')
+      call put_figure(file%file, 'pad_stick_fraction', stuck, '1', 'share of time that the pivot sticks')
+   end subroutine put_friction
+
+   !> Lift-off, flutter and rubbing of the pads and whirl of the journal in the last revolutions, and what is to be said
+   !> of them: attribute `diagnosis`, a line each. Fixed pads can only rub.
+   subroutine put_last_revolutions(file, scene, whole)
+      type(run_file_type), intent(inout) :: file
+      type(scene_type), intent(in) :: scene
+      !> Whole revolutions sampled.
+      integer, intent(in) :: whole
+      type(pad_behaviour_type) :: found(scene%pad_count())
+      real(wp), allocatable, dimension(:, :) :: angle, contact, tilt, asperity, y, z
+      real(wp) :: turns, order, amplitude
+      character(len=:), allocatable :: said
+      logical :: whirls, steady
+      integer :: n
+      n = last_revolutions(file, max(1, min(scene%output%spectrum_revolutions, whole)))
+      steady = .not. abs(scene%operation%final_speed_rpm - scene%operation%speed_rpm) > 0
+      call file%last_samples('shaft_angle', n, angle)
+      turns = (angle(1, n) - angle(1, 1))/(2*pi)
+      said = ''
+      if (file%file%has('asperity_force')) then
+         call file%last_samples('asperity_force', n, asperity)
+         found%rubbing = count(asperity > 0, dim=2)/real(n, wp)
+         call put_figure(file%file, 'pad_rubbing', found%rubbing, '1', 'share of the time in which the surfaces touch')
+      end if
+      if (scene%tilting()) then
+         call file%last_samples('contact_force', n, contact)
+         call take('pad_tilt', tilt)
+         associate (b => scene%bearing)
+            call behaviour_of(found, contact, tilt, turns, b%assembled_clearance/(0.5_wp*scene%pads%arc_deg*degree &
+               & *b%journal_radius))
+         end associate
+         call put_behaviour(file, found)
+      end if
+      call take('journal_y', y)
+      call take('journal_z', z)
+      call whirl_of(y(1, :), z(1, :), turns, scene%bearing%assembled_clearance, order, amplitude, whirls)
+      call put_figure(file%file, 'last_revolutions', turns, '1', &
+         & 'revolutions over which lift-off, orders and shares are')
+      call put_figure(file%file, 'whirl_order', known(order), '1', &
+         & 'order of the largest journal motion that is no multiple of 1x')
+      call put_figure(file%file, 'whirl_amplitude', amplitude, 'm', 'its amplitude')
+      call put_figure(file%file, 'whirls', merge(1.0_wp, 0.0_wp, whirls), '1', &
+         & '1 where the journal whirls at this order')
+      if (whirls) call say('the journal whirls at '//fixed_text(order, 3)//' of the shaft speed, amplitude ' &
+         & //fixed_text(1e6_wp*amplitude, 3)//' um')
+      do n = 1, size(found)
+         if (pad_diagnosis(found(n)) /= '') call say('pad '//to_text(n)//' '//pad_diagnosis(found(n)))
+      end do
+      call file%file%put_text('diagnosis', said)
+   contains
+      !> A series but its last sample, which begins the next revolution, at equal steps of the shaft angle.
+      subroutine take(name, values)
+         character(len=*), intent(in) :: name
+         real(wp), allocatable, intent(out) :: values(:, :)
+         integer :: i
+         call file%last_samples(name, n, values)
+         if (.not. steady) then
+            do i = 1, size(values, 1)
+               values(i, :) = evenly(angle(1, :), values(i, :))
+            end do
+         end if
+         if (n > 2) values = values(:, :n - 1)
+      end subroutine take
+
+      subroutine say(line)
+         character(len=*), intent(in) :: line
+         if (said /= '') said = said//achar(10)
+         said = said//line
+      end subroutine say
+   end subroutine put_last_revolutions
+
+   !> An order, or no number where it is not known.
+   elemental real(wp) function known(order)
+      real(wp), intent(in) :: order
+      known = order
+      if (order < 0) known = ieee_value(order, ieee_quiet_nan)
+   end function known
+
+   subroutine put_behaviour(file, found)
+      type(run_file_type), intent(inout) :: file
+      type(pad_behaviour_type), intent(in) :: found(:)
+      call put_figure(file%file, 'pad_load', found%load, 'N', 'mean contact force, last revolutions')
+      call put_figure(file%file, 'pad_unloaded', merge(1.0_wp, 0.0_wp, found%unloaded), '1', &
+         & '1 where it carries no load')
+      call put_figure(file%file, 'pad_lifted', found%lifted, '1', 'share of the time lifted off its pivot')
+      call put_figure(file%file, 'pad_order', known(found%order), '1', 'dominant order of the tilt')
+      call put_figure(file%file, 'pad_order_amplitude', found%amplitude, 'rad', 'amplitude at this order')
+      call put_figure(file%file, 'pad_flutters', merge(1.0_wp, 0.0_wp, found%flutters), '1', '1 where it flutters')
+   end subroutine put_behaviour
+
+   !> "carries no load (mean 12 N); it flutters at 0.48 of the shaft speed, ..."; empty for a pad like others.
+   function pad_diagnosis(pad) result(words)
+      type(pad_behaviour_type), intent(in) :: pad
+      character(len=:), allocatable :: words
+      words = ''
+      if (pad%unloaded) call say('carries no load (mean '//fixed_text(pad%load, 1)//' N)')
+      if (pad%lifted > 0) call say('is lifted off its pivot '//percent(pad%lifted))
+      if (pad%flutters) call say('flutters at '//fixed_text(pad%order, 3)//' of the shaft speed, amplitude of the ' &
+         & //'tilt '//fixed_text(1e3_wp*pad%amplitude, 4)//' mrad')
+      if (pad%rubbing > 0) call say('rubs on the journal '//percent(pad%rubbing))
+   contains
+      subroutine say(what)
+         character(len=*), intent(in) :: what
+         if (words /= '') words = words//'; it '
+         words = words//what
+      end subroutine say
+
+      function percent(share)
+         real(wp), intent(in) :: share
+         character(len=:), allocatable :: percent
+         percent = fixed_text(100*share, 1)//' % of the time'
+      end function percent
+   end function pad_diagnosis
+end module march_figures
