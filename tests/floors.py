@@ -12,7 +12,9 @@ from pathlib import Path
 
 #: Lowest first: each uses only those before it. A folder inside one may be a floor of its own ("film/table").
 FORTRAN = (
-    *("base", "system", "scene", "input", "film", "pivot", "rotor", "bearing", "integrate", "model"),
+    *("base", "system", "scene", "input"),
+    *("film/common", "film/fourier", "film/volumes", "film/tables", "film"),
+    *("pivot", "rotor", "bearing", "integrate", "model"),
     *("analysis", "storage", "results", "app"),
 )
 #: How high the folders of the Python package are; those of one height do not use each other.
