@@ -410,7 +410,8 @@ contains
          call expect(maxval(cycle) < 0.8_wp .and. minval(cycle) > 0.2_wp, 'within the clearance, and large')
       end associate
       associate (end => places(:, (revolutions - last)*samples + 1:))
-         call whirl_of(end(1, :), end(2, :), real(last, wp), model%scene%bearing%assembled_clearance, order, amplitude, whirls)
+         call whirl_of(end(1, :), end(2, :), real(last, wp), model%scene%bearing%assembled_clearance, &
+            & order, amplitude, whirls)
       end associate
       call expect(whirls .and. order > 0.4_wp .and. order < 0.52_wp, 'of half the frequency: '//to_text(order))
    end subroutine whirl
