@@ -4,8 +4,7 @@ module periodic_task
    use text, only: to_text, fixed_text
    use errors, only: error_type, raise, stopped, numerics_error
    use marching, only: sample_plan
-   use floquet_multipliers, only: are_stable, loss_of_stability
-   use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
+   use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit, are_stable, loss_of_stability
    use periodic_results, only: put_periodic
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type

@@ -3,8 +3,7 @@ module periodic_results
    use kinds, only: wp, i8
    use hdf5_file, only: hdf5_type
    use summary_group, only: put_figure
-   use periodic_orbit, only: periodic_orbit_type
-   use floquet_multipliers, only: are_stable
+   use periodic_orbit, only: periodic_orbit_type, are_stable
    implicit none (type, external)
    private
    public :: put_periodic

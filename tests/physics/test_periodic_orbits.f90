@@ -14,8 +14,7 @@ program test_periodic_orbits
    use small_vibrations, only: find_vibrations
    use orbit_polynomials, only: orbit_type
    use resting_orbit, only: newton_round
-   use floquet_multipliers, only: are_stable
-   use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
+   use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit, are_stable
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
 

@@ -9,7 +9,7 @@ module orbit_problem
    use orbit_collocation, only: orbit_equations_type, parameter_shift_type, condense, closing_equations, move_orbit, &
       & collocated_state
    use parametric_ode, only: parametric_ode_type
-   use floquet_multipliers, only: set_multipliers
+   use eigenvalues, only: find_eigenvalues, largest_first
    implicit none (type, external)
    private
    public :: orbit_problem_type, begin_orbits, turns_at
@@ -211,14 +211,17 @@ contains
       end associate
    end function defect
 
-   !> The multipliers, and how far their moduli are beyond 1.
+   !> The multipliers, that of largest modulus first, and how far their moduli are beyond 1.
    subroutine spectrum(self, values, growth, ok)
       class(orbit_problem_type), intent(inout) :: self
       complex(wp), allocatable, intent(out) :: values(:)
       real(wp), allocatable, intent(out) :: growth(:)
       logical, intent(out) :: ok
-      call set_multipliers(self%orbit%monodromy, values, ok)
-      if (ok) growth = abs(values) - 1
+      allocate (values(self%n))
+      call find_eigenvalues(self%orbit%monodromy, values, ok)
+      if (.not. ok) return
+      values = values(largest_first(abs(values)))
+      growth = abs(values) - 1
    end subroutine spectrum
 
    pure function kind_of(self, value) result(kind)

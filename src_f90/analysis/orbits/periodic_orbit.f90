@@ -16,7 +16,7 @@ module periodic_orbit
    use unbalance_response, only: go_to_response
    implicit none (type, external)
    private
-   public :: periodic_orbit_type, find_periodic_orbit
+   public :: periodic_orbit_type, find_periodic_orbit, are_stable, loss_of_stability
 
    type :: periodic_orbit_type
       type(orbit_type) :: orbit
@@ -149,4 +149,25 @@ contains
          call move_alloc(closed%values, found%multipliers)
       end if
    end subroutine close_orbit
+
+   !> True where a small disturbance of the orbit dies out.
+   pure logical function are_stable(values)
+      complex(wp), intent(in) :: values(:)
+      are_stable = all(abs(values) < 1)
+   end function are_stable
+
+   !> How an unstable orbit loses its stability, by its leading multiplier.
+   pure function loss_of_stability(values) result(loss)
+      complex(wp), intent(in) :: values(:)
+      character(len=:), allocatable :: loss
+      associate (leading => values(1))
+         if (abs(leading%im) > 0) then
+            loss = 'a second frequency grows'
+         else if (leading%re < 0) then
+            loss = 'the period doubles'
+         else
+            loss = 'it is left without oscillation'
+         end if
+      end associate
+   end function loss_of_stability
 end module periodic_orbit
