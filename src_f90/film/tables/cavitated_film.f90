@@ -1,6 +1,6 @@
 !> The cavitated film of a dimensionless pad: force = S M v, as if the film were full and driven by v = w + |w_1| d,
 !> with d a function of the film thicknesses at both edges and of T, the part of the arc where the film diverges
-!> (docs/theory.md, *The table*). Here d is solved where it is asked for; rupture_table interpolates it.
+!> (docs/theory/film.md). Here d is solved where it is asked for; rupture_table interpolates it.
 module cavitated_film
    use kinds, only: wp, i8
    use unit_pad, only: unit_pad_type, thickness_scale

@@ -1,5 +1,5 @@
 !> The full film of a dimensionless pad: force = S M w, with a symmetric M of three functions of the film thicknesses at
-!> both edges (docs/theory.md, *The table*), and that of a pressure 1 at the leading edge. Here both are solved where
+!> both edges (docs/theory/film.md), and that of a pressure 1 at the leading edge. Here both are solved where
 !> they are asked for, with exact derivatives; whole_table interpolates them.
 module full_film
    use kinds, only: wp, i8
