@@ -168,7 +168,7 @@ help:
 	@echo 'make test-slurm   tries the job scripts of input/slurm on a real Slurm of one node, two minutes (as root)'
 	@echo 'make test-debian13   tries make run, make test and the wheel on an empty Debian 13, ten minutes (as root);'
 	@echo '                     make test-debian-sid: on another release'
-	@echo 'make stress   runs random scenes, half an hour; writes docs/stability.md (SCENES=300 SEED=1)'
+	@echo 'make stress   runs random cases, half an hour; writes docs/stability.md (CASES=300 SEED=1)'
 	@echo 'make fuzz     tries random cases and arguments, right and wrong; writes docs/fuzzing.md (MINUTES=5 SEED=1)'
 	@echo 'make bench    measures run time against error, and other programs, a quarter of an hour; writes docs/benchmarks.md'
 	@echo 'make paper    makes the figures and checks the claims of the paper, a minute or two; writes docs/paper'
@@ -204,12 +204,12 @@ test-debian13:
 test-debian-%: build/deps-debian
 	@tests/debian/try_suite $* build/debian/$*
 
-# random scenes; SCENES and SEED choose them
-SCENES ?= 300
+# random cases; CASES and SEED choose them
+CASES ?= 300
 SEED   ?= 1
 stress: build python $(B)/stress/global_search
 	PYTHONPATH=post $(venv_python) tests/stress/stress.py $(B)/bin/tiltpad --search $(B)/stress/global_search \
-	   --scenes $(SCENES) --seed $(SEED) --flutter --searches --report docs/stability.md
+	   --cases $(CASES) --seed $(SEED) --flutter --searches --report docs/stability.md
 
 # MINUTES and SEED choose what is drawn
 MINUTES ?= 5

@@ -111,7 +111,7 @@ leaves it gives the same multiplier: once a period, its changes are multiplied b
 The rates are `ln |mu|/T`, 1/s. The orbits of two revolutions exist on one side of their fold only, two of them at each
 speed; the lower one was found from states that were continued over the root of the speed's distance from the fold.
 
-| scene | rpm | mu | by the march | rate, 1/s | by the march |
+| case | rpm | mu | by the march | rate, 1/s | by the march |
 |---|---|---|---|---|---|
 {both_sides}
 
@@ -226,7 +226,7 @@ LUGRE = {
     "journal z, um": ("journal_z", 1e6, -9.20, 9.82),
     "tilt of pad 1, mrad": ("pad_tilt", 1e3, -0.2324, -0.1396),
 }
-SCENES = ("steady_tr", "steady_to", "steady_to_ba", "steady_ba_10_05", "steady_lugre", "steady_lugre5")
+CASES = ("steady_tr", "steady_to", "steady_to_ba", "steady_ba_10_05", "steady_lugre", "steady_lugre5")
 TABLES = (
     *verify_film.TABLES,
     *verify_coefficients.TABLES,
@@ -242,9 +242,9 @@ TIGHT = (
 def equilibria(program, folder):
     """Rows of equilibrium against reference, per film solver."""
     for (motion, speed), (ref_y, ref_z, ref_tilt, ref_film, ross) in REFERENCES.items():
-        scene = (f"pads%motion={motion}", f"operation%speed_rpm={speed}", "case%task=equilibrium")
+        inputs = (f"pads%motion={motion}", f"operation%speed_rpm={speed}", "case%task=equilibrium")
         for name, film in FILMS.items():
-            with run(program, "steady_tr", folder, *scene, *film) as found:
+            with run(program, "steady_tr", folder, *inputs, *film) as found:
                 e, c_r = found.equilibrium, found.clearance
             y, z, least = (1e6 * x for x in (e["journal_y"], e["journal_z"], e["min_film_thickness"].min()))
             tilt = ", ".join(f"{1e3 * x:.4f}" for x in e["pad_tilt"])
@@ -268,7 +268,7 @@ def lugre(program, folder):
 
 def settings(program, folder):
     """Rows of default against tight settings."""
-    for case in SCENES:
+    for case in CASES:
         with run(program, case, folder) as quick, run(program, case, folder, *TIGHT) as exact:
             found = tiltpad.deviations(quick, exact)
             errors = [f"{found[name]:.1e}" if name in found else "-" for name in SIGNALS]

@@ -74,10 +74,10 @@ LOAD, RADIUS, CLEARANCE, SPEED = 9810.0, 0.05, 1e-4, 100 * math.pi
 def independent(program, folder):
     """Rows of coefficients against those of independent programs."""
     for (motion, speed, ratio, pivot), references in INDEPENDENT.items():
-        scene = (f"pads%motion={motion}", f"operation%speed_rpm={speed}", "film%cavitation=none")
+        inputs = (f"pads%motion={motion}", f"operation%speed_rpm={speed}", "film%cavitation=none")
         friction = ("friction%model=lugre",) if pivot == "stuck" else ()
         task = ("case%task=coefficients", f"coefficients%frequency_ratio={ratio}")
-        with run(program, "steady_tr", folder, *scene, *friction, *task) as result:
+        with run(program, "steady_tr", folder, *inputs, *friction, *task) as result:
             found = tiltpad.coefficients(result, pivot=pivot)
         for name, unit, matrix, reference in (
             ("K", "MN/m", found.stiffness[0], references[0]),
@@ -110,13 +110,13 @@ def close_films(program, folder):
 
 def thresholds(program, folder):
     """Rows of speeds at which stability is lost."""
-    scene = ("film%cavitation=none", "rotor%mass=200", "case%task=coefficients", "operation%speed_rpm=12000")
-    with run(program, "steady_tr", folder, *scene, "coefficients%threshold_up_to_rpm=20000") as result:
+    inputs = ("film%cavitation=none", "rotor%mass=200", "case%task=coefficients", "operation%speed_rpm=12000")
+    with run(program, "steady_tr", folder, *inputs, "coefficients%threshold_up_to_rpm=20000") as result:
         speed = result["modes/threshold_rpm"][0]
     yield row(
         "paper's pads, 200 kg, without friction", f"{speed:.3f} rpm", "14945.85 rpm (independent program)"
     )
-    at = (*scene[:-1], f"operation%speed_rpm={speed:.17g}")
+    at = (*inputs[:-1], f"operation%speed_rpm={speed:.17g}")
     with run(program, "steady_tr", folder, *at) as result:
         frequency = result["modes/frequency"][0][0]
     yield row("its frequency there", f"{frequency:.4f} Hz", "109.546 Hz (independent program)")
@@ -190,14 +190,14 @@ def lund_thomsen(program, folder):
 
 def losses(program, folder):
     """Rows of losses and flows of a pad."""
-    scene = ("pads%motion=tilting_only", "case%task=equilibrium", "film%cavitation=none")
+    inputs = ("pads%motion=tilting_only", "case%task=equilibrium", "film%cavitation=none")
     names = {
         "couette_loss": ("loss by shear, W", 1, 2684.97),
         "pressure_loss": ("loss by pressure flow, W", 1, 124.15),
         "inlet_flow": ("inlet flow, ml/s", 1e6, 91.06),
         "outlet_flow": ("outlet flow, ml/s", 1e6, 76.22),
     }
-    with run(program, "steady_tr", folder, *scene) as result:
+    with run(program, "steady_tr", folder, *inputs) as result:
         for name, (label, factor, reference) in names.items():
             here = factor * result[f"equilibrium/{name}"][0]
             yield row(label, f"{here:.4f}", reference, f"{abs(here / reference - 1):.1e}")

@@ -103,12 +103,12 @@ def marched(program, folder, point, orbit):
     turns = int(orbit["periodic/revolutions"])
     speed = orbit.input["operation"]["speed_rpm"]
     duration = f"operation%duration={60 * turns * (point.periods + 0.01) / speed:.17g}"
-    scene = [each for each in point.overrides if not each.startswith("periodic")]
+    inputs = [each for each in point.overrides if not each.startswith("periodic")]
     with run(
         program,
         point.case,
         folder,
-        *scene,
+        *inputs,
         *FILMS,
         *MARCH,
         at(speed),
@@ -153,18 +153,18 @@ def both_sides(program, folder):
 
 def fold_rows(program, folder):
     """Rows of both orbits beside a fold."""
-    scene = (*FOLD.overrides, *FILMS, *ORBIT)
+    inputs = (*FOLD.overrides, *FILMS, *ORBIT)
     orbits = []
     for speed in FOLD_SPEEDS:
         start = ("start%from=file", from_file(orbits[-1])) if orbits else ()
-        orbits.append(run(program, FOUR, folder, *scene, at(speed), *start))
+        orbits.append(run(program, FOUR, folder, *inputs, at(speed), *start))
     fold = special_point(program, folder, FOLD, speed, 6100, "start%from=file", from_file(orbits[-1]))
     words = f"{FOLD.words}: fold at {fold.parameter:.2f} rpm"
     values = multipliers(orbits[-1])
     real = values[(values.imag == 0)][0]
     yield compared(program, folder, FOLD, orbits[-1], f"{words}, upper", real)
     # the states are smooth over the root of the way from the fold, which is negative on the other side
-    with run(program, FOUR, folder, *scene, at(speed), *other_side(orbits[-4:], fold.parameter)) as lower:
+    with run(program, FOUR, folder, *inputs, at(speed), *other_side(orbits[-4:], fold.parameter)) as lower:
         yield compared(program, folder, FOLD, lower, f"{words}, lower", multipliers(lower)[0])
     for each in orbits:
         each.close()

@@ -12,7 +12,7 @@ from pathlib import Path
 
 #: Lowest first: each uses only those before it. A folder inside one may be a floor of its own ("film/table").
 FORTRAN = (
-    *("base", "system", "scene", "input"),
+    *("base", "system", "case", "input"),
     *("film/common", "film/fourier", "film/volumes", "film/tables", "film"),
     *("pivot", "rotor", "bearing", "integrate", "model"),
     *("equilibrium", "linear", "orbits", "branches", "signals", "storage", "results", "app"),

@@ -1,4 +1,4 @@
-!> The paper's bearing (Dyk et al. 2023, Tables 1 and 2) as the modules take it that know no scene.
+!> The paper's bearing (Dyk et al. 2023, Tables 1 and 2) as the modules take it that know no case.
 module paper_bearing
    use kinds, only: wp, degree
    use film_solver, only: film_oil

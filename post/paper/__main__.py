@@ -1,4 +1,4 @@
-"""The paper, reproduced: runs all scenes, draws counterparts of its figures, checks its claims.
+"""The paper, reproduced: runs all cases, draws counterparts of its figures, checks its claims.
 
 usage: python -m paper TILTPAD [--folder FOLDER] [--docs FOLDER] [--keep]
 
@@ -27,13 +27,13 @@ from paper.page import page
 from paper.runs import Runs, run_all
 from paper.settings import ROOT
 
-#: Folders of the runs, with their scenes: those of figures and claims; again with a finer film and by rule
+#: Folders of the runs, with their cases: those of figures and claims; again with a finer film and by rule
 #: (26); and the studies'.
 FOLDERS = {
-    "paper": tuple(map(settings.kept, settings.SCENES)),
-    "refined": tuple(map(settings.refined, settings.SCENES)),
-    "rule": tuple(map(settings.balanced, settings.SCENES)),
-    "studies": (*studies.SCENES, *sticking.SCENES, *lost.SCENES),
+    "paper": tuple(map(settings.kept, settings.CASES)),
+    "refined": tuple(map(settings.refined, settings.CASES)),
+    "rule": tuple(map(settings.balanced, settings.CASES)),
+    "studies": (*studies.CASES, *sticking.CASES, *lost.CASES),
 }
 #: Pictures by their file's name, with the folder of their runs.
 PICTURES: dict[str, tuple[Callable, str]] = (
@@ -82,7 +82,7 @@ def main() -> None:
     started = time.monotonic()
     options.docs.mkdir(parents=True, exist_ok=True)
     if not options.keep:
-        jobs = [(scene, options.folder / name) for name, scenes in FOLDERS.items() for scene in scenes]
+        jobs = [(case, options.folder / name) for name, cases in FOLDERS.items() for case in cases]
         os.environ["TILTPAD"] = str(options.program)
         with ThreadPoolExecutor(1) as beside:
             marches = beside.submit(lost.march_up_and_down, options.folder / "studies")

@@ -14,7 +14,7 @@ from tiltpad.draw.layout import PAGE
 from tiltpad.files.units import SHOWN
 
 from paper.runs import Runs
-from paper.settings import BA, FRICTIONLESS, LUGRE, ROOT, Scene, coefficients
+from paper.settings import BA, FRICTIONLESS, LUGRE, ROOT, Case, coefficients
 from paper.tables import digits, table
 
 RPM = SHOWN["speed"].label
@@ -56,9 +56,9 @@ def lost_name(law: str, unbalance: float, coefficient: float) -> str:
 FOUR = "input/examples/four_pads.nml"
 FOUR_SPEEDS = (4000, 8500)
 DOUBLED = ("periodic%revolutions=2", "branch%max_points=125", 'case%title="two revolutions"')
-SCENES = (
+CASES = (
     *(
-        Scene(
+        Case(
             lost_name(law, unbalance, f),
             case,
             (
@@ -71,11 +71,9 @@ SCENES = (
         for unbalance in LOST_UNBALANCES
         for f in LOST_COEFFICIENTS
     ),
-    Scene("lost_none", FRICTIONLESS, over_speed(*LOST_SPEEDS, step=100, longest=500)),
-    Scene(
-        "four_once", FOUR, (*over_speed(*FOUR_SPEEDS, step=50, longest=250), 'case%title="one revolution"')
-    ),
-    Scene("four_twice", FOUR, (*over_speed(6700, 5000, step=-50, longest=250), *DOUBLED)),
+    Case("lost_none", FRICTIONLESS, over_speed(*LOST_SPEEDS, step=100, longest=500)),
+    Case("four_once", FOUR, (*over_speed(*FOUR_SPEEDS, step=50, longest=250), 'case%title="one revolution"')),
+    Case("four_twice", FOUR, (*over_speed(6700, 5000, step=-50, longest=250), *DOUBLED)),
 )
 
 

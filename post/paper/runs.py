@@ -8,7 +8,7 @@ from pathlib import Path
 
 import tiltpad
 
-from paper.settings import ROOT, Scene
+from paper.settings import ROOT, Case
 
 #: Seconds after which a run is killed.
 LIMIT = 300
@@ -26,7 +26,7 @@ SLOWEST = (
 
 
 class Runs:
-    """Results by the scene's name, each opened when it is first asked for."""
+    """Results by the case's name, each opened when it is first asked for."""
 
     def __init__(self, folder: Path):
         self.folder = folder
@@ -45,8 +45,8 @@ class Runs:
             run.close()
 
 
-def run_all(program: Path, jobs: Iterable[tuple[Scene, Path]], cores: int | None = None) -> None:
-    """Runs scenes, each into its folder and a process of its own, as many at once as there are cores; raises
+def run_all(program: Path, jobs: Iterable[tuple[Case, Path]], cores: int | None = None) -> None:
+    """Runs cases, each into its folder and a process of its own, as many at once as there are cores; raises
     RuntimeError for one that fails.
     """
     queue = sorted(
@@ -58,12 +58,12 @@ def run_all(program: Path, jobs: Iterable[tuple[Scene, Path]], cores: int | None
         list(pool.map(lambda job: run(program, *job), queue))
 
 
-def run(program: Path, scene: Scene, folder: Path) -> Path:
+def run(program: Path, case: Case, folder: Path) -> Path:
     """One run; its result file."""
-    path = folder / f"{scene.name}.h5"
-    options = [word for each in scene.overrides for word in ("--set", each)]
-    command = [program, ROOT / scene.case, "--quiet", "--overwrite", "--output", path, *options]
+    path = folder / f"{case.name}.h5"
+    options = [word for each in case.overrides for word in ("--set", each)]
+    command = [program, ROOT / case.case, "--quiet", "--overwrite", "--output", path, *options]
     done = subprocess.run(command, text=True, capture_output=True, timeout=LIMIT)
     if done.returncode:
-        raise RuntimeError(f"{scene.name}: {done.stderr.strip()}")
+        raise RuntimeError(f"{case.name}: {done.stderr.strip()}")
     return path

@@ -1,4 +1,4 @@
-"""Settings: scenes, windows and limits."""
+"""Settings: cases, windows and limits."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -7,7 +7,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 
 
 @dataclass(frozen=True)
-class Scene:
+class Case:
     """A case of input/, with overrides."""
 
     name: str
@@ -21,9 +21,7 @@ PAD, LAST = 1, 5
 DETAIL = 3
 
 #: Every case of input/paper, by its file's name.
-PAPER = tuple(
-    Scene(path.stem, str(path.relative_to(ROOT))) for path in sorted(ROOT.glob("input/paper/*.nml"))
-)
+PAPER = tuple(Case(path.stem, str(path.relative_to(ROOT))) for path in sorted(ROOT.glob("input/paper/*.nml")))
 
 BA, LUGRE, FRICTIONLESS = (
     f"input/paper/{name}.nml" for name in ("steady_ba_10_05", "steady_lugre", "steady_tr")
@@ -49,9 +47,9 @@ STIFFNESSES = {
     "1e8": "lugre100",
 }
 FIGURES_7_8 = (
-    Scene("ba_vc4", BA, ("friction%critical_velocity=1e-4",)),
-    Scene("lugre20", LUGRE, ("friction%bristle_stiffness=2e7",)),
-    Scene("lugre100", LUGRE, ("friction%bristle_stiffness=1e8",)),
+    Case("ba_vc4", BA, ("friction%critical_velocity=1e-4",)),
+    Case("lugre20", LUGRE, ("friction%bristle_stiffness=2e7",)),
+    Case("lugre100", LUGRE, ("friction%bristle_stiffness=1e8",)),
 )
 
 #: Radius differences of Fig. 10, um, with their runs without and with friction; tilting-only stands beside.
@@ -81,17 +79,17 @@ def at_speed(speed: float, grade: float = GRADE) -> tuple[str, ...]:
 #: The balance grade of a well balanced rotor, whose pads stay stuck at full speed.
 FINE_GRADE = 1
 SLOW = tuple(
-    Scene(f"{model}_{words}", case, overrides)
+    Case(f"{model}_{words}", case, overrides)
     for model, case in (("ba", BA), ("lugre", LUGRE))
     for words, overrides in (("slow", at_speed(LOWEST)), ("fine", at_speed(6500, FINE_GRADE)))
 )
 
 #: The upper pads: four against two, with Guembel's condition.
 UPPER_PADS = (
-    Scene("two_pads", LUGRE, ("film%cavitation=gumbel",)),
-    Scene("four_pads", "input/examples/four_pads.nml"),
-    Scene("two_pads_none", FRICTIONLESS, ("film%cavitation=gumbel",)),
-    Scene("four_pads_none", "input/examples/four_pads.nml", ("friction%model=none",)),
+    Case("two_pads", LUGRE, ("film%cavitation=gumbel",)),
+    Case("four_pads", "input/examples/four_pads.nml"),
+    Case("two_pads_none", FRICTIONLESS, ("film%cavitation=gumbel",)),
+    Case("four_pads_none", "input/examples/four_pads.nml", ("friction%model=none",)),
 )
 
 #: What a comparison must exceed to count, ten times the error that the default settings are held to.
@@ -116,31 +114,31 @@ SHORT = "operation%duration=0.8"
 KEPT = 0.25
 
 
-def refined(scene: Scene) -> Scene:
-    """The scene with the settings REFINED."""
-    return shorter(Scene(scene.name, scene.case, (*scene.overrides, *REFINED)))
+def refined(case: Case) -> Case:
+    """The case with the settings REFINED."""
+    return shorter(Case(case.name, case.case, (*case.overrides, *REFINED)))
 
 
-def balanced(scene: Scene) -> Scene:
-    """The scene with the unbalance of rule (26)."""
-    own = any("balance_grade" in word for word in scene.overrides)
-    return shorter(Scene(scene.name, scene.case, scene.overrides if own else (*scene.overrides, RULE)))
+def balanced(case: Case) -> Case:
+    """The case with the unbalance of rule (26)."""
+    own = any("balance_grade" in word for word in case.overrides)
+    return shorter(Case(case.name, case.case, case.overrides if own else (*case.overrides, RULE)))
 
 
-def shorter(scene: Scene) -> Scene:
-    """The scene with the duration SHORT, unless it is a run-up; of which the end is kept."""
-    return changed_unless_runup(scene, SHORT, f"output%start_time={0.8 - KEPT:g}")
+def shorter(case: Case) -> Case:
+    """The case with the duration SHORT, unless it is a run-up; of which the end is kept."""
+    return changed_unless_runup(case, SHORT, f"output%start_time={0.8 - KEPT:g}")
 
 
-def kept(scene: Scene) -> Scene:
-    """The scene, of which the end is kept unless it is a run-up."""
-    return changed_unless_runup(scene, f"output%start_time={2 - KEPT:g}")
+def kept(case: Case) -> Case:
+    """The case, of which the end is kept unless it is a run-up."""
+    return changed_unless_runup(case, f"output%start_time={2 - KEPT:g}")
 
 
-def changed_unless_runup(scene: Scene, *overrides: str) -> Scene:
-    if scene.name in RUNUPS.values():
-        return scene
-    return Scene(scene.name, scene.case, (*scene.overrides, *overrides))
+def changed_unless_runup(case: Case, *overrides: str) -> Case:
+    if case.name in RUNUPS.values():
+        return case
+    return Case(case.name, case.case, (*case.overrides, *overrides))
 
 
 def coefficients(static: float, dynamic: float) -> tuple[str, ...]:
@@ -148,4 +146,4 @@ def coefficients(static: float, dynamic: float) -> tuple[str, ...]:
 
 
 #: The runs of the figures and claims.
-SCENES = (*PAPER, *FIGURES_7_8, *SLOW, *UPPER_PADS)
+CASES = (*PAPER, *FIGURES_7_8, *SLOW, *UPPER_PADS)

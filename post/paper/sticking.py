@@ -11,7 +11,7 @@ from tiltpad.draw.layout import PAGE
 from tiltpad.files.units import SHOWN
 
 from paper.runs import Runs
-from paper.settings import LUGRE, Scene
+from paper.settings import LUGRE, Case
 from paper.tables import digits, table
 
 RPM = SHOWN["speed"].label
@@ -49,21 +49,21 @@ def stick_name(mass: float, speed: float) -> str:
     return f"stick_{mass}_{speed}"
 
 
-SCENES = (
+CASES = (
     *(
-        Scene(
+        Case(
             stick_name(mass, speed),
             LUGRE,
             ("case%task=coefficients", f"rotor%mass={mass}", f"operation%speed_rpm={speed}"),
         )
         for mass, speed in (*product(STICK_MASSES, STICK_SPEEDS), *product([ROTOR_MASS], WHIRL_SPEEDS))
     ),
-    *(Scene(f"threshold_mass_{mass}", LUGRE, (*THRESHOLD, f"rotor%mass={mass}")) for mass in STICK_MASSES),
+    *(Case(f"threshold_mass_{mass}", LUGRE, (*THRESHOLD, f"rotor%mass={mass}")) for mass in STICK_MASSES),
     *(
-        Scene(f"threshold_stiffness_{word}", LUGRE, (*THRESHOLD, f"friction%bristle_stiffness={word}"))
+        Case(f"threshold_stiffness_{word}", LUGRE, (*THRESHOLD, f"friction%bristle_stiffness={word}"))
         for word in STICK_STIFFNESSES
     ),
-    *(Scene(f"whirl_{speed}", LUGRE, (*WHIRL, f"operation%speed_rpm={speed}")) for speed in WHIRL_SPEEDS),
+    *(Case(f"whirl_{speed}", LUGRE, (*WHIRL, f"operation%speed_rpm={speed}")) for speed in WHIRL_SPEEDS),
 )
 
 

@@ -23,7 +23,7 @@ from paper.settings import (
     PAD,
     PAIRS,
     RUNUPS,
-    Scene,
+    Case,
     at_speed,
     coefficients,
     shorter,
@@ -95,7 +95,7 @@ def map_name(speed: float, coefficient: float) -> str:
 
 
 MAP = tuple(
-    Scene(map_name(speed, f), BA, (*coefficients(f, f / 2), *at_speed(speed), *MAP_TIME))
+    Case(map_name(speed, f), BA, (*coefficients(f, f / 2), *at_speed(speed), *MAP_TIME))
     for speed in MAP_SPEEDS
     for f in MAP_COEFFICIENTS
 )
@@ -157,8 +157,8 @@ def law_name(law: str, difference: int, friction: bool) -> str:
     return f"law_{list(LAWS).index(law)}_{difference}_{'ba' if friction else 'none'}"
 
 
-LAW_SCENES = tuple(
-    shorter(Scene(law_name(law, difference, friction), BA_10_10 if friction else FRICTIONLESS,
+LAW_CASES = tuple(
+    shorter(Case(law_name(law, difference, friction), BA_10_10 if friction else FRICTIONLESS,
                   (*overrides, f"pivot%radius_difference={difference}e-6")))
     for law, overrides in LAWS.items()
     for difference in LAW_DIFFERENCES
@@ -205,8 +205,8 @@ def laws_table(runs: Runs) -> str:
 #: Balance grades at 6500 rpm, and speeds at which rule (26) takes that speed or 6500 rpm.
 GRADES = (0.4, 1, 2.5, 4, 6.3, 10)
 RULE_SPEEDS = tuple(range(1500, 8501, 500))
-RULE_SCENES = tuple(
-    shorter(Scene(f"rule_{model}_{kind}_{value:g}", case, overrides))
+RULE_CASES = tuple(
+    shorter(Case(f"rule_{model}_{kind}_{value:g}", case, overrides))
     for model, case in (("none", FRICTIONLESS), ("lugre", LUGRE))
     for kind, values, make in (
         ("grade", GRADES, lambda grade: at_speed(6500, grade)),
@@ -283,4 +283,4 @@ def equivalent_grade(run: tiltpad.Run) -> float:
 FIGURES = {"map": map_figure, "laws": laws_figure, "rule": rule_figure}
 REUSED = {"work": work_figure, "laws4": laws4}
 #: The runs of the others.
-SCENES = (*MAP, *LAW_SCENES, *RULE_SCENES)
+CASES = (*MAP, *LAW_CASES, *RULE_CASES)

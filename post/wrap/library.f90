@@ -1,13 +1,13 @@
 !> What Python calls of the library (post/tiltpad/library.py): numbers, texts and arrays of explicit shape, by f2py.
 !>
-!> A scene comes as the text of a namelist, read and checked as the program reads it; `name` stands for it in
+!> A case comes as the text of a namelist, read and checked as the program reads it; `name` stands for it in
 !> messages. `status` is 0, or the exit status of the program for the `message`. SI units.
 module tiltpad_library
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use errors, only: error_type, raise, input_error, numerics_error
    use text, only: to_text
-   use scene, only: scene_type
-   use scene_namelist, only: scene_from_text
+   use case_inputs, only: case_type
+   use case_namelist, only: case_from_text
    use components, only: make_law, make_friction
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_state
@@ -46,7 +46,7 @@ contains
       integer(c_int), intent(out) :: status
       character(len=2000), intent(out) :: message
       type(error_type), allocatable :: error
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_model) :: model
       type(pad_sample) :: samples(pads)
       real(c_double), allocatable :: y(:)
@@ -58,11 +58,11 @@ contains
       force = 0
       max_pressure = 0
       min_film_thickness = 0
-      call read_case_of(text, name, int(pads), scene, error)
+      call read_case_of(text, name, int(pads), inputs, error)
       if (.not. allocated(error)) then
          ! one state is not worth a table
-         if (scene%film%solver == 'auto') scene%film%solver = 'direct'
-         model = new_bearing_model(scene)
+         if (inputs%film%solver == 'auto') inputs%film%solver = 'direct'
+         model = new_bearing_model(inputs)
          if (all(viscosity > 0)) model%oil%viscosity = viscosity
          y = model%state(journal_motion(journal(:2), journal(3:4)), &
             & [(pad_state(tilt(1, i), tilt(2, i), penetration(1, i), penetration(2, i)), i=1, pads)])
@@ -70,9 +70,9 @@ contains
          if (.not. ok) call raise(error, numerics_error, name//': '//model%refusal)
       end if
       if (.not. allocated(error)) then
-         associate (arc => scene%pads%arc_deg*degree)
+         associate (arc => inputs%pads%arc_deg*degree)
             do i = 1, pads
-               phi(:, i) = (along - 1 + scene%pads%pivot_ratio(i))*arc(i)
+               phi(:, i) = (along - 1 + inputs%pads%pivot_ratio(i))*arc(i)
             end do
          end associate
          samples = model%sampled()
@@ -80,7 +80,7 @@ contains
          force(2, :) = samples%film_force(2)
          max_pressure = samples%max_pressure
          min_film_thickness = samples%min_film_thickness
-         z = 0.5_c_double*scene%bearing%axial_length*across
+         z = 0.5_c_double*inputs%bearing%axial_length*across
          call model%pressure_field(phi, z, pressure)
       end if
       call tell(error, status, message)
@@ -98,19 +98,19 @@ contains
       integer(c_int), intent(out) :: status
       character(len=2000), intent(out) :: message
       type(error_type), allocatable :: error
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_model) :: model
       type(bearing_losses_type) :: finder
       type(pad_loss) :: found(pads)
       integer :: i, k
       losses = 0
-      call read_case_of(text, name, int(pads), scene, error)
+      call read_case_of(text, name, int(pads), inputs, error)
       if (.not. allocated(error)) then
          ! no film of the model is solved
-         if (scene%film%solver == 'auto') scene%film%solver = 'direct'
-         model = new_bearing_model(scene)
+         if (inputs%film%solver == 'auto') inputs%film%solver = 'direct'
+         model = new_bearing_model(inputs)
          if (all(viscosity > 0)) model%oil%viscosity = viscosity
-         finder = new_bearing_losses(scene)
+         finder = new_bearing_losses(inputs)
          do k = 1, n
             call finder%find(model%bearing, journal_motion(journal(:2, k), journal(3:4, k)), &
                & [(pad_state(tilt(1, i, k), tilt(2, i, k), penetration(1, i, k), penetration(2, i, k)), i=1, pads)], &
@@ -174,15 +174,15 @@ contains
       integer(c_int), intent(out) :: status
       character(len=2000), intent(out) :: message
       type(error_type), allocatable :: error
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       class(friction_law), allocatable :: law
       type(friction_response) :: response
       integer :: i
       force = 0
       rate = 0
-      call read_case(text, name, scene, error)
+      call read_case(text, name, inputs, error)
       if (.not. allocated(error)) then
-         call make_friction(scene, law)
+         call make_friction(inputs, law)
          do i = 1, n
             call law%evaluate(velocity(i), deflection(i), normal(i), response)
             force(i) = response%force
@@ -208,23 +208,23 @@ contains
       amplitude = full_amplitude(cmplx(y, z, c_double))
    end subroutine full
 
-   !> The scene of a namelist text.
-   subroutine read_case(text, name, scene, error)
+   !> The case of a namelist text.
+   subroutine read_case(text, name, inputs, error)
       character(len=*), intent(in) :: text, name
-      type(scene_type), intent(out) :: scene
+      type(case_type), intent(out) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      call scene_from_text(text, name, scene, error)
+      call case_from_text(text, name, inputs, error)
    end subroutine read_case
 
    !> The same, which has to have so many pads.
-   subroutine read_case_of(text, name, pads, scene, error)
+   subroutine read_case_of(text, name, pads, inputs, error)
       character(len=*), intent(in) :: text, name
       integer, intent(in) :: pads
-      type(scene_type), intent(out) :: scene
+      type(case_type), intent(out) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      call read_case(text, name, scene, error)
+      call read_case(text, name, inputs, error)
       if (allocated(error)) return
-      if (scene%pad_count() /= pads) call raise(error, input_error, name//': '//to_text(scene%pad_count()) &
+      if (inputs%pad_count() /= pads) call raise(error, input_error, name//': '//to_text(inputs%pad_count()) &
          & //' pads, but states of '//to_text(pads))
    end subroutine read_case_of
 
@@ -234,12 +234,12 @@ contains
       real(c_double), intent(in) :: penetration(:)
       type(contact_point), intent(out) :: points(:)
       type(error_type), allocatable, intent(out) :: error
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       class(contact_law_type), allocatable :: law
       integer :: i
-      call read_case(text, name, scene, error)
+      call read_case(text, name, inputs, error)
       if (allocated(error)) return
-      call make_law(scene, law)
+      call make_law(inputs, law)
       do i = 1, size(points)
          if (penetration(i) > 0) points(i) = law%at(penetration(i))
       end do

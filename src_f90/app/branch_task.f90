@@ -111,7 +111,7 @@ contains
       call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier%count('steps')), y, found, &
          & error, stop_requested)
       run%counts = found%counts()
-      if (.not. allocated(error)) call b%begin_with_orbit(found%orbit, run%scene%periodic%revolutions)
+      if (.not. allocated(error)) call b%begin_with_orbit(found%orbit, run%inputs%periodic%revolutions)
    end subroutine first_orbit
 
    !> Gives the oil of the first orbit the viscosities of the equilibrium, from which those of the others follow.
@@ -248,9 +248,9 @@ contains
       type(oil_temperatures_type), allocatable :: oil
       real(wp), allocatable :: viscosity(:)
       if (has_warm_oil(run%model)) allocate (oil)
-      associate (tilting => run%scene%tilting(), orbit => b%orbits%orbit)
+      associate (tilting => run%inputs%tilting(), orbit => b%orbits%orbit)
          if (b%of_orbits) then
-            call find_orbit_figures(run%model, orbit, b%orbits%turns, run%scene%output%samples_per_revolution, figures)
+            call find_orbit_figures(run%model, orbit, b%orbits%turns, run%inputs%output%samples_per_revolution, figures)
             if (allocated(oil)) call b%ode%oil%get_found(oil, viscosity)
             call add_point(run%file, b%branch, b%parameter, point, figures, tilting, error, oil, viscosity, &
                & branch_orbit_type(b%orbits%turns, orbit%intervals(), b%orbits%period()))
@@ -272,7 +272,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: started
       started = wall_clock()
-      associate (pause => run%scene%output%checkpoint_seconds)
+      associate (pause => run%inputs%output%checkpoint_seconds)
          if (.not. pause > 0 .or. started - notes%last_checkpoint < pause) return
       end associate
       call bring_up_to_date(run, b, notes)

@@ -1,7 +1,7 @@
 !> One run of a case: what its task works on, and what it has cost so far.
 module case_run
    use kinds, only: wp
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use sweep, only: member_tag
    use integrator_counts, only: integrator_counts_type
    use equations_of_motion, only: bearing_model
@@ -15,7 +15,7 @@ module case_run
    public :: case_run_type, begin_run
 
    type :: case_run_type
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       !> Name of the result file, as given.
       character(len=:), allocatable :: path
       !> Which member of a sweep it is, if any.
@@ -45,13 +45,13 @@ module case_run
 contains
 
    !> Starts the clock of a run.
-   subroutine begin_run(run, scene, path, tag, quiet)
+   subroutine begin_run(run, inputs, path, tag, quiet)
       type(case_run_type), intent(out) :: run
-      type(scene_type), intent(in) :: scene
+      type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: path
       type(member_tag), intent(in) :: tag
       logical, intent(in) :: quiet
-      run%scene = scene
+      run%inputs = inputs
       run%path = path
       run%tag = tag
       run%quiet = quiet
@@ -61,8 +61,8 @@ contains
    !> Writes the figures of the samples so far.
    subroutine note_figures(self)
       class(case_run_type), intent(inout) :: self
-      if (self%scene%about%task == 'branch') return
-      call put_march_figures(self%file, self%scene, self%extremes, norm2(self%model%point%load))
+      if (self%inputs%about%task == 'branch') return
+      call put_march_figures(self%file, self%inputs, self%extremes, norm2(self%model%point%load))
    end subroutine note_figures
 
    !> What the run has cost so far, over all its stretches: the list of all figures.

@@ -3,7 +3,7 @@ module coefficients_summary
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, pi
    use text, only: to_text, fixed_text
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use bearing_coefficients, only: bearing_coefficients_type
    use vibration_modes, only: vibration_modes_type
    implicit none (type, external)
@@ -15,12 +15,12 @@ module coefficients_summary
 
 contains
 
-   subroutine print_coefficients(found, scene)
+   subroutine print_coefficients(found, inputs)
       type(bearing_coefficients_type), intent(in) :: found
-      type(scene_type), intent(in) :: scene
+      type(case_type), intent(in) :: inputs
       integer :: i, k
-      if (scene%thermal%model /= 'none') print '(a)', 'stiffness and damping at the viscosities of this equilibrium:'
-      associate (ratios => scene%coefficients%frequency_ratio)
+      if (inputs%thermal%model /= 'none') print '(a)', 'stiffness and damping at the viscosities of this equilibrium:'
+      associate (ratios => inputs%coefficients%frequency_ratio)
          do i = 1, size(found%bearings)
             print '(a)', 'pivots '//trim(found%bearings(i)%pivot)//':'
             do k = 1, min(most, size(ratios))
@@ -32,7 +32,7 @@ contains
                & //' whirl frequencies more, in the file'
             call print_modes(found%modes(i))
             if (allocated(found%thresholds)) call print_threshold(found%thresholds(i), found%sought_up_to, &
-               & scene%operation%speed_rpm, any(found%modes(i)%eigenvalue%re > 0))
+               & inputs%operation%speed_rpm, any(found%modes(i)%eigenvalue%re > 0))
          end do
       end associate
    end subroutine print_coefficients

@@ -33,7 +33,7 @@ contains
          call note_equilibrium(run, static)
          call find_coefficients(fine, y, found, error)
       end if
-      if (.not. allocated(error) .and. run%scene%coefficients%threshold_up_to_rpm > 0) then
+      if (.not. allocated(error) .and. run%inputs%coefficients%threshold_up_to_rpm > 0) then
          call find_thresholds(fine, y, found, error, stop_requested)
       end if
       if (allocated(error)) then
@@ -45,8 +45,8 @@ contains
          end if
          return
       end if
-      call put_coefficients(run%file%file, found, run%scene%coefficients%frequency_ratio, &
+      call put_coefficients(run%file%file, found, run%inputs%coefficients%frequency_ratio, &
          & run%model%layout%position_names())
-      if (.not. run%quiet) call print_coefficients(found, run%scene)
+      if (.not. run%quiet) call print_coefficients(found, run%inputs)
    end subroutine run_coefficients
 end module coefficients_task

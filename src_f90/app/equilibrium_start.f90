@@ -3,7 +3,7 @@ module equilibrium_start
    use kinds, only: wp
    use errors, only: error_type, stopped
    use equilibrium, only: equilibrium_type, find_equilibrium
-   use namelist_writer, only: scene_text
+   use namelist_writer, only: namelist_of
    use static_figures, only: static_figures_type, find_static_figures
    use equilibrium_results, only: put_equilibrium, put_figures, put_temperatures
    use stop_signals, only: stop_requested, stop_reason
@@ -22,7 +22,7 @@ contains
    subroutine create_file(run, error)
       type(case_run_type), intent(inout) :: run
       type(error_type), allocatable, intent(out) :: error
-      call run%file%create(run%scene, scene_text(run%scene), error)
+      call run%file%create(run%inputs, namelist_of(run%inputs), error)
       if (.not. allocated(error) .and. run%tag%number > 0) call run%file%put_member(run%tag)
    end subroutine create_file
 
@@ -56,14 +56,14 @@ contains
       type(equilibrium_type), intent(in) :: static
       type(static_figures_type) :: figures
       run%model%oil%viscosity = static%viscosity
-      call put_equilibrium(run%file%file, static, run%scene%tilting(), run%scene%tilting_radial())
+      call put_equilibrium(run%file%file, static, run%inputs%tilting(), run%inputs%tilting_radial())
       call find_static_figures(run%model, static, figures)
-      call put_figures(run%file%file, run%scene, figures)
+      call put_figures(run%file%file, run%inputs, figures)
       if (allocated(figures%oil)) call put_temperatures(run%file%file, figures%oil, static%viscosity)
       run%computed = .true.
       if (run%quiet) return
-      call print_equilibrium(static, run%scene)
-      call print_figures(run%scene, figures)
+      call print_equilibrium(static, run%inputs)
+      call print_figures(run%inputs, figures)
       if (allocated(figures%oil)) call print_temperatures(figures%oil, static%viscosity)
    end subroutine note_equilibrium
 end module equilibrium_start

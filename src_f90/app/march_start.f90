@@ -32,7 +32,7 @@ contains
       type(journal_motion) :: journal
       type(pad_state), allocatable :: pads(:)
       logical :: ok
-      associate (model => run%model, from => run%scene%start%from)
+      associate (model => run%model, from => run%inputs%start%from)
          if (from == 'equilibrium') then
             call start_at_equilibrium(run, y, error)
             if (.not. allocated(error)) call let_grooves_warm(run, y, error)
@@ -60,14 +60,14 @@ contains
          end if
       end associate
       run%computed = .true.
-      if (.not. run%quiet) call print_start(run%scene, journal%position, pads%tilt)
+      if (.not. run%quiet) call print_start(run%inputs, journal%position, pads%tilt)
    end subroutine make_start
 
    !> Writes the viscosities of warm oil at the start of the march, and their course where they change. A branch has
    !> them for each of its points.
    subroutine note_oil(run)
       type(case_run_type), intent(inout) :: run
-      if (run%scene%about%task == 'branch') return
+      if (run%inputs%about%task == 'branch') return
       if (has_warm_oil(run%model)) call put_viscosity(run%file, run%model%oil%viscosity)
       if (run%model%oil_course%runs()) call put_course(run%file, run%model%oil_course)
    end subroutine note_oil
@@ -83,7 +83,7 @@ contains
       real(wp), allocatable :: y(:)
       logical, allocatable :: held(:)
       if (.not. has_warm_oil(run%model)) return
-      if (run%scene%start%from == 'partial') then
+      if (run%inputs%start%from == 'partial') then
          call find_partial_equilibrium(run%model, static, held, error, stop_requested)
       else
          call find_equilibrium(run%model, static, error, stop_requested)
@@ -106,8 +106,8 @@ contains
       real(wp), intent(in) :: y(:)
       type(error_type), allocatable, intent(inout) :: error
       type(viscosity_course_type) :: course
-      if (run%scene%thermal%march /= 'groove' .or. .not. abs(run%model%point%acceleration) > 0) return
-      call find_groove_transient(run%model, y, run%scene%operation%duration, course, error, stop_requested)
+      if (run%inputs%thermal%march /= 'groove' .or. .not. abs(run%model%point%acceleration) > 0) return
+      call find_groove_transient(run%model, y, run%inputs%operation%duration, course, error, stop_requested)
       if (allocated(error)) return
       run%model%oil_course = course
    end subroutine let_grooves_warm
@@ -133,7 +133,7 @@ contains
       type(journal_motion), intent(inout) :: journal
       type(pad_state), intent(inout) :: pads(:)
       type(error_type), allocatable, intent(out) :: error
-      associate (file => run%scene%start%file)
+      associate (file => run%inputs%start%file)
          if (real_path(file) == real_path(run%path)) then
             call raise(error, input_error, 'start%file = '''//file//''': is the result of this run itself; name ' &
                & //'another with --output')
@@ -171,7 +171,7 @@ contains
    !> True where the group has values to add.
    pure logical function is_disturbed(run)
       type(case_run_type), intent(in) :: run
-      associate (s => run%scene%start)
+      associate (s => run%inputs%start)
          is_disturbed = any(abs([s%journal, s%journal_velocity, s%pad_tilt, s%pad_tilt_rate, s%pad_penetration, &
             & s%pad_penetration_rate]) > 0)
       end associate
@@ -182,7 +182,7 @@ contains
       type(case_run_type), intent(in) :: run
       type(journal_motion), intent(inout) :: journal
       type(pad_state), intent(inout) :: pads(:)
-      associate (s => run%scene%start)
+      associate (s => run%inputs%start)
          journal%position = journal%position + s%journal
          journal%velocity = journal%velocity + s%journal_velocity
          pads%tilt = pads%tilt + s%pad_tilt

@@ -30,7 +30,7 @@ contains
          call make_start(run, y, error)
       end if
       if (allocated(error)) return
-      call run%file%begin_series('time', sample_count(run%scene))
+      call run%file%begin_series('time', sample_count(run%inputs))
       plan = planned(run)
       if (run%resumed) then
          call run%extremes%read(run%file%file, plan%interval)
@@ -39,18 +39,18 @@ contains
       if (allocated(error)) return
       call begin_recording(observer, run, t)
       call march(run%model, march_settings_of(run%model, run%earlier%count('steps')), t, &
-         & run%scene%operation%duration, plan, y, observer, counts, error)
+         & run%inputs%operation%duration, plan, y, observer, counts, error)
       run%counts = counts
       call observer%progress%clear()
-      if (.not. allocated(error)) call write_spectra(run%scene, plan%interval, run%file)
+      if (.not. allocated(error)) call write_spectra(run%inputs, plan%interval, run%file)
    end subroutine run_march
 
    type(sample_plan) function planned(run) result(plan)
       type(case_run_type), intent(in) :: run
-      associate (scene => run%scene)
-         plan%first = scene%output%start_time
-         plan%interval = sample_interval(scene)
-         plan%count = sample_count(scene)
+      associate (inputs => run%inputs)
+         plan%first = inputs%output%start_time
+         plan%interval = sample_interval(inputs)
+         plan%count = sample_count(inputs)
       end associate
       plan%next = run%file%samples()
    end function planned

@@ -36,8 +36,8 @@ contains
          if (error%status == stopped) call stop_here(run, found, error)
          return
       end if
-      call put_periodic(run%file%file, found, run%scene%periodic%revolutions)
-      if (.not. run%quiet) call print_orbit(found, run%scene%periodic%revolutions)
+      call put_periodic(run%file%file, found, run%inputs%periodic%revolutions)
+      if (.not. run%quiet) call print_orbit(found, run%inputs%periodic%revolutions)
       call record_orbit(run, found, error)
    end subroutine run_periodic
 
@@ -63,7 +63,7 @@ contains
       integer(i8) :: k
       logical :: ok
       none = 0
-      plan%count = 1 + int(run%scene%periodic%revolutions, i8)*run%scene%output%samples_per_revolution
+      plan%count = 1 + int(run%inputs%periodic%revolutions, i8)*run%inputs%output%samples_per_revolution
       plan%interval = found%period/(plan%count - 1)
       call run%file%begin_series('time', plan%count)
       call begin_recording(observer, run, 0.0_wp)
@@ -78,7 +78,7 @@ contains
          call observer%sample(t, y, run%model%output(none), error)
          if (allocated(error)) return
       end do
-      call write_spectra(run%scene, plan%interval, run%file)
+      call write_spectra(run%inputs, plan%interval, run%file)
    end subroutine record_orbit
 
    !> Period, stability and effort.

@@ -7,7 +7,7 @@ module recorder
    use integrator_counts, only: integrator_counts_type
    use loops, only: periodicity, new_periodicity
    use equations_of_motion, only: model_sample
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use spectra, only: one_sided_amplitude, full_amplitude
    use march_results, only: add_sample, put_spectrum
    use run_file, only: run_file_type
@@ -49,9 +49,9 @@ contains
       type(case_run_type), intent(inout), target :: run
       real(wp), intent(in) :: t
       self%run => run
-      self%progress = new_progress(t, run%scene%operation%duration, run%quiet)
+      self%progress = new_progress(t, run%inputs%operation%duration, run%quiet)
       self%last_checkpoint = run%started
-      if (run%scene%integration%stop_when_periodic > 0) call self%follow_orbit()
+      if (run%inputs%integration%stop_when_periodic > 0) call self%follow_orbit()
    end subroutine begin_recording
 
    !> Readies the watch for a periodic orbit, with what was sampled before the run was resumed.
@@ -59,16 +59,16 @@ contains
       class(recorder_type), intent(inout) :: self
       real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), none(:)
       integer :: passed, n, i, watched
-      associate (samples => self%run%scene%output%samples_per_revolution, pads => self%run%scene%pad_count())
+      associate (samples => self%run%inputs%output%samples_per_revolution, pads => self%run%inputs%pad_count())
          ! the last whole revolution and what came after it; comparing begins with the revolution after
          passed = max(0, int(self%run%file%samples()/samples) - 1)
          n = int(self%run%file%samples() - int(passed, i8)*samples)
-         watched = 2 + merge(pads, 0, self%run%scene%tilting())
+         watched = 2 + merge(pads, 0, self%run%inputs%tilting())
          self%orbit = new_periodicity(samples, watched, passed)
          if (n == 0) return
          call self%run%file%last_samples('journal_y', n, y)
          call self%run%file%last_samples('journal_z', n, z)
-         if (self%run%scene%tilting()) then
+         if (self%run%inputs%tilting()) then
             call self%run%file%last_samples('pad_tilt', n, tilt)
          else
             allocate (tilt(pads, n), source=0.0_wp)
@@ -104,7 +104,7 @@ contains
       call add_sample(self%run%file, self%taken, error)
       call self%run%extremes%add(self%taken)
       self%run%reached = t
-      associate (limit => self%run%scene%integration%stop_when_periodic)
+      associate (limit => self%run%inputs%integration%stop_when_periodic)
          if (limit > 0) then
             call self%orbit%add(self%run%model%positions(y))
             self%satisfied = self%orbit%change <= limit
@@ -120,7 +120,7 @@ contains
       now = wall_clock()
       call self%progress%report(t, steps, now)
       call self%run%file%beat(int(now - self%run%started))
-      associate (pause => self%run%scene%output%checkpoint_seconds)
+      associate (pause => self%run%inputs%output%checkpoint_seconds)
          self%checkpoint_due = pause > 0 .and. now - self%last_checkpoint >= pause
       end associate
    end subroutine report
@@ -158,29 +158,29 @@ contains
 
    !> Spectra over the last whole revolutions of a run at constant speed; none where it was not sampled
    !> over one.
-   subroutine write_spectra(scene, interval, file)
-      type(scene_type), intent(in) :: scene
+   subroutine write_spectra(inputs, interval, file)
+      type(case_type), intent(in) :: inputs
       !> Between samples, s.
       real(wp), intent(in) :: interval
       type(run_file_type), intent(inout) :: file
       real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), amplitudes(:, :)
       integer :: revolutions, n, i
-      if (abs(scene%operation%final_speed_rpm - scene%operation%speed_rpm) > 0) return
-      associate (samples => scene%output%samples_per_revolution)
-         revolutions = int(min(int(scene%output%spectrum_revolutions, i8), (file%samples() - 1)/samples))
+      if (abs(inputs%operation%final_speed_rpm - inputs%operation%speed_rpm) > 0) return
+      associate (samples => inputs%output%samples_per_revolution)
+         revolutions = int(min(int(inputs%output%spectrum_revolutions, i8), (file%samples() - 1)/samples))
          n = revolutions*samples
       end associate
       if (revolutions == 0 .or. n < 2) return
       call file%last_samples('journal_y', n, y)
       call file%last_samples('journal_z', n, z)
-      if (scene%tilting()) then
+      if (inputs%tilting()) then
          call file%last_samples('pad_tilt', n, tilt)
-         allocate (amplitudes(n/2 + 1, scene%pad_count()))
-         do i = 1, scene%pad_count()
+         allocate (amplitudes(n/2 + 1, inputs%pad_count()))
+         do i = 1, inputs%pad_count()
             amplitudes(:, i) = one_sided_amplitude(tilt(i, :))
          end do
       end if
-      call put_spectrum(file%file, interval, revolutions, scene%highest_speed(), one_sided_amplitude(y(1, :)), &
+      call put_spectrum(file%file, interval, revolutions, inputs%highest_speed(), one_sided_amplitude(y(1, :)), &
          & one_sided_amplitude(z(1, :)), full_amplitude(cmplx(y(1, :), z(1, :), wp)), amplitudes)
    end subroutine write_spectra
 end module recorder

@@ -1,10 +1,10 @@
-!> A run from scene to result file: opens the file, has the scene's task done, closes the file.
+!> A run from case to result file: opens the file, has the case's task done, closes the file.
 module run_case
    use errors, only: error_type, raise, input_error, numerics_error, stopped
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use sweep, only: member_tag
    use equations_of_motion, only: new_bearing_model
-   use restart, only: restart_type, read_result, refuse_other_scene
+   use restart, only: restart_type, read_result, refuse_other_case
    use files, only: is_regular
    use case_run, only: case_run_type, begin_run
    use equilibrium_task, only: run_equilibrium
@@ -15,19 +15,19 @@ module run_case
    use run_summary, only: print_notes, print_march, print_cost
    implicit none (type, external)
    private
-   public :: run_scene, way_out
+   public :: run_task, way_out
 
    !> What can be done where the result of another case is in the way.
    character(len=*), parameter :: way_out = '; --overwrite replaces it, and --output names another place'
 
 contains
 
-   !> Runs a valid scene and writes its result file. On a numerics error the file holds what was computed and is
-   !> marked incomplete. With `go_on` a result of the same scene that is there already is completed, from its
-   !> checkpoint; else it is replaced. The result of another scene is replaced only with `overwrite`, and what is no
+   !> Runs a valid case and writes its result file. On a numerics error the file holds what was computed and is
+   !> marked incomplete. With `go_on` a result of the same case that is there already is completed, from its
+   !> checkpoint; else it is replaced. The result of another case is replaced only with `overwrite`, and what is no
    !> result never. `tag` says which member of a sweep it is, if any.
-   subroutine run_scene(scene, path, tag, go_on, overwrite, quiet, error)
-      type(scene_type), intent(in) :: scene
+   subroutine run_task(inputs, path, tag, go_on, overwrite, quiet, error)
+      type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: path
       type(member_tag), intent(in) :: tag
       logical, intent(in) :: go_on, overwrite, quiet
@@ -35,13 +35,13 @@ contains
       type(case_run_type), target :: run
       logical :: complete
 
-      call begin_run(run, scene, path, tag, quiet)
+      call begin_run(run, inputs, path, tag, quiet)
       call open_file(run, go_on, overwrite, complete, error)
       if (complete .or. allocated(error)) return
-      if (.not. quiet) call print_notes(scene)
-      run%model = new_bearing_model(scene)
+      if (.not. quiet) call print_notes(inputs)
+      run%model = new_bearing_model(inputs)
       ! every task has a module of its own, and a line here
-      select case (scene%about%task)
+      select case (inputs%about%task)
       case ('equilibrium')
          call run_equilibrium(run, error)
       case ('coefficients')
@@ -53,10 +53,10 @@ contains
       case ('march')
          call run_march(run, error)
       case default
-         call raise(error, input_error, 'case%task: there is no task '//scene%about%task)
+         call raise(error, input_error, 'case%task: there is no task '//inputs%about%task)
       end select
       call close_file(run, error)
-   end subroutine run_scene
+   end subroutine run_task
 
    !> Claims the name of the file, and looks whether there is one to continue, or a complete one.
    subroutine open_file(run, go_on, overwrite, complete, error)
@@ -98,7 +98,7 @@ contains
          end if
          return
       end if
-      call refuse_other_scene(run%path, run%scene, run%tag, go_on, found, error)
+      call refuse_other_case(run%path, run%inputs, run%tag, go_on, found, error)
       if (allocated(error)) then
          if (overwrite) then
             deallocate (error)
@@ -125,7 +125,7 @@ contains
       if (ended) call run%note_figures()
       if (.not. allocated(error)) then
          if (.not. run%quiet .and. run%file%samples() > 0) then
-            if (run%scene%about%task /= 'branch') call print_march(run%file%file, run%scene)
+            if (run%inputs%about%task /= 'branch') call print_march(run%file%file, run%inputs)
             call print_cost(run%statistics())
          end if
          call run%file%finish(run%reached, run%statistics(), 0, '', file_error)

@@ -3,7 +3,7 @@ module run_summary
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, pi, degree
    use text, only: to_text, fixed_text
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use result_size, only: size_note
    use checked_case, only: notes
    use heat_balance, only: oil_temperatures_type
@@ -20,34 +20,34 @@ module run_summary
 
 contains
 
-   !> What is unusual about a scene.
-   subroutine print_notes(scene)
-      type(scene_type), intent(in) :: scene
-      write (*, '(a)', advance='no') notes(scene, '')
-      if (size_note(scene, 1) /= '') print '(a)', size_note(scene, 1)
+   !> What is unusual about a case.
+   subroutine print_notes(inputs)
+      type(case_type), intent(in) :: inputs
+      write (*, '(a)', advance='no') notes(inputs, '')
+      if (size_note(inputs, 1) /= '') print '(a)', size_note(inputs, 1)
    end subroutine print_notes
 
    !> Where a march starts that does not start at the equilibrium itself; journal, m, tilts, rad.
-   subroutine print_start(scene, journal, tilt)
-      type(scene_type), intent(in) :: scene
+   subroutine print_start(inputs, journal, tilt)
+      type(case_type), intent(in) :: inputs
       real(wp), intent(in) :: journal(2), tilt(:)
       character(len=:), allocatable :: tilts
       integer :: i
       tilts = ''
-      if (scene%tilting()) then
+      if (inputs%tilting()) then
          tilts = ', tilts '//milli(tilt(1))
          do i = 2, size(tilt)
             tilts = tilts//', '//milli(tilt(i))
          end do
          tilts = tilts//' mrad'
       end if
-      print '(a)', 'start from '''//scene%start%from//''': journal y '//micro(journal(1))//', z ' &
+      print '(a)', 'start from '''//inputs%start%from//''': journal y '//micro(journal(1))//', z ' &
          & //micro(journal(2))//' um'//tilts
    end subroutine print_start
 
-   subroutine print_equilibrium(static, scene)
+   subroutine print_equilibrium(static, inputs)
       type(equilibrium_type), intent(in) :: static
-      type(scene_type), intent(in) :: scene
+      type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: pivot
       integer :: i
       print '(a)', 'equilibrium: journal y '//micro(static%journal(1))//', z '//micro(static%journal(2))//' um, ' &
@@ -55,7 +55,7 @@ contains
          & //fixed_text(static%stability%eigenvalue%im/(2*pi), 1)//' Hz)'
       do i = 1, size(static%tilt)
          pivot = ''
-         if (scene%tilting()) pivot = 'tilt '//milli(static%tilt(i))//' mrad, penetration ' &
+         if (inputs%tilting()) pivot = 'tilt '//milli(static%tilt(i))//' mrad, penetration ' &
             & //micro(static%penetration(i))//' um, contact '//fixed_text(static%contact_force(i), 1)//' N, '
          print '(a)', '  pad '//to_text(i)//': '//pivot//'minimum film thickness ' &
             & //micro(static%min_film_thickness(i))//' um, maximum pressure '//mega(static%max_pressure(i))//' MPa'
@@ -63,15 +63,15 @@ contains
    end subroutine print_equilibrium
 
    !> Where the journal lies at the equilibrium, loads, losses and flows.
-   subroutine print_figures(scene, figures)
-      type(scene_type), intent(in) :: scene
+   subroutine print_figures(inputs, figures)
+      type(case_type), intent(in) :: inputs
       type(static_figures_type), intent(in) :: figures
       character(len=:), allocatable :: of_load
       integer :: i
       of_load = ''
-      if (load(scene) > 0) of_load = ', attitude angle '//fixed_text(figures%attitude_angle/degree, 2) &
-         & //' deg, specific load '//mega(specific_load(scene))//' MPa, Sommerfeld number ' &
-         & //fixed_text(sommerfeld_number(scene), 4)
+      if (load(inputs) > 0) of_load = ', attitude angle '//fixed_text(figures%attitude_angle/degree, 2) &
+         & //' deg, specific load '//mega(specific_load(inputs))//' MPa, Sommerfeld number ' &
+         & //fixed_text(sommerfeld_number(inputs), 4)
       print '(a)', '  eccentricity ratio '//fixed_text(figures%eccentricity_ratio, 4)//of_load
       do i = 1, size(figures%pads)
          associate (pad => figures%pads(i))
@@ -113,9 +113,9 @@ contains
    end subroutine print_temperatures
 
    !> Figures of the last revolution (or of what there is), and what is unusual.
-   subroutine print_march(file, scene)
+   subroutine print_march(file, inputs)
       type(hdf5_type), intent(inout) :: file
-      type(scene_type), intent(in) :: scene
+      type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: before, after, diagnosis
       integer :: i
       print '(a)', 'last revolution: journal y '//micro(figure(file, 'journal_y_min'))//' to ' &
@@ -127,7 +127,7 @@ contains
             & contact => pad_figures(file, 'pad_contact_force'), work => pad_figures(file, 'pad_friction_work'), &
             & film => pad_figures(file, 'pad_min_film_thickness'), pressure => pad_figures(file, 'pad_max_pressure'))
          do i = 1, size(film)
-            if (scene%tilting()) then
+            if (inputs%tilting()) then
                before = 'tilt '//milli(lowest(i))//' to '//milli(highest(i))//' mrad, '
                after = ', mean contact '//fixed_text(contact(i), 1)//' N'
                if (has_figure(file, 'pad_friction_work')) after = after//', friction work ' &

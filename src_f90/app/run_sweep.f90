@@ -3,7 +3,7 @@ module run_sweep
    use kinds, only: wp
    use text, only: to_text, fixed_text, on_one_line
    use errors, only: error_type, raise, system_error, stopped
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use sweep, only: sweep_type, member_tag
    use processes, only: open_pipe, wait_for_record, ended, stop_process
    use sweep_child, only: child_type, report_type, read_report, member_runner, pause
@@ -28,10 +28,10 @@ contains
    subroutine check_members(sweep, error)
       type(sweep_type), intent(in) :: sweep
       type(error_type), allocatable, intent(out) :: error
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       integer :: k
       do k = 1, sweep%members
-         call sweep%scene(k, scene, error)
+         call sweep%inputs(k, inputs, error)
          if (stop_requested()) call raise(error, stopped, stop_reason() &
             & //'; no member was started')
          if (allocated(error)) return

@@ -3,7 +3,7 @@
 module sweep_child
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
    use errors, only: error_type
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use sweep, only: sweep_type, member_tag
    use processes, only: process_id, record_length, new_process, end_child, end_with_parent, open_pipe, close_pipe, &
       & send_record, receive_record, wait_for_record, ended
@@ -15,9 +15,9 @@ module sweep_child
 
    abstract interface
       !> Runs one member to its result file, and prints nothing.
-      subroutine member_runner(scene, path, tag, error)
-         import :: scene_type, member_tag, error_type
-         type(scene_type), intent(in) :: scene
+      subroutine member_runner(inputs, path, tag, error)
+         import :: case_type, member_tag, error_type
+         type(case_type), intent(in) :: inputs
          character(len=*), intent(in) :: path
          type(member_tag), intent(in) :: tag
          type(error_type), allocatable, intent(out) :: error
@@ -160,13 +160,13 @@ contains
       logical, intent(in) :: may_stay
       procedure(member_runner) :: run_member
       logical, intent(out) :: stays
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(member_tag) :: tag
       type(error_type), allocatable :: error
       character(len=record_length) :: record
       call sweep%tag(k, tag)
-      call sweep%scene(k, scene, error)
-      if (.not. allocated(error)) call run_member(scene, member_file(folder, k, sweep%members), tag, error)
+      call sweep%inputs(k, inputs, error)
+      if (.not. allocated(error)) call run_member(inputs, member_file(folder, k, sweep%members), tag, error)
       if (.not. allocated(error)) error = error_type(0, '')
       stays = may_stay .and. error%status == 0
       write (record, head_format) k, error%status, stays, error%message(:min(len(error%message), record_length - head))

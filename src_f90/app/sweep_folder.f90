@@ -2,11 +2,11 @@
 module sweep_folder
    use text, only: to_text
    use errors, only: error_type, raise, system_error, stopped
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use sweep, only: sweep_type, member_tag
    use files, only: is_regular
    use processes, only: process_id, make_folder, remove_folder, other_number
-   use restart, only: restart_type, read_result, refuse_other_scene
+   use restart, only: restart_type, read_result, refuse_other_case
    use run_case, only: way_out
    use stop_signals, only: stop_requested, stop_reason
    implicit none (type, external)
@@ -54,7 +54,7 @@ contains
       logical, intent(in) :: overwrite
       type(error_type), allocatable, intent(out) :: error
       type(restart_type) :: found
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(member_tag) :: tag
       character(len=:), allocatable :: path, other
       integer :: k
@@ -67,10 +67,10 @@ contains
          if (allocated(error)) return
          path = member_file(folder, k, sweep%members)
          if (.not. is_readable(path, found)) cycle
-         call sweep%scene(k, scene, error)
+         call sweep%inputs(k, inputs, error)
          if (allocated(error)) return
          call sweep%tag(k, tag)
-         call refuse_other_scene(path, scene, tag, .true., found, error)
+         call refuse_other_case(path, inputs, tag, .true., found, error)
          if (allocated(error)) error%message = error%message//way_out
       end do
    end subroutine check_folder

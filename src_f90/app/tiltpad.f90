@@ -4,10 +4,10 @@ program tiltpad
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use text, only: printable, to_text
    use errors, only: error_type, raise, input_error, system_error
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use result_size, only: size_note
    use sweep, only: sweep_type, member_tag, read_sweep
-   use namelist_writer, only: scene_text
+   use namelist_writer, only: namelist_of
    use input_reference, only: reference_text
    use files, only: real_path
    use standard_output, only: write_output
@@ -16,7 +16,7 @@ program tiltpad
    use restart, only: restart_type, read_restart
    use stop_signals, only: catch_signals, ignore_file_limit
    use arguments, only: arguments_type, read_arguments, print_help
-   use run_case, only: run_scene
+   use run_case, only: run_task
    use sweep_folder, only: member_file, prepare_folder, check_folder, check_neighbours
    use run_sweep, only: run_members, check_members
    implicit none (type, external)
@@ -66,9 +66,9 @@ contains
       call read_restart(given%resumed, found, error)
       if (allocated(error)) return
       if (given%task == 'check') then
-         call put(scene_text(found%scene), error)
+         call put(namelist_of(found%inputs), error)
       else
-         call run_scene(found%scene, given%resumed, none, .true., .false., given%quiet, error)
+         call run_task(found%inputs, given%resumed, none, .true., .false., given%quiet, error)
       end if
    end subroutine resume_run
 
@@ -77,7 +77,7 @@ contains
       type(arguments_type), intent(in) :: given
       type(error_type), allocatable, intent(out) :: error
       type(sweep_type) :: sweep
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(member_tag) :: tag
       character(len=:), allocatable :: output, text
       logical :: all_members
@@ -90,7 +90,7 @@ contains
       if (all_members .and. given%task /= 'count') then
          call check_members(sweep, error)
       else
-         call sweep%scene(max(1, given%member), scene, error)
+         call sweep%inputs(max(1, given%member), inputs, error)
       end if
       if (allocated(error)) return
       select case (given%task)
@@ -124,23 +124,23 @@ contains
          if (.not. given%overwrite) call check_neighbours(sweep, output, given%member, error)
          output = member_file(output, given%member, sweep%members)
       end if
-      if (.not. allocated(error)) call run_scene(scene, output, tag, sweep%given .or. given%resumed /= '', &
+      if (.not. allocated(error)) call run_task(inputs, output, tag, sweep%given .or. given%resumed /= '', &
          & given%overwrite, given%quiet, error)
    end subroutine treat_case
 
    !> The checksums of a sweep are those of its first member's case and of the members' values.
    subroutine mark_sweep(sweep)
       type(sweep_type), intent(inout) :: sweep
-      type(scene_type) :: first
+      type(case_type) :: first
       type(error_type), allocatable :: error
-      call sweep%scene(1, first, error)
+      call sweep%inputs(1, first, error)
       ! only the time between checkpoints may differ
       first%output%checkpoint_seconds = 0
       if (allocated(error)) then
          ! others may be good, and run by --member
          call sweep%mark('')
       else
-         call sweep%mark(scene_text(first))
+         call sweep%mark(namelist_of(first))
       end if
    end subroutine mark_sweep
 
@@ -188,10 +188,10 @@ contains
       logical, intent(in) :: quiet
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: failures(:)
-      type(scene_type) :: first
+      type(case_type) :: first
       integer :: i
       if (.not. quiet) then
-         call sweep%scene(1, first, error)
+         call sweep%inputs(1, first, error)
          if (.not. allocated(error)) then
             if (size_note(first, sweep%members) /= '') print '(a)', size_note(first, sweep%members)
          end if
@@ -203,12 +203,12 @@ contains
    end subroutine run_sweep_members
 
    !> Runs a member of a sweep, or what is left of it, and prints nothing.
-   subroutine run_member(scene, path, tag, error)
-      type(scene_type), intent(in) :: scene
+   subroutine run_member(inputs, path, tag, error)
+      type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: path
       type(member_tag), intent(in) :: tag
       type(error_type), allocatable, intent(out) :: error
-      call run_scene(scene, path, tag, .true., given%overwrite, .true., error)
+      call run_task(inputs, path, tag, .true., given%overwrite, .true., error)
    end subroutine run_member
 
    !> An error's line.

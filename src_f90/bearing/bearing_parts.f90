@@ -1,7 +1,7 @@
-!> The parts of a bearing that a scene makes at once: pads, friction, asperities. Films and contact take time to make.
+!> The parts of a bearing that a case makes at once: pads, friction, asperities. Films and contact take time to make.
 module bearing_parts
    use kinds, only: wp
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use friction, only: friction_law
    use asperity_contact, only: asperity_contact_type
    use tilting_pad, only: tilting_pad_type
@@ -24,15 +24,15 @@ module bearing_parts
 
 contains
 
-   !> Makes them those of a scene.
-   subroutine set_parts(self, scene)
+   !> Makes them those of a case.
+   subroutine set_parts(self, inputs)
       class(bearing_parts_type), intent(inout) :: self
-      type(scene_type), intent(in) :: scene
+      type(case_type), intent(in) :: inputs
       integer :: i
-      self%pads = new_pads(scene)
+      self%pads = new_pads(inputs)
       self%per_mass = reshape([(self%pads(i)%inverse_masses(), i=1, size(self%pads))], [2, 2, size(self%pads)])
-      self%clearance = scene%bearing%assembled_clearance
-      call make_friction(scene, self%friction)
-      self%asperities = new_asperities(scene)
+      self%clearance = inputs%bearing%assembled_clearance
+      call make_friction(inputs, self%friction)
+      self%asperities = new_asperities(inputs)
    end subroutine set_parts
 end module bearing_parts

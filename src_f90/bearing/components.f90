@@ -1,8 +1,8 @@
-!> Builds the film solver, contact law, friction law and pads of a scene: the only module that turns names of the
+!> Builds the film solver, contact law, friction law and pads of a case: the only module that turns names of the
 !> input into types.
 module components
    use kinds, only: wp, degree
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use pad_gap, only: pad_gap_type
    use film_solver, only: film_solver_type
    use modal_film, only: new_modal_film
@@ -50,17 +50,17 @@ contains
 
    !> The film solver of all pads. No function: gfortran never frees the result of one whose type is chosen within,
    !> and Python makes a solver for every instant.
-   subroutine make_film(scene, accuracy, film)
-      type(scene_type), intent(in) :: scene
+   subroutine make_film(inputs, accuracy, film)
+      type(case_type), intent(in) :: inputs
       !> One of the four above.
       integer, intent(in) :: accuracy
       class(film_solver_type), allocatable, intent(out) :: film
-      type(pad_gap_type) :: gaps(scene%pad_count())
+      type(pad_gap_type) :: gaps(inputs%pad_count())
       integer :: cells, modes, volumes(2)
       logical :: reynolds, gumbel
       real(wp), allocatable :: error
-      gaps = new_gaps(scene)
-      associate (f => scene%film)
+      gaps = new_gaps(inputs)
+      associate (f => inputs%film)
          reynolds = f%cavitation == 'reynolds'
          gumbel = f%cavitation == 'gumbel'
          cells = merge(f%circumferential_cells, enough_cells(gaps), f%circumferential_cells > 0)
@@ -68,14 +68,14 @@ contains
          ! what the input sets stays the same for every film
          if (f%circumferential_cells + f%axial_modes == 0) error = merge(quick_error, usual_error, &
             & accuracy == quick_films)
-         volumes = volumes_of(scene, gaps, rupture_volumes)
+         volumes = volumes_of(inputs, gaps, rupture_volumes)
          if (accuracy == quick_films) then
             film = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
             return
          end if
          select case (f%solver)
          case ('sor')
-            film = new_sor_film(gaps, sor_settings(scene, gaps, accuracy))
+            film = new_sor_film(gaps, sor_settings(inputs, gaps, accuracy))
          case ('modal')
             film = new_modal_film(gaps, cells, modes, gumbel, error)
          case ('direct')
@@ -83,13 +83,13 @@ contains
          case default
             if (accuracy == march_films) then
                ! cavitated films by volumes are dear, by modes they are cheap
-               associate (usual => merge(1, 4, gumbel)*scene%integration%relative_tolerance)
+               associate (usual => merge(1, 4, gumbel)*inputs%integration%relative_tolerance)
                   film = new_table_film(gaps, single_films(), reynolds .or. gumbel, gumbel, &
                      & merge(f%table_tolerance, usual, f%table_tolerance > 0))
                end associate
             else if (accuracy == converged_films) then
                error = converged_error
-               if (.not. all(has_tables(gaps))) volumes = volumes_of(scene, gaps, converged_volumes)
+               if (.not. all(has_tables(gaps))) volumes = volumes_of(inputs, gaps, converged_volumes)
                if (f%table_tolerance > 0) then
                   film = new_converged_film(gaps, single_films(), reynolds .or. gumbel, gumbel, f%table_tolerance)
                else
@@ -114,25 +114,25 @@ contains
    end subroutine make_film
 
    !> Volumes along the longest arc and along half the width, from those of a usual arc, unless the input names them.
-   pure function volumes_of(scene, gaps, usual) result(volumes)
-      type(scene_type), intent(in) :: scene
+   pure function volumes_of(inputs, gaps, usual) result(volumes)
+      type(case_type), intent(in) :: inputs
       type(pad_gap_type), intent(in) :: gaps(:)
       integer, intent(in) :: usual(2)
       integer :: volumes(2)
-      associate (given => [scene%film%circumferential_cells, scene%film%axial_cells])
+      associate (given => [inputs%film%circumferential_cells, inputs%film%axial_cells])
          volumes = merge(given, usual*[max(1, nint(maxval(gaps%arc())/usual_arc)), 1], given > 0)
       end associate
    end function volumes_of
 
-   pure type(sor_options) function sor_settings(scene, gaps, accuracy) result(options)
-      type(scene_type), intent(in) :: scene
+   pure type(sor_options) function sor_settings(inputs, gaps, accuracy) result(options)
+      type(case_type), intent(in) :: inputs
       type(pad_gap_type), intent(in) :: gaps(:)
       integer, intent(in) :: accuracy
       integer :: volumes(2)
-      volumes = volumes_of(scene, gaps, sor_volumes)
-      associate (f => scene%film)
+      volumes = volumes_of(inputs, gaps, sor_volumes)
+      associate (f => inputs%film)
          options = sor_options(volumes(1), volumes(2), f%relaxation, &
-            & min(f%tolerance, max(least_residual, sor_tolerance*scene%integration%relative_tolerance)), &
+            & min(f%tolerance, max(least_residual, sor_tolerance*inputs%integration%relative_tolerance)), &
             & f%max_sweeps, cavitation_of(f%cavitation))
       end associate
       if (accuracy == march_films) return
@@ -154,23 +154,23 @@ contains
    end function cavitation_of
 
    !> What finds losses and flows of the films of all pads: by converged films, whatever solver the motion takes.
-   pure function new_losses(scene) result(losses)
-      type(scene_type), intent(in) :: scene
-      type(film_losses_type) :: losses(scene%pad_count())
-      type(pad_gap_type) :: gaps(scene%pad_count())
+   pure function new_losses(inputs) result(losses)
+      type(case_type), intent(in) :: inputs
+      type(film_losses_type) :: losses(inputs%pad_count())
+      type(pad_gap_type) :: gaps(inputs%pad_count())
       integer :: i
-      gaps = new_gaps(scene)
+      gaps = new_gaps(inputs)
       do i = 1, size(gaps)
-         losses(i) = new_film_losses(gaps(i), scene%film%cavitation == 'reynolds', scene%film%cavitation == 'gumbel')
+         losses(i) = new_film_losses(gaps(i), inputs%film%cavitation == 'reynolds', inputs%film%cavitation == 'gumbel')
       end do
    end function new_losses
 
    !> The gaps between pads and journal.
-   pure function new_gaps(scene) result(gaps)
-      type(scene_type), intent(in) :: scene
-      type(pad_gap_type) :: gaps(scene%pad_count())
+   pure function new_gaps(inputs) result(gaps)
+      type(case_type), intent(in) :: inputs
+      type(pad_gap_type) :: gaps(inputs%pad_count())
       integer :: i
-      associate (b => scene%bearing, p => scene%pads)
+      associate (b => inputs%bearing, p => inputs%pads)
          do i = 1, size(gaps)
             gaps(i) = pad_gap_type(b%journal_radius, b%machined_clearance, b%axial_length, &
                & p%pivot_ratio(i)*p%arc_deg(i)*degree, (1 - p%pivot_ratio(i))*p%arc_deg(i)*degree, &
@@ -180,22 +180,22 @@ contains
    end function new_gaps
 
    !> The contact law of the pivots.
-   subroutine make_law(scene, law)
-      type(scene_type), intent(in) :: scene
+   subroutine make_law(inputs, law)
+      type(case_type), intent(in) :: inputs
       class(contact_law_type), allocatable, intent(out) :: law
-      associate (v => scene%pivot)
+      associate (v => inputs%pivot)
          call make_contact_law(v%law, v%socket_radius, v%radius_difference, v%young_modulus, &
             & v%poisson_ratio, v%penetration_factor, law)
       end associate
    end subroutine make_law
 
    !> The contact of the pivots, with a table for a motion: a task without one looks up too seldom.
-   subroutine make_contact(scene, contact)
-      type(scene_type), intent(in) :: scene
+   subroutine make_contact(inputs, contact)
+      type(case_type), intent(in) :: inputs
       type(contact_table_type), intent(out) :: contact
       class(contact_law_type), allocatable :: law
-      call make_law(scene, law)
-      if (scene%moves()) then
+      call make_law(inputs, law)
+      if (inputs%moves()) then
          contact = new_contact_table(law)
       else
          contact = new_untabulated_contact(law)
@@ -203,11 +203,11 @@ contains
    end subroutine make_contact
 
    !> The friction law of the pivots.
-   subroutine make_friction(scene, law)
-      type(scene_type), intent(in) :: scene
+   subroutine make_friction(inputs, law)
+      type(case_type), intent(in) :: inputs
       class(friction_law), allocatable, intent(out) :: law
       real(wp) :: damping
-      associate (f => scene%friction)
+      associate (f => inputs%friction)
          select case (f%model)
          case ('bengisu_akay')
             law = bengisu_akay_friction(.false., f%static_coefficient, f%dynamic_coefficient, &
@@ -224,26 +224,27 @@ contains
    end subroutine make_friction
 
    !> The contact of pads and journal.
-   pure type(asperity_contact_type) function new_asperities(scene) result(contact)
-      type(scene_type), intent(in) :: scene
-      associate (a => scene%asperity)
+   pure type(asperity_contact_type) function new_asperities(inputs) result(contact)
+      type(case_type), intent(in) :: inputs
+      associate (a => inputs%asperity)
          if (a%model == 'none') then
             contact = no_asperities
          else
             contact = new_asperity_contact(a%roughness, a%elastic_modulus, a%factor, a%friction_coefficient, &
-               & scene%highest_speed()*scene%bearing%journal_radius)
+               & inputs%highest_speed()*inputs%bearing%journal_radius)
          end if
       end associate
    end function new_asperities
 
    !> The pads.
-   pure function new_pads(scene) result(pads)
-      type(scene_type), intent(in) :: scene
-      type(tilting_pad_type) :: pads(scene%pad_count())
+   pure function new_pads(inputs) result(pads)
+      type(case_type), intent(in) :: inputs
+      type(tilting_pad_type) :: pads(inputs%pad_count())
       integer :: i
-      pads%gap = new_gaps(scene)
+      pads%gap = new_gaps(inputs)
       do i = 1, size(pads)
-         associate (b => scene%bearing, p => scene%pads, v => scene%pivot, pad => pads(i), position => pads(i)%position)
+         associate (b => inputs%bearing, p => inputs%pads, v => inputs%pivot, pad => pads(i), &
+            position => pads(i)%position)
             position%angle = p%pivot_angle_deg(i)*degree
             position%sin_angle = sin(position%angle)
             position%cos_angle = cos(position%angle)
@@ -252,12 +253,12 @@ contains
             pad%directions = pad%gap%directions()
             pad%largest_tilt = 0.5_wp*p%arc_deg(i)*degree
             pad%ball_radius = v%socket_radius - v%radius_difference
-            pad%tilts = scene%tilting()
-            pad%radial = scene%tilting_radial()
+            pad%tilts = inputs%tilting()
+            pad%radial = inputs%tilting_radial()
             if (.not. pad%tilts) cycle
             pad%mass = p%mass(i)
             pad%inertia = p%inertia(i)
-            pad%weight = p%mass(i)*scene%rotor%gravity
+            pad%weight = p%mass(i)*inputs%rotor%gravity
             pad%centre_tangential = p%centre_tangential(i)
             pad%centre_radial = p%centre_radial(i)
          end associate

@@ -9,7 +9,7 @@ module heat_balance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, degree
    use lapack, only: dgesv
-   use scene, only: scene_type, oil_type, is_set
+   use case_inputs, only: case_type, oil_type, is_set
    use oil_properties, only: viscosity, viscosity_slope
    use bearing_losses, only: pad_loss
    implicit none (type, external)
@@ -62,18 +62,18 @@ module heat_balance
 
 contains
 
-   !> For the bearing and the oil of a scene.
-   pure type(heat_balance_type) function new_heat_balance(scene) result(self)
-      type(scene_type), intent(in) :: scene
+   !> For the bearing and the oil of a case.
+   pure type(heat_balance_type) function new_heat_balance(inputs) result(self)
+      type(case_type), intent(in) :: inputs
       real(wp) :: turn, nearest, gap
       integer :: i, k
-      self%oil = scene%oil
-      self%journal_radius = scene%bearing%journal_radius
-      self%arc = scene%pads%arc_deg*degree*scene%bearing%journal_radius
-      self%section = scene%bearing%machined_clearance*scene%bearing%axial_length
-      allocate (self%upstream(scene%pad_count()), source=0)
-      allocate (self%carry_over(scene%pad_count()), source=0.0_wp)
-      associate (p => scene%pads)
+      self%oil = inputs%oil
+      self%journal_radius = inputs%bearing%journal_radius
+      self%arc = inputs%pads%arc_deg*degree*inputs%bearing%journal_radius
+      self%section = inputs%bearing%machined_clearance*inputs%bearing%axial_length
+      allocate (self%upstream(inputs%pad_count()), source=0)
+      allocate (self%carry_over(inputs%pad_count()), source=0.0_wp)
+      associate (p => inputs%pads)
          do i = 1, size(self%upstream)
             nearest = huge(nearest)
             do k = 1, size(self%upstream)
@@ -87,7 +87,7 @@ contains
             associate (up => self%upstream(i))
                gap = nearest - p%pivot_ratio(i)*p%arc_deg(i) - (1 - p%pivot_ratio(up))*p%arc_deg(up)
             end associate
-            if (gap <= scene%oil%widest_gap_deg) self%carry_over(i) = scene%oil%carry_over
+            if (gap <= inputs%oil%widest_gap_deg) self%carry_over(i) = inputs%oil%carry_over
          end do
       end associate
    end function new_heat_balance

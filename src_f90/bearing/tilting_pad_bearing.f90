@@ -4,7 +4,7 @@ module tilting_pad_bearing
    use kinds, only: wp, i8
    use clock, only: wall_clock
    use text, only: to_text
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_counters, &
       & film_not_converged
    use asperity_contact, only: asperity_load
@@ -82,50 +82,50 @@ module tilting_pad_bearing
 
 contains
 
-   !> The bearing of a valid scene with films for a march or, as components has it, for something else.
-   function new_tilting_pad_bearing(scene, accuracy) result(bearing)
-      type(scene_type), intent(in) :: scene
+   !> The bearing of a valid case with films for a march or, as components has it, for something else.
+   function new_tilting_pad_bearing(inputs, accuracy) result(bearing)
+      type(case_type), intent(in) :: inputs
       integer, intent(in), optional :: accuracy
       type(tilting_pad_bearing_type) :: bearing
-      call bearing%set_parts(scene)
+      call bearing%set_parts(inputs)
       if (present(accuracy)) bearing%accuracy = accuracy
-      call make_film(scene, bearing%accuracy, bearing%film)
-      call make_contact(scene, bearing%contact)
-      associate (n => scene%pad_count())
+      call make_film(inputs, bearing%accuracy, bearing%film)
+      call make_contact(inputs, bearing%contact)
+      associate (n => inputs%pad_count())
          allocate (bearing%loads(n), bearing%derivatives(n), bearing%frame(n), bearing%motion(n), &
             & bearing%asperity(n), bearing%film_motion(n), bearing%oil(n), bearing%response(n))
       end associate
    end function new_tilting_pad_bearing
 
-   !> Makes the bearing that of another scene, with the same pads but for numbers. Films and contact, which take time to
+   !> Makes the bearing that of another case, with the same pads but for numbers. Films and contact, which take time to
    !> make, stay where they are the same; what was solved last is forgotten.
-   subroutine adopt(self, scene, pivots_differ)
+   subroutine adopt(self, inputs, pivots_differ)
       class(tilting_pad_bearing_type), intent(inout) :: self
-      type(scene_type), intent(in) :: scene
+      type(case_type), intent(in) :: inputs
       logical, intent(in) :: pivots_differ
       type(tilting_pad_type) :: before(size(self%pads))
       before = self%pads
-      call self%set_parts(scene)
+      call self%set_parts(inputs)
       call self%film%forget()
-      if (any(before%gap%differs(self%pads%gap))) call make_films_anew(self, scene)
-      if (pivots_differ) call make_contact(scene, self%contact)
+      if (any(before%gap%differs(self%pads%gap))) call make_films_anew(self, inputs)
+      if (pivots_differ) call make_contact(inputs, self%contact)
    end subroutine adopt
 
    !> Has films of a march solved where they are asked for, closely, from here on.
-   subroutine use_in_statics(self, scene)
+   subroutine use_in_statics(self, inputs)
       class(tilting_pad_bearing_type), intent(inout) :: self
-      type(scene_type), intent(in) :: scene
+      type(case_type), intent(in) :: inputs
       if (self%accuracy /= march_films) return
       self%accuracy = static_films
-      call make_films_anew(self, scene)
+      call make_films_anew(self, inputs)
    end subroutine use_in_statics
 
    !> Another film solver that goes on in the place of the present one.
-   subroutine make_films_anew(self, scene)
+   subroutine make_films_anew(self, inputs)
       class(tilting_pad_bearing_type), intent(inout) :: self
-      type(scene_type), intent(in) :: scene
+      type(case_type), intent(in) :: inputs
       class(film_solver_type), allocatable :: film
-      call make_film(scene, self%accuracy, film)
+      call make_film(inputs, self%accuracy, film)
       film%counters = self%film%counters
       call film%set_rupture(self%film%ruptures())
       call move_alloc(film, self%film)

@@ -3,8 +3,8 @@ module branch_progress
    use kinds, only: wp, i8
    use text, only: to_text
    use errors, only: error_type, asked_to_stop, add_context, numerics_error, stopped
-   use scene, only: branch_type
-   use scene_parameter, only: scene_parameter_type, find_parameter
+   use case_inputs, only: branch_type
+   use case_parameter, only: case_parameter_type, find_parameter
    use equations_of_motion, only: bearing_model
    use static_model, only: make_fine, make_static
    use march_settings, only: march_settings_of
@@ -26,7 +26,7 @@ module branch_progress
    type :: branch_progress_type
       !> What the case asks for.
       type(branch_type) :: given
-      type(scene_parameter_type) :: parameter
+      type(case_parameter_type) :: parameter
       type(branch_options) :: options
       !> Value of the case, and the size of the way from there.
       real(wp) :: first = 0, way = 0
@@ -77,10 +77,10 @@ contains
       type(bearing_model), intent(in), target :: model
       integer(i8), intent(in) :: steps
       type(error_type), allocatable, intent(out) :: error
-      associate (given => model%scene%branch)
-         call find_parameter(model%scene, given%parameter, self%parameter, error)
+      associate (given => model%inputs%branch)
+         call find_parameter(model%inputs, given%parameter, self%parameter, error)
          if (allocated(error)) return
-         self%first = self%parameter%value(model%scene)
+         self%first = self%parameter%value(model%inputs)
          self%way = abs(given%last - self%first)
          self%of_orbits = given%of == 'periodic'
          self%options%low = min(given%last, self%first)
@@ -89,12 +89,12 @@ contains
          self%options%max_step = given%max_step/self%way
          if (.not. given%max_step > 0) self%options%max_step = usual_growth*self%options%first_step
       end associate
-      self%given = model%scene%branch
-      self%longest_turns = longest_period*model%scene%periodic%revolutions
+      self%given = model%inputs%branch
+      self%longest_turns = longest_period*model%inputs%periodic%revolutions
       self%length = self%options%first_step
       allocate (self%flips(0))
       if (self%of_orbits) then
-         self%options%tolerance = model%scene%periodic%tolerance
+         self%options%tolerance = model%inputs%periodic%tolerance
          self%ode%bearing%model => model
          self%ode%bearing%parameter = self%parameter
          self%ode%model => model

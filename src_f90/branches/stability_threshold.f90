@@ -5,7 +5,7 @@ module stability_threshold
    use kinds, only: wp
    use errors, only: error_type, asked_to_stop, stopped
    use equations_of_motion, only: bearing_model
-   use scene_parameter, only: scene_parameter_type, find_parameter
+   use case_parameter, only: case_parameter_type, find_parameter
    use bearing_coefficients, only: bearing_coefficients_type
    use newton_method, only: branch_point_type
    use continuation, only: branch_options, start_branch, advance, return_to
@@ -22,7 +22,7 @@ module stability_threshold
 
 contains
 
-   !> For each linearised bearing the lowest speed, rpm, from that of the model up to that of its scene at which an
+   !> For each linearised bearing the lowest speed, rpm, from that of the model up to that of its case at which an
    !> eigenvalue crosses the imaginary axis; no number where none does. The model, a static one, is at rest in y. An
    !> error only of status `stopped`, where `give_up` says so.
    subroutine find_thresholds(model, y, found, error, give_up)
@@ -32,20 +32,20 @@ contains
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       type(bearing_model), target :: moving
-      type(scene_parameter_type) :: speed
+      type(case_parameter_type) :: speed
       type(equilibrium_problem_type) :: problem
       type(branch_options) :: options
       real(wp) :: reached
       integer :: i
-      call find_parameter(model%scene, 'operation%speed_rpm', speed, error)
-      associate (first => model%point%speed_rpm, given => model%scene%coefficients)
+      call find_parameter(model%inputs, 'operation%speed_rpm', speed, error)
+      associate (first => model%point%speed_rpm, given => model%inputs%coefficients)
          options = branch_options(first_step=longest, max_step=longest, high=given%threshold_up_to_rpm)
          allocate (found%thresholds(size(found%bearings)), source=ieee_value(first, ieee_quiet_nan))
          found%sought_up_to = first
          do i = 1, size(found%bearings)
             moving = model
             ! at other speeds this would not be allowed
-            moving%scene%coefficients%threshold_up_to_rpm = 0
+            moving%inputs%coefficients%threshold_up_to_rpm = 0
             call begin_equilibria(problem, varied_bearing_type(moving, speed), y, first, first)
             problem%pivot = found%bearings(i)%pivot
             problem%cross_stiffness = given%cross_stiffness

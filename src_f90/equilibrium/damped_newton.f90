@@ -194,7 +194,7 @@ contains
       integer :: i
       scale = model%scale
       if (model%layout%radial) scale(model%layout%penetration([(i, i=1, model%layout%pads)])) &
-         & = model%scene%bearing%assembled_clearance
+         & = model%inputs%bearing%assembled_clearance
       clearances = scale(model%layout%positions())
    end function clearances
 

@@ -175,7 +175,7 @@ contains
       integer :: method, k
       logical :: ok
       if (allocated(found%tilt)) deallocate (found%tilt)
-      call make_quick(static%scene, static%oil%viscosity, static%point%rupture, quick)
+      call make_quick(static%inputs, static%oil%viscosity, static%point%rupture, quick)
       do method = 1, size(methods)
          do k = 1, starts
             if (asked(give_up)) return
@@ -268,7 +268,7 @@ contains
       integer :: k
       call make_static(model, model%point%rupture, static)
       if (has_warm_oil(model)) call guess_oil(static, 1)
-      call make_quick(model%scene, static%oil%viscosity, model%point%rupture, quick)
+      call make_quick(model%inputs, static%oil%viscosity, model%point%rupture, quick)
       do k = 1, starts
          y = start(quick, k)
          call eliminate_pads(quick, y, at_rest, ok, give_up)

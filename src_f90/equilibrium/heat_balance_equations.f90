@@ -41,7 +41,7 @@ contains
    !> True where the oil of a model has temperatures.
    pure logical function has_warm_oil(model)
       type(bearing_model), intent(in) :: model
-      has_warm_oil = model%scene%thermal%model /= 'none'
+      has_warm_oil = model%inputs%thermal%model /= 'none'
    end function has_warm_oil
 
    !> Losses and flows of the state y of a model with its viscosities.
@@ -53,10 +53,10 @@ contains
       stays = allocated(balance%gaps)
       if (stays) stays = .not. any(balance%gaps%differs(model%bearing%pads%gap))
       if (.not. stays) then
-         balance%finder = new_bearing_losses(model%scene)
+         balance%finder = new_bearing_losses(model%inputs)
          balance%gaps = model%bearing%pads%gap
       end if
-      balance%heat = new_heat_balance(model%scene)
+      balance%heat = new_heat_balance(model%inputs)
       if (.not. allocated(balance%losses)) allocate (balance%losses(model%layout%pads), balance%lack(model%layout%pads))
       call find_again(model, y, balance, balance%losses)
    end subroutine find_losses
@@ -115,7 +115,7 @@ contains
       slopes = 0
       none = 0
       call model%take_sample(0.0_wp, y, none, sample)
-      change = difference*minval(sample%loads%min_film_thickness)/model%scene%bearing%assembled_clearance
+      change = difference*minval(sample%loads%min_film_thickness)/model%inputs%bearing%assembled_clearance
       films = model%oil%viscosity
       thicker = films*exp(difference)
       x = model%layout%positions()

@@ -52,7 +52,7 @@ contains
          last = unbalanced
          call reduce(model, at_rest, stiffness, damping, follow)
          call find_step(stiffness, damping, force, model%rotor%mass*model%point%speed(0.0_wp), &
-            & model%scene%bearing%assembled_clearance, time_step, step)
+            & model%inputs%bearing%assembled_clearance, time_step, step)
          call move_journal(model, follow, journal, pads, time_step, step)
       end do
       ok = ok .and. iteration <= journal_iterations
@@ -102,7 +102,7 @@ contains
       real(wp), intent(inout) :: time_step
       type(pad_state) :: trial
       real(wp) :: stiffness(2, 2), damping(2, 2), force(2), step(2), clearance, film
-      clearance = model%scene%bearing%assembled_clearance
+      clearance = model%inputs%bearing%assembled_clearance
       call pad_balance(model, i, force, stiffness, damping)
       damping = damping - trace*model%point%speed(0.0_wp)*model%bearing%pads(i)%masses()
       if (.not. model%layout%radial) call hold_second(force, stiffness, damping)
@@ -232,7 +232,7 @@ contains
             if (film_of(model, i, moved, trial(i)) < least_film*film_of(model, i, journal, pads(i))) open = .false.
          end do
          ! a film that is closed already, or nearly, stops no journal for ever
-         if (open .or. .not. norm2(step) > shortest_move*model%scene%bearing%assembled_clearance) exit
+         if (open .or. .not. norm2(step) > shortest_move*model%inputs%bearing%assembled_clearance) exit
          step = 0.5_wp*step
          time_step = 0.5_wp*time_step
       end do

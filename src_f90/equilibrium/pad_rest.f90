@@ -3,7 +3,7 @@
 module pad_rest
    use kinds, only: wp, pi
    use roots, only: root_bracket
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_state, pad_frame
    use equations_of_motion, only: bearing_model
@@ -53,18 +53,18 @@ contains
       pads = model%layout%pad_states(y)
       do i = 1, size(at_rest)
          if (at_rest(i)) cycle
-         call make_quick(scene_of_pad(model%scene, i), model%oil(i:i)%viscosity, model%point%rupture, alone)
+         call make_quick(case_of_pad(model%inputs, i), model%oil(i:i)%viscosity, model%point%rupture, alone)
          call find_rest(alone, journal, pads(i), at_rest(i))
       end do
       y = model%state(journal, pads)
    end subroutine find_rests
 
-   !> The scene with one pad alone.
-   pure type(scene_type) function scene_of_pad(scene, i) result(alone)
-      type(scene_type), intent(in) :: scene
+   !> The case with one pad alone.
+   pure type(case_type) function case_of_pad(inputs, i) result(alone)
+      type(case_type), intent(in) :: inputs
       integer, intent(in) :: i
-      alone = scene
-      associate (p => scene%pads)
+      alone = inputs
+      associate (p => inputs%pads)
          alone%pads%pivot_angle_deg = p%pivot_angle_deg(i:i)
          alone%pads%arc_deg = p%arc_deg(i:i)
          alone%pads%pivot_ratio = p%pivot_ratio(i:i)
@@ -74,7 +74,7 @@ contains
          alone%pads%centre_tangential = p%centre_tangential(i:i)
          alone%pads%centre_radial = p%centre_radial(i:i)
       end associate
-   end function scene_of_pad
+   end function case_of_pad
 
    !> The rest of the only pad of a model: of those to which the pad comes back, or else of the others, that with the
    !> thinnest film, on which it is held best.
@@ -281,7 +281,7 @@ contains
       integer :: iteration, halving
       logical :: ok
       arc = alone%bearing%pads(1)%gap%arc()*alone%bearing%pads(1)%gap%pad_radius()
-      longest = longest_move*alone%scene%bearing%assembled_clearance
+      longest = longest_move*alone%inputs%bearing%assembled_clearance
       rests = .false.
       do iteration = 0, steps
          call alone%evaluate(0.0_wp, alone%state(journal, [pad]), .true., ok)

@@ -38,11 +38,11 @@ contains
       type(static_figures_type), intent(out) :: figures
       type(state_balance_type) :: balance
       logical :: balanced
-      figures%eccentricity_ratio = eccentricity_ratio(model%scene, static%journal)
-      figures%attitude_angle = attitude_angle(model%scene, static%journal)
+      figures%eccentricity_ratio = eccentricity_ratio(model%inputs, static%journal)
+      figures%attitude_angle = attitude_angle(model%inputs, static%journal)
       call find_losses(model, model%at_rest(static%journal, static%tilt, static%penetration), balance)
       figures%pads = balance%losses
-      associate (pads => figures%pads, heat => model%scene%oil%density*model%scene%oil%specific_heat)
+      associate (pads => figures%pads, heat => model%inputs%oil%density*model%inputs%oil%specific_heat)
          ! oil that leaves at the sides is warmed half of the way
          figures%temperature_rise = rise(pads%power(), heat*(pads%inlet + pads%outlet)/2)
          figures%rise_fresh = rise(sum(pads%power()), heat*sum(pads%inlet))

@@ -2,7 +2,7 @@
 !> the searches start.
 module static_model
    use kinds, only: wp
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use operating_point, only: operating_point_type
    use components, only: converged_films, quick_films
    use rigid_journal, only: journal_motion
@@ -47,7 +47,7 @@ contains
       type(bearing_model), intent(out) :: static
       static = model
       call stand_still(static, rupture)
-      call static%bearing%use_in_statics(static%scene)
+      call static%bearing%use_in_statics(static%inputs)
    end subroutine make_static
 
    subroutine stand_still(model, rupture)
@@ -59,23 +59,23 @@ contains
       call model%set_point(point)
    end subroutine stand_still
 
-   !> A static model of a scene with films solved loosely: quick, and nearly the scene's.
-   subroutine make_quick(scene, viscosity, rupture, quick)
-      type(scene_type), intent(in) :: scene
+   !> A static model of a case with films solved loosely: quick, and nearly the case's.
+   subroutine make_quick(inputs, viscosity, rupture, quick)
+      type(case_type), intent(in) :: inputs
       !> Of the oil on every pad, Pa s.
       real(wp), intent(in) :: viscosity(:)
       logical, intent(in) :: rupture
       type(bearing_model), intent(out) :: quick
-      quick = new_bearing_model(scene, quick_films)
+      quick = new_bearing_model(inputs, quick_films)
       call stand_still(quick, rupture)
       quick%oil%viscosity = viscosity
    end subroutine make_quick
 
-   !> The same with films that are converged, where the scene leaves their solver to the program.
+   !> The same with films that are converged, where the case leaves their solver to the program.
    subroutine make_fine(model, fine)
       type(bearing_model), intent(in) :: model
       type(bearing_model), intent(out) :: fine
-      fine = new_bearing_model(model%scene, converged_films)
+      fine = new_bearing_model(model%inputs, converged_films)
       call stand_still(fine, model%point%rupture)
    end subroutine make_fine
 
@@ -109,7 +109,7 @@ contains
       type(pad_state) :: pads(model%layout%pads)
       type(pad_frame) :: frame
       integer :: i
-      associate (load => model%point%load, bearing => model%scene%bearing)
+      associate (load => model%point%load, bearing => model%inputs%bearing)
          if (norm2(load) > 0) then
             journal%position = fractions(k)*bearing%assembled_clearance*load/norm2(load)
             if (model%layout%radial) pads%penetration = model%bearing%penetration(norm2(load)/size(pads))
@@ -127,7 +127,7 @@ contains
    pure function middle_of_bores(model) result(middle)
       type(bearing_model), intent(in) :: model
       real(wp) :: middle(2)
-      associate (b => model%scene%bearing, pads => model%bearing%pads)
+      associate (b => model%inputs%bearing, pads => model%bearing%pads)
          middle = -(b%machined_clearance - b%assembled_clearance)/size(pads) &
             & *[sum(pads%position%sin_angle), sum(pads%position%cos_angle)]
       end associate

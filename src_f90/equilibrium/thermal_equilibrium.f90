@@ -36,7 +36,7 @@ contains
       type(state_balance_type) :: balance
       real(wp), dimension(model%layout%pads) :: wanted, balanced
       logical :: ok
-      associate (oil => model%scene%oil)
+      associate (oil => model%inputs%oil)
          wanted = viscosity(oil, oil%supply_temperature + (guesses - guess)*some_warming)
       end associate
       if (guess == 1) then

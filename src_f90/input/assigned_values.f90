@@ -13,7 +13,7 @@ module assigned_values
    private
    public :: read_word, read_reals, refuse_values
 
-   !> Longest text in a scene, bytes.
+   !> Longest text in a case, bytes.
    integer, parameter :: longest_text = 1000
 
 contains

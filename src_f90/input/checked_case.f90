@@ -3,15 +3,15 @@ module checked_case
    use kinds, only: wp
    use text, only: to_text, fixed_text
    use errors, only: error_type
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
    use result_size, only: result_bytes, sample_count
    use oil_properties, only: viscosity, kinematic_points
-   use scene_completion, only: complete_scene
-   use scene_fields, only: pads_variable
+   use case_completion, only: complete_case
+   use case_fields, only: pads_variable
    use assignments, only: namelist_type
-   use scene_namelist, only: fill_scene
-   use namelist_writer, only: scene_text
+   use case_namelist, only: fill_case
+   use namelist_writer, only: namelist_of
    implicit none (type, external)
    private
    public :: marked_text, derived_text, notes
@@ -28,14 +28,14 @@ module checked_case
 
 contains
 
-   !> The text of a scene with a mark behind each value that its assignments do not give: a default, or derived from
+   !> The text of a case with a mark behind each value that its assignments do not give: a default, or derived from
    !> others.
-   function marked_text(scene, parsed) result(text)
-      type(scene_type), intent(in) :: scene
+   function marked_text(inputs, parsed) result(text)
+      type(case_type), intent(in) :: inputs
       type(namelist_type), intent(in) :: parsed
       character(len=:), allocatable :: text, left, line, defaults, group
       integer :: length
-      left = scene_text(scene)
+      left = namelist_of(inputs)
       defaults = default_text(parsed)
       text = ''
       group = ''
@@ -61,16 +61,16 @@ contains
       type(namelist_type), intent(in) :: parsed
       character(len=:), allocatable :: text
       type(namelist_type) :: pivots
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(error_type), allocatable :: error
       integer :: i
       pivots%file = parsed%file
       allocate (pivots%groups(0))
       pivots%assignments = pack(parsed%assignments, [(parsed%assignments(i)%group//'%'//parsed%assignments(i)%name &
          & == pads_variable, i=1, size(parsed%assignments))])
-      call fill_scene(pivots, scene, error)
-      if (.not. allocated(error)) call complete_scene(scene, error)
-      text = scene_text(scene)
+      call fill_case(pivots, inputs, error)
+      if (.not. allocated(error)) call complete_case(inputs, error)
+      text = namelist_of(inputs)
    end function default_text
 
    !> True where the variable of a line, "  name = value" or "  name(2) = value", is assigned.
@@ -94,28 +94,28 @@ contains
       same_in = index(text(start:start + index(text(start:), newline//'/'//newline)), newline//line//newline) > 0
    end function same_in
 
-   !> What follows from a complete scene, as comments.
-   function derived_text(scene) result(text)
-      type(scene_type), intent(in) :: scene
+   !> What follows from a complete case, as comments.
+   function derived_text(inputs) result(text)
+      type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: text
       text = '! derived values'//newline
-      call say('preload', preload(scene), '1 - c_r/c_m')
-      call say('clearance ratio', clearance_ratio(scene), 'c_r/R_J')
-      call say('length ratio', length_over_diameter(scene), 'L/D')
-      if (scene%rotor%balance_grade > 0) call say('unbalance', scene%unbalance(), 'kg m, by rotor%balance_grade')
-      call say('load', load(scene), 'N, weight and static load')
-      call say('specific load', specific_load(scene), 'Pa, W/(L D)')
-      if (load(scene) > 0) call say('Sommerfeld number', sommerfeld_number(scene), &
+      call say('preload', preload(inputs), '1 - c_r/c_m')
+      call say('clearance ratio', clearance_ratio(inputs), 'c_r/R_J')
+      call say('length ratio', length_over_diameter(inputs), 'L/D')
+      if (inputs%rotor%balance_grade > 0) call say('unbalance', inputs%unbalance(), 'kg m, by rotor%balance_grade')
+      call say('load', load(inputs), 'N, weight and static load')
+      call say('specific load', specific_load(inputs), 'Pa, W/(L D)')
+      if (load(inputs) > 0) call say('Sommerfeld number', sommerfeld_number(inputs), &
          & 'mu N L D/W (R_J/c_r)^2, N in 1/s at the start')
-      if (scene%oil%law /= 'constant') call say_oil()
-      if (result_bytes(scene) > 0) call say('result', 0.1_wp*anint(result_bytes(scene)/1e5_wp), &
-         & 'MB, '//to_text(sample_count(scene))//' samples')
-      text = text//notes(scene, '! ')
+      if (inputs%oil%law /= 'constant') call say_oil()
+      if (result_bytes(inputs) > 0) call say('result', 0.1_wp*anint(result_bytes(inputs)/1e5_wp), &
+         & 'MB, '//to_text(sample_count(inputs))//' samples')
+      text = text//notes(inputs, '! ')
    contains
       !> The oil's viscosity where it comes in and where it is warm.
       subroutine say_oil()
          integer :: i
-         associate (oil => scene%oil, points => kinematic_points(scene%oil))
+         associate (oil => inputs%oil, points => kinematic_points(inputs%oil))
             call say('viscosity', viscosity(oil, oil%supply_temperature), 'Pa s at oil%supply_temperature = ' &
                & //to_text(oil%supply_temperature)//' C')
             do i = 1, size(warm)
@@ -137,11 +137,11 @@ contains
    end function derived_text
 
    !> What is allowed and seldom meant, a line each behind `mark`.
-   function notes(scene, mark) result(text)
-      type(scene_type), intent(in) :: scene
+   function notes(inputs, mark) result(text)
+      type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: mark
       character(len=:), allocatable :: text
-      text = line_of(length_note(scene))//line_of(preload_note(scene))//line_of(warm_note(scene))
+      text = line_of(length_note(inputs))//line_of(preload_note(inputs))//line_of(warm_note(inputs))
    contains
       pure function line_of(note) result(line)
          character(len=*), intent(in) :: note
@@ -152,31 +152,31 @@ contains
    end function notes
 
    !> A word on a journal that is as large as one in inches; else empty.
-   function length_note(scene) result(note)
-      type(scene_type), intent(in) :: scene
+   function length_note(inputs) result(note)
+      type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: note
       note = ''
-      if (scene%bearing%journal_radius > largest_usual) note = 'bearing%journal_radius = ' &
-         & //to_text(scene%bearing%journal_radius)//': all lengths are in metres; an inch is 0.0254'
+      if (inputs%bearing%journal_radius > largest_usual) note = 'bearing%journal_radius = ' &
+         & //to_text(inputs%bearing%journal_radius)//': all lengths are in metres; an inch is 0.0254'
    end function length_note
 
    !> A word on a negative preload; else empty.
-   function preload_note(scene) result(note)
-      type(scene_type), intent(in) :: scene
+   function preload_note(inputs) result(note)
+      type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: note
       note = ''
-      if (preload(scene) < 0) note = 'negative preload '//to_text(preload(scene))//': the bore of the pads is ' &
+      if (preload(inputs) < 0) note = 'negative preload '//to_text(preload(inputs))//': the bore of the pads is ' &
          & //'tighter than the clearance at the pivots; such a pad touches the journal at its edges first'
    end function preload_note
 
    !> A word on a surface speed at which a temperature for each pad was not compared with more; else empty.
-   function warm_note(scene) result(note)
-      type(scene_type), intent(in) :: scene
+   function warm_note(inputs) result(note)
+      type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: note
       real(wp) :: surface
       note = ''
-      surface = scene%highest_speed()*scene%bearing%journal_radius
-      if (scene%thermal%model /= 'none' .and. surface > compared_up_to) note = 'surface speed ' &
+      surface = inputs%highest_speed()*inputs%bearing%journal_radius
+      if (inputs%thermal%model /= 'none' .and. surface > compared_up_to) note = 'surface speed ' &
          & //fixed_text(surface, 1)//' m/s: above '//to_text(compared_up_to)//' m/s a temperature for each pad shows ' &
          & //'trends, and stiffness may be off by more than 10 % (docs/warm_oil.md)'
    end function warm_note

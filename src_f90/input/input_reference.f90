@@ -2,9 +2,9 @@
 module input_reference
    use kinds, only: wp
    use text, only: to_text
-   use scene, only: scene_type, max_pads, is_set
+   use case_inputs, only: case_type, max_pads, is_set
    use field_visitor, only: visitor_type, field_type, logical_words
-   use scene_fields, only: visit_scene
+   use case_fields, only: visit_case
    implicit none (type, external)
    private
    public :: reference_text
@@ -29,12 +29,12 @@ contains
    !> Markdown tables of all groups: variable, default, unit, allowed values, meaning.
    function reference_text() result(text)
       character(len=:), allocatable :: text
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(reference_writer) :: writer
-      scene = scene_type()
-      scene%operation%final_speed_rpm = -1
+      inputs = case_type()
+      inputs%operation%final_speed_rpm = -1
       writer%text = ''
-      call visit_scene(scene, writer)
+      call visit_case(inputs, writer)
       text = writer%text
    end function reference_text
 

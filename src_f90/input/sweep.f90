@@ -1,17 +1,17 @@
-!> Sweeps: in a case with the group &sweep variables have several values; the case means many scenes, its members.
+!> Sweeps: in a case with the group &sweep variables have several values; the case describes many runs.
 module sweep
    use kinds, only: i8
    use text, only: to_text, lower_case, checksum
    use errors, only: error_type, raise, input_error
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use assignments, only: namelist_type, assignment_type, put_assignment, undoes, assignment_text, target_text, &
       & value_text, sweep_group
    use swept_values, only: swept_values_type, read_swept_values
    use case_text, only: read_text, parse_case
-   use scene_fields, only: title_variable
+   use case_fields, only: title_variable
    use variable_names, only: meant_variable
-   use scene_namelist, only: scene_from_namelist, fill_scene
-   use namelist_writer, only: scene_text
+   use case_namelist, only: case_from_namelist, fill_case
+   use namelist_writer, only: namelist_of
    use checked_case, only: marked_text, derived_text
    implicit none (type, external)
    private
@@ -51,7 +51,7 @@ module sweep
       integer(i8), allocatable, private :: marks(:)
    contains
       procedure :: mark
-      procedure :: scene => member_scene
+      procedure :: inputs => case_of_member
       procedure :: tag
       procedure :: resolved
       procedure :: checked
@@ -62,7 +62,7 @@ module sweep
 contains
 
    !> Reads a case file and applies the overrides ("group%name=value"). Members' values are checked when their
-   !> scenes are made.
+   !> cases are made.
    subroutine read_sweep(file, overrides, sweep, error)
       character(len=*), intent(in) :: file, overrides(:)
       type(sweep_type), intent(out) :: sweep
@@ -187,16 +187,16 @@ contains
       sweep%members = int(members)
    end subroutine count_members
 
-   !> The scene of the k-th member, everything checked; messages name the member.
-   subroutine member_scene(self, k, scene, error)
+   !> The case of the k-th member, everything checked; messages name the member.
+   subroutine case_of_member(self, k, inputs, error)
       class(sweep_type), intent(in) :: self
       integer, intent(in) :: k
-      type(scene_type), intent(out) :: scene
+      type(case_type), intent(out) :: inputs
       type(error_type), allocatable, intent(out) :: error
       type(namelist_type) :: parsed
       call self%member_namelist(k, parsed)
-      call scene_from_namelist(parsed, scene, error)
-   end subroutine member_scene
+      call case_from_namelist(parsed, inputs, error)
+   end subroutine case_of_member
 
    !> Calculates the checksums that tags then have. `base` is a text of what all members have in common.
    subroutine mark(self, base)
@@ -254,11 +254,11 @@ contains
       character(len=:), allocatable, intent(out) :: text
       type(error_type), allocatable, intent(out) :: error
       type(namelist_type) :: parsed
-      type(scene_type) :: scene
-      call self%scene(k, scene, error)
+      type(case_type) :: inputs
+      call self%inputs(k, inputs, error)
       if (allocated(error)) return
       call self%member_namelist(k, parsed)
-      text = marked_text(scene, parsed)//derived_text(scene)
+      text = marked_text(inputs, parsed)//derived_text(inputs)
    end subroutine checked
 
    !> The case with every default, followed by the sweep, as namelist text. A swept variable has the first member's
@@ -268,12 +268,13 @@ contains
       character(len=:), allocatable, intent(out) :: text
       type(error_type), allocatable, intent(out) :: error
       type(namelist_type) :: parsed
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       integer :: i
       call self%member_namelist(1, parsed)
-      call fill_scene(parsed, scene, error)
+      call fill_case(parsed, inputs, error)
       if (allocated(error)) return
-      text = scene_text(scene)//'&'//sweep_group//newline//'  order = '''//trim(merge('zip    ', 'product', self%zip)) &
+      text = namelist_of(inputs)//'&'//sweep_group//newline//'  order = '''//trim(merge('zip    ', 'product', &
+         self%zip)) &
          & //''''//newline
       do i = 1, size(self%variables)
          associate (v => self%variables(i))

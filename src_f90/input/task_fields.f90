@@ -1,8 +1,8 @@
-!> The input variables of single tasks, for the list of all (scene_fields).
+!> The input variables of single tasks, for the list of all (case_fields).
 module task_fields
    use kinds, only: wp
    use field_visitor, only: visitor_type, field, choice, logical_words
-   use scene, only: coefficients_type, periodic_type, branch_type, most_ratios
+   use case_inputs, only: coefficients_type, periodic_type, branch_type, most_ratios
    implicit none (type, external)
    private
    public :: visit_coefficients, visit_periodic, visit_branch

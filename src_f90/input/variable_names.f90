@@ -2,9 +2,9 @@
 module variable_names
    use kinds, only: wp
    use similar_words, only: find_similar, did_you_mean
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use field_visitor, only: visitor_type, field_type
-   use scene_fields, only: visit_scene
+   use case_fields, only: visit_case
    implicit none (type, external)
    private
    public :: group_names, names_in, meant_variable, meant_group
@@ -79,11 +79,11 @@ contains
 
    subroutine collect(all)
       type(name_collector), intent(out) :: all
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       all%groups = ''
       all%variables = ''
-      scene = scene_type()
-      call visit_scene(scene, all)
+      inputs = case_type()
+      call visit_case(inputs, all)
    end subroutine collect
 
    subroutine note_group(self, name, meaning)

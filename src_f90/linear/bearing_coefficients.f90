@@ -43,7 +43,7 @@ contains
       if (.not. ok) call raise(error, numerics_error, 'the eigenvalues of the equilibrium are not found')
    end subroutine settle
 
-   !> The coefficients that the scene asks for, of a model without friction at rest in y.
+   !> The coefficients that the case asks for, of a model without friction at rest in y.
    subroutine find_coefficients(model, y, found, error)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)
@@ -51,7 +51,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       logical :: ok
       integer :: i, k
-      associate (given => model%scene%coefficients, speed => model%point%speed(0.0_wp))
+      associate (given => model%inputs%coefficients, speed => model%point%speed(0.0_wp))
          call linearize(model, y, found%bearings, ok)
          if (.not. ok) then
             call raise(error, numerics_error, 'at the equilibrium '//model%refusal)

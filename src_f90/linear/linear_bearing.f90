@@ -32,7 +32,7 @@ module linear_bearing
 
 contains
 
-   !> The bearing of a model without friction at rest in the state y, for each way that the pivots of its scene may
+   !> The bearing of a model without friction at rest in the state y, for each way that the pivots of its case may
    !> behave. `ok` is false where the films have no derivatives.
    subroutine linearize(model, y, bearings, ok)
       type(bearing_model), intent(inout) :: model
@@ -70,13 +70,13 @@ contains
       bearing%damping = -bearing%damping
    end function linear_bearing_of
 
-   !> The ways that the pivots of a model's scene may behave; fixed pads have one.
+   !> The ways that the pivots of a model's case may behave; fixed pads have one.
    pure function pivots_of(model) result(pivots)
       type(bearing_model), intent(in) :: model
       character(len=pivot_name), allocatable :: pivots(:)
-      if (.not. model%scene%tilting()) then
+      if (.not. model%inputs%tilting()) then
          pivots = [character(len=pivot_name) :: 'locked']
-      else if (model%scene%friction%model == 'none') then
+      else if (model%inputs%friction%model == 'none') then
          pivots = [character(len=pivot_name) :: 'free', 'locked']
       else
          pivots = [character(len=pivot_name) :: 'free', 'stuck', 'locked']

@@ -15,7 +15,7 @@ module march_settings
    !> And with friction over those without: what its moment errs by is above what the states do.
    real(wp), parameter :: friction_tolerance = 0.5_wp
 
-   !> Steps in a revolution from which on low orders are tried. Of 70 scenes of the stress test (seed 1) with lightly
+   !> Steps in a revolution from which on low orders are tried. Of 70 cases of the stress test (seed 1) with lightly
    !> damped modes or many steps, 100 completes all that any way completes; 300 and 1000 leave one, and take up to 3 and
    !> 11 times as many steps in others.
    real(wp), parameter :: many_steps = 100
@@ -26,12 +26,12 @@ contains
    type(march_options) function march_settings_of(model, steps) result(options)
       type(bearing_model), intent(in) :: model
       integer(i8), intent(in) :: steps
-      associate (integration => model%scene%integration)
+      associate (integration => model%inputs%integration)
          options%relative_tolerance = integration%relative_tolerance
          options%absolute_tolerance = integration%relative_tolerance*integration%tolerance_scale*model%scale
          options%max_step = integration%max_step
          options%max_steps = integration%max_steps - steps
-         options%short_step = 2*pi/(model%scene%highest_speed()*many_steps)
+         options%short_step = 2*pi/(model%inputs%highest_speed()*many_steps)
       end associate
       associate (tolerance => options%absolute_tolerance)
          if (model%smooth()) options%derivatives_age = smooth_derivatives_age

@@ -1,7 +1,7 @@
 !> Equations of motion (1)-(4) of a rotor and the pads of its bearing as an ODE, with their linearisation.
 module equations_of_motion
    use kinds, only: wp
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use operating_point, only: operating_point_type
    use oil_properties, only: reference_viscosity
    use film_solver, only: film_oil, film_counters
@@ -29,7 +29,7 @@ module equations_of_motion
    end type model_sample
 
    type, extends(ode_model_type) :: bearing_model
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(operating_point_type) :: point
       type(state_layout_type) :: layout
       type(rigid_journal_type) :: rotor
@@ -66,24 +66,24 @@ module equations_of_motion
 
 contains
 
-   !> The model of a valid scene, at its operating point, with films for a march or, as components has it, for something
+   !> The model of a valid case, at its operating point, with films for a march or, as components has it, for something
    !> else.
-   function new_bearing_model(scene, accuracy) result(model)
-      type(scene_type), intent(in) :: scene
+   function new_bearing_model(inputs, accuracy) result(model)
+      type(case_type), intent(in) :: inputs
       integer, intent(in), optional :: accuracy
       type(bearing_model) :: model
       integer :: n
-      n = scene%pad_count()
-      model%scene = scene
-      model%bearing = new_tilting_pad_bearing(scene, accuracy)
-      model%oil = spread(film_oil(reference_viscosity(scene)), 1, n)
-      model%rotor%mass = scene%rotor%mass
-      model%layout = new_state_layout(model%rotor%states, n, scene%tilting(), scene%tilting_radial(), &
+      n = inputs%pad_count()
+      model%inputs = inputs
+      model%bearing = new_tilting_pad_bearing(inputs, accuracy)
+      model%oil = spread(film_oil(reference_viscosity(inputs)), 1, n)
+      model%rotor%mass = inputs%rotor%mass
+      model%layout = new_state_layout(model%rotor%states, n, inputs%tilting(), inputs%tilting_radial(), &
          & model%bearing%friction%has_bristle)
       model%n = model%layout%n
       model%outputs = pad_outputs*n
-      call model%set_point(operating_point_type(scene))
-      model%scale = state_scales(scene, model%point, model%rotor, model%bearing, model%layout)
+      call model%set_point(operating_point_type(inputs))
+      model%scale = state_scales(inputs, model%point, model%rotor, model%bearing, model%layout)
       model%newton = new_newton_system(model%layout)
    end function new_bearing_model
 
@@ -96,21 +96,21 @@ contains
       self%point = point
    end subroutine set_point
 
-   !> Makes the model that of another scene, which differs in numbers alone and not in that of the pads. Tables, films
+   !> Makes the model that of another case, which differs in numbers alone and not in that of the pads. Tables, films
    !> and natural sizes stay as far as they can; so do the effects that do not act.
-   subroutine adopt(self, scene)
+   subroutine adopt(self, inputs)
       class(bearing_model), intent(inout) :: self
-      type(scene_type), intent(in) :: scene
+      type(case_type), intent(in) :: inputs
       type(operating_point_type) :: point
-      associate (a => self%scene%pivot, b => scene%pivot)
-         call self%bearing%adopt(scene, any(abs([a%socket_radius - b%socket_radius, &
+      associate (a => self%inputs%pivot, b => inputs%pivot)
+         call self%bearing%adopt(inputs, any(abs([a%socket_radius - b%socket_radius, &
             & a%radius_difference - b%radius_difference, a%penetration_factor - b%penetration_factor, &
             & a%young_modulus - b%young_modulus, a%poisson_ratio - b%poisson_ratio]) > 0))
       end associate
-      self%scene = scene
-      self%oil = film_oil(reference_viscosity(scene))
-      self%rotor%mass = scene%rotor%mass
-      point = operating_point_type(scene)
+      self%inputs = inputs
+      self%oil = film_oil(reference_viscosity(inputs))
+      self%rotor%mass = inputs%rotor%mass
+      point = operating_point_type(inputs)
       if (.not. self%point%friction) point = point%static()
       point%rupture = self%point%rupture
       call self%set_point(point)

@@ -1,7 +1,7 @@
 !> The natural size of each state, over which tolerances and corrections are measured.
 module natural_sizes
    use kinds, only: wp, degree
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use operating_point, only: operating_point_type
    use kinematics, only: pad_state
    use tilting_pad_bearing, only: tilting_pad_bearing_type
@@ -19,8 +19,8 @@ contains
    !> Natural size of each state: clearance; clearance over pad length; the penetration under the load;
    !> the deflection at which bristles yield; rates: times the highest speed, but the tilt rate not above
    !> ten times that at which friction changes its direction, or its moment would be no better than 1e-2.
-   pure function state_scales(scene, point, rotor, bearing, layout) result(scale)
-      type(scene_type), intent(in) :: scene
+   pure function state_scales(inputs, point, rotor, bearing, layout) result(scale)
+      type(case_type), intent(in) :: inputs
       type(operating_point_type), intent(in) :: point
       type(rigid_journal_type), intent(in) :: rotor
       type(tilting_pad_bearing_type), intent(in) :: bearing
@@ -29,12 +29,12 @@ contains
       type(pad_state) :: pads(layout%pads)
       real(wp) :: speed, force
       integer :: i
-      associate (b => scene%bearing, friction => bearing%friction)
-         speed = scene%highest_speed()
+      associate (b => inputs%bearing, friction => bearing%friction)
+         speed = inputs%highest_speed()
          scale(:rotor%states) = rotor%scales(b%assembled_clearance, speed)
          do i = 1, size(pads)
             pads(i)%tilt = b%assembled_clearance/((b%journal_radius + b%machined_clearance) &
-               & *scene%pads%arc_deg(i)*degree)
+               & *inputs%pads%arc_deg(i)*degree)
             pads(i)%tilt_rate = min(pads(i)%tilt*speed, sticking_scale*friction%sticking_velocity() &
                & /bearing%pads(i)%ball_radius)
             if (layout%radial) then
@@ -44,7 +44,7 @@ contains
                pads(i)%penetration_rate = pads(i)%penetration*speed
             end if
             if (layout%bristles) pads(i)%deflection = friction%static_coefficient &
-               & /scene%friction%bristle_stiffness
+               & /inputs%friction%bristle_stiffness
          end do
       end associate
       call layout%put_pads(pads, scale)

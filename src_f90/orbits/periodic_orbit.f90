@@ -63,7 +63,7 @@ contains
       type(orbit_type) :: before
       real(wp) :: close_by
       integer :: next_try, revolutions
-      revolutions = model%scene%periodic%revolutions
+      revolutions = model%inputs%periodic%revolutions
       found%period = revolutions*2*pi/model%point%speed(0.0_wp)
       found%orbit%start = y
       found%orbit%scale = model%scale
@@ -129,7 +129,7 @@ contains
       type(orbit_problem_type) :: problem
       type(newton_options) :: newton
       type(branch_point_type) :: closed
-      associate (given => model%scene%periodic)
+      associate (given => model%inputs%periodic)
          newton = newton_options(given%tolerance, given%max_iterations)
          if (found%marched < first_try) newton%max_iterations = min(newton%max_iterations, early_rounds)
          ode%model => model
@@ -142,7 +142,7 @@ contains
       found%iterations = closed%iterations
       found%evaluations = found%evaluations + problem%tangents
       if (allocated(error)) then
-         if (closed%iterations == model%scene%periodic%max_iterations) then
+         if (closed%iterations == model%inputs%periodic%max_iterations) then
             call add_context(error, 'periodic%max_iterations')
          end if
       else

@@ -2,7 +2,7 @@
 module branch_results
    use kinds, only: wp, i8
    use errors, only: error_type
-   use scene_parameter, only: scene_parameter_type
+   use case_parameter, only: case_parameter_type
    use newton_method, only: branch_point_type
    use special_points, only: special_point_type, kinds_of_points, kind_length
    use heat_balance, only: oil_temperatures_type
@@ -46,7 +46,7 @@ contains
    subroutine add_point(file, branch, parameter, point, figures, tilting, error, oil, viscosity, orbit)
       type(run_file_type), intent(inout) :: file
       integer, intent(in) :: branch
-      type(scene_parameter_type), intent(in) :: parameter
+      type(case_parameter_type), intent(in) :: parameter
       type(branch_point_type), intent(in) :: point
       type(orbit_figures_type), intent(in) :: figures
       logical, intent(in) :: tilting
@@ -140,7 +140,7 @@ contains
    subroutine put_special_points(file, special, parameter)
       type(hdf5_type), intent(inout) :: file
       type(noted_point_type), intent(in) :: special(:)
-      type(scene_parameter_type), intent(in) :: parameter
+      type(case_parameter_type), intent(in) :: parameter
       character(len=*), parameter :: over = 'special_points/point'
       character(len=kind_length) :: kinds(size(special))
       call file%delete('special_points')

@@ -2,7 +2,7 @@
 module equilibrium_results
    use kinds, only: wp
    use hdf5_file, only: hdf5_type
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use heat_balance, only: oil_temperatures_type
    use bearing_numbers, only: load, specific_load, sommerfeld_number
    use equilibrium, only: equilibrium_type
@@ -46,24 +46,24 @@ contains
    end subroutine put_equilibrium
 
    !> Writes where the journal lies, what the pads carry, losses, flows and temperature rises.
-   subroutine put_figures(file, scene, figures)
+   subroutine put_figures(file, inputs, figures)
       type(hdf5_type), intent(inout) :: file
-      type(scene_type), intent(in) :: scene
+      type(case_type), intent(in) :: inputs
       type(static_figures_type), intent(in) :: figures
       call number('eccentricity_ratio', figures%eccentricity_ratio, '1', &
          & 'journal displacement over assembled clearance')
-      call number('specific_load', specific_load(scene), 'Pa', 'load over diameter and axial length')
-      if (load(scene) > 0) then
+      call number('specific_load', specific_load(inputs), 'Pa', 'load over diameter and axial length')
+      if (load(inputs) > 0) then
          call number('attitude_angle', figures%attitude_angle, 'rad', &
             & 'angle from the load to the journal displacement, in the sense of rotation')
-         call number('sommerfeld_number', sommerfeld_number(scene), '1', 'mu N L D/W (R_J/c_r)^2')
+         call number('sommerfeld_number', sommerfeld_number(inputs), '1', 'mu N L D/W (R_J/c_r)^2')
       end if
       associate (pads => figures%pads)
          call list('load', pads%load, 'N', 'force of film and asperities on the journal')
          call list('power_loss', pads%power(), 'W', 'power loss')
          call list('couette_loss', pads%couette, 'W', 'power loss by shear of sliding')
          call list('pressure_loss', pads%pressure, 'W', 'power loss by shear of the flow that pressure drives')
-         if (scene%asperity%model /= 'none') call list('boundary_loss', pads%boundary, 'W', &
+         if (inputs%asperity%model /= 'none') call list('boundary_loss', pads%boundary, 'W', &
             & 'power loss by boundary friction of asperities')
          call list('journal_drag', pads%journal_drag, 'N m', &
             & 'moment of the film''s shear against the journal''s rotation')

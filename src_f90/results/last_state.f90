@@ -36,7 +36,7 @@ contains
       if (allocated(error)) return
       call refuse_other_states(path, file, found, layout, error)
       if (.not. allocated(error)) then
-         at = last_whole_turn(file, found%scene%output%samples_per_revolution)
+         at = last_whole_turn(file, found%inputs%output%samples_per_revolution)
          call read_states(file, layout, at, journal, pads)
          if (allocated(file%failure)) call raise(error, system_error, path//': damaged: '//file%failure)
       end if
@@ -54,15 +54,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(hdf5_series_type) :: time
       logical :: bristles
-      bristles = found%scene%friction%model == 'lugre'
-      if (found%scene%pad_count() /= layout%pads) then
-         call raise(error, system_error, path//': has '//to_text(found%scene%pad_count())//' pads, and this case ' &
+      bristles = found%inputs%friction%model == 'lugre'
+      if (found%inputs%pad_count() /= layout%pads) then
+         call raise(error, system_error, path//': has '//to_text(found%inputs%pad_count())//' pads, and this case ' &
             & //to_text(layout%pads)//'; no start for it')
-      else if (any([found%scene%tilting(), found%scene%tilting_radial()] .neqv. [layout%tilting, layout%radial])) then
-         call raise(error, system_error, path//': has pads%motion = '''//found%scene%pads%motion &
+      else if (any([found%inputs%tilting(), found%inputs%tilting_radial()] .neqv. [layout%tilting, layout%radial])) then
+         call raise(error, system_error, path//': has pads%motion = '''//found%inputs%pads%motion &
             & //''', and this case another; no start for it')
       else if (bristles .neqv. layout%bristles) then
-         call raise(error, system_error, path//': has friction%model = '''//found%scene%friction%model//''', which ' &
+         call raise(error, system_error, path//': has friction%model = '''//found%inputs%friction%model//''', which ' &
             & //trim(merge('has   ', 'has no', bristles))//' bristle deflections; no start for this case')
       else
          if (file%has('time')) then

@@ -5,7 +5,7 @@ module march_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, i8, pi, degree
    use text, only: to_text, fixed_text
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use loops, only: path_integral, harmonic, slow_share
    use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, evenly
    use run_file, only: run_file_type
@@ -24,9 +24,9 @@ module march_figures
 contains
 
    !> Writes all figures of the samples so far, with this load on the journal, N.
-   subroutine put_march_figures(file, scene, extremes, load)
+   subroutine put_march_figures(file, inputs, extremes, load)
       type(run_file_type), intent(inout) :: file
-      type(scene_type), intent(in) :: scene
+      type(case_type), intent(in) :: inputs
       type(run_extremes_type), intent(in) :: extremes
       real(wp), intent(in) :: load
       real(wp), allocatable :: time(:, :), angle(:, :), speed(:, :)
@@ -46,11 +46,11 @@ contains
       call extremes%write(file%file, load, (time(1, n) - time(1, 1))/max(1, n - 1))
       call put_journal(file, n)
       call put_film(file, n)
-      if (scene%tilting()) call put_tilt(file, n)
-      call put_last_revolutions(file, scene, int(revolutions + rounding))
+      if (inputs%tilting()) call put_tilt(file, n)
+      call put_last_revolutions(file, inputs, int(revolutions + rounding))
       if (revolutions < 1 - rounding) return
-      call put_harmonics(file, scene, int(revolutions + rounding))
-      if (scene%tilting() .and. scene%friction%model /= 'none') call put_friction(file, scene, time(1, :), &
+      call put_harmonics(file, inputs, int(revolutions + rounding))
+      if (inputs%tilting() .and. inputs%friction%model /= 'none') call put_friction(file, inputs, time(1, :), &
          & (angle(1, n) - angle(1, 1))/(2*pi))
    end subroutine put_march_figures
 
@@ -140,13 +140,13 @@ contains
 
    !> Vibrations with the shaft, and at half its speed, over the last revolution and the last two; of a periodic orbit
    !> over all of it.
-   subroutine put_harmonics(file, scene, revolutions)
+   subroutine put_harmonics(file, inputs, revolutions)
       type(run_file_type), intent(inout) :: file
-      type(scene_type), intent(in) :: scene
+      type(case_type), intent(in) :: inputs
       integer, intent(in) :: revolutions
       complex(wp), allocatable :: y(:), z(:), tilt(:)
       integer :: n, whole
-      whole = merge(revolutions, 1, scene%about%task == 'periodic')
+      whole = merge(revolutions, 1, inputs%about%task == 'periodic')
       n = last_revolutions(file, whole)
       y = parts('journal_y', 1.0_wp)
       z = parts('journal_z', 1.0_wp)
@@ -156,7 +156,7 @@ contains
          & 'horizontal journal vibration with the shaft, amplitude')
       call put_figure(file%file, 'journal_y_phase', lag(y(1)), 'rad', 'angle by which it comes after the unbalance')
       call put_figure(file%file, 'journal_z_phase', lag(z(1)), 'rad', 'angle by which it comes after the unbalance')
-      if (scene%tilting()) then
+      if (inputs%tilting()) then
          tilt = parts('pad_tilt', 1.0_wp)
          call put_figure(file%file, 'pad_tilt_amplitude', abs(tilt), 'rad', 'tilt with the shaft, amplitude')
       end if
@@ -168,7 +168,7 @@ contains
          & 'vertical journal vibration at half the shaft speed, amplitude')
       call put_figure(file%file, 'journal_z_half_amplitude', abs(z(1)), 'm', &
          & 'horizontal journal vibration at half the shaft speed, amplitude')
-      if (.not. scene%tilting()) return
+      if (.not. inputs%tilting()) return
       tilt = parts('pad_tilt', 0.5_wp)
       call put_figure(file%file, 'pad_tilt_half_amplitude', abs(tilt), 'rad', &
          & 'tilt at half the shaft speed, amplitude')
@@ -192,19 +192,19 @@ contains
    end subroutine put_harmonics
 
    !> What friction in the pivots does in the last samples, at these times, s, in so many revolutions.
-   subroutine put_friction(file, scene, time, turns)
+   subroutine put_friction(file, inputs, time, turns)
       type(run_file_type), intent(inout) :: file
-      type(scene_type), intent(in) :: scene
+      type(case_type), intent(in) :: inputs
       real(wp), intent(in) :: time(:), turns
       real(wp), allocatable :: tilt(:, :), rate(:, :), moment(:, :)
-      real(wp), dimension(scene%pad_count()) :: work, stuck
+      real(wp), dimension(inputs%pad_count()) :: work, stuck
       real(wp) :: slow
       integer :: i, n
       n = size(time)
       call file%last_samples('pad_tilt', n, tilt)
       call file%last_samples('pad_tilt_rate', n, rate)
       call file%last_samples('friction_moment', n, moment)
-      associate (law => scene%friction, pivot => scene%pivot)
+      associate (law => inputs%friction, pivot => inputs%pivot)
          slow = law%critical_velocity
          if (law%model == 'lugre') then
             slow = sticking*law%stribeck_velocity
@@ -228,19 +228,19 @@ contains
 
    !> Lift-off, flutter and rubbing of the pads and whirl of the journal in the last revolutions, and what is to be said
    !> of them: attribute `diagnosis`, a line each. Fixed pads can only rub.
-   subroutine put_last_revolutions(file, scene, whole)
+   subroutine put_last_revolutions(file, inputs, whole)
       type(run_file_type), intent(inout) :: file
-      type(scene_type), intent(in) :: scene
+      type(case_type), intent(in) :: inputs
       !> Whole revolutions sampled.
       integer, intent(in) :: whole
-      type(pad_behaviour_type) :: found(scene%pad_count())
+      type(pad_behaviour_type) :: found(inputs%pad_count())
       real(wp), allocatable, dimension(:, :) :: angle, contact, tilt, asperity, y, z
       real(wp) :: turns, order, amplitude
       character(len=:), allocatable :: said
       logical :: whirls, steady
       integer :: n
-      n = last_revolutions(file, max(1, min(scene%output%spectrum_revolutions, whole)))
-      steady = .not. abs(scene%operation%final_speed_rpm - scene%operation%speed_rpm) > 0
+      n = last_revolutions(file, max(1, min(inputs%output%spectrum_revolutions, whole)))
+      steady = .not. abs(inputs%operation%final_speed_rpm - inputs%operation%speed_rpm) > 0
       call file%last_samples('shaft_angle', n, angle)
       turns = (angle(1, n) - angle(1, 1))/(2*pi)
       said = ''
@@ -249,18 +249,18 @@ contains
          found%rubbing = count(asperity > 0, dim=2)/real(n, wp)
          call put_figure(file%file, 'pad_rubbing', found%rubbing, '1', 'share of the time in which the surfaces touch')
       end if
-      if (scene%tilting()) then
+      if (inputs%tilting()) then
          call file%last_samples('contact_force', n, contact)
          call take('pad_tilt', tilt)
-         associate (b => scene%bearing)
-            call behaviour_of(found, contact, tilt, turns, b%assembled_clearance/(0.5_wp*scene%pads%arc_deg*degree &
+         associate (b => inputs%bearing)
+            call behaviour_of(found, contact, tilt, turns, b%assembled_clearance/(0.5_wp*inputs%pads%arc_deg*degree &
                & *b%journal_radius))
          end associate
          call put_behaviour(file, found)
       end if
       call take('journal_y', y)
       call take('journal_z', z)
-      call whirl_of(y(1, :), z(1, :), turns, scene%bearing%assembled_clearance, order, amplitude, whirls)
+      call whirl_of(y(1, :), z(1, :), turns, inputs%bearing%assembled_clearance, order, amplitude, whirls)
       call put_figure(file%file, 'last_revolutions', turns, '1', &
          & 'revolutions over which lift-off, orders and shares are')
       call put_figure(file%file, 'whirl_order', known(order), '1', &

@@ -2,10 +2,10 @@
 module restart
    use text, only: to_text, on_one_line
    use errors, only: error_type, raise, add_context, system_error, numerics_error
-   use scene, only: scene_type
-   use scene_fields, only: checkpoint_variable
-   use scene_namelist, only: scene_from_text
-   use namelist_writer, only: scene_text
+   use case_inputs, only: case_type
+   use case_fields, only: checkpoint_variable
+   use case_namelist, only: case_from_text
+   use namelist_writer, only: namelist_of
    use hdf5_file, only: hdf5_type
    use hdf5_trial, only: try_reading
    use provenance, only: format_version
@@ -13,11 +13,11 @@ module restart
    use files, only: is_regular
    implicit none (type, external)
    private
-   public :: restart_type, read_restart, read_result, open_result, refuse_other_scene
+   public :: restart_type, read_restart, read_result, open_result, refuse_other_case
 
    type :: restart_type
       !> Resolved namelist of the run.
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       !> Which member of a sweep it is.
       type(member_tag) :: tag
       !> True where an earlier version of the program wrote it; the rest is not known then.
@@ -71,7 +71,7 @@ contains
       if (allocated(file%failure)) call raise(error, system_error, path//': damaged: '//file%failure)
       call file%close()
       if (allocated(error)) return
-      call scene_from_text(input, path, found%scene, error)
+      call case_from_text(input, path, found%inputs, error)
       if (allocated(error)) then
          error%status = system_error
          call add_context(error, path//': its input cannot be read')
@@ -141,19 +141,19 @@ contains
       if (allocated(error)) call file%close()
    end subroutine open_result
 
-   !> Refuses a scene that is not that of the file, and names the variable. Only the time between checkpoints may
+   !> Refuses a case that is not that of the file, and names the variable. Only the time between checkpoints may
    !> differ. A member of a sweep must have been this one also; the sweep may have grown. What is no member may be
    !> the same run continued, `go_on`, but replaces no member.
-   subroutine refuse_other_scene(path, ours, tag, go_on, found, error)
+   subroutine refuse_other_case(path, ours, tag, go_on, found, error)
       character(len=*), intent(in) :: path
-      type(scene_type), intent(in) :: ours
+      type(case_type), intent(in) :: ours
       type(member_tag), intent(in) :: tag
       logical, intent(in) :: go_on
       type(restart_type), intent(in) :: found
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: left, right, left_line, right_line, group
-      left = scene_text(ours)
-      right = scene_text(found%scene)
+      left = namelist_of(ours)
+      right = namelist_of(found%inputs)
       group = ''
       ! both are written from the same list, a line a variable
       do while (left /= '' .and. right /= '')
@@ -174,7 +174,7 @@ contains
          call raise(error, system_error, path//': is member '//to_text(found%tag%number)//' of another sweep; ' &
             & //on_one_line(found%tag%sweep)//' there, '//on_one_line(tag%sweep)//' here')
       end if
-   end subroutine refuse_other_scene
+   end subroutine refuse_other_case
 
    subroutine take_line(text, line)
       character(len=:), allocatable, intent(inout) :: text

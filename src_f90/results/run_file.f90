@@ -3,7 +3,7 @@ module run_file
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, degree, pi
    use errors, only: error_type, raise, system_error
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use sweep, only: member_tag
    use growing_file, only: growing_file_type
    use summary_group, only: put_figure
@@ -26,11 +26,11 @@ module run_file
 
 contains
 
-   !> Starts the file of a scene under the name claimed; `input` is its resolved namelist.
-   subroutine create(self, scene, input, error)
+   !> Starts the file of a case under the name claimed; `input` is its resolved namelist.
+   subroutine create(self, inputs, input, error)
       class(run_file_type), intent(inout) :: self
       character(len=*), intent(in) :: input
-      type(scene_type), intent(in) :: scene
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(out) :: error
       integer :: i
       call self%begin(error)
@@ -41,13 +41,13 @@ contains
       call self%provenance%begin(self%file)
       associate (file => self%file)
          call file%put_flag('complete', 0)
-         call file%put_text('title', scene%about%title)
-         call file%put_text('task', scene%about%task)
+         call file%put_text('title', inputs%about%title)
+         call file%put_text('task', inputs%about%task)
          call file%put_text('input', input)
-         call file%put_list('pad', [(real(i, wp), i=1, scene%pad_count())], '1', 'pad number', 'pad')
-         if (scene%about%task /= 'branch') call put_figure(file, 'speed', scene%operation%speed_rpm*pi/30, 'rad/s', &
+         call file%put_list('pad', [(real(i, wp), i=1, inputs%pad_count())], '1', 'pad number', 'pad')
+         if (inputs%about%task /= 'branch') call put_figure(file, 'speed', inputs%operation%speed_rpm*pi/30, 'rad/s', &
             & 'shaft speed at the end')
-         call file%put_list('pivot_angle', scene%pads%pivot_angle_deg*degree, 'rad', 'pivot angle', 'pad')
+         call file%put_list('pivot_angle', inputs%pads%pivot_angle_deg*degree, 'rad', 'pivot angle', 'pad')
       end associate
       call self%error_of(error)
       if (allocated(error)) call self%abandon()
@@ -60,7 +60,7 @@ contains
       !> The list of figures, which get the values in the file.
       type(run_statistics_type), intent(inout) :: statistics
       type(error_type), allocatable, intent(out) :: error
-      !> Of a march; of the size that the scene has.
+      !> Of a march; of the size that the case has.
       real(wp), intent(inout), optional :: state(:)
       logical :: ok
       t = 0

@@ -1,4 +1,4 @@
-"""Benchmark: run time against error, all scenes with the defaults, films, pads, orbits, sweeps, peers, oil.
+"""Benchmark: run time against error, all cases with the defaults, films, pads, orbits, sweeps, peers, oil.
 
 usage: bench.py TILTPAD [--only PART...] [--folder FOLDER] [--docs FOLDER]
 
@@ -63,7 +63,7 @@ def tell(row: Row, started: float) -> None:
     """A line for a run."""
     wall = f"{row.wall_seconds:.2f} s" if row.wall_seconds else "-"
     error = f"error {row.error:.1e}" if row.error is not None else ""
-    words = (f"{time.monotonic() - started:5.0f} s", row.part, row.scene, row.group, row.setting, wall, error)
+    words = (f"{time.monotonic() - started:5.0f} s", row.part, row.case, row.group, row.setting, wall, error)
     print("  ".join(word for word in (*words, row.note) if word), flush=True)
 
 

@@ -1,4 +1,4 @@
-"""Every scene of input/ with the default settings: wall time, and error against a refined run of its own."""
+"""Every case of input/ with the default settings: wall time, and error against a refined run of its own."""
 
 import os
 from collections.abc import Iterator
@@ -7,19 +7,19 @@ from pathlib import Path
 
 from errors import deviations
 from runner import Row, Runner
-from settings import REFINED, ROOT, Scene
+from settings import REFINED, ROOT, Case
 
 
-def scenes() -> list[Scene]:
+def single_runs() -> list[Case]:
     """All cases of the project that are one run."""
     paths = [*sorted(ROOT.glob("input/paper/*.nml")), *sorted(ROOT.glob("input/examples/*.nml"))]
     single = [path for path in paths if "&sweep" not in path.read_text()]
-    return [Scene(path.stem, path.stem, str(path.relative_to(ROOT))) for path in single]
+    return [Case(path.stem, path.stem, str(path.relative_to(ROOT))) for path in single]
 
 
 def cases(runner: Runner) -> Iterator[Row]:
     """First the timed runs, alone; then the references, side by side."""
-    jobs = [(scene, *runner.run(scene, "defaults", "defaults")) for scene in scenes()]
+    jobs = [(case, *runner.run(case, "defaults", "defaults")) for case in single_runs()]
     # the slowest first
     waiting = sorted(jobs, key=lambda job: -job[1].wall_seconds)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -27,9 +27,9 @@ def cases(runner: Runner) -> Iterator[Row]:
     yield from (row for _, row, _ in jobs)
 
 
-def judge(runner: Runner, scene: Scene, row: Row, path: Path, core: int) -> None:
+def judge(runner: Runner, case: Case, row: Row, path: Path, core: int) -> None:
     """Enters the error of the defaults, and how far the reference still moves; removes the result files."""
-    runs = [runner.run(scene, "", *each, timed=False, core=core) for each in REFINED]
+    runs = [runner.run(case, "", *each, timed=False, core=core) for each in REFINED]
     failed = [f"{each.setting}: {each.note}" for each, _ in runs if each.note]
     if not (row.note or failed):
         (_, coarse), (_, reference) = runs

@@ -21,7 +21,7 @@ from settings import (
 from skips import SAMPLE, TABLE
 from tables import LABELS, NOT_RUN, SIGNALS, film_time, short, signals, small, table, verdict
 
-#: Seconds of the scene's whole march, and its pads.
+#: Seconds of the case's whole march, and its pads.
 OF, PADS = 2, 2
 
 
@@ -29,18 +29,18 @@ def films(rows: list[Row]) -> str:
     """Film solvers."""
     lines = []
     for row in (row for row in rows if row.group != CHECK):
-        first = next(other for other in rows if other.scene == row.scene)
+        first = next(other for other in rows if other.case == row.case)
         over = f"{film_time(row) / film_time(first):.0f}"
         build = f"{row.film_nodes}", short(1e3 * row.building_seconds) if row.building_seconds else ""
         times = short(row.wall_seconds), short(1e6 * film_time(row)), over, *build
-        lines.append((LABELS[row.scene], row.setting, *times, small(row.error)))
-    return table("scene | film | wall s | film, us per pad | over table | nodes | building ms | error", lines)
+        lines.append((LABELS[row.case], row.setting, *times, small(row.error)))
+    return table("case | film | wall s | film, us per pad | over table | nodes | building ms | error", lines)
 
 
 def film_checks(rows: list[Row]) -> str:
     """Errors of films alone."""
-    lines = [(LABELS[row.scene], row.setting, *signals(row)) for row in rows if row.group == CHECK]
-    return table(f"scene | film | {SIGNALS}", lines)
+    lines = [(LABELS[row.case], row.setting, *signals(row)) for row in rows if row.group == CHECK]
+    return table(f"case | film | {SIGNALS}", lines)
 
 
 def visits(rows: list[Row]) -> str:
@@ -50,20 +50,20 @@ def visits(rows: list[Row]) -> str:
         counts = f"{row.rotor_seconds:g}", row.film_evaluations, row.film_cells, row.film_nodes
         share = f"{row.building_seconds / row.wall_seconds:.0%}"
         solved = f"{row.film_solved / row.film_evaluations:.1%}"
-        lines.append((LABELS[row.scene], *counts, short(1e3 * row.building_seconds), share, solved))
+        lines.append((LABELS[row.case], *counts, short(1e3 * row.building_seconds), share, solved))
     counts = "rotor s | films | cells | nodes"
-    return table(f"scene | {counts} | building ms | of the run | films left to `direct`", lines)
+    return table(f"case | {counts} | building ms | of the run | films left to `direct`", lines)
 
 
 def kernels(rows: list[Row]) -> str:
     """One evaluation of a film."""
     rows = [row for row in rows if row.group != TABLE]
     forces = [row for row in rows if row.setting == "force"]
-    derivatives = {(row.scene, row.group): row for row in rows if row.setting != "force"}
+    derivatives = {(row.case, row.group): row for row in rows if row.setting != "force"}
     lines = []
     for row in forces:
-        both = row.film_seconds, derivatives[row.scene, row.group].film_seconds
-        lines.append((row.scene, row.group, *(short(1e6 * each) for each in both), small(row.error)))
+        both = row.film_seconds, derivatives[row.case, row.group].film_seconds
+        lines.append((row.case, row.group, *(short(1e6 * each) for each in both), small(row.error)))
     head = "film, cavitation | solver, cells along the arc | force, us | force and derivatives, us | error"
     return table(head, lines)
 
@@ -74,17 +74,17 @@ def skips(rows: list[Row]) -> str:
     for without, kept in zip(rows[::2], rows[1::2], strict=True):
         saved = 1 - without.wall_seconds / kept.wall_seconds
         times = short(without.wall_seconds), short(kept.wall_seconds)
-        lines.append((without.scene, *times, f"{saved:.0%}", f"{without.steps}, {kept.steps}"))
+        lines.append((without.case, *times, f"{saved:.0%}", f"{without.steps}, {kept.steps}"))
     return table("omitted work | wall s | wall s with it | saved | steps without, with", lines)
 
 
 def skips_words(runs: list[Row], kernels: list[Row]) -> str:
     """What is left out of a right-hand side and of a sample, from the times of one film."""
-    run = next((row for row in runs if row.group == "defaults" and row.scene == MAIN[1].name), None)
+    run = next((row for row in runs if row.group == "defaults" and row.case == MAIN[1].name), None)
     film = {
         row.setting: row.film_seconds
         for row in kernels
-        if (row.scene, row.group) == (ONE_FILMS[1], ONE_SOLVER)
+        if (row.case, row.group) == (ONE_FILMS[1], ONE_SOLVER)
     }
     contact = next((row for row in kernels if row.group == TABLE), None)
     if not (run and film and contact):
@@ -93,11 +93,11 @@ def skips_words(runs: list[Row], kernels: list[Row]) -> str:
     samples = round(run.rotor_seconds / SAMPLE)
     evaluated = PADS * samples * film["force"]
     return (
-        f"In {run.rotor_seconds:g} s of `{run.scene}` the program computes the derivatives of the film for "
+        f"In {run.rotor_seconds:g} s of `{run.case}` the program computes the derivatives of the film for "
         f"{run.jacobians} Jacobians; computing them with each of the {run.rhs} right-hand sides would take "
         f"{short(derivatives, 2)} s more. Its {samples} samples use the film at the ends of the steps; "
         f"evaluating the film at each sample would take {short(evaluated, 2)} s more (with the times of a "
-        "film from the table in *One film*). A tilting-only scene needs no contact table, which takes "
+        "film from the table in *One film*). A tilting-only case needs no contact table, which takes "
         f"{short(1e3 * contact.film_seconds, 2)} ms."
     )
 
@@ -201,9 +201,9 @@ def checkpoints(rows: list[Row]) -> str:
         share = row.checkpoint_seconds / row.wall_seconds
         rate = float(row.note.split()[0]) / row.wall_seconds
         times = short(row.wall_seconds), short(row.checkpoint_seconds, 2), short(row.copy_seconds, 2)
-        lines.append((row.scene, f"{rate:.1f}", *times, f"{share:.1%}", verdict(share, CHECKPOINT_SHARE)))
+        lines.append((row.case, f"{rate:.1f}", *times, f"{share:.1%}", verdict(share, CHECKPOINT_SHARE)))
     times = "wall s | checkpoints s | copy of the file s"
-    return table(f"scene | MB/s written | {times} | share | below {CHECKPOINT_SHARE:.0%}", lines)
+    return table(f"case | MB/s written | {times} | share | below {CHECKPOINT_SHARE:.0%}", lines)
 
 
 def study(rows: list[Row]) -> str:

@@ -1,4 +1,4 @@
-"""The error of a run: one rule for all scenes.
+"""The error of a run: one rule for all cases.
 
 A signal that jumps is compared by two numbers. Where the reference changes by more than JUMP of its span
 from one sample to the next, on either side, a deviation tells when the signal jumps, not how far it errs:

@@ -9,7 +9,7 @@ from films import CHECK
 from matplotlib.axes import Axes
 from peers import OCTAVE, OWN, SCALED, SCIPY, SHORT, TILTPAD
 from runner import Row
-from settings import ALLOWED, DIAGRAM, FIGURES, FILM_SCENES, FILM_TOLERANCE, MAIN
+from settings import ALLOWED, DIAGRAM, FIGURES, FILM_CASES, FILM_TOLERANCE, MAIN
 from tables import film_time
 from tiltpad.draw.layout import COLUMN, PAGE
 from tiltpad.draw.plots import STYLE
@@ -39,10 +39,10 @@ def draw(rows: dict[str, list[Row]], folder: Path) -> None:
 
 
 def diagram(rows: list[Row]) -> None:
-    """Run time against error, a panel a scene."""
+    """Run time against error, a panel a case."""
     fig, axes = plt.subplots(4, 2, figsize=(PAGE, 11.2))
-    for scene, ax in zip(MAIN, axes.flat, strict=False):
-        mine = [row for row in rows if row.scene == scene.name and row.error]
+    for case, ax in zip(MAIN, axes.flat, strict=False):
+        mine = [row for row in rows if row.case == case.name and row.error]
         front(mine, ax)
         for group in DIAGRAM:
             colour, mark, _ = LOOKS[group]
@@ -53,8 +53,8 @@ def diagram(rows: list[Row]) -> None:
             for row in points:
                 label(ax, row)
         ax.axhline(ALLOWED, **TARGET)
-        ax.axvline(FIGURES[scene.name], **(TARGET | {"linestyle": ":"}))
-        ax.set(xscale="log", yscale="log", title=scene.label, xlabel="run time, s", ylabel="error")
+        ax.axvline(FIGURES[case.name], **(TARGET | {"linestyle": ":"}))
+        ax.set(xscale="log", yscale="log", title=case.label, xlabel="run time, s", ylabel="error")
         ax.margins(0.1)
         ax.xaxis.set_major_formatter("{x:g}")
         ax.xaxis.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "235" else "")
@@ -92,15 +92,15 @@ def label(ax: Axes, row: Row) -> None:
 
 
 def films(rows: list[Row]) -> None:
-    """Time of a film against error, a colour a scene."""
+    """Time of a film against error, a colour a case."""
     _, ax = plt.subplots(figsize=(PAGE, 2.8))
-    for i, scene in enumerate(FILM_SCENES):
-        mine = [row for row in rows if row.scene == scene.name and row.error and row.group != CHECK]
+    for i, case in enumerate(FILM_CASES):
+        mine = [row for row in rows if row.case == case.name and row.error and row.group != CHECK]
         points = [(1e6 * film_time(row), row) for row in mine]
         sor = [(time, row.error) for time, row in points if row.setting.startswith("sor")]
         direct = [(time, row.error) for time, row in points if row.setting.startswith("direct")]
         tables = [(time, row.error) for time, row in points if row.setting.startswith("table")]
-        ax.plot(*zip(*sor, strict=True), "o-", markersize=4, color=f"C{i}", label=scene.label)
+        ax.plot(*zip(*sor, strict=True), "o-", markersize=4, color=f"C{i}", label=case.label)
         ax.plot(*zip(*direct, strict=True), "s", markersize=5, color=f"C{i}")
         ax.plot(*zip(*tables, strict=True), "*", markersize=9, color=f"C{i}")
     # the lines lie close: the grids once, at the lowest

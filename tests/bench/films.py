@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 from runner import Row, Runner
-from settings import FILM_CHECKS, FILM_REFERENCE, FILM_SCENES, FILM_SOLVERS, MAIN, PAD_COUNTS, Scene
+from settings import FILM_CASES, FILM_CHECKS, FILM_REFERENCE, FILM_SOLVERS, MAIN, PAD_COUNTS, Case
 
 #: Group of the runs that check films alone.
 CHECK = "check"
@@ -12,14 +12,14 @@ CHECK = "check"
 
 def films(runner: Runner) -> Iterator[Row]:
     """The table, `direct` and `sor` in the same settings; fine grids of `direct` check the reference."""
-    references = runner.many([(scene, "", *FILM_REFERENCE) for scene in FILM_SCENES])
-    for scene, (fine, reference) in zip(FILM_SCENES, references, strict=True):
+    references = runner.many([(case, "", *FILM_REFERENCE) for case in FILM_CASES])
+    for case, (fine, reference) in zip(FILM_CASES, references, strict=True):
         if fine.note:
-            raise RuntimeError(f"no reference for {scene.label}: {fine.note}")
+            raise RuntimeError(f"no reference for {case.label}: {fine.note}")
         for setting in FILM_SOLVERS:
-            yield runner.judged(reference, scene, "film solver", *setting)
+            yield runner.judged(reference, case, "film solver", *setting)
         for setting in FILM_CHECKS:
-            yield runner.judged(reference, scene, CHECK, *setting, timed=False)
+            yield runner.judged(reference, case, CHECK, *setting, timed=False)
         reference.unlink()
 
 
@@ -31,13 +31,13 @@ def pads(runner: Runner) -> Iterator[Row]:
         yield row
 
 
-def ring(count: int) -> Scene:
+def ring(count: int) -> Case:
     """So many pads evenly around the journal, two of them below it, each with its share of the load."""
     angles = (-45, 225) if count == 2 else [-90 + (i + 0.5) * 360 / count for i in range(count)]
-    return Scene(
+    return Case(
         f"pads_{count}",
         f"{count} pads",
-        MAIN[1].case,
+        MAIN[1].input_file,
         (
             f"pads%pivot_angle_deg={','.join(f'{each:g}' for each in angles)}",
             "pads%arc_deg=20",

@@ -25,9 +25,9 @@ TILTPAD, ROSS = "tiltpad", "ROSS"
 def maps(runner: Runner) -> Iterator[Row]:
     """The map by this program, and some of its speeds by ROSS, whose time counts for each speed."""
     folder = runner.folder / "map"
-    case = tiltpad.write_case(runner.folder / "map.nml", groups())
+    input_file = tiltpad.write_case(runner.folder / "map.nml", groups())
     words = [f"sweep%operation%speed_rpm={','.join(f'{each:.10g}' for each in SPEEDS)}"]
-    command = [runner.program, case, "--quiet", "--overwrite", "--jobs", "1", "--output", folder]
+    command = [runner.program, input_file, "--quiet", "--overwrite", "--jobs", "1", "--output", folder]
     done = launch([*command, *(word for each in words for word in ("--set", each))])
     row = Row(runner.part, "map", TILTPAD, "defaults", "", done.seconds, len(SPEEDS) * len(RATIOS))
     row.memory_mb = done.memory

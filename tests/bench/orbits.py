@@ -8,7 +8,7 @@ from settings import LADDER, MAIN
 from tables import short, small, table, verdict
 
 #: Friction: none, LuGre, Bengisu-Akay.
-SCENES = MAIN[:3]
+CASES = MAIN[:3]
 ORBIT = ("case%task=periodic",)
 SETTINGS = (("march", ()), ("periodic", ORBIT))
 REFERENCE, FINEST = LADDER[-1]
@@ -19,14 +19,14 @@ RATIO, ERROR = 0.1, 1e-4
 
 
 def orbits(runner: Runner) -> Iterator[Row]:
-    """The march and the orbit of each scene, whole processes, and the orbit's error."""
-    for scene in SCENES:
-        row, reference = runner.run(scene, scene.label, REFERENCE, (*ORBIT, *FINEST), timed=False)
+    """The march and the orbit of each case, whole processes, and the orbit's error."""
+    for case in CASES:
+        row, reference = runner.run(case, case.label, REFERENCE, (*ORBIT, *FINEST), timed=False)
         yield row
         best: dict[str, Row] = {}
         for _ in range(ROUNDS):
             for setting, overrides in SETTINGS:
-                row, path = runner.run(scene, scene.label, setting, overrides, repeat=False)
+                row, path = runner.run(case, case.label, setting, overrides, repeat=False)
                 if setting == "periodic" and not row.note:
                     row.compare(deviations(path, reference))
                 path.unlink(missing_ok=True)
@@ -39,13 +39,13 @@ def orbits(runner: Runner) -> Iterator[Row]:
 def compared(rows: list[Row]) -> str:
     """Times and errors, and the figures to reach."""
     lines = []
-    for scene in SCENES:
-        found = {row.setting: row for row in rows if row.scene == scene.name}
+    for case in CASES:
+        found = {row.setting: row for row in rows if row.case == case.name}
         if not found:
             continue
         march, orbit = found["march"], found["periodic"]
         ratio = orbit.wall_seconds / march.wall_seconds
-        words = f"`{scene.name}` ({scene.label})", short(march.wall_seconds), short(orbit.wall_seconds)
+        words = f"`{case.name}` ({case.label})", short(march.wall_seconds), short(orbit.wall_seconds)
         errors = map(small, (orbit.error_pad_tilt, orbit.error_friction_moment, orbit.error))
         reached = verdict(ratio, RATIO), *errors, verdict(orbit.error, ERROR)
         lines.append((*words, short(ratio), *reached))

@@ -20,11 +20,11 @@ the figures to reach were typed in.
 Wall times are those of the whole process, including the result file, on one core of a machine that runs
 nothing else. For runs below 2 s the page gives the minimum of two or three runs. Memory is the maximum of
 the process. The **error** of a run is the maximum deviation of journal y, journal z, pad tilt and friction
-moment in the last revolution from a converged run of the same scene. Each deviation is over the
+moment in the last revolution from a converged run of the same case. Each deviation is over the
 peak-to-peak of its signal, or over 5 % of the signal's natural scale (assembled clearance; clearance over
 pad radius) if the peak-to-peak is smaller. The error must stay below {allowed:g}.
 
-A signal that jumps is compared by two numbers, by one rule for all scenes. Where the converged signal
+A signal that jumps is compared by two numbers, by one rule for all cases. Where the converged signal
 changes by more than {jump:.0%} of its peak-to-peak from one sample to the next, a deviation tells when the
 signal jumps, not how far it errs. At these samples the shift of the jump in time counts, which is the
 deviation over the change per sample; the tables give it in degrees of the shaft. It is not part of the
@@ -62,11 +62,11 @@ length, which includes slow revolutions with more rupture of the film.
 
 ### Choice of the defaults
 
-The table lists all settings on all scenes, in the order of their run time. {choice}
+The table lists all settings on all cases, in the order of their run time. {choice}
 
 {settings}
 
-## Every scene with the default settings
+## Every case with the default settings
 
 {cases_words}
 
@@ -82,7 +82,7 @@ The table lists all settings on all scenes, in the order of their run time. {cho
 
 ![Time of a pad's film against the error of the run](images/bench_films.png)
 
-All runs of a scene are short and have the same settings except for the film. The film time is that of one
+All runs of a case are short and have the same settings except for the film. The film time is that of one
 pad and includes right-hand sides and Jacobians, but not the building of tables, which stands beside it. The
 error is against a run of the same length with the table and {film_reference}.
 
@@ -107,14 +107,14 @@ Jacobian.
 ### What runs build
 
 A cell is built when the motion first enters it. So the table grows with the motion, not with the run, and
-what a scene does not visit it does not build: no node without rupture, few over an orbit, more over a
+what a case does not visit it does not build: no node without rupture, few over an orbit, more over a
 run-up.
 
 {visits}
 
 ## Omitted work
 
-The program omits work that a scene does not need. The table compares each run with a run that does this
+The program omits work that a case does not need. The table compares each run with a run that does this
 work, as nearly as the input allows: bristles with a friction coefficient of 1e-6, half the film against
 twice the rows, samples as a limit of the step.
 

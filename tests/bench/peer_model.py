@@ -136,10 +136,10 @@ def rates(t, y, speed, rotor, pads, geometry, contact, friction, tolerance, fiel
 
 
 class Bearing:
-    """A scene of the archive, ready for an integrator: bearing(t, y) is its right-hand side."""
+    """A case of the archive, ready for an integrator: bearing(t, y) is its right-hand side."""
 
-    def __init__(self, scene: dict[str, dict], film_tolerance: float):
-        bearing, pads, rotor, law = (scene[name] for name in ("bearing", "pads", "rotor", "friction"))
+    def __init__(self, case: dict[str, dict], film_tolerance: float):
+        bearing, pads, rotor, law = (case[name] for name in ("bearing", "pads", "rotor", "friction"))
         self.count = len(np.atleast_1d(pads["pivot_angle_deg"]))
         self.film_tolerance = film_tolerance
         machined, inner, length = (
@@ -156,10 +156,10 @@ class Bearing:
         self.geometry = self.columns(
             radius, inner, machined, length, ratio * arc, (1 - ratio) * arc, bearing["viscosity"], relaxation
         )
-        self.speed = scene["operation"]["speed_rpm"] * np.pi / 30
+        self.speed = case["operation"]["speed_rpm"] * np.pi / 30
         self.rotor = float(rotor["mass"]), float(rotor["unbalance"]), float(rotor["gravity"])
-        self.contact = contact_table(scene["pivot"])
-        ball = scene["pivot"]["socket_radius"] - scene["pivot"]["radius_difference"]
+        self.contact = contact_table(case["pivot"])
+        ball = case["pivot"]["socket_radius"] - case["pivot"]["radius_difference"]
         stiffness = float(law["bristle_stiffness"])
         coefficients = law["static_coefficient"], law["dynamic_coefficient"]
         damping = float(np.sqrt(stiffness / law["characteristic_load"]))

@@ -1,8 +1,8 @@
 % The recipe of Dyk et al. 2023 as an Octave user would write it: ode15s, relative tolerance 1e-6, absolute
 % 1e-8 for every state, film by finite volumes and a sparse direct solution, in every right-hand side.
 %
-% usage: octave-cli peer_octave.m SCENE.m RESULT.txt
-% SCENE.m sets the scene, the first state and the times; RESULT.txt gets a line a time: t, state, friction
+% usage: octave-cli peer_octave.m CASE.m RESULT.txt
+% CASE.m sets the case, the first state and the times; RESULT.txt gets a line a time: t, state, friction
 % moments; its first line has the seconds of the march and the number of right-hand sides.
 1;
 

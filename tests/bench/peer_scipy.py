@@ -1,4 +1,4 @@
-"""Marches a scene of an archived run with SciPy's BDF, from the run's first sample to its last.
+"""Marches a case of an archived run with SciPy's BDF, from the run's first sample to its last.
 
 usage: peer_scipy.py ARCHIVE RESULT.npz --relative R --film-tolerance T (--absolute A | --scaled)
        [--own-jacobian]

@@ -1,4 +1,4 @@
-"""Peers: the same scene by SciPy's BDF and by Octave's ode15s, each the recipe that its user would write."""
+"""Peers: the same case by SciPy's BDF and by Octave's ode15s, each the recipe that its user would write."""
 
 import os
 import shutil
@@ -32,12 +32,12 @@ def peers(runner: Runner) -> Iterator[Row]:
     """tiltpad with its defaults, with the peers' film, and the peers."""
     spans = {settings.LONG_SPAN, settings.JACOBIAN_SPAN, settings.TOLERANCE_SPAN, settings.OCTAVE_SPAN}
     files = {span: pair(runner, span) for span in sorted(spans)}
-    row, path = runner.run(settings.PEER_SCENE, TILTPAD, "defaults")
+    row, path = runner.run(settings.PEER_CASE, TILTPAD, "defaults")
     path.unlink()
     yield row
     for setting, film in (("defaults", ()), ("the peers' film", settings.PEER_FILM)):
         more = (*film, f"operation%duration={settings.LONG_SPAN}")
-        row, path = runner.run(settings.PEER_SCENE, SHORT, setting, more)
+        row, path = runner.run(settings.PEER_CASE, SHORT, setting, more)
         with tiltpad.read(path) as run:
             compare(row, {name: run[name] for name in SIGNALS}, files[settings.LONG_SPAN])
         path.unlink()
@@ -54,7 +54,7 @@ def pair(runner: Runner, span: float) -> tuple[Path, Path]:
     paths = []
     for label, overrides in (settings.PEER_REFERENCE, ("the peers' film", settings.PEER_TIGHT)):
         more = (*overrides, f"operation%duration={span}")
-        row, path = runner.run(settings.PEER_SCENE, "reference", label, more, timed=False)
+        row, path = runner.run(settings.PEER_CASE, "reference", label, more, timed=False)
         if row.note:
             raise RuntimeError(f"no reference for the peers: {row.note}")
         paths.append(path)
@@ -86,7 +86,7 @@ def scipy(runner: Runner, span: float, kind: str, jacobian: str, files: tuple[Pa
     words += ["--own-jacobian"] if jacobian == OWN else []
     words += ["--relative", settings.PEER_RELATIVE, "--film-tolerance", settings.PEER_FILM_TOLERANCE]
     done = launch([sys.executable, HERE / "peer_scipy.py", files[1], result, *words])
-    row = Row(runner.part, settings.PEER_SCENE.name, SCIPY, kind + jacobian, " ".join(map(str, words)))
+    row = Row(runner.part, settings.PEER_CASE.name, SCIPY, kind + jacobian, " ".join(map(str, words)))
     if done.status:
         return failed(row, done)
     found = dict(np.load(result))
@@ -100,13 +100,13 @@ def octave(runner: Runner, files: tuple[Path, Path]) -> Row:
     """Octave's march over a span, where there is Octave."""
     setting = "scalar tolerance, sparse direct film"
     words = f"RelTol {settings.PEER_RELATIVE:g}, AbsTol {settings.PEER_ABSOLUTE:g}"
-    row = Row(runner.part, settings.PEER_SCENE.name, OCTAVE, setting, words)
+    row = Row(runner.part, settings.PEER_CASE.name, OCTAVE, setting, words)
     if not shutil.which(PROGRAM):
         row.note = "not installed"
         return row
-    script, result = runner.folder / "scene.m", runner.folder / "octave.txt"
+    script, result = runner.folder / "case.m", runner.folder / "octave.txt"
     with tiltpad.read(files[1]) as run:
-        script.write_text(scene(run))
+        script.write_text(case(run))
     done = launch([PROGRAM, "--quiet", "--norc", HERE / "peer_octave.m", script, result])
     if done.status:
         return failed(row, done)
@@ -134,8 +134,8 @@ def failed(row: Row, done: Launched) -> Row:
     return row
 
 
-def scene(run: tiltpad.Run) -> str:
-    """The scene, its first state and the times of its samples as Octave reads them."""
+def case(run: tiltpad.Run) -> str:
+    """The case, its first state and the times of its samples as Octave reads them."""
     bearing = Bearing(run.input, settings.PEER_FILM_TOLERANCE)
     pivot, inputs = run.input["pivot"], run.input["bearing"]
     names = "theta", "pivot", "centre", "pad_mass", "inertia", "centre_radial"

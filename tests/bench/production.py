@@ -10,7 +10,7 @@ from pathlib import Path
 
 import tiltpad
 from runner import Row, Runner
-from settings import CHECKPOINT_SCENES, CHECKPOINT_SECONDS, MEMBERS
+from settings import CHECKPOINT_CASES, CHECKPOINT_SECONDS, MEMBERS
 
 CHECKPOINTS, SWEEP, COLLECT, START = "checkpoints", "sweep", "collect", "start"
 #: Short runs so often; the best counts. Starts so often; their median counts.
@@ -24,14 +24,14 @@ SHORT, LONG = 0.1, 10.1
 
 def production(runner: Runner) -> Iterator[Row]:
     """Rows of checkpoints, sweep and collection."""
-    for scene in CHECKPOINT_SCENES:
+    for case in CHECKPOINT_CASES:
         # what runs before it left to the system to write is not its own
         os.sync()
         overrides = (f"output%checkpoint_seconds={CHECKPOINT_SECONDS:g}",)
-        row, path = runner.run(scene, CHECKPOINTS, f"{CHECKPOINT_SECONDS:g} s", overrides, repeat=False)
+        row, path = runner.run(case, CHECKPOINTS, f"{CHECKPOINT_SECONDS:g} s", overrides, repeat=False)
         with tiltpad.read(path) as run:
             row.checkpoint_seconds = float(run["statistics/checkpoint_seconds"])
-        row.scene, row.note = scene.label, f"{path.stat().st_size / 1e6:.0f} MB"
+        row.case, row.note = case.label, f"{path.stat().st_size / 1e6:.0f} MB"
         row.copy_seconds = copying(path)
         path.unlink()
         yield row

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import tiltpad
 from errors import Deviation, deviations
-from settings import ROOT, Scene
+from settings import ROOT, Case
 
 #: Seconds after which a run is killed.
 LIMIT = 600
@@ -27,7 +27,7 @@ class Row:
     """One run, as docs/benchmarks.csv has it."""
 
     part: str
-    scene: str
+    case: str
     group: str
     setting: str
     overrides: str = ""
@@ -92,20 +92,20 @@ class Runner:
     program: Path
     folder: Path
     part: str = ""
-    #: Finest run of a scene, by its name.
+    #: Finest run of a case, by its name.
     references: dict[str, Path] = field(default_factory=dict)
     number: Callable[[], int] = field(default_factory=lambda: itertools.count().__next__)
 
     def run(
-        self, scene: Scene, group: str, setting: str, overrides: tuple[str, ...] = (), timed: bool = True,
+        self, case: Case, group: str, setting: str, overrides: tuple[str, ...] = (), timed: bool = True,
         core: int = CORE, repeat: bool = True,
     ) -> tuple[Row, Path]:  # fmt: skip
         """One run and its result file, which the caller removes; timed: the best of several if short."""
         path = self.folder / f"{self.number()}.h5"
-        overrides = (*scene.overrides, *overrides)
+        overrides = (*case.overrides, *overrides)
         options = [word for each in overrides for word in ("--set", each)]
-        command = [self.program, ROOT / scene.case, "--quiet", "--overwrite", "--output", path, *options]
-        row = Row(self.part, scene.name, group, setting, " ".join(overrides))
+        command = [self.program, ROOT / case.input_file, "--quiet", "--overwrite", "--output", path, *options]
+        row = Row(self.part, case.name, group, setting, " ".join(overrides))
         done, spent, left = launch(command, core), 0.0, REPEATS - 1 if timed and repeat else 0
         while left and done.status == 0 and spent + done.seconds < SHORT:
             again = launch(command, core)

@@ -1,4 +1,4 @@
-"""What is run: scenes, settings and figures to reach, all in one place."""
+"""What is run: cases, settings and figures to reach, all in one place."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -7,12 +7,12 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 
 
 @dataclass(frozen=True)
-class Scene:
+class Case:
     """A case, with what is changed in it."""
 
     name: str
     label: str
-    case: str
+    input_file: str
     overrides: tuple[str, ...] = ()
 
 
@@ -41,15 +41,15 @@ def together(march: str, film: str) -> tuple[str, tuple[str, ...]]:
     return f"march {march}, table {film}", tolerance(march) + table(film)
 
 
-#: The scenes of the diagram, and the wall seconds that each is to stay below with the defaults.
+#: The cases of the diagram, and the wall seconds that each is to stay below with the defaults.
 MAIN = (
-    Scene("steady_tr", "frictionless", "input/paper/steady_tr.nml"),
-    Scene("steady_lugre", "LuGre", "input/paper/steady_lugre.nml"),
-    Scene("steady_tr_ba", "Bengisu-Akay", "input/paper/steady_tr_ba.nml"),
-    Scene("runup_lugre", "run-up, LuGre", "input/paper/runup_lugre.nml"),
-    Scene("four_pads", "four pads, LuGre, gumbel", "input/examples/four_pads.nml"),
-    Scene("steady_ba_20_10", "Bengisu-Akay 0.2/0.1", "input/paper/steady_ba_20_10.nml"),
-    Scene("four_pads_reynolds", "four pads, LuGre, reynolds", "input/examples/four_pads.nml",
+    Case("steady_tr", "frictionless", "input/paper/steady_tr.nml"),
+    Case("steady_lugre", "LuGre", "input/paper/steady_lugre.nml"),
+    Case("steady_tr_ba", "Bengisu-Akay", "input/paper/steady_tr_ba.nml"),
+    Case("runup_lugre", "run-up, LuGre", "input/paper/runup_lugre.nml"),
+    Case("four_pads", "four pads, LuGre, gumbel", "input/examples/four_pads.nml"),
+    Case("steady_ba_20_10", "Bengisu-Akay 0.2/0.1", "input/paper/steady_ba_20_10.nml"),
+    Case("four_pads_reynolds", "four pads, LuGre, reynolds", "input/examples/four_pads.nml",
           ("film%cavitation=reynolds",)),
 )  # fmt: skip
 FIGURES = {
@@ -66,20 +66,20 @@ FIGURES = {
 MEMORY, FILM_RATIO, FILM_MICROSECONDS = 100, 1000, 0.15
 #: That one film among those timed by themselves: its states and the solver.
 ONE_FILMS, ONE_SOLVER = ("whole, none", "corner ruptured, reynolds"), "table, same cell"
-#: The error that every scene is to stay below, and the setting that is to reach a hundredth of it.
+#: The error that every case is to stay below, and the setting that is to reach a hundredth of it.
 ALLOWED = 1e-3
 FINE = together("1e-8", "1.6e-6")
 FINE_ALLOWED = 1e-5
 
-#: What checkpoints cost: wall time between them (default: 300 s) and the share allowed; scenes of some 20 s.
+#: What checkpoints cost: wall time between them (default: 300 s) and the share allowed; cases of some 20 s.
 CHECKPOINT_SECONDS, CHECKPOINT_SHARE = 8.0, 0.02
-CHECKPOINT_SCENES = (
-    Scene("steady_tr", "frictionless", MAIN[0].case, ("operation%duration=200",)),
-    Scene("steady_lugre", "LuGre", MAIN[1].case, ("operation%duration=200",)),
-    Scene("steady_lugre", "LuGre, 36 samples a revolution", MAIN[1].case,
+CHECKPOINT_CASES = (
+    Case("steady_tr", "frictionless", MAIN[0].input_file, ("operation%duration=200",)),
+    Case("steady_lugre", "LuGre", MAIN[1].input_file, ("operation%duration=200",)),
+    Case("steady_lugre", "LuGre, 36 samples a revolution", MAIN[1].input_file,
           ("operation%duration=250", "output%samples_per_revolution=36")),
-    Scene("steady_tr_ba", "Bengisu-Akay", MAIN[2].case, ("operation%duration=80",)),
-    Scene("steady_lugre", "LuGre, over-relaxation", MAIN[1].case,
+    Case("steady_tr_ba", "Bengisu-Akay", MAIN[2].input_file, ("operation%duration=80",)),
+    Case("steady_lugre", "LuGre, over-relaxation", MAIN[1].input_file,
           ("operation%duration=1", "film%solver=sor")),
 )  # fmt: skip
 #: Members of the sweep of short runs; milliseconds allowed beyond a member's march; seconds to collect all.
@@ -89,11 +89,11 @@ START_MILLISECONDS = 20
 
 #: Some of them without rupture: whole films alone.
 UNRUPTURED = tuple(
-    Scene(f"{scene.name}_none", f"{scene.label}, cavitation 'none'", scene.case, ("film%cavitation=none",))
-    for scene in MAIN[:3]
+    Case(f"{case.name}_none", f"{case.label}, cavitation 'none'", case.input_file, ("film%cavitation=none",))
+    for case in MAIN[:3]
 )
 
-#: Refinements of the scenes of MAIN and of UNRUPTURED up to their references, the last.
+#: Refinements of the cases of MAIN and of UNRUPTURED up to their references, the last.
 LADDER = (
     together("1e-6", "1e-5"),
     together("1e-7", "4e-6"),
@@ -102,7 +102,7 @@ LADDER = (
 )
 UNRUPTURED_LADDER = (together("1e-7", "1e-5"), together("1e-8", "1e-6"), together("1e-9", "1e-7"))
 LADDERS = dict.fromkeys(MAIN, LADDER) | dict.fromkeys(UNRUPTURED, UNRUPTURED_LADDER)
-#: Refinements of every scene of input/: the last is the reference, the other shows how far it still moves.
+#: Refinements of every case of input/: the last is the reference, the other shows how far it still moves.
 REFINED = (together("1e-7", "1e-5"), together("1e-8", "2e-6"))
 
 #: Tolerance of the march where that of the table varies.
@@ -121,14 +121,14 @@ DIAGRAM = {
     "direct": DIRECT,
 }
 
-#: Scenes for the film solvers, short because over-relaxation is slow, otherwise with the defaults.
-FILM_SCENES = (
-    Scene("lugre_whole", "LuGre, 6500 rpm, cavitation 'none', 0.05 s", MAIN[1].case,
+#: Cases for the film solvers, short because over-relaxation is slow, otherwise with the defaults.
+FILM_CASES = (
+    Case("lugre_whole", "LuGre, 6500 rpm, cavitation 'none', 0.05 s", MAIN[1].input_file,
           ("film%cavitation=none", "operation%duration=0.05")),
-    Scene("lugre_6500", "LuGre, 6500 rpm, 0.05 s", MAIN[1].case, ("operation%duration=0.05",)),
-    Scene("lugre_1500", "LuGre, 1500 rpm, 0.08 s", MAIN[1].case,
+    Case("lugre_6500", "LuGre, 6500 rpm, 0.05 s", MAIN[1].input_file, ("operation%duration=0.05",)),
+    Case("lugre_1500", "LuGre, 1500 rpm, 0.08 s", MAIN[1].input_file,
           ("operation%speed_rpm=1500", "operation%duration=0.08")),
-    Scene("four_pads_short", "four pads, gumbel, 0.05 s", MAIN[4].case, ("operation%duration=0.05",)),
+    Case("four_pads_short", "four pads, gumbel, 0.05 s", MAIN[4].input_file, ("operation%duration=0.05",)),
 )  # fmt: skip
 FILM_SOLVERS = (
     ("table (default)", ()),
@@ -152,17 +152,17 @@ FILM_CHECKS = tuple(
     )
 )
 
-#: What a scene visits of its table: it grows with the motion, not with the run.
+#: What a case visits of its table: it grows with the motion, not with the run.
 VISITS = tuple(
-    Scene(f"{MAIN[1].name}_{v}", f"LuGre, {v} s", MAIN[1].case, (f"operation%duration={v}",))
+    Case(f"{MAIN[1].name}_{v}", f"LuGre, {v} s", MAIN[1].input_file, (f"operation%duration={v}",))
     for v in ("0.02", "0.2", "2", "20")
 ) + (UNRUPTURED[1], *MAIN[2:])
 
 #: The same pad so many times: pads of 20 degrees all around, preloaded so that each carries, 50 kg a pad.
 PAD_COUNTS = (2, 4, 8, 16)
 
-#: The scene of the peers; their tolerances are the paper's: relative, and absolute for every state.
-PEER_SCENE = MAIN[1]
+#: The case of the peers; their tolerances are the paper's: relative, and absolute for every state.
+PEER_CASE = MAIN[1]
 PEER_RELATIVE, PEER_ABSOLUTE = 1e-6, 1e-8
 #: Seconds that they march: SciPy for speed, for its tolerances, with a Jacobian of its own; Octave.
 LONG_SPAN, TOLERANCE_SPAN, JACOBIAN_SPAN, OCTAVE_SPAN = 0.1, 0.02, 5e-5, 0.012

@@ -1,22 +1,22 @@
-"""What a scene does not need and the program leaves out: each beside the same with it."""
+"""What a case does not need and the program leaves out: each beside the same with it."""
 
 import csv
 import subprocess
 from collections.abc import Iterator
 
 from runner import Row, Runner
-from settings import MAIN, VISITS, Scene
+from settings import MAIN, VISITS, Case
 
-LUGRE = MAIN[1].case
+LUGRE = MAIN[1].input_file
 #: Interval of the samples of `LUGRE` at 360 a revolution and 6500 rpm, s.
 SAMPLE = 60 / 6500 / 360
 #: Group of the row that times the contact table.
 TABLE = "table"
-#: (what is left out, scene, setting without it, setting with it)
+#: (what is left out, case, setting without it, setting with it)
 SKIPS = (
-    ("the pivot's two states in a tilting-only scene", "input/paper/steady_to.nml",
+    ("the pivot's two states in a tilting-only case", "input/paper/steady_to.nml",
      (), ("pads%motion=tilting_radial",)),
-    ("the bristles' states in a scene without friction", "input/paper/steady_tr.nml",
+    ("the bristles' states in a case without friction", "input/paper/steady_tr.nml",
      (), ("friction%model=lugre", "friction%static_coefficient=1e-6", "friction%dynamic_coefficient=1e-6")),
     ("the other half of the film (over-relaxation, 0.02 s)", LUGRE,
      ("film%solver=sor", "operation%duration=0.02"),
@@ -30,18 +30,18 @@ SKIPS = (
 
 def skips(runner: Runner) -> Iterator[Row]:
     """Every pair, timed one after the other."""
-    for what, case, without, including in SKIPS:
-        scene = Scene(what, what, case)
+    for what, input_file, without, including in SKIPS:
+        timed = Case(what, what, input_file)
         for setting, overrides in (("left out", without), ("kept", including)):
-            row, path = runner.run(scene, "skips", setting, overrides)
+            row, path = runner.run(timed, "skips", setting, overrides)
             path.unlink(missing_ok=True)
             yield row
 
 
 def visits(runner: Runner) -> Iterator[Row]:
     """What runs visit of the film table, and therefore build."""
-    for scene in VISITS:
-        row, path = runner.run(scene, "visits", "defaults", repeat=False)
+    for timed in VISITS:
+        row, path = runner.run(timed, "visits", "defaults", repeat=False)
         path.unlink(missing_ok=True)
         yield row
 

@@ -9,9 +9,9 @@ from settings import (
     ALLOWED,
     DIAGRAM,
     FIGURES,
+    FILM_CASES,
     FILM_MICROSECONDS,
     FILM_RATIO,
-    FILM_SCENES,
     FINE,
     FINE_ALLOWED,
     LADDERS,
@@ -23,7 +23,7 @@ from settings import (
     VISITS,
 )
 
-LABELS = {scene.name: scene.label for scene in (*MAIN, *UNRUPTURED, *FILM_SCENES, *VISITS)}
+LABELS = {case.name: case.label for case in (*MAIN, *UNRUPTURED, *FILM_CASES, *VISITS)}
 SIGNALS = "journal y | journal z | tilt | friction moment"
 NOT_RUN = "Not run."
 
@@ -65,8 +65,8 @@ def verdict(value: float | None, limit: float, least: bool = False) -> str:
 
 
 def defaults(rows: list[Row]) -> dict[str, Row]:
-    """Runs with the default settings, by scene."""
-    return {row.scene: row for row in rows if row.group == "defaults"}
+    """Runs with the default settings, by case."""
+    return {row.case: row for row in rows if row.group == "defaults"}
 
 
 def figures(rows: list[Row], film_rows: list[Row], kernels: list[Row]) -> str:
@@ -74,23 +74,23 @@ def figures(rows: list[Row], film_rows: list[Row], kernels: list[Row]) -> str:
     if not rows:
         return NOT_RUN
     found, lines = defaults(rows), []
-    for scene in MAIN:
-        row, limit = found[scene.name], FIGURES[scene.name]
-        name = f"{row.rotor_seconds:g} s of `{scene.name}` ({scene.label})"
+    for case in MAIN:
+        row, limit = found[case.name], FIGURES[case.name]
+        name = f"{row.rotor_seconds:g} s of `{case.name}` ({case.label})"
         wall = f"{limit:g} s", f"{short(row.wall_seconds)} s", verdict(row.wall_seconds, limit)
         lines.append((name, *wall, small(row.error), verdict(row.error, ALLOWED)))
     memory = max(row.memory_mb for row in found.values())
     lines.append(
         ("maximum memory of these runs", f"{MEMORY} MB", f"{memory:.0f} MB", verdict(memory, MEMORY), "", "")
     )
-    for scene in FILM_SCENES[: 2 if film_rows else 0]:
-        ratio = film_ratio(film_rows, scene.name)
+    for case in FILM_CASES[: 2 if film_rows else 0]:
+        ratio = film_ratio(film_rows, case.name)
         reached = verdict(ratio, FILM_RATIO, least=True)
-        words = f"film time of a pad, sor 60 x 15 over the table ({scene.label})"
+        words = f"film time of a pad, sor 60 x 15 over the table ({case.label})"
         lines.append((words, FILM_RATIO, f"{ratio:.0f}", reached, "", ""))
     for name in ONE_FILMS:
         place = (name, ONE_SOLVER)
-        for row in (row for row in kernels if (row.scene, row.group) == place and row.setting != "force"):
+        for row in (row for row in kernels if (row.case, row.group) == place and row.setting != "force"):
             time = 1e6 * row.film_seconds
             figure = f"{FILM_MICROSECONDS:g} us", f"{short(time)} us", verdict(time, FILM_MICROSECONDS)
             words = f"one film with derivatives from the table ({name})"
@@ -103,9 +103,9 @@ def film_time(row: Row) -> float:
     return (row.film_seconds - row.building_seconds) / row.film_evaluations
 
 
-def film_ratio(rows: list[Row], scene: str) -> float:
+def film_ratio(rows: list[Row], case: str) -> float:
     """Film time of `sor` on 60 x 15 over that of the table."""
-    times = {row.setting: film_time(row) for row in rows if row.scene == scene and row.wall_seconds}
+    times = {row.setting: film_time(row) for row in rows if row.case == case and row.wall_seconds}
     return times["sor 60 x 15"] / times["table (default)"]
 
 
@@ -115,8 +115,8 @@ def fine(rows: list[Row]) -> str:
     for row in rows:
         if row.setting == FINE[0]:
             reached = verdict(row.error, FINE_ALLOWED)
-            lines.append((LABELS[row.scene], short(row.wall_seconds), *signals(row), reached))
-    return table(f"scene | wall s | {SIGNALS} | {FINE_ALLOWED:g} or better", lines)
+            lines.append((LABELS[row.case], short(row.wall_seconds), *signals(row), reached))
+    return table(f"case | wall s | {SIGNALS} | {FINE_ALLOWED:g} or better", lines)
 
 
 def ladder(rows: list[Row]) -> str:
@@ -124,19 +124,19 @@ def ladder(rows: list[Row]) -> str:
     lines = []
     for row in rows:
         errors = [row.note or "reference", "", "", ""] if row.error is None else signals(row)
-        lines.append((LABELS[row.scene], row.setting, row.group, row.steps or "", *errors))
-    return table(f"scene | film and tolerance | over | steps | {SIGNALS}", lines)
+        lines.append((LABELS[row.case], row.setting, row.group, row.steps or "", *errors))
+    return table(f"case | film and tolerance | over | steps | {SIGNALS}", lines)
 
 
 def ladder_words(rows: list[Row]) -> str:
     """How good the references are."""
-    second = {scene.name: rungs[-2][0] for scene, rungs in LADDERS.items()}
-    last = [row for row in rows if row.setting == second[row.scene] and row.error is not None]
+    second = {case.name: rungs[-2][0] for case, rungs in LADDERS.items()}
+    last = [row for row in rows if row.setting == second[row.case] and row.error is not None]
     if not last:
         return ""
 
     def errors(over: str) -> str:
-        return ", ".join(f"{small(row.error)} ({LABELS[row.scene]})" for row in last if row.group == over)
+        return ", ".join(f"{small(row.error)} ({LABELS[row.case]})" for row in last if row.group == over)
 
     return (
         "So the error of the references is about the deviation of the last step but one, or smaller: "
@@ -145,11 +145,11 @@ def ladder_words(rows: list[Row]) -> str:
 
 
 def totals(rows: list[Row]) -> list[tuple[str, str, float | None, float | None, dict[str, Row]]]:
-    """Group, setting, run time and worst error over the scenes (None: one failed), and the runs."""
+    """Group, setting, run time and worst error over the cases (None: one failed), and the runs."""
     found: dict[tuple[str, str], dict[str, Row]] = {}
     for row in rows:
         if row.group in DIAGRAM:
-            found.setdefault((row.group, row.setting), {})[row.scene] = row
+            found.setdefault((row.group, row.setting), {})[row.case] = row
     lines = []
     for (group, setting), runs in found.items():
         whole = len(runs) == len(MAIN) and all(row.error is not None for row in runs.values())
@@ -184,23 +184,23 @@ def settings(rows: list[Row]) -> str:
     """Every setting of the diagram."""
     lines = []
     for group, setting, time, error, runs in totals(rows):
-        each = (small(runs[scene.name].error) if scene.name in runs else "" for scene in MAIN)
+        each = (small(runs[case.name].error) if case.name in runs else "" for case in MAIN)
         mark = "**" if error is not None and error < ALLOWED else ""
         lines.append((described(group, setting), short(time), f"{mark}{small(error)}{mark}", *each))
-    scenes = " | ".join(scene.label for scene in MAIN)
-    return table(f"setting | wall s, all | maximum error | {scenes}", lines)
+    cases = " | ".join(case.label for case in MAIN)
+    return table(f"setting | wall s, all | maximum error | {cases}", lines)
 
 
 def cases(rows: list[Row]) -> str:
-    """Every scene with the defaults."""
+    """Every case with the defaults."""
     lines = []
     for row in rows:
         cost = short(row.wall_seconds), row.steps or "", short(row.memory_mb, 2)
         jump = f"{row.jump_degrees:.1e}" if row.jump_degrees else "-"
         errors = *signals(row), bold(row.error), jump, small(row.reference_moved)
-        lines.append((f"`{row.scene}`", *cost, row.film_cells, row.film_nodes, *errors))
+        lines.append((f"`{row.case}`", *cost, row.film_cells, row.film_nodes, *errors))
     counts = "wall s | steps | MB | cells | nodes"
-    return table(f"scene | {counts} | {SIGNALS} | error | jumps, deg | reference change", lines)
+    return table(f"case | {counts} | {SIGNALS} | error | jumps, deg | reference change", lines)
 
 
 def bold(error: float | None) -> str:
@@ -210,15 +210,15 @@ def bold(error: float | None) -> str:
 
 def cases_notes(rows: list[Row]) -> str:
     """Runs that stopped, and why."""
-    found = [f"- `{row.scene}`: {row.note}" for row in rows if row.note]
+    found = [f"- `{row.case}`: {row.note}" for row in rows if row.note]
     return "\n".join(["Runs that stopped:", "", *found]) if found else ""
 
 
 def cases_words(rows: list[Row]) -> str:
-    """How many scenes stay below the error allowed."""
+    """How many cases stay below the error allowed."""
     if not rows:
         return ""
     good = [row for row in rows if row.error is not None and row.error <= ALLOWED]
-    words = f"{len(good)} of {len(rows)} scenes are below {ALLOWED:g}"
-    bad = [f"`{row.scene}` ({small(row.error)})" for row in rows if row not in good]
+    words = f"{len(good)} of {len(rows)} cases are below {ALLOWED:g}"
+    bad = [f"`{row.case}` ({small(row.error)})" for row in rows if row not in good]
     return f"{words}; these are above it: {', '.join(bad)}." if bad else f"{words}."

@@ -5,12 +5,12 @@ import shutil
 from collections.abc import Iterator
 
 from runner import Row, Runner, launch
-from settings import ROOT, Scene
+from settings import ROOT, Case
 from tables import short, table, verdict
 
 #: The examples with warm oil, and their tasks.
-SCENES = tuple(
-    Scene(name, label, f"input/examples/{name}.nml", (f"case%task={task}",))
+CASES = tuple(
+    Case(name, label, f"input/examples/{name}.nml", (f"case%task={task}",))
     for name, label in (("warm_paper", "paper's pads"), ("warm_five_pads", "five pads"))
     for task in ("equilibrium", "coefficients")
 )
@@ -19,7 +19,7 @@ WARM, COLD = ("temperatures", ()), ("one viscosity", ("thermal%model=none",))
 MAP, SPEEDS, MAP_SPEEDS = "map", "1000:8000:7", 1001
 #: A march with an oil whose viscosity does not fall (the same motion with and without temperatures), and with
 #: VG 46.
-MARCH = Scene("march", "steady_lugre", "input/paper/steady_lugre.nml")
+MARCH = Case("march", "steady_lugre", "input/paper/steady_lugre.nml")
 SAME_OIL = ("oil%reference_viscosity=0.019", "oil%temperature_exponent=0")
 MARCHES = (
     (COLD[0], SAME_OIL),
@@ -33,18 +33,18 @@ RATIO, MAP_SECONDS, MARCH_RATIO = 3.0, 5.0, 1.05
 
 def warm(runner: Runner) -> Iterator[Row]:
     """Single runs, the maps, and the marches."""
-    for scene in SCENES:
+    for case in CASES:
         for setting, overrides in (COLD, WARM):
-            yield single(runner, scene, setting, overrides)
+            yield single(runner, case, setting, overrides)
     for name in ("warm_paper", "warm_five_pads"):
         yield over_speeds(runner, name)
     for setting, overrides in MARCHES:
         yield single(runner, MARCH, setting, overrides)
 
 
-def single(runner: Runner, scene: Scene, setting: str, overrides: tuple[str, ...]) -> Row:
+def single(runner: Runner, case: Case, setting: str, overrides: tuple[str, ...]) -> Row:
     """One timed run."""
-    row, path = runner.run(scene, scene.label, setting, overrides)
+    row, path = runner.run(case, case.label, setting, overrides)
     path.unlink(missing_ok=True)
     return row
 
@@ -54,8 +54,10 @@ def over_speeds(runner: Runner, name: str) -> Row:
     folder = runner.folder / "speeds"
     words = ("case%task=equilibrium", f"sweep%operation%speed_rpm={SPEEDS}")
     options = [word for each in words for word in ("--set", each)]
-    case = ROOT / f"input/examples/{name}.nml"
-    done = launch([runner.program, case, "--quiet", "--overwrite", "--output", folder, *options], core=None)
+    input_file = ROOT / f"input/examples/{name}.nml"
+    done = launch(
+        [runner.program, input_file, "--quiet", "--overwrite", "--output", folder, *options], core=None
+    )
     shutil.rmtree(folder, ignore_errors=True)
     row = Row(runner.part, MAP, name, WARM[0], " ".join(words), done.seconds, MAP_SPEEDS)
     row.memory_mb = done.memory
@@ -67,21 +69,21 @@ def compared(rows: list[Row]) -> str:
     """Times, and the figures to reach."""
     lines = []
     for row in rows:
-        if row.scene == MAP:
+        if row.case == MAP:
             figure = f"{MAP_SECONDS:g} s", verdict(row.wall_seconds, MAP_SECONDS)
             words = f"{MAP_SPEEDS} speeds of `{row.group}`, {os.cpu_count()} cores", "equilibrium"
             lines.append((*words, row.setting, short(row.wall_seconds), "", *figure))
-        elif row.scene == MARCH.name:
-            lines.append(of_march(row, next(other for other in rows if other.scene == MARCH.name)))
+        elif row.case == MARCH.name:
+            lines.append(of_march(row, next(other for other in rows if other.case == MARCH.name)))
         else:
-            cold = next(each for each in rows if (each.scene, each.overrides.split()[0]) == key(row))
+            cold = next(each for each in rows if (each.case, each.overrides.split()[0]) == key(row))
             lines.append(of_single(row, cold))
     return table(" | task | oil | wall s | over one viscosity | to reach | ", lines)
 
 
 def key(row: Row) -> tuple[str, str]:
     """What a run with temperatures shares with the one without, which stands first."""
-    return row.scene, row.overrides.split()[0]
+    return row.case, row.overrides.split()[0]
 
 
 def of_single(row: Row, cold: Row) -> tuple:

@@ -16,9 +16,9 @@ import pytest
 import tiltpad as package
 from conftest import ENDLESS, EVERY_STEP, PATIENCE, one_error, shorten, wait_for, wait_for_checkpoint
 
-SCENE = "&friction model='lugre' / &operation duration=0.5 / &output checkpoint_seconds=0.01 /\n"
-#: What a scene may add: every kind of state, film and end that a resumed run must take up.
-SCENES = {
+CASE = "&friction model='lugre' / &operation duration=0.5 / &output checkpoint_seconds=0.01 /\n"
+#: What a case may add: every kind of state, film and end that a resumed run must take up.
+CASES = {
     "lugre": "",
     "bengisu": "--set friction%model='bengisu_akay' --set operation%duration=0.1",
     "none": "--set friction%model='none' --set operation%duration=2",
@@ -39,20 +39,20 @@ KILLS = 100
 
 @pytest.fixture
 def case(tmp_path):
-    (tmp_path / "case.nml").write_text(SCENE)
+    (tmp_path / "case.nml").write_text(CASE)
     return tmp_path
 
 
 @pytest.fixture(scope="module")
 def whole(tiltpad, tmp_path_factory):
-    """whole("lugre"): path of that scene's result, never interrupted."""
+    """whole("lugre"): path of that case's result, never interrupted."""
     folder = tmp_path_factory.mktemp("whole")
-    (folder / "case.nml").write_text(SCENE)
+    (folder / "case.nml").write_text(CASE)
 
-    def path(scene):
-        output = folder / f"{scene}.h5"
+    def path(case_name):
+        output = folder / f"{case_name}.h5"
         if not output.exists():
-            tiltpad("case.nml", "-q", "-o", output, *SCENES[scene].split(), cwd=folder, status=0)
+            tiltpad("case.nml", "-q", "-o", output, *CASES[case_name].split(), cwd=folder, status=0)
         return output
 
     return path
@@ -161,12 +161,12 @@ def test_a_ruptured_film_is_resumed_to_the_bit(start, tiltpad, case):
             assert (one[name][:] == other[name][:]).all(), name
 
 
-@pytest.mark.parametrize("scene", SCENES)
-def test_every_scene_can_be_resumed(start, tiltpad, case, whole, scene):
+@pytest.mark.parametrize("case_name", CASES)
+def test_every_case_can_be_resumed(start, tiltpad, case, whole, case_name):
     """Stopped at some parts of its way, the last time by kill -9."""
-    arguments = ["--resume", "case.h5", "case.nml", "-q", *SCENES[scene].split()]
+    arguments = ["--resume", "case.h5", "case.nml", "-q", *CASES[case_name].split()]
     output = case / "case.h5"
-    with h5py.File(whole(scene)) as file:
+    with h5py.File(whole(case_name)) as file:
         end = file["time"][-1]
     for number, part in ((signal.SIGTERM, 0), (signal.SIGUSR1, 0.05), (signal.SIGKILL, 0.1)):
         process = start(case, *arguments, *EVERY_STEP)
@@ -174,9 +174,9 @@ def test_every_scene_can_be_resumed(start, tiltpad, case, whole, scene):
         wait_for(lambda part=part: reached(output) > part * end, process)
         process.send_signal(number)
         process.wait(PATIENCE)
-        check_checkpoint(output, whole(scene))
+        check_checkpoint(output, whole(case_name))
     tiltpad(*arguments, cwd=case, status=0)
-    check_joined(case / "case.h5", whole(scene), resumes=3)
+    check_joined(case / "case.h5", whole(case_name), resumes=3)
 
 
 def test_kills_at_random_instants(start, case, whole):
@@ -219,7 +219,7 @@ def test_checkpoints_do_not_change_a_run(tiltpad, case, whole):
 
 def test_a_periodic_orbit_is_recognised_after_resuming(start, tiltpad, case):
     """The end by stop_when_periodic looks back over the interruption."""
-    smooth = SCENE.replace("lugre", "none")
+    smooth = CASE.replace("lugre", "none")
     (case / "case.nml").write_text(f"{smooth}&integration stop_when_periodic=1e-4 /\n")
     arguments = ["case.nml", "-q", "--set", "integration%max_step=1e-5"]
     tiltpad(*arguments, "-o", "whole.h5", cwd=case, status=0)

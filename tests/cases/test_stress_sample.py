@@ -8,10 +8,10 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "stress"))
 from limited import limited  # noqa: E402
+from stress_cases import draw, text  # noqa: E402
 from stress_judge import cause_of, judge, searched  # noqa: E402
-from stress_scenes import draw, text  # noqa: E402
 
-# scenes (seed, number) whose equilibrium the first search misses, by the method that finds it: pads one by
+# cases (seed, number) whose equilibrium the first search misses, by the method that finds it: pads one by
 # one (163, 172, 225), Newton from another start (144), the rest of an unloaded pad (15, 48, 70, 297, and 492
 # and 603 of seed 2); and films without load that press with 670 kN (205)
 HARD = {
@@ -36,17 +36,17 @@ FIXED = (9, 24, 40, 43, 59)
 
 
 def at_rest(program, folder, number, seed=1):
-    scene = draw(seed, number)
-    scene["case"]["task"] = "equilibrium"
-    (folder / "scene.nml").write_text(text(scene))
-    return limited([program, "scene.nml", "--quiet"], folder, LIMIT)
+    case_name = draw(seed, number)
+    case_name["case"]["task"] = "equilibrium"
+    (folder / "case.nml").write_text(text(case_name))
+    return limited([program, "case.nml", "--quiet"], folder, LIMIT)
 
 
 @pytest.mark.parametrize(("seed", "number"), HARD)
 def test_found(program, tmp_path, seed, number):
     run = at_rest(program, tmp_path, number, seed)
     assert run.returncode == 0, run.stderr
-    with h5py.File(tmp_path / "scene.h5") as file:
+    with h5py.File(tmp_path / "case.h5") as file:
         assert file.attrs["equilibrium_stability"] == HARD[seed, number]
         assert file["equilibrium/residual"][()] <= 1e-8
 
@@ -55,7 +55,7 @@ def test_rest_in_a_leap(program, tmp_path):
     # the film's force leaps, by a part of its error, where this bearing rests
     run = at_rest(program, tmp_path, 53, seed=2)
     assert run.returncode == 0, run.stderr
-    with h5py.File(tmp_path / "scene.h5") as file:
+    with h5py.File(tmp_path / "case.h5") as file:
         assert file.attrs["equilibrium_stability"] == "stable"
         assert file["equilibrium/residual"][()] <= 1e-6
 
@@ -65,7 +65,7 @@ def test_refused(program, tmp_path, number):
     run = at_rest(program, tmp_path, number)
     assert run.returncode == 2
     assert cause_of(run.stderr)
-    found, faults = searched(Path(program).parents[1] / "stress/global_search", tmp_path / "scene.nml")
+    found, faults = searched(Path(program).parents[1] / "stress/global_search", tmp_path / "case.nml")
     assert not faults
     assert found in ("none", "divergent")
 

@@ -46,7 +46,7 @@ def files(folder):
     return sorted(path.name for path in folder.iterdir())
 
 
-def scene_value(text, group, name):
+def case_value(text, group, name):
     block = re.search(rf"^&{group}\n(.*?)^/$", text, re.M | re.S)[1]
     return plain(re.search(rf"^ *{name} = (.*)$", block, re.M)[1])
 
@@ -61,7 +61,7 @@ def speed(path):
     with h5py.File(path) as file:
         assert file.attrs["complete"] == 1
         assert "&sweep" not in file.attrs["input"]
-        return float(scene_value(file.attrs["input"], "operation", "speed_rpm"))
+        return float(case_value(file.attrs["input"], "operation", "speed_rpm"))
 
 
 # ---- counting and checking -----------------------------------------------------------------------
@@ -109,16 +109,16 @@ def test_members_in_order_and_to_the_last_bit(tiltpad, case):
     assert result(tiltpad("--count", "case.nml", cwd=folder)) == (f"{len(members)}\n", [])
     for k, (rpm, mass) in enumerate(members, 1):
         text, _ = result(tiltpad("--check", "--member", k, "case.nml", cwd=folder))
-        assert float(scene_value(text, "operation", "speed_rpm")) == rpm
-        assert float(scene_value(text, "operation", "final_speed_rpm")) == rpm
-        assert float(scene_value(text, "rotor", "mass")) == mass
+        assert float(case_value(text, "operation", "speed_rpm")) == rpm
+        assert float(case_value(text, "operation", "final_speed_rpm")) == rpm
+        assert float(case_value(text, "rotor", "mass")) == mass
 
 
 def test_zip(tiltpad, case):
     folder = case(sweep("order='zip'", "operation%speed_rpm=1000,2000", "friction%model='none','lugre'"))
     for k, pair in enumerate([("1000", "'none'"), ("2000", "'lugre'")], 1):
         text, _ = result(tiltpad("--check", "--member", k, "case.nml", cwd=folder))
-        assert pair == (scene_value(text, "operation", "speed_rpm"), scene_value(text, "friction", "model"))
+        assert pair == (case_value(text, "operation", "speed_rpm"), case_value(text, "friction", "model"))
 
 
 def test_set_of_a_sweep(tiltpad, case):
@@ -257,7 +257,7 @@ def test_a_sweep_may_grow(tiltpad, case):
     assert [speed(folder / f"case/000{k}.h5") for k in (1, 2, 3)] == [3000, 4000, 5000]
 
 
-def test_the_same_scene_in_another_place_is_refused(tiltpad, case):
+def test_the_same_case_in_another_place_is_refused(tiltpad, case):
     """A member of a sweep over something else, or a run that is none: a study could not tell what it is."""
     folder = case(sweep("operation%speed_rpm=6500"))
     result(tiltpad("case.nml", cwd=folder))

@@ -6,9 +6,9 @@ from collections import Counter
 from dataclasses import dataclass, field
 from random import Random
 
+import cases
 import faults
 import mutate
-import scenes
 import spelling
 import sweeps
 from harness import Case, Crash, Hang, Harness, Reply
@@ -54,17 +54,17 @@ class Campaign:
         if self.corpus and kind < 0.6:
             self.check(mutate.mutated(dice, self.corpus), "changed", back=dice.random() < 0.2)
             return
-        scene = scenes.draw(dice, self.variables)
+        inputs = cases.draw(dice, self.variables)
         if kind < 0.8:
-            fault = faults.plant(dice, scene, self.variables)
+            fault = faults.plant(dice, inputs, self.variables)
             self.check(fault.case, f"fault: {fault.kind}", fault.words)
         elif kind < 0.95:
-            self.check(spelling.case(dice, scene, self.variables), "valid", intended=0)
+            self.check(spelling.case(dice, inputs, self.variables), "valid", intended=0)
         else:
             sweep, count = sweeps.draw(dice, self.variables)
             swept = {item.key.removeprefix("sweep%") for item in sweep.items}
-            scene = {key: value for key, value in scene.items() if key not in swept}
-            self.check(spelling.case(dice, scene, self.variables, sweep), "valid sweep", intended=count)
+            inputs = {key: value for key, value in inputs.items() if key not in swept}
+            self.check(spelling.case(dice, inputs, self.variables, sweep), "valid sweep", intended=count)
 
     def check(self, case: Case, kind: str, words=None, intended=None, back: bool = True) -> None:
         """Reads and judges a case."""

@@ -9,8 +9,8 @@ from dataclasses import replace
 from pathlib import Path
 from random import Random
 
+import cases
 import mutate
-import scenes
 import spelling
 from harness import SANITIZER, Case, Reply
 from judge import CONTROL, findings
@@ -71,7 +71,7 @@ def in_folder(dice: Random, kind, program: Path, variables: dict[str, Variable],
 
 def set_arguments(dice: Random, program: Path, folder: Path, variables, corpus):
     """A case with --set of any bytes, judged as the reader alone is."""
-    case = spelling.case(dice, scenes.draw(dice, variables), variables)
+    case = spelling.case(dice, cases.draw(dice, variables), variables)
     if corpus and dice.random() < 0.3:
         case = dice.choice(corpus)
     sets = list(case.sets)
@@ -102,8 +102,8 @@ def with_members(program: Path, folder: Path, arguments: list[bytes], resolved: 
     """What the harness would say of a sweep: how many, the resolved case, some members."""
     count = run(program, folder, b"--count", *arguments[1:])[1].strip()
     members = [*range(1, min(SHOWN, int(count)) + 1), *([int(count)] if int(count) > SHOWN else [])]
-    scenes = [run(program, folder, b"--member", b"%d" % k, *arguments)[1] for k in members]
-    return b"\0".join((count, resolved, *scenes, b""))
+    cases = [run(program, folder, b"--member", b"%d" % k, *arguments)[1] for k in members]
+    return b"\0".join((count, resolved, *cases, b""))
 
 
 def output_name(dice: Random, program: Path, folder: Path, variables, corpus):
@@ -173,20 +173,20 @@ def options(dice: Random, program: Path, folder: Path, variables, corpus):
 
 
 def extremes(dice: Random, program: Path, folder: Path, variables, corpus):
-    """A short run of any scene that is allowed: done, or given up with one line, in time."""
-    scene = scenes.draw(dice, variables)
-    while len(scene.get("pads%mass", ())) > 4:
-        scene = scenes.draw(dice, variables)
+    """A short run of any case that is allowed: done, or given up with one line, in time."""
+    inputs = cases.draw(dice, variables)
+    while len(inputs.get("pads%mass", ())) > 4:
+        inputs = cases.draw(dice, variables)
     # what belongs to a task of its own is refused without it
-    apart = ("pads", *scenes.OF_TASK)
-    scene = {key: value for key, value in scene.items() if variables[key].group not in scenes.OF_TASK}
+    apart = ("pads", *cases.OF_TASK)
+    inputs = {key: value for key, value in inputs.items() if variables[key].group not in cases.OF_TASK}
     for key in dice.sample(list(variables), 5):
-        if key not in scene and key not in scenes.SPECIAL and variables[key].group not in apart:
-            scene[key] = scenes.anything(dice, variables[key])
+        if key not in inputs and key not in cases.SPECIAL and variables[key].group not in apart:
+            inputs[key] = cases.anything(dice, variables[key])
     # within the time allowed: few pads and steps, films of a usual size
     duration = 10 ** dice.uniform(-9, -2)
     speed = max(
-        scene.get("operation%speed_rpm", (6500.0,))[0], scene.get("operation%final_speed_rpm", (0.0,))[0]
+        inputs.get("operation%speed_rpm", (6500.0,))[0], inputs.get("operation%final_speed_rpm", (0.0,))[0]
     )
     samples = max(1, min(10**6, int(1e4 * 60 / speed / duration)))
     sizes = {"circumferential_cells": 60, "axial_cells": 15, "axial_modes": 20, "max_sweeps": 10000}
@@ -201,8 +201,8 @@ def extremes(dice: Random, program: Path, folder: Path, variables, corpus):
     ]
     for name, most in sizes.items():
         key = f"film%{name}"
-        sets.append(f"{key}={int(min(most, scene.get(key, variables[key].default)[0]))}")
-    case = spelling.case(dice, scene, variables)
+        sets.append(f"{key}={int(min(most, inputs.get(key, variables[key].default)[0]))}")
+    case = spelling.case(dice, inputs, variables)
     (folder / "case.nml").write_bytes(case.text)
     arguments = [b"--quiet", b"case.nml"]
     for argument in (*case.sets, *(word.encode() for word in sets)):

@@ -59,26 +59,26 @@ class Fault:
     words: tuple[bytes, ...]
 
 
-def plant(dice: Random, scene: dict[str, tuple], variables: dict[str, Variable]) -> Fault:
-    """The scene as text with one fault in it."""
+def plant(dice: Random, inputs: dict[str, tuple], variables: dict[str, Variable]) -> Fault:
+    """The case as text with one fault in it."""
     kind = dice.choice((*KINDS, together, bad_set))
     if kind is together:
         return together(dice, variables)
     if kind is bad_set:
-        return bad_set(dice, scene, variables)
+        return bad_set(dice, inputs, variables)
     named = None
     while named is None:
-        named, groups = planted(dice, kind, scene, variables)
+        named, groups = planted(dice, kind, inputs, variables)
     text = spelling.file_text(dice, groups)
     # what has a line by now is named by it
     words = tuple(word if isinstance(word, bytes) else b"line %d: " % word.line for word in named)
     return Fault(Case(text), kind.__name__, words)
 
 
-def planted(dice: Random, kind, scene: dict[str, tuple], variables: dict[str, Variable]):
+def planted(dice: Random, kind, inputs: dict[str, tuple], variables: dict[str, Variable]):
     """What must be named, or None where the kind does not fit the variable; the groups with the fault."""
     variable = dice.choice(list(variables.values()))
-    units = [spelling.spelled(dice, variables[key], value) for key, value in scene.items()]
+    units = [spelling.spelled(dice, variables[key], value) for key, value in inputs.items()]
     unit = next((unit for unit in units if unit[0].key == variable.key), None)
     if not unit:
         size = 1 if variable.per_pad and not variable.fixes_pads else len(variable.default)
@@ -102,7 +102,7 @@ def together(dice: Random, variables: dict[str, Variable]) -> Fault:
     return Fault(Case(text), "together", (culprit.encode(),))
 
 
-def bad_set(dice: Random, scene: dict[str, tuple], variables: dict[str, Variable]) -> Fault:
+def bad_set(dice: Random, inputs: dict[str, tuple], variables: dict[str, Variable]) -> Fault:
     """An argument of --set that is none."""
     key = dice.choice(list(variables))
     group, name = key.encode().split(b"%")
@@ -118,5 +118,5 @@ def bad_set(dice: Random, scene: dict[str, tuple], variables: dict[str, Variable
     long = b"x" * dice.choice((1, 100, 4000))
     for form, word in ((b"GROUP", group), (b"NAME", name), (b"VALUE", value), (b"LONG", long)):
         argument = argument.replace(form, word)
-    text = spelling.case(dice, scene, variables)
+    text = spelling.case(dice, inputs, variables)
     return Fault(Case(text.text, (*text.sets, argument)), "bad_set", (b"--set",))

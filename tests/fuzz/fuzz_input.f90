@@ -10,9 +10,9 @@ program fuzz_input
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_size_t
    use errors, only: error_type
    use text, only: printable, to_text
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use sweep, only: sweep_type, sweep_from_text
-   use namelist_writer, only: scene_text
+   use namelist_writer, only: namelist_of
    use input_reference, only: reference_text
    use standard_output, only: write_output
    implicit none (type, external)
@@ -112,22 +112,22 @@ contains
       character(len=:), allocatable, intent(out) :: resolved, said
       type(error_type), allocatable, intent(out) :: error
       type(sweep_type) :: sweep
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       integer :: k
       call sweep_from_text(case_text, name, overrides, sweep, error)
       if (allocated(error)) return
       said = ''
       do k = 1, sweep%members
          if (k > most_members .and. k < sweep%members) cycle
-         call sweep%scene(k, scene, error)
+         call sweep%inputs(k, inputs, error)
          if (allocated(error)) return
-         said = said//scene_text(scene)//achar(0)
+         said = said//namelist_of(inputs)//achar(0)
       end do
       if (sweep%given) then
          call sweep%resolved(resolved, error)
          if (.not. allocated(error)) said = to_text(sweep%members)//achar(0)//resolved//achar(0)//said
       else
-         resolved = scene_text(scene)
+         resolved = namelist_of(inputs)
          said = resolved
       end if
    end subroutine resolve

@@ -31,11 +31,11 @@ def findings(case: Case, reply: Reply, variables: dict[str, Variable], words=Non
             found.append(f"accepted, but: {refused}")
         return found
     if reply.status == 0:
-        count, scenes = answered(reply.text)
-        if (count, len(scenes)) != (members, len(expected)):
+        count, cases = answered(reply.text)
+        if (count, len(cases)) != (members, len(expected)):
             return [*found, f"{count} members, not {members}"]
-        for scene, values in zip(scenes, expected, strict=True):
-            found += differences(values, scene)
+        for inputs, values in zip(cases, expected, strict=True):
+            found += differences(values, inputs)
     elif not UNFIT.match(reply.text):
         found.append("refused, but the second reader accepts it")
     return found

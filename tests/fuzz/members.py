@@ -1,4 +1,4 @@
-"""What a case stands for, by the second reader: one scene, or the members of a sweep."""
+"""What a case stands for, by the second reader: one run, or the members of a sweep."""
 
 import math
 from dataclasses import replace
@@ -34,8 +34,8 @@ def answered(text: bytes) -> tuple[int, list[dict[str, tuple]]]:
     """The same from what the harness says."""
     if b"\0" not in text:
         return 0, [resolved(text)]
-    count, _, *scenes = text.split(b"\0")[:-1]
-    return int(count), [resolved(scene) for scene in scenes]
+    count, _, *cases = text.split(b"\0")[:-1]
+    return int(count), [resolved(inputs) for inputs in cases]
 
 
 def swept_variables(assignments: list[Assignment], base: list[Assignment]):

@@ -9,12 +9,12 @@ from commands import LIMIT
 
 SOURCES = (
     "input/namelist_text",
-    "input/scene_namelist",
+    "input/case_namelist",
     "input/assigned_values",
     "input/number_syntax",
     "input/sweep",
     "input/namelist_writer",
-    "input/scene_fields",
+    "input/case_fields",
     "input/field_visitor",
 )
 
@@ -25,10 +25,10 @@ PAGE = """\
 
     make fuzz MINUTES={minutes:.0f} SEED={seed}
 
-The test draws each case as a random scene or makes it from earlier cases. The program's reader reads it,
+The test draws each case as a random case or makes it from earlier cases. The program's reader reads it,
 and the test judges the result:
 
-- **valid** scenes in any spelling (blanks, comments, commas, line ends, repeats, subscripts, exponents,
+- **valid** cases in any spelling (blanks, comments, commas, line ends, repeats, subscripts, exponents,
   quotes, capitals, order, `--set`) must be accepted with exactly the intended values;
 - **faults** of a known kind, one in each otherwise valid case, must be refused by one line that names the
   position and the faulty text;
@@ -43,7 +43,7 @@ the number of members that the second reader counts, and the members must have t
 there is no answer within {limit:g} s, the test counts a hang.
 
 **Commands** run the program itself, with any bytes after `--set`, any names of cases and results, and
-options in any order and number. The `extremes` are short runs of scenes at the limits of the allowed
+options in any order and number. The `extremes` are short runs of cases at the limits of the allowed
 ranges, which must be completed or end with one line within {command:g} s. Reader and program are built with
 bounds checks, floating-point traps and the sanitizers for addresses and undefined behaviour (the `extremes`
 run without sanitizers).

@@ -1,4 +1,4 @@
-"""A scene in any spelling that the reader allows: the same values in ever different text."""
+"""A case in any spelling that the reader allows: the same values in ever different text."""
 
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
@@ -35,10 +35,10 @@ class Group:
 
 
 def case(
-    dice: Random, scene: dict[str, tuple], variables: dict[str, Variable], sweep: Group | None = None
+    dice: Random, inputs: dict[str, tuple], variables: dict[str, Variable], sweep: Group | None = None
 ) -> Case:
-    """The scene as a case, some of it by --set, maybe with a sweep."""
-    units = [spelled(dice, variables[key], value) for key, value in scene.items()]
+    """The values as a case file, some of it by --set, maybe with a sweep."""
+    units = [spelled(dice, variables[key], value) for key, value in inputs.items()]
     sets, in_file = [], []
     share = dice.choice((0, 0, 0.1, 1))
     for unit in units:

@@ -1,8 +1,8 @@
-"""Sweeps for drawn scenes, right ones and wrong ones."""
+"""Sweeps for drawn cases, right ones and wrong ones."""
 
 from random import Random
 
-import scenes
+import cases
 import spelling
 from reference import Variable
 from spelling import Group, Item
@@ -35,9 +35,9 @@ def draw(dice: Random, variables: dict[str, Variable]) -> tuple[Group, int]:
 
 def sweepable(variables: dict[str, Variable]) -> list[Variable]:
     """Variables of one value that fit whatever the others are."""
-    apart = ("pads", *scenes.OF_TASK)
+    apart = ("pads", *cases.OF_TASK)
     # an oil may have another law of its viscosity
-    alone = (*scenes.SPECIAL, "case%title", "bearing%viscosity")
+    alone = (*cases.SPECIAL, "case%title", "bearing%viscosity")
     return [v for key, v in variables.items() if key not in alone
             and v.group not in apart and len(v.default) == 1]  # fmt: skip
 
@@ -57,7 +57,7 @@ def swept(dice: Random, variable: Variable, count: int | None) -> tuple[list[byt
     if number > 1 and dice.random() < 0.6:
         return [spread(dice, variable, number)], number
     return [
-        spelling.number(dice, scenes.number(dice, variable), variable.whole) for _ in range(number)
+        spelling.number(dice, cases.number(dice, variable), variable.whole) for _ in range(number)
     ], number
 
 
@@ -71,7 +71,7 @@ def spread(dice: Random, variable: Variable, number: int) -> bytes:
             first, last, step = last, first, -step
         return b"%d:%d:%d" % (first, last, step)
     low, high = max(variable.low, 1e-9), variable.high * 0.99
-    first, last = (scenes.log_between(dice, low, high) for _ in range(2))
+    first, last = (cases.log_between(dice, low, high) for _ in range(2))
     part = dice.choice((0.0, 0.5)) if number > 1 else 0.5
     words = [spelling.number(dice, x, whole=False) for x in (first, last)]
     if dice.random() < 0.5:

@@ -5,10 +5,10 @@ program test_coefficients
    use kinds, only: wp, pi, degree
    use text, only: to_text
    use errors, only: error_type
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use equations_of_motion, only: bearing_model, new_bearing_model
    use force_balance, only: forces
-   use case_scenes, only: scene_of
+   use input_cases, only: case_of
    use equilibrium, only: equilibrium_type, find_equilibrium
    use static_model, only: make_fine
    use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
@@ -29,9 +29,9 @@ program test_coefficients
 
 contains
 
-   !> The coefficients of a scene, and the model at whose rest y they are.
-   subroutine analyse(scene, what, found, static, fine, y)
-      type(scene_type), intent(in) :: scene
+   !> The coefficients of a case, and the model at whose rest y they are.
+   subroutine analyse(inputs, what, found, static, fine, y)
+      type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: what
       type(bearing_coefficients_type), intent(out) :: found
       type(equilibrium_type), intent(out), optional :: static
@@ -41,14 +41,14 @@ contains
       type(equilibrium_type) :: rest
       type(error_type), allocatable :: error
       real(wp), allocatable :: state(:)
-      model = new_bearing_model(scene)
+      model = new_bearing_model(inputs)
       call find_equilibrium(model, rest, error)
       if (.not. allocated(error)) then
          call make_fine(model, converged)
          call settle(converged, rest, state, error)
       end if
       if (.not. allocated(error)) call find_coefficients(converged, state, found, error)
-      if (.not. allocated(error) .and. scene%coefficients%threshold_up_to_rpm > 0) then
+      if (.not. allocated(error) .and. inputs%coefficients%threshold_up_to_rpm > 0) then
          call find_thresholds(converged, state, found, error)
       end if
       call expect_no_error(error, what)
@@ -58,24 +58,24 @@ contains
    end subroutine analyse
 
    !> The paper's bearing with films that do not rupture.
-   type(scene_type) function whole(speed_rpm) result(scene)
+   type(case_type) function whole(speed_rpm) result(inputs)
       real(wp), intent(in) :: speed_rpm
-      scene = scene_type()
-      scene%about%task = 'coefficients'
-      scene%film%cavitation = 'none'
-      scene%operation%speed_rpm = speed_rpm
-      scene%operation%final_speed_rpm = speed_rpm
+      inputs = case_type()
+      inputs%about%task = 'coefficients'
+      inputs%film%cavitation = 'none'
+      inputs%operation%speed_rpm = speed_rpm
+      inputs%operation%final_speed_rpm = speed_rpm
    end function whole
 
    !> Values of independent programs in MN/m and MN s/m, to six digits: to 1e-5 of the largest, which is what their
    !> films and ours differ by and the digits leave.
    subroutine published()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_coefficients_type) :: found
-      scene = whole(6500.0_wp)
-      scene%friction%model = 'lugre'
-      scene%coefficients%frequency_ratio = [1.0_wp, 0.5_wp]
-      call analyse(scene, 'tilting and radial', found)
+      inputs = whole(6500.0_wp)
+      inputs%friction%model = 'lugre'
+      inputs%coefficients%frequency_ratio = [1.0_wp, 0.5_wp]
+      call analyse(inputs, 'tilting and radial', found)
       call expect(all(found%bearings%pivot == ['free  ', 'stuck ', 'locked']), 'three ways of the pivots')
       call compare(found%stiffness(:, :, 1, 1), [521.449_wp, -0.768_wp, -0.200_wp, 522.734_wp], 'free, K')
       call compare(found%damping(:, :, 1, 1), [0.647359_wp, 0.0_wp, 0.0_wp, 0.648953_wp], 'free, C', 1e-3_wp)
@@ -85,13 +85,13 @@ contains
       call compare(found%damping(:, :, 1, 2), [0.964977_wp, -0.227835_wp, 0.227328_wp, 0.967452_wp], 'stuck, C')
       call compare(found%stiffness(1:1, 1:1, 1, 3), [873.050_wp], 'locked, K')
       call compare(found%damping(1:1, 1:1, 1, 3), [1.03309_wp], 'locked, C')
-      scene%pads%motion = 'tilting_only'
-      call analyse(scene, 'tilting only', found)
+      inputs%pads%motion = 'tilting_only'
+      call analyse(inputs, 'tilting only', found)
       call compare(diagonal(found%stiffness(:, :, 1, 1)), [511.106_wp, 512.137_wp], 'tilting only, K')
       call compare(diagonal(found%damping(:, :, 1, 1)), [0.977657_wp, 0.979630_wp], 'tilting only, C')
-      scene = whole(3000.0_wp)
-      scene%pads%motion = 'tilting_only'
-      call analyse(scene, 'tilting only at 3000 rpm', found)
+      inputs = whole(3000.0_wp)
+      inputs%pads%motion = 'tilting_only'
+      call analyse(inputs, 'tilting only at 3000 rpm', found)
       call expect(all(found%bearings%pivot == ['free  ', 'locked']), 'nothing sticks without friction')
       call compare(diagonal(found%stiffness(:, :, 1, 1)), [709.094_wp, 711.112_wp], '3000 rpm, K')
       call compare(diagonal(found%damping(:, :, 1, 1)), [2.06450_wp, 2.07038_wp], '3000 rpm, C')
@@ -110,17 +110,17 @@ contains
    end subroutine modes
 
    subroutine threshold()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_coefficients_type) :: found
-      scene = whole(6500.0_wp)
-      scene%rotor%mass = 200
-      scene%coefficients%threshold_up_to_rpm = 20000
-      call analyse(scene, 'threshold', found)
+      inputs = whole(6500.0_wp)
+      inputs%rotor%mass = 200
+      inputs%coefficients%threshold_up_to_rpm = 20000
+      call analyse(inputs, 'threshold', found)
       call expect_close(found%thresholds(1), 14945.85_wp, 0.015_wp, 'free')
       call expect(found%thresholds(2) > 6500 .and. found%thresholds(2) < found%thresholds(1), &
          & 'locked pivots lose stability before')
-      scene%coefficients%threshold_up_to_rpm = 8000
-      call analyse(scene, 'no threshold', found)
+      inputs%coefficients%threshold_up_to_rpm = 8000
+      call analyse(inputs, 'no threshold', found)
       call expect(all(ieee_is_nan(found%thresholds)), 'none up to 8000 rpm')
       call expect_close(found%sought_up_to, 8000.0_wp, 0.0_wp, 'all of the range was looked at')
    end subroutine threshold
@@ -128,12 +128,12 @@ contains
    !> What is displaced along +y is pushed along +z by Q > 0, in the sense of rotation: forward whirl is damped less,
    !> backward whirl more, and of two modes that are alike otherwise the difference of the real parts is Q/(m omega).
    subroutine cross_stiffness()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_coefficients_type) :: found
       complex(wp) :: forward
-      scene = whole(6500.0_wp)
-      scene%coefficients%cross_stiffness = 1e8_wp
-      call analyse(scene, 'cross-coupled stiffness', found)
+      inputs = whole(6500.0_wp)
+      inputs%coefficients%cross_stiffness = 1e8_wp
+      call analyse(inputs, 'cross-coupled stiffness', found)
       associate (first => found%modes(1))
          forward = first%shape(2, 1)/first%shape(1, 1)
          call expect_close(abs(forward - cmplx(0.0_wp, -1.0_wp, wp)), 0.0_wp, 0.02_wp, 'z lags y by a quarter')
@@ -151,21 +151,21 @@ contains
    end subroutine differences
 
    !> Four pads without preload: the loaded pads' films rupture at the trailing edges, two pads carry nothing.
-   type(scene_type) function ruptured() result(scene)
-      scene = scene_of('&case task = ''coefficients''/ &rotor mass = 1000/ &operation speed_rpm = 3000/ &bearing ' &
+   type(case_type) function ruptured() result(inputs)
+      inputs = case_of('&case task = ''coefficients''/ &rotor mass = 1000/ &operation speed_rpm = 3000/ &bearing ' &
          & //'journal_radius = 50e-3 axial_length = 50e-3 assembled_clearance = 100e-6 machined_clearance = 100e-6 ' &
          & //'viscosity = 20e-3/ &pads pivot_angle_deg = -45, 45, 135, 225 arc_deg = 80/')
    end function ruptured
 
-   subroutine against_differences(scene, what, part, tolerance)
-      type(scene_type), intent(in) :: scene
+   subroutine against_differences(inputs, what, part, tolerance)
+      type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: what
       !> Of the scale of each state that the differences span.
       real(wp), intent(in) :: part, tolerance
       type(bearing_coefficients_type) :: found
       type(bearing_model) :: model
       real(wp), allocatable :: y(:)
-      call analyse(scene, what, found, fine=model, y=y)
+      call analyse(inputs, what, found, fine=model, y=y)
       associate (x => model%layout%positions(), v => model%layout%rates())
          call agree(-over(model, y, x, part), found%bearings(1)%stiffness, model%scale(x), tolerance, what//', K')
          call agree(-over(model, y, v, part), found%bearings(1)%damping, model%scale(v), tolerance, what//', C')
@@ -212,14 +212,14 @@ contains
       call against_refined(ruptured(), 'ruptured', 2e-4_wp)
    end subroutine refinement
 
-   subroutine against_refined(scene, what, tolerance)
-      type(scene_type), intent(in) :: scene
+   subroutine against_refined(inputs, what, tolerance)
+      type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: what
       real(wp), intent(in) :: tolerance
-      type(scene_type) :: refined
+      type(case_type) :: refined
       type(bearing_coefficients_type) :: found, expected
-      call analyse(scene, what, found)
-      refined = scene
+      call analyse(inputs, what, found)
+      refined = inputs
       refined%film%table_tolerance = 2.5e-6_wp
       if (tolerance < 1e-5_wp) refined%film%table_tolerance = 1e-8_wp
       call analyse(refined, what//', refined', expected)
@@ -232,27 +232,27 @@ contains
    !> A little more load moves the journal by that over the stiffness at rest, weight of the pads included: differences
    !> over 2e-4 of the load to 1e-6.
    subroutine change_of_load()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_coefficients_type) :: found
       type(equilibrium_type) :: rest(-1:1)
       real(wp), parameter :: part = 1e-4_wp
       real(wp) :: force(2)
       integer :: axis, side
-      scene = whole(6500.0_wp)
-      scene%pads%mass = 50
-      scene%pads%inertia = 0.1_wp
-      scene%pads%centre_tangential = 5e-3_wp
-      scene%coefficients%frequency_ratio = [0.0_wp]
-      call analyse(scene, 'stiffness at rest', found)
+      inputs = whole(6500.0_wp)
+      inputs%pads%mass = 50
+      inputs%pads%inertia = 0.1_wp
+      inputs%pads%centre_tangential = 5e-3_wp
+      inputs%coefficients%frequency_ratio = [0.0_wp]
+      call analyse(inputs, 'stiffness at rest', found)
       do axis = 1, 2
          force = 0
-         force(axis) = part*scene%rotor%mass*scene%rotor%gravity
+         force(axis) = part*inputs%rotor%mass*inputs%rotor%gravity
          do side = -1, 1, 2
-            scene%rotor%static_load = side*force
-            call analyse(scene, 'other load', found, rest(side))
+            inputs%rotor%static_load = side*force
+            call analyse(inputs, 'other load', found, rest(side))
          end do
-         scene%rotor%static_load = 0
-         call analyse(scene, 'stiffness at rest', found)
+         inputs%rotor%static_load = 0
+         call analyse(inputs, 'stiffness at rest', found)
          associate (moved => 0.5_wp*(rest(1)%journal - rest(-1)%journal))
             call expect_close(norm2(matmul(found%stiffness(:, :, 1, 1), moved) - force), 0.0_wp, &
                & 1e-6_wp*norm2(force), 'force along axis '//to_text(axis))
@@ -263,24 +263,24 @@ contains
    !> A bearing and its load that are turned by an angle have the coefficients turned by it: rounding, and what rests
    !> differ by within the limit of the residual, 1e-8.
    subroutine rotation()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_coefficients_type) :: found, turned
       real(wp), parameter :: angle = 35
       real(wp) :: turn(2, 2)
       integer :: i
-      scene = whole(6500.0_wp)
-      scene%friction%model = 'bengisu_akay'
-      scene%pads%pivot_ratio = [0.55_wp, 0.6_wp]
-      scene%rotor%gravity = 0
-      scene%rotor%static_load = [-20e3_wp, 5e3_wp]
-      call analyse(scene, 'as it is', found)
+      inputs = whole(6500.0_wp)
+      inputs%friction%model = 'bengisu_akay'
+      inputs%pads%pivot_ratio = [0.55_wp, 0.6_wp]
+      inputs%rotor%gravity = 0
+      inputs%rotor%static_load = [-20e3_wp, 5e3_wp]
+      call analyse(inputs, 'as it is', found)
       associate (s => sin(angle*degree), c => cos(angle*degree))
          ! angles of pivots go from z to y
          turn = reshape([c, -s, s, c], [2, 2])
       end associate
-      scene%pads%pivot_angle_deg = scene%pads%pivot_angle_deg + angle
-      scene%rotor%static_load = matmul(turn, scene%rotor%static_load)
-      call analyse(scene, 'turned', turned)
+      inputs%pads%pivot_angle_deg = inputs%pads%pivot_angle_deg + angle
+      inputs%rotor%static_load = matmul(turn, inputs%rotor%static_load)
+      call analyse(inputs, 'turned', turned)
       do i = 1, size(found%bearings)
          call same(turn, found%stiffness(:, :, 1, i), turned%stiffness(:, :, 1, i), 'K, '//found%bearings(i)%pivot)
          call same(turn, found%damping(:, :, 1, i), turned%damping(:, :, 1, i), 'C, '//found%bearings(i)%pivot)
@@ -297,22 +297,22 @@ contains
    !> What sticking adds to the tilts is R1^2 F_bs times sigma_0, and sigma_1 + sigma_2, or 2 f_s/v_c; of pads that only
    !> tilt F_bs is the reaction of the pivot.
    subroutine sticking()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       integer :: i
-      scene = whole(6500.0_wp)
+      inputs = whole(6500.0_wp)
       do i = 1, 2
-         if (i == 2) scene%pads%motion = 'tilting_only'
-         scene%friction%model = 'lugre'
-         scene%friction%bristle_damping = 7
-         scene%friction%viscous_coefficient = 3
-         call adds(scene, 1e6_wp, 10.0_wp)
-         scene%friction%model = 'bengisu_akay'
-         call adds(scene, 0.0_wp, 2*0.1_wp/1e-5_wp)
+         if (i == 2) inputs%pads%motion = 'tilting_only'
+         inputs%friction%model = 'lugre'
+         inputs%friction%bristle_damping = 7
+         inputs%friction%viscous_coefficient = 3
+         call adds(inputs, 1e6_wp, 10.0_wp)
+         inputs%friction%model = 'bengisu_akay'
+         call adds(inputs, 0.0_wp, 2*0.1_wp/1e-5_wp)
       end do
    end subroutine sticking
 
-   subroutine adds(scene, stiffness, damping)
-      type(scene_type), intent(in) :: scene
+   subroutine adds(inputs, stiffness, damping)
+      type(case_type), intent(in) :: inputs
       !> Over R1^2 F_bs, 1/m and s/m.
       real(wp), intent(in) :: stiffness, damping
       type(bearing_coefficients_type) :: found
@@ -321,8 +321,8 @@ contains
       real(wp), parameter :: radius = 13e-3_wp - 15e-6_wp
       integer :: i
       character(len=:), allocatable :: what
-      what = scene%friction%model//', '//scene%pads%motion
-      call analyse(scene, what, found, static, model)
+      what = inputs%friction%model//', '//inputs%pads%motion
+      call analyse(inputs, what, found, static, model)
       associate (free => found%bearings(1), stuck => found%bearings(2), at => model%layout%first_position([1, 2]))
          do i = 1, 2
             associate (normal => radius**2*static%contact_force(i))

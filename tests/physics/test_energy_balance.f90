@@ -35,7 +35,7 @@ contains
       type(pad_state), allocatable :: pads(:)
       real(wp) :: power(6), film(2), frame(2, 2), a, speed, phase, weight
       integer :: pad
-      associate (b => self%bearing, p => self%bearing%scene%pads, n => self%bearing%n)
+      associate (b => self%bearing, p => self%bearing%inputs%pads, n => self%bearing%n)
          call b%rhs(t, y(:n), dydt(:n), ok)
          if (.not. ok) then
             self%refusal = b%refusal
@@ -57,7 +57,7 @@ contains
                   & - force(1)*b%bearing%pads(pad)%position%centre_distance*pads(pad)%tilt_rate
                power(3) = power(3) - films(pad)%friction_moment*pads(pad)%tilt_rate
                if (b%layout%radial) then
-                  weight = p%mass(pad)*b%scene%rotor%gravity
+                  weight = p%mass(pad)*b%inputs%rotor%gravity
                   power(2) = power(2) - force(2)*pads(pad)%penetration_rate
                   power(4) = power(4) + (p%mass(pad)*p%centre_radial(pad)*pads(pad)%tilt_rate**2 - weight*sin(a)) &
                      & *pads(pad)%penetration_rate
@@ -86,7 +86,7 @@ contains
       real(wp) :: pushed(2), friction, coefficient
       integer :: i
       journal = bearing%rotor%journal(y(:4))
-      coefficient = bearing%scene%asperity%friction_coefficient
+      coefficient = bearing%inputs%asperity%friction_coefficient
       do i = 1, size(pads)
          associate (load => bearing%bearing%asperity(i), pad => bearing%bearing%pads(i))
             if (.not. load%touches) cycle
@@ -128,7 +128,7 @@ contains
       journal = bearing%rotor%journal(y(:4))
       pads = bearing%layout%pad_states(y)
       pressed = 0
-      associate (p => bearing%bearing%pads(pad), gap => bearing%bearing%pads(pad)%gap, a => bearing%scene%asperity)
+      associate (p => bearing%bearing%pads(pad), gap => bearing%bearing%pads(pad)%gap, a => bearing%inputs%asperity)
          motion = p%motion(p%frame(journal, pads(pad)), journal, pads(pad))
          do i = 1, n
             phi = -gap%trailing_angle + (i - 0.5_wp)*gap%arc()/n
@@ -178,7 +178,7 @@ contains
       integer :: pad
       energy = 0
       pads = bearing%layout%pad_states(y)
-      associate (b => bearing, p => bearing%scene%pads, r => bearing%scene%rotor)
+      associate (b => bearing, p => bearing%inputs%pads, r => bearing%inputs%rotor)
          energy(1) = 0.5_wp*r%mass*dot_product(y(3:4), y(3:4))
          energy(3) = r%mass*r%gravity*y(1) - dot_product(r%static_load, y(1:2))
          do pad = 1, b%layout%pads
@@ -221,12 +221,12 @@ program test_energy_balance
    use kinds, only: wp, i8
    use text, only: to_text, exact_text
    use errors, only: error_type
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use sampled_march, only: march_samples
    use energy_ledger, only: ledger, energy_of
-   use case_scenes, only: scene_of
+   use input_cases, only: case_of
    use check, only: runs, expect, expect_no_error, report
    implicit none (type, external)
 
@@ -251,19 +251,19 @@ program test_energy_balance
 contains
 
    !> The paper's bearing with pads off their balance, without rupture.
-   type(scene_type) function shaken_scene(motion, friction, unbalance) result(scene)
+   type(case_type) function shaken_case(motion, friction, unbalance) result(inputs)
       character(len=*), intent(in) :: motion, friction
       real(wp), intent(in) :: unbalance
-      scene = scene_of('&pads centre_tangential = 2e-3, -3e-3, mass = 0.8108, inertia = 4.055e-4, ' &
+      inputs = case_of('&pads centre_tangential = 2e-3, -3e-3, mass = 0.8108, inertia = 4.055e-4, ' &
          & //'centre_radial = -10.1e-3, motion = '''//motion//''' / &friction model = '''//friction//''' / ' &
          & //'&film cavitation = ''none'' / &rotor unbalance = '//exact_text(unbalance)//' /')
-   end function shaken_scene
+   end function shaken_case
 
    !> Over 6 ms (two thirds of a revolution) the energy changes by the work done.
    subroutine balance(motion, friction, unbalance)
       character(len=*), intent(in) :: motion, friction
       real(wp), intent(in) :: unbalance
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_model) :: bearing
       type(equilibrium_type) :: static
       type(error_type), allocatable :: error
@@ -271,11 +271,11 @@ contains
       logical :: touched
       character(len=:), allocatable :: what
       what = motion//', '//friction//', unbalance '//to_text(unbalance)
-      scene = shaken_scene(motion, friction, unbalance)
-      bearing = new_bearing_model(scene)
+      inputs = shaken_case(motion, friction, unbalance)
+      bearing = new_bearing_model(inputs)
       call find_equilibrium(bearing, static, error)
       call expect_no_error(error, 'the equilibrium is found')
-      call closes(scene, bearing%at_rest(static%journal + [10e-6_wp, 5e-6_wp], static%tilt + [1e-4_wp, -5e-5_wp], &
+      call closes(inputs, bearing%at_rest(static%journal + [10e-6_wp, 5e-6_wp], static%tilt + [1e-4_wp, -5e-5_wp], &
          & static%penetration*[1.02_wp, 0.97_wp]), what, rubbed, touched)
       call expect(.not. touched, 'nothing touches, '//what)
       if (friction == 'none') then
@@ -290,20 +290,20 @@ contains
    subroutine bouncing(motion, coefficient)
       character(len=*), intent(in) :: motion
       real(wp), intent(in) :: coefficient
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_model) :: bearing
       real(wp), allocatable :: start(:)
       real(wp) :: rubbed
       logical :: touched
       character(len=:), allocatable :: what
       what = 'bouncing, '//motion//', friction '//to_text(coefficient)
-      scene = scene_of('&pads pivot_angle_deg = -45, 225, 90, centre_tangential = 2e-3, -3e-3, 1e-3, motion = ''' &
+      inputs = case_of('&pads pivot_angle_deg = -45, 225, 90, centre_tangential = 2e-3, -3e-3, 1e-3, motion = ''' &
          & //motion//''' / &film cavitation = ''gumbel'' / &rotor unbalance = 0 / &asperity friction_coefficient = ' &
          & //exact_text(coefficient)//' /')
-      bearing = new_bearing_model(scene)
+      bearing = new_bearing_model(inputs)
       start = bearing%at_rest([-55e-6_wp, 0.0_wp], [-0.2e-3_wp, 1.03e-3_wp, -3.4e-3_wp], [7e-6_wp, 7e-6_wp, 1e-6_wp])
       start(bearing%layout%tilt_rate(3)) = -1
-      call closes(scene, start, what, rubbed, touched)
+      call closes(inputs, start, what, rubbed, touched)
       call expect(touched, 'the edge strikes, '//what)
       call expect(merge(rubbed < 0, abs(rubbed) <= 0, coefficient > 0), 'friction takes work alone: ' &
          & //to_text(rubbed)//' J, '//what)
@@ -312,21 +312,21 @@ contains
    !> A journal is thrown onto fixed pads and comes back.
    subroutine striking(coefficient)
       real(wp), intent(in) :: coefficient
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_model) :: bearing
       real(wp), allocatable :: start(:)
       real(wp) :: rubbed
       logical :: touched
       character(len=:), allocatable :: what
       what = 'striking, friction '//to_text(coefficient)
-      scene = shaken_scene('fixed', 'none', 0.0_wp)
+      inputs = shaken_case('fixed', 'none', 0.0_wp)
       ! rough surfaces, which the film does not keep apart
-      scene%asperity%roughness = 3e-6_wp
-      scene%asperity%friction_coefficient = coefficient
-      bearing = new_bearing_model(scene)
+      inputs%asperity%roughness = 3e-6_wp
+      inputs%asperity%friction_coefficient = coefficient
+      bearing = new_bearing_model(inputs)
       start = bearing%at_rest([-60e-6_wp, 0.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp])
       start(3:4) = [-0.5_wp, 0.2_wp]
-      call closes(scene, start, what, rubbed, touched)
+      call closes(inputs, start, what, rubbed, touched)
       call expect(touched, 'it strikes, '//what)
       call expect(merge(rubbed < 0, abs(rubbed) <= 0, coefficient > 0), 'friction takes work alone: ' &
          & //to_text(rubbed)//' J, '//what)
@@ -335,8 +335,8 @@ contains
    !> Expects that energy and work balance over 6 ms. A step's error is the tolerance, of every state in its own scale
    !> and of the work in that of the power that flows: with n steps the balance closes to n tolerances of the work's
    !> amounts, and closer with closer tolerance.
-   subroutine closes(scene, start, what, rubbed, touched)
-      type(scene_type), intent(in) :: scene
+   subroutine closes(inputs, start, what, rubbed, touched)
+      type(case_type), intent(in) :: inputs
       real(wp), intent(in) :: start(:)
       character(len=*), intent(in) :: what
       real(wp), intent(out) :: rubbed
@@ -345,7 +345,7 @@ contains
       integer :: e
       coarse = 0
       do e = -4, -8, -2
-         call marched(scene, start, 10.0_wp**e, gap, flow, rubbed, steps, touched)
+         call marched(inputs, start, 10.0_wp**e, gap, flow, rubbed, steps, touched)
          call expect(gap < steps*10.0_wp**e*flow, 'energy balance at 1e'//to_text(e)//': '//to_text(gap)//' of ' &
             & //to_text(flow)//' J in '//to_text(steps)//' steps, '//what)
          if (e > -8) coarse = max(coarse, gap)
@@ -356,15 +356,15 @@ contains
 
    !> |change of energy - work|, the sum of the work's amounts, the friction's work, J, the steps, and whether a pad
    !> touched the journal.
-   subroutine marched(scene, start, tolerance, gap, flow, rubbed, steps, touched)
-      type(scene_type), intent(in) :: scene
+   subroutine marched(inputs, start, tolerance, gap, flow, rubbed, steps, touched)
+      type(case_type), intent(in) :: inputs
       real(wp), intent(in) :: start(:), tolerance
       real(wp), intent(out) :: gap, flow, rubbed, steps
       logical, intent(out) :: touched
       type(ledger), target :: model
       real(wp), allocatable :: y(:, :)
       integer(i8) :: count
-      model%bearing = new_bearing_model(scene)
+      model%bearing = new_bearing_model(inputs)
       model%n = model%bearing%n + 3
       allocate (y(model%n, 1))
       associate (n => model%bearing%n)

@@ -4,13 +4,13 @@ program test_equilibrium_table
    use kinds, only: wp, degree
    use text, only: to_text
    use errors, only: error_type, numerics_error
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use film_solver, only: film_oil, film_motion, film_response
    use pad_gap, only: pad_gap_type
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_reynolds
    use equations_of_motion, only: new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
-   use case_scenes, only: scene_of
+   use input_cases, only: case_of
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
 
@@ -42,20 +42,20 @@ program test_equilibrium_table
 
 contains
 
-   type(scene_type) function paper_scene(motion, speed_rpm) result(scene)
+   type(case_type) function paper_case(motion, speed_rpm) result(inputs)
       character(len=*), intent(in) :: motion
       real(wp), intent(in) :: speed_rpm
-      scene = scene_type()
-      scene%pads%motion = motion
-      scene%operation%speed_rpm = speed_rpm
-      scene%operation%final_speed_rpm = speed_rpm
-   end function paper_scene
+      inputs = case_type()
+      inputs%pads%motion = motion
+      inputs%operation%speed_rpm = speed_rpm
+      inputs%operation%final_speed_rpm = speed_rpm
+   end function paper_case
 
-   type(equilibrium_type) function found_in(scene) result(found)
-      type(scene_type), intent(in) :: scene
+   type(equilibrium_type) function found_in(inputs) result(found)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable :: error
-      call find_equilibrium(new_bearing_model(scene), found, error)
-      call expect_no_error(error, 'found: '//scene%pads%motion//', '//to_text(scene%operation%speed_rpm) &
+      call find_equilibrium(new_bearing_model(inputs), found, error)
+      call expect_no_error(error, 'found: '//inputs%pads%motion//', '//to_text(inputs%operation%speed_rpm) &
          & //' rpm')
    end function found_in
 
@@ -74,13 +74,13 @@ contains
 
    subroutine tilting_radial_table()
       type(equilibrium_type) :: found
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       integer :: k
       character(len=4), parameter :: solvers(2) = ['auto', 'sor ']
-      scene = paper_scene('tilting_radial', 6500.0_wp)
+      inputs = paper_case('tilting_radial', 6500.0_wp)
       do k = 1, 2
-         scene%film%solver = trim(solvers(k))
-         found = found_in(scene)
+         inputs%film%solver = trim(solvers(k))
+         found = found_in(inputs)
          call expect_place(found, [-55.595_wp, 0.0266_wp], [-0.2029_wp, 1.0269_wp], 41.512_wp, 'TR 6500 '//solvers(k))
          ! the pivots are 2 MN/mm stiff: their penetration follows the load, to its 1e-4, and not the film
          call expect_close(found%penetration(1), 7.0915e-6_wp, 1e-9_wp, 'penetration 1, '//solvers(k))
@@ -90,35 +90,35 @@ contains
 
    subroutine tilting_only_table(speed_rpm, journal, tilt, film)
       real(wp), intent(in) :: speed_rpm, journal(2), tilt(2), film
-      type(scene_type) :: scene
-      scene = paper_scene('tilting_only', speed_rpm)
-      call expect_place(found_in(scene), journal, tilt, film, 'TO '//to_text(speed_rpm))
-      scene%film%solver = 'sor'
-      call expect_place(found_in(scene), journal, tilt, film, 'TO sor '//to_text(speed_rpm))
+      type(case_type) :: inputs
+      inputs = paper_case('tilting_only', speed_rpm)
+      call expect_place(found_in(inputs), journal, tilt, film, 'TO '//to_text(speed_rpm))
+      inputs%film%solver = 'sor'
+      call expect_place(found_in(inputs), journal, tilt, film, 'TO sor '//to_text(speed_rpm))
    end subroutine tilting_only_table
 
    !> The over-relaxed film is of second order, so the journal's place is too: errors against the converged
    !> value, known to 0.001 um, fall fourfold from 30 x 8 to 60 x 16 and to 120 x 32 cells (to a third or less), and
    !> extrapolation from the two finest meets it within its last digit.
    subroutine grid_convergence()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(equilibrium_type) :: found
       real(wp) :: off(0:2)
       integer :: k
-      scene = paper_scene('tilting_only', 6500.0_wp)
-      scene%film%solver = 'sor'
+      inputs = paper_case('tilting_only', 6500.0_wp)
+      inputs%film%solver = 'sor'
       do k = 0, 2
-         scene%film%circumferential_cells = 30*2**k
-         scene%film%axial_cells = 8*2**k
-         found = found_in(scene)
+         inputs%film%circumferential_cells = 30*2**k
+         inputs%film%axial_cells = 8*2**k
+         found = found_in(inputs)
          off(k) = found%journal(1) + 45.561e-6_wp
       end do
       call expect(abs(off(1)) < 0.35_wp*abs(off(0)), 'closer on 60 x 16 cells: '//to_text(off(0))//' '//to_text(off(1)))
       call expect(abs(off(2)) < 0.35_wp*abs(off(1)), 'closer on 120 x 32 cells: '//to_text(off(1))//' ' &
          & //to_text(off(2)))
       call expect_close((4*off(2) - off(1))/3, 0.0_wp, 1e-9_wp, 'extrapolated journal')
-      scene = paper_scene('tilting_only', 6500.0_wp)
-      found = found_in(scene)
+      inputs = paper_case('tilting_only', 6500.0_wp)
+      found = found_in(inputs)
       call expect_close(found%journal(1), -45.561e-6_wp, 1e-9_wp, 'axial modes are there already')
    end subroutine grid_convergence
 
@@ -126,21 +126,21 @@ contains
    !> and a film solution of its own, converged to 1e-10 (amplified by 1e3: 1e-7 of a film force).
    subroutine independent_balance(motion)
       character(len=*), intent(in) :: motion
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(equilibrium_type) :: found
       type(sor_film_type) :: solver
       type(pad_gap_type) :: film
       type(film_response) :: r
       real(wp) :: total(2), a, theta, pivot(2), centre(2), e(2), load, along(2), outward(2), weight
       integer :: pad
-      scene = paper_scene(motion, 4000.0_wp)
-      scene%film%solver = 'sor'
-      scene%film%cavitation = 'reynolds'
-      scene%rotor%static_load = [1e3_wp, 5e3_wp]
-      scene%pads%pivot_ratio = 0.55_wp
-      scene%pads%centre_tangential = 3e-3_wp
-      found = found_in(scene)
-      associate (b => scene%bearing, p => scene%pads)
+      inputs = paper_case(motion, 4000.0_wp)
+      inputs%film%solver = 'sor'
+      inputs%film%cavitation = 'reynolds'
+      inputs%rotor%static_load = [1e3_wp, 5e3_wp]
+      inputs%pads%pivot_ratio = 0.55_wp
+      inputs%pads%centre_tangential = 3e-3_wp
+      found = found_in(inputs)
+      associate (b => inputs%bearing, p => inputs%pads)
          film = pad_gap_type(b%journal_radius, b%machined_clearance, b%axial_length, 0.55_wp*69.3_wp*degree, &
             & 0.45_wp*69.3_wp*degree, 0.0_wp, 0.0_wp, 0.0_wp)
          solver = new_sor_film([film, film], sor_options(tolerance=1e-10_wp, max_sweeps=100000, &
@@ -158,7 +158,7 @@ contains
             e = found%journal - centre
             call solver%evaluate_pad(pad, film_motion([dot_product(e, along), dot_product(e, outward)]), &
                & film_oil(b%viscosity), &
-               & scene%highest_speed(), .false., r)
+               & inputs%highest_speed(), .false., r)
             total = total + r%force(1)*along + r%force(2)*outward
             weight = p%mass(pad)*9.81_wp
             ! moments about the pivot over its distance; forces along the pad's radius
@@ -176,20 +176,20 @@ contains
    !> Without gravity nothing tells up from sideways: with pivots and load turned by an angle, journal and
    !> pads are found turned by it. Both solutions balance to 1e-8 of the load, 1e-8 of the clearance.
    subroutine turned_bearing()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(equilibrium_type) :: straight, turned
       real(wp) :: c, s
       real(wp), parameter :: angle = 73
-      scene = paper_scene('tilting_radial', 6500.0_wp)
-      scene%rotor%gravity = 0
-      scene%rotor%static_load = [-2e4_wp, 3e3_wp]
-      straight = found_in(scene)
+      inputs = paper_case('tilting_radial', 6500.0_wp)
+      inputs%rotor%gravity = 0
+      inputs%rotor%static_load = [-2e4_wp, 3e3_wp]
+      straight = found_in(inputs)
       c = cos(angle*degree)
       s = sin(angle*degree)
       ! pivots stand at (sin, cos): a growing angle turns from z towards y
-      scene%pads%pivot_angle_deg = scene%pads%pivot_angle_deg + angle
-      scene%rotor%static_load = [c*(-2e4_wp) + s*3e3_wp, -s*(-2e4_wp) + c*3e3_wp]
-      turned = found_in(scene)
+      inputs%pads%pivot_angle_deg = inputs%pads%pivot_angle_deg + angle
+      inputs%rotor%static_load = [c*(-2e4_wp) + s*3e3_wp, -s*(-2e4_wp) + c*3e3_wp]
+      turned = found_in(inputs)
       call expect_close(norm2(turned%journal - [c*straight%journal(1) + s*straight%journal(2), &
          & -s*straight%journal(1) + c*straight%journal(2)]), 0.0_wp, 1e-11_wp, 'the journal turns with the bearing')
       call expect_close(maxval(abs(turned%tilt - straight%tilt)), 0.0_wp, 1e-9_wp, 'tilts stay')
@@ -203,16 +203,16 @@ contains
       character(len=*), intent(in) :: motion
       real(wp), parameter :: speeds(*) = [300.0_wp, 1000.0_wp, 3500.0_wp, 15000.0_wp], loads(*) = [0.1_wp, 0.5_wp, &
          & 3.0_wp]
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(equilibrium_type) :: found
       real(wp) :: height(size(speeds), size(loads))
       integer :: i, k
       height = 0
       do i = 1, size(speeds)
          do k = 1, size(loads)
-            scene = paper_scene(motion, speeds(i))
-            scene%rotor%static_load = [-(loads(k) - 1)*2000*9.81_wp, 0.0_wp]
-            found = found_in(scene)
+            inputs = paper_case(motion, speeds(i))
+            inputs%rotor%static_load = [-(loads(k) - 1)*2000*9.81_wp, 0.0_wp]
+            found = found_in(inputs)
             height(i, k) = found%journal(1)
             if (allocated(found%min_film_thickness)) call expect(minval(found%min_film_thickness) > 0, 'films are open')
          end do
@@ -224,7 +224,7 @@ contains
    !> Two light pads above the journal float off their pivots, pads tighter than the clearance: their rest is found.
    subroutine floating_pads()
       type(equilibrium_type) :: found
-      found = found_in(scene_of('&bearing journal_radius = 0.074, machined_clearance = 74e-6, ' &
+      found = found_in(case_of('&bearing journal_radius = 0.074, machined_clearance = 74e-6, ' &
          & //'assembled_clearance = 89e-6, axial_length = 0.1, viscosity = 0.023 / &rotor mass = 46 / ' &
          & //'&operation speed_rpm = 1000 / &pivot socket_radius = 0.026, radius_difference = 17e-6 / ' &
          & //'&pads pivot_angle_deg = 126, 198, 270, 342, 54, arc_deg = 44, 56, 52, 66, 26, pivot_ratio = 0.52, ' &
@@ -239,12 +239,12 @@ contains
    !> A load away from the two lower pads is carried by nothing: that is told, in words.
    subroutine no_equilibrium(motion)
       character(len=*), intent(in) :: motion
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(equilibrium_type) :: found
       type(error_type), allocatable :: error
-      scene = paper_scene(motion, 3000.0_wp)
-      scene%rotor%static_load = [3*2000*9.81_wp, 0.0_wp]
-      call find_equilibrium(new_bearing_model(scene), found, error)
+      inputs = paper_case(motion, 3000.0_wp)
+      inputs%rotor%static_load = [3*2000*9.81_wp, 0.0_wp]
+      call find_equilibrium(new_bearing_model(inputs), found, error)
       call expect_error(error, numerics_error, 'no equilibrium found', 'a load away from the pads, '//motion)
    end subroutine no_equilibrium
 end program test_equilibrium_table

@@ -4,7 +4,7 @@ program test_fixed_pads
    use kinds, only: wp, pi, rpm, degree
    use text, only: to_text
    use errors, only: error_type
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use equations_of_motion, only: bearing_model, new_bearing_model
    use force_balance, only: force_derivatives
    use film_solver, only: film_solver_type, film_motion, film_response
@@ -17,7 +17,7 @@ program test_fixed_pads
    use equilibrium, only: equilibrium_type, find_equilibrium
    use pad_behaviour, only: whirl_of
    use sampled_march, only: march_samples
-   use case_scenes, only: scene_of, listed
+   use input_cases, only: case_of, listed
    use check, only: runs, expect, expect_close, expect_no_error, between, report
    implicit none (type, external)
 
@@ -44,13 +44,13 @@ contains
 
    !> A bearing of fixed pads with a diameter of 100 mm and a clearance of 1 per mille at 3000 rpm that carries 5 kN
    !> downwards.
-   type(scene_type) function fixed_scene(pivots, arcs, length_ratio) result(scene)
+   type(case_type) function fixed_case(pivots, arcs, length_ratio) result(inputs)
       real(wp), intent(in) :: pivots(:), arcs(:), length_ratio
-      scene = scene_of('&pads motion = ''fixed'', pivot_angle_deg = '//listed(pivots)//', arc_deg = '//listed(arcs) &
+      inputs = case_of('&pads motion = ''fixed'', pivot_angle_deg = '//listed(pivots)//', arc_deg = '//listed(arcs) &
          & //' / &bearing journal_radius = 50e-3, assembled_clearance = 50e-6, preload = 0, viscosity = 0.02, ' &
          & //'axial_length = '//listed([0.1_wp*length_ratio])//' / &operation speed_rpm = 3000 / ' &
          & //'&rotor unbalance = 0, mass = '//listed([5e3_wp/9.81_wp])//' /')
-   end function fixed_scene
+   end function fixed_case
 
    !> Forces, N, of a bearing of one fixed pad all around, its groove where the film is thickest, on a journal that is
    !> off its middle, downwards, by a part of the clearance: towards the middle and in the sense of the rotation.
@@ -58,14 +58,14 @@ contains
       real(wp), intent(in) :: length_ratio, eccentricity
       character(len=*), intent(in) :: cavitation, solver
       real(wp) :: force(2)
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_model) :: model
       logical :: ok
-      scene = fixed_scene([-90.0_wp], [360.0_wp], length_ratio)
-      scene%film%cavitation = cavitation
-      scene%film%solver = solver
-      model = new_bearing_model(scene)
-      call model%evaluate(0.0_wp, model%at_rest([-eccentricity*scene%bearing%assembled_clearance, 0.0_wp], [0.0_wp], &
+      inputs = fixed_case([-90.0_wp], [360.0_wp], length_ratio)
+      inputs%film%cavitation = cavitation
+      inputs%film%solver = solver
+      model = new_bearing_model(inputs)
+      call model%evaluate(0.0_wp, model%at_rest([-eccentricity*inputs%bearing%assembled_clearance, 0.0_wp], [0.0_wp], &
          & [0.0_wp]), .false., ok)
       call expect(ok, 'a film at '//to_text(eccentricity))
       force = model%bearing%loads(1)%journal*[1, -1]
@@ -76,13 +76,13 @@ contains
    !> where the film is thin: a tenth. With the condition of Reynolds the film is the same, and volumes err by 2e-3.
    subroutine short_bearing()
       real(wp), parameter :: e(3) = [0.2_wp, 0.5_wp, 0.8_wp]
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       real(wp) :: exact(2), off(0:2), ratio
       integer :: i, k
       do i = 1, size(e)
          do k = 0, 2
-            scene = fixed_scene([-90.0_wp], [360.0_wp], 0.1_wp/2**k)
-            associate (b => scene)
+            inputs = fixed_case([-90.0_wp], [360.0_wp], 0.1_wp/2**k)
+            associate (b => inputs)
                exact = b%bearing%viscosity*b%operation%speed_rpm*rpm*b%bearing%journal_radius &
                   & *b%bearing%axial_length**3/b%bearing%assembled_clearance**2 &
                   & *e(i)/(1 - e(i)**2)**2*[e(i), pi/4*sqrt(1 - e(i)**2)]
@@ -104,14 +104,14 @@ contains
    !> doubled, and the extrapolated force errs as the modes do, 1e-4 (docs/theory/film.md).
    subroutine long_bearing()
       real(wp), parameter :: e(3) = [0.2_wp, 0.5_wp, 0.8_wp]
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       real(wp) :: exact(2), forces(2, 0:2), found(2), unit
       integer :: i, k, whole
       do i = 1, size(e)
          do whole = 0, 1
             do k = 0, 2
-               scene = fixed_scene([-90.0_wp], [360.0_wp], 6.0_wp*2**k)
-               associate (b => scene)
+               inputs = fixed_case([-90.0_wp], [360.0_wp], 6.0_wp*2**k)
+               associate (b => inputs)
                   unit = 12*b%bearing%viscosity*b%operation%speed_rpm*rpm*b%bearing%journal_radius &
                      & *((b%bearing%journal_radius + b%bearing%assembled_clearance)/b%bearing%assembled_clearance)**2 &
                      & *b%bearing%axial_length
@@ -132,14 +132,14 @@ contains
    end subroutine long_bearing
 
    !> The bearing of Lund and Thomsen: two pads of 160 degrees, grooves at the horizontal split.
-   type(scene_type) function two_grooves(length_ratio) result(scene)
+   type(case_type) function two_grooves(length_ratio) result(inputs)
       real(wp), intent(in) :: length_ratio
-      scene = fixed_scene([-90.0_wp, 90.0_wp], [160.0_wp, 160.0_wp], length_ratio)
+      inputs = fixed_case([-90.0_wp, 90.0_wp], [160.0_wp, 160.0_wp], length_ratio)
    end function two_grooves
 
    !> The bearing at rest at a Sommerfeld number mu N L D/W (R/c)^2: by the viscosity.
-   subroutine rest_at(scene, sommerfeld, rest, model)
-      type(scene_type), intent(inout) :: scene
+   subroutine rest_at(inputs, sommerfeld, rest, model)
+      type(case_type), intent(inout) :: inputs
       real(wp), intent(in) :: sommerfeld
       type(rest_type), intent(out) :: rest
       type(bearing_model), intent(out) :: model
@@ -147,25 +147,25 @@ contains
       type(error_type), allocatable :: error
       real(wp) :: load, k(2, 2), c(2, 2)
       logical :: ok
-      load = scene%rotor%mass*scene%rotor%gravity
-      associate (b => scene%bearing)
+      load = inputs%rotor%mass*inputs%rotor%gravity
+      associate (b => inputs%bearing)
          b%viscosity = sommerfeld*load*(b%assembled_clearance/b%journal_radius)**2 &
-            & /(scene%operation%speed_rpm/60*b%axial_length*2*b%journal_radius)
+            & /(inputs%operation%speed_rpm/60*b%axial_length*2*b%journal_radius)
       end associate
-      model = new_bearing_model(scene)
+      model = new_bearing_model(inputs)
       call find_equilibrium(model, found, error)
       call expect_no_error(error, 'an equilibrium at S = '//to_text(sommerfeld))
       if (allocated(error)) return
       rest%sommerfeld = sommerfeld
-      rest%eccentricity = norm2(found%journal)/scene%bearing%assembled_clearance
+      rest%eccentricity = norm2(found%journal)/inputs%bearing%assembled_clearance
       rest%attitude = atan2(-found%journal(2), -found%journal(1))/degree
       call model%evaluate(0.0_wp, model%at_rest(found%journal, found%tilt, found%penetration), .true., ok)
       call expect(ok, 'derivatives at S = '//to_text(sommerfeld))
       call force_derivatives(model, k, c)
       ! along the load is -y, across it, in the sense of the rotation, -z: both turn the signs of no coefficient
-      associate (scale => scene%bearing%assembled_clearance/load)
+      associate (scale => inputs%bearing%assembled_clearance/load)
          rest%stiffness = -scale*[k(1, 1), k(1, 2), k(2, 1), k(2, 2)]
-         rest%damping = -scale*scene%operation%speed_rpm*rpm*[c(1, 1), c(1, 2), c(2, 1), c(2, 2)]
+         rest%damping = -scale*inputs%operation%speed_rpm*rpm*[c(1, 1), c(1, 2), c(2, 1), c(2, 2)]
       end associate
    end subroutine rest_at
 
@@ -184,13 +184,13 @@ contains
    subroutine compare_with(length_ratio, table)
       real(wp), intent(in) :: length_ratio
       type(rest_type), intent(in) :: table
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(rest_type) :: rest
       type(bearing_model) :: model
       integer :: k
       character(len=:), allocatable :: what
-      scene = two_grooves(length_ratio)
-      call rest_at(scene, table%sommerfeld, rest, model)
+      inputs = two_grooves(length_ratio)
+      call rest_at(inputs, table%sommerfeld, rest, model)
       what = ', L/D '//to_text(length_ratio)//', S = '//to_text(table%sommerfeld)
       call expect_close(rest%eccentricity, table%eccentricity, 3e-3_wp*table%eccentricity + 5e-4_wp, &
          & 'eccentricity'//what)
@@ -207,20 +207,20 @@ contains
    !> The bore by plane geometry: around each pivot the circle of radius R_J + c_m whose middle is c_m - c_r beyond that
    !> of the bearing, away from the pivot. Where a bore is cylindrical it does not matter where it is anchored.
    subroutine lobes()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_model) :: model
       type(rest_type) :: rest, elsewhere
       type(film_motion) :: motion
       type(pad_state) :: still
       real(wp) :: journal(2), middle(2), phi, direction(2), found, expected
       integer :: i, k
-      scene = fixed_scene([-100.0_wp, 80.0_wp], [160.0_wp, 150.0_wp], 0.5_wp)
-      scene%pads%pivot_ratio = [0.9_wp, 0.3_wp]
-      scene%bearing%machined_clearance = 2*scene%bearing%assembled_clearance
-      model = new_bearing_model(scene)
+      inputs = fixed_case([-100.0_wp, 80.0_wp], [160.0_wp, 150.0_wp], 0.5_wp)
+      inputs%pads%pivot_ratio = [0.9_wp, 0.3_wp]
+      inputs%bearing%machined_clearance = 2*inputs%bearing%assembled_clearance
+      model = new_bearing_model(inputs)
       journal = [1.1e-5_wp, -2.3e-5_wp]
       do i = 1, 2
-         associate (pad => model%bearing%pads(i), b => scene%bearing, angle => scene%pads%pivot_angle_deg(i)*degree)
+         associate (pad => model%bearing%pads(i), b => inputs%bearing, angle => inputs%pads%pivot_angle_deg(i)*degree)
             motion = pad%motion(pad%frame(journal_motion(journal), still), journal_motion(journal), still)
             middle = -(b%machined_clearance - b%assembled_clearance)*[sin(angle), cos(angle)]
             do k = 0, 6
@@ -232,11 +232,11 @@ contains
             end do
          end associate
       end do
-      scene = two_grooves(0.5_wp)
-      call rest_at(scene, 0.5_wp, rest, model)
-      scene%pads%pivot_ratio = [0.25_wp, 0.75_wp]
-      scene%pads%pivot_angle_deg = [-50.0_wp, 50.0_wp]
-      call rest_at(scene, 0.5_wp, elsewhere, model)
+      inputs = two_grooves(0.5_wp)
+      call rest_at(inputs, 0.5_wp, rest, model)
+      inputs%pads%pivot_ratio = [0.25_wp, 0.75_wp]
+      inputs%pads%pivot_angle_deg = [-50.0_wp, 50.0_wp]
+      call rest_at(inputs, 0.5_wp, elsewhere, model)
       call expect_close(elsewhere%eccentricity, rest%eccentricity, 1e-8_wp, 'anchored elsewhere')
       call expect_close(norm2(elsewhere%stiffness - rest%stiffness), 0.0_wp, 1e-6_wp*norm2(rest%stiffness), &
          & 'its stiffness')
@@ -245,23 +245,23 @@ contains
    !> Bearing and load turned by an angle: so do place and coefficients.
    subroutine turned()
       real(wp), parameter :: angle = 37*degree
-      type(scene_type) :: scene, other
+      type(case_type) :: inputs, other
       type(bearing_model) :: model
       type(equilibrium_type) :: rest(2)
       type(error_type), allocatable :: error
       real(wp) :: turn(2, 2), k(2, 2, 2), c(2, 2, 2)
       integer :: i
       logical :: ok
-      scene = two_grooves(0.5_wp)
-      other = scene
+      inputs = two_grooves(0.5_wp)
+      other = inputs
       ! angles count from +z towards +y
       turn = reshape([cos(angle), -sin(angle), sin(angle), cos(angle)], [2, 2])
-      other%pads%pivot_angle_deg = scene%pads%pivot_angle_deg + angle/degree
-      associate (load => scene%rotor%mass*scene%rotor%gravity)
+      other%pads%pivot_angle_deg = inputs%pads%pivot_angle_deg + angle/degree
+      associate (load => inputs%rotor%mass*inputs%rotor%gravity)
          other%rotor%static_load = matmul(turn, [-load, 0.0_wp]) + [load, 0.0_wp]
       end associate
       do i = 1, 2
-         model = new_bearing_model(scene)
+         model = new_bearing_model(inputs)
          if (i == 2) model = new_bearing_model(other)
          call find_equilibrium(model, rest(i), error)
          call expect_no_error(error, 'an equilibrium')
@@ -282,19 +282,19 @@ contains
    subroutine wide_films()
       character(len=*), parameter :: solvers(3) = [character(len=6) :: 'direct', 'sor', 'auto']
       real(wp), parameter :: allowed(3) = [1e-3_wp, 5e-3_wp, 1e-3_wp]
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       real(wp) :: worst(3), finer, place(2), drive(2)
       integer :: i, k
       worst = 0
       finer = 0
       do i = 1, 16
-         scene = fixed_scene([-90.0_wp], [between(150.0_wp, 360.0_wp)], between(0.3_wp, 1.2_wp))
+         inputs = fixed_case([-90.0_wp], [between(150.0_wp, 360.0_wp)], between(0.3_wp, 1.2_wp))
          place = [between(0.1_wp, 0.93_wp), between(-pi, pi)]
          drive = [between(0.0_wp, 0.3_wp), between(-pi, pi)]
          do k = 1, size(solvers)
-            worst(k) = max(worst(k), error_of(scene, solvers(k), 1, place, drive))
+            worst(k) = max(worst(k), error_of(inputs, solvers(k), 1, place, drive))
          end do
-         finer = max(finer, error_of(scene, solvers(1), 2, place, drive))
+         finer = max(finer, error_of(inputs, solvers(1), 2, place, drive))
       end do
       do k = 1, size(solvers)
          print '(2a, es9.1)', 'wide films, largest error of the force, ', solvers(k), worst(k)
@@ -307,24 +307,24 @@ contains
    !> Error of the force of a solver with so many times its volumes, with the journal off the middle by a part of the
    !> clearance, towards an angle, and a velocity of a part of clearance times shaft speed, towards another.
    real(wp) function error_of(bearing, solver, finer, place, drive)
-      type(scene_type), intent(in) :: bearing
+      type(case_type), intent(in) :: bearing
       character(len=*), intent(in) :: solver
       integer, intent(in) :: finer
       real(wp), intent(in) :: place(2), drive(2)
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       class(film_solver_type), allocatable :: film
       type(film_response) :: found(1)
       type(film_state) :: state
       type(volumes_type) :: expected, whole
       real(wp) :: surface
-      scene = bearing
-      scene%film%solver = trim(solver)
+      inputs = bearing
+      inputs%film%solver = trim(solver)
       if (finer > 1) then
-         scene%film%circumferential_cells = finer*80*max(1, nint(scene%pads%arc_deg(1)/120))
-         scene%film%axial_cells = finer*8
+         inputs%film%circumferential_cells = finer*80*max(1, nint(inputs%pads%arc_deg(1)/120))
+         inputs%film%axial_cells = finer*8
       end if
-      call make_film(scene, march_films, film)
-      associate (b => scene%bearing, arc => scene%pads%arc_deg(1)*degree)
+      call make_film(inputs, march_films, film)
+      associate (b => inputs%bearing, arc => inputs%pads%arc_deg(1)*degree)
          surface = b%machined_clearance*shaft_speed
          state%gap = pad_gap_type(b%journal_radius, b%machined_clearance, b%axial_length, 0.5_wp*arc, 0.5_wp*arc, &
             & 0.0_wp, 0.0_wp, 0.0_wp)
@@ -344,12 +344,12 @@ contains
       type(rest_type), intent(out) :: rest
       type(bearing_model), intent(out) :: model
       type(equilibrium_type), intent(out) :: found
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(error_type), allocatable :: error
-      scene = two_grooves(1.0_wp)
-      scene%operation%speed_rpm = speed*sqrt(scene%rotor%gravity/scene%bearing%assembled_clearance)/rpm
-      scene%operation%final_speed_rpm = scene%operation%speed_rpm
-      call rest_at(scene, 0.235_wp, rest, model)
+      inputs = two_grooves(1.0_wp)
+      inputs%operation%speed_rpm = speed*sqrt(inputs%rotor%gravity/inputs%bearing%assembled_clearance)/rpm
+      inputs%operation%final_speed_rpm = inputs%operation%speed_rpm
+      call rest_at(inputs, 0.235_wp, rest, model)
       call find_equilibrium(model, found, error)
       call expect_no_error(error, 'an equilibrium')
    end subroutine rotor_at
@@ -410,7 +410,7 @@ contains
          call expect(maxval(cycle) < 0.8_wp .and. minval(cycle) > 0.2_wp, 'within the clearance, and large')
       end associate
       associate (end => places(:, (revolutions - last)*samples + 1:))
-         call whirl_of(end(1, :), end(2, :), real(last, wp), model%scene%bearing%assembled_clearance, &
+         call whirl_of(end(1, :), end(2, :), real(last, wp), model%inputs%bearing%assembled_clearance, &
             & order, amplitude, whirls)
       end associate
       call expect(whirls .and. order > 0.4_wp .and. order < 0.52_wp, 'of half the frequency: '//to_text(order))
@@ -426,7 +426,7 @@ contains
       do i = 1, size(sizes)
          associate (turn => places(:, (i - 1)*samples + 1:i*samples))
             sizes(i) = sqrt(maxval((turn(1, :) - found%journal(1))**2 + (turn(2, :) - found%journal(2))**2)) &
-               & /model%scene%bearing%assembled_clearance
+               & /model%inputs%bearing%assembled_clearance
          end associate
       end do
    end function sizes
@@ -440,7 +440,7 @@ contains
       integer, intent(in) :: revolutions
       real(wp), allocatable, intent(out) :: places(:, :)
       real(wp), allocatable :: y(:)
-      y = model%at_rest(found%journal + [beside*model%scene%bearing%assembled_clearance, 0.0_wp], found%tilt, &
+      y = model%at_rest(found%journal + [beside*model%inputs%bearing%assembled_clearance, 0.0_wp], found%tilt, &
          & found%penetration)
       allocate (places(2, samples*revolutions))
       call march_samples(model, model%scale, [1e-7_wp, 1e-7_wp], y, 0.0_wp, &

@@ -31,7 +31,7 @@ program test_linear_motion
    use kinds, only: wp, pi
    use text, only: to_text
    use errors, only: error_type
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use operating_point, only: operating_point_type
    use sampled_march, only: march_samples
    use equations_of_motion, only: bearing_model, new_bearing_model
@@ -51,60 +51,60 @@ program test_linear_motion
 
 contains
 
-   !> The coefficients of a scene; the model that is linearised, at rest in y.
-   subroutine analyse(scene, found, model, y)
-      type(scene_type), intent(in) :: scene
+   !> The coefficients of a case; the model that is linearised, at rest in y.
+   subroutine analyse(inputs, found, model, y)
+      type(case_type), intent(in) :: inputs
       type(bearing_coefficients_type), intent(out) :: found
       type(bearing_model), intent(out) :: model
       real(wp), allocatable, intent(out) :: y(:)
       type(bearing_model) :: whole
       type(equilibrium_type) :: static
       type(error_type), allocatable :: error
-      whole = new_bearing_model(scene)
+      whole = new_bearing_model(inputs)
       call find_equilibrium(whole, static, error)
       call make_fine(whole, model)
       if (.not. allocated(error)) call settle(model, static, y, error)
       if (.not. allocated(error)) call find_coefficients(model, y, found, error)
-      if (.not. allocated(error) .and. scene%coefficients%threshold_up_to_rpm > 0) then
+      if (.not. allocated(error) .and. inputs%coefficients%threshold_up_to_rpm > 0) then
          call find_thresholds(model, y, found, error)
       end if
       call expect_no_error(error, 'analysis')
    end subroutine analyse
 
    !> Films that are smooth, so that a small motion is.
-   type(scene_type) function smooth_scene(speed_rpm) result(scene)
+   type(case_type) function smooth_case(speed_rpm) result(inputs)
       real(wp), intent(in) :: speed_rpm
-      scene = scene_type()
-      scene%about%task = 'coefficients'
-      scene%film%solver = 'modal'
-      scene%film%cavitation = 'none'
-      scene%operation%speed_rpm = speed_rpm
-      scene%operation%final_speed_rpm = speed_rpm
-   end function smooth_scene
+      inputs = case_type()
+      inputs%about%task = 'coefficients'
+      inputs%film%solver = 'modal'
+      inputs%film%cavitation = 'none'
+      inputs%operation%speed_rpm = speed_rpm
+      inputs%operation%final_speed_rpm = speed_rpm
+   end function smooth_case
 
    !> F = (K(nu) + i nu C(nu) - nu^2 m) x of the steady vibration x that a force F leaves. 10 N move the journal by some
    !> 20 nm, a part of 5e-4 of the film: what is not linear changes the first harmonic by the square of that. The start
    !> has died away to exp(-20).
    subroutine response()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_coefficients_type) :: found
       type(bearing_model) :: model
       real(wp), allocatable :: y(:)
       complex(wp) :: z(2, 2), expected(2, 2)
       real(wp) :: frequency
       integer :: k, i
-      scene = smooth_scene(6500.0_wp)
-      scene%coefficients%frequency_ratio = [0.4_wp, 1.0_wp, 1.7_wp]
-      call analyse(scene, found, model, y)
+      inputs = smooth_case(6500.0_wp)
+      inputs%coefficients%frequency_ratio = [0.4_wp, 1.0_wp, 1.7_wp]
+      call analyse(inputs, found, model, y)
       do k = 1, 3
-         frequency = scene%coefficients%frequency_ratio(k)*model%point%speed(0.0_wp)
+         frequency = inputs%coefficients%frequency_ratio(k)*model%point%speed(0.0_wp)
          z = measured(model, y, frequency)
          expected = cmplx(found%stiffness(:, :, k, 1), frequency*found%damping(:, :, k, 1), wp)
          do i = 1, 2
             expected(i, i) = expected(i, i) - frequency**2*model%rotor%mass
          end do
          call expect_close(maxval(abs(z - expected)), 0.0_wp, 1e-5_wp*maxval(abs(expected)), 'at ' &
-            & //to_text(scene%coefficients%frequency_ratio(k))//' of the speed')
+            & //to_text(inputs%coefficients%frequency_ratio(k))//' of the speed')
       end do
    end subroutine response
 
@@ -151,25 +151,25 @@ contains
    subroutine both_sides(pivot, near)
       character(len=*), intent(in) :: pivot
       real(wp), intent(in) :: near
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_coefficients_type) :: found
       type(bearing_model) :: model
       real(wp), allocatable :: y(:)
       real(wp) :: threshold
       integer :: side, i
-      scene = smooth_scene(6500.0_wp)
-      scene%rotor%mass = 200
-      if (pivot == 'stuck') scene%friction%model = 'lugre'
-      scene%coefficients%threshold_up_to_rpm = 20000
-      call analyse(scene, found, model, y)
+      inputs = smooth_case(6500.0_wp)
+      inputs%rotor%mass = 200
+      if (pivot == 'stuck') inputs%friction%model = 'lugre'
+      inputs%coefficients%threshold_up_to_rpm = 20000
+      call analyse(inputs, found, model, y)
       i = merge(1, 2, pivot == 'free')
       threshold = found%thresholds(i)
       call expect_close(threshold, near, 0.05_wp*near, 'threshold')
-      scene%coefficients%threshold_up_to_rpm = 0
+      inputs%coefficients%threshold_up_to_rpm = 0
       do side = -1, 1, 2
-         scene%operation%speed_rpm = (1 + 0.02_wp*side)*threshold
-         scene%operation%final_speed_rpm = scene%operation%speed_rpm
-         call analyse(scene, found, model, y)
+         inputs%operation%speed_rpm = (1 + 0.02_wp*side)*threshold
+         inputs%operation%final_speed_rpm = inputs%operation%speed_rpm
+         call analyse(inputs, found, model, y)
          associate (value => found%modes(i)%eigenvalue(1))
             call expect(side*value%re > 0, 'stable below, unstable above')
             call expect_close(growth(model, y, found%modes(i)), value%re, 1e-3_wp*abs(value%re), 'growth of '//pivot &

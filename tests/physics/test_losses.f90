@@ -3,8 +3,8 @@
 program test_losses
    use kinds, only: wp, pi, degree
    use errors, only: error_type
-   use scene, only: scene_type
-   use scene_completion, only: complete_scene
+   use case_inputs, only: case_type
+   use case_completion, only: complete_case
    use film_solver, only: film_oil, film_motion, film_response, film_counters, film_ok, film_closed
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type
@@ -140,15 +140,15 @@ contains
    !> The paper's bearing with rigid pivots at 6500 rpm, figures of a program that shares no code with this one, to
    !> the digits given.
    subroutine independent_program()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(equilibrium_type) :: static
       type(static_figures_type) :: figures
       type(error_type), allocatable :: error
       type(bearing_model) :: model
-      scene = scene_type()
-      scene%pads%motion = 'tilting_only'
-      call complete_scene(scene, error)
-      model = new_bearing_model(scene)
+      inputs = case_type()
+      inputs%pads%motion = 'tilting_only'
+      call complete_case(inputs, error)
+      model = new_bearing_model(inputs)
       call find_equilibrium(model, static, error)
       call expect_no_error(error, 'equilibrium')
       call find_static_figures(model, static, figures)

@@ -3,10 +3,10 @@
 program test_newton_euler
    use kinds, only: wp
    use text, only: to_text
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
-   use case_scenes, only: scene_of
+   use input_cases, only: case_of
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -24,11 +24,11 @@ program test_newton_euler
 
 contains
 
-   type(scene_type) function offset_scene(motion) result(scene)
+   type(case_type) function offset_case(motion) result(inputs)
       character(len=*), intent(in) :: motion
-      scene = scene_of('&pads mass = 0.8, 8, inertia = 4e-4, 5e-3, centre_tangential = 8e-3, -15e-3, motion = ''' &
+      inputs = case_of('&pads mass = 0.8, 8, inertia = 4e-4, 5e-3, centre_tangential = 8e-3, -15e-3, motion = ''' &
          & //motion//''' / &friction model = ''lugre'' / &rotor gravity = 500 / &film cavitation = ''none'' /')
-   end function offset_scene
+   end function offset_case
 
    !> Random places, velocities and bristles, with films open and pivots loaded.
    function random_state(model) result(y)
@@ -58,14 +58,14 @@ contains
       real(wp) :: moment, inertia, friction, sizes(2), total
       integer :: pad
       logical :: ok
-      model = new_bearing_model(offset_scene('tilting_radial'))
+      model = new_bearing_model(offset_case('tilting_radial'))
       y = random_state(model)
       allocate (f(model%n))
       call model%rhs(0.01_wp, y, f, ok)
       films = model%sampled()
       call expect(ok, 'a state with films')
       do pad = 1, 2
-         associate (p => model%scene%pads, loads => model%bearing%loads(pad), &
+         associate (p => model%inputs%pads, loads => model%bearing%loads(pad), &
             & arm => model%bearing%pads(pad)%position%centre_distance)
             a = model%bearing%pads(pad)%position%angle - y(model%layout%tilt(pad))
             rate = y(model%layout%tilt_rate(pad))
@@ -100,14 +100,14 @@ contains
       real(wp) :: a, moment, friction, sizes
       integer :: pad
       logical :: ok
-      model = new_bearing_model(offset_scene('tilting_only'))
+      model = new_bearing_model(offset_case('tilting_only'))
       y = random_state(model)
       allocate (f(model%n))
       call model%rhs(0.01_wp, y, f, ok)
       films = model%sampled()
       call expect(ok, 'a state with films')
       do pad = 1, 2
-         associate (p => model%scene%pads, arm => model%bearing%pads(pad)%position%centre_distance)
+         associate (p => model%inputs%pads, arm => model%bearing%pads(pad)%position%centre_distance)
             a = model%bearing%pads(pad)%position%angle - y(model%layout%tilt(pad))
             friction = model%bearing%pads(pad)%ball_radius*model%bearing%loads(pad)%friction%force
             ! C x weight, with weight along (-cos a, -sin a)
@@ -123,22 +123,22 @@ contains
    !> Mass times acceleration of the journal is load, unbalance and the films' forces, turned one by one.
    subroutine journal()
       type(bearing_model) :: model
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       real(wp), allocatable :: y(:), f(:)
       type(pad_sample), allocatable :: films(:)
       real(wp) :: total(2), sizes, a, t
       integer :: pad
       logical :: ok
-      scene = offset_scene('tilting_radial')
-      scene%rotor%static_load = [300.0_wp, -700.0_wp]
-      model = new_bearing_model(scene)
+      inputs = offset_case('tilting_radial')
+      inputs%rotor%static_load = [300.0_wp, -700.0_wp]
+      model = new_bearing_model(inputs)
       y = random_state(model)
       allocate (f(model%n))
       t = between(0.0_wp, 0.01_wp)
       call model%rhs(t, y, f, ok)
       films = model%sampled()
       associate (w => model%point%speed(0.0_wp))
-         total = scene%rotor%static_load + [-2000*500.0_wp, 0.0_wp] + 0.01_wp*w**2*[cos(w*t), sin(w*t)]
+         total = inputs%rotor%static_load + [-2000*500.0_wp, 0.0_wp] + 0.01_wp*w**2*[cos(w*t), sin(w*t)]
       end associate
       sizes = norm2(total)
       do pad = 1, 2
@@ -160,10 +160,10 @@ contains
       real(wp) :: loads(2, 2), rates(2, 2), inverse(2, 2), expected(2, 2), det, scale(2)
       integer :: pad, k
       logical :: ok
-      model = new_bearing_model(offset_scene('tilting_radial'))
+      model = new_bearing_model(offset_case('tilting_radial'))
       allocate (f(model%n))
       do pad = 1, 2
-         associate (p => model%scene%pads)
+         associate (p => model%inputs%pads)
             do k = 1, 2
                y = model%at_rest([-3e-5_wp, 0.0_wp], [2e-4_wp, 5e-4_wp], merge(9e-6_wp, 1e-7_wp, k == 1)*[1.0_wp, &
                   & 1.0_wp])

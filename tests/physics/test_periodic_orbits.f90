@@ -4,7 +4,7 @@ program test_periodic_orbits
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use marching, only: march_options
    use cvode_integrator, only: integrator_type
    use components, only: converged_films
@@ -39,25 +39,25 @@ program test_periodic_orbits
 contains
 
    !> The paper's bearing with converged films that do not rupture.
-   type(scene_type) function paper(motion, friction) result(scene)
+   type(case_type) function paper(motion, friction) result(inputs)
       character(len=*), intent(in) :: motion, friction
-      scene = scene_type()
-      scene%about%task = 'periodic'
-      scene%pads%motion = motion
-      scene%friction%model = friction
-      scene%film%cavitation = 'none'
+      inputs = case_type()
+      inputs%about%task = 'periodic'
+      inputs%pads%motion = motion
+      inputs%friction%model = friction
+      inputs%film%cavitation = 'none'
    end function paper
 
    !> The orbit that the motion from the equilibrium leads to.
-   subroutine find(scene, tolerance, model, found)
-      type(scene_type), intent(in) :: scene
+   subroutine find(inputs, tolerance, model, found)
+      type(case_type), intent(in) :: inputs
       real(wp), intent(in) :: tolerance
       type(bearing_model), intent(out), target :: model
       type(periodic_orbit_type), intent(out) :: found
       type(equilibrium_type) :: static
       type(march_options) :: options
       type(error_type), allocatable :: error
-      model = new_bearing_model(scene, converged_films)
+      model = new_bearing_model(inputs, converged_films)
       call find_equilibrium(model, static, error)
       if (.not. allocated(error)) then
          options%relative_tolerance = tolerance
@@ -101,16 +101,16 @@ contains
    !> is of (2 pi/24)^5/7200 = 2e-7 for what turns with the shaft.
    subroutine vanishing(motion)
       character(len=*), intent(in) :: motion
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_model) :: model
       type(periodic_orbit_type) :: found
       complex(wp), allocatable :: values(:), expected(:)
       real(wp), allocatable, dimension(:, :) :: stiffness, damping
       integer :: k, n
       logical :: ok
-      scene = paper(motion, 'none')
-      scene%rotor%unbalance = 0
-      call find(scene, 1e-6_wp, model, found)
+      inputs = paper(motion, 'none')
+      inputs%rotor%unbalance = 0
+      call find(inputs, 1e-6_wp, model, found)
       n = model%layout%n_positions()
       allocate (stiffness(n, n), damping(n, n), values(2*n))
       call model%evaluate(0.0_wp, found%orbit%start, .true., ok)
@@ -132,13 +132,13 @@ contains
       character(len=*), intent(in) :: friction
       !> Of the march; factor by which the error falls; what is left of it.
       real(wp), intent(in) :: tolerance, factor, limit
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_model) :: model
       type(periodic_orbit_type) :: found
       complex(wp), allocatable :: coarse(:), fine(:), finest(:)
       real(wp) :: errors(2)
-      scene = paper('tilting_radial', friction)
-      call find(scene, tolerance, model, found)
+      inputs = paper('tilting_radial', friction)
+      call find(inputs, tolerance, model, found)
       coarse = found%multipliers
       fine = refined(model, found%orbit)
       fine = refined(model, found%orbit)

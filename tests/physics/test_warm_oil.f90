@@ -2,8 +2,8 @@
 program test_warm_oil
    use kinds, only: wp, degree
    use errors, only: error_type, numerics_error
-   use scene, only: scene_type
-   use case_scenes, only: scene_of
+   use case_inputs, only: case_type
+   use input_cases, only: case_of
    use oil_properties, only: viscosity
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
@@ -40,14 +40,14 @@ program test_warm_oil
 
 contains
 
-   !> The equilibrium of a scene, its figures, and its model, which has the viscosities.
-   subroutine solve(scene, static, figures, model)
-      type(scene_type), intent(in) :: scene
+   !> The equilibrium of a case, its figures, and its model, which has the viscosities.
+   subroutine solve(inputs, static, figures, model)
+      type(case_type), intent(in) :: inputs
       type(equilibrium_type), intent(out) :: static
       type(static_figures_type), intent(out) :: figures
       type(bearing_model), intent(out) :: model
       type(error_type), allocatable :: error
-      model = new_bearing_model(scene)
+      model = new_bearing_model(inputs)
       call find_equilibrium(model, static, error)
       call expect_no_error(error, 'equilibrium')
       if (allocated(error)) return
@@ -66,7 +66,7 @@ contains
       call make_fine(model, fine)
       call settle(fine, static, y, error)
       if (.not. allocated(error)) call find_coefficients(fine, y, found, error)
-      if (.not. allocated(error) .and. model%scene%coefficients%threshold_up_to_rpm > 0) then
+      if (.not. allocated(error) .and. model%inputs%coefficients%threshold_up_to_rpm > 0) then
          call find_thresholds(fine, y, found, error)
       end if
       call expect_no_error(error, 'coefficients')
@@ -80,7 +80,7 @@ contains
       type(bearing_model) :: model
       type(bearing_coefficients_type) :: found
       real(wp), parameter :: outlet(4) = [64.208_wp, 65.475_wp, 51.683_wp, 50.079_wp]
-      call solve(scene_of('&operation speed_rpm = 4000/'//fillon), static, figures, model)
+      call solve(case_of('&operation speed_rpm = 4000/'//fillon), static, figures, model)
       call expect(all(abs(figures%oil%outlet - outlet) < 0.004_wp), 'outlets')
       call expect_close(figures%oil%shaft, 57.276_wp, 0.003_wp, 'shaft')
       call expect_close(maxval(figures%oil%maximum), 69.6_wp, 0.06_wp, 'maximum')
@@ -96,7 +96,7 @@ contains
       type(static_figures_type) :: figures
       type(bearing_model) :: model
       type(bearing_coefficients_type) :: found
-      call solve(scene_of('&pads motion = ''tilting_only''/ &film cavitation = ''none''/'//vg46), static, figures, &
+      call solve(case_of('&pads motion = ''tilting_only''/ &film cavitation = ''none''/'//vg46), static, figures, &
          & model)
       call expect(all(abs(static%viscosity - [23e-3_wp, 13.4e-3_wp]) < [0.5e-3_wp, 0.05e-3_wp]), 'viscosities')
       call expect_close(static%journal(2), -7e-6_wp, 0.5e-6_wp, 'z')
@@ -107,16 +107,16 @@ contains
 
    !> The oil's viscosities are those of its temperatures; all heat leaves with it.
    subroutine balance()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(equilibrium_type) :: static
       type(static_figures_type) :: figures
       type(bearing_model) :: model
       real(wp) :: fresh
       integer :: i
       integer, parameter :: upstream(4) = [3, 1, 4, 2]
-      scene = scene_of('&operation speed_rpm = 3000/ &pads pivot_angle_deg = -45, 225, 45, 135/'//vg46)
-      call solve(scene, static, figures, model)
-      call expect(all(abs(viscosity(scene%oil, figures%oil%mean)/static%viscosity - 1) < 1e-7_wp), 'viscosities')
+      inputs = case_of('&operation speed_rpm = 3000/ &pads pivot_angle_deg = -45, 225, 45, 135/'//vg46)
+      call solve(inputs, static, figures, model)
+      call expect(all(abs(viscosity(inputs%oil, figures%oil%mean)/static%viscosity - 1) < 1e-7_wp), 'viscosities')
       fresh = 0
       do i = 1, 4
          associate (pads => figures%pads)
@@ -124,22 +124,22 @@ contains
          end associate
       end do
       associate (heat => sum(figures%pads%power()))
-         call expect_close(scene%oil%density*scene%oil%specific_heat*fresh*(figures%oil%drain &
-            & - scene%oil%supply_temperature), heat, 1e-8_wp*heat, 'heat')
+         call expect_close(inputs%oil%density*inputs%oil%specific_heat*fresh*(figures%oil%drain &
+            & - inputs%oil%supply_temperature), heat, 1e-8_wp*heat, 'heat')
       end associate
    end subroutine balance
 
    !> Oil whose viscosity does not fall: bit for bit the equilibrium without temperatures.
    subroutine isothermal()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(equilibrium_type) :: warm, cold
       type(static_figures_type) :: figures, of_cold
       type(bearing_model) :: model
-      scene = scene_of('&pads pivot_angle_deg = -45, 225, 45, 135/ &oil reference_viscosity = 0.0277,' &
+      inputs = case_of('&pads pivot_angle_deg = -45, 225, 45, 135/ &oil reference_viscosity = 0.0277,' &
          & //' temperature_exponent = 0/ &thermal model = ''pad''/')
-      call solve(scene, warm, figures, model)
-      scene%thermal%model = 'none'
-      call solve(scene, cold, of_cold, model)
+      call solve(inputs, warm, figures, model)
+      inputs%thermal%model = 'none'
+      call solve(inputs, cold, of_cold, model)
       call expect(.not. any(abs([warm%journal - cold%journal, warm%tilt - cold%tilt, &
          & warm%penetration - cold%penetration, warm%viscosity - cold%viscosity]) > 0), 'state')
       call expect(.not. any(abs(figures%pads%power() - of_cold%pads%power()) > 0), 'losses')
@@ -148,52 +148,52 @@ contains
 
    !> Density and specific heat count as their product; oil that takes much heat stays cold.
    subroutine capacity()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(equilibrium_type) :: static, other
       type(static_figures_type) :: figures
       type(bearing_model) :: model
-      scene = scene_of('&film cavitation = ''none''/'//vg46)
-      call solve(scene, static, figures, model)
-      scene%oil%density = scene%oil%density/4
-      scene%oil%specific_heat = scene%oil%specific_heat*4
-      call solve(scene, other, figures, model)
+      inputs = case_of('&film cavitation = ''none''/'//vg46)
+      call solve(inputs, static, figures, model)
+      inputs%oil%density = inputs%oil%density/4
+      inputs%oil%specific_heat = inputs%oil%specific_heat*4
+      call solve(inputs, other, figures, model)
       call expect(all(abs(other%journal - static%journal) < 1e-12_wp), 'journal')
-      scene%oil%specific_heat = 1e12_wp
-      call solve(scene, other, figures, model)
-      call expect(all(abs(figures%oil%maximum - scene%oil%supply_temperature) < 1e-4_wp), 'cold')
+      inputs%oil%specific_heat = 1e12_wp
+      call solve(inputs, other, figures, model)
+      call expect(all(abs(figures%oil%maximum - inputs%oil%supply_temperature) < 1e-4_wp), 'cold')
    end subroutine capacity
 
    !> A bearing that is turned with its load has the same temperatures.
    subroutine rotation()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(equilibrium_type) :: static, turned
       type(static_figures_type) :: figures, others
       type(bearing_model) :: model
-      scene = scene_of('&rotor gravity = 0/ &film cavitation = ''none''/'//vg46)
-      scene%rotor%static_load = [-20e3_wp, 0.0_wp]
-      call solve(scene, static, figures, model)
+      inputs = case_of('&rotor gravity = 0/ &film cavitation = ''none''/'//vg46)
+      inputs%rotor%static_load = [-20e3_wp, 0.0_wp]
+      call solve(inputs, static, figures, model)
       ! by 50 degrees from +z towards +y
-      scene%pads%pivot_angle_deg = scene%pads%pivot_angle_deg + 50
-      scene%rotor%static_load = 20e3_wp*[-cos(50*degree), sin(50*degree)]
-      call solve(scene, turned, others, model)
+      inputs%pads%pivot_angle_deg = inputs%pads%pivot_angle_deg + 50
+      inputs%rotor%static_load = 20e3_wp*[-cos(50*degree), sin(50*degree)]
+      call solve(inputs, turned, others, model)
       call expect(all(abs(others%oil%outlet - figures%oil%outlet) < 1e-6_wp), 'outlets')
       call expect(all(abs(turned%tilt - static%tilt) < 1e-10_wp), 'tilts')
    end subroutine rotation
 
    !> The speed at which a light rotor loses its stability is one at which its own equilibrium has no growth.
    subroutine threshold()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(equilibrium_type) :: static
       type(static_figures_type) :: figures
       type(bearing_model) :: model
       type(bearing_coefficients_type) :: found
-      scene = scene_of('&case task = ''coefficients''/ &rotor mass = 200/ &operation speed_rpm = 13000/' &
+      inputs = case_of('&case task = ''coefficients''/ &rotor mass = 200/ &operation speed_rpm = 13000/' &
          & //'&film cavitation = ''none''/ &coefficients threshold_up_to_rpm = 20000/'//vg46)
-      call solve(scene, static, figures, model)
+      call solve(inputs, static, figures, model)
       call coefficients(model, static, found)
-      scene%operation%speed_rpm = found%thresholds(1)
-      scene%operation%final_speed_rpm = found%thresholds(1)
-      call solve(scene, static, figures, model)
+      inputs%operation%speed_rpm = found%thresholds(1)
+      inputs%operation%final_speed_rpm = found%thresholds(1)
+      call solve(inputs, static, figures, model)
       call expect_close(static%stability%eigenvalue%re, 0.0_wp, 1e-4_wp*abs(static%stability%eigenvalue), 'growth')
    end subroutine threshold
 
@@ -202,7 +202,7 @@ contains
       type(bearing_model) :: model
       type(equilibrium_type) :: static
       type(error_type), allocatable :: error
-      model = new_bearing_model(scene_of('&operation speed_rpm = 150/ &rotor mass = 5000/ &pads motion =' &
+      model = new_bearing_model(case_of('&operation speed_rpm = 150/ &rotor mass = 5000/ &pads motion =' &
          & //' ''tilting_only''/ &oil grade = 10/ &thermal model = ''pad''/'))
       call find_equilibrium(model, static, error)
       call expect_error(error, numerics_error, 'above 300 C, where mineral oil boils', 'refused')
@@ -212,17 +212,17 @@ contains
    function after_run_up(volume, duration) result(viscosities)
       real(wp), intent(in) :: volume, duration
       real(wp) :: viscosities(2)
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(equilibrium_type) :: static
       type(static_figures_type) :: figures
       type(bearing_model) :: model
       type(viscosity_course_type) :: course
       type(error_type), allocatable :: error
-      scene = scene_of('&operation speed_rpm = 3000, final_speed_rpm = 4000/ &film cavitation = ''none''/'//vg46)
-      scene%oil%shaft_temperature = 55
-      scene%oil%groove_volume = volume
-      scene%operation%duration = duration
-      call solve(scene, static, figures, model)
+      inputs = case_of('&operation speed_rpm = 3000, final_speed_rpm = 4000/ &film cavitation = ''none''/'//vg46)
+      inputs%oil%shaft_temperature = 55
+      inputs%oil%groove_volume = volume
+      inputs%operation%duration = duration
+      call solve(inputs, static, figures, model)
       call find_groove_transient(model, model%at_rest(static%journal, static%tilt, static%penetration), duration, &
          & course, error)
       call expect_no_error(error, 'course')
@@ -232,14 +232,14 @@ contains
    !> A slow run-up ends at the equilibrium of the last speed, a quick one lags behind it in the groove's time, and oil
    !> that is never renewed keeps its temperature where it enters the films.
    subroutine run_up()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(equilibrium_type) :: static
       type(static_figures_type) :: figures
       type(bearing_model) :: model
       real(wp) :: slow(2), lag(2), longer(2), never(2)
-      scene = scene_of('&operation speed_rpm = 4000/ &film cavitation = ''none''/'//vg46)
-      scene%oil%shaft_temperature = 55
-      call solve(scene, static, figures, model)
+      inputs = case_of('&operation speed_rpm = 4000/ &film cavitation = ''none''/'//vg46)
+      inputs%oil%shaft_temperature = 55
+      call solve(inputs, static, figures, model)
       slow = after_run_up(1e-5_wp, 1e4_wp)
       call expect(all(abs(slow/static%viscosity - 1) < 1e-4_wp), 'slow')
       ! behind the other pad; the first draws fresh oil alone

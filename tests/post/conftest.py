@@ -1,4 +1,4 @@
-"""Result files that the tests share: short runs of the program, one a scene."""
+"""Result files that the tests share: short runs of the program, one a case."""
 
 import itertools
 import sys
@@ -15,7 +15,7 @@ mpl.use("agg")
 #: The paper's package, post/paper, is not installed.
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "post"))
 
-SCENES = {
+CASES = {
     "lugre": "&case title='Steady, it''s LuGre' / &operation duration=0.06 / &friction model='lugre' /",
     "bengisu": "&operation duration=0.06 / &friction model='bengisu_akay' /",
     "none": "&operation duration=0.06 /",
@@ -61,22 +61,22 @@ def quick_pictures(closed_figures, monkeypatch):
 
 
 @pytest.fixture(scope="session")
-def scenes():
+def cases():
     """Texts of the cases by their names."""
-    return SCENES
+    return CASES
 
 
 @pytest.fixture(scope="session")
 def result(tiltpad, tmp_path_factory):
-    """result("lugre"): path of that scene's result file; the program runs when it is first asked for."""
+    """result("lugre"): path of that case's result file; the program runs when it is first asked for."""
     folder = tmp_path_factory.mktemp("results")
 
-    def path(scene: str) -> Path:
-        file = folder / f"{scene}.h5"
+    def path(case: str) -> Path:
+        file = folder / f"{case}.h5"
         if not file.exists():
-            case = folder / f"{scene}.nml"
-            case.write_text(SCENES[scene].replace(" / &", " /\n&") + "\n")
-            done = tiltpad("--quiet", case.name, cwd=folder)
+            namelist = folder / f"{case}.nml"
+            namelist.write_text(CASES[case].replace(" / &", " /\n&") + "\n")
+            done = tiltpad("--quiet", namelist.name, cwd=folder)
             assert done.returncode == 0, done.stderr
         return file
 
@@ -99,25 +99,25 @@ def opened():
 
 @pytest.fixture
 def run(result, opened):
-    """run("lugre"): that scene's result, opened; an incomplete one would be an error."""
+    """run("lugre"): that case's result, opened; an incomplete one would be an error."""
 
-    def read(scene: str) -> package.Run:
+    def read(case: str) -> package.Run:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            return opened(result(scene))
+            return opened(result(case))
 
     return read
 
 
 @pytest.fixture
 def tiltpad_set(tiltpad, result, opened, tmp_path):
-    """tiltpad_set("none", "rotor%unbalance=0.02"): the result of that scene with that value changed."""
+    """tiltpad_set("none", "rotor%unbalance=0.02"): the result of that case with that value changed."""
     numbers = itertools.count()
 
-    def run(scene: str, change: str) -> package.Run:
+    def run(case: str, change: str) -> package.Run:
         output = tmp_path / f"set{next(numbers)}.h5"
-        case = result(scene).with_suffix(".nml")
-        done = tiltpad("--quiet", case, "--set", change, "--output", output)
+        namelist = result(case).with_suffix(".nml")
+        done = tiltpad("--quiet", namelist, "--set", change, "--output", output)
         assert done.returncode == 0, done.stderr
         return opened(output)
 
@@ -129,9 +129,9 @@ def changed(result, tmp_path):
     """changed("lugre", edit): path of a copy of that result that the function `edit` changed."""
     import h5py
 
-    def copy(scene: str, edit) -> Path:
-        path = tmp_path / f"{scene}-changed.h5"
-        path.write_bytes(result(scene).read_bytes())
+    def copy(case: str, edit) -> Path:
+        path = tmp_path / f"{case}-changed.h5"
+        path.write_bytes(result(case).read_bytes())
         with h5py.File(path, "r+") as file:
             edit(file)
         return path
@@ -141,7 +141,7 @@ def changed(result, tmp_path):
 
 @pytest.fixture
 def made(result, opened, tmp_path):
-    """made("runup", seconds=2, journal_y=...): a run with a scene's input and signals of the test's own.
+    """made("runup", seconds=2, journal_y=...): a run with a case's input and signals of the test's own.
 
     Signals are arrays over the time, or functions of (time, shaft angle); what is not given is 0. The speed
     is that of the input, or rises to its final speed over the duration.
@@ -151,9 +151,9 @@ def made(result, opened, tmp_path):
 
     numbers = itertools.count()
 
-    def run(scene: str, seconds: float, interval: float = 1e-4, **signals) -> package.Run:
+    def run(case: str, seconds: float, interval: float = 1e-4, **signals) -> package.Run:
         path = tmp_path / f"made{next(numbers)}.h5"
-        with h5py.File(result(scene), "r") as source, h5py.File(path, "w") as file:
+        with h5py.File(result(case), "r") as source, h5py.File(path, "w") as file:
             file.attrs.update(source.attrs)
             time = interval * np.arange(round(seconds / interval) + 1)
             first, final = (source["speed"][i] for i in (0, -1))
@@ -184,16 +184,16 @@ def sweep(tiltpad):
     """
     import h5py
 
-    def run(folder: Path, scene: str, values: dict[str, list], failed: tuple[int, ...] = ()) -> Path:
+    def run(folder: Path, case: str, values: dict[str, list], failed: tuple[int, ...] = ()) -> Path:
         folder.mkdir()
-        case = folder.with_suffix(".nml")
-        case.write_text(scene.replace(" / &", " /\n&") + "\n")
+        namelist = folder.with_suffix(".nml")
+        namelist.write_text(case.replace(" / &", " /\n&") + "\n")
         members = list(itertools.product(*values.values()))
         for number, member in enumerate(members, 1):
             path = folder / f"{number:04d}.h5"
             texts = [f"'{each}'" if isinstance(each, str) else f"{each}" for each in member]
             changes = [f"{name}={text}" for name, text in zip(values, texts, strict=True)]
-            done = tiltpad("--quiet", case, "--output", path, *(w for c in changes for w in ("--set", c)))
+            done = tiltpad("--quiet", namelist, "--output", path, *(w for c in changes for w in ("--set", c)))
             assert done.returncode in (0, 2), done.stderr
             with h5py.File(path, "r+") as file:
                 lines = "\n".join(f"{name} = {text}" for name, text in zip(values, texts, strict=True))

@@ -46,9 +46,9 @@ def test_words_and_marks(made, opened):
 
 
 def test_nothing_to_say_of_loaded_pads(run):
-    for scene in ("lugre", "runup", "equilibrium"):
-        assert behaviour.remarks(run(scene)) == []
-        assert behaviour.marks(run(scene)) == {}
+    for case_name in ("lugre", "runup", "equilibrium"):
+        assert behaviour.remarks(run(case_name)) == []
+        assert behaviour.marks(run(case_name)) == {}
 
 
 def test_report_and_picture(made, opened, tmp_path, quick_pictures):

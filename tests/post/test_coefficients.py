@@ -17,10 +17,10 @@ PIVOTS = ["free", "stuck", "locked"]
 
 
 @pytest.fixture(scope="module")
-def folder(sweep, scenes, tmp_path_factory):
+def folder(sweep, cases, tmp_path_factory):
     """Members at five speeds, the slowest one last; the second has no equilibrium."""
     values = {"operation%speed_rpm": SPEEDS[1:] + SPEEDS[:1]}
-    return sweep(tmp_path_factory.mktemp("sweeps") / "offset", scenes["offset"], values, failed=(FAILED,))
+    return sweep(tmp_path_factory.mktemp("sweeps") / "offset", cases["offset"], values, failed=(FAILED,))
 
 
 @pytest.fixture(scope="module")
@@ -233,12 +233,12 @@ def test_the_command_draws_studies_and_results(study, run, tmp_path, capsys, plo
 
 
 def test_results_without_coefficients_say_why(result, opened, folder):
-    for scene, reason in (
+    for case_name, reason in (
         ("none", "its task is 'march', not 'coefficients'"),
         ("equilibrium", "its task is 'equilibrium'"),
     ):
         with pytest.raises(tiltpad.NotInRunError, match=reason):
-            tiltpad.coefficients(opened(result(scene)))
+            tiltpad.coefficients(opened(result(case_name)))
     with pytest.warns(tiltpad.IncompleteRunWarning, match="no equilibrium found"):
         failed = opened(folder / f"{FAILED:04d}.h5")
     with pytest.raises(tiltpad.NotInRunError, match="no coefficients in this run: no equilibrium found"):

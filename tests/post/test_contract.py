@@ -103,25 +103,25 @@ ABSENT = {
 
 
 @pytest.fixture(params=ABSENT)
-def scene(request):
+def case_name(request):
     return request.param
 
 
 @pytest.fixture
-def file(result, scene):
-    with h5py.File(result(scene), "r") as file:
+def file(result, case_name):
+    with h5py.File(result(case_name), "r") as file:
         yield file
 
 
-def test_every_dataset_is_there_and_no_other_scene_s(file, scene):
+def test_every_dataset_is_there_and_no_other_case_s(file, case_name):
     everything = SERIES | CONSTANT | EQUILIBRIUM | SPECTRUM | ASPERITIES | PERIODIC
     there = {name for name in everything if name in file}
-    assert there == set(everything) - ABSENT[scene]
+    assert there == set(everything) - ABSENT[case_name]
 
 
-def test_dimensions_units_and_meaning(file, scene):
+def test_dimensions_units_and_meaning(file, case_name):
     expected = SERIES | CONSTANT | EQUILIBRIUM | SPECTRUM | ASPERITIES | PERIODIC
-    for name in set(expected) - ABSENT[scene]:
+    for name in set(expected) - ABSENT[case_name]:
         dimensions, units = expected[name]
         dataset = file[name]
         assert dataset.dtype == np.float64, name
@@ -136,21 +136,21 @@ def test_dimensions_units_and_meaning(file, scene):
             assert dataset.is_scale, name
 
 
-def test_pads_and_samples(file, scene):
-    pads = 4 if scene == "four" else 2
+def test_pads_and_samples(file, case_name):
+    pads = 4 if case_name == "four" else 2
     np.testing.assert_array_equal(file["pad"], np.arange(1, pads + 1))
     np.testing.assert_allclose(np.degrees(file["pivot_angle"]), [-45, 225, 45, 135][:pads], rtol=1e-14)
-    for name in set(SERIES) - ABSENT[scene]:
+    for name in set(SERIES) - ABSENT[case_name]:
         assert np.isfinite(file[name][()]).all(), name
 
 
-def test_attributes(file, scene):
+def test_attributes(file, case_name):
     attributes = file.attrs
     assert attributes["format_version"] == 3
     assert attributes["complete"] == 1
     assert attributes["program"] == "tiltpad"
-    assert attributes["title"] == ("Steady, it's LuGre" if scene == "lugre" else "")
-    assert attributes["task"] == (scene if scene in ("equilibrium", "periodic") else "march")
+    assert attributes["title"] == ("Steady, it's LuGre" if case_name == "lugre" else "")
+    assert attributes["task"] == (case_name if case_name in ("equilibrium", "periodic") else "march")
     assert attributes["input"].startswith("&case\n")
     grows = file["equilibrium/eigenvalue_real"][()] > 0
     assert attributes["equilibrium_stability"] == ("fluttering" if grows else "stable")
@@ -159,12 +159,12 @@ def test_attributes(file, scene):
     assert np.datetime64(attributes["created"][:19]) > np.datetime64("2020-01-01")
 
 
-def test_statistics(file, scene):
+def test_statistics(file, case_name):
     statistics = file["statistics"]
     for name in COUNTS:
         assert np.issubdtype(statistics[name].dtype, np.integer), name
         assert statistics[name][()] >= 0, name
-    marched = scene != "equilibrium"
+    marched = case_name != "equilibrium"
     assert (statistics["steps"][()] > 0) == marched
     films = sum(statistics[name][()] for name in ("film_table", "film_modal", "film_volumes"))
     assert (films > 0) == marched

@@ -240,8 +240,8 @@ def test_an_input_that_is_none(changed, change, message):
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, 1e20])
-@pytest.mark.parametrize("scene", ["lugre", "runup"])
-def test_pictures_of_values_that_are_none(changed, tmp_path, capsys, scene, value):
+@pytest.mark.parametrize("case_name", ["lugre", "runup"])
+def test_pictures_of_values_that_are_none(changed, tmp_path, capsys, case_name, value):
     """A picture or one line, whatever the values."""
     axes = ("time", "pad", "shaft_angle", "speed", "pivot_angle")
 
@@ -250,10 +250,10 @@ def test_pictures_of_values_that_are_none(changed, tmp_path, capsys, scene, valu
             if isinstance(file[name], h5py.Dataset) and name not in axes:
                 file[name][...] = value
 
-    path = changed(scene, edit)
+    path = changed(case_name, edit)
     # a movie has a hundred pictures; a run-up differs in these plots alone
     every = [plot for plot in command.PLOTS if plot not in (command.STUDY, command.MOVIE)]
-    for plot in every if scene == "lugre" else ("runup", "size", "orders", "waterfall", "response"):
+    for plot in every if case_name == "lugre" else ("runup", "size", "orders", "waterfall", "response"):
         status = command.main([plot, str(path), "-o", str(tmp_path / "a.png")])
         said = capsys.readouterr().err
         assert status in (0, 1, 2, 3)

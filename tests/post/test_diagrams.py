@@ -9,7 +9,7 @@ from tiltpad import command, diagrams, figures
 
 pytestmark = pytest.mark.usefixtures("quick_pictures")
 
-SCENE = "&operation duration=0.04 / &output samples_per_revolution=40 /"
+CASE = "&operation duration=0.04 / &output samples_per_revolution=40 /"
 SPEEDS, UNBALANCES = [3000, 4000, 6500], [0.0002, 0.002, 0.02]
 SWEEPS = {
     "speed": ({"operation%speed_rpm": SPEEDS}, (2,)),
@@ -33,7 +33,7 @@ def study(sweep, tmp_path_factory):
             values, failed = SWEEPS[name]
             if name == "wide":
                 values = {variable: list(each)[:1] for variable, each in values.items()}
-            members = sweep(folder / name, SCENE, values, failed)
+            members = sweep(folder / name, CASE, values, failed)
             if name == "wide":
                 grown(members, *SWEEPS["wide"][0].values())
             tiltpad.collect(members, folder / f"{name}.h5")
@@ -252,7 +252,7 @@ def test_the_command_writes_a_picture(study, tmp_path, name):
 
 def test_a_study_of_which_nothing_is_left(sweep, tmp_path, capsys):
     """All members failed: results that they have are drawn, a message names a result that none has."""
-    folder = sweep(tmp_path / "a", SCENE, {"operation%speed_rpm": [4000, 5000]}, (1, 2))
+    folder = sweep(tmp_path / "a", CASE, {"operation%speed_rpm": [4000, 5000]}, (1, 2))
     tiltpad.collect(folder, tmp_path / "a.h5")
     assert command.main(["study", str(tmp_path / "a.h5"), "-o", str(tmp_path / "a.png")]) == 1
     assert "no orbit_size in this study: no member has it" in capsys.readouterr().err

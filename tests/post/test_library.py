@@ -10,7 +10,7 @@ import pytest
 import tiltpad
 from tiltpad.calculate import library
 
-SCENES = ["lugre", "tilting", "four", "gumbel", "sor", "flooded", "runup"]
+CASES = ["lugre", "tilting", "four", "gumbel", "sor", "flooded", "runup"]
 LUGRE = "&friction model='lugre' /"
 BENGISU = "&friction model='bengisu_akay', critical_velocity=1e-3 /"
 
@@ -24,18 +24,18 @@ def integrals(case, film):
     return -radius * np.array(parts).T
 
 
-@pytest.mark.parametrize("scene", [*SCENES, "fixed", "equilibrium"])
-def test_the_equilibrium_is_as_archived(run, scene):
+@pytest.mark.parametrize("case_name", [*CASES, "fixed", "equilibrium"])
+def test_the_equilibrium_is_as_archived(run, case_name):
     """The same solver in the same state: to rounding, or to the tolerance of over-relaxation, 1e-6."""
-    case = run(scene)
+    case = run(case_name)
     film = tiltpad.pressure(case)
     assert film.time is None
     np.testing.assert_allclose(film.max_pressure, case["equilibrium/max_pressure"], rtol=1e-6)
     np.testing.assert_allclose(film.min_film_thickness, case["equilibrium/min_film_thickness"], rtol=1e-9)
 
 
-@pytest.mark.parametrize("scene", SCENES)
-def test_rebuilt_forces_are_those_archived(run, scene):
+@pytest.mark.parametrize("case_name", CASES)
+def test_rebuilt_forces_are_those_archived(run, case_name):
     """A sample is the polynomial of the step through the values at its ends (docs/theory), not a film
     solved there, and the states for the rebuilt film are CVODE's interpolation. Both are as accurate as the
     march, 1e-5 of the scales of the states at the default tolerance; squeeze makes it several times that of
@@ -44,7 +44,7 @@ def test_rebuilt_forces_are_those_archived(run, scene):
     points of the solver. It has kinks where it passes from one point to the next, of 1e-3 of the range,
     which no polynomial follows. The minimum film thickness in the file is calculated from the states.
     """
-    case = run(scene)
+    case = run(case_name)
     force = np.stack([case.film_force_tangential, case.film_force_radial], axis=2)
     samples = np.unique(np.linspace(1, case.samples - 1, 40).astype(int))
     films = [tiltpad.pressure(case, case.time[k], 3, 3) for k in samples]
@@ -59,16 +59,16 @@ def test_rebuilt_forces_are_those_archived(run, scene):
         assert np.abs(rebuilt - archived[samples]).max() < tolerance * span, name
 
 
-@pytest.mark.parametrize("scene", SCENES)
-def test_the_field_carries_the_force(run, scene):
+@pytest.mark.parametrize("case_name", CASES)
+def test_the_field_carries_the_force(run, case_name):
     """Trapezoidal rule on 241 x 81 points: 3e-4 of the force of a loaded pad; and what a field of finite
     volumes has at most (tests/unit/test_film_field.f90).
     """
-    case = run(scene)
+    case = run(case_name)
     film = tiltpad.pressure(case, case.time[-1], 241, 81)
     assert film.pressure.shape == (case.pads, 241, 81)
     error = np.abs(integrals(case, film) - film.force).max()
-    assert error < (3e-3 if scene == "sor" else 3e-4) * np.abs(film.force).max()
+    assert error < (3e-3 if case_name == "sor" else 3e-4) * np.abs(film.force).max()
     coarse = tiltpad.pressure(case, case.time[-1], 31, 11)
     assert np.abs(integrals(case, coarse) - film.force).max() > 2 * error
     # the highest point of the field lies between the solver's points
@@ -90,9 +90,9 @@ def test_edges_have_the_pressures_of_the_input(run):
     np.testing.assert_allclose(film.pressure, film.pressure[:, :, ::-1], rtol=1e-12)
 
 
-@pytest.mark.parametrize("scene", ["four", "gumbel", "sor"])
-def test_a_ruptured_film_has_no_tension(run, scene):
-    film = tiltpad.pressure(run(scene), 0.015)
+@pytest.mark.parametrize("case_name", ["four", "gumbel", "sor"])
+def test_a_ruptured_film_has_no_tension(run, case_name):
+    film = tiltpad.pressure(run(case_name), 0.015)
     assert film.pressure.min() == 0
     assert np.any(film.pressure[2:, 1:-1, 1:-1] == 0), "an upper pad's film ruptures"
 
@@ -151,9 +151,9 @@ def test_contact_numbers_of_a_double():
     assert tiltpad.contact_force([0, -1e-6]).tolist() == [0, 0]
 
 
-@pytest.mark.parametrize("scene", ["lugre", "bengisu", "tilting"])
-def test_friction_is_the_programs(run, scene):
-    case = run(scene)
+@pytest.mark.parametrize("case_name", ["lugre", "bengisu", "tilting"])
+def test_friction_is_the_programs(run, case_name):
+    case = run(case_name)
     pivot = case.input["pivot"]
     radius = pivot["socket_radius"] - pivot["radius_difference"]
     deflection = case.bristle_deflection if "bristle_deflection" in case else 0

@@ -8,9 +8,9 @@ import tiltpad as package
 FLOWS = ("inlet_flow", "outlet_flow", "side_flow")
 
 
-@pytest.mark.parametrize("scene", ["none", "four", "gumbel", "flooded", "fixed"])
-def test_a_march_starts_with_those_of_its_equilibrium(run, scene):
-    case = run(scene)
+@pytest.mark.parametrize("case_name", ["none", "four", "gumbel", "flooded", "fixed"])
+def test_a_march_starts_with_those_of_its_equilibrium(run, case_name):
+    case = run(case_name)
     series, rest = package.losses(case, last=100), case["equilibrium"]
     names = {"power": "power_loss", "couette": "couette_loss", "pressure": "pressure_loss"}
     for name in ("load", "journal_drag", "pad_drag", *FLOWS, *names):
@@ -20,18 +20,18 @@ def test_a_march_starts_with_those_of_its_equilibrium(run, scene):
         )
 
 
-@pytest.mark.parametrize("scene", ["none", "four", "runup", "fixed"])
-def test_forces_are_those_of_the_samples(run, scene):
+@pytest.mark.parametrize("case_name", ["none", "four", "runup", "fixed"])
+def test_forces_are_those_of_the_samples(run, case_name):
     """A sample is as accurate as the march (test_library.py has the reasons); a table of ruptured films has
     an error of 4e-5 of the force of a film that is just whole, and half of a fixed pad's film is ruptured.
     """
-    case = run(scene)
+    case = run(case_name)
     part = package.last_revolutions(case)
     series = package.losses(case)
     assert series.time.tolist() == case.values("time", part).tolist()
     force = np.hypot(case.values("film_force_tangential", part), case.values("film_force_radial", part))
     error = np.abs(series.load - force).max() / np.ptp(force, axis=0).max()
-    assert error < (1.5e-3 if scene == "fixed" else 3e-4)
+    assert error < (1.5e-3 if case_name == "fixed" else 3e-4)
 
 
 def test_totals(run):

@@ -1,4 +1,4 @@
-"""make paper: its claims can fail, its page has every picture, its scenes are accepted."""
+"""make paper: its claims can fail, its page has every picture, its cases are accepted."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -7,7 +7,7 @@ import tiltpad as package
 from paper import __main__ as command
 from paper import claims, figures, judging, measures, page, reasons, sections
 from paper.runs import Runs, run_all
-from paper.settings import SCENES, Scene
+from paper.settings import CASES, Case
 
 #: Runs of the claims tried here, shortened.
 SHORT = ("operation%duration=0.1", "output%start_time=0.04")
@@ -23,11 +23,11 @@ NAMES = ("steady_to", "steady_tr", "steady_tr_ba", "steady_ba_10_05", "ba_slow")
 
 @pytest.fixture(scope="session")
 def folder(program, tmp_path_factory):
-    """Folder with the results of some scenes."""
+    """Folder with the results of some cases."""
     results = tmp_path_factory.mktemp("paper")
-    scenes = [scene for scene in SCENES if scene.name in NAMES]
-    assert len(scenes) == len(NAMES)
-    shortened = [Scene(each.name, each.case, (*each.overrides, *SHORT)) for each in scenes]
+    cases = [case_name for case_name in CASES if case_name.name in NAMES]
+    assert len(cases) == len(NAMES)
+    shortened = [Case(each.name, each.case, (*each.overrides, *SHORT)) for each in cases]
     run_all(program, [(each, results) for each in shortened])
     return results
 
@@ -128,18 +128,18 @@ def test_a_claim_that_fails_is_on_the_page(runs):
     assert claim.statement in page.rule_changes([failed])
 
 
-def test_scenes_are_accepted(tiltpad, root):
-    """Every scene is one that the program takes; names tell them apart."""
-    for scenes in command.FOLDERS.values():
-        assert len({scene.name for scene in scenes}) == len(scenes)
-        for scene in scenes:
-            tiltpad("--check", root / scene.case, overrides=scene.overrides, status=0)
+def test_cases_are_accepted(tiltpad, root):
+    """Every case is one that the program takes; names tell them apart."""
+    for cases in command.FOLDERS.values():
+        assert len({case_name.name for case_name in cases}) == len(cases)
+        for case_name in cases:
+            tiltpad("--check", root / case_name.case, overrides=case_name.overrides, status=0)
 
 
 def test_failed_run_is_told(program, tmp_path):
-    scene = Scene("wrong", "input/paper/steady_tr.nml", ("friction%model=glue",))
+    case_name = Case("wrong", "input/paper/steady_tr.nml", ("friction%model=glue",))
     with pytest.raises(RuntimeError, match=r"wrong: .*glue"):
-        run_all(program, [(scene, tmp_path)])
+        run_all(program, [(case_name, tmp_path)])
 
 
 def test_picture_has_equal_axes_and_units(runs):

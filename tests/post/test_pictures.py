@@ -201,8 +201,8 @@ def test_pads_and_journal_of_the_picture_leave_the_film(run):
     """The distance of a pad's surface from the journal is the film, enlarged."""
     case = run("four")
     state = bearing.geometry.at_time(case, 0.01)
-    scene = bearing.Scene(plt.subplots()[1], case.input, state)
-    inner = scene.pads[2].get_xy()[:91] - np.array(scene.journal.center)
+    drawing = bearing.Drawing(plt.subplots()[1], case.input, state)
+    inner = drawing.pads[2].get_xy()[:91] - np.array(drawing.journal.center)
     film = (np.hypot(*inner.T) - 1) * case.clearance / bearing.CLEARANCE
     least = tiltpad.pressure(case, 0.01).min_film_thickness[2]
     assert film.min() == pytest.approx(least, rel=1e-3)

@@ -40,9 +40,9 @@ def test_a_pivot_that_carries_nothing_has_no_coefficient(made):
     assert coefficient[-1] == pytest.approx(2 / (1e3 * R1))
 
 
-@pytest.mark.parametrize("scene", ["lugre", "bengisu", "four", "runup"])
-def test_friction_work_is_the_integral_of_moment_over_tilt(run, scene):
-    case = run(scene)
+@pytest.mark.parametrize("case_name", ["lugre", "bengisu", "four", "runup"])
+def test_friction_work_is_the_integral_of_moment_over_tilt(run, case_name):
+    case = run(case_name)
     for pad in (1, 2):
         tilt, moment = tiltpad.hysteresis(case, pad, 2)
         work = sum(np.diff(tilt) * (moment[1:] + moment[:-1]) / 2)

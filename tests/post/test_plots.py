@@ -277,20 +277,20 @@ def test_runs_are_told_apart(run):
 
 
 @pytest.mark.parametrize(
-    ("plot", "scene"), [*((plot, "lugre") for plot in STEADY), *((plot, "runup") for plot in RUNUP)]
+    ("plot", "case_name"), [*((plot, "lugre") for plot in STEADY), *((plot, "runup") for plot in RUNUP)]
 )
-def test_nothing_is_cut_off(run, longer, plot, scene):
+def test_nothing_is_cut_off(run, longer, plot, case_name):
     """Every text lies within the picture, and no two tick labels of an axis lie on each other."""
     from tiltpad import figures
 
     with plt.style.context(tiltpad.plots.STYLE), tiltpad.read(longer) as rising:
-        fig = figures.FIGURES[plot]([run(scene) if scene == "lugre" else rising])
+        fig = figures.FIGURES[plot]([run(case_name) if case_name == "lugre" else rising])
         fig.draw_without_rendering()
     page = fig.bbox.padded(0.5)
     panels = [ax.get_tightbbox() for ax in fig.axes]
     heading = fig.legends[0] if fig.legends else fig.get_suptitle() and fig._suptitle
     above = [heading.get_window_extent()] if heading else []
-    untitled = scene == "runup" and plot in ("orbit", "hysteresis", "friction", "waterfall")
+    untitled = case_name == "runup" and plot in ("orbit", "hysteresis", "friction", "waterfall")
     assert bool(above) != untitled
     assert not any(box.overlaps(panel) for box in above for panel in panels)
     assert not (fig.legends and fig.get_suptitle())
@@ -363,7 +363,7 @@ def test_the_command_writes_every_format(result, tmp_path, form):
 
 
 def test_the_command_draws_several_files(result, tmp_path):
-    files = [str(result(scene)) for scene in ("lugre", "bengisu")]
+    files = [str(result(case_name)) for case_name in ("lugre", "bengisu")]
     output = tmp_path / "both.svg"
     for given, second in ((files, True), (files[:1], False)):
         assert command.main(["hysteresis", *given, "--pad", "1", "-o", str(output)]) == 0
@@ -421,8 +421,8 @@ def test_errors_are_one_line_and_a_status(result, tmp_path, monkeypatch, capsys,
     monkeypatch.chdir(tmp_path)
     Path("text.h5").write_text("no result\n")
     Path("case.nml").write_text("! a case\n&case /\n")
-    scenes = ("none", "runup", "equilibrium")
-    given = [str(result(each)) if each in scenes else each for each in arguments]
+    cases = ("none", "runup", "equilibrium")
+    given = [str(result(each)) if each in cases else each for each in arguments]
     try:
         found = command.main(given)
     except SystemExit as stop:

@@ -64,8 +64,8 @@ def test_all_pads_have_one_scale(run):
 
 def test_films_around_the_bearing(run):
     """The thickness follows from the states alone, and has the minimum that the library has."""
-    for scene, time in (("four", 0.01), ("offset", None), ("fixed", 0.03)):
-        case = run(scene)
+    for case_name, time in (("four", 0.01), ("offset", None), ("fixed", 0.03)):
+        case = run(case_name)
         found = geometry.surfaces(case.input, geometry.at_time(case, time), 4001)
         least = tiltpad.pressure(case, time).min_film_thickness
         # a minimum between two points is too high by c_m step^2/8

@@ -56,7 +56,7 @@ def test_a_closed_file_can_be_overwritten(run):
 
 
 @pytest.mark.parametrize(
-    ("scene", "name", "reason"),
+    ("case_name", "name", "reason"),
     [
         ("none", "bristle_deflection", "no bristle_deflection in this run: friction model is 'none'"),
         (
@@ -75,12 +75,12 @@ def test_a_closed_file_can_be_overwritten(run):
         ("lugre", "contact_forces", "time (did you mean contact_force?)"),
     ],
 )
-def test_a_dataset_that_the_scene_lacks(run, result, scene, name, reason):
+def test_a_dataset_that_the_case_lacks(run, result, case_name, name, reason):
     with pytest.raises(tiltpad.RunError, match=re.escape(reason)) as raised:
-        run(scene)[name]
-    assert str(raised.value).startswith(str(result(scene)) + ": ")
+        run(case_name)[name]
+    assert str(raised.value).startswith(str(result(case_name)) + ": ")
     if "/" not in name:
-        assert not hasattr(run(scene), name)
+        assert not hasattr(run(case_name), name)
 
 
 def test_no_such_file(tmp_path):
@@ -134,11 +134,11 @@ def test_an_incomplete_run_is_read_with_a_warning(changed):
 
 
 def test_what_tells_runs_apart(run):
-    inputs = [run(scene).input for scene in ("lugre", "bengisu", "none")]
+    inputs = [run(case_name).input for case_name in ("lugre", "bengisu", "none")]
     assert differences.differences(inputs) == ["LuGre", "Bengisu-Akay", "no friction"]
-    inputs = [run(scene).input for scene in ("lugre", "tilting")]
+    inputs = [run(case_name).input for case_name in ("lugre", "tilting")]
     assert differences.differences(inputs) == ["tilting radial", "tilting only"]
-    inputs = [run(scene).input for scene in ("four", "runup")]
+    inputs = [run(case_name).input for case_name in ("four", "runup")]
     assert differences.differences(inputs) == [
         "6500 rpm, 4 pads, duration = 0.02 s",
         "1500 to 6500 rpm, 2 pads, duration = 0.1 s",

@@ -15,7 +15,7 @@ from tiltpad import command, summary
 
 pytestmark = pytest.mark.usefixtures("quick_pictures")
 
-#: Scenes whose page a browser shows; the pictures of the others are made, but not written.
+#: Cases whose page a browser shows; the pictures of the others are made, but not written.
 SHOWN = ("lugre", "runup", "equilibrium")
 BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
 #: Run by the browser in a copy of the page: what it made of it.
@@ -31,16 +31,16 @@ PROBE = """<pre id=probe></pre><script>addEventListener('load', () => {
 
 @pytest.fixture(scope="module")
 def page(result, tmp_path_factory):
-    """page("lugre"): text of the report about that scene's result."""
+    """page("lugre"): text of the report about that case's result."""
     folder = tmp_path_factory.mktemp("pages")
 
-    def text(scene):
-        output = folder / f"{scene}.html"
+    def text(case_name):
+        output = folder / f"{case_name}.html"
         if not output.exists():
             with pytest.MonkeyPatch.context() as patch:
-                if scene not in SHOWN:
+                if case_name not in SHOWN:
                     patch.setattr(Figure, "savefig", lambda self, stream, **_: stream.write(b"<svg/>"))
-                assert command.report([str(result(scene)), "-o", str(output)]) == 0
+                assert command.report([str(result(case_name)), "-o", str(output)]) == 0
         return output.read_text(encoding="utf-8")
 
     return text
@@ -82,7 +82,7 @@ FRICTION = ["hysteresis", "friction", "sticking"]
 
 
 @pytest.mark.parametrize(
-    ("scene", "pictures"),
+    ("case_name", "pictures"),
     [
         ("lugre", STEADY + FRICTION),
         ("none", STEADY),
@@ -94,15 +94,15 @@ FRICTION = ["hysteresis", "friction", "sticking"]
         ("periodic", [*STEADY, *FRICTION, "multipliers"]),
     ],
 )
-def test_the_page_has_what_the_run_has(page, scene, pictures):
-    text = page(scene)
+def test_the_page_has_what_the_run_has(page, case_name, pictures):
+    text = page(case_name)
     outline = Outline(text)
     assert sorted(outline.images) == sorted([*pictures, "bearing", "film", "pressure"])
     assert all(source.startswith("data:image/svg+xml;base64,") for source in outline.sources)
     assert "<script" not in text
     assert "url(" not in text
-    assert outline.headings[0] == ("Steady, it's LuGre" if scene == "lugre" else scene)
-    assert ("Spectrum" in outline.headings) == (scene not in ("runup", "equilibrium"))
+    assert outline.headings[0] == ("Steady, it's LuGre" if case_name == "lugre" else case_name)
+    assert ("Spectrum" in outline.headings) == (case_name not in ("runup", "equilibrium"))
     assert ("friction work a revolution" in outline.rows) == ("friction" in pictures)
     assert "equilibrium: journal displacement, vertical" in outline.rows
 
@@ -190,22 +190,22 @@ def test_errors_are_one_line_and_a_status(result, tmp_path, capsys):
         assert said.count("\n") == 1
 
 
-@pytest.mark.parametrize("scene", SHOWN)
-def test_a_browser_shows_it(page, run, tmp_path, scene):
+@pytest.mark.parametrize("case_name", SHOWN)
+def test_a_browser_shows_it(page, run, tmp_path, case_name):
     browser = next((path for path in map(shutil.which, BROWSERS) if path), None)
     if browser is None:
         pytest.skip("no Chromium here (Debian: chromium-headless-shell)")
     copy = tmp_path / "probed.html"
-    copy.write_text(page(scene).replace("</body>", PROBE + "</body>"), encoding="utf-8")
+    copy.write_text(page(case_name).replace("</body>", PROBE + "</body>"), encoding="utf-8")
     options = ["--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=5000", "--dump-dom"]
     home = ["--window-size=500,1200", f"--user-data-dir={tmp_path / 'browser'}"]
     done = subprocess.run(
         [browser, *options, *home, copy.as_uri()], capture_output=True, text=True, timeout=300, check=True
     )
     found = json.loads(unquote(re.search("<pre id=.probe.>PROBE(.*?)PROBE", done.stdout)[1]))
-    assert found["title"] == ("Steady, it's LuGre" if scene == "lugre" else scene)
+    assert found["title"] == ("Steady, it's LuGre" if case_name == "lugre" else case_name)
     assert found["wide"] == 0
-    assert len(found["images"]) == len(Outline(page(scene)).images)
+    assert len(found["images"]) == len(Outline(page(case_name)).images)
     for name, complete, width, height, shown in found["images"]:
         assert complete, name
         assert min(width, height, shown) > 100, name
@@ -216,5 +216,5 @@ def test_a_browser_shows_it(page, run, tmp_path, scene):
         "samples_per_revolution = 360",
     ):
         assert text in found["text"]
-    if scene != "equilibrium":
-        assert f"{1e6 * tiltpad.orbit_size(run(scene))[0]:.4g}\tµm" in found["text"]
+    if case_name != "equilibrium":
+        assert f"{1e6 * tiltpad.orbit_size(run(case_name))[0]:.4g}\tµm" in found["text"]

@@ -14,9 +14,9 @@ def datasets(path):
         return found, file.attrs["input"]
 
 
-@pytest.mark.parametrize("scene", ["lugre", "tilting", "fixed", "runup", "equilibrium"])
-def test_bit_for_bit(result, tiltpad, tmp_path, scene):
-    first, text = datasets(result(scene))
+@pytest.mark.parametrize("case_name", ["lugre", "tilting", "fixed", "runup", "equilibrium"])
+def test_bit_for_bit(result, tiltpad, tmp_path, case_name):
+    first, text = datasets(result(case_name))
     (tmp_path / "again.nml").write_text(text)
     tiltpad("--quiet", "again.nml", cwd=tmp_path, status=0)
     second, again = datasets(tmp_path / "again.h5")

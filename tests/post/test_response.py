@@ -8,7 +8,7 @@ from tiltpad.draw import branches
 
 #: A bearing with a resonance in the range: its pivots are soft, so that the film damps little.
 SOFT = {"law": "hertz", "radius_difference": 1e-3}
-SCENE = (
+CASE = (
     "&case task='periodic' / &rotor unbalance=1e-4 / &output samples_per_revolution=60 / "
     "&pivot law='hertz', radius_difference=1e-3 /"
 )
@@ -72,7 +72,7 @@ def study(sweep, tmp_path_factory):
     """Periodic orbits under a small unbalance, over the speed."""
     folder = tmp_path_factory.mktemp("response")
     collected = tiltpad.collect(
-        sweep(folder / "members", SCENE, {"operation%speed_rpm": SPEEDS}), folder / "study.h5"
+        sweep(folder / "members", CASE, {"operation%speed_rpm": SPEEDS}), folder / "study.h5"
     )
     with tiltpad.read_study(collected.output) as opened:
         yield opened

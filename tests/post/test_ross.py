@@ -38,10 +38,10 @@ def ross(root):
 
 
 @pytest.fixture(scope="module")
-def study(sweep, scenes, tmp_path_factory):
+def study(sweep, cases, tmp_path_factory):
     """The offset bearing at several speeds; one member has no equilibrium."""
     folder = tmp_path_factory.mktemp("sweeps") / "speeds"
-    sweep(folder, scenes["offset"], {"operation%speed_rpm": [*SPEEDS, 9000]}, failed=(len(SPEEDS) + 1,))
+    sweep(folder, cases["offset"], {"operation%speed_rpm": [*SPEEDS, 9000]}, failed=(len(SPEEDS) + 1,))
     tiltpad.collect(folder, folder.with_suffix(".h5"))
     with tiltpad.read_study(folder.with_suffix(".h5")) as opened:
         yield opened

@@ -16,7 +16,7 @@ from tiltpad import command
 from tiltpad.collect import parameters
 from tiltpad.files import units
 
-SCENE = "&case title='Grid' / &operation duration=0.06 / &output samples_per_revolution=60 /"
+CASE = "&case title='Grid' / &operation duration=0.06 / &output samples_per_revolution=60 /"
 SPEEDS, MODELS = [4000, 5000, 6500], ["none", "lugre"]
 
 
@@ -24,7 +24,7 @@ SPEEDS, MODELS = [4000, 5000, 6500], ["none", "lugre"]
 def folder(sweep, tmp_path_factory):
     """Members of three speeds times two models; the fourth, 5000 rpm with LuGre, failed."""
     values = {"operation%speed_rpm": SPEEDS, "friction%model": MODELS}
-    return sweep(tmp_path_factory.mktemp("sweeps") / "grid", SCENE, values, failed=(4,))
+    return sweep(tmp_path_factory.mktemp("sweeps") / "grid", CASE, values, failed=(4,))
 
 
 @pytest.fixture
@@ -160,7 +160,7 @@ def test_a_damaged_and_a_missing_member(copy, tmp_path, capsys):
 
 
 def test_two_studies_are_not_mixed(copy, sweep, tmp_path, capsys):
-    other = sweep(tmp_path / "other", SCENE, {"rotor%unbalance": [0.01, 0.02]})
+    other = sweep(tmp_path / "other", CASE, {"rotor%unbalance": [0.01, 0.02]})
     assert command.collect([str(copy), str(other), "-o", str(tmp_path / "a.h5")]) == 1
     said = capsys.readouterr().err
     assert said.count("\n") == 1
@@ -264,7 +264,7 @@ def test_runs_that_are_no_members(result, tmp_path):
     output = tmp_path / "runs.h5"
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        tiltpad.collect([result(scene) for scene in ("none", "lugre", "tilting", "runup")], output)
+        tiltpad.collect([result(case_name) for case_name in ("none", "lugre", "tilting", "runup")], output)
     with tiltpad.read_study(output) as study:
         names = ["speed_rpm", "duration", "motion", "model"]
         assert sorted(study.parameters) == sorted(names)

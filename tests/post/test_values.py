@@ -7,19 +7,19 @@ RPM = np.pi / 30
 MARCHED = ["lugre", "bengisu", "none", "tilting", "fixed", "four", "runup"]
 
 
-@pytest.mark.parametrize("scene", MARCHED)
-def test_samples_are_360_a_revolution_of_the_highest_speed(run, scene):
-    time = run(scene).time
-    duration = run(scene).input["operation"]["duration"]
+@pytest.mark.parametrize("case_name", MARCHED)
+def test_samples_are_360_a_revolution_of_the_highest_speed(run, case_name):
+    time = run(case_name).time
+    duration = run(case_name).input["operation"]["duration"]
     step = 2 * np.pi / (6500 * RPM * 360)
     np.testing.assert_allclose(time, step * np.arange(len(time)), rtol=1e-13)
     assert duration - step < time[-1] <= duration * (1 + 1e-12)
 
 
 def test_shaft_angle_is_the_integral_of_the_speed(run):
-    for scene, ends in (("lugre", (6500, 6500)), ("runup", (1500, 6500))):
-        time, speed, angle = (run(scene)[name] for name in ("time", "speed", "shaft_angle"))
-        duration = run(scene).input["operation"]["duration"]
+    for case_name, ends in (("lugre", (6500, 6500)), ("runup", (1500, 6500))):
+        time, speed, angle = (run(case_name)[name] for name in ("time", "speed", "shaft_angle"))
+        duration = run(case_name).input["operation"]["duration"]
         expected = RPM * (ends[0] + (ends[1] - ends[0]) * time / duration)
         np.testing.assert_allclose(speed, expected, rtol=1e-13)
         # the trapezoidal rule is exact for a speed that is linear in time
@@ -27,9 +27,9 @@ def test_shaft_angle_is_the_integral_of_the_speed(run):
         np.testing.assert_allclose(angle, integral, rtol=1e-11)
 
 
-@pytest.mark.parametrize("scene", MARCHED)
-def test_positions_are_integrals_of_rates(run, scene):
-    case = run(scene)
+@pytest.mark.parametrize("case_name", MARCHED)
+def test_positions_are_integrals_of_rates(run, case_name):
+    case = run(case_name)
     rates = {"journal_y": "journal_vy", "journal_z": "journal_vz"}
     rates |= {name: f"{name}_rate" for name in ("pad_tilt", "pad_penetration") if name in case}
     for name, rate in rates.items():
@@ -42,10 +42,10 @@ def test_positions_are_integrals_of_rates(run, scene):
         )
 
 
-@pytest.mark.parametrize("scene", MARCHED)
-def test_a_run_starts_at_rest_in_its_equilibrium(run, scene):
-    case = run(scene)
-    tilting = scene != "fixed"
+@pytest.mark.parametrize("case_name", MARCHED)
+def test_a_run_starts_at_rest_in_its_equilibrium(run, case_name):
+    case = run(case_name)
+    tilting = case_name != "fixed"
     for name in ("journal_y", "journal_z", *(["pad_tilt"] if tilting else [])):
         np.testing.assert_array_equal(case[name][0], case.equilibrium[name])
     assert case.journal_vy[0] == case.journal_vz[0] == 0
@@ -53,12 +53,12 @@ def test_a_run_starts_at_rest_in_its_equilibrium(run, scene):
     assert case.equilibrium["residual"] < 1e-6
 
 
-@pytest.mark.parametrize("scene", MARCHED)
-def test_newton_s_law_of_the_journal(run, scene):
+@pytest.mark.parametrize("case_name", MARCHED)
+def test_newton_s_law_of_the_journal(run, case_name):
     """Mass times acceleration is film forces, weight and unbalance: the signs of the pad frames and all."""
-    case = run(scene)
+    case = run(case_name)
     rotor = case.input["rotor"]
-    angle = case.pivot_angle - (0 if scene == "fixed" else case.pad_tilt)
+    angle = case.pivot_angle - (0 if case_name == "fixed" else case.pad_tilt)
     tangential, radial = case.film_force_tangential, case.film_force_radial
     film_y = (tangential * np.cos(angle) + radial * np.sin(angle)).sum(axis=1)
     film_z = (-tangential * np.sin(angle) + radial * np.cos(angle)).sum(axis=1)
@@ -76,9 +76,9 @@ def test_newton_s_law_of_the_journal(run, scene):
         np.testing.assert_allclose(rotor["mass"] * acceleration, force[1:-1], atol=2e-3 * weight)
 
 
-@pytest.mark.parametrize("scene", [scene for scene in MARCHED if scene != "fixed"])
-def test_contact_carries_the_load(run, scene):
-    case = run(scene)
+@pytest.mark.parametrize("case_name", [case_name for case_name in MARCHED if case_name != "fixed"])
+def test_contact_carries_the_load(run, case_name):
+    case = run(case_name)
     rotor, pads = case.input["rotor"], case.input["pads"]
     force = case.equilibrium["contact_force"]
     load = rotor["gravity"] * (rotor["mass"] + np.sum(np.asarray(pads["mass"])[force > 0]))
@@ -90,12 +90,12 @@ def test_contact_carries_the_load(run, scene):
 
 
 def test_friction_moment_stays_below_its_law_s_bound(run):
-    for scene in ("bengisu", "lugre"):
-        case = run(scene)
+    for case_name in ("bengisu", "lugre"):
+        case = run(case_name)
         pivot, friction = case.input["pivot"], case.input["friction"]
         ball_radius = pivot["socket_radius"] - pivot["radius_difference"]
         ratio = np.abs(case.friction_moment) / (ball_radius * case.contact_force)
-        if scene == "bengisu":
+        if case_name == "bengisu":
             assert ratio.max() <= friction["static_coefficient"] * (1 + 1e-12)
         assert friction["dynamic_coefficient"] < ratio.max() < 1.5 * friction["static_coefficient"]
     bristle = np.abs(run("lugre").bristle_deflection).max() * friction["bristle_stiffness"]
@@ -106,19 +106,19 @@ def test_no_friction_no_moment(run):
     assert not run("none").friction_moment.any()
 
 
-@pytest.mark.parametrize("scene", ["lugre", "bengisu", "tilting"])
-def test_friction_takes_work_out(run, scene):
+@pytest.mark.parametrize("case_name", ["lugre", "bengisu", "tilting"])
+def test_friction_takes_work_out(run, case_name):
     import tiltpad
 
     for pad in (1, 2):
-        tilt, moment = tiltpad.hysteresis(run(scene), pad)
+        tilt, moment = tiltpad.hysteresis(run(case_name), pad)
         box = np.ptp(tilt) * np.ptp(moment)
         assert 0.3 * box < tiltpad.loop_area(tilt, moment) < box
 
 
-@pytest.mark.parametrize("scene", ["lugre", "four"])
-def test_spectra_are_those_of_the_last_samples(run, scene):
-    case = run(scene)
+@pytest.mark.parametrize("case_name", ["lugre", "four"])
+def test_spectra_are_those_of_the_last_samples(run, case_name):
+    case = run(case_name)
     n = 360 * int(case["spectrum/revolutions"])
     assert n == 360 * int((case.samples - 1) / 360)
     frequency = np.fft.rfftfreq(n, case.time[1])

@@ -168,11 +168,11 @@ def test_key_figures(march):
     np.testing.assert_array_equal(rows["equilibrium/viscosity"], march["equilibrium/viscosity"])
 
 
-@pytest.mark.parametrize("scene", ["none", "equilibrium"])
-def test_a_run_without_them_says_why(run, scene):
+@pytest.mark.parametrize("case_name", ["none", "equilibrium"])
+def test_a_run_without_them_says_why(run, case_name):
     with pytest.raises(package.NotInRunError, match=r"no heat balance \(thermal%model = 'none'\)"):
-        figures.temperatures([run(scene)])
-    assert not [each for each in summary.pads(run(scene)) if each.name.endswith("_temperature")]
+        figures.temperatures([run(case_name)])
+    assert not [each for each in summary.pads(run(case_name)) if each.name.endswith("_temperature")]
 
 
 def test_pressures_of_a_run_up_take_the_oil_of_their_time(tiltpad, tmp_path, opened):

@@ -13,9 +13,9 @@ program global_search
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: wp, pi
    use errors, only: error_type
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use case_text, only: read_text
-   use scene_namelist, only: scene_from_text
+   use case_namelist, only: case_from_text
    use two_equations, only: solved
    use lapack, only: dgesv
    use film_solver, only: film_solver_type, film_motion, film_response, film_ok
@@ -74,35 +74,35 @@ contains
 
    subroutine search_case(path)
       character(len=*), intent(in) :: path
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(error_type), allocatable :: error
       character(len=:), allocatable :: text
       type(bearing_model) :: model
       type(operating_point_type) :: point
       type(curve_type), allocatable :: curves(:)
       call read_text(path, text, error)
-      if (.not. allocated(error)) call scene_from_text(text, path, scene, error)
+      if (.not. allocated(error)) call case_from_text(text, path, inputs, error)
       if (allocated(error)) then
          write (error_unit, '(a)') error%message
          error stop 1
       end if
       ! the same films without tables and without iteration
-      if (scene%film%solver == 'auto' .or. scene%film%solver == 'sor') scene%film%solver = 'direct'
-      model = new_bearing_model(scene)
+      if (inputs%film%solver == 'auto' .or. inputs%film%solver == 'sor') inputs%film%solver = 'direct'
+      model = new_bearing_model(inputs)
       point = model%point%static()
       call model%set_point(point)
-      call make_curves(scene, model, curves)
+      call make_curves(inputs, model, curves)
       call search_plane(path, model, curves)
    end subroutine search_case
 
    !> Of every pad the pieces of its curve.
-   subroutine make_curves(scene, model, curves)
-      type(scene_type), intent(in) :: scene
+   subroutine make_curves(inputs, model, curves)
+      type(case_type), intent(in) :: inputs
       type(bearing_model), intent(in) :: model
       type(curve_type), allocatable, intent(out) :: curves(:)
       type(table_type), allocatable :: tables(:)
-      integer :: like(scene%pad_count()), i
-      call make_tables(scene, model, like, tables)
+      integer :: like(inputs%pad_count()), i
+      call make_tables(inputs, model, like, tables)
       allocate (curves(size(like)))
       do i = 1, size(like)
          call make_curve(model, i, tables(like(i)), curves(i)%pieces)
@@ -110,12 +110,12 @@ contains
    end subroutine make_curves
 
    !> The tables of all shapes, and which of them is a pad's.
-   subroutine make_tables(scene, model, like, tables)
-      type(scene_type), intent(in) :: scene
+   subroutine make_tables(inputs, model, like, tables)
+      type(case_type), intent(in) :: inputs
       type(bearing_model), intent(in) :: model
       integer, intent(out) :: like(:)
       type(table_type), allocatable, intent(out) :: tables(:)
-      type(scene_type) :: shapes
+      type(case_type) :: shapes
       class(film_solver_type), allocatable :: film
       type(film_motion), allocatable :: motion(:)
       type(film_response), allocatable :: response(:)
@@ -125,7 +125,7 @@ contains
       do i = 1, size(like)
          like(i) = 0
          do s = 1, size(first)
-            associate (p => scene%pads, n => first(s))
+            associate (p => inputs%pads, n => first(s))
                if (abs(p%arc_deg(i) - p%arc_deg(n)) + abs(p%pivot_ratio(i) - p%pivot_ratio(n)) &
                   & + abs(p%pivot_distance(i) - p%pivot_distance(n)) <= 0) like(i) = s
             end associate
@@ -134,11 +134,11 @@ contains
          first = [first, i]
          like(i) = size(first)
       end do
-      shapes = scene
-      shapes%pads%pivot_angle_deg = scene%pads%pivot_angle_deg(first)
-      shapes%pads%arc_deg = scene%pads%arc_deg(first)
-      shapes%pads%pivot_ratio = scene%pads%pivot_ratio(first)
-      shapes%pads%pivot_distance = scene%pads%pivot_distance(first)
+      shapes = inputs
+      shapes%pads%pivot_angle_deg = inputs%pads%pivot_angle_deg(first)
+      shapes%pads%arc_deg = inputs%pads%arc_deg(first)
+      shapes%pads%pivot_ratio = inputs%pads%pivot_ratio(first)
+      shapes%pads%pivot_distance = inputs%pads%pivot_distance(first)
       call make_film(shapes, march_films, film)
       allocate (tables(size(first)), motion(size(first)), response(size(first)))
       do s = 1, size(first)
@@ -300,7 +300,7 @@ contains
       logical :: ok
       allocate (tried(model%n, 0), found(model%n, 0), y_best(model%n))
       call random_seed(put=spread(20260101, 1, 64))
-      reach = 2*1.0_wp*max(model%scene%bearing%assembled_clearance, model%scene%bearing%machined_clearance)
+      reach = 2*1.0_wp*max(model%inputs%bearing%assembled_clearance, model%inputs%bearing%machined_clearance)
       count = 0
       rank = 0
       best%name = 'none'
@@ -329,7 +329,7 @@ contains
          print '(a, 1x, a, i0, a, i0)', path, 'none 0 of ', size(tried, 2)
       else
          print '(a, 1x, a, 1x, i0, a, i0, *(1x, es12.5))', path, best%name, size(found, 2), ' of ', size(tried, 2), &
-            & best%eigenvalue, y_best(:2)/model%scene%bearing%assembled_clearance, &
+            & best%eigenvalue, y_best(:2)/model%inputs%bearing%assembled_clearance, &
             & y_best(model%layout%tilt([(row, row=1, model%layout%pads)]))
       end if
    end subroutine search_plane
@@ -347,7 +347,7 @@ contains
       integer :: k, i
       unit = model%scale
       if (model%layout%radial) unit(model%layout%penetration([(i, i=1, model%layout%pads)])) &
-         & = model%scene%bearing%assembled_clearance
+         & = model%inputs%bearing%assembled_clearance
       known = .false.
       do k = 1, size(list, 2)
          if (maxval(abs(y - list(:, k))/unit) < part) known = .true.
@@ -391,7 +391,7 @@ contains
          end do
          if (norm2(force) < 1e-4_wp*reference) exit
          step = solved(slope, -force)
-         length = norm2(step)/(0.15_wp*model%scene%bearing%assembled_clearance)
+         length = norm2(step)/(0.15_wp*model%inputs%bearing%assembled_clearance)
          if (.not. length > 0) exit
          place = place + step/max(1.0_wp, length)
       end do
@@ -470,7 +470,7 @@ contains
       integer :: iteration, cut, pivots(size(step)), info
       x = model%layout%positions()
       unit = model%scale(x)
-      unit(3:) = merge(unit(3:), model%scene%bearing%assembled_clearance, &
+      unit(3:) = merge(unit(3:), model%inputs%bearing%assembled_clearance, &
          & .not. model%layout%radial .or. mod([(info, info=1, size(unit) - 2)], 2) == 1)
       do iteration = 1, 60
          call model%evaluate(0.0_wp, y, .true., ok)

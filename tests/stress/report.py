@@ -14,21 +14,21 @@ NUMBER = r"-?\d+(\.\d+)?([eE][+-]?\d+)?"
 PAGE = """\
 # Stability
 
-The stress test runs {count} random scenes (seed {seed}) over wide ranges of every input: 1 to 24 pads, L/D
+The stress test runs {count} random cases (seed {seed}) over wide ranges of every input: 1 to 24 pads, L/D
 0.1 to 2, clearance 0.4 to 4 per mille, preload -0.3 to 0.7, pivot ratios 0.3 to 0.7, load up to 5 times the
 paper's in any direction, 100 to 15000 rpm (constant, rising and falling), unbalance up to contact, every
 friction model (critical velocity down to 1e-8 m/s, bristle stiffness up to 1e9 1/m), pad motion, contact
 law, cavitation and film solver, 2 to 30 revolutions. Sizes, masses and loads scale with the journal, so
-that most scenes are bearings, though not always good ones.
+that most cases are bearings, though not always good ones.
 
-A scene passes if it ends with a complete result whose numbers are finite and physically possible (contact
+A case passes if it ends with a complete result whose numbers are finite and physically possible (contact
 forces >= 0, film thickness > 0 unless asperities touch, friction within its bound, equally spaced
 samples). It also passes if it ends with a refusal of one line that says why, where and when; the results
 up to this point are then kept and finite. After a refusal for want of an equilibrium a global search of its
 own (`tests/stress/global_search.f90`: slow, and independent of the one in the program) looks for one that is
-stable or fluttering; where it finds one the scene is missed, and the test fails if more than
-{missed_share:.0%} of the scenes are. No scene may hang: `integration%max_steps` limits the work, and the
-tables count a scene that reaches this limit separately ("step budget"). A run is asked to stop after
+stable or fluttering; where it finds one the case is missed, and the test fails if more than
+{missed_share:.0%} of the cases are. No case may hang: `integration%max_steps` limits the work, and the
+tables count a case that reaches this limit separately ("step budget"). A run is asked to stop after
 {budget} s of CPU time, which few take, whose films are dear ("time budget"); one that goes on is hung.
 
 **{passed} passed, {failed} failed.** This command wrote the page:
@@ -53,8 +53,8 @@ Stability of the equilibria at which the marches started, by the eigenvalues of 
 
 {classes}
 
-**{share:.0f} % of the scenes are refused for want of an equilibrium.** The causes, as the messages name
-them, and what the global search found in these scenes:
+**{share:.0f} % of the cases are refused for want of an equilibrium.** The causes, as the messages name
+them, and what the global search found in these cases:
 
 {causes}
 
@@ -64,29 +64,29 @@ them, and what the global search found in these scenes:
 
 ## Cost
 
-This table shows the steps per revolution of the scenes that moved (more than {moved} steps), and the share
+This table shows the steps per revolution of the cases that moved (more than {moved} steps), and the share
 of steps that the error test or Newton's iteration rejected:
 
 {cost}
 
-These scenes took the most steps per revolution:
+These cases took the most steps per revolution:
 
 {most_steps}
 
 ## Error
 
-The test ran {compared} of the scenes that moved and were completed again over {revolutions} revolutions,
+The test ran {compared} of the cases that moved and were completed again over {revolutions} revolutions,
 with a `relative_tolerance` (and `film%tolerance`) {finer} times smaller. The error is the maximum
 difference of journal position, tilt and penetration at any instant, in units of the tolerance
 `relative_tolerance * (|state| + scale)`.
 
 The settings set a limit of the error: CVODE keeps the error of one step below sqrt(n) tolerances for n
-states, so after N steps the error of a scene that does not amplify disturbances stays below **N sqrt(n)**
+states, so after N steps the error of a case that does not amplify disturbances stays below **N sqrt(n)**
 tolerances. A bearing may have several equilibria: where the two runs find different ones, both are run
-again from the first. If the error of a scene is above the limit, the test runs the scene once more with the
+again from the first. If the error of a case is above the limit, the test runs the case once more with the
 small tolerance and a load changed by `relative_tolerance` of itself; pads are made heavier by the same force,
 with its moment at their ends, as films promise their forces over that of a loaded film, however little a pad
-carries. If this alone changes the result by a tenth of the error or more, the scene is sensitive, and no
+carries. If this alone changes the result by a tenth of the error or more, the case is sensitive, and no
 solver can follow it at this tolerance; otherwise it fails.
 
 {verdicts}
@@ -94,12 +94,12 @@ solver can follow it at this tolerance; otherwise it fails.
 {errors}
 
 The friction moment is not a state. Where the friction law is steep, the moment jumps, and a small
-difference in the time of a jump is a large difference of the moment. These scenes have the largest errors
+difference in the time of a jump is a large difference of the moment. These cases have the largest errors
 over the limit:
 
 {worst}
 
-`build/stress` (`--keep`) contains a namelist of every failed scene; its first lines say what was wrong.
+`build/stress` (`--keep`) contains a namelist of every failed case; its first lines say what was wrong.
 """
 
 
@@ -114,7 +114,7 @@ def page(results: list[Result], seed: int) -> str:
         missed_share=MISSED,
         passed=len(results) - failed,
         failed=failed,
-        command=f"make stress SCENES={len(results)} SEED={seed}",
+        command=f"make stress CASES={len(results)} SEED={seed}",
         outcomes=outcomes(results),
         models=crossed(results, lambda result: f"{model(result)}, {motion(result)}"),
         counts=crossed(results, pads),
@@ -142,28 +142,28 @@ def table(head: Iterable, rows: Iterable[Iterable]) -> str:
 
 
 def model(result: Result) -> str:
-    return result.scene["friction"]["model"]
+    return result.case["friction"]["model"]
 
 
 def motion(result: Result) -> str:
-    return result.scene["pads"]["motion"]
+    return result.case["pads"]["motion"]
 
 
 def pads(result: Result) -> str:
-    count = len(result.scene["pads"]["pivot_angle_deg"])
+    count = len(result.case["pads"]["pivot_angle_deg"])
     return next(name for most, name in ((2, "1-2"), (6, "3-6"), (12, "7-12"), (24, "13-24")) if count <= most)
 
 
 def outcomes(results: list[Result]) -> str:
-    """Scenes and failures of each outcome."""
+    """Cases and failures of each outcome."""
     found = Counter(result.outcome for result in results)
     bad = Counter(result.outcome for result in results if result.faults)
     rows = [(each, found[each], bad[each]) for each in OUTCOMES if found[each]]
-    return table(("outcome", "scenes", "failed"), rows)
+    return table(("outcome", "cases", "failed"), rows)
 
 
 def crossed(results: list[Result], key: Callable[[Result], str]) -> str:
-    """Outcomes over a property of the scenes."""
+    """Outcomes over a property of the cases."""
     found = Counter((key(result), result.outcome) for result in results)
     used = [each for each in OUTCOMES if any(outcome == each for _, outcome in found)]
     keys = sorted({name for name, _ in found}, key=lambda name: (not name[0].isdigit(), len(name), name))
@@ -173,7 +173,7 @@ def crossed(results: list[Result], key: Callable[[Result], str]) -> str:
 def classes(results: list[Result]) -> str:
     """Equilibria by stability."""
     found = Counter(result.stability for result in results if result.stability)
-    return table(("stability", "scenes"), found.most_common()) if found else "None."
+    return table(("stability", "cases"), found.most_common()) if found else "None."
 
 
 def causes(results: list[Result]) -> str:
@@ -185,14 +185,14 @@ def causes(results: list[Result]) -> str:
     found = Counter((result.cause or "no cause", result.searched or "not searched") for result in refused)
     total = Counter(result.cause or "no cause" for result in refused)
     rows = [(cause, count, *(found[cause, end] for end in ends)) for cause, count in total.most_common()]
-    return table(("cause", "scenes", *ends), rows)
+    return table(("cause", "cases", *ends), rows)
 
 
 def reasons(results: list[Result]) -> str:
     """Refusals by their words, without numbers."""
     refused = [result for result in results if result.outcome in REFUSALS]
     found = Counter(reason(result.message) for result in refused)
-    return table(("reason", "scenes"), found.most_common()) if found else "None."
+    return table(("reason", "cases"), found.most_common()) if found else "None."
 
 
 def reason(message: str) -> str:
@@ -219,7 +219,7 @@ def cost(results: list[Result]) -> str:
         middle, most = np.median(rate), rate.max()
         row = name, len(rate), short(middle), short(np.quantile(rate, 0.9)), short(most)
         rows.append((*row, f"{100 * np.median(share):.0f} %"))
-    return table(("", "scenes", "median", "90 % below", "maximum", "rejected steps (median)"), rows)
+    return table(("", "cases", "median", "90 % below", "maximum", "rejected steps (median)"), rows)
 
 
 def short(number: float) -> str:
@@ -228,14 +228,14 @@ def short(number: float) -> str:
 
 
 def most_steps(results: list[Result], count: int = 8) -> str:
-    """Scenes with the most steps per revolution."""
+    """Cases with the most steps per revolution."""
     moved = [result for result in results if result.revolutions > 0]
     moved.sort(key=lambda result: -result.steps / result.revolutions)
     rows = []
     for each in moved[:count]:
         rate = short(each.steps / each.revolutions)
         rows.append((each.number, rate, f"{each.seconds:.1f}", each.outcome, *features(each)))
-    return table(("scene", "steps per revolution", "CPU s", "outcome", *FEATURES), rows)
+    return table(("case", "steps per revolution", "CPU s", "outcome", *FEATURES), rows)
 
 
 FEATURES = ("pads", "friction", "motion", "film")
@@ -243,14 +243,14 @@ FEATURES = ("pads", "friction", "motion", "film")
 
 def features(result: Result) -> tuple:
     """Pads, friction, motion and film in short."""
-    friction, film = result.scene["friction"], result.scene["film"]
+    friction, film = result.case["friction"], result.case["film"]
     said = friction["model"]
     if "critical_velocity" in friction:
         said += f" {friction['critical_velocity']:.0e} m/s"
     if "bristle_stiffness" in friction:
         said += f" {friction['bristle_stiffness']:.0e} 1/m"
     film = f"{film['cavitation']}, {film.get('solver', 'auto')}"
-    return len(result.scene["pads"]["pivot_angle_deg"]), said, motion(result), film
+    return len(result.case["pads"]["pivot_angle_deg"]), said, motion(result), film
 
 
 def verdicts(compared: list[Result]) -> str:
@@ -261,11 +261,11 @@ def verdicts(compared: list[Result]) -> str:
         "missed": "above the limit (failed)",
     }
     found = Counter(result.comparison.outcome for result in compared)
-    return table(("", "scenes"), ((meaning.get(key, key), n) for key, n in found.most_common()))
+    return table(("", "cases"), ((meaning.get(key, key), n) for key, n in found.most_common()))
 
 
 def errors(compared: list[Result]) -> str:
-    """Distribution of the errors, of the scenes that moved."""
+    """Distribution of the errors, of the cases that moved."""
     runs = [r.comparison for r in compared if r.comparison.outcome in ("kept", "sensitive", "missed")]
     if not runs:
         return "None compared."
@@ -281,7 +281,7 @@ def errors(compared: list[Result]) -> str:
 
 
 def worst(compared: list[Result], most: int = 8) -> str:
-    """Scenes with the largest errors over the limit."""
+    """Cases with the largest errors over the limit."""
     runs = [(each.comparison.error / each.comparison.promised, each) for each in compared
             if each.comparison.promised > 0]  # fmt: skip
     rows = []
@@ -289,5 +289,5 @@ def worst(compared: list[Result], most: int = 8) -> str:
         moved = each.comparison.sensitivity
         row = each.number, f"{part:.1e}", f"{each.comparison.share:.1e}", f"{moved:.1e}" if moved else "-"
         rows.append((*row, each.comparison.outcome, *features(each)))
-    head = ("scene", "error over limit", "error in scales", "change by the load, tolerances", "verdict")
+    head = ("case", "error over limit", "error in scales", "change by the load, tolerances", "verdict")
     return table((*head, *FEATURES), rows)

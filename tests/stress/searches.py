@@ -7,12 +7,12 @@ from pathlib import Path
 
 import h5py
 import ordinary_bearings
-import stress_scenes
+import stress_cases
 from limited import limited
 from report import table
 
-#: Scenes of the stress test, of each of its seeds, and bearings as they are built.
-SCENES, SEEDS, BEARINGS = 500, (1, 2), 400
+#: Cases of the stress test, of each of its seeds, and bearings as they are built.
+CASES, SEEDS, BEARINGS = 500, (1, 2), 400
 #: CPU time, s, of one.
 LIMIT = 60
 #: The searches in their order, and what they are.
@@ -29,45 +29,45 @@ SECTION = """
 ## Searches of an equilibrium
 
 The searches follow each other until one finds an equilibrium that is stable; the table counts those that
-found what was kept, in {scenes} scenes (seeds {seeds}) and {bearings} bearings as they are built
+found what was kept, in {cases} cases (seeds {seeds}) and {bearings} bearings as they are built
 (`tests/stress/ordinary_bearings.py`: three to six pads, 30 to 500 mm, 0.1 to 4 MPa, 10 to 90 m/s).
 
 {rows}
 
 A search stays in the program if it finds more than one in 200 that none before it finds. Newton's method in
 parts of its steps, the motion itself, and pads tilted so that full films pull the journal did not: what they
-cost, and the program is without, are scenes 25, 262 and 317 of seed 1 and 93, 187, 247, 313 and 422 of
-seed 2, which are refused, and none of the bearings. Two scenes that fluttered less there (273, and 176 of
+cost, and the program is without, are cases 25, 262 and 317 of seed 1 and 93, 187, 247, 313 and 422 of
+seed 2, which are refused, and none of the bearings. Two cases that fluttered less there (273, and 176 of
 seed 2) now start elsewhere. `stress.py --searches` counts again.
 """
 
 
 def searches(program: Path, jobs: int) -> str:
     """The section of the page."""
-    scenes = [stress_scenes.draw(seed, n) for seed in SEEDS for n in range(1, SCENES + 1)]
+    cases = [stress_cases.draw(seed, n) for seed in SEEDS for n in range(1, CASES + 1)]
     bearings = [ordinary_bearings.draw(1, n) for n in range(1, BEARINGS + 1)]
     with ThreadPoolExecutor(jobs) as pool:
         counts = [
-            Counter(pool.map(lambda scene: search_of(program, scene), each)) for each in (scenes, bearings)
+            Counter(pool.map(lambda case: search_of(program, case), each)) for each in (cases, bearings)
         ]
     return section(*counts)
 
 
-def section(scenes: Counter, bearings: Counter) -> str:
+def section(cases: Counter, bearings: Counter) -> str:
     """The section with these counts."""
-    rows = [(words, scenes[name], bearings[name]) for name, words in SEARCHES.items()]
+    rows = [(words, cases[name], bearings[name]) for name, words in SEARCHES.items()]
     return SECTION.format(
-        scenes=scenes.total(), seeds=" and ".join(map(str, SEEDS)), bearings=bearings.total(),
-        rows=table(("", "scenes", "bearings"), rows),
+        cases=cases.total(), seeds=" and ".join(map(str, SEEDS)), bearings=bearings.total(),
+        rows=table(("", "cases", "bearings"), rows),
     )  # fmt: skip
 
 
-def search_of(program: Path, scene: stress_scenes.Scene) -> str:
-    """Which search finds the equilibrium of a scene."""
-    scene["case"]["task"] = "equilibrium"
+def search_of(program: Path, case: stress_cases.Case) -> str:
+    """Which search finds the equilibrium of a case."""
+    case["case"]["task"] = "equilibrium"
     with tempfile.TemporaryDirectory(prefix="tiltpad-searches-") as folder:
-        (Path(folder) / "scene.nml").write_text(stress_scenes.text(scene))
-        if limited([program, "scene.nml", "--quiet"], Path(folder), LIMIT).returncode != 0:
+        (Path(folder) / "case.nml").write_text(stress_cases.text(case))
+        if limited([program, "case.nml", "--quiet"], Path(folder), LIMIT).returncode != 0:
             return "none"
-        with h5py.File(Path(folder) / "scene.h5") as file:
+        with h5py.File(Path(folder) / "case.h5") as file:
             return file.attrs["equilibrium_search"]

@@ -1,9 +1,9 @@
-"""Stress test: random scenes over wide ranges of every input; each ends in a result or a named refusal.
+"""Stress test: random cases over wide ranges of every input; each ends in a result or a named refusal.
 
-usage: stress.py TILTPAD [--scenes N | --only N,N,..] [--seed S] [--fixed] [--jobs J] [--compare SHARE]
+usage: stress.py TILTPAD [--cases N | --only N,N,..] [--seed S] [--fixed] [--jobs J] [--compare SHARE]
                  [--search PROGRAM] [--keep FOLDER] [--record FILE] [--flutter] [--searches] [--report FILE]
 
-Scenes that fail are kept as namelists, to be run again. With a record, a long test may be stopped
+Cases that fail are kept as namelists, to be run again. With a record, a long test may be stopped
 at any time: the same command goes on where it ended. The last line reads "N passed, N failed".
 """
 
@@ -20,41 +20,41 @@ from pathlib import Path
 from flutter import flutter
 from report import page
 from searches import searches
+from stress_cases import Dice, draw, text
 from stress_judge import MISSED, Comparison, Result, judge
-from stress_scenes import Dice, draw, text
 
 
 def arguments() -> argparse.Namespace:
     """What the command line says."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("program", type=lambda word: Path(word).resolve())
-    parser.add_argument("--scenes", type=int, default=300, help="how many")
-    parser.add_argument("--first", type=int, default=1, help="number of the first scene")
-    parser.add_argument("--only", type=lambda words: list(map(int, words.split(","))), help="these scenes")
-    parser.add_argument("--search", type=Path, help="global search for the equilibria of refused scenes")
-    parser.add_argument("--fixed", action="store_true", help="the same scenes with fixed pads")
+    parser.add_argument("--cases", type=int, default=300, help="how many")
+    parser.add_argument("--first", type=int, default=1, help="number of the first case")
+    parser.add_argument("--only", type=lambda words: list(map(int, words.split(","))), help="these cases")
+    parser.add_argument("--search", type=Path, help="global search for the equilibria of refused cases")
+    parser.add_argument("--fixed", action="store_true", help="the same cases with fixed pads")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--compare", type=float, default=0.5, help="share compared with a finer run")
-    parser.add_argument("--keep", type=Path, default=Path("build/stress"), help="folder for scenes that fail")
+    parser.add_argument("--keep", type=Path, default=Path("build/stress"), help="folder for cases that fail")
     parser.add_argument("--record", type=Path, help="results so far; what is in it is not run again")
     parser.add_argument("--flutter", action="store_true", help="also a fluttering pad over the speed")
     parser.add_argument("--searches", action="store_true", help="also which search finds what")
     parser.add_argument("--report", type=Path, help="Markdown page to write")
-    parser.add_argument("--verbose", action="store_true", help="a line for every scene")
+    parser.add_argument("--verbose", action="store_true", help="a line for every case")
     return parser.parse_args()
 
 
 def member(options: argparse.Namespace, number: int, known: dict[int, Result]) -> Result:
-    """Draws, runs and judges one scene in a folder of its own, if its result is not known."""
+    """Draws, runs and judges one case in a folder of its own, if its result is not known."""
     if number in known:
         return known[number]
-    scene = draw(options.seed, number, options.fixed)
+    case = draw(options.seed, number, options.fixed)
     compare = Dice(f"compare {options.seed}/{number}").chance(options.compare)
     folder = Path(tempfile.mkdtemp(prefix="tiltpad-stress-"))
     try:
         search = options.search and options.search.resolve()
-        result = judge(options.program, number, scene, folder, compare, search)
+        result = judge(options.program, number, case, folder, compare, search)
     finally:
         shutil.rmtree(folder)
     if result.faults:
@@ -65,16 +65,16 @@ def member(options: argparse.Namespace, number: int, known: dict[int, Result]) -
 
 
 def keep(options: argparse.Namespace, result: Result) -> None:
-    """Writes a scene that failed, with what was wrong, as a namelist."""
+    """Writes a case that failed, with what was wrong, as a namelist."""
     options.keep.mkdir(parents=True, exist_ok=True)
     words = "".join(f"! {fault}\n" for fault in result.faults)
-    (options.keep / f"seed{options.seed}_{result.number}.nml").write_text(words + text(result.scene))
+    (options.keep / f"seed{options.seed}_{result.number}.nml").write_text(words + text(result.case))
 
 
 def record(options: argparse.Namespace, result: Result) -> None:
-    """Adds a line of JSON to the record; the scene itself is drawn again."""
+    """Adds a line of JSON to the record; the case itself is drawn again."""
     values = {"seed": options.seed, "fixed": options.fixed} | asdict(result)
-    del values["scene"]
+    del values["case"]
     with options.record.open("a") as file:
         file.write(json.dumps(values, default=float) + "\n")
 
@@ -89,16 +89,16 @@ def recorded(options: argparse.Namespace) -> dict[int, Result]:
         if (values.pop("seed"), values.pop("fixed")) != (options.seed, options.fixed):
             continue
         number = values["number"]
-        known[number] = Result(scene=draw(options.seed, number, options.fixed), **values)
+        known[number] = Result(case=draw(options.seed, number, options.fixed), **values)
         if values["comparison"]:
             known[number].comparison = Comparison(**values["comparison"])
     return known
 
 
 def tell(result: Result, verbose: bool) -> None:
-    """A line for a scene that failed, or for every scene."""
+    """A line for a case that failed, or for every case."""
     for fault in result.faults:
-        print(f"FAILED: scene {result.number}: {fault}", flush=True)
+        print(f"FAILED: case {result.number}: {fault}", flush=True)
     if verbose:
         error = f", {result.comparison}" if result.comparison else ""
         said = result.message.removeprefix("tiltpad: error: ")
@@ -111,7 +111,7 @@ def main() -> int:
     started = time.monotonic()
     results, known = [], recorded(options)
     with ThreadPoolExecutor(options.jobs) as pool:
-        numbers = options.only or range(options.first, options.first + options.scenes)
+        numbers = options.only or range(options.first, options.first + options.cases)
         for result in pool.map(lambda number: member(options, number, known), numbers):
             tell(result, options.verbose)
             results.append(result)
@@ -128,7 +128,7 @@ def main() -> int:
     print(f"{time.monotonic() - started:.0f} s")
     missed = sum(result.missed for result in results)
     if too_many := missed > MISSED * max(len(results), 100):
-        print(f"FAILED: {missed} scenes were refused that have an equilibrium")
+        print(f"FAILED: {missed} cases were refused that have an equilibrium")
     print(f"{len(results) - failed} passed, {failed} failed")
     return int(failed > 0 or too_many)
 

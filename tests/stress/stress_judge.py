@@ -1,4 +1,4 @@
-"""What a run of the program must keep to: the checks of one scene, and the error of its tolerances."""
+"""What a run of the program must keep to: the checks of one case, and the error of its tolerances."""
 
 import copy
 import re
@@ -8,25 +8,25 @@ from pathlib import Path
 import h5py
 import numpy as np
 from limited import Ended, limited
-from stress_scenes import Scene, text
+from stress_cases import Case, text
 
 #: CPU time, s, of a run; the step budget ends most of them long before. One that does not stop then is hung.
 TIME_BUDGET = 300
 #: How a run ends that has been asked to stop.
 STOPPED = 4
-#: Steps of a scene that rests in its equilibrium, where there is nothing to compare.
+#: Steps of a case that rests in its equilibrium, where there is nothing to compare.
 AT_REST = 20
-#: Revolutions over which two runs of a scene are compared.
+#: Revolutions over which two runs of a case are compared.
 COMPARED = 2.5
-#: How much finer the run is that a scene is compared with.
+#: How much finer the run is that a case is compared with.
 FINER = 100.0
 #: Residual of an equilibrium where the force of films that rupture may leap.
 LEAP = 1e-5
 #: Distance of two starts, in scales of the states, beyond which they are different equilibria.
 APART = 1e-2
-#: CPU time, s, for the global search of a scene; what it finds in them counts.
+#: CPU time, s, for the global search of a case; what it finds in them counts.
 SEARCHED = 60
-#: Share of the scenes that may be refused though the global search finds an equilibrium (docs/stability.md,
+#: Share of the cases that may be refused though the global search finds an equilibrium (docs/stability.md,
 #: "Searches of an equilibrium": 8 of 1000 are).
 MISSED = 0.01
 #: What a refusal for want of an equilibrium says of its cause, and how the report calls it.
@@ -62,10 +62,10 @@ class Comparison:
 
 @dataclass
 class Result:
-    """How a scene ended."""
+    """How a case ended."""
 
     number: int
-    scene: Scene
+    case: Case
     outcome: str = ""
     message: str = ""
     faults: list[str] = field(default_factory=list)
@@ -82,30 +82,30 @@ class Result:
 
     @property
     def missed(self) -> bool:
-        """Whether the scene was refused though it has an equilibrium from which a march can start."""
+        """Whether the case was refused though it has an equilibrium from which a march can start."""
         return self.searched in ("stable", "fluttering")
 
 
-def run(program: Path, scene: Scene, folder: Path, name: str) -> Ended:
-    """Runs a scene in a folder as NAME.nml."""
-    (folder / f"{name}.nml").write_text(text(scene))
+def run(program: Path, case: Case, folder: Path, name: str) -> Ended:
+    """Runs a case in a folder as NAME.nml."""
+    (folder / f"{name}.nml").write_text(text(case))
     return limited([program, f"{name}.nml", "--quiet"], folder, TIME_BUDGET)
 
 
 def judge(
-    program: Path, number: int, scene: Scene, folder: Path, compare: bool, search: Path | None = None
+    program: Path, number: int, case: Case, folder: Path, compare: bool, search: Path | None = None
 ) -> Result:
-    """Runs a scene and checks how it ended; on request compares it with a finer run, and looks with the
+    """Runs a case and checks how it ended; on request compares it with a finer run, and looks with the
     program of the global search for an equilibrium that was missed."""
-    result = Result(number, scene)
-    done = run(program, scene, folder, "scene")
+    result = Result(number, case)
+    done = run(program, case, folder, "case")
     result.seconds = done.seconds
     if done.hung:
         result.outcome = "hung"
         result.faults = [f"still running after {done.seconds:.0f} s of CPU time"]
         return result
     result.message = done.stderr.strip()
-    file = folder / "scene.h5"
+    file = folder / "case.h5"
     if done.returncode == 0:
         result.outcome = "done"
         result.faults += [f"printed: {said!r}" for said in (done.stdout, done.stderr) if said]
@@ -115,21 +115,21 @@ def judge(
         if result.outcome == "no equilibrium":
             result.cause = cause_of(result.message)
         if result.outcome == "no equilibrium" and search:
-            result.searched, faults = searched(search, folder / "scene.nml")
+            result.searched, faults = searched(search, folder / "case.nml")
             result.faults += faults
     else:
         result.outcome = "crashed"
         result.faults = [f"exit status {done.returncode}: {result.message[:300]}"]
         return result
     if file.exists():
-        result.faults += file_faults(file, scene, done.returncode == 0)
+        result.faults += file_faults(file, case, done.returncode == 0)
         with h5py.File(file) as opened:
             result.stability = opened.attrs.get("equilibrium_stability", "")
         read_cost(file, result)
     elif done.returncode == 0:
         result.faults.append("no result file")
     if compare and result.outcome == "done" and not result.faults and result.steps > AT_REST:
-        result.comparison = compared(program, scene, folder)
+        result.comparison = compared(program, case, folder)
         if result.comparison.outcome == "missed":
             result.faults.append(f"error {result.comparison.error:.3g} tolerances against a finer run")
         if result.comparison.outcome == "hung":
@@ -187,7 +187,7 @@ def refusal_faults(done: Ended, file: Path) -> list[str]:
     return faults
 
 
-def file_faults(path: Path, scene: Scene, complete: bool) -> list[str]:
+def file_faults(path: Path, case: Case, complete: bool) -> list[str]:
     """A result file holds finite numbers only, whole or not, and what physics allows."""
     with h5py.File(path) as file:
         faults = not_finite(file)
@@ -197,8 +197,8 @@ def file_faults(path: Path, scene: Scene, complete: bool) -> list[str]:
             return faults or (["no samples"] if complete else [])
         values = {name: file[name][:] for name in file if isinstance(file[name], h5py.Dataset)}
         residual = file["equilibrium/residual"][()]
-        promised = promise(file, scene["integration"]["relative_tolerance"])
-    return unphysical(values, residual, promised, scene, complete)
+        promised = promise(file, case["integration"]["relative_tolerance"])
+    return unphysical(values, residual, promised, case, complete)
 
 
 def promise(file: h5py.File, tolerance: float) -> float:
@@ -222,13 +222,13 @@ def not_finite(file: h5py.File) -> list[str]:
 
 
 def unphysical(
-    values: dict[str, np.ndarray], residual: float, promised: float, scene: Scene, complete: bool
+    values: dict[str, np.ndarray], residual: float, promised: float, case: Case, complete: bool
 ) -> list[str]:
     """What the samples must fulfil, each in words, and whether they do."""
     step = np.diff(values["time"])
-    ruptured = scene["bearing"].get("cavitation_pressure", 0.0)
-    ruptured -= np.inf if scene["film"]["cavitation"] == "none" else 1e-3 + 1e-6 * abs(ruptured)
-    duration = scene["operation"]["duration"]
+    ruptured = case["bearing"].get("cavitation_pressure", 0.0)
+    ruptured -= np.inf if case["film"]["cavitation"] == "none" else 1e-3 + 1e-6 * abs(ruptured)
+    duration = case["operation"]["duration"]
     checks = {
         "time does not grow evenly": np.all(step > 0) and np.all(abs(np.diff(step)) <= 1e-9 * duration),
         "the last sample misses the end": not complete
@@ -238,17 +238,17 @@ def unphysical(
             (values["min_film_thickness"] > 0) | (values["asperity_force"] > 0)
         ),
         "max_pressure below the film's rupture": np.all(values["max_pressure"] >= ruptured),
-        "equilibrium not at rest": residual <= (1e-7 if scene["film"]["cavitation"] == "none" else LEAP),
+        "equilibrium not at rest": residual <= (1e-7 if case["film"]["cavitation"] == "none" else LEAP),
     }
-    if scene["pads"]["motion"] != "fixed":
-        checks |= unphysical_pivots(values, promised, scene)
+    if case["pads"]["motion"] != "fixed":
+        checks |= unphysical_pivots(values, promised, case)
     return [words for words, kept in checks.items() if not kept]
 
 
-def unphysical_pivots(values: dict[str, np.ndarray], promised: float, scene: Scene) -> dict[str, bool]:
+def unphysical_pivots(values: dict[str, np.ndarray], promised: float, case: Case) -> dict[str, bool]:
     """The same of pads that tilt on pivots."""
-    moment, bound = values["friction_moment"], moment_bound(values, scene)
-    reach = 0.5 * np.radians(scene["pads"]["arc_deg"])
+    moment, bound = values["friction_moment"], moment_bound(values, case)
+    reach = 0.5 * np.radians(case["pads"]["arc_deg"])
     return {
         "contact_force < 0": np.all(values["contact_force"] >= 0),
         "friction_moment over its bound": np.all(abs(moment) <= bound * (1 + promised) + 1e-12),
@@ -258,9 +258,9 @@ def unphysical_pivots(values: dict[str, np.ndarray], promised: float, scene: Sce
     }
 
 
-def moment_bound(values: dict[str, np.ndarray], scene: Scene) -> np.ndarray:
+def moment_bound(values: dict[str, np.ndarray], case: Case) -> np.ndarray:
     """Largest friction moment: f_s N R_1; with LuGre what its damping and viscosity may add."""
-    friction, contact = scene["friction"], scene["pivot"]
+    friction, contact = case["friction"], case["pivot"]
     ball = contact["socket_radius"] - contact["radius_difference"]
     if friction["model"] == "none":
         return 0 * values["contact_force"]
@@ -283,24 +283,24 @@ def read_cost(path: Path, result: Result) -> None:
         result.steps = int(counts["steps"][()])
         result.failures = int(counts["convergence_failures"][()] + counts["error_test_failures"][()])
     when = re.search(r" t = (\S+) s", result.message)
-    result.revolutions = revolutions(scene_time(result.scene, when), result.scene)
+    result.revolutions = revolutions(case_time(result.case, when), result.case)
 
 
-def scene_time(scene: Scene, when: re.Match | None) -> float:
+def case_time(case: Case, when: re.Match | None) -> float:
     """When a run ended: as its message says, or as planned."""
-    return float(when[1]) if when else scene["operation"]["duration"]
+    return float(when[1]) if when else case["operation"]["duration"]
 
 
-def revolutions(end: float, scene: Scene) -> float:
+def revolutions(end: float, case: Case) -> float:
     """Revolutions of the shaft up to a time."""
-    operation = scene["operation"]
+    operation = case["operation"]
     first, last = operation["speed_rpm"], operation.get("final_speed_rpm", operation["speed_rpm"])
     return (first + 0.5 * (last - first) * end / operation["duration"]) * end / 60
 
 
-def shortened(scene: Scene) -> Scene:
-    """The first revolutions of a scene, with the same speed at the same time."""
-    short = copy.deepcopy(scene)
+def shortened(case: Case) -> Case:
+    """The first revolutions of a case, with the same speed at the same time."""
+    short = copy.deepcopy(case)
     operation = short["operation"]
     first, last = operation["speed_rpm"], operation.get("final_speed_rpm", operation["speed_rpm"])
     duration = operation["duration"]
@@ -311,10 +311,10 @@ def shortened(scene: Scene) -> Scene:
     return short
 
 
-def tightened(scene: Scene) -> Scene:
-    """The scene with a finer tolerance."""
-    fine = copy.deepcopy(scene)
-    tolerance = scene["integration"]["relative_tolerance"]
+def tightened(case: Case) -> Case:
+    """The case with a finer tolerance."""
+    fine = copy.deepcopy(case)
+    tolerance = case["integration"]["relative_tolerance"]
     fine["integration"]["relative_tolerance"] = tolerance / FINER
     fine["integration"]["max_steps"] *= 20
     fine["film"]["tolerance"] = min(1e-6, tolerance) / FINER
@@ -322,10 +322,10 @@ def tightened(scene: Scene) -> Scene:
     return fine
 
 
-def disturbed(scene: Scene, force: float) -> Scene:
-    """The scene with a load that much larger, N, and pads that much heavier, with the moment of this force at
+def disturbed(case: Case, force: float) -> Case:
+    """The case with a load that much larger, N, and pads that much heavier, with the moment of this force at
     their ends: films promise their forces over that of a loaded film, however little a pad carries."""
-    other = copy.deepcopy(scene)
+    other = copy.deepcopy(case)
     rotor, pads = other["rotor"], other["pads"]
     rotor["static_load"] = [each + force for each in rotor.get("static_load", [0.0, 0.0])]
     gravity = rotor.get("gravity", 9.81)
@@ -337,38 +337,38 @@ def disturbed(scene: Scene, force: float) -> Scene:
     return other
 
 
-def compared(program: Path, scene: Scene, folder: Path) -> Comparison:
-    """The first revolutions against a finer run; where they differ too much, whether the scene amplifies."""
-    short = shortened(scene)
+def compared(program: Path, case: Case, folder: Path) -> Comparison:
+    """The first revolutions against a finer run; where they differ too much, whether the case amplifies."""
+    short = shortened(case)
     for _ in range(2):
         for name, each in (("coarse", short), ("fine", tightened(short))):
             (folder / f"{name}.h5").unlink(missing_ok=True)
             done = run(program, each, folder, name)
             if done.returncode != 0:
                 return Comparison("hung" if done.hung else f"{name} run refused")
-        if starts_differ(folder / "coarse.h5", folder / "fine.h5", scene):
+        if starts_differ(folder / "coarse.h5", folder / "fine.h5", case):
             short["start"] = start_of(folder / "coarse.h5")
         else:
             break
-    tolerance = scene["integration"]["relative_tolerance"]
-    error, share, moment = difference(folder / "coarse.h5", folder / "fine.h5", scene)
+    tolerance = case["integration"]["relative_tolerance"]
+    error, share, moment = difference(folder / "coarse.h5", folder / "fine.h5", case)
     with h5py.File(folder / "coarse.h5") as file:
         promised = promise(file, tolerance) / tolerance
     found = Comparison("kept", error, promised, share=share, moment=moment)
     if error <= found.promised:
         return found
-    done = run(program, disturbed(tightened(short), tolerance * load_of(scene)), folder, "disturbed")
+    done = run(program, disturbed(tightened(short), tolerance * load_of(case)), folder, "disturbed")
     if done.returncode != 0:
         return Comparison("hung" if done.hung else "disturbed run refused", error, found.promised)
-    found.sensitivity = difference(folder / "disturbed.h5", folder / "fine.h5", scene)[0]
+    found.sensitivity = difference(folder / "disturbed.h5", folder / "fine.h5", case)[0]
     found.outcome = "sensitive" if found.sensitivity > 0.1 * error else "missed"
     return found
 
 
-def starts_differ(path: Path, other: Path, scene: Scene) -> bool:
+def starts_differ(path: Path, other: Path, case: Case) -> bool:
     """Whether two runs start from equilibria that lie apart: then they say nothing of the march's error."""
     with h5py.File(path) as a, h5py.File(other) as b:
-        scales = state_scales(scene, b)
+        scales = state_scales(case, b)
         gaps = [np.max(abs(a[name][0] - b[name][0]) / scales[name]) for name in STATES if name in a]
     return max(gaps) > APART
 
@@ -383,23 +383,23 @@ def start_of(path: Path) -> dict:
     return start
 
 
-def load_of(scene: Scene) -> float:
+def load_of(case: Case) -> float:
     """Static load, N; without one the unbalance force."""
-    rotor = scene["rotor"]
+    rotor = case["rotor"]
     force = rotor.get("static_load", [0.0, 0.0])
     load = np.hypot(force[0] - rotor["mass"] * rotor.get("gravity", 9.81), force[1])
-    speed = scene["operation"]["speed_rpm"] * np.pi / 30
+    speed = case["operation"]["speed_rpm"] * np.pi / 30
     return max(load, rotor.get("unbalance", 0.0) * speed**2, 1.0)
 
 
-def difference(path: Path, other: Path, scene: Scene) -> tuple[float, float, float]:
+def difference(path: Path, other: Path, case: Case) -> tuple[float, float, float]:
     """Largest difference of two runs: of the states in units of their tolerance, of the states in their
     scales, of the friction moment in its peak-to-peak."""
-    tolerance = scene["integration"]["relative_tolerance"]
+    tolerance = case["integration"]["relative_tolerance"]
     error = share = 0.0
     with h5py.File(path) as a, h5py.File(other) as b:
         common = min(len(a["time"]), len(b["time"]))
-        scales = state_scales(scene, b)
+        scales = state_scales(case, b)
         for name in STATES:
             if name not in a:
                 continue
@@ -415,11 +415,11 @@ def difference(path: Path, other: Path, scene: Scene) -> tuple[float, float, flo
     return error, share, moment
 
 
-def state_scales(scene: Scene, file: h5py.File) -> dict[str, np.ndarray | float]:
+def state_scales(case: Case, file: h5py.File) -> dict[str, np.ndarray | float]:
     """Natural size of the positions, as the absolute tolerances have it; of the penetration its largest."""
-    bearing, clearance = scene["bearing"], scene["bearing"]["assembled_clearance"]
+    bearing, clearance = case["bearing"], case["bearing"]["assembled_clearance"]
     radius = bearing["journal_radius"] + bearing["machined_clearance"]
-    length = radius * np.radians(scene["pads"]["arc_deg"])
+    length = radius * np.radians(case["pads"]["arc_deg"])
     scales = {"journal_y": clearance, "journal_z": clearance, "pad_tilt": clearance / length}
     if "pad_penetration" in file:
         scales["pad_penetration"] = max(file["pad_penetration"][:].max(), 1e-3 * clearance)

@@ -4,8 +4,8 @@ program test_bearing_losses
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, rpm
    use errors, only: error_type
-   use scene, only: scene_type
-   use scene_namelist, only: scene_from_text
+   use case_inputs, only: case_type
+   use case_namelist, only: case_from_text
    use film_solver, only: film_motion
    use film_losses, only: film_losses_type, film_loss, new_film_losses
    use rigid_journal, only: journal_motion
@@ -30,12 +30,12 @@ contains
       character(len=*), intent(in) :: text
       type(bearing_model), intent(out) :: model
       type(bearing_losses_type), intent(out) :: losses
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(error_type), allocatable :: error
-      call scene_from_text(text, 'case', scene, error)
-      call expect_no_error(error, 'scene')
-      model = new_bearing_model(scene)
-      losses = new_bearing_losses(scene)
+      call case_from_text(text, 'case', inputs, error)
+      call expect_no_error(error, 'case')
+      model = new_bearing_model(inputs)
+      losses = new_bearing_losses(inputs)
    end subroutine make
 
    !> Two pads that differ, in motion.

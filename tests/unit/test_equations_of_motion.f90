@@ -2,13 +2,13 @@
 program test_equations_of_motion
    use kinds, only: wp
    use text, only: to_text
-   use scene, only: scene_type, unset
+   use case_inputs, only: case_type, unset
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_state
    use operating_point, only: operating_point_type
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
-   use case_scenes, only: scene_of, listed
+   use input_cases, only: case_of, listed
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -39,19 +39,19 @@ program test_equations_of_motion
 
 contains
 
-   type(scene_type) function paper_scene(motion, friction) result(scene)
+   type(case_type) function paper_case(motion, friction) result(inputs)
       character(len=*), intent(in) :: motion, friction
-      scene = scene_type()
-      scene%pads%motion = trim(motion)
-      scene%friction%model = trim(friction)
-   end function paper_scene
+      inputs = case_type()
+      inputs%pads%motion = trim(motion)
+      inputs%friction%model = trim(friction)
+   end function paper_case
 
    subroutine layout(motion, friction)
       character(len=*), intent(in) :: motion, friction
       type(bearing_model) :: model
       real(wp), allocatable :: y(:)
       integer :: own, pad
-      model = new_bearing_model(paper_scene(motion, friction))
+      model = new_bearing_model(paper_case(motion, friction))
       own = 2
       if (motion == 'tilting_radial') own = 4
       if (friction == 'lugre') own = own + 1
@@ -71,16 +71,16 @@ contains
       call expect_close(sum(y), merge(21.0_wp, 10.0_wp, motion == 'tilting_radial'), 0.0_wp, 'nothing else at rest')
    end subroutine layout
 
-   !> A scene in which every term counts: pads as heavy as the load, their centres off the pivots' radius,
+   !> A case in which every term counts: pads as heavy as the load, their centres off the pivots' radius,
    !> different from each other, and a film without rupture, hence smooth.
-   type(scene_type) function heavy_scene(motion, friction, offset) result(scene)
+   type(case_type) function heavy_case(motion, friction, offset) result(inputs)
       character(len=*), intent(in) :: motion, friction
       real(wp), intent(in) :: offset
-      scene = scene_of('&rotor mass = 20, gravity = 300 / &pads mass = 80, 60, inertia = 0.03, 0.025, ' &
+      inputs = case_of('&rotor mass = 20, gravity = 300 / &pads mass = 80, 60, inertia = 0.03, 0.025, ' &
          & //'pivot_ratio = 0.5, 0.6, centre_tangential = '//listed([offset, -2*offset])//', motion = ''' &
          & //trim(motion)//''' / &friction model = '''//trim(friction)//''' / &film solver = ''sor'', ' &
          & //'cavitation = ''none'', circumferential_cells = 16, axial_cells = 4, tolerance = 1e-12 /')
-   end function heavy_scene
+   end function heavy_case
 
    !> Steps of h = 1e-3 of each state's scale in the five-point form: error h**4/30 of the fifth derivative
    !> (1e-12 times some 1e3), film converged to 1e-12, amplified by 50 and divided by h: 1e-7. Each row is
@@ -98,7 +98,7 @@ contains
       real(wp) :: worst
       character(len=:), allocatable :: what
       what = trim(motion)//', '//trim(friction)//', C_xi = '//to_text(offset)
-      model = new_bearing_model(heavy_scene(motion, friction, offset))
+      model = new_bearing_model(heavy_case(motion, friction, offset))
       allocate (f(model%n), found(model%n, model%n), expected(model%n, model%n))
       worst = 0
       all_ok = .true.
@@ -136,7 +136,7 @@ contains
       logical :: ok
       character(len=:), allocatable :: what
       what = trim(motion)//', '//trim(friction)
-      model = new_bearing_model(heavy_scene(motion, friction, 0.003_wp))
+      model = new_bearing_model(heavy_case(motion, friction, 0.003_wp))
       allocate (matrix(model%n, model%n), rates(model%n))
       call model%rhs_and_jacobian(t, moving_state(model), rates, matrix, ok)
       call expect(ok, 'the state is admitted, '//what)
@@ -183,7 +183,7 @@ contains
       real(wp), allocatable :: y(:), f(:)
       logical :: ok
       integer :: pad
-      model = new_bearing_model(heavy_scene(motion, 'lugre', 0.003_wp))
+      model = new_bearing_model(heavy_case(motion, 'lugre', 0.003_wp))
       y = moving_state(model)
       allocate (f(model%n), source=huge(1.0_wp))
       call model%rhs(0.0_wp, y, f, ok)
@@ -199,16 +199,16 @@ contains
 
    !> Only the journal moves, by the films of pads as they stand without tilt; masses do not matter.
    subroutine fixed_pads()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_model) :: fixed, tilting
       real(wp), allocatable :: y(:), f(:), f_tilting(:)
       logical :: ok, tilting_ok
-      scene = paper_scene('tilting_only', 'none')
-      tilting = new_bearing_model(scene)
-      scene%pads%motion = 'fixed'
-      scene%pads%mass = unset
-      scene%pads%inertia = unset
-      fixed = new_bearing_model(scene)
+      inputs = paper_case('tilting_only', 'none')
+      tilting = new_bearing_model(inputs)
+      inputs%pads%motion = 'fixed'
+      inputs%pads%mass = unset
+      inputs%pads%inertia = unset
+      fixed = new_bearing_model(inputs)
       call expect(fixed%n == 4 .and. size(fixed%scale) == 4, 'the states of the journal')
       y = fixed%state(journal_motion([-3e-5_wp, 4e-6_wp], [2e-3_wp, -1e-3_wp]), spread(pad_state(), 1, 2))
       allocate (f(fixed%n), f_tilting(tilting%n))
@@ -224,21 +224,21 @@ contains
    !> -dmE d2/dt2 (cos phi, sin phi), in steady running and in run-up. Five-point differences of a step
    !> d = 1e-2/w: error (w d)**4/90 = 1e-10, rounding of angles up to 100 rad 1e-14/(w d)**2 = 1e-10.
    subroutine unbalance_force()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_model) :: with, without
       real(wp), allocatable :: y(:), f(:), f0(:)
       real(wp) :: t, d, expected(2)
       logical :: ok
       integer :: k
-      scene = paper_scene('tilting_radial', 'none')
-      scene%operation%speed_rpm = 1500
-      scene%operation%duration = 0.5_wp
+      inputs = paper_case('tilting_radial', 'none')
+      inputs%operation%speed_rpm = 1500
+      inputs%operation%duration = 0.5_wp
       do k = 0, 5
-         scene%operation%final_speed_rpm = merge(1500, 60000, k < 2)
-         scene%rotor%unbalance = 0.5_wp
-         with = new_bearing_model(scene)
-         scene%rotor%unbalance = 0
-         without = new_bearing_model(scene)
+         inputs%operation%final_speed_rpm = merge(1500, 60000, k < 2)
+         inputs%rotor%unbalance = 0.5_wp
+         with = new_bearing_model(inputs)
+         inputs%rotor%unbalance = 0
+         without = new_bearing_model(inputs)
          y = with%at_rest([-4e-5_wp, 0.0_wp], [-2e-4_wp, 1e-3_wp], [7e-6_wp, 7e-6_wp])
          allocate (f(with%n), f0(with%n))
          t = 0.013_wp*k
@@ -248,7 +248,7 @@ contains
          associate (point => with%point)
             expected = -0.5_wp*(16*(mass_position(point, t + d) + mass_position(point, t - d)) &
                & - 30*mass_position(point, t) - mass_position(point, t + 2*d) - mass_position(point, t - 2*d)) &
-               & /(12*d**2)/scene%rotor%mass
+               & /(12*d**2)/inputs%rotor%mass
          end associate
          call expect_close(norm2(f(3:4) - f0(3:4) - expected), 0.0_wp, 1e-8_wp*norm2(expected) &
             & + 10*epsilon(d)*norm2(f0(3:4)), 'unbalance at t = '//to_text(t))
@@ -273,7 +273,7 @@ contains
       real(wp) :: reaction, a
       logical :: ok
       integer :: pad
-      model = new_bearing_model(paper_scene('tilting_radial', 'lugre'))
+      model = new_bearing_model(paper_case('tilting_radial', 'lugre'))
       y = model%at_rest([-2e-5_wp, 0.0_wp], [-2e-4_wp, 1e-3_wp], [-1e-6_wp, 5e-6_wp])
       y(model%layout%bristle(1)) = 1e-7_wp
       y(model%layout%bristle(2)) = 1e-7_wp
@@ -285,14 +285,14 @@ contains
          & 1e-14_wp*model%bearing%loads(2)%contact, 'bristles carry in contact')
       call expect(model%bearing%loads(2)%contact > 1e3_wp, 'contact under penetration')
       deallocate (f)
-      model = new_bearing_model(heavy_scene('tilting_only', 'none', 0.0_wp))
+      model = new_bearing_model(heavy_case('tilting_only', 'none', 0.0_wp))
       y = moving_state(model)
       allocate (f(model%n))
       call model%rhs(0.0_wp, y, f, ok)
       films = model%sampled()
       do pad = 1, 2
          a = model%bearing%pads(pad)%position%angle - y(model%layout%tilt(pad))
-         associate (p => model%scene%pads)
+         associate (p => model%inputs%pads)
             reaction = -films(pad)%film_force(2) - p%mass(pad)*300*sin(a) &
                & + p%mass(pad)*p%centre_radial(pad)*y(model%layout%tilt_rate(pad))**2
             call expect_close(model%bearing%loads(pad)%contact, max(0.0_wp, reaction), 1e-12_wp*abs(reaction), &
@@ -304,14 +304,14 @@ contains
 
    !> Heavy pads above the journal hang from pivots that cannot pull.
    subroutine hanging_pads()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_model) :: model
       real(wp), allocatable :: y(:), f(:)
       logical :: ok
       integer :: pad
-      scene = heavy_scene('tilting_only', 'bengisu_akay', 0.0_wp)
-      scene%pads%pivot_angle_deg = [45.0_wp, 135.0_wp]
-      model = new_bearing_model(scene)
+      inputs = heavy_case('tilting_only', 'bengisu_akay', 0.0_wp)
+      inputs%pads%pivot_angle_deg = [45.0_wp, 135.0_wp]
+      model = new_bearing_model(inputs)
       y = model%at_rest([0.0_wp, 0.0_wp], [3e-4_wp, 3e-4_wp], [0.0_wp, 0.0_wp])
       y(model%layout%tilt_rate([1, 2])) = 0.3_wp
       allocate (f(model%n))
@@ -328,7 +328,7 @@ contains
       type(bearing_model) :: model
       real(wp), allocatable :: y(:), f(:)
       logical :: ok
-      model = new_bearing_model(paper_scene('tilting_radial', 'none'))
+      model = new_bearing_model(paper_case('tilting_radial', 'none'))
       allocate (f(model%n))
       y = model%at_rest([-4e-5_wp, 200e-6_wp], [-2e-4_wp, 1e-3_wp], [7e-6_wp, 7e-6_wp])
       call model%rhs(0.0_wp, y, f, ok)

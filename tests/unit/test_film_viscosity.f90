@@ -2,7 +2,7 @@
 !> another oil, bit for bit; so do losses and flows.
 program test_film_viscosity
    use kinds, only: wp
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use film_solver, only: film_solver_type, film_motion, film_oil, film_response
    use film_losses, only: film_losses_type, film_loss
    use components, only: make_film, march_films, converged_films, new_losses
@@ -32,17 +32,17 @@ program test_film_viscosity
 contains
 
    !> The paper's bearing with these films.
-   type(scene_type) function scene_with(solver, condition, supplied) result(scene)
+   type(case_type) function case_with(solver, condition, supplied) result(inputs)
       character(len=*), intent(in) :: solver, condition
       logical, intent(in) :: supplied
-      scene = scene_type()
-      if (solver /= 'fine') scene%film%solver = trim(solver)
-      scene%film%cavitation = trim(condition)
+      inputs = case_type()
+      if (solver /= 'fine') inputs%film%solver = trim(solver)
+      inputs%film%cavitation = trim(condition)
       if (supplied) then
-         scene%bearing%supply_pressure = 3e5_wp
-         scene%bearing%ambient_pressure = 1e5_wp
+         inputs%bearing%supply_pressure = 3e5_wp
+         inputs%bearing%ambient_pressure = 1e5_wp
       end if
-   end function scene_with
+   end function case_with
 
    !> A loaded film, and one that ruptures.
    function motions()
@@ -57,14 +57,14 @@ contains
       type(film_response) :: changed(2), made(2)
       integer :: pad, accuracy
       accuracy = merge(converged_films, march_films, solver == 'fine')
-      call make_film(scene_with(solver, condition, supplied), accuracy, film)
+      call make_film(case_with(solver, condition, supplied), accuracy, film)
       call film%evaluate(motions(), before, speed, .true., changed)
       ! over-relaxation starts from its last field
       call film%forget()
       call film%evaluate(motions(), after, speed, .true., changed)
       call film%take_pressures(motions(), after, speed, changed)
       do pad = 1, 2
-         call make_film(scene_with(solver, condition, supplied), accuracy, fresh)
+         call make_film(case_with(solver, condition, supplied), accuracy, fresh)
          call fresh%evaluate(motions(), spread(after(pad), 1, 2), speed, .true., made)
          call fresh%take_pressures(motions(), spread(after(pad), 1, 2), speed, made)
          call expect(.not. any(abs(changed(pad)%force - made(pad)%force) > 0), 'force')
@@ -80,12 +80,12 @@ contains
       type(film_motion) :: motion(2)
       type(film_loss) :: changed, made
       integer :: pad
-      losses = new_losses(scene_with('auto', condition, condition == 'none'))
+      losses = new_losses(case_with('auto', condition, condition == 'none'))
       motion = motions()
       do pad = 1, 2
          call losses(pad)%find(motion(pad), before(pad), speed, changed)
          call losses(pad)%find(motion(pad), after(pad), speed, changed)
-         fresh = new_losses(scene_with('auto', condition, condition == 'none'))
+         fresh = new_losses(case_with('auto', condition, condition == 'none'))
          call fresh(pad)%find(motion(pad), after(pad), speed, made)
          call expect(.not. any(abs([changed%force - made%force, changed%couette - made%couette, &
             & changed%pressure - made%pressure, changed%wedge - made%wedge, changed%inlet - made%inlet, &

@@ -1,11 +1,11 @@
 !> Temperatures of the oil from losses and flows: limits, sums, and the way along a film, integrated.
 program test_heat_balance
    use kinds, only: wp, degree
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use oil_properties, only: viscosity
    use bearing_losses, only: pad_loss
    use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance
-   use case_scenes, only: scene_of
+   use input_cases, only: case_of
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -30,8 +30,8 @@ program test_heat_balance
 contains
 
    !> Four pads of 70 degrees with oil of VG 46.
-   type(scene_type) function four_pads() result(scene)
-      scene = scene_of('&pads pivot_angle_deg = -45, 225, 45, 135, arc_deg = 70 / ' &
+   type(case_type) function four_pads() result(inputs)
+      inputs = case_of('&pads pivot_angle_deg = -45, 225, 45, 135, arc_deg = 70 / ' &
          & //'&oil law = ''walther'', grade = 46 / &thermal model = ''pad'' /')
    end function four_pads
 
@@ -49,8 +49,8 @@ contains
    end function some_losses
 
    !> The temperatures, which must be there.
-   type(oil_temperatures_type) function balanced(scene, losses, of) result(oil)
-      type(scene_type), intent(in) :: scene
+   type(oil_temperatures_type) function balanced(inputs, losses, of) result(oil)
+      type(case_type), intent(in) :: inputs
       type(pad_loss), intent(in) :: losses(:)
       !> Viscosities, if they are not the first of `films`.
       real(wp), intent(in), optional :: of(:)
@@ -59,56 +59,56 @@ contains
       logical :: ok
       viscosities = films(:size(losses))
       if (present(of)) viscosities = of
-      balance = new_heat_balance(scene)
+      balance = new_heat_balance(inputs)
       call balance%temperatures(losses, viscosities, speed, oil, ok)
       call expect(ok, 'there is a balance')
    end function balanced
 
    !> Conductance of a film to the shaft, W/K: Nu k times the integral of dA/h.
-   elemental real(wp) function conductance(scene, loss, film)
-      type(scene_type), intent(in) :: scene
+   elemental real(wp) function conductance(inputs, loss, film)
+      type(case_type), intent(in) :: inputs
       type(pad_loss), intent(in) :: loss
       real(wp), intent(in) :: film
-      conductance = scene%oil%wall_exchange*scene%oil%conductivity*loss%couette &
-         & /(film*(speed*scene%bearing%journal_radius)**2)
+      conductance = inputs%oil%wall_exchange*inputs%oil%conductivity*loss%couette &
+         & /(film*(speed*inputs%bearing%journal_radius)**2)
    end function conductance
 
    !> Films that make next to no heat warm nothing.
    subroutine no_heat()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(pad_loss) :: losses(4)
       type(oil_temperatures_type) :: oil
-      scene = four_pads()
+      inputs = four_pads()
       losses = some_losses()
       losses%couette = 1e-9_wp*losses%couette
       losses%pressure = 0
       losses%boundary = 0
-      oil = balanced(scene, losses)
+      oil = balanced(inputs, losses)
       call expect(all(abs([oil%inlet, oil%mean, oil%outlet, oil%maximum, oil%shaft, oil%drain] &
-         & - scene%oil%supply_temperature) < 1e-6_wp), 'supply temperature everywhere')
+         & - inputs%oil%supply_temperature) < 1e-6_wp), 'supply temperature everywhere')
    end subroutine no_heat
 
    !> One pad of fresh oil beside a shaft of known temperature: dT/ds = Phi/m - N (T - T_J), by Runge and Kutta.
    subroutine along_a_film()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(pad_loss) :: loss
       type(oil_temperatures_type) :: oil
       real(wp) :: capacity, n, t, mean, k(4)
       integer :: step, i
       integer, parameter :: steps = 1000
       real(wp), parameter :: shares(6) = [1e-3_wp, 9.99e-3_wp, 1.001e-2_wp, 0.3_wp, 3.0_wp, 30.0_wp]
-      scene = four_pads()
-      scene%pads%pivot_angle_deg = [-90.0_wp]
-      scene%oil%shaft_temperature = 75
+      inputs = four_pads()
+      inputs%pads%pivot_angle_deg = [-90.0_wp]
+      inputs%oil%shaft_temperature = 75
       do i = 1, size(shares)
          loss = pad_loss(couette=1500.0_wp, pressure=120.0_wp, inlet=6e-5_wp, outlet=4e-5_wp)
-         capacity = scene%oil%density*scene%oil%specific_heat*5e-5_wp
+         capacity = inputs%oil%density*inputs%oil%specific_heat*5e-5_wp
          ! N from 0.001 to 30, on both sides of where series give way to closed forms
          n = shares(i)
-         scene%oil%wall_exchange = 1
-         scene%oil%wall_exchange = n*capacity/conductance(scene, loss, films(1))
-         oil = balanced(scene, [loss])
-         t = scene%oil%supply_temperature
+         inputs%oil%wall_exchange = 1
+         inputs%oil%wall_exchange = n*capacity/conductance(inputs, loss, films(1))
+         oil = balanced(inputs, [loss])
+         t = inputs%oil%supply_temperature
          mean = 0
          do step = 1, steps
             k(1) = rate(t, n, 1620/capacity)
@@ -132,15 +132,15 @@ contains
 
    !> Without exchange each film warms its own oil; the shaft lies between the films.
    subroutine adiabatic()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(pad_loss) :: losses(4)
       type(oil_temperatures_type) :: oil
       real(wp) :: rise(4)
-      scene = four_pads()
-      scene%oil%wall_exchange = 0
+      inputs = four_pads()
+      inputs%oil%wall_exchange = 0
       losses = some_losses()
-      oil = balanced(scene, losses)
-      rise = losses%power()/(scene%oil%density*scene%oil%specific_heat*(losses%inlet + losses%outlet)/2)
+      oil = balanced(inputs, losses)
+      rise = losses%power()/(inputs%oil%density*inputs%oil%specific_heat*(losses%inlet + losses%outlet)/2)
       call expect(all(abs(oil%outlet - oil%inlet - rise) < 1e-10_wp), 'warming')
       call expect(all(abs(oil%mean - (oil%inlet + oil%outlet)/2) < 1e-10_wp), 'mean')
       call expect(oil%shaft > minval(oil%mean) .and. oil%shaft < maxval(oil%mean), 'shaft')
@@ -148,102 +148,102 @@ contains
 
    !> All heat leaves with the oil, but for what a shaft of known temperature takes.
    subroutine energy()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(pad_loss) :: losses(4)
       type(oil_temperatures_type) :: oil
       real(wp) :: heat, fresh, hot
       integer :: k, i
       integer, parameter :: upstream(4) = [3, 1, 4, 2]
       do k = 1, 20
-         scene = four_pads()
-         scene%oil%carry_over = between(0.0_wp, 1.0_wp)
-         scene%oil%widest_gap_deg = merge(60, 10, k < 15)
-         if (k > 10) scene%oil%shaft_temperature = between(20.0_wp, 100.0_wp)
+         inputs = four_pads()
+         inputs%oil%carry_over = between(0.0_wp, 1.0_wp)
+         inputs%oil%widest_gap_deg = merge(60, 10, k < 15)
+         if (k > 10) inputs%oil%shaft_temperature = between(20.0_wp, 100.0_wp)
          losses = some_losses()
-         oil = balanced(scene, losses)
+         oil = balanced(inputs, losses)
          heat = sum(losses%power())
-         if (k > 10) heat = heat - sum(conductance(scene, losses, films)*(oil%mean - oil%shaft))
+         if (k > 10) heat = heat - sum(conductance(inputs, losses, films)*(oil%mean - oil%shaft))
          fresh = sum(losses%inlet)
          do i = 1, 4
-            hot = min(scene%oil%carry_over*losses(upstream(i))%outlet, losses(i)%inlet)
-            if (scene%oil%widest_gap_deg < 20) hot = 0
+            hot = min(inputs%oil%carry_over*losses(upstream(i))%outlet, losses(i)%inlet)
+            if (inputs%oil%widest_gap_deg < 20) hot = 0
             fresh = fresh - hot
          end do
-         call expect_close(scene%oil%density*scene%oil%specific_heat*fresh*(oil%drain &
-            & - scene%oil%supply_temperature), heat, 1e-10_wp*sum(losses%power()), 'drain')
+         call expect_close(inputs%oil%density*inputs%oil%specific_heat*fresh*(oil%drain &
+            & - inputs%oil%supply_temperature), heat, 1e-10_wp*sum(losses%power()), 'drain')
       end do
    end subroutine energy
 
    !> The shaft takes from warm films what it gives to cold ones.
    subroutine no_net_heat()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(pad_loss) :: losses(4)
       type(oil_temperatures_type) :: oil
-      scene = four_pads()
+      inputs = four_pads()
       losses = some_losses()
-      oil = balanced(scene, losses)
-      associate (heat => conductance(scene, losses, films)*(oil%mean - oil%shaft))
+      oil = balanced(inputs, losses)
+      associate (heat => conductance(inputs, losses, films)*(oil%mean - oil%shaft))
          call expect_close(sum(heat), 0.0_wp, 1e-10_wp*sum(abs(heat)), 'sum')
       end associate
    end subroutine no_net_heat
 
    !> Density and specific heat count as their product.
    subroutine capacity()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(pad_loss) :: losses(4)
       type(oil_temperatures_type) :: oil, other
-      scene = four_pads()
+      inputs = four_pads()
       losses = some_losses()
-      oil = balanced(scene, losses)
-      scene%oil%density = 2*scene%oil%density
-      scene%oil%specific_heat = scene%oil%specific_heat/2
-      other = balanced(scene, losses)
+      oil = balanced(inputs, losses)
+      inputs%oil%density = 2*inputs%oil%density
+      inputs%oil%specific_heat = inputs%oil%specific_heat/2
+      other = balanced(inputs, losses)
       call expect(all(abs(oil%outlet - other%outlet) < 1e-10_wp), 'temperatures')
    end subroutine capacity
 
    !> Oil crosses gaps of 20 degrees, from the pad at the next larger angle.
    subroutine carry_over()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(pad_loss) :: losses(4)
       type(oil_temperatures_type) :: oil
       real(wp) :: hot
-      scene = four_pads()
+      inputs = four_pads()
       losses = some_losses()
-      oil = balanced(scene, losses)
+      oil = balanced(inputs, losses)
       hot = min(0.8_wp*losses(3)%outlet/losses(1)%inlet, 1.0_wp)
-      call expect_close(oil%inlet(1), hot*oil%outlet(3) + (1 - hot)*scene%oil%supply_temperature, 1e-10_wp, 'mixed')
-      scene%oil%widest_gap_deg = 19.9_wp
-      oil = balanced(scene, losses)
-      call expect(all(abs(oil%inlet - scene%oil%supply_temperature) < 1e-10_wp), 'fresh across wide gaps')
+      call expect_close(oil%inlet(1), hot*oil%outlet(3) + (1 - hot)*inputs%oil%supply_temperature, 1e-10_wp, 'mixed')
+      inputs%oil%widest_gap_deg = 19.9_wp
+      oil = balanced(inputs, losses)
+      call expect(all(abs(oil%inlet - inputs%oil%supply_temperature) < 1e-10_wp), 'fresh across wide gaps')
    end subroutine carry_over
 
    !> Pads may be listed in any order, and turned together.
    subroutine order_of_pads()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(pad_loss) :: losses(4)
       type(oil_temperatures_type) :: oil, other
       integer, parameter :: order(4) = [3, 1, 4, 2]
-      scene = four_pads()
+      inputs = four_pads()
       losses = some_losses()
-      oil = balanced(scene, losses)
-      scene%pads%pivot_angle_deg = scene%pads%pivot_angle_deg(order) + 200
-      other = balanced(scene, losses(order), films(order))
+      oil = balanced(inputs, losses)
+      inputs%pads%pivot_angle_deg = inputs%pads%pivot_angle_deg(order) + 200
+      other = balanced(inputs, losses(order), films(order))
       call expect(all(abs(oil%outlet(order) - other%outlet) < 1e-10_wp), 'temperatures')
    end subroutine order_of_pads
 
    !> The viscosities are those of the temperatures that the heat made with them leads to.
    subroutine viscosities()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(pad_loss) :: losses(4)
       type(heat_balance_type) :: balance
       type(oil_temperatures_type) :: oil
       real(wp) :: wanted(4)
       integer :: k
       logical :: ok
-      scene = four_pads()
+      inputs = four_pads()
       do k = 1, 10
-         scene%oil%supply_temperature = between(-10.0_wp, 80.0_wp)
-         balance = new_heat_balance(scene)
+         inputs%oil%supply_temperature = between(-10.0_wp, 80.0_wp)
+         balance = new_heat_balance(inputs)
          losses = some_losses()
          ! cold oil may make a hundred times the heat
          losses%couette = losses%couette*100**between(-1.0_wp, 1.0_wp)
@@ -253,25 +253,25 @@ contains
          losses%couette = losses%couette*wanted/films
          losses%pressure = losses%pressure*wanted/films
          call balance%temperatures(losses, wanted, speed, oil, ok)
-         call expect(all(abs(viscosity(scene%oil, oil%mean)/wanted - 1) < 1e-11_wp), 'of the mean temperatures')
+         call expect(all(abs(viscosity(inputs%oil, oil%mean)/wanted - 1) < 1e-11_wp), 'of the mean temperatures')
       end do
    end subroutine viscosities
 
    !> Where all oil goes round and nothing is exchanged, there is no balance.
    subroutine no_fresh_oil()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(heat_balance_type) :: balance
       type(pad_loss) :: losses(4)
       type(oil_temperatures_type) :: oil
       real(wp) :: wanted(4)
       logical :: ok
-      scene = four_pads()
-      scene%oil%carry_over = 1
-      scene%oil%wall_exchange = 0
+      inputs = four_pads()
+      inputs%oil%carry_over = 1
+      inputs%oil%wall_exchange = 0
       losses = some_losses()
       losses%outlet = losses(1)%inlet
       losses%inlet = losses(1)%inlet
-      balance = new_heat_balance(scene)
+      balance = new_heat_balance(inputs)
       call balance%temperatures(losses, films, speed, oil, ok)
       call expect(.not. ok, 'temperatures')
       call balance%viscosities(losses, films, speed, wanted, ok)
@@ -280,29 +280,29 @@ contains
 
    !> Oil that stands gives all its heat to the shaft.
    subroutine standing_oil()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(pad_loss) :: losses(4)
       type(oil_temperatures_type) :: oil
-      scene = four_pads()
-      scene%oil%shaft_temperature = 50
+      inputs = four_pads()
+      inputs%oil%shaft_temperature = 50
       losses = some_losses()
       losses(2)%inlet = 0
       losses(2)%outlet = 0
-      oil = balanced(scene, losses)
-      call expect_close((oil%mean(2) - 50)*conductance(scene, losses(2), films(2)), losses(2)%power(), &
+      oil = balanced(inputs, losses)
+      call expect_close((oil%mean(2) - 50)*conductance(inputs, losses(2), films(2)), losses(2)%power(), &
          & 1e-3_wp*losses(2)%power(), 'heat')
    end subroutine standing_oil
 
    !> Grooves and shaft that keep the temperatures of the balance change nothing; others show in the films.
    subroutine kept()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(heat_balance_type) :: balance
       type(pad_loss) :: losses(4)
       type(oil_temperatures_type) :: oil, other
       real(wp) :: wanted(4), others(4)
       logical :: ok
-      scene = four_pads()
-      balance = new_heat_balance(scene)
+      inputs = four_pads()
+      balance = new_heat_balance(inputs)
       losses = some_losses()
       call balance%viscosities(losses, films, speed, wanted, ok)
       losses%couette = losses%couette*wanted/films
@@ -320,21 +320,21 @@ contains
 
    !> In balance what enters a groove is what is there; it is renewed in the time of its volume and half the film's.
    subroutine renewal()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(heat_balance_type) :: balance
       type(pad_loss) :: losses(4)
       type(oil_temperatures_type) :: oil
       real(wp) :: entering(4), time_constant(4)
       logical :: ok
-      scene = four_pads()
-      scene%oil%groove_volume = 3e-5_wp
-      balance = new_heat_balance(scene)
+      inputs = four_pads()
+      inputs%oil%groove_volume = 3e-5_wp
+      balance = new_heat_balance(inputs)
       losses = some_losses()
       call balance%temperatures(losses, films, speed, oil, ok)
       call balance%renewal(losses, oil, speed, entering, time_constant)
       call expect(all(abs(entering - oil%inlet) < 1e-9_wp), 'what enters')
       ! a film 2 q/(U L) thick
-      call expect(all(abs(time_constant - (3e-5_wp + 0.5_wp*2*losses%inlet/(speed*scene%bearing%journal_radius) &
-         & *scene%pads%arc_deg*degree*scene%bearing%journal_radius)/losses%inlet) < 1e-10_wp), 'time')
+      call expect(all(abs(time_constant - (3e-5_wp + 0.5_wp*2*losses%inlet/(speed*inputs%bearing%journal_radius) &
+         & *inputs%pads%arc_deg*degree*inputs%bearing%journal_radius)/losses%inlet) < 1e-10_wp), 'time')
    end subroutine renewal
 end program test_heat_balance

@@ -6,7 +6,7 @@ program test_kinematics
    use pad_gap, only: pad_gap_type
    use kinematics, only: pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global
    use paper_bearing, only: offset_pad
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use operating_point, only: operating_point_type
    use rigid_journal, only: rigid_journal_type, journal_motion
    use check, only: runs, expect, expect_close, between, report
@@ -219,12 +219,12 @@ contains
    end function random
 
    subroutine points()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(operating_point_type) :: point, static
-      scene = scene_type()
-      scene%operation%final_speed_rpm = 3250
-      scene%rotor%static_load = [1e3_wp, -2e3_wp]
-      point = operating_point_type(scene)
+      inputs = case_type()
+      inputs%operation%final_speed_rpm = 3250
+      inputs%rotor%static_load = [1e3_wp, -2e3_wp]
+      point = operating_point_type(inputs)
       call expect_close(point%speed(0.0_wp), 6500*pi/30, 1e-12_wp*6500, 'speed at the start')
       call expect_close(point%speed(2.0_wp), 3250*pi/30, 1e-12_wp*6500, 'speed at the end')
       ! the mean speed times the duration

@@ -1,9 +1,9 @@
 !> Viscosity of oils over the temperature, and over a march.
 program test_oil_properties
    use kinds, only: wp
-   use scene, only: scene_type, oil_type, temperature_range, is_set
-   use case_scenes, only: scene_of, expect_refused
-   use namelist_writer, only: scene_text
+   use case_inputs, only: case_type, oil_type, temperature_range, is_set
+   use input_cases, only: case_of, expect_refused
+   use namelist_writer, only: namelist_of
    use oil_properties, only: viscosity, viscosity_slope, density, reference_viscosity, kinematic_points, grades
    use bearing_numbers, only: sommerfeld_number
    use equations_of_motion, only: bearing_model, new_bearing_model
@@ -33,32 +33,32 @@ contains
 
    !> An oil of 46 and 6.8 mm^2/s at 40 and 100 C: its two points, and the values of an independent program.
    subroutine walther()
-      type(scene_type) :: s
-      s = scene_of(measured)
+      type(case_type) :: s
+      s = case_of(measured)
       call expect_close(viscosity(s%oil, 40.0_wp), 46e-6_wp*854, 1e-12_wp, 'the first point')
       call expect_close(viscosity(s%oil, 100.0_wp), 6.8e-6_wp*815.6_wp, 1e-12_wp, 'the second point')
       call expect_close(viscosity(s%oil, 60.0_wp), 17.348e-3_wp, 0.5e-6_wp, 'at 60 C')
       call expect_close(viscosity(s%oil, 80.0_wp), 9.197e-3_wp, 0.5e-6_wp, 'at 80 C')
       call expect_close(density(s%oil, 15.0_wp), 870.0_wp, 0.0_wp, 'its own density')
-      s = scene_of('&oil kinematic_viscosity = 46e-6, 6.8e-6, density = 900 /')
+      s = case_of('&oil kinematic_viscosity = 46e-6, 6.8e-6, density = 900 /')
       call expect_close(density(s%oil, 80.0_wp), 900.0_wp, 0.0_wp, 'or that of the heat balance')
    end subroutine walther
 
    subroutine exponential()
-      type(scene_type) :: s
-      s = scene_of(fillon)
+      type(case_type) :: s
+      s = case_of(fillon)
       call expect_close(viscosity(s%oil, 40.0_wp), 0.0277_wp, 0.0_wp, 'at the reference')
       call expect_close(viscosity(s%oil, 60.0_wp), 0.0277_wp*exp(-0.682_wp), 1e-16_wp, '20 K above')
    end subroutine exponential
 
    !> Against central differences, whose error is of the third derivative: 1/6 (beta step)**2 of the slope.
    subroutine slopes()
-      type(scene_type) :: s
+      type(case_type) :: s
       real(wp), parameter :: step = 1e-2_wp
       integer :: i, k
       do k = 1, 2
-         if (k == 1) s = scene_of(measured)
-         if (k == 2) s = scene_of(fillon)
+         if (k == 1) s = case_of(measured)
+         if (k == 2) s = case_of(fillon)
          do i = 0, 12
             associate (t => 10.0_wp*i, slope => viscosity_slope(s%oil, 10.0_wp*i))
                call expect_close((viscosity(s%oil, t + step) - viscosity(s%oil, t - step))/(2*step)/slope, 1.0_wp, &
@@ -70,12 +70,12 @@ contains
 
    !> A search may try any temperature: the viscosity stays a positive number, and stands still there.
    subroutine far_away()
-      type(scene_type) :: s
+      type(case_type) :: s
       integer :: k
       do k = 1, 3
-         if (k == 1) s = scene_of(measured)
-         if (k == 2) s = scene_of(fillon)
-         if (k == 3) s = scene_of('&oil kinematic_viscosity = 1e-2, 5e-7, at_temperature = 40, 41,' &
+         if (k == 1) s = case_of(measured)
+         if (k == 2) s = case_of(fillon)
+         if (k == 3) s = case_of('&oil kinematic_viscosity = 1e-2, 5e-7, at_temperature = 40, 41,' &
             & //' supply_temperature = 41 /')
          call expect(all(viscosity(s%oil, [-1e9_wp, -273.15_wp, -100.0_wp, 500.0_wp, 1e9_wp]) > 0), 'positive')
          call expect(viscosity(s%oil, -1e9_wp) < huge(1.0_wp), 'finite')
@@ -112,40 +112,40 @@ contains
 
    !> The law that the numbers of a case belong to, and the viscosity that its films and its Sommerfeld number have.
    subroutine which_viscosity()
-      type(scene_type) :: s
-      s = scene_of('&case /')
+      type(case_type) :: s
+      s = case_of('&case /')
       call expect(s%oil%law == 'constant' .and. s%thermal%model == 'none', 'no law')
       call expect_films(s, 19e-3_wp)
-      s = scene_of('&bearing viscosity = 0.03 / &oil supply_temperature = 70 /')
+      s = case_of('&bearing viscosity = 0.03 / &oil supply_temperature = 70 /')
       call expect_films(s, 0.03_wp)
-      s = scene_of('&oil grade = 46, supply_temperature = 50 /')
+      s = case_of('&oil grade = 46, supply_temperature = 50 /')
       call expect(s%oil%law == 'walther' .and. .not. is_set(s%bearing%viscosity), 'a grade')
       call expect_films(s, viscosity(s%oil, 50.0_wp))
       call expect(index(derived_text(s), 'Pa s at oil%supply_temperature = 50 C') > 0, 'that --check prints')
-      s = scene_of('&oil reference_viscosity = 0.03, temperature_exponent = 0.03, supply_temperature = 60 /')
+      s = case_of('&oil reference_viscosity = 0.03, temperature_exponent = 0.03, supply_temperature = 60 /')
       call expect(s%oil%law == 'exponential', 'a reference')
       call expect_films(s, 0.03_wp*exp(-0.6_wp))
    end subroutine which_viscosity
 
    subroutine expect_films(s, mu)
-      type(scene_type), intent(in) :: s
+      type(case_type), intent(in) :: s
       real(wp), intent(in) :: mu
       type(bearing_model) :: model
       model = new_bearing_model(s)
       call expect_close(reference_viscosity(s), mu, 1e-15_wp, 'viscosity')
       call expect_close(model%oil(2)%viscosity, mu, 1e-15_wp, 'of the films')
-      call expect_close(sommerfeld_number(s)/sommerfeld_number(scene_type()), mu/19e-3_wp, 1e-13_wp, &
+      call expect_close(sommerfeld_number(s)/sommerfeld_number(case_type()), mu/19e-3_wp, 1e-13_wp, &
          & 'Sommerfeld number')
    end subroutine expect_films
 
    !> The resolved case is the same case.
    subroutine text_and_back()
-      type(scene_type) :: s
+      type(case_type) :: s
       character(len=:), allocatable :: text
-      s = scene_of('&oil grade = 32, shaft_temperature = 55 / &thermal model = pad /')
-      text = scene_text(s)
-      s = scene_of(text)
-      call expect(scene_text(s) == text, 'a grade')
+      s = case_of('&oil grade = 32, shaft_temperature = 55 / &thermal model = pad /')
+      text = namelist_of(s)
+      s = case_of(text)
+      call expect(namelist_of(s) == text, 'a grade')
       call expect(index(text, 'grade = 32') > 0 .and. index(text, '  viscosity') == 0, 'no bearing%viscosity')
    end subroutine text_and_back
 

@@ -3,11 +3,11 @@
 program test_partial_equilibrium
    use kinds, only: wp
    use errors, only: error_type, numerics_error
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use equations_of_motion, only: bearing_model, new_bearing_model
    use force_balance, only: forces
    use equilibrium, only: equilibrium_type, find_equilibrium, find_partial_equilibrium
-   use case_scenes, only: scene_of
+   use input_cases, only: case_of
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
 
@@ -23,11 +23,11 @@ contains
       type(equilibrium_type) :: part, whole
       logical, allocatable :: held(:)
       type(error_type), allocatable :: error
-      call find_partial_equilibrium(new_bearing_model(scene_type()), part, held, error)
+      call find_partial_equilibrium(new_bearing_model(case_type()), part, held, error)
       call expect_no_error(error, 'the paper''s bearing')
       if (.not. allocated(held)) return
       call expect(.not. any(held), 'no pad is held')
-      call find_equilibrium(new_bearing_model(scene_type()), whole, error)
+      call find_equilibrium(new_bearing_model(case_type()), whole, error)
       call expect_close(norm2(part%journal - whole%journal), 0.0_wp, 1e-11_wp, 'the same place')
       call expect_close(maxval(abs(part%tilt - whole%tilt)), 0.0_wp, 1e-9_wp, 'the same tilts')
    end subroutine nothing_held
@@ -35,7 +35,7 @@ contains
    !> A third pad on top, so far from the journal that its film does not carry its weight, and heavy on one side: it
    !> would turn over. Journal and lower pads are in balance, to 1e-8 of 2e4 N, with it at zero tilt.
    subroutine pad_held()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_model) :: model
       type(equilibrium_type) :: found
       logical, allocatable :: held(:)
@@ -43,9 +43,9 @@ contains
       real(wp), allocatable :: force(:)
       logical :: ok
       ! its films are those of the search
-      scene = scene_of('&pads pivot_angle_deg = -45, 225, 90 / &film solver = ''direct'' /')
-      scene%pads%centre_tangential(3) = 60e-3_wp
-      model = new_bearing_model(scene)
+      inputs = case_of('&pads pivot_angle_deg = -45, 225, 90 / &film solver = ''direct'' /')
+      inputs%pads%centre_tangential(3) = 60e-3_wp
+      model = new_bearing_model(inputs)
       call find_partial_equilibrium(model, found, held, error)
       call expect_no_error(error, 'with a pad on top')
       if (.not. allocated(held)) return
@@ -65,7 +65,7 @@ contains
       type(equilibrium_type) :: found
       logical, allocatable :: held(:)
       type(error_type), allocatable :: error
-      call find_partial_equilibrium(new_bearing_model(scene_of('&rotor static_load = 58860, 0 /')), found, held, error)
+      call find_partial_equilibrium(new_bearing_model(case_of('&rotor static_load = 58860, 0 /')), found, held, error)
       call expect_error(error, numerics_error, 'no partial equilibrium found', 'nothing carries the load')
    end subroutine no_partial
 end program test_partial_equilibrium

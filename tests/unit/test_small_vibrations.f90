@@ -2,7 +2,7 @@
 program test_small_vibrations
    use kinds, only: wp, pi
    use errors, only: error_type
-   use case_scenes, only: scene_of
+   use input_cases, only: case_of
    use sampled_march, only: march_samples
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
@@ -72,7 +72,7 @@ contains
       real(wp) :: period, size_of(periods)
       integer, allocatable :: tilts(:)
       integer :: k, sample
-      model = new_bearing_model(scene_of(case))
+      model = new_bearing_model(case_of(case))
       call find_equilibrium(model, found, error)
       call expect_no_error(error, 'equilibrium, '//expected)
       if (allocated(error)) return

@@ -6,7 +6,7 @@ program test_state_layout
    use kinematics, only: pad_state, columns, tilt_column, tilt_rate_column, penetration_column, &
       & penetration_rate_column
    use state_layout, only: state_layout_type, new_state_layout
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use equations_of_motion, only: bearing_model, new_bearing_model
    use force_balance, only: forces, force_derivatives, masses
    use check, only: runs, expect, expect_close, between, report
@@ -162,7 +162,7 @@ contains
    !> entry.
    subroutine against_motion(motion, friction)
       character(len=*), intent(in) :: motion, friction
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(bearing_model) :: model
       real(wp), allocatable :: y(:), rates(:), jacobian(:, :), expected(:), matrix(:, :), over_positions(:, :)
       real(wp), allocatable :: over_rates(:, :)
@@ -171,12 +171,12 @@ contains
       logical :: ok
       integer :: n, i
       what = trim(motion)//', '//trim(friction)
-      scene = scene_type()
-      scene%pads%motion = trim(motion)
-      scene%friction%model = trim(friction)
-      scene%pads%centre_tangential = [3e-3_wp, -6e-3_wp]
-      scene%pads%mass = [0.8_wp, 0.6_wp]
-      model = new_bearing_model(scene)
+      inputs = case_type()
+      inputs%pads%motion = trim(motion)
+      inputs%friction%model = trim(friction)
+      inputs%pads%centre_tangential = [3e-3_wp, -6e-3_wp]
+      inputs%pads%mass = [0.8_wp, 0.6_wp]
+      model = new_bearing_model(inputs)
       y = model%state(journal_motion([-4e-5_wp, 2e-6_wp], [1e-3_wp, -2e-3_wp]), &
          & [(pad_state(4e-4_wp*(i - 1), between(0.3_wp, 0.6_wp), 7e-6_wp, 1e-3_wp, 1e-7_wp), i=1, 2)])
       n = model%layout%n_positions()

@@ -6,8 +6,8 @@ program test_sweep
    use errors, only: error_type, input_error
    use assignments, only: token_type
    use swept_values, only: swept_values_type, read_swept_values
-   use scene, only: scene_type
-   use namelist_writer, only: scene_text
+   use case_inputs, only: case_type
+   use namelist_writer, only: namelist_of
    use sweep, only: sweep_type, member_tag, sweep_from_text
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, between, report
    implicit none (type, external)
@@ -216,12 +216,12 @@ contains
       call expect_no_error(error, 'accepted: '//text)
    end function sweep_of
 
-   !> The scene of a member that must be good.
-   type(scene_type) function member(sweep, k) result(scene)
+   !> The case of a member that must be good.
+   type(case_type) function member(sweep, k) result(inputs)
       type(sweep_type), intent(in) :: sweep
       integer, intent(in) :: k
       type(error_type), allocatable :: error
-      call sweep%scene(k, scene, error)
+      call sweep%inputs(k, inputs, error)
       call expect_no_error(error, 'member '//to_text(k)//' is good')
    end function member
 
@@ -230,13 +230,13 @@ contains
       character(len=*), intent(in) :: text
       real(wp), intent(in) :: expected(:)
       type(sweep_type) :: sweep
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       integer :: k
       sweep = sweep_of('&sweep operation%speed_rpm = '//text//' /')
       call expect(sweep%members == size(expected), text//' has '//to_text(sweep%members)//' members')
       do k = 1, min(sweep%members, size(expected))
-         scene = member(sweep, k)
-         call expect_close(scene%operation%speed_rpm, expected(k), 0.0_wp, text//', member '//to_text(k))
+         inputs = member(sweep, k)
+         call expect_close(inputs%operation%speed_rpm, expected(k), 0.0_wp, text//', member '//to_text(k))
       end do
    end subroutine expect_speeds
 
@@ -244,14 +244,14 @@ contains
    subroutine expect_powers(first, factor)
       real(wp), intent(in) :: first, factor
       type(sweep_type) :: sweep
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(error_type), allocatable :: error
       integer, parameter :: more = selected_real_kind(30)
       integer :: k
       sweep = sweep_of('&sweep film%relaxation = '//exact_text(first)//':1e-20:*'//exact_text(factor)//'/')
       do k = 1, sweep%members
-         call sweep%scene(k, scene, error)
-         call expect_close(scene%film%relaxation, first*real(real(factor, more)**(k - 1), wp), 0.0_wp, &
+         call sweep%inputs(k, inputs, error)
+         call expect_close(inputs%film%relaxation, first*real(real(factor, more)**(k - 1), wp), 0.0_wp, &
             & 'power '//to_text(k - 1))
       end do
    end subroutine expect_powers
@@ -268,22 +268,22 @@ contains
 
    subroutine no_sweep()
       type(sweep_type) :: sweep
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(error_type), allocatable :: error
       sweep = sweep_of('&rotor mass = 1234 /')
       call expect(.not. sweep%given .and. sweep%members == 1, 'a case without a sweep')
-      scene = member(sweep, 1)
-      call expect_close(scene%rotor%mass, 1234.0_wp, 0.0_wp, 'is its one member')
+      inputs = member(sweep, 1)
+      call expect_close(inputs%rotor%mass, 1234.0_wp, 0.0_wp, 'is its one member')
       call expect_tag(sweep, 1, '')
       sweep = sweep_of('&rotor mass = -1 /')
-      call sweep%scene(1, scene, error)
+      call sweep%inputs(1, inputs, error)
       call expect_error(error, input_error, 'case.nml line 1: rotor%mass = -1', 'a bad value in it')
    end subroutine no_sweep
 
    !> The first variable is the slowest.
    subroutine product_order()
       type(sweep_type) :: sweep
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       sweep = sweep_of('&sweep'//newline//'operation%speed_rpm = 1e3, 2e3'//newline//'friction%model = ''none'', ' &
          & //'"LuGre", bengisu_akay Pads%Arc_deg(2)=60 65/')
       call expect(sweep%given .and. sweep%members == 12, 'product of 2, 3 and 2')
@@ -293,11 +293,11 @@ contains
          & //'pads%arc_deg(2) = 65')
       call expect_tag(sweep, 9, 'operation%speed_rpm = 2e3'//newline//'friction%model = ''LuGre'''//newline &
          & //'pads%arc_deg(2) = 60')
-      scene = member(sweep, 12)
-      call expect_close(scene%operation%speed_rpm, 2000.0_wp, 0.0_wp, 'speed of the last')
-      call expect_close(scene%operation%final_speed_rpm, 2000.0_wp, 0.0_wp, 'its final speed is the same')
-      call expect(scene%friction%model == 'bengisu_akay', 'its friction')
-      call expect_close(maxval(abs(scene%pads%arc_deg - [69.3_wp, 65.0_wp])), 0.0_wp, 0.0_wp, 'its arcs')
+      inputs = member(sweep, 12)
+      call expect_close(inputs%operation%speed_rpm, 2000.0_wp, 0.0_wp, 'speed of the last')
+      call expect_close(inputs%operation%final_speed_rpm, 2000.0_wp, 0.0_wp, 'its final speed is the same')
+      call expect(inputs%friction%model == 'bengisu_akay', 'its friction')
+      call expect_close(maxval(abs(inputs%pads%arc_deg - [69.3_wp, 65.0_wp])), 0.0_wp, 0.0_wp, 'its arcs')
    end subroutine product_order
 
    subroutine zip_order()
@@ -343,25 +343,25 @@ contains
    integer function member_steps(sweep, k)
       type(sweep_type), intent(in) :: sweep
       integer, intent(in) :: k
-      type(scene_type) :: scene
-      scene = member(sweep, k)
-      member_steps = scene%integration%max_steps
+      type(case_type) :: inputs
+      inputs = member(sweep, k)
+      member_steps = inputs%integration%max_steps
    end function member_steps
 
    !> A swept value stands in place of the case's, be that good or bad, and elements in place of elements.
    subroutine in_place_of_the_case()
       type(sweep_type) :: sweep
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       sweep = sweep_of('&rotor mass = -1, gravity = 5 / &sweep rotor%mass = 10, 20 / &pads arc_deg(1) = 50, 51 /')
-      scene = member(sweep, 2)
-      call expect_close(scene%rotor%mass, 20.0_wp, 0.0_wp, 'a bad value mended')
-      call expect_close(scene%rotor%gravity, 5.0_wp, 0.0_wp, 'what is not swept stays')
+      inputs = member(sweep, 2)
+      call expect_close(inputs%rotor%mass, 20.0_wp, 0.0_wp, 'a bad value mended')
+      call expect_close(inputs%rotor%gravity, 5.0_wp, 0.0_wp, 'what is not swept stays')
       sweep = sweep_of('&pads arc_deg(1) = 50, 51 / &sweep pads%arc_deg(1) = 60 /')
-      scene = member(sweep, 1)
-      call expect_close(maxval(abs(scene%pads%arc_deg - [60.0_wp, 51.0_wp])), 0.0_wp, 0.0_wp, 'one element of a list')
+      inputs = member(sweep, 1)
+      call expect_close(maxval(abs(inputs%pads%arc_deg - [60.0_wp, 51.0_wp])), 0.0_wp, 0.0_wp, 'one element of a list')
       sweep = sweep_of('&pads arc_deg = 50, 51 / &sweep pads%arc_deg = 60 /')
-      scene = member(sweep, 1)
-      call expect_close(maxval(abs(scene%pads%arc_deg - 60)), 0.0_wp, 0.0_wp, 'one value for all pads')
+      inputs = member(sweep, 1)
+      call expect_close(maxval(abs(inputs%pads%arc_deg - 60)), 0.0_wp, 0.0_wp, 'one value for all pads')
    end subroutine in_place_of_the_case
 
    !> --set sweep%... keeps the order of the variables, and makes a sweep where there is none.
@@ -403,7 +403,7 @@ contains
          call expect(text == second .and. len(text) == len(second), 'resolves to itself: '//trim(cases(i)))
          call expect(again%members == sweep%members .and. sweep%members > 1, 'as many members')
          do k = 1, sweep%members
-            call expect(scene_text(member(again, k)) == scene_text(member(sweep, k)), 'the same member '//to_text(k))
+            call expect(namelist_of(member(again, k)) == namelist_of(member(sweep, k)), 'the same member '//to_text(k))
          end do
       end do
    end subroutine resolved_again
@@ -476,7 +476,7 @@ contains
       call expect_refused('&rotor /', '--set: unknown variable sweep%mass', ['sweep%mass=3'])
    end subroutine refused
 
-   !> What the scene of a member shows; every member knows names that there are not.
+   !> What the case of a member shows; every member knows names that there are not.
    subroutine refused_members()
       call expect_bad(1, 'roter%mass = 1', 'case.nml line 2, member 1: unknown group roter')
       call expect_bad(1, 'rotor%mess = 1', 'case.nml line 2, member 1: unknown variable rotor%mess')
@@ -494,10 +494,10 @@ contains
       integer, intent(in) :: k
       character(len=*), intent(in) :: assignment, words
       type(sweep_type) :: sweep
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(error_type), allocatable :: error
       sweep = sweep_of('&sweep'//newline//assignment//'/')
-      call sweep%scene(k, scene, error)
+      call sweep%inputs(k, inputs, error)
       call expect_error(error, input_error, words, 'a bad member: '//assignment)
    end subroutine expect_bad
 end program test_sweep

@@ -3,14 +3,14 @@
 program test_tilting_pad_bearing
    use kinds, only: wp
    use text, only: to_text
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    use film_solver, only: film_oil
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_state, columns, journal_columns, tilt_column, tilt_rate_column, penetration_column, &
       & position_columns, rate_columns
    use tilting_pad, only: pad_derivatives
    use tilting_pad_bearing, only: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing
-   use case_scenes, only: scene_of
+   use input_cases, only: case_of
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -46,15 +46,15 @@ contains
    !> Loads of a pad that is chosen are those of its new state, loads of another stay those of the state before.
    subroutine chosen_pads(solver)
       character(len=*), intent(in) :: solver
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(tilting_pad_bearing_type) :: bearing, all_pads
       type(journal_motion) :: journal
       type(pad_state) :: pads(2), moved(2)
       character(len=:), allocatable :: refusal
       logical :: ok
-      scene = heavy_scene('tilting_radial', 'none')
-      scene%film%solver = solver
-      bearing = new_tilting_pad_bearing(scene)
+      inputs = heavy_case('tilting_radial', 'none')
+      inputs%film%solver = solver
+      bearing = new_tilting_pad_bearing(inputs)
       call draw(journal, pads)
       call bearing%evaluate(journal, pads, oil, speed, .true., refusal, ok)
       all_pads = bearing
@@ -78,25 +78,25 @@ contains
    !> Heavy pads off their balance on films without rupture, hence smooth, solved closely.
    type(tilting_pad_bearing_type) function heavy_bearing(motion, friction) result(bearing)
       character(len=*), intent(in) :: motion, friction
-      bearing = new_tilting_pad_bearing(heavy_scene(motion, friction))
+      bearing = new_tilting_pad_bearing(heavy_case(motion, friction))
    end function heavy_bearing
 
-   type(scene_type) function heavy_scene(motion, friction) result(scene)
+   type(case_type) function heavy_case(motion, friction) result(inputs)
       character(len=*), intent(in) :: motion, friction
-      scene = scene_of('&pads mass = 80, 60, inertia = 0.03, 0.025, centre_tangential = 3e-3, -6e-3, ' &
+      inputs = case_of('&pads mass = 80, 60, inertia = 0.03, 0.025, centre_tangential = 3e-3, -6e-3, ' &
          & //'pivot_ratio = 0.5, 0.6, motion = '''//trim(motion)//''' / &friction model = '''//trim(friction) &
          & //''' / &rotor gravity = 300 / &film solver = ''modal'', cavitation = ''none'' /')
-   end function heavy_scene
+   end function heavy_case
 
    !> The same bearing with asperities as high as the films are thick, so that differences over steps of its films are
    !> close: 4 sigma = 100 um, K' E' by which they bear about as much as the films.
    type(tilting_pad_bearing_type) function rough_bearing(motion, friction) result(bearing)
       character(len=*), intent(in) :: motion, friction
-      type(scene_type) :: scene
-      scene = heavy_scene(motion, friction)
-      scene%asperity%roughness = 25e-6_wp
-      scene%asperity%elastic_modulus = 1e9_wp
-      bearing = new_tilting_pad_bearing(scene)
+      type(case_type) :: inputs
+      inputs = heavy_case(motion, friction)
+      inputs%asperity%roughness = 25e-6_wp
+      inputs%asperity%elastic_modulus = 1e9_wp
+      bearing = new_tilting_pad_bearing(inputs)
    end function rough_bearing
 
    !> Pads that carry, tilted, in motion, sliding at some mm/s: away from the kinks of friction.
@@ -268,7 +268,7 @@ contains
 
    !> Friction off and films kept whole, and both back.
    subroutine operating_point()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       type(tilting_pad_bearing_type) :: bearing
       type(journal_motion) :: journal
       type(pad_state) :: pads(2)
@@ -278,11 +278,11 @@ contains
       logical :: ok
       integer :: k
       do k = 1, size(solvers)
-         scene = scene_type()
-         scene%friction%model = 'bengisu_akay'
-         scene%film%solver = trim(solvers(k))
-         if (solvers(k) == 'modal') scene%film%cavitation = 'gumbel'
-         bearing = new_tilting_pad_bearing(scene)
+         inputs = case_type()
+         inputs%friction%model = 'bengisu_akay'
+         inputs%film%solver = trim(solvers(k))
+         if (solvers(k) == 'modal') inputs%film%cavitation = 'gumbel'
+         bearing = new_tilting_pad_bearing(inputs)
          call expect(.not. bearing%smooth() .and. bearing%films_rupture(), 'friction and rupture, '//solvers(k))
          ! the wedge of the second pad opens: its film ruptures
          journal%position = [-3e-5_wp, 0.0_wp]
@@ -298,13 +298,13 @@ contains
          whole = bearing%loads(2)%journal
          call expect(norm2(whole - ruptured) > 1e-2_wp*norm2(ruptured), &
             & 'the whole film has another force, '//solvers(k))
-         scene%film%cavitation = 'none'
+         inputs%film%cavitation = 'none'
          bearing%rubs = .true.
          call bearing%set_rupture(.true.)
          call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect_close(norm2(bearing%loads(2)%journal - ruptured), 0.0_wp, 1e-5_wp*norm2(ruptured), &
             & 'and back, within the tolerance of sor, '//solvers(k))
-         bearing = new_tilting_pad_bearing(scene)
+         bearing = new_tilting_pad_bearing(inputs)
          call expect(.not. bearing%films_rupture(), 'no rupture by the input, '//solvers(k))
          call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect_close(norm2(bearing%loads(2)%journal - whole), 0.0_wp, 1e-5_wp*norm2(whole), &

@@ -32,7 +32,7 @@ def deviation(values: np.ndarray, true: np.ndarray, scale: float = 0.0) -> float
 
 
 def deviations(run: Run, reference: Run, part: slice | None = None) -> dict[str, float]:
-    """The deviation of each of SIGNALS from a reference run of the same scene, over the samples `part` of the
+    """The deviation of each of SIGNALS from a reference run of the same case, over the samples `part` of the
     reference (default: its last revolution). A signal that the reference does not have, as the tilts of
     fixed pads, or without a scale, as the friction moment of a run without friction, is left out.
     """

@@ -1,7 +1,7 @@
 """Friction of the pivots: sliding, sticking, work.
 
 Everything is in SI units; `last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ...
-Without friction in the scene all but `sliding_velocity` raise NotInRunError.
+Without friction in the case all but `sliding_velocity` raise NotInRunError.
 """
 
 import numpy as np

@@ -14,7 +14,7 @@ from tiltpad.files.read import Run
 BLOCK = 1 << 16
 #: Revolutions in which a motion of about half the order shows its whole extent.
 COVER = 3
-#: States of the motion, as far as the scene has them.
+#: States of the motion, as far as the case has them.
 STATES = (
     *("journal_y", "journal_z", "journal_vy", "journal_vz", "pad_tilt", "pad_tilt_rate"),
     *("pad_penetration", "pad_penetration_rate", "bristle_deflection"),
@@ -144,7 +144,7 @@ def poincare(
     """States once a revolution, where the shaft has turned by whole revolutions and `phase`, rad.
 
     A dictionary of arrays, (n,) or (n, pad), in SI units: "revolution" (whole revolutions since the start),
-    "time" and of `states` (None: all, journal_y to bristle_deflection) those the scene has. A periodic
+    "time" and of `states` (None: all, journal_y to bristle_deflection) those the case has. A periodic
     motion is one point, one that repeats after k revolutions is k points.
     """
     needs_revolutions(run, "Poincare section")

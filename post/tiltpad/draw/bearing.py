@@ -45,9 +45,9 @@ def bearing(case: Run | Case) -> Figure:
     state = geometry.at_rest(run) if run else geometry.centred(groups)
     fig = plt.figure(figsize=(PAGE, 4.4))
     ax, beside = fig.subplots(1, 2, width_ratios=(1.45, 1))
-    scene = Scene(ax, groups, state)
+    drawing = Drawing(ax, groups, state)
     mark_angles(ax, groups)
-    mark_edges(ax, scene)
+    mark_edges(ax, drawing)
     mark_rotation(ax)
     mark_load(ax, groups)
     beside.axis("off")
@@ -56,7 +56,7 @@ def bearing(case: Run | Case) -> Figure:
     return fig
 
 
-class Scene:
+class Drawing:
     """Journal and pads on axes, which can be moved."""
 
     def __init__(self, ax: Axes, case: Case, state: State):
@@ -112,11 +112,11 @@ def mark_angles(ax: Axes, case: Case) -> None:
     ax.text(*polar(0.43, 38), "angles", **NOTE | {"fontsize": "x-small"}, zorder=3)
 
 
-def mark_edges(ax: Axes, scene: Scene) -> None:
+def mark_edges(ax: Axes, drawing: Drawing) -> None:
     """Which edges of the first pad are the leading and the trailing one, where its angle leaves room."""
-    if geometry.of_pads(scene.case, "arc_deg")[0] < ROOM:
+    if geometry.of_pads(drawing.case, "arc_deg")[0] < ROOM:
         return
-    for inside, name in ((scene.middles[0][-5], "leading edge"), (scene.middles[0][4], "trailing edge")):
+    for inside, name in ((drawing.middles[0][-5], "leading edge"), (drawing.middles[0][4], "trailing edge")):
         out = 1.32 * inside
         line = {"arrowstyle": "-", "color": "0.45", "linewidth": 0.5, "relpos": (0.5, 0.5), "shrinkA": 7}
         ax.annotate(name.replace(" ", "\n"), inside, out, arrowprops=line, **NOTE | {"fontsize": "x-small"})
@@ -213,7 +213,7 @@ def moving(run: Run, last: float) -> tuple[Figure, Any, Sequence[State]]:
     states = whole[:-1:every]
     fig = plt.figure(figsize=(PAGE, 3.7))
     left, right = fig.subplots(1, 2, width_ratios=(1.15, 1))
-    scene = Scene(left, run.input, states[0])
+    drawing = Drawing(left, run.input, states[0])
     mark_rotation(left)
     y, z = SHOWN["journal_y"].factor * np.array([state.journal for state in whole]).T
     right.plot(z, y, color="0.75", linewidth=0.8)
@@ -226,7 +226,7 @@ def moving(run: Run, last: float) -> tuple[Figure, Any, Sequence[State]]:
     clock = right.set_title("")
 
     def frame(number: int) -> None:
-        scene.move(states[number])
+        drawing.move(states[number])
         passed = slice(0, number * every + 1)
         trail.set_data(z[passed], y[passed])
         dot.set_data(z[number * every : number * every + 1], y[number * every : number * every + 1])

@@ -2,7 +2,7 @@
 !> parameters of a model: another point needs no other model.
 module operating_point
    use kinds, only: wp, rpm
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    implicit none (type, external)
    private
    public :: operating_point_type
@@ -22,23 +22,23 @@ module operating_point
       procedure :: static
    end type operating_point_type
 
-   !> That of a scene.
+   !> That of a case.
    interface operating_point_type
-      module procedure point_of_scene
+      module procedure point_of_case
    end interface operating_point_type
 
 contains
 
-   pure function point_of_scene(scene) result(point)
-      type(scene_type), intent(in) :: scene
+   pure function point_of_case(inputs) result(point)
+      type(case_type), intent(in) :: inputs
       type(operating_point_type) :: point
-      associate (r => scene%rotor, o => scene%operation)
+      associate (r => inputs%rotor, o => inputs%operation)
          point%speed_rpm = o%speed_rpm
          point%acceleration = (o%final_speed_rpm - o%speed_rpm)*rpm/o%duration
          point%load = r%static_load - [r%mass*r%gravity, 0.0_wp]
       end associate
-      point%unbalance = scene%unbalance()
-   end function point_of_scene
+      point%unbalance = inputs%unbalance()
+   end function point_of_case
 
    !> Shaft speed at time t, rad/s.
    pure real(wp) function speed(self, t)

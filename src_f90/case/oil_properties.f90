@@ -5,7 +5,7 @@
 !> constant:     bearing%viscosity, whatever the temperature.
 module oil_properties
    use kinds, only: wp
-   use scene, only: scene_type, oil_type, temperature_range, is_set
+   use case_inputs, only: case_type, oil_type, temperature_range, is_set
    implicit none (type, external)
    private
    public :: viscosity, viscosity_slope, density, reference_viscosity, kinematic_points, grades
@@ -68,12 +68,12 @@ contains
 
    !> The viscosity that films have without a heat balance, Pa s: bearing%viscosity where the law is constant, else that
    !> at the supply temperature.
-   pure real(wp) function reference_viscosity(scene)
-      type(scene_type), intent(in) :: scene
-      if (scene%oil%law == 'constant') then
-         reference_viscosity = scene%bearing%viscosity
+   pure real(wp) function reference_viscosity(inputs)
+      type(case_type), intent(in) :: inputs
+      if (inputs%oil%law == 'constant') then
+         reference_viscosity = inputs%bearing%viscosity
       else
-         reference_viscosity = viscosity(scene%oil, scene%oil%supply_temperature)
+         reference_viscosity = viscosity(inputs%oil, inputs%oil%supply_temperature)
       end if
    end function reference_viscosity
 

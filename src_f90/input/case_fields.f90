@@ -1,15 +1,15 @@
-!> The list of all input variables: each with its component of the scene, name, allowed values, unit and meaning.
+!> The list of all input variables: each with its component of the case, name, allowed values, unit and meaning.
 !> The reader, the writer and the input reference each visit this list.
-module scene_fields
+module case_fields
    use kinds, only: wp
    use field_visitor, only: visitor_type, field, choice
-   use scene, only: scene_type, case_type, rotor_type, operation_type, bearing_type, oil_type, thermal_type, &
+   use case_inputs, only: case_type, about_type, rotor_type, operation_type, bearing_type, oil_type, thermal_type, &
       & pads_type, pivot_type, friction_type, asperity_type, start_type, film_type, integration_type, output_type, &
       & mass_range, inertia_range, centre_range, temperature_range, viscosity_range
    use task_fields, only: visit_coefficients, visit_periodic, visit_branch
    implicit none (type, external)
    private
-   public :: visit_scene, title_variable, checkpoint_variable, pads_variable
+   public :: visit_case, title_variable, checkpoint_variable, pads_variable
 
    !> Variables without effect on what is calculated: a sweep cannot vary the title, and a resumed run may have
    !> another time between checkpoints.
@@ -20,31 +20,31 @@ module scene_fields
 
 contains
 
-   !> Shows every input variable of the scene to the visitor, in the order of the input reference.
-   subroutine visit_scene(scene, v)
-      type(scene_type), intent(inout) :: scene
+   !> Shows every input variable of the case to the visitor, in the order of the input reference.
+   subroutine visit_case(inputs, v)
+      type(case_type), intent(inout) :: inputs
       class(visitor_type), intent(inout) :: v
-      call visit_case(scene%about, v)
-      call visit_rotor(scene%rotor, v)
-      call visit_operation(scene%operation, v)
-      call visit_bearing(scene%bearing, v)
-      call visit_oil(scene%oil, v)
-      call visit_thermal(scene%thermal, v)
-      call visit_pads(scene%pads, v)
-      call visit_pivot(scene%pivot, v)
-      call visit_friction(scene%friction, v)
-      call visit_asperity(scene%asperity, v)
-      call visit_start(scene%start, v)
-      call visit_film(scene%film, v)
-      call visit_integration(scene%integration, v)
-      call visit_output(scene%output, v)
-      call visit_coefficients(scene%coefficients, v)
-      call visit_periodic(scene%periodic, v)
-      call visit_branch(scene%branch, v)
-   end subroutine visit_scene
+      call visit_about(inputs%about, v)
+      call visit_rotor(inputs%rotor, v)
+      call visit_operation(inputs%operation, v)
+      call visit_bearing(inputs%bearing, v)
+      call visit_oil(inputs%oil, v)
+      call visit_thermal(inputs%thermal, v)
+      call visit_pads(inputs%pads, v)
+      call visit_pivot(inputs%pivot, v)
+      call visit_friction(inputs%friction, v)
+      call visit_asperity(inputs%asperity, v)
+      call visit_start(inputs%start, v)
+      call visit_film(inputs%film, v)
+      call visit_integration(inputs%integration, v)
+      call visit_output(inputs%output, v)
+      call visit_coefficients(inputs%coefficients, v)
+      call visit_periodic(inputs%periodic, v)
+      call visit_branch(inputs%branch, v)
+   end subroutine visit_case
 
-   subroutine visit_case(case, v)
-      type(case_type), intent(inout) :: case
+   subroutine visit_about(case, v)
+      type(about_type), intent(inout) :: case
       class(visitor_type), intent(inout) :: v
       call v%group('case', 'Title and task of the run')
       call v%word(case%title, choice('title', '', 'free text, which the result file contains'))
@@ -53,7 +53,7 @@ contains
          & //'stiffness, damping and stability there; periodic: the orbit that the motion repeats, and its ' &
          & //'stability; branch: equilibria or such orbits over a number of the input, and where their stability ' &
          & //'changes'))
-   end subroutine visit_case
+   end subroutine visit_about
 
    subroutine visit_rotor(rotor, v)
       type(rotor_type), intent(inout) :: rotor
@@ -323,4 +323,4 @@ contains
       call v%number(output%checkpoint_seconds, field('checkpoint_seconds', 0.0_wp, 1e9_wp, 's', &
          & 'wall time between checkpoints, from which --resume continues; 0: only when a signal stops the run'))
    end subroutine visit_output
-end module scene_fields
+end module case_fields

@@ -1,12 +1,12 @@
 !> What a run is about: one derived type per namelist group. The defaults are Tables 1 and 2 of
-!> Dyk et al. 2023, so a default scene is the paper's bearing. SI units unless a name says otherwise.
-module scene
+!> Dyk et al. 2023, so a default case is the paper's bearing. SI units unless a name says otherwise.
+module case_inputs
    use kinds, only: wp, rpm
    implicit none (type, external)
    private
-   public :: scene_type, max_pads, unset, is_set, mass_range, inertia_range, centre_range, temperature_range
+   public :: case_type, max_pads, unset, is_set, mass_range, inertia_range, centre_range, temperature_range
    public :: viscosity_range, clearance_range
-   public :: case_type, rotor_type, operation_type, bearing_type, oil_type, thermal_type, pads_type, pivot_type
+   public :: about_type, rotor_type, operation_type, bearing_type, oil_type, thermal_type, pads_type, pivot_type
    public :: friction_type
    public :: asperity_type, start_type, film_type, coefficients_type, most_ratios
    public :: periodic_type, branch_type, integration_type, output_type
@@ -25,11 +25,11 @@ module scene
    !> What it allows of temperatures, C, and of the oil's viscosity, Pa s.
    real(wp), parameter :: temperature_range(2) = [-100.0_wp, 500.0_wp], viscosity_range(2) = [1e-6_wp, 10.0_wp]
 
-   type :: case_type
+   type :: about_type
       character(len=:), allocatable :: title
       !> 'equilibrium', 'coefficients', 'periodic', 'branch' or 'march'.
       character(len=:), allocatable :: task
-   end type case_type
+   end type about_type
 
    type :: rotor_type
       !> Mass carried by the bearing, kg; unbalance, kg m.
@@ -49,9 +49,9 @@ module scene
    type :: bearing_type
       real(wp) :: journal_radius = 49.9e-3_wp, machined_clearance = 100e-6_wp
       real(wp) :: assembled_clearance = 80e-6_wp, axial_length = 100e-3_wp
-      !> 1 - assembled over machined clearance where it is given instead of the latter; unset in a complete scene.
+      !> 1 - assembled over machined clearance where it is given instead of the latter; unset in a complete case.
       real(wp) :: preload = unset
-      !> Of the oil, where its law is 'constant'; else unset in a complete scene.
+      !> Of the oil, where its law is 'constant'; else unset in a complete case.
       real(wp) :: viscosity = 19e-3_wp
       real(wp) :: supply_pressure = 0, ambient_pressure = 0, cavitation_pressure = 0
    end type bearing_type
@@ -90,7 +90,7 @@ module scene
    type :: pads_type
       real(wp), allocatable :: pivot_angle_deg(:), arc_deg(:), pivot_ratio(:), pivot_distance(:)
       real(wp), allocatable :: mass(:), inertia(:), centre_tangential(:), centre_radial(:)
-      !> What the four above follow from where they are left out; unset in a complete scene. Fixed pads may leave out
+      !> What the four above follow from where they are left out; unset in a complete case. Fixed pads may leave out
       !> all six: then they stay unset.
       real(wp), allocatable :: density(:), thickness(:)
       !> 'tilting_radial', 'tilting_only' or 'fixed'.
@@ -198,9 +198,9 @@ module scene
       logical :: switch = .true.
    end type branch_type
 
-   type :: scene_type
+   type :: case_type
       !> The namelist group &case.
-      type(case_type) :: about
+      type(about_type) :: about
       type(rotor_type) :: rotor
       type(operation_type) :: operation
       type(bearing_type) :: bearing
@@ -226,49 +226,49 @@ module scene
       procedure :: highest_speed
       procedure :: unbalance
       procedure :: set_final_speed
-   end type scene_type
+   end type case_type
 
    !> The paper's bearing.
-   interface scene_type
-      module procedure new_scene
-   end interface scene_type
+   interface case_type
+      module procedure new_case
+   end interface case_type
 
 contains
 
-   pure function new_scene() result(scene)
-      type(scene_type) :: scene
-      scene%about%title = ''
-      scene%about%task = 'march'
-      scene%oil%law = 'constant'
-      scene%thermal%model = 'none'
-      scene%thermal%march = 'frozen'
-      scene%pads%pivot_angle_deg = [-45.0_wp, 225.0_wp]
-      scene%pads%arc_deg = [69.3_wp, 69.3_wp]
-      scene%pads%pivot_ratio = [0.5_wp, 0.5_wp]
-      scene%pads%pivot_distance = [14e-3_wp, 14e-3_wp]
-      scene%pads%mass = [0.8108_wp, 0.8108_wp]
-      scene%pads%inertia = [4.055e-4_wp, 4.055e-4_wp]
-      scene%pads%centre_tangential = [0.0_wp, 0.0_wp]
-      scene%pads%centre_radial = [-10.1e-3_wp, -10.1e-3_wp]
-      scene%pads%density = [unset, unset]
-      scene%pads%thickness = [unset, unset]
-      scene%pads%motion = 'tilting_radial'
-      scene%pivot%law = 'fang'
-      scene%friction%model = 'none'
-      scene%asperity%model = 'greenwood_tripp'
-      scene%start%from = 'equilibrium'
-      scene%start%file = ''
-      scene%start%pad_tilt = [0.0_wp, 0.0_wp]
-      scene%start%pad_tilt_rate = [0.0_wp, 0.0_wp]
-      scene%start%pad_penetration = [0.0_wp, 0.0_wp]
-      scene%start%pad_penetration_rate = [0.0_wp, 0.0_wp]
-      scene%film%solver = 'auto'
-      scene%film%cavitation = 'reynolds'
-      scene%coefficients%frequency_ratio = [1.0_wp]
-      scene%branch%of = 'periodic'
-      scene%branch%parameter = ''
-      call scene%set_final_speed()
-   end function new_scene
+   pure function new_case() result(inputs)
+      type(case_type) :: inputs
+      inputs%about%title = ''
+      inputs%about%task = 'march'
+      inputs%oil%law = 'constant'
+      inputs%thermal%model = 'none'
+      inputs%thermal%march = 'frozen'
+      inputs%pads%pivot_angle_deg = [-45.0_wp, 225.0_wp]
+      inputs%pads%arc_deg = [69.3_wp, 69.3_wp]
+      inputs%pads%pivot_ratio = [0.5_wp, 0.5_wp]
+      inputs%pads%pivot_distance = [14e-3_wp, 14e-3_wp]
+      inputs%pads%mass = [0.8108_wp, 0.8108_wp]
+      inputs%pads%inertia = [4.055e-4_wp, 4.055e-4_wp]
+      inputs%pads%centre_tangential = [0.0_wp, 0.0_wp]
+      inputs%pads%centre_radial = [-10.1e-3_wp, -10.1e-3_wp]
+      inputs%pads%density = [unset, unset]
+      inputs%pads%thickness = [unset, unset]
+      inputs%pads%motion = 'tilting_radial'
+      inputs%pivot%law = 'fang'
+      inputs%friction%model = 'none'
+      inputs%asperity%model = 'greenwood_tripp'
+      inputs%start%from = 'equilibrium'
+      inputs%start%file = ''
+      inputs%start%pad_tilt = [0.0_wp, 0.0_wp]
+      inputs%start%pad_tilt_rate = [0.0_wp, 0.0_wp]
+      inputs%start%pad_penetration = [0.0_wp, 0.0_wp]
+      inputs%start%pad_penetration_rate = [0.0_wp, 0.0_wp]
+      inputs%film%solver = 'auto'
+      inputs%film%cavitation = 'reynolds'
+      inputs%coefficients%frequency_ratio = [1.0_wp]
+      inputs%branch%of = 'periodic'
+      inputs%branch%parameter = ''
+      call inputs%set_final_speed()
+   end function new_case
 
    !> False for a number that is left out.
    elemental logical function is_set(x)
@@ -278,47 +278,47 @@ contains
 
    !> The final speed where the input leaves it out: the speed at the start.
    pure subroutine set_final_speed(self)
-      class(scene_type), intent(inout) :: self
+      class(case_type), intent(inout) :: self
       if (self%operation%final_speed_rpm < 0) self%operation%final_speed_rpm = self%operation%speed_rpm
    end subroutine set_final_speed
 
    !> Whether the task integrates the motion.
    pure logical function moves(self)
-      class(scene_type), intent(in) :: self
+      class(case_type), intent(in) :: self
       moves = self%about%task == 'march' .or. self%seeks_orbits()
    end function moves
 
    !> Whether the task seeks periodic orbits.
    pure logical function seeks_orbits(self)
-      class(scene_type), intent(in) :: self
+      class(case_type), intent(in) :: self
       seeks_orbits = self%about%task == 'periodic' .or. self%about%task == 'branch' .and. self%branch%of == 'periodic'
    end function seeks_orbits
 
    pure integer function pad_count(self)
-      class(scene_type), intent(in) :: self
+      class(case_type), intent(in) :: self
       pad_count = size(self%pads%pivot_angle_deg)
    end function pad_count
 
    !> False for pads that are fixed: lobes of a plain bearing.
    pure logical function tilting(self)
-      class(scene_type), intent(in) :: self
+      class(case_type), intent(in) :: self
       tilting = self%pads%motion /= 'fixed'
    end function tilting
 
    pure logical function tilting_radial(self)
-      class(scene_type), intent(in) :: self
+      class(case_type), intent(in) :: self
       tilting_radial = self%pads%motion == 'tilting_radial'
    end function tilting_radial
 
    !> Highest speed of the run, rad/s.
    pure real(wp) function highest_speed(self)
-      class(scene_type), intent(in) :: self
+      class(case_type), intent(in) :: self
       highest_speed = max(self%operation%speed_rpm, self%operation%final_speed_rpm)*rpm
    end function highest_speed
 
    !> Unbalance, kg m: as given, or by ISO 21940-11, eq (26): m G / Omega with G in m/s.
    pure real(wp) function unbalance(self)
-      class(scene_type), intent(in) :: self
+      class(case_type), intent(in) :: self
       real(wp) :: balance_rpm
       unbalance = self%rotor%unbalance
       if (self%rotor%balance_grade > 0) then
@@ -328,4 +328,4 @@ contains
          unbalance = 9549*self%rotor%balance_grade*self%rotor%mass/balance_rpm*1e-6_wp
       end if
    end function unbalance
-end module scene
+end module case_inputs

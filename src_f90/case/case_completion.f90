@@ -1,30 +1,30 @@
 !> What a case may leave out, because it follows from other variables: final speed, machined clearance, law of the oil,
 !> and mass, inertia and centre of gravity of the pads.
-module scene_completion
+module case_completion
    use kinds, only: wp, degree
    use text, only: to_text
    use errors, only: error_type, raise, input_error
-   use scene, only: scene_type, unset, is_set, mass_range, inertia_range, centre_range, &
+   use case_inputs, only: case_type, unset, is_set, mass_range, inertia_range, centre_range, &
       & clearance_range
    use oil_completion, only: complete_oil
    use annular_sector, only: annular_sector_type, new_annular_sector
    implicit none (type, external)
    private
-   public :: leave_out, complete_scene
+   public :: leave_out, complete_case
 
    !> Density of steel, kg/m^3.
    real(wp), parameter :: steel = 7850
 
 contains
 
-   !> Leaves out what `complete_scene` can find.
-   pure subroutine leave_out(scene)
-      type(scene_type), intent(inout) :: scene
-      scene%operation%final_speed_rpm = -1
-      scene%bearing%machined_clearance = unset
-      scene%bearing%viscosity = unset
-      scene%oil%law = ''
-      associate (pads => scene%pads)
+   !> Leaves out what `complete_case` can find.
+   pure subroutine leave_out(inputs)
+      type(case_type), intent(inout) :: inputs
+      inputs%operation%final_speed_rpm = -1
+      inputs%bearing%machined_clearance = unset
+      inputs%bearing%viscosity = unset
+      inputs%oil%law = ''
+      associate (pads => inputs%pads)
          pads%mass(:) = unset
          pads%inertia(:) = unset
          pads%centre_tangential(:) = unset
@@ -33,25 +33,25 @@ contains
    end subroutine leave_out
 
    !> Finds what is left out; afterwards only the variables from which it follows are unset.
-   subroutine complete_scene(scene, error)
-      type(scene_type), intent(inout) :: scene
+   subroutine complete_case(inputs, error)
+      type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
       integer :: i
-      call scene%set_final_speed()
-      call set_clearance(scene, error)
-      if (.not. allocated(error)) call complete_oil(scene, error)
-      do i = 1, scene%pad_count()
+      call inputs%set_final_speed()
+      call set_clearance(inputs, error)
+      if (.not. allocated(error)) call complete_oil(inputs, error)
+      do i = 1, inputs%pad_count()
          if (allocated(error)) return
-         call set_pad(scene, i, error)
+         call set_pad(inputs, i, error)
       end do
-   end subroutine complete_scene
+   end subroutine complete_case
 
    !> The machined clearance: as given, by the preload, or the paper's.
-   subroutine set_clearance(scene, error)
-      type(scene_type), intent(inout) :: scene
+   subroutine set_clearance(inputs, error)
+      type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      type(scene_type) :: paper
-      associate (b => scene%bearing)
+      type(case_type) :: paper
+      associate (b => inputs%bearing)
          if (is_set(b%preload) .and. is_set(b%machined_clearance)) then
             call raise(error, input_error, 'bearing%preload = '//to_text(b%preload)//': bearing%machined_clearance = ' &
                & //to_text(b%machined_clearance)//' is given too; give one of them')
@@ -66,7 +66,7 @@ contains
                   & //' (all in m)')
             end associate
          else if (.not. is_set(b%machined_clearance)) then
-            paper = scene_type()
+            paper = case_type()
             b%machined_clearance = paper%bearing%machined_clearance
          end if
          b%preload = unset
@@ -75,19 +75,19 @@ contains
 
    !> What is left out of a pad's mass, inertia and centre of gravity: that of the paper's pads if it has their size and
    !> neither density nor thickness is given, else that of an annular sector.
-   subroutine set_pad(scene, i, error)
-      type(scene_type), intent(inout) :: scene
+   subroutine set_pad(inputs, i, error)
+      type(case_type), intent(inout) :: inputs
       integer, intent(in) :: i
       type(error_type), allocatable, intent(out) :: error
       type(annular_sector_type) :: sector
-      type(scene_type) :: paper
-      paper = scene_type()
-      associate (p => scene%pads, q => paper%pads)
-         call refuse_surplus(scene, i, error)
+      type(case_type) :: paper
+      paper = case_type()
+      associate (p => inputs%pads, q => paper%pads)
+         call refuse_surplus(inputs, i, error)
          if (allocated(error)) return
-         if (.not. scene%tilting()) then
+         if (.not. inputs%tilting()) then
             ! fixed pads need no masses
-         else if (has_size_of(scene, i, paper) .and. .not. (is_set(p%density(i)) .or. is_set(p%thickness(i)))) then
+         else if (has_size_of(inputs, i, paper) .and. .not. (is_set(p%density(i)) .or. is_set(p%thickness(i)))) then
             call fill(p%mass(i), q%mass(1))
             call fill(p%inertia(i), q%inertia(1))
             call fill(p%centre_tangential(i), q%centre_tangential(1))
@@ -95,9 +95,9 @@ contains
          else
             call fill(p%thickness(i), p%pivot_distance(i))
             call fill(p%density(i), steel)
-            sector = new_annular_sector(scene%bearing%journal_radius + scene%bearing%machined_clearance, &
+            sector = new_annular_sector(inputs%bearing%journal_radius + inputs%bearing%machined_clearance, &
                & p%thickness(i), p%pivot_ratio(i)*p%arc_deg(i)*degree, (1 - p%pivot_ratio(i))*p%arc_deg(i)*degree, &
-               & scene%bearing%axial_length, p%pivot_distance(i))
+               & inputs%bearing%axial_length, p%pivot_distance(i))
             call fill(p%mass(i), p%density(i)*sector%volume)
             call fill(p%inertia(i), p%mass(i)*sector%squared_radius)
             call fill(p%centre_tangential(i), sector%centre_tangential)
@@ -113,11 +113,11 @@ contains
    end subroutine set_pad
 
    !> Refuses a density or thickness that nothing would follow from.
-   subroutine refuse_surplus(scene, i, error)
-      type(scene_type), intent(in) :: scene
+   subroutine refuse_surplus(inputs, i, error)
+      type(case_type), intent(in) :: inputs
       integer, intent(in) :: i
       type(error_type), allocatable, intent(out) :: error
-      associate (p => scene%pads)
+      associate (p => inputs%pads)
          if (is_set(p%density(i)) .and. is_set(p%mass(i))) then
             call raise(error, input_error, 'pads%density = '//to_text(p%density(i))//': pads%mass = ' &
                & //to_text(p%mass(i))//' is given too; give one of them (pad '//to_text(i)//')')
@@ -130,17 +130,17 @@ contains
    end subroutine refuse_surplus
 
    !> True where a pad has the size of the paper's, clearances apart.
-   pure logical function has_size_of(scene, i, paper)
-      type(scene_type), intent(in) :: scene, paper
+   pure logical function has_size_of(inputs, i, paper)
+      type(case_type), intent(in) :: inputs, paper
       integer, intent(in) :: i
-      has_size_of = all(abs(size_of(scene, i) - size_of(paper, 1)) <= 0)
+      has_size_of = all(abs(size_of(inputs, i) - size_of(paper, 1)) <= 0)
    end function has_size_of
 
-   pure function size_of(scene, i)
-      type(scene_type), intent(in) :: scene
+   pure function size_of(inputs, i)
+      type(case_type), intent(in) :: inputs
       integer, intent(in) :: i
       real(wp) :: size_of(5)
-      associate (b => scene%bearing, p => scene%pads)
+      associate (b => inputs%bearing, p => inputs%pads)
          size_of = [b%journal_radius, b%axial_length, p%arc_deg(i), p%pivot_ratio(i), p%pivot_distance(i)]
       end associate
    end function size_of
@@ -160,4 +160,4 @@ contains
       call raise(error, input_error, 'pads%'//name//' = '//to_text(value)//', from the size of the pad: must be ' &
          & //to_text(range(1))//' to '//to_text(range(2)))
    end subroutine require
-end module scene_completion
+end module case_completion

@@ -1,24 +1,24 @@
-!> Scene from namelist text. Each value is checked where it is read, so that the message can say where it stands.
-module scene_namelist
+!> Case from namelist text. Each value is checked where it is read, so that the message can say where it stands.
+module case_namelist
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, raise, add_context, input_error
-   use scene, only: scene_type, max_pads
-   use scene_checks, only: check_scene
-   use scene_completion, only: leave_out, complete_scene
+   use case_inputs, only: case_type, max_pads
+   use case_checks, only: check_case
+   use case_completion, only: leave_out, complete_case
    use field_visitor, only: visitor_type, field_type
-   use scene_fields, only: visit_scene
-   use scene_parameter, only: check_branch_parameter
+   use case_fields, only: visit_case
+   use case_parameter, only: check_branch_parameter
    use assignments, only: namelist_type, assignment_type, sweep_group
    use assigned_values, only: read_word, read_reals, refuse_values
    use variable_names, only: group_names, names_in, meant_variable, meant_group
    use namelist_text, only: parse_namelist
    implicit none (type, external)
    private
-   public :: scene_from_text, scene_from_namelist, fill_scene
+   public :: case_from_text, case_from_namelist, fill_case
 
-   !> Fills a scene from assignments, up to the first error.
-   type, extends(visitor_type) :: scene_reader
+   !> Fills a case from assignments, up to the first error.
+   type, extends(visitor_type) :: case_reader
       type(namelist_type) :: namelist
       !> Assignments to a known variable, and groups that are known.
       logical, allocatable :: used(:), known_group(:)
@@ -38,14 +38,14 @@ module scene_namelist
       procedure, private :: look_up
       procedure, private :: check_unused
       procedure, private :: refuse_unknown_group
-   end type scene_reader
+   end type case_reader
 
 contains
 
-   !> The scene of a case's text, everything checked; a sweep is refused. `file` is for messages.
-   subroutine scene_from_text(text, file, scene, error)
+   !> The case of a text, everything checked; a sweep is refused. `file` is for messages.
+   subroutine case_from_text(text, file, inputs, error)
       character(len=*), intent(in) :: text, file
-      type(scene_type), intent(out) :: scene
+      type(case_type), intent(out) :: inputs
       type(error_type), allocatable, intent(out) :: error
       type(namelist_type) :: parsed
       integer :: i
@@ -53,38 +53,38 @@ contains
       if (allocated(error)) return
       do i = 1, size(parsed%groups)
          if (parsed%groups(i)%group == sweep_group) call raise(error, input_error, parsed%groups(i)%origin &
-            & //': a sweep, where one scene is expected; tiltpad --check --member K prints those of a sweep')
+            & //': a sweep, where one case is expected; tiltpad --check --member K prints those of a sweep')
       end do
-      if (.not. allocated(error)) call scene_from_namelist(parsed, scene, error)
-   end subroutine scene_from_text
+      if (.not. allocated(error)) call case_from_namelist(parsed, inputs, error)
+   end subroutine case_from_text
 
-   !> The scene of assignments, everything checked.
-   subroutine scene_from_namelist(parsed, scene, error)
+   !> The case of assignments, everything checked.
+   subroutine case_from_namelist(parsed, inputs, error)
       type(namelist_type), intent(in) :: parsed
-      type(scene_type), intent(out) :: scene
+      type(case_type), intent(out) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      call fill_scene(parsed, scene, error)
+      call fill_case(parsed, inputs, error)
       if (allocated(error)) return
-      call complete_scene(scene, error)
-      if (.not. allocated(error)) call check_scene(scene, error)
-      if (.not. allocated(error)) call check_branch_parameter(scene, error)
+      call complete_case(inputs, error)
+      if (.not. allocated(error)) call check_case(inputs, error)
+      if (.not. allocated(error)) call check_branch_parameter(inputs, error)
       call add_context(error, parsed%file)
-   end subroutine scene_from_namelist
+   end subroutine case_from_namelist
 
-   !> The scene before `complete_scene`: each value is checked by itself; what follows from other variables is left out.
-   subroutine fill_scene(parsed, scene, error)
+   !> The case before `complete_case`: each value is checked by itself; what follows from other variables is left out.
+   subroutine fill_case(parsed, inputs, error)
       type(namelist_type), intent(in) :: parsed
-      type(scene_type), intent(out) :: scene
+      type(case_type), intent(out) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      type(scene_reader) :: reader
+      type(case_reader) :: reader
       integer :: i
       reader%namelist = parsed
       allocate (reader%used(size(parsed%assignments)), source=.false.)
       allocate (reader%known_group(size(parsed%groups)), source=.false.)
       reader%this_group = ''
-      scene = scene_type()
-      call leave_out(scene)
-      call visit_scene(scene, reader)
+      inputs = case_type()
+      call leave_out(inputs)
+      call visit_case(inputs, reader)
       call reader%group('', '')
       if (reader%unknown > 0) then
          associate (a => parsed%assignments(reader%unknown))
@@ -99,10 +99,10 @@ contains
          if (.not. reader%used(i)) call reader%refuse_unknown_group(parsed%assignments(i), '')
       end do
       if (allocated(reader%error)) call move_alloc(reader%error, error)
-   end subroutine fill_scene
+   end subroutine fill_case
 
    subroutine visit_group(self, name, meaning)
-      class(scene_reader), intent(inout) :: self
+      class(case_reader), intent(inout) :: self
       character(len=*), intent(in) :: name, meaning
       integer :: i
       call self%check_unused()
@@ -114,7 +114,7 @@ contains
 
    !> Refuses what was assigned in the group just left to a variable that it does not have.
    subroutine check_unused(self)
-      class(scene_reader), intent(inout) :: self
+      class(case_reader), intent(inout) :: self
       integer :: i
       do i = 1, size(self%used)
          if (allocated(self%error)) return
@@ -129,7 +129,7 @@ contains
 
    !> Refuses an assignment or the start of a group; the message has `prefix` before the group's name.
    subroutine refuse_unknown_group(self, found, prefix)
-      class(scene_reader), intent(inout) :: self
+      class(case_reader), intent(inout) :: self
       type(assignment_type), intent(in) :: found
       character(len=*), intent(in) :: prefix
       if (allocated(self%error)) return
@@ -139,7 +139,7 @@ contains
 
    !> The assignments to a variable of this group, in their order; none after an error.
    subroutine look_up(self, field, found)
-      class(scene_reader), intent(inout) :: self
+      class(case_reader), intent(inout) :: self
       type(field_type), intent(in) :: field
       type(assignment_type), allocatable, intent(out) :: found(:)
       integer :: i
@@ -155,7 +155,7 @@ contains
    end subroutine look_up
 
    subroutine visit_word(self, value, field)
-      class(scene_reader), intent(inout) :: self
+      class(case_reader), intent(inout) :: self
       character(len=:), allocatable, intent(inout) :: value
       type(field_type), intent(in) :: field
       type(assignment_type), allocatable :: found(:)
@@ -168,7 +168,7 @@ contains
    end subroutine visit_word
 
    subroutine visit_whole(self, value, field)
-      class(scene_reader), intent(inout) :: self
+      class(case_reader), intent(inout) :: self
       integer, intent(inout) :: value
       type(field_type), intent(in) :: field
       type(assignment_type), allocatable :: found(:)
@@ -190,7 +190,7 @@ contains
    end subroutine visit_whole
 
    subroutine visit_numbers(self, values, field)
-      class(scene_reader), intent(inout) :: self
+      class(case_reader), intent(inout) :: self
       real(wp), intent(inout) :: values(:)
       type(field_type), intent(in) :: field
       type(assignment_type), allocatable :: found(:)
@@ -213,7 +213,7 @@ contains
    end subroutine visit_numbers
 
    subroutine visit_per_pad(self, values, field)
-      class(scene_reader), intent(inout) :: self
+      class(case_reader), intent(inout) :: self
       real(wp), allocatable, intent(inout) :: values(:)
       type(field_type), intent(in) :: field
       type(assignment_type), allocatable :: found(:)
@@ -248,7 +248,7 @@ contains
    end subroutine visit_per_pad
 
    subroutine visit_list(self, values, most, field)
-      class(scene_reader), intent(inout) :: self
+      class(case_reader), intent(inout) :: self
       real(wp), allocatable, intent(inout) :: values(:)
       integer, intent(in) :: most
       type(field_type), intent(in) :: field
@@ -278,4 +278,4 @@ contains
          elements = .true.
       end associate
    end subroutine take
-end module scene_namelist
+end module case_namelist

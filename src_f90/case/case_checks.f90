@@ -1,13 +1,13 @@
-!> Checks of a scene: what no single value can tell. A message names the variables, their values and what is allowed.
-module scene_checks
+!> Checks of a case: what no single value can tell. A message names the variables, their values and what is allowed.
+module case_checks
    use kinds, only: wp, degree
    use text, only: to_text
    use errors, only: error_type, require
-   use scene, only: scene_type, clearance_range
+   use case_inputs, only: case_type, clearance_range
    use task_checks, only: check_tasks
    implicit none (type, external)
    private
-   public :: check_scene
+   public :: check_case
 
    !> Most values in the blocks of all columns and pads, times four: 400 MB.
    real(wp), parameter :: most_in_blocks = 2e8_wp
@@ -16,28 +16,28 @@ module scene_checks
 
 contains
 
-   !> Raises an error for the first requirement that a scene does not meet.
-   subroutine check_scene(scene, error)
-      type(scene_type), intent(in) :: scene
+   !> Raises an error for the first requirement that a case does not meet.
+   subroutine check_case(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      call check_film(scene, error)
-      call check_bearing(scene, error)
-      call check_thermal(scene, error)
-      call check_integration(scene, error)
-      call check_rotor(scene, error)
-      call check_friction(scene, error)
-      call check_pivot(scene, error)
-      call check_start(scene, error)
-      call check_output(scene, error)
-      call check_pads(scene, error)
-      call check_tasks(scene, error)
-   end subroutine check_scene
+      call check_film(inputs, error)
+      call check_bearing(inputs, error)
+      call check_thermal(inputs, error)
+      call check_integration(inputs, error)
+      call check_rotor(inputs, error)
+      call check_friction(inputs, error)
+      call check_pivot(inputs, error)
+      call check_start(inputs, error)
+      call check_output(inputs, error)
+      call check_pads(inputs, error)
+      call check_tasks(inputs, error)
+   end subroutine check_case
 
-   subroutine check_film(scene, error)
-      type(scene_type), intent(in) :: scene
+   subroutine check_film(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       integer :: most
-      associate (f => scene%film, cells => scene%film%circumferential_cells)
+      associate (f => inputs%film, cells => inputs%film%circumferential_cells)
          call require(mod(cells, 2) == 0 .and. (cells == 0 .or. cells >= 8), 'film%circumferential_cells = ' &
             & //to_text(cells)//': must be even, and 0 or at least 8', error)
          call require(f%axial_cells /= 1, 'film%axial_cells = 1: must be 2 or more, or 0 for enough', error)
@@ -45,19 +45,19 @@ contains
             & //': needs film%cavitation = ''gumbel'' or ''none''; film%solver = ''auto'' knows ''reynolds''', error)
          ! where films rupture, elimination keeps a block of (axial cells/2)**2 values a column and pad;
          ! 0 stands for some 100 columns
-         most = int(sqrt(most_in_blocks/(max(cells, 100)*scene%pad_count())))
+         most = int(sqrt(most_in_blocks/(max(cells, 100)*inputs%pad_count())))
          call require(f%solver == 'sor' .or. f%cavitation /= 'reynolds' .or. f%axial_cells <= most, &
             & 'film%axial_cells = '//to_text(f%axial_cells)//': must be at most '//to_text(most) &
-            & //' with film%circumferential_cells = '//to_text(cells)//' and '//to_text(scene%pad_count()) &
+            & //' with film%circumferential_cells = '//to_text(cells)//' and '//to_text(inputs%pad_count()) &
             & //' pads, or film%solver = ''sor''', error)
       end associate
    end subroutine check_film
 
-   subroutine check_bearing(scene, error)
-      type(scene_type), intent(in) :: scene
+   subroutine check_bearing(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       real(wp) :: ratio
-      associate (b => scene%bearing)
+      associate (b => inputs%bearing)
          ratio = b%machined_clearance/b%journal_radius
          call require(ratio >= clearance_range(1) .and. ratio <= clearance_range(2), 'bearing%machined_clearance = ' &
             & //to_text(b%machined_clearance)//': must be '//to_text(clearance_range(1))//' to ' &
@@ -71,16 +71,16 @@ contains
             & //': must be 0.02 to 50 times bearing%journal_radius = '//to_text(b%journal_radius) &
             & //' (both in m)', error)
          call require(b%cavitation_pressure <= min(b%supply_pressure, b%ambient_pressure) &
-            & .or. scene%film%cavitation == 'none', 'bearing%cavitation_pressure = ' &
+            & .or. inputs%film%cavitation == 'none', 'bearing%cavitation_pressure = ' &
             & //to_text(b%cavitation_pressure)//': must not exceed bearing%supply_pressure = ' &
             & //to_text(b%supply_pressure)//' and bearing%ambient_pressure = '//to_text(b%ambient_pressure), error)
       end associate
    end subroutine check_bearing
 
-   subroutine check_thermal(scene, error)
-      type(scene_type), intent(in) :: scene
+   subroutine check_thermal(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
-      associate (t => scene%thermal, oil => scene%oil)
+      associate (t => inputs%thermal, oil => inputs%oil)
          call require(t%model == 'pad' .or. t%march == 'frozen', 'thermal%march = '''//t%march//''': has no effect ' &
             & //'but with thermal%model = ''pad''', error)
          call require(t%model == 'none' .or. oil%law /= 'constant', 'thermal%model = '''//t%model//''': needs an oil ' &
@@ -88,48 +88,48 @@ contains
             & //'oil%reference_viscosity and oil%temperature_exponent', error)
          call require(t%march == 'frozen' .or. oil%groove_volume > 0, 'oil%groove_volume = 0: must be > 0 for ' &
             & //'thermal%march = ''groove''', error)
-         call require(t%march == 'frozen' .or. scene%start%from /= 'partial', 'start%from = ''partial'': is not for ' &
+         call require(t%march == 'frozen' .or. inputs%start%from /= 'partial', 'start%from = ''partial'': is not for ' &
             & //'thermal%march = ''groove'', which begins at the equilibrium', error)
       end associate
    end subroutine check_thermal
 
-   subroutine check_integration(scene, error)
-      type(scene_type), intent(in) :: scene
+   subroutine check_integration(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
-      associate (periodic => scene%integration%stop_when_periodic, o => scene%operation)
+      associate (periodic => inputs%integration%stop_when_periodic, o => inputs%operation)
          call require(periodic <= 0 .or. abs(o%final_speed_rpm - o%speed_rpm) <= 0, &
             & 'integration%stop_when_periodic = '//to_text(periodic) &
             & //': must be 0 where operation%final_speed_rpm differs from operation%speed_rpm', error)
       end associate
    end subroutine check_integration
 
-   subroutine check_rotor(scene, error)
-      type(scene_type), intent(in) :: scene
+   subroutine check_rotor(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
-      associate (speed => scene%rotor%balance_speed_rpm)
+      associate (speed => inputs%rotor%balance_speed_rpm)
          call require(speed < 0 .or. speed >= 1, 'rotor%balance_speed_rpm = '//to_text(speed) &
             & //': must be < 0 (the highest of the run) or >= 1', error)
       end associate
    end subroutine check_rotor
 
-   subroutine check_friction(scene, error)
-      type(scene_type), intent(in) :: scene
+   subroutine check_friction(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
-      associate (f => scene%friction)
+      associate (f => inputs%friction)
          call require(f%dynamic_coefficient <= f%static_coefficient, 'friction%dynamic_coefficient = ' &
             & //to_text(f%dynamic_coefficient)//': must not exceed friction%static_coefficient = ' &
             & //to_text(f%static_coefficient), error)
          call require(f%model /= 'lugre' .or. f%dynamic_coefficient > 0, &
             & 'friction%dynamic_coefficient = 0: must be > 0 for model = ''lugre''', error)
-         call require(scene%tilting() .or. f%model == 'none', 'friction%model = '''//f%model//''': must be ''none'' ' &
+         call require(inputs%tilting() .or. f%model == 'none', 'friction%model = '''//f%model//''': must be ''none'' ' &
             & //'for pads%motion = ''fixed'', whose pads have no pivots', error)
       end associate
    end subroutine check_friction
 
-   subroutine check_pivot(scene, error)
-      type(scene_type), intent(in) :: scene
+   subroutine check_pivot(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
-      associate (v => scene%pivot)
+      associate (v => inputs%pivot)
          call require(v%radius_difference <= 0.5_wp*v%socket_radius, 'pivot%radius_difference = ' &
             & //to_text(v%radius_difference)//': must be at most half of pivot%socket_radius = ' &
             & //to_text(v%socket_radius), error)
@@ -138,45 +138,45 @@ contains
       end associate
    end subroutine check_pivot
 
-   subroutine check_start(scene, error)
-      type(scene_type), intent(in) :: scene
+   subroutine check_start(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
-      associate (s => scene%start)
+      associate (s => inputs%start)
          call require(s%from /= 'file' .or. s%file /= '', 'start%file = '''': must name a result for start%from = ' &
             & //'''file''', error)
          call require(s%from == 'file' .or. s%file == '', 'start%file = '''//s%file//''': needs start%from = ' &
             & //'''file'', not '''//s%from//'''', error)
-         call require(scene%tilting() .or. all(abs([s%pad_tilt, s%pad_tilt_rate]) <= 0), 'start%pad_tilt = ' &
+         call require(inputs%tilting() .or. all(abs([s%pad_tilt, s%pad_tilt_rate]) <= 0), 'start%pad_tilt = ' &
             & //to_text(s%pad_tilt(1))//', pad_tilt_rate = '//to_text(s%pad_tilt_rate(1)) &
             & //': must be 0 for pads%motion = ''fixed''', error)
-         call require(scene%tilting_radial() .or. all(abs([s%pad_penetration, s%pad_penetration_rate]) <= 0), &
+         call require(inputs%tilting_radial() .or. all(abs([s%pad_penetration, s%pad_penetration_rate]) <= 0), &
             & 'start%pad_penetration = '//to_text(s%pad_penetration(1))//', pad_penetration_rate = ' &
-            & //to_text(s%pad_penetration_rate(1))//': must be 0 for pads%motion = '''//scene%pads%motion//'''', error)
+            & //to_text(s%pad_penetration_rate(1))//': must be 0 for pads%motion = '''//inputs%pads%motion//'''', error)
       end associate
    end subroutine check_start
 
-   subroutine check_output(scene, error)
-      type(scene_type), intent(in) :: scene
+   subroutine check_output(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
-      associate (output => scene%output, duration => scene%operation%duration)
+      associate (output => inputs%output, duration => inputs%operation%duration)
          call require(output%start_time <= duration, 'output%start_time = '//to_text(output%start_time) &
             & //': must not exceed operation%duration = '//to_text(duration), error)
-         call require(duration*scene%highest_speed()/360/degree*output%samples_per_revolution < 1e9_wp, &
+         call require(duration*inputs%highest_speed()/360/degree*output%samples_per_revolution < 1e9_wp, &
             & 'operation%duration = '//to_text(duration) &
             & //': more than 1e9 samples at output%samples_per_revolution = ' &
             & //to_text(output%samples_per_revolution), error)
       end associate
    end subroutine check_output
 
-   subroutine check_pads(scene, error)
-      type(scene_type), intent(in) :: scene
+   subroutine check_pads(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       real(wp) :: smallest
       integer :: i
-      associate (p => scene%pads)
-         do i = 1, scene%pad_count()
-            call require_room(scene, i, error)
-            if (.not. scene%tilting()) cycle
+      associate (p => inputs%pads)
+         do i = 1, inputs%pad_count()
+            call require_room(inputs, i, error)
+            if (.not. inputs%tilting()) cycle
             call require(p%arc_deg(i) <= longest_arc, 'pads%arc_deg = '//to_text(p%arc_deg(i))//': must be at most ' &
                & //to_text(longest_arc)//' for pads that tilt', error)
             smallest = p%mass(i)*(p%centre_tangential(i)**2 + p%centre_radial(i)**2)
@@ -188,14 +188,14 @@ contains
    end subroutine check_pads
 
    !> A pad reaches from theta - theta_2 to theta + theta_1; the next one must start after that.
-   subroutine require_room(scene, i, error)
-      type(scene_type), intent(in) :: scene
+   subroutine require_room(inputs, i, error)
+      type(case_type), intent(in) :: inputs
       integer, intent(in) :: i
       type(error_type), allocatable, intent(inout) :: error
       real(wp) :: distance
       integer :: j
-      associate (p => scene%pads)
-         do j = 1, scene%pad_count()
+      associate (p => inputs%pads)
+         do j = 1, inputs%pad_count()
             if (i == j) cycle
             ! from pivot i on to pivot j, going up
             distance = modulo(p%pivot_angle_deg(j) - p%pivot_angle_deg(i), 360.0_wp)
@@ -206,4 +206,4 @@ contains
          end do
       end associate
    end subroutine require_room
-end module scene_checks
+end module case_checks

@@ -1,23 +1,23 @@
-!> A number of the input by its name, 'group%name' or 'group%name(element)': what it may be, its value in a scene, and
-!> scenes with other values of it. What a branch runs over.
-module scene_parameter
+!> A number of the input by its name, 'group%name' or 'group%name(element)': what it may be, its value in a case, and
+!> cases with other values of it. What a branch runs over.
+module case_parameter
    use kinds, only: wp
    use text, only: to_text, lower_case
    use errors, only: error_type, raise, input_error
-   use scene, only: scene_type, is_set
-   use scene_checks, only: check_scene
+   use case_inputs, only: case_type, is_set
+   use case_checks, only: check_case
    use field_visitor, only: visitor_type, field_type
-   use scene_fields, only: visit_scene
+   use case_fields, only: visit_case
    use variable_names, only: meant_variable
    implicit none (type, external)
    private
-   public :: scene_parameter_type, find_parameter, check_branch_parameter
+   public :: case_parameter_type, find_parameter, check_branch_parameter
 
    !> The groups whose numbers describe the bearing; and the one number of operation that does.
    character(len=*), parameter :: groups = ' rotor operation bearing oil pads pivot friction asperity '
    character(len=*), parameter :: speed = 'speed_rpm'
 
-   type :: scene_parameter_type
+   type :: case_parameter_type
       !> Group, name, and element; 0: all elements have the value.
       character(len=:), allocatable, private :: group, variable
       integer, private :: element = 0
@@ -29,7 +29,7 @@ module scene_parameter
    contains
       procedure :: value
       procedure :: set
-   end type scene_parameter_type
+   end type case_parameter_type
 
    !> Looks for a variable, reads its value and puts another one there.
    type, extends(visitor_type) :: seeker
@@ -55,13 +55,13 @@ module scene_parameter
 
 contains
 
-   !> The number of this name in a scene; an error says why there is none.
-   subroutine find_parameter(scene, name, parameter, error)
-      type(scene_type), intent(in) :: scene
+   !> The number of this name in a case; an error says why there is none.
+   subroutine find_parameter(inputs, name, parameter, error)
+      type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: name
-      type(scene_parameter_type), intent(out) :: parameter
+      type(case_parameter_type), intent(out) :: parameter
       type(error_type), allocatable, intent(out) :: error
-      type(scene_type) :: copy
+      type(case_type) :: copy
       type(seeker) :: found
       logical :: ok
       call split(lower_case(name), parameter, ok)
@@ -69,7 +69,7 @@ contains
          call raise(error, input_error, 'must be group%name or group%name(element)')
          return
       end if
-      copy = scene
+      copy = inputs
       call seek(parameter, copy, found)
       if (.not. found%exists) then
          call raise(error, input_error, 'there is no such variable' &
@@ -100,7 +100,7 @@ contains
    !> Parts of "group%name(element)". `ok` is false where it is none.
    subroutine split(name, parameter, ok)
       character(len=*), intent(in) :: name
-      type(scene_parameter_type), intent(inout) :: parameter
+      type(case_parameter_type), intent(inout) :: parameter
       logical, intent(out) :: ok
       integer :: percent, open
       percent = index(name, '%')
@@ -119,61 +119,61 @@ contains
       end associate
    end subroutine split
 
-   !> Walks along the variables of a scene to that of a parameter.
-   subroutine seek(parameter, scene, found)
-      class(scene_parameter_type), intent(in) :: parameter
-      type(scene_type), intent(inout) :: scene
+   !> Walks along the variables of a case to that of a parameter.
+   subroutine seek(parameter, inputs, found)
+      class(case_parameter_type), intent(in) :: parameter
+      type(case_type), intent(inout) :: inputs
       type(seeker), intent(inout) :: found
       found%this_group = ''
       found%group_name = parameter%group
       found%name = parameter%variable
       found%element = parameter%element
-      call visit_scene(scene, found)
+      call visit_case(inputs, found)
    end subroutine seek
 
-   !> Its value in a scene; where several elements change together, that of the first.
-   real(wp) function value(self, scene)
-      class(scene_parameter_type), intent(in) :: self
-      type(scene_type), intent(in) :: scene
-      type(scene_type) :: copy
+   !> Its value in a case; where several elements change together, that of the first.
+   real(wp) function value(self, inputs)
+      class(case_parameter_type), intent(in) :: self
+      type(case_type), intent(in) :: inputs
+      type(case_type) :: copy
       type(seeker) :: found
-      copy = scene
+      copy = inputs
       call seek(self, copy, found)
       value = found%value
    end function value
 
-   !> Gives it another value in a scene. An error says why the scene cannot be; it is changed all the same.
-   subroutine set(self, value, scene, error)
-      class(scene_parameter_type), intent(in) :: self
+   !> Gives it another value in a case. An error says why the case cannot be; it is changed all the same.
+   subroutine set(self, value, inputs, error)
+      class(case_parameter_type), intent(in) :: self
       real(wp), intent(in) :: value
-      type(scene_type), intent(inout) :: scene
+      type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
       type(seeker) :: found
       found%new_value = value
-      call seek(self, scene, found)
+      call seek(self, inputs, found)
       ! a run-up has no orbit
-      scene%operation%final_speed_rpm = scene%operation%speed_rpm
+      inputs%operation%final_speed_rpm = inputs%operation%speed_rpm
       if (value < self%low .or. value > self%high) then
          call raise(error, input_error, self%group//'%'//self%variable//' = '//to_text(value)//': must be '//self%range)
       else
-         call check_scene(scene, error)
+         call check_case(inputs, error)
       end if
    end subroutine set
 
    !> Refuses a branch over what is no number of the input, to where it may not go, or that starts the wrong way.
-   subroutine check_branch_parameter(scene, error)
-      type(scene_type), intent(in) :: scene
+   subroutine check_branch_parameter(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      type(scene_parameter_type) :: parameter
+      type(case_parameter_type) :: parameter
       real(wp) :: first
-      if (scene%about%task /= 'branch') return
-      associate (b => scene%branch)
-         call find_parameter(scene, b%parameter, parameter, error)
+      if (inputs%about%task /= 'branch') return
+      associate (b => inputs%branch)
+         call find_parameter(inputs, b%parameter, parameter, error)
          if (allocated(error)) then
             error%message = 'branch%parameter = '''//b%parameter//''': '//error%message
             return
          end if
-         first = parameter%value(scene)
+         first = parameter%value(inputs)
          if (b%of == 'equilibrium' .and. (parameter%group == 'friction' .or. parameter%variable == 'unbalance' &
             & .or. index(parameter%variable, 'balance_') == 1)) then
             call raise(error, input_error, 'branch%parameter = '''//b%parameter &
@@ -259,4 +259,4 @@ contains
       type(field_type), intent(in) :: field
       call self%numbers(values, field)
    end subroutine visit_list
-end module scene_parameter
+end module case_parameter

@@ -4,7 +4,7 @@ module oil_completion
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, require
-   use scene, only: scene_type, oil_type, is_set, temperature_range, viscosity_range
+   use case_inputs, only: case_type, oil_type, is_set, temperature_range, viscosity_range
    use oil_properties, only: reference_viscosity, density, grades
    implicit none (type, external)
    private
@@ -13,16 +13,16 @@ module oil_completion
 contains
 
    !> Finds the law where it is left out, checks its numbers, and gives the constant law the paper's viscosity.
-   subroutine complete_oil(scene, error)
-      type(scene_type), intent(inout) :: scene
+   subroutine complete_oil(inputs, error)
+      type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      type(scene_type) :: paper
-      associate (b => scene%bearing, oil => scene%oil)
+      type(case_type) :: paper
+      associate (b => inputs%bearing, oil => inputs%oil)
          if (oil%law == '') oil%law = meant_law(oil)
-         call refuse_surplus(scene, error)
+         call refuse_surplus(inputs, error)
          select case (oil%law)
          case ('constant')
-            paper = scene_type()
+            paper = case_type()
             if (.not. is_set(b%viscosity)) b%viscosity = paper%bearing%viscosity
             return
          case ('walther')
@@ -32,7 +32,7 @@ contains
                & //'''exponential'': needs oil%reference_viscosity and oil%temperature_exponent', error)
          end select
          if (allocated(error)) return
-         associate (mu => reference_viscosity(scene))
+         associate (mu => reference_viscosity(inputs))
             call require(mu >= viscosity_range(1) .and. mu <= viscosity_range(2), 'oil%supply_temperature = ' &
                & //to_text(oil%supply_temperature)//': the oil''s viscosity there is '//to_text(mu) &
                & //' Pa s; must be '//to_text(viscosity_range(1))//' to '//to_text(viscosity_range(2)), error)
@@ -54,11 +54,11 @@ contains
    end function meant_law
 
    !> Refuses what tells that another law is meant; numbers that merely have no effect may stand.
-   subroutine refuse_surplus(scene, error)
-      type(scene_type), intent(in) :: scene
+   subroutine refuse_surplus(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
-      associate (oil => scene%oil)
-         call only_of('constant', 'bearing%viscosity', scene%bearing%viscosity, is_set(scene%bearing%viscosity))
+      associate (oil => inputs%oil)
+         call only_of('constant', 'bearing%viscosity', inputs%bearing%viscosity, is_set(inputs%bearing%viscosity))
          call only_of('walther', 'oil%grade', real(oil%grade, wp), oil%grade /= 0)
          call only_of('walther', 'oil%kinematic_viscosity', maxval(oil%kinematic_viscosity), &
             & any(is_set(oil%kinematic_viscosity)))
@@ -72,9 +72,9 @@ contains
          character(len=*), intent(in) :: law, name
          real(wp), intent(in) :: value
          logical, intent(in) :: given
-         if (.not. given .or. scene%oil%law == law) return
+         if (.not. given .or. inputs%oil%law == law) return
          call require(.false., name//' = '//to_text(value)//': belongs to oil%law = '''//law &
-            & //''', but this case has oil%law = '''//scene%oil%law//'''; take it out of the case', error)
+            & //''', but this case has oil%law = '''//inputs%oil%law//'''; take it out of the case', error)
       end subroutine only_of
    end subroutine refuse_surplus
 

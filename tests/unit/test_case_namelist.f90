@@ -1,7 +1,7 @@
-!> Scenes from text and back: defaults, one value for all pads, ranges, round trip to the last bit.
-module scene_probes
+!> Cases from text and back: defaults, one value for all pads, ranges, round trip to the last bit.
+module case_probes
    use kinds, only: wp
-   use scene, only: is_set
+   use case_inputs, only: is_set
    use field_visitor, only: visitor_type, field_type
    implicit none (type, external)
    private
@@ -90,20 +90,20 @@ contains
       call random_number(share)
       where (is_set(values)) values = values*(1 - 1e-3_wp*share)
    end subroutine shake_numbers
-end module scene_probes
+end module case_probes
 
-program test_scene_namelist
+program test_case_namelist
    use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_overflow
    use kinds, only: wp, i8
    use errors, only: error_type, input_error
-   use scene, only: scene_type, periodic_type
-   use scene_fields, only: visit_scene
+   use case_inputs, only: case_type, periodic_type
+   use case_fields, only: visit_case
    use assignments, only: namelist_type
    use case_text, only: parse_case
-   use scene_namelist, only: scene_from_text, scene_from_namelist
-   use namelist_writer, only: scene_text
-   use scene_probes, only: collector, shaker
-   use case_scenes, only: scene_of, expect_refused
+   use case_namelist, only: case_from_text, case_from_namelist
+   use namelist_writer, only: namelist_of
+   use case_probes, only: collector, shaker
+   use input_cases, only: case_of, expect_refused
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
 
@@ -134,8 +134,8 @@ contains
 
    !> An empty group gives Tables 1 and 2 of the paper.
    subroutine paper_tables()
-      type(scene_type) :: s
-      s = scene_of('&case /')
+      type(case_type) :: s
+      s = case_of('&case /')
       call expect_list([s%bearing%journal_radius, s%bearing%machined_clearance, s%bearing%assembled_clearance, &
          & s%bearing%axial_length, s%bearing%viscosity], [49.9e-3_wp, 100e-6_wp, 80e-6_wp, 100e-3_wp, 19e-3_wp], &
          & 'Table 1: bearing')
@@ -165,20 +165,20 @@ contains
    end subroutine paper_tables
 
    subroutine one_value_for_all_pads()
-      type(scene_type) :: s
-      s = scene_of('&pads pivot_angle_deg = -45, 45, 135, 225, mass = 0.9, arc_deg = 4*60. pivot_ratio = 1*0.6 /')
+      type(case_type) :: s
+      s = case_of('&pads pivot_angle_deg = -45, 45, 135, 225, mass = 0.9, arc_deg = 4*60. pivot_ratio = 1*0.6 /')
       call expect(s%pad_count() == 4, 'as many pads as angles')
       call expect_list(s%pads%mass, spread(0.9_wp, 1, 4), 'one value for all pads')
       call expect_list(s%pads%arc_deg, spread(60.0_wp, 1, 4), 'a repeat for all pads')
       call expect_list(s%pads%pivot_ratio, spread(0.6_wp, 1, 4), 'a repeat of one')
       call expect_list(s%pads%pivot_distance, spread(14e-3_wp, 1, 4), 'defaults for all pads')
-      s = scene_of('&pads pivot_angle_deg = -90 /')
+      s = case_of('&pads pivot_angle_deg = -90 /')
       call expect(s%pad_count() == 1 .and. size(s%pads%centre_radial) == 1, 'a single pad')
    end subroutine one_value_for_all_pads
 
    subroutine each_pad_its_own()
-      type(scene_type) :: s
-      s = scene_of('&pads mass(2) = 0.7, pivot_distance(2) = 15e-3 arc_deg(1) = 50, 55, pivot_ratio = 0.5, 0.6, ' &
+      type(case_type) :: s
+      s = case_of('&pads mass(2) = 0.7, pivot_distance(2) = 15e-3 arc_deg(1) = 50, 55, pivot_ratio = 0.5, 0.6, ' &
          & //'centre_tangential = 1e-3 centre_tangential(2) = -1e-3 /')
       call expect_list(s%pads%pivot_distance, [14e-3_wp, 15e-3_wp], 'one pad by its subscript')
       call expect_list(s%pads%mass(2:), [0.7_wp], 'one that is given only there')
@@ -188,8 +188,8 @@ contains
    end subroutine each_pad_its_own
 
    subroutine words_and_numbers()
-      type(scene_type) :: s
-      s = scene_of('&Friction MODEL = "LuGre" decay=1.D3/'//achar(13) &
+      type(case_type) :: s
+      s = case_of('&Friction MODEL = "LuGre" decay=1.D3/'//achar(13) &
          & //newline//'&rotor static_load(2) = +1.5e+3, mass=1e3,/' &
          & //newline//'&film circumferential_cells = 40 solver='' sor ''/')
       call expect(s%friction%model == 'lugre' .and. s%film%solver == 'sor', 'words in capitals and with blanks')
@@ -197,14 +197,14 @@ contains
          & 1000.0_wp], &
          & 'numbers in several forms')
       call expect(s%film%circumferential_cells == 40, 'a whole number')
-      s = scene_of('&operation speed_rpm = 1500, final_speed_rpm = 6500, duration = 10/ &rotor balance_grade = 6.3/')
+      s = case_of('&operation speed_rpm = 1500, final_speed_rpm = 6500, duration = 10/ &rotor balance_grade = 6.3/')
       call expect_list([s%operation%final_speed_rpm], [6500.0_wp], 'a run-up')
       ! eq (26): 9549*6.3*2000/6500 g mm
       call expect_close(s%unbalance(), 0.0185104_wp, 1e-7_wp, 'unbalance by grade')
    end subroutine words_and_numbers
 
    subroutine overrides()
-      type(scene_type) :: s
+      type(case_type) :: s
       type(error_type), allocatable :: error
       call override('&rotor mass = 1/', [character(len=30) :: 'rotor%mass=1500', &
          & 'case%title=''a b''', 'rotor%mass=1600'], s, error)
@@ -219,55 +219,55 @@ contains
       call expect_list([s%rotor%static_load, s%rotor%mass], [5.0_wp, 6.0_wp, 4.0_wp], 'the last one stands')
    end subroutine overrides
 
-   !> The scene of a text with overrides in place.
-   subroutine override(text, settings, scene, error)
+   !> The case of a text with overrides in place.
+   subroutine override(text, settings, inputs, error)
       character(len=*), intent(in) :: text, settings(:)
-      type(scene_type), intent(out) :: scene
+      type(case_type), intent(out) :: inputs
       type(error_type), allocatable, intent(out) :: error
       type(namelist_type) :: parsed
       call parse_case(text, 'case.nml', settings, parsed, error)
-      if (.not. allocated(error)) call scene_from_namelist(parsed, scene, error)
+      if (.not. allocated(error)) call case_from_namelist(parsed, inputs, error)
    end subroutine override
 
    !> Every real with random last bits: text and back gives the same bits, whatever the writer thinks.
    subroutine round_trip()
-      type(scene_type) :: scene, back
+      type(case_type) :: inputs, back
       type(shaker) :: shake
       type(collector) :: before, after
       type(error_type), allocatable :: error
-      scene = scene_of('&pads pivot_angle_deg = -45, 45, 135, 225 /')
-      scene%rotor%static_load = [1.0_wp/3, -1e7_wp/7]
-      scene%about%title = 'a/b ! it''s "quoted" & more, x = 1  '
-      call visit_scene(scene, shake)
-      ! it is not this scene's task
-      scene%periodic = periodic_type()
-      call scene_from_text(scene_text(scene), 'scene', back, error)
-      call expect_no_error(error, 'the text of a scene is accepted')
-      call visit_scene(scene, before)
-      call visit_scene(back, after)
+      inputs = case_of('&pads pivot_angle_deg = -45, 45, 135, 225 /')
+      inputs%rotor%static_load = [1.0_wp/3, -1e7_wp/7]
+      inputs%about%title = 'a/b ! it''s "quoted" & more, x = 1  '
+      call visit_case(inputs, shake)
+      ! it is not this case's task
+      inputs%periodic = periodic_type()
+      call case_from_text(namelist_of(inputs), 'case', back, error)
+      call expect_no_error(error, 'the text of a case is accepted')
+      call visit_case(inputs, before)
+      call visit_case(back, after)
       call expect(before%words_found == after%words_found .and. len(before%words_found) == len(after%words_found), &
          & 'words come back: '//after%words_found)
       call expect(size(before%numbers_found) == size(after%numbers_found), 'as many numbers come back')
       call expect(all(transfer(before%numbers_found, [1_i8]) == transfer(after%numbers_found, [1_i8])), &
          & 'the same bits come back')
-      call expect(scene_text(back) == scene_text(scene), 'the same text comes back')
+      call expect(namelist_of(back) == namelist_of(inputs), 'the same text comes back')
    end subroutine round_trip
 
    !> As many values as there are, and back to the same bits.
    subroutine lists()
       character(len=*), parameter :: task = '&case task = ''coefficients'' / &coefficients frequency_ratio = '
-      type(scene_type) :: scene, back
+      type(case_type) :: inputs, back
       type(error_type), allocatable :: error
-      scene = scene_of(task//'0, 0.1 2*0.5, 1e6 /')
-      call expect(size(scene%coefficients%frequency_ratio) == 5, 'five of them')
-      call expect_close(maxval(abs(scene%coefficients%frequency_ratio - [0.0_wp, 0.1_wp, 0.5_wp, 0.5_wp, 1e6_wp])), &
+      inputs = case_of(task//'0, 0.1 2*0.5, 1e6 /')
+      call expect(size(inputs%coefficients%frequency_ratio) == 5, 'five of them')
+      call expect_close(maxval(abs(inputs%coefficients%frequency_ratio - [0.0_wp, 0.1_wp, 0.5_wp, 0.5_wp, 1e6_wp])), &
          & 0.0_wp, 0.0_wp, 'the values')
-      call scene_from_text(scene_text(scene), 'scene', back, error)
+      call case_from_text(namelist_of(inputs), 'case', back, error)
       call expect_no_error(error, 'the text of a list is accepted')
-      call expect(all(transfer(scene%coefficients%frequency_ratio, [1_i8]) &
+      call expect(all(transfer(inputs%coefficients%frequency_ratio, [1_i8]) &
          & == transfer(back%coefficients%frequency_ratio, [1_i8])), 'the same bits come back')
-      scene = scene_of(task//'1000*0.5 /')
-      call expect(size(scene%coefficients%frequency_ratio) == 1000, 'a thousand')
+      inputs = case_of(task//'1000*0.5 /')
+      call expect(size(inputs%coefficients%frequency_ratio) == 1000, 'a thousand')
       call expect_refused(task//'1001*0.5 /', 'at most 1000 values')
       call expect_refused(task//'1, -0.5 /', 'coefficients%frequency_ratio = 1, -0.5: must be 0 to 1e6')
       call expect_refused(task//'nan /', 'must be finite')
@@ -279,22 +279,22 @@ contains
    subroutine awkward_titles()
       character(len=*), parameter :: titles(*) = [character(len=12) :: '''', '''''', '/', '! no', '&end', ' a', '"', &
          & '=']
-      type(scene_type) :: scene, back
+      type(case_type) :: inputs, back
       type(error_type), allocatable :: error
       integer :: k
-      scene = scene_type()
+      inputs = case_type()
       do k = 1, size(titles)
-         scene%about%title = trim(titles(k))
-         call scene_from_text(scene_text(scene), 'scene', back, error)
+         inputs%about%title = trim(titles(k))
+         call case_from_text(namelist_of(inputs), 'case', back, error)
          call expect_no_error(error, 'title '//trim(titles(k)))
-         if (.not. allocated(error)) call expect(back%about%title == scene%about%title .and. &
-            & len(back%about%title) == len(scene%about%title), 'title '//trim(titles(k))//' comes back')
+         if (.not. allocated(error)) call expect(back%about%title == inputs%about%title .and. &
+            & len(back%about%title) == len(inputs%about%title), 'title '//trim(titles(k))//' comes back')
       end do
    end subroutine awkward_titles
 
    subroutine refused_values()
       call expect_refused('&roter /', 'unknown group &roter')
-      call expect_refused('&rotor /'//newline//'&sweep rotor%mass = 1, 2/', 'line 2: a sweep, where one scene')
+      call expect_refused('&rotor /'//newline//'&sweep rotor%mass = 1, 2/', 'line 2: a sweep, where one case')
       call expect_refused('&rotor'//newline//'m#ss = 1/', 'line 2')
       call expect_refused('&rotor mas = 1/', 'unknown variable rotor%mas (did you mean mass?); known: mass')
       call expect_refused('&rotor mass = heavy/', 'rotor%mass = heavy: must be a number')
@@ -336,4 +336,4 @@ contains
       call expect_refused('&rotor mass = 1e999/', 'must be')
       call ieee_set_halting_mode(ieee_overflow, .true.)
    end subroutine refused_values
-end program test_scene_namelist
+end program test_case_namelist

@@ -2,7 +2,7 @@
 module result_size
    use kinds, only: wp, i8, pi
    use text, only: to_text
-   use scene, only: scene_type
+   use case_inputs, only: case_type
    implicit none (type, external)
    private
    public :: sample_interval, sample_count, result_bytes, bytes_text, size_note
@@ -15,30 +15,30 @@ module result_size
 contains
 
    !> Time between samples, s.
-   pure real(wp) function sample_interval(scene) result(interval)
-      type(scene_type), intent(in) :: scene
-      interval = 2*pi/(scene%highest_speed()*scene%output%samples_per_revolution)
+   pure real(wp) function sample_interval(inputs) result(interval)
+      type(case_type), intent(in) :: inputs
+      interval = 2*pi/(inputs%highest_speed()*inputs%output%samples_per_revolution)
    end function sample_interval
 
    !> Samples of a march that reaches its end; a last one that misses the end by rounding alone is taken.
-   pure integer(i8) function sample_count(scene) result(samples)
-      type(scene_type), intent(in) :: scene
-      samples = 1 + floor((scene%operation%duration - scene%output%start_time)/sample_interval(scene) + 1e-6_wp, i8)
+   pure integer(i8) function sample_count(inputs) result(samples)
+      type(case_type), intent(in) :: inputs
+      samples = 1 + floor((inputs%operation%duration - inputs%output%start_time)/sample_interval(inputs) + 1e-6_wp, i8)
    end function sample_count
 
-   !> Bytes of the result of a scene; 0 where nothing is marched.
-   pure real(wp) function result_bytes(scene) result(bytes)
-      type(scene_type), intent(in) :: scene
+   !> Bytes of the result of a case; 0 where nothing is marched.
+   pure real(wp) function result_bytes(inputs) result(bytes)
+      type(case_type), intent(in) :: inputs
       integer :: of_pad
       bytes = 0
-      if (scene%about%task /= 'march') return
+      if (inputs%about%task /= 'march') return
       ! the series that docs/results.md lists
       of_pad = 4
-      if (scene%tilting()) of_pad = of_pad + 4
-      if (scene%tilting_radial()) of_pad = of_pad + 2
-      if (scene%tilting() .and. scene%friction%model == 'lugre') of_pad = of_pad + 1
-      if (scene%asperity%model /= 'none') of_pad = of_pad + 1
-      bytes = of_frame + of_value*(7 + of_pad*scene%pad_count())*max(0.0_wp, real(sample_count(scene), wp))
+      if (inputs%tilting()) of_pad = of_pad + 4
+      if (inputs%tilting_radial()) of_pad = of_pad + 2
+      if (inputs%tilting() .and. inputs%friction%model == 'lugre') of_pad = of_pad + 1
+      if (inputs%asperity%model /= 'none') of_pad = of_pad + 1
+      bytes = of_frame + of_value*(7 + of_pad*inputs%pad_count())*max(0.0_wp, real(sample_count(inputs), wp))
    end function result_bytes
 
    !> "540 MB".
@@ -52,15 +52,15 @@ contains
       end if
    end function bytes_text
 
-   !> A word on so many results of this scene that are large together; else empty.
-   function size_note(scene, results) result(note)
-      type(scene_type), intent(in) :: scene
+   !> A word on so many results of this case that are large together; else empty.
+   function size_note(inputs, results) result(note)
+      type(case_type), intent(in) :: inputs
       integer, intent(in) :: results
       character(len=:), allocatable :: note
       note = ''
-      if (results*result_bytes(scene) < large) return
-      note = 'note: about '//bytes_text(results*result_bytes(scene))//' of results, ' &
-         & //to_text(sample_count(scene))//' samples'
+      if (results*result_bytes(inputs) < large) return
+      note = 'note: about '//bytes_text(results*result_bytes(inputs))//' of results, ' &
+         & //to_text(sample_count(inputs))//' samples'
       if (results > 1) note = note//' in each of '//to_text(results)//' files'
       note = note//'; a later output%start_time or fewer output%samples_per_revolution make them smaller'
    end function size_note

@@ -1,7 +1,7 @@
-!> What no single value of a scene can tell: each check lets pass what is just allowed and names what is not.
-program test_scene_checks
-   use scene, only: scene_type
-   use case_scenes, only: scene_of, expect_refused
+!> What no single value of a case can tell: each check lets pass what is just allowed and names what is not.
+program test_case_checks
+   use case_inputs, only: case_type
+   use input_cases, only: case_of, expect_refused
    use check, only: runs, report
    implicit none (type, external)
 
@@ -26,8 +26,8 @@ contains
 
    subroutine expect_allowed(text)
       character(len=*), intent(in) :: text
-      type(scene_type) :: ignored
-      ignored = scene_of(text)
+      type(case_type) :: ignored
+      ignored = case_of(text)
    end subroutine expect_allowed
 
    subroutine film()
@@ -187,4 +187,4 @@ contains
          & 'start%from = ''centred'': has no effect with case%task = ''coefficients''')
       call expect_refused(task//'&start journal = 0, 1e-6 /', 'a disturbance: has no effect with')
    end subroutine coefficients
-end program test_scene_checks
+end program test_case_checks

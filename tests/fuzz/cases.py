@@ -1,4 +1,4 @@
-"""Random scenes that must be accepted: values by "group%name", within their ranges and fitting together."""
+"""Random cases that must be accepted: values by "group%name", within their ranges and fitting together."""
 
 import math
 from random import Random

@@ -1,9 +1,9 @@
 !> What follows from a case: clearance by preload, the pads' bodies by density and thickness, samples and size of the
 !> result.
-program test_scene_completion
+program test_case_completion
    use kinds, only: wp, degree
-   use scene, only: scene_type, is_set
-   use case_scenes, only: scene_of, expect_refused
+   use case_inputs, only: case_type, is_set
+   use input_cases, only: case_of, expect_refused
    use annular_sector, only: annular_sector_type, new_annular_sector
    use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
    use checked_case, only: derived_text, notes
@@ -82,78 +82,78 @@ contains
 
    !> Clearances, supply and number of pads leave the paper's pads.
    subroutine paper_pads()
-      type(scene_type) :: s
-      s = scene_of('&pads pivot_angle_deg = -90, 0, 90, motion = ''tilting_only'' /' &
+      type(case_type) :: s
+      s = case_of('&pads pivot_angle_deg = -90, 0, 90, motion = ''tilting_only'' /' &
          & //' &bearing assembled_clearance = 70e-6, machined_clearance = 90e-6, supply_pressure = 1e5 /')
       call expect_close(maxval(abs(s%pads%mass - 0.8108_wp)), 0.0_wp, 0.0_wp, 'mass')
       call expect_close(maxval(abs(s%pads%inertia - 4.055e-4_wp)), 0.0_wp, 0.0_wp, 'inertia')
       call expect_close(maxval(abs(s%pads%centre_tangential)), 0.0_wp, 0.0_wp, 'C_xi')
       call expect_close(maxval(abs(s%pads%centre_radial + 10.1e-3_wp)), 0.0_wp, 0.0_wp, 'C_eta')
-      s = scene_of('&pads mass = 0.9 /')
+      s = case_of('&pads mass = 0.9 /')
       call expect_close(s%pads%mass(2), 0.9_wp, 0.0_wp, 'a mass that is given')
       call expect_close(s%pads%inertia(2), 4.055e-4_wp, 0.0_wp, 'the paper''s inertia beside it')
    end subroutine paper_pads
 
    !> Pads of another size, and those whose density or thickness is given, are annular sectors.
    subroutine other_pads()
-      type(scene_type) :: s
+      type(case_type) :: s
       type(annular_sector_type) :: sector
       real(wp), parameter :: half = 34.65_wp*degree
-      s = scene_of('&bearing axial_length = 0.2 /')
+      s = case_of('&bearing axial_length = 0.2 /')
       sector = new_annular_sector(0.05_wp, 14e-3_wp, half, half, 0.2_wp, 14e-3_wp)
       call expect_close(s%pads%mass(1), 7850*sector%volume, 1e-12_wp, 'steel, as thick as the pivot is away')
       call expect_close(s%pads%inertia(1), 7850*sector%volume*sector%squared_radius, 1e-14_wp, 'its inertia')
       call expect_close(s%pads%centre_radial(1), sector%centre_radial, 1e-15_wp, 'its centre')
       call expect_close(s%pads%centre_tangential(1), 0.0_wp, 1e-17_wp, 'symmetric')
-      s = scene_of('&pads density = 8800, thickness = 0.02 /')
+      s = case_of('&pads density = 8800, thickness = 0.02 /')
       sector = new_annular_sector(0.05_wp, 0.02_wp, half, half, 0.1_wp, 14e-3_wp)
       call expect_close(s%pads%mass(2), 8800*sector%volume, 1e-12_wp, 'bronze, thicker')
       call expect(.not. any(is_set(s%pads%density)) .and. .not. any(is_set(s%pads%thickness)), 'no more to find')
-      s = scene_of('&pads pivot_ratio = 0.6 /')
+      s = case_of('&pads pivot_ratio = 0.6 /')
       call expect(s%pads%centre_tangential(1) > 0, 'behind the middle: the centre lies towards the leading edge')
       ! steel of the paper's size lies close to the paper's pads
-      s = scene_of('&pads density = 7850 /')
+      s = case_of('&pads density = 7850 /')
       call expect_close(s%pads%mass(1)/0.8108_wp, 1.0_wp, 0.08_wp, 'mass near the paper''s')
       call expect_close(s%pads%centre_radial(1)/(-10.1e-3_wp), 1.0_wp, 0.08_wp, 'centre near the paper''s')
    end subroutine other_pads
 
    !> A mass that is given replaces the density.
    subroutine given_in_part()
-      type(scene_type) :: s, whole
-      whole = scene_of('&bearing axial_length = 0.2 / &pads density = 7850 /')
-      s = scene_of('&bearing axial_length = 0.2 / &pads mass = 3 /')
+      type(case_type) :: s, whole
+      whole = case_of('&bearing axial_length = 0.2 / &pads density = 7850 /')
+      s = case_of('&bearing axial_length = 0.2 / &pads mass = 3 /')
       call expect_close(s%pads%inertia(1)/s%pads%mass(1), whole%pads%inertia(1)/whole%pads%mass(1), 1e-15_wp, &
          & 'inertia over mass is that of the size')
-      s = scene_of('&bearing axial_length = 0.2 / &pads inertia = 1e-2 /')
+      s = case_of('&bearing axial_length = 0.2 / &pads inertia = 1e-2 /')
       call expect_close(s%pads%mass(1), whole%pads%mass(1), 0.0_wp, 'an inertia leaves the mass')
       call expect_close(s%pads%inertia(1), 1e-2_wp, 0.0_wp, 'and stands')
    end subroutine given_in_part
 
    !> Each pad by itself.
    subroutine each_pad()
-      type(scene_type) :: s
-      s = scene_of('&pads arc_deg = 60, 69.3 /')
+      type(case_type) :: s
+      s = case_of('&pads arc_deg = 60, 69.3 /')
       call expect_close(s%pads%mass(2), 0.8108_wp, 0.0_wp, 'the second is the paper''s')
       call expect(s%pads%mass(1) < 0.7_wp, 'the first is not')
-      s = scene_of('&pads arc_deg = 60, mass(2) = 0.7, thickness(1) = 0.01 /')
+      s = case_of('&pads arc_deg = 60, mass(2) = 0.7, thickness(1) = 0.01 /')
       call expect_close(s%pads%mass(2), 0.7_wp, 0.0_wp, 'one mass is given')
       call expect(s%pads%mass(1) < 0.5_wp, 'one is thinner')
    end subroutine each_pad
 
    subroutine preloads()
-      type(scene_type) :: s
-      s = scene_of('&bearing preload = 0.3 /')
+      type(case_type) :: s
+      s = case_of('&bearing preload = 0.3 /')
       call expect_close(s%bearing%machined_clearance, 80e-6_wp/0.7_wp, 0.0_wp, 'c_m from preload')
       call expect(.not. is_set(s%bearing%preload), 'it is used up')
       call expect_close(preload(s), 0.3_wp, 1e-15_wp, 'and comes back')
-      s = scene_of('&bearing preload = 0 /')
+      s = case_of('&bearing preload = 0 /')
       call expect_close(s%bearing%machined_clearance, 80e-6_wp, 0.0_wp, 'none')
       call expect(notes(s, '') == '', 'without a note')
-      s = scene_of('&bearing preload = -1 /')
+      s = case_of('&bearing preload = -1 /')
       call expect_close(s%bearing%machined_clearance, 40e-6_wp, 0.0_wp, 'the most negative')
       call expect(index(notes(s, ''), 'note: negative preload -1') == 1, 'has a note')
       call expect(index(derived_text(s), 'note: negative preload') > 0, 'that --check shows')
-      s = scene_of('&case /')
+      s = case_of('&case /')
       call expect_close(preload(s), 0.2_wp, 1e-15_wp, 'the paper''s')
    end subroutine preloads
 
@@ -171,8 +171,8 @@ contains
 
    !> The numbers of the five-pad bearing, by hand.
    subroutine numbers()
-      type(scene_type) :: s
-      s = scene_of('&bearing journal_radius = 63.5e-3, axial_length = 63.5e-3, preload = 0.3, viscosity = 0.022,' &
+      type(case_type) :: s
+      s = case_of('&bearing journal_radius = 63.5e-3, axial_length = 63.5e-3, preload = 0.3, viscosity = 0.022,' &
          & //' assembled_clearance = 0.2e-3 / &rotor mass = 1500, balance_grade = 2.5 / &operation speed_rpm = 3000 /')
       call expect_close(clearance_ratio(s), 0.2_wp/63.5_wp, 1e-17_wp, 'c_r/R_J')
       call expect_close(length_over_diameter(s), 0.5_wp, 0.0_wp, 'L/D')
@@ -181,7 +181,7 @@ contains
       call expect_close(sommerfeld_number(s), 0.022_wp*50*0.127_wp*0.0635_wp/14715*(63.5_wp/0.2_wp)**2, 1e-14_wp, &
          & 'Sommerfeld number')
       call expect(index(derived_text(s), '0.0119362  kg m, by rotor%balance_grade') > 0, 'unbalance by grade')
-      s = scene_of('&rotor gravity = 0 /')
+      s = case_of('&rotor gravity = 0 /')
       call expect(index(derived_text(s), 'Sommerfeld') == 0, 'no Sommerfeld number without load')
       call expect(index(derived_text(s), 'kg m') == 0, 'no unbalance without grade')
    end subroutine numbers
@@ -189,8 +189,8 @@ contains
    !> 6000 rpm: a hundred revolutions a second.
    subroutine samples()
       character(len=*), parameter :: second = '&operation speed_rpm = 6000, duration = 1 /'
-      call expect(sample_count(scene_of(second//'&output samples_per_revolution = 10 /')) == 1001, 'both ends')
-      call expect(sample_count(scene_of(second//'&output samples_per_revolution = 10, start_time = 0.5 /')) == 501, &
+      call expect(sample_count(case_of(second//'&output samples_per_revolution = 10 /')) == 1001, 'both ends')
+      call expect(sample_count(case_of(second//'&output samples_per_revolution = 10, start_time = 0.5 /')) == 501, &
          & 'from the middle on')
    end subroutine samples
 
@@ -203,26 +203,26 @@ contains
       call expect_values(case//'/ &friction model = ''lugre'' /', 7 + 4*12)
       call expect_values(case//'motion = ''tilting_only'' /', 7 + 4*9)
       call expect_values(case//'motion = ''fixed'', arc_deg = 80 / &friction model = ''none'' /', 7 + 4*5)
-      call expect(.not. result_bytes(scene_of('&case task = ''equilibrium'' /')) > 0, 'an equilibrium has no samples')
+      call expect(.not. result_bytes(case_of('&case task = ''equilibrium'' /')) > 0, 'an equilibrium has no samples')
    end subroutine sizes
 
    subroutine expect_values(text, values)
       character(len=*), intent(in) :: text
       integer, intent(in) :: values
       integer :: found
-      found = nint((result_bytes(scene_of(text)) - 1e5_wp)/(8*100001))
+      found = nint((result_bytes(case_of(text)) - 1e5_wp)/(8*100001))
       call expect(found == values, text//': values a sample')
    end subroutine expect_values
 
    subroutine size_notes()
-      type(scene_type) :: scene
+      type(case_type) :: inputs
       call expect(bytes_text(5.404e8_wp) == '540 MB', 'megabytes')
       call expect(bytes_text(1.23e9_wp) == '1.2 GB', 'gigabytes')
-      scene = scene_of('&operation speed_rpm = 6000, duration = 1 /')
-      call expect(size_note(scene, 1) == '', 'a small one is no news')
-      call expect(index(size_note(scene, 100), ' 36001 samples in each of 100 files; ') > 0, 'together they are')
-      scene = scene_of('&operation speed_rpm = 6000, duration = 30 /')
-      call expect(index(size_note(scene, 1), 'note: about 251 MB of results, 1080001 samples; ') == 1, &
-         & 'a long run: '//size_note(scene, 1))
+      inputs = case_of('&operation speed_rpm = 6000, duration = 1 /')
+      call expect(size_note(inputs, 1) == '', 'a small one is no news')
+      call expect(index(size_note(inputs, 100), ' 36001 samples in each of 100 files; ') > 0, 'together they are')
+      inputs = case_of('&operation speed_rpm = 6000, duration = 30 /')
+      call expect(index(size_note(inputs, 1), 'note: about 251 MB of results, 1080001 samples; ') == 1, &
+         & 'a long run: '//size_note(inputs, 1))
    end subroutine size_notes
-end program test_scene_completion
+end program test_case_completion

@@ -2,29 +2,29 @@
 module task_checks
    use text, only: to_text
    use errors, only: error_type, require
-   use scene, only: scene_type, periodic_type, branch_type, is_set
+   use case_inputs, only: case_type, periodic_type, branch_type, is_set
    implicit none (type, external)
    private
    public :: check_tasks
 
 contains
 
-   subroutine check_tasks(scene, error)
-      type(scene_type), intent(in) :: scene
+   subroutine check_tasks(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
-      call check_coefficients(scene, error)
-      call check_periodic(scene, error)
-      call check_branch(scene, error)
+      call check_coefficients(inputs, error)
+      call check_periodic(inputs, error)
+      call check_branch(inputs, error)
    end subroutine check_tasks
 
    !> The group coefficients belongs to its task, and to no other; the groups of a march do not.
-   subroutine check_coefficients(scene, error)
-      type(scene_type), intent(in) :: scene
+   subroutine check_coefficients(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       character(len=*), parameter :: only = ': has no effect but with case%task = ''coefficients'''
       character(len=*), parameter :: without = ': has no effect with case%task = ''coefficients'''
-      associate (c => scene%coefficients, o => scene%operation)
-         if (scene%about%task /= 'coefficients') then
+      associate (c => inputs%coefficients, o => inputs%operation)
+         if (inputs%about%task /= 'coefficients') then
             call require(size(c%frequency_ratio) == 1 .and. .not. any(abs(c%frequency_ratio - 1) > 0), &
                & 'coefficients%frequency_ratio = '//to_text(c%frequency_ratio(1))//only, error)
             call require(.not. abs(c%threshold_up_to_rpm) > 0, 'coefficients%threshold_up_to_rpm = ' &
@@ -39,8 +39,8 @@ contains
          call require(.not. c%threshold_up_to_rpm > 0 .or. c%threshold_up_to_rpm > o%speed_rpm, &
             & 'coefficients%threshold_up_to_rpm = '//to_text(c%threshold_up_to_rpm) &
             & //': must be 0 or above operation%speed_rpm = '//to_text(o%speed_rpm)//', where the search starts', error)
-         call require(scene%start%from == 'equilibrium', 'start%from = '''//scene%start%from//''''//without, error)
-         associate (s => scene%start)
+         call require(inputs%start%from == 'equilibrium', 'start%from = '''//inputs%start%from//''''//without, error)
+         associate (s => inputs%start)
             call require(.not. any(abs([s%journal, s%journal_velocity, s%pad_tilt, s%pad_tilt_rate, &
                & s%pad_penetration, s%pad_penetration_rate]) > 0), 'start%journal = '//to_text(s%journal(1)) &
                & //', ...: a disturbance'//without, error)
@@ -49,15 +49,15 @@ contains
    end subroutine check_coefficients
 
    !> The group periodic belongs to its task, which needs a constant speed and takes its samples over the period.
-   subroutine check_periodic(scene, error)
-      type(scene_type), intent(in) :: scene
+   subroutine check_periodic(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       type(periodic_type), parameter :: default = periodic_type()
       character(len=*), parameter :: only = ': has no effect but with case%task = ''periodic'', or ''branch'' of orbits'
       character(len=:), allocatable :: with
-      with = ' with case%task = '''//scene%about%task//''''
-      associate (p => scene%periodic, o => scene%operation)
-         if (.not. scene%seeks_orbits()) then
+      with = ' with case%task = '''//inputs%about%task//''''
+      associate (p => inputs%periodic, o => inputs%operation)
+         if (.not. inputs%seeks_orbits()) then
             call require(p%revolutions == default%revolutions, 'periodic%revolutions = '//to_text(p%revolutions) &
                & //only, error)
             call require(.not. abs(p%tolerance - default%tolerance) > 0, 'periodic%tolerance = ' &
@@ -69,23 +69,23 @@ contains
          call require(.not. abs(o%final_speed_rpm - o%speed_rpm) > 0, 'operation%final_speed_rpm = ' &
             & //to_text(o%final_speed_rpm)//': must be operation%speed_rpm = '//to_text(o%speed_rpm) &
             & //with, error)
-         call require(.not. scene%output%start_time > 0, 'output%start_time = '//to_text(scene%output%start_time) &
+         call require(.not. inputs%output%start_time > 0, 'output%start_time = '//to_text(inputs%output%start_time) &
             & //': has no effect'//with, error)
-         call require(.not. scene%integration%stop_when_periodic > 0, 'integration%stop_when_periodic = ' &
-            & //to_text(scene%integration%stop_when_periodic)//': has no effect'//with, error)
+         call require(.not. inputs%integration%stop_when_periodic > 0, 'integration%stop_when_periodic = ' &
+            & //to_text(inputs%integration%stop_when_periodic)//': has no effect'//with, error)
       end associate
    end subroutine check_periodic
 
    !> The group branch belongs to its task, which needs a parameter, its last value and a step; `branch_parameter`
    !> checks what they mean. At an equilibrium there is no motion, and so no start of one.
-   subroutine check_branch(scene, error)
-      type(scene_type), intent(in) :: scene
+   subroutine check_branch(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       type(branch_type) :: default
       character(len=*), parameter :: only = ': has no effect but with case%task = ''branch'''
       character(len=*), parameter :: without = ': has no effect on a branch of equilibria'
-      associate (b => scene%branch, s => scene%start, o => scene%operation)
-         if (scene%about%task /= 'branch') then
+      associate (b => inputs%branch, s => inputs%start, o => inputs%operation)
+         if (inputs%about%task /= 'branch') then
             call require(b%of == 'periodic', 'branch%of = '''//b%of//''''//only, error)
             call require(b%parameter == '', 'branch%parameter = '''//b%parameter//''''//only, error)
             call require(.not. is_set(b%last), 'branch%last = '//to_text(b%last)//only, error)

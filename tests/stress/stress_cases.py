@@ -1,4 +1,4 @@
-"""Random scenes over wide ranges of every input variable; the same seed and number give the same scene."""
+"""Random cases over wide ranges of every input variable; the same seed and number give the same case."""
 
 import math
 import random
@@ -7,7 +7,7 @@ import random
 PAPER_LOAD = 2000 * 9.81 / (0.1 * 2 * 0.0499)
 STEEL = 7850.0
 
-Scene = dict[str, dict]
+Case = dict[str, dict]
 
 
 class Dice(random.Random):
@@ -21,27 +21,27 @@ class Dice(random.Random):
         return self.random() < share
 
 
-def draw(seed: int, number: int, fixed: bool = False) -> Scene:
-    """Scene `number` of a seed; on request the same with fixed pads, drawn with dice of their own."""
-    scene = tilting(seed, number)
-    return fix(scene, Dice(f"fixed {seed}/{number}")) if fixed else scene
+def draw(seed: int, number: int, fixed: bool = False) -> Case:
+    """Case `number` of a seed; on request the same with fixed pads, drawn with dice of their own."""
+    case = tilting(seed, number)
+    return fix(case, Dice(f"fixed {seed}/{number}")) if fixed else case
 
 
-def tilting(seed: int, number: int) -> Scene:
-    """A scene with pads that tilt."""
+def tilting(seed: int, number: int) -> Case:
+    """A case with pads that tilt."""
     dice = Dice(f"{seed}/{number}")
-    scene: Scene = {"case": {"title": f"stress scene {number} of seed {seed}"}}
-    scene["bearing"] = bearing(dice)
-    scene["rotor"], direction = rotor(dice, scene["bearing"])
-    scene["operation"] = operation(dice)
-    scene["pads"] = pads(dice, scene["bearing"], direction)
-    scene["pivot"] = pivot(dice, scene["bearing"])
-    scene["friction"] = friction(dice)
-    scene["film"] = film(dice)
-    scene["integration"] = {"relative_tolerance": dice.choice((1e-5, 1e-6, 1e-6, 1e-6, 1e-7))}
-    scene["integration"]["max_steps"] = step_budget(scene)
-    scene["output"] = {"samples_per_revolution": 90}
-    return scene
+    case: Case = {"case": {"title": f"stress case {number} of seed {seed}"}}
+    case["bearing"] = bearing(dice)
+    case["rotor"], direction = rotor(dice, case["bearing"])
+    case["operation"] = operation(dice)
+    case["pads"] = pads(dice, case["bearing"], direction)
+    case["pivot"] = pivot(dice, case["bearing"])
+    case["friction"] = friction(dice)
+    case["film"] = film(dice)
+    case["integration"] = {"relative_tolerance": dice.choice((1e-5, 1e-6, 1e-6, 1e-6, 1e-7))}
+    case["integration"]["max_steps"] = step_budget(case)
+    case["output"] = {"samples_per_revolution": 90}
+    return case
 
 
 def bearing(dice: Dice) -> dict:
@@ -142,9 +142,9 @@ def pads(dice: Dice, bearing: dict, direction: float) -> dict:
     }
 
 
-def fix(scene: Scene, dice: Dice) -> Scene:
+def fix(case: Case, dice: Dice) -> Case:
     """Makes pads fixed: of a plain, partial, grooved or lobed bearing, some anchored off their middle."""
-    bearing, rotor = scene["bearing"], scene["rotor"]
+    bearing, rotor = case["bearing"], case["rotor"]
     extra = rotor.get("static_load", [0.0, 0.0])
     load = math.atan2(extra[0] - rotor["mass"] * rotor.get("gravity", 9.81), extra[1])
     count = dice.choice((1, 1, 2, 2, 2, 3, 4))
@@ -159,12 +159,12 @@ def fix(scene: Scene, dice: Dice) -> Scene:
     elif dice.chance(0.5):
         ratio = dice.uniform(0.01, 0.99)
     angles = [(middle + (ratio - 0.5) * -arc + 360 * i / count + 720) % 360 for i in range(count)]
-    scene["pads"] = {"motion": "fixed", "pivot_angle_deg": angles, "arc_deg": [0.9999 * arc] * count}
-    scene["pads"]["pivot_ratio"] = [ratio] * count
-    scene["friction"] = {"model": "none"}
-    del scene["pivot"]
-    scene["integration"]["max_steps"] = step_budget(scene)
-    return scene
+    case["pads"] = {"motion": "fixed", "pivot_angle_deg": angles, "arc_deg": [0.9999 * arc] * count}
+    case["pads"]["pivot_ratio"] = [ratio] * count
+    case["friction"] = {"model": "none"}
+    del case["pivot"]
+    case["integration"]["max_steps"] = step_budget(case)
+    return case
 
 
 def pivot_ratio(dice: Dice) -> float:
@@ -242,22 +242,22 @@ def film(dice: Dice) -> dict:
     return values
 
 
-def sweeps(scene: Scene) -> bool:
+def sweeps(case: Case) -> bool:
     """Whether films are solved by over-relaxation, which costs a hundred times more."""
-    return scene["film"].get("solver") == "sor"
+    return case["film"].get("solver") == "sor"
 
 
-def step_budget(scene: Scene) -> int:
+def step_budget(case: Case) -> int:
     """Steps that take some ten seconds."""
-    count = len(scene["pads"]["pivot_angle_deg"])
-    a_pad = 3e-4 if sweeps(scene) else 5e-6
+    count = len(case["pads"]["pivot_angle_deg"])
+    a_pad = 3e-4 if sweeps(case) else 5e-6
     return int(min(400000, 15 / (3e-5 + count * a_pad + count**2 * 1e-6)))
 
 
-def text(scene: Scene) -> str:
-    """The scene as a namelist."""
+def text(case: Case) -> str:
+    """The case as a namelist."""
     groups = []
-    for group, values in scene.items():
+    for group, values in case.items():
         lines = [f"  {name} = {literal(value)}\n" for name, value in values.items()]
         groups.append(f"&{group}\n{''.join(lines)}/\n")
     return "".join(groups)
