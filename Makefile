@@ -163,7 +163,7 @@ ross := build/venv-ross
 
 help:
 	@echo 'make run      installs missing packages, builds, runs input/paper/steady_lugre.nml, draws it into build/run'
-	@echo 'make test     installs missing packages, builds, runs every test; ONLY=sweep: only tests with sweep in their name'
+	@echo 'make test     installs missing packages, builds, runs every test; ONLY=study: only tests with study in their name'
 	@echo 'make unit NAME=test_x   builds and runs one test program of tests/unit or tests/physics, with checks (debug)'
 	@echo 'make test-slurm   tries the job scripts of input/slurm on a real Slurm of one node, two minutes (as root)'
 	@echo 'make test-debian13   tries make run, make test and the wheel on an empty Debian 13, ten minutes (as root);'

@@ -21,7 +21,7 @@ HEAD = """# Python package
     fig = tiltpad.figures.orbit([run, other])     # draws the picture that tiltpad-plot makes
     tiltpad.collect("folder", "study.h5")         # puts many runs into one file
     study = tiltpad.read_study("study.h5")
-    study.speed_rpm, study.orbit_y                # arrays over its members
+    study.speed_rpm, study.orbit_y                # arrays over its runs
     ax = tiltpad.diagrams.diagram(study)
 
 [results.md](results.md) lists the names, dimensions and units of the datasets. `(time,)`, `(pad,)` and
@@ -77,27 +77,27 @@ def own_functions(module: types.ModuleType, *helpers: str) -> list[types.Functio
     return sorted(own, key=lambda each: inspect.unwrap(each).__code__.co_firstlineno)
 
 
-def section(prefix: str, module: types.ModuleType, members: list) -> None:
-    """A module: what it is about, and its members."""
+def section(prefix: str, module: types.ModuleType, runs: list) -> None:
+    """A module: what it is about, and its runs."""
     first, _, more = inspect.getdoc(module).partition("\n")
     print(f"## {first.rstrip('.')}\n")
     if more.strip() and module is not plots:
         print(more.strip() + "\n")
-    for each in members:
+    for each in runs:
         entry(prefix, each)
 
 
-def entry(prefix: str, member: type | types.FunctionType) -> None:
+def entry(prefix: str, run: type | types.FunctionType) -> None:
     """A function with its signature and docstring, or a class with its public methods and properties."""
-    print(f"### `{prefix}.{member.__name__}`\n")
-    if inspect.isfunction(member):
-        print(f"```python\n{signature(member)}\n```\n")
-    print(inspect.getdoc(member) + "\n")
-    if member in (tiltpad.Run, tiltpad.Study):
-        for name, each in methods(member).items():
+    print(f"### `{prefix}.{run.__name__}`\n")
+    if inspect.isfunction(run):
+        print(f"```python\n{signature(run)}\n```\n")
+    print(inspect.getdoc(run) + "\n")
+    if run in (tiltpad.Run, tiltpad.Study):
+        for name, each in methods(run).items():
             call = signature(each) if inspect.isfunction(each) else name
             call = call.replace("(self, ", "(").replace("(self)", "()")
-            print(f"- `{member.__name__.lower()}.{call}`: {inspect.getdoc(each)}")
+            print(f"- `{run.__name__.lower()}.{call}`: {inspect.getdoc(each)}")
         print()
 
 

@@ -132,7 +132,7 @@ def march(program: str, name: str, output: Path) -> None:
 
 
 def sweep(program: str, name: str, folder: Path) -> None:
-    """Runs the members of a study into their folder, and collects them."""
+    """Performs the runs of a study into their folder, and collects them."""
     # those of an earlier sweep would be refused
     shutil.rmtree(folder / name, ignore_errors=True)
     march(program, name, folder / name)

@@ -1,7 +1,7 @@
 #!/bin/bash
-# Collects the results of a sweep in one file, after its jobs have ended, in any way:
+# Collects the results of a study in one file, after its jobs have ended, in any way:
 #    sbatch --dependency=afterany:JOB input/slurm/collect.sh FOLDER
-# writes FOLDER.h5; it marks members that failed, and the log names those that are missing.
+# writes FOLDER.h5; it marks runs that failed, and the log names those that are missing.
 #SBATCH --ntasks=1 --cpus-per-task=1 --mem-per-cpu=4G
 #SBATCH --time=01:00:00
 #SBATCH --requeue --open-mode=append

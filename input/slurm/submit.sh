@@ -1,11 +1,11 @@
 #!/bin/bash
-# Submits a whole study: the members of a sweep as an array of jobs, and a job that collects their results in one file.
-#    input/slurm/submit.sh CASE.nml [MEMBERS_A_TASK [TASKS_AT_A_TIME [sbatch options]]]
-# The defaults are one member per task and fifty tasks at a time. The results are CASE/0001.h5, ... and CASE.h5.
+# Submits a whole study: the runs of a study as an array of jobs, and a job that collects their results in one file.
+#    input/slurm/submit.sh CASE.nml [RUNS_A_TASK [TASKS_AT_A_TIME [sbatch options]]]
+# The defaults are one run per task and fifty tasks at a time. The results are CASE/0001.h5, ... and CASE.h5.
 set -eu
 
 if [ $# -eq 0 ] || [[ ! "${2:-1} ${3:-1}" =~ ^[1-9][0-9]*\ [1-9][0-9]*$ ]]; then
-   echo "usage: submit.sh CASE.nml [MEMBERS_A_TASK [TASKS_AT_A_TIME [sbatch options]]]" >&2
+   echo "usage: submit.sh CASE.nml [RUNS_A_TASK [TASKS_AT_A_TIME [sbatch options]]]" >&2
    exit 1
 fi
 case=$1
@@ -15,11 +15,11 @@ scripts=$(dirname "$(readlink -f "$0")")
 name=${case##*/}
 name=${name%.*}
 
-# an error in any member shows here and not in the log of a job; so does a case without a sweep
-tiltpad --check --member 1 "$case" >/dev/null
+# an error in any run shows here and not in the log of a job; so does a case without a study
+tiltpad --check --run 1 "$case" >/dev/null
 tiltpad --check "$case" >/dev/null
-members=$(tiltpad --count "$case")
-tasks=$(((members + each - 1) / each))
+runs=$(tiltpad --count "$case")
+tasks=$(((runs + each - 1) / each))
 array=$(sbatch --parsable --array="1-$tasks%$at_a_time" "${@:4}" "$scripts/sweep.sh" "$case" "$each")
 collection=$(sbatch --parsable --dependency="afterany:$array" "${@:4}" "$scripts/collect.sh" "$name")
-echo "$case: $members members in $tasks tasks, job $array; then $name.h5, job $collection"
+echo "$case: $runs runs in $tasks tasks, job $array; then $name.h5, job $collection"

@@ -1,16 +1,16 @@
 #!/bin/bash
-# The members of a sweep, as an array of jobs or all in one job:
-#    sbatch --array=1-TASKS%AT_A_TIME input/slurm/sweep.sh CASE.nml [MEMBERS_A_TASK]
+# The runs of a study, as an array of jobs or all in one job:
+#    sbatch --array=1-TASKS%AT_A_TIME input/slurm/sweep.sh CASE.nml [RUNS_A_TASK]
 #    sbatch --cpus-per-task=CORES input/slurm/sweep.sh CASE.nml
 # The results are CASE/0001.h5, ... in the folder of submission. A job that is requeued or submitted again continues
-# from the last checkpoints and skips complete members. A member that fails does not stop the others.
+# from the last checkpoints and skips complete runs. A run that fails does not stop the others.
 #SBATCH --ntasks=1 --cpus-per-task=1 --mem-per-cpu=1G
 #SBATCH --time=01:00:00
 #SBATCH --signal=B:USR1@60
 #SBATCH --requeue --open-mode=append
 
 if [ $# -eq 0 ] || [ $# -gt 2 ] || [[ ! ${2:-1} =~ ^[1-9][0-9]*$ ]]; then
-   echo "usage: sbatch [sbatch options] sweep.sh CASE.nml [MEMBERS_A_TASK]" >&2
+   echo "usage: sbatch [sbatch options] sweep.sh CASE.nml [RUNS_A_TASK]" >&2
    exit 1
 fi
 
@@ -62,12 +62,12 @@ if [ -z "$SLURM_ARRAY_TASK_ID" ]; then
    finish $?
 fi
 
-members=$(tiltpad --count "$1") || exit
+runs=$(tiltpad --count "$1") || exit
 each=${2:-1}
 last=$((SLURM_ARRAY_TASK_ID * each))
 worst=0
-for ((k = last - each + 1; k <= last && k <= members; k++)); do
-   run tiltpad --member "$k" "$1" || worst=$(($? > worst ? $? : worst))
+for ((k = last - each + 1; k <= last && k <= runs; k++)); do
+   run tiltpad --run "$k" "$1" || worst=$(($? > worst ? $? : worst))
    [ -n "$signal" ] && finish 4
 done
 finish "$worst"

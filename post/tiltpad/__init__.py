@@ -56,7 +56,7 @@ from tiltpad.calculate.signals import (
 )
 from tiltpad.calculate.spectra import full, full_spectrum, one_sided, order_track, spectrum, waterfall
 from tiltpad.calculate.tables import write_coefficients
-from tiltpad.collect.collect import Collected, MemberWarning, collect
+from tiltpad.collect.collect import Collected, RunWarning, collect
 from tiltpad.files.archive import NotInRunError, RunError
 from tiltpad.files.namelist import write_case
 from tiltpad.files.read import IncompleteRunWarning, Run, of_run, read
@@ -72,7 +72,7 @@ __all__ = [
     "IncompleteRunWarning",
     "LibraryError",
     "Losses",
-    "MemberWarning",
+    "RunWarning",
     "MissingLibraryError",
     "MissingProgramError",
     "Modes",

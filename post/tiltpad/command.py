@@ -13,7 +13,7 @@ from typing import Any, NoReturn
 from tiltpad.calculate.library import LibraryError, MissingLibraryError
 from tiltpad.calculate.selection import ArgumentError
 from tiltpad.calculate.tables import write_coefficients
-from tiltpad.collect.collect import MemberWarning
+from tiltpad.collect.collect import RunWarning
 from tiltpad.collect.collect import collect as collected
 from tiltpad.files.archive import NotInRunError, RunError, meant
 from tiltpad.files.read import IncompleteRunWarning, Run, read
@@ -124,7 +124,7 @@ def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            for category in (IncompleteRunWarning, MemberWarning):
+            for category in (IncompleteRunWarning, RunWarning):
                 warnings.simplefilter("always", category)
             warnings.showwarning = lambda message, *_: print(
                 f"{command}: warning: {message}", file=sys.stderr
@@ -299,9 +299,9 @@ def report_parser() -> Parser:
 def collect_parser() -> Parser:
     parser = Parser(
         prog="tiltpad-collect",
-        description="Puts the results of many runs, such as the members of a sweep, into one file: their "
+        description="Puts the results of many runs, such as the runs of a sweep, into one file: their "
         "parameters, orbits, films, friction, Poincare points, cost, and links to the runs.",
-        epilog="exit status: 0 done; 1 usage, or members of two studies; 3 a file cannot be read or written",
+        epilog="exit status: 0 done; 1 usage, or runs of two studies; 3 a file cannot be read or written",
     )
     parser.add_argument("paths", nargs="+", metavar="FOLDER|FILE", help="folder of results, or result files")
     parser.add_argument(
@@ -356,7 +356,7 @@ def plot_parser() -> Parser:
         action="append",
         type=assignment,
         metavar="PARAMETER=VALUE",
-        help="takes only the members with this value; may be repeated",
+        help="takes only the runs with this value; may be repeated",
     )
     return parser
 

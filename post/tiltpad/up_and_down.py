@@ -36,11 +36,11 @@ def brute_force(
         study = tiltpad.brute_force("mine.nml", "operation%speed_rpm", range(5000, 9001, 100))
         ax = tiltpad.diagrams.diagram(study, kind="bifurcation")
 
-    The study has a member for each value, upwards and then downwards (its parameter `direction`), with the
+    The study has a run for each value, upwards and then downwards (its parameter `direction`), with the
     Poincare points of the last `revolutions` (at most 50), after `settle` revolutions without samples: one
     point where the motion repeats with each revolution. Where the two directions differ, motions coexist.
-    `case` and overrides are those of tiltpad.run; `output` is a folder for the files of the members and
-    study.h5, by default temporary. A member that fails has no points, and the next one starts from the last
+    `case` and overrides are those of tiltpad.run; `output` is a folder for the files of the runs and
+    study.h5, by default temporary. A run that fails has no points, and the next one starts from the last
     one that did not.
     """
     rising = sorted(float(value) for value in values)
@@ -74,8 +74,8 @@ def marched(
         speed = first.input["operation"]["speed_rpm"]
     own["case"]["task"] = "march"
     group, _, name = parameter.partition("%")
-    members = [(way, value) for way, step in zip(WAYS, (1, -1), strict=True) for value in rising[::step]]
-    for number, (way, value) in enumerate(members, 1):
+    runs = [(way, value) for way, step in zip(WAYS, (1, -1), strict=True) for value in rising[::step]]
+    for number, (way, value) in enumerate(runs, 1):
         own.setdefault(group, {})[name] = value
         turn = 60 / (value if parameter == "operation%speed_rpm" else speed)
         own.setdefault("operation", {})["duration"] = sum(turns) * turn
@@ -86,5 +86,5 @@ def marched(
                 own.setdefault("start", {}).update({"from": "file", "file": os.fspath(path.resolve())})
         with h5py.File(path, "r+") as file:
             sweep = "\n".join(f"{each} = {written(of)}" for each, of in ((parameter, value), (WAY, way)))
-            file.attrs.update({"member": number, "members": len(members), "sweep": sweep})
+            file.attrs.update({"run": number, "runs": len(runs), "sweep": sweep})
     return read_study(collect(folder, folder / "study.h5").output)

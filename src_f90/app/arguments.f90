@@ -10,7 +10,7 @@ module arguments
 
    !> Longest override, and how many there may be.
    integer, parameter :: longest = 4096, most = 1000
-   character(len=*), parameter :: options = '--output --overwrite --resume --set --check --jobs --member --count ' &
+   character(len=*), parameter :: options = '--output --overwrite --resume --set --check --jobs --run --count ' &
       & //'--quiet --reference --version --help'
 
    type :: arguments_type
@@ -20,8 +20,8 @@ module arguments
       character(len=:), allocatable :: case_file, output, resumed
       !> "group%name=value".
       character(len=longest), allocatable :: overrides(:)
-      !> Member of a sweep, and how many at a time; 0 where not given.
-      integer :: member = 0, jobs = 0
+      !> Run of a study, and how many at a time; 0 where not given.
+      integer :: run = 0, jobs = 0
       logical :: quiet = .false., overwrite = .false.
    end type arguments_type
 
@@ -57,7 +57,7 @@ contains
             given%quiet = .true.
          case ('--overwrite')
             given%overwrite = .true.
-         case ('--output', '-o', '--resume', '--set', '--member', '--jobs')
+         case ('--output', '-o', '--resume', '--set', '--run', '--jobs')
             if (i == command_argument_count()) then
                call raise(error, input_error, word//': a value must follow; see tiltpad --help')
                return
@@ -98,8 +98,8 @@ contains
             call raise(error, input_error, '--set '//shortened(value)//': given more than '//to_text(most)//' times')
          end if
          if (.not. allocated(error)) given%overrides = [character(len=longest) :: given%overrides, value]
-      case ('--member')
-         call read_whole(word, value, given%member, error)
+      case ('--run')
+         call read_whole(word, value, given%run, error)
       case ('--jobs')
          call read_whole(word, value, given%jobs, error)
       case default
@@ -125,15 +125,15 @@ contains
          call raise(error, input_error, '--resume goes on with its file; --output cannot name another')
       else if (given%overwrite .and. (given%resumed /= '' .or. given%task /= 'run')) then
          call raise(error, input_error, '--overwrite: is for runs; not with --resume, --check or --count')
-      else if (given%jobs > 0 .and. (given%member > 0 .or. given%task /= 'run')) then
-         call raise(error, input_error, '--jobs: is for running all members; not with --member, --check or --count')
-      else if (given%task == 'count' .and. given%member > 0) then
-         call raise(error, input_error, '--count and --member: one of them at a time')
+      else if (given%jobs > 0 .and. (given%run > 0 .or. given%task /= 'run')) then
+         call raise(error, input_error, '--jobs: is for all runs of a study; not with --run, --check or --count')
+      else if (given%task == 'count' .and. given%run > 0) then
+         call raise(error, input_error, '--count and --run: one of them at a time')
       else if (given%resumed == '' .and. given%case_file == '') then
          call raise(error, input_error, 'no case given; usage: tiltpad [options] CASE.nml, see tiltpad --help')
       else if (given%case_file == '') then
-         if (given%task == 'count' .or. given%jobs > 0 .or. given%member > 0) then
-            call raise(error, input_error, '--count, --jobs and --member: are for a case with a sweep, and --resume ' &
+         if (given%task == 'count' .or. given%jobs > 0 .or. given%run > 0) then
+            call raise(error, input_error, '--count, --jobs and --run: are for a case with a study, and --resume ' &
                & //'for one run')
          else if (size(given%overrides) > 0) then
             call raise(error, input_error, '--set changes the case; a resumed run keeps its own')
@@ -188,20 +188,20 @@ contains
          & 'Calculates a journal bearing with tilting or fixed pads, which a namelist case describes, and writes', &
          & 'an HDF5 result file: by case%task a march in time, the static equilibrium, stiffness and damping', &
          & '(coefficients), a periodic orbit, or branches of equilibria or orbits.', &
-         & 'A case with a group &sweep describes many runs, its members; each member writes its own file.', &
+         & 'A case with a group &sweep describes many runs; each run writes its own file.', &
          & '', &
          & 'options:', &
          & '  --output FILE           names the result file; default: the case''s name with .h5, in this folder', &
-         & '                          (for a sweep: names the folder of the files 0001.h5, ...; default: the', &
+         & '                          (for a study: names the folder of the files 0001.h5, ...; default: the', &
          & '                          case''s name)', &
          & '  --overwrite             replaces the result of another case, which is refused without it', &
          & '  --resume FILE           continues a run that was stopped or killed, from its last checkpoint;', &
          & '                          with a CASE, starts the run if FILE does not exist', &
          & '  --set group%name=value  overrides one value of the case; may be repeated', &
          & '  --check                 reads, checks and prints the resolved case; runs nothing', &
-         & '  --jobs N                runs N members of a sweep at a time; default: one for each processor', &
-         & '  --member K              runs (with --check: prints) only member K of a sweep', &
-         & '  --count                 prints the number of members of the case; 1 without a group &sweep', &
+         & '  --jobs N                performs N runs of a study at a time; default: one for each processor', &
+         & '  --run K                 performs (with --check: prints) only run K of a study', &
+         & '  --count                 prints the number of runs of the case; 1 without a group &sweep', &
          & '  --quiet                 prints errors only', &
          & '  --reference             prints the input reference (Markdown)', &
          & '  --version, --help       prints the version, or this help', &

@@ -2,7 +2,7 @@
 module case_run
    use kinds, only: wp
    use case_inputs, only: case_type
-   use sweep, only: member_tag
+   use parameter_study, only: run_tag
    use integrator_counts, only: integrator_counts_type
    use equations_of_motion, only: bearing_model
    use run_file, only: run_file_type
@@ -18,8 +18,8 @@ module case_run
       type(case_type) :: inputs
       !> Name of the result file, as given.
       character(len=:), allocatable :: path
-      !> Which member of a sweep it is, if any.
-      type(member_tag) :: tag
+      !> Which run of a study it is, if any.
+      type(run_tag) :: tag
       logical :: quiet = .true.
       !> True where the file is continued from its checkpoint.
       logical :: resumed = .false.
@@ -49,7 +49,7 @@ contains
       type(case_run_type), intent(out) :: run
       type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: path
-      type(member_tag), intent(in) :: tag
+      type(run_tag), intent(in) :: tag
       logical, intent(in) :: quiet
       run%inputs = inputs
       run%path = path

@@ -23,7 +23,7 @@ contains
       type(case_run_type), intent(inout) :: run
       type(error_type), allocatable, intent(out) :: error
       call run%file%create(run%inputs, namelist_of(run%inputs), error)
-      if (.not. allocated(error) .and. run%tag%number > 0) call run%file%put_member(run%tag)
+      if (.not. allocated(error) .and. run%tag%number > 0) call run%file%put_tag(run%tag)
    end subroutine create_file
 
    !> Creates the file, finds the equilibrium and writes it; y is its state.

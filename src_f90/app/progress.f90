@@ -1,4 +1,4 @@
-!> Progress of a march, or of a sweep's members, on standard output: one line that renews itself on a terminal, a
+!> Progress of a march, or of the runs of a study, on standard output: one line that renews itself on a terminal, a
 !> plain line now and then in a batch log.
 module progress
    use, intrinsic :: iso_fortran_env, only: output_unit
@@ -18,7 +18,7 @@ module progress
       real(wp) :: from = 0, duration = 0, started = 0, last = 0
    contains
       procedure :: report
-      procedure :: report_members
+      procedure :: report_runs
       procedure :: note
       procedure :: clear
       procedure, private :: is_due
@@ -27,7 +27,7 @@ module progress
 
 contains
 
-   !> Starts the clock of a march from one simulated time to another, s, or of so many members.
+   !> Starts the clock of a march from one simulated time to another, s, or of so many runs.
    function new_progress(from, duration, quiet) result(progress)
       real(wp), intent(in) :: from, duration
       logical, intent(in) :: quiet
@@ -52,14 +52,14 @@ contains
       call self%show(line, t)
    end subroutine report
 
-   !> Shows how many members have ended, well or not, if it is time to.
-   subroutine report_members(self, ended, failed)
+   !> Shows how many runs have ended, well or not, if it is time to.
+   subroutine report_runs(self, ended, failed)
       class(progress_type), intent(inout) :: self
       integer, intent(in) :: ended, failed
       if (.not. self%is_due(wall_clock())) return
-      call self%show(to_text(ended)//' of '//to_text(nint(self%duration))//' members, '//to_text(failed)//' failed', &
+      call self%show(to_text(ended)//' of '//to_text(nint(self%duration))//' runs, '//to_text(failed)//' failed', &
          & real(ended, wp))
-   end subroutine report_members
+   end subroutine report_runs
 
    !> True where a line is to be shown at this wall clock, s.
    logical function is_due(self, now)

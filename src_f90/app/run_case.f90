@@ -2,7 +2,7 @@
 module run_case
    use errors, only: error_type, raise, input_error, numerics_error, stopped
    use case_inputs, only: case_type
-   use sweep, only: member_tag
+   use parameter_study, only: run_tag
    use equations_of_motion, only: new_bearing_model
    use restart, only: restart_type, read_result, refuse_other_case
    use files, only: is_regular
@@ -25,11 +25,11 @@ contains
    !> Runs a valid case and writes its result file. On a numerics error the file holds what was computed and is
    !> marked incomplete. With `go_on` a result of the same case that is there already is completed, from its
    !> checkpoint; else it is replaced. The result of another case is replaced only with `overwrite`, and what is no
-   !> result never. `tag` says which member of a sweep it is, if any.
+   !> result never. `tag` says which run of a study it is, if any.
    subroutine run_task(inputs, path, tag, go_on, overwrite, quiet, error)
       type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: path
-      type(member_tag), intent(in) :: tag
+      type(run_tag), intent(in) :: tag
       logical, intent(in) :: go_on, overwrite, quiet
       type(error_type), allocatable, intent(out) :: error
       type(case_run_type), target :: run
@@ -131,7 +131,7 @@ contains
          call run%file%finish(run%reached, run%statistics(), 0, '', file_error)
          if (.not. allocated(file_error) .and. .not. run%quiet) print '(a)', 'written: '//run%path
       else if (error%status == numerics_error .and. (run%computed .or. run%tag%number > 0)) then
-         ! of a member of a sweep the file says what happened; nothing else would be a result
+         ! of a run of a study the file says what happened; nothing else would be a result
          call run%file%finish(run%reached, run%statistics(), error%status, error%message, file_error)
          if (run%computed) error%message = error%message//'; what was computed is in '//run%path
       else if (error%status == stopped .and. run%computed) then

@@ -6,7 +6,7 @@ program tiltpad
    use errors, only: error_type, raise, input_error, system_error
    use case_inputs, only: case_type
    use result_size, only: size_note
-   use sweep, only: sweep_type, member_tag, read_sweep
+   use parameter_study, only: study_type, run_tag, read_study
    use namelist_writer, only: namelist_of
    use input_reference, only: reference_text
    use files, only: real_path
@@ -17,8 +17,8 @@ program tiltpad
    use stop_signals, only: catch_signals, ignore_file_limit
    use arguments, only: arguments_type, read_arguments, print_help
    use run_case, only: run_task
-   use sweep_folder, only: member_file, prepare_folder, check_folder, check_neighbours
-   use run_sweep, only: run_members, check_members
+   use study_folder, only: result_path, prepare_folder, check_folder, check_neighbours
+   use study_runs, only: perform_runs, check_runs
    implicit none (type, external)
 
    interface
@@ -62,7 +62,7 @@ contains
       type(arguments_type), intent(in) :: given
       type(error_type), allocatable, intent(out) :: error
       type(restart_type) :: found
-      type(member_tag) :: none
+      type(run_tag) :: none
       call read_restart(given%resumed, found, error)
       if (allocated(error)) return
       if (given%task == 'check') then
@@ -76,91 +76,91 @@ contains
    subroutine treat_case(given, error)
       type(arguments_type), intent(in) :: given
       type(error_type), allocatable, intent(out) :: error
-      type(sweep_type) :: sweep
+      type(study_type) :: study
       type(case_type) :: inputs
-      type(member_tag) :: tag
+      type(run_tag) :: tag
       character(len=:), allocatable :: output, text
-      logical :: all_members
+      logical :: whole_study
 
-      call read_sweep(given%case_file, given%overrides, sweep, error)
+      call read_study(given%case_file, given%overrides, study, error)
       if (allocated(error)) return
-      call check_use(given, sweep, error)
+      call check_use(given, study, error)
       if (allocated(error)) return
-      all_members = sweep%given .and. given%member == 0
-      if (all_members .and. given%task /= 'count') then
-         call check_members(sweep, error)
+      whole_study = study%given .and. given%run == 0
+      if (whole_study .and. given%task /= 'count') then
+         call check_runs(study, error)
       else
-         call sweep%inputs(max(1, given%member), inputs, error)
+         call study%inputs(max(1, given%run), inputs, error)
       end if
       if (allocated(error)) return
       select case (given%task)
       case ('count')
-         call put(to_text(sweep%members)//new_line('a'), error)
+         call put(to_text(study%runs)//new_line('a'), error)
          return
       case ('check')
-         if (all_members) then
-            call sweep%resolved(text, error)
+         if (whole_study) then
+            call study%resolved(text, error)
          else
-            call sweep%checked(max(1, given%member), text, error)
+            call study%checked(max(1, given%run), text, error)
          end if
          if (.not. allocated(error)) call put(text, error)
          return
       case default
-         call choose_output(given, sweep%given, output, error)
+         call choose_output(given, study%given, output, error)
       end select
       if (allocated(error)) return
-      if (sweep%given) then
-         call mark_sweep(sweep)
+      if (study%given) then
+         call mark_study(study)
          call prepare_folder(output, error)
          if (allocated(error)) return
       end if
-      if (all_members) then
-         call check_folder(sweep, output, given%overwrite, error)
-         if (.not. allocated(error)) call run_sweep_members(sweep, output, given%jobs, given%quiet, error)
+      if (whole_study) then
+         call check_folder(study, output, given%overwrite, error)
+         if (.not. allocated(error)) call perform_study(study, output, given%jobs, given%quiet, error)
          return
       end if
-      if (sweep%given) then
-         call sweep%tag(given%member, tag)
-         if (.not. given%overwrite) call check_neighbours(sweep, output, given%member, error)
-         output = member_file(output, given%member, sweep%members)
+      if (study%given) then
+         call study%tag(given%run, tag)
+         if (.not. given%overwrite) call check_neighbours(study, output, given%run, error)
+         output = result_path(output, given%run, study%runs)
       end if
-      if (.not. allocated(error)) call run_task(inputs, output, tag, sweep%given .or. given%resumed /= '', &
+      if (.not. allocated(error)) call run_task(inputs, output, tag, study%given .or. given%resumed /= '', &
          & given%overwrite, given%quiet, error)
    end subroutine treat_case
 
-   !> The checksums of a sweep are those of its first member's case and of the members' values.
-   subroutine mark_sweep(sweep)
-      type(sweep_type), intent(inout) :: sweep
+   !> The checksums of a study are those of its first run's case and of the runs' values.
+   subroutine mark_study(study)
+      type(study_type), intent(inout) :: study
       type(case_type) :: first
       type(error_type), allocatable :: error
-      call sweep%inputs(1, first, error)
+      call study%inputs(1, first, error)
       ! only the time between checkpoints may differ
       first%output%checkpoint_seconds = 0
       if (allocated(error)) then
-         ! others may be good, and run by --member
-         call sweep%mark('')
+         ! others may be good, and run by --run
+         call study%mark('')
       else
-         call sweep%mark(namelist_of(first))
+         call study%mark(namelist_of(first))
       end if
-   end subroutine mark_sweep
+   end subroutine mark_study
 
    !> Refuses options that the case is not for.
-   subroutine check_use(given, sweep, error)
+   subroutine check_use(given, study, error)
       type(arguments_type), intent(in) :: given
-      type(sweep_type), intent(in) :: sweep
+      type(study_type), intent(in) :: study
       type(error_type), allocatable, intent(out) :: error
-      if (.not. sweep%given .and. (given%member > 0 .or. given%jobs > 0)) then
-         call raise(error, input_error, given%case_file//': no group &sweep in it, which --member and --jobs are for')
-      else if (sweep%given .and. given%resumed /= '') then
-         call raise(error, input_error, '--resume goes on with one run; the members of '//given%case_file &
+      if (.not. study%given .and. (given%run > 0 .or. given%jobs > 0)) then
+         call raise(error, input_error, given%case_file//': no group &sweep in it, which --run and --jobs are for')
+      else if (study%given .and. given%resumed /= '') then
+         call raise(error, input_error, '--resume goes on with one run; the runs of '//given%case_file &
             & //' go on when it is run again')
-      else if (given%member > sweep%members) then
-         call raise(error, input_error, '--member '//to_text(given%member)//': must be 1 to ' &
-            & //to_text(sweep%members)//', the members of '//given%case_file)
+      else if (given%run > study%runs) then
+         call raise(error, input_error, '--run '//to_text(given%run)//': must be 1 to ' &
+            & //to_text(study%runs)//', the runs of '//given%case_file)
       end if
    end subroutine check_use
 
-   !> The result file, or for a sweep the folder of the members' files: as given, or named like the case.
+   !> The result file, or for a study the folder of the runs' files: as given, or named like the case.
    subroutine choose_output(given, is_folder, output, error)
       type(arguments_type), intent(in) :: given
       logical, intent(in) :: is_folder
@@ -179,9 +179,9 @@ contains
          & //': the result would replace the case; name another with --output')
    end subroutine choose_output
 
-   !> Runs all members of a sweep.
-   subroutine run_sweep_members(sweep, folder, jobs, quiet, error)
-      type(sweep_type), intent(in) :: sweep
+   !> Performs all runs of a study.
+   subroutine perform_study(study, folder, jobs, quiet, error)
+      type(study_type), intent(in) :: study
       character(len=*), intent(in) :: folder
       !> At a time; 0 for as many as there are processors.
       integer, intent(in) :: jobs
@@ -191,25 +191,25 @@ contains
       type(case_type) :: first
       integer :: i
       if (.not. quiet) then
-         call sweep%inputs(1, first, error)
+         call study%inputs(1, first, error)
          if (.not. allocated(error)) then
-            if (size_note(first, sweep%members) /= '') print '(a)', size_note(first, sweep%members)
+            if (size_note(first, study%runs) /= '') print '(a)', size_note(first, study%runs)
          end if
       end if
-      call run_members(sweep, folder, merge(jobs, processors(), jobs > 0), quiet, run_member, failures, error)
+      call perform_runs(study, folder, merge(jobs, processors(), jobs > 0), quiet, perform_run, failures, error)
       do i = 1, size(failures)
          call complain(failures(i))
       end do
-   end subroutine run_sweep_members
+   end subroutine perform_study
 
-   !> Runs a member of a sweep, or what is left of it, and prints nothing.
-   subroutine run_member(inputs, path, tag, error)
+   !> Performs a run of a study, or what is left of it, and prints nothing.
+   subroutine perform_run(inputs, path, tag, error)
       type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: path
-      type(member_tag), intent(in) :: tag
+      type(run_tag), intent(in) :: tag
       type(error_type), allocatable, intent(out) :: error
       call run_task(inputs, path, tag, .true., given%overwrite, .true., error)
-   end subroutine run_member
+   end subroutine perform_run
 
    !> An error's line.
    subroutine complain(error)

@@ -35,7 +35,7 @@ contains
          end if
          call require(.not. abs(o%final_speed_rpm - o%speed_rpm) > 0, 'operation%final_speed_rpm = ' &
             & //to_text(o%final_speed_rpm)//': must be operation%speed_rpm = '//to_text(o%speed_rpm) &
-            & //' with case%task = ''coefficients''; a sweep varies the speed', error)
+            & //' with case%task = ''coefficients''; a study varies the speed', error)
          call require(.not. c%threshold_up_to_rpm > 0 .or. c%threshold_up_to_rpm > o%speed_rpm, &
             & 'coefficients%threshold_up_to_rpm = '//to_text(c%threshold_up_to_rpm) &
             & //': must be 0 or above operation%speed_rpm = '//to_text(o%speed_rpm)//', where the search starts', error)

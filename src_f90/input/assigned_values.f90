@@ -7,7 +7,7 @@ module assigned_values
    use errors, only: error_type, raise, input_error
    use similar_words, only: did_you_mean
    use number_syntax, only: is_special, read_number
-   use assignments, only: assignment_type, token_type, assignment_text, sweep_group
+   use assignments, only: assignment_type, token_type, assignment_text, study_group
    use field_visitor, only: field_type
    implicit none (type, external)
    private
@@ -111,7 +111,7 @@ contains
    pure function several_runs(a) result(text)
       type(assignment_type), intent(in) :: a
       character(len=:), allocatable :: text
-      text = '; for one run of each value: '//sweep_group//'%'//shortened(assignment_text(a))
+      text = '; for one run of each value: '//study_group//'%'//shortened(assignment_text(a))
    end function several_runs
 
    !> "case.nml line 3: rotor%mass = -1: must be ...".

@@ -4,10 +4,10 @@ module assignments
    implicit none (type, external)
    private
    public :: namelist_type, assignment_type, token_type
-   public :: put_assignment, undoes, assignment_text, target_text, value_text, sweep_group
+   public :: put_assignment, undoes, assignment_text, target_text, value_text, study_group
 
-   !> The group of a sweep. Its variables are those of other groups, `group%name = values`, with one value for each run.
-   character(len=*), parameter :: sweep_group = 'sweep'
+   !> The group of a study. Its variables are those of other groups, `group%name = values`, with one value for each run.
+   character(len=*), parameter :: study_group = 'sweep'
 
    !> One value; `repeat*value` stands for several of them.
    type :: token_type
@@ -20,7 +20,7 @@ module assignments
       character(len=:), allocatable :: group, name, origin
       !> First element that the values go to; 0 where no subscript is given.
       integer :: subscript = 0
-      !> True for an assignment of --set or of a member of a sweep: it may set an element that the file sets too.
+      !> True for an assignment of --set or of a run of a study: it may set an element that the file sets too.
       logical :: overrides = .false.
       type(token_type), allocatable :: values(:)
    end type assignment_type
@@ -34,8 +34,8 @@ module assignments
 
 contains
 
-   !> Adds an assignment and removes those that it replaces. It comes last; only that of a sweep takes the position of
-   !> the first one that it replaces, as the order of swept variables is the order of the members.
+   !> Adds an assignment and removes those that it replaces. It comes last; only that of a study takes the position of
+   !> the first one that it replaces, as the order of swept variables is the order of the runs.
    subroutine put_assignment(new, parsed)
       type(assignment_type), intent(in) :: new
       type(namelist_type), intent(inout) :: parsed
@@ -44,7 +44,7 @@ contains
       integer :: at, i, k
       keep = [(.not. replaces(new, parsed%assignments(i)), i=1, size(parsed%assignments))]
       at = size(keep) + 1
-      if (new%group == sweep_group) at = findloc([keep, .false.], .false., dim=1)
+      if (new%group == study_group) at = findloc([keep, .false.], .false., dim=1)
       ! one by one, as the compiler forgets to free what a constructor with pack copies
       allocate (together(count(keep) + 1))
       k = 0
@@ -72,7 +72,7 @@ contains
    pure logical function replaces(new, earlier)
       type(assignment_type), intent(in) :: new, earlier
       replaces = undoes(new, earlier)
-      if (new%subscript == 0 .or. new%group == sweep_group) return
+      if (new%subscript == 0 .or. new%group == study_group) return
       replaces = replaces .and. size(earlier%values) == 1 .and. index(earlier%values(1)%text, '*') == 0
    end function replaces
 

@@ -11,7 +11,7 @@ module case_fields
    private
    public :: visit_case, title_variable, checkpoint_variable, pads_variable
 
-   !> Variables without effect on what is calculated: a sweep cannot vary the title, and a resumed run may have
+   !> Variables without effect on what is calculated: a study cannot vary the title, and a resumed run may have
    !> another time between checkpoints.
    character(len=*), parameter :: title_variable = 'case%title'
    character(len=*), parameter :: checkpoint_variable = 'output%checkpoint_seconds'

@@ -9,7 +9,7 @@ module case_namelist
    use field_visitor, only: visitor_type, field_type
    use case_fields, only: visit_case
    use case_parameter, only: check_branch_parameter
-   use assignments, only: namelist_type, assignment_type, sweep_group
+   use assignments, only: namelist_type, assignment_type, study_group
    use assigned_values, only: read_word, read_reals, refuse_values
    use variable_names, only: group_names, names_in, meant_variable, meant_group
    use namelist_text, only: parse_namelist
@@ -42,7 +42,7 @@ module case_namelist
 
 contains
 
-   !> The case of a text, everything checked; a sweep is refused. `file` is for messages.
+   !> The case of a text, everything checked; a study is refused. `file` is for messages.
    subroutine case_from_text(text, file, inputs, error)
       character(len=*), intent(in) :: text, file
       type(case_type), intent(out) :: inputs
@@ -52,8 +52,8 @@ contains
       call parse_namelist(text, file, parsed, error)
       if (allocated(error)) return
       do i = 1, size(parsed%groups)
-         if (parsed%groups(i)%group == sweep_group) call raise(error, input_error, parsed%groups(i)%origin &
-            & //': a sweep, where one case is expected; tiltpad --check --member K prints those of a sweep')
+         if (parsed%groups(i)%group == study_group) call raise(error, input_error, parsed%groups(i)%origin &
+            & //': a study, where one case is expected; tiltpad --check --run K prints those of a study')
       end do
       if (.not. allocated(error)) call case_from_namelist(parsed, inputs, error)
    end subroutine case_from_text

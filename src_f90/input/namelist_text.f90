@@ -2,7 +2,7 @@
 module namelist_text
    use text, only: to_text, lower_case, shortened
    use errors, only: error_type, raise, input_error
-   use assignments, only: namelist_type, assignment_type, token_type, put_assignment, undoes, sweep_group
+   use assignments, only: namelist_type, assignment_type, token_type, put_assignment, undoes, study_group
    use text_scanner, only: scanner, control_character, newline
    use variable_names, only: meant_variable
    implicit none (type, external)
@@ -186,7 +186,7 @@ contains
          end if
       end if
       allowed = name_characters
-      if (new%group == sweep_group) allowed = name_characters//'%'
+      if (new%group == study_group) allowed = name_characters//'%'
       call scan%skip_blank('')
       if (status /= 0 .or. len(new%name) == 0 .or. verify(new%name, allowed) /= 0 .or. scan%peek() /= '=') then
          call raise(error, input_error, new%origin//': '''//shortened(found)//''' in group &'//new%group &

@@ -67,7 +67,7 @@ contains
    function meant_group(group) result(text)
       character(len=*), intent(in) :: group
       character(len=:), allocatable :: text
-      text = did_you_mean(group, group_names()//' sweep')
+      text = did_you_mean(group, group_names()//' study')
    end function meant_group
 
    function all_variables() result(names)

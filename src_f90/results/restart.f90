@@ -9,7 +9,7 @@ module restart
    use hdf5_file, only: hdf5_type
    use hdf5_trial, only: try_reading
    use provenance, only: format_version
-   use sweep, only: member_tag
+   use parameter_study, only: run_tag
    use files, only: is_regular
    implicit none (type, external)
    private
@@ -18,8 +18,8 @@ module restart
    type :: restart_type
       !> Resolved namelist of the run.
       type(case_type) :: inputs
-      !> Which member of a sweep it is.
-      type(member_tag) :: tag
+      !> Which run of a study it is.
+      type(run_tag) :: tag
       !> True where an earlier version of the program wrote it; the rest is not known then.
       logical :: older = .false.
       !> True where nothing is left to do.
@@ -62,11 +62,11 @@ contains
       found%reason = ''
       if (file%has_attribute('exit_status')) call file%get_flag('exit_status', found%status)
       if (found%status /= 0) call file%get_text('reason', found%reason)
-      if (file%has_attribute('member')) then
-         call file%get_flag('member', found%tag%number)
-         call file%get_text('sweep', found%tag%sweep)
+      if (file%has_attribute('run')) then
+         call file%get_flag('run', found%tag%number)
+         call file%get_text('sweep', found%tag%study)
          found%tag%marks = ''
-         if (file%has_attribute('sweep_marks')) call file%get_text('sweep_marks', found%tag%marks)
+         if (file%has_attribute('study_marks')) call file%get_text('study_marks', found%tag%marks)
       end if
       if (allocated(file%failure)) call raise(error, system_error, path//': damaged: '//file%failure)
       call file%close()
@@ -142,12 +142,12 @@ contains
    end subroutine open_result
 
    !> Refuses a case that is not that of the file, and names the variable. Only the time between checkpoints may
-   !> differ. A member of a sweep must have been this one also; the sweep may have grown. What is no member may be
-   !> the same run continued, `go_on`, but replaces no member.
+   !> differ. A run of a study must have been this one also; the study may have grown. What belongs to no study may be
+   !> the same run continued, `go_on`, but replaces no run.
    subroutine refuse_other_case(path, ours, tag, go_on, found, error)
       character(len=*), intent(in) :: path
       type(case_type), intent(in) :: ours
-      type(member_tag), intent(in) :: tag
+      type(run_tag), intent(in) :: tag
       logical, intent(in) :: go_on
       type(restart_type), intent(in) :: found
       type(error_type), allocatable, intent(out) :: error
@@ -166,13 +166,13 @@ contains
          return
       end do
       if (tag%number == 0) then
-         if (found%tag%number > 0 .and. .not. go_on) call raise(error, system_error, path//': is member ' &
-            & //to_text(found%tag%number)//' of a sweep')
+         if (found%tag%number > 0 .and. .not. go_on) call raise(error, system_error, path//': is run ' &
+            & //to_text(found%tag%number)//' of a study')
       else if (found%tag%number == 0) then
-         call raise(error, system_error, path//': is the result of the same case, but no member of a sweep')
-      else if (found%tag%number /= tag%number .or. found%tag%sweep /= tag%sweep) then
-         call raise(error, system_error, path//': is member '//to_text(found%tag%number)//' of another sweep; ' &
-            & //on_one_line(found%tag%sweep)//' there, '//on_one_line(tag%sweep)//' here')
+         call raise(error, system_error, path//': is the result of the same case, but no run of a study')
+      else if (found%tag%number /= tag%number .or. found%tag%study /= tag%study) then
+         call raise(error, system_error, path//': is run '//to_text(found%tag%number)//' of another study; ' &
+            & //on_one_line(found%tag%study)//' there, '//on_one_line(tag%study)//' here')
       end if
    end subroutine refuse_other_case
 

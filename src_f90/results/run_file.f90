@@ -4,7 +4,7 @@ module run_file
    use kinds, only: wp, degree, pi
    use errors, only: error_type, raise, system_error
    use case_inputs, only: case_type
-   use sweep, only: member_tag
+   use parameter_study, only: run_tag
    use growing_file, only: growing_file_type
    use summary_group, only: put_figure
    use provenance, only: provenance_type, running
@@ -18,7 +18,7 @@ module run_file
    contains
       procedure :: create
       procedure :: resume
-      procedure :: put_member
+      procedure :: put_tag
       procedure :: begin_checkpoint
       procedure :: checkpoint
       procedure :: finish
@@ -79,15 +79,15 @@ contains
       if (allocated(error)) call self%abandon()
    end subroutine resume
 
-   !> Notes which member of a sweep the run is.
-   subroutine put_member(self, tag)
+   !> Notes which run of a study the run is.
+   subroutine put_tag(self, tag)
       class(run_file_type), intent(inout) :: self
-      type(member_tag), intent(in) :: tag
-      call self%file%put_flag('member', tag%number)
-      call self%file%put_flag('members', tag%members)
-      call self%file%put_text('sweep', tag%sweep)
-      call self%file%put_text('sweep_marks', tag%marks)
-   end subroutine put_member
+      type(run_tag), intent(in) :: tag
+      call self%file%put_flag('run', tag%number)
+      call self%file%put_flag('runs', tag%runs)
+      call self%file%put_text('sweep', tag%study)
+      call self%file%put_text('study_marks', tag%marks)
+   end subroutine put_tag
 
    !> Begins a new checkpoint, at time t, s: what the run goes on from belongs into its group.
    subroutine begin_checkpoint(self, t)

@@ -44,7 +44,7 @@ contains
       character(len=*), intent(in) :: path
       type(hdf5_type) :: file
       character(len=*), parameter :: texts(*) = [character(len=11) :: 'program', 'input', 'reason', 'history', &
-         & 'sweep', 'sweep_marks']
+         & 'sweep', 'study_marks']
       character(len=:), allocatable :: text
       integer :: i
       call file%open(path, writing=.false.)
@@ -67,10 +67,10 @@ contains
       real(wp), allocatable :: values(:, :)
       character(len=longest_name) :: name
       character(len=:), allocatable :: path
-      integer :: members, i, kind, status
-      call h5gn_members_f(file%id, group, members, status)
+      integer :: runs, i, kind, status
+      call h5gn_members_f(file%id, group, runs, status)
       if (status < 0) return
-      do i = 0, members - 1
+      do i = 0, runs - 1
          call h5gget_obj_info_idx_f(file%id, group, i, name, kind, status)
          if (status < 0) cycle
          path = group//trim(name)

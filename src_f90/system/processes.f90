@@ -1,4 +1,4 @@
-!> This process and its children: what the runner of many members asks of the system.
+!> This process and its children: what the runner of many runs asks of the system.
 module processes
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_loc, c_long, c_null_char, c_size_t
    use text, only: to_text

@@ -11,10 +11,10 @@ from settings import (
     CHECKPOINT_SHARE,
     COLLECT_SECONDS,
     MAIN,
-    MEMBER_MILLISECONDS,
-    MEMBERS,
     ONE_FILMS,
     ONE_SOLVER,
+    RUN_MILLISECONDS,
+    RUNS,
     START_MILLISECONDS,
     TOLERANCE_SPAN,
 )
@@ -214,18 +214,18 @@ def study(rows: list[Row]) -> str:
     brief, long = walls[SWEEP, f"{SHORT:g}"], walls[SWEEP, f"{LONG:g}"]
     march = (long - brief) / (LONG - SHORT) * SHORT
     cores = os.cpu_count()
-    beyond = 1e3 * (cores * walls[SWEEP, "all"] / MEMBERS - march)
+    beyond = 1e3 * (cores * walls[SWEEP, "all"] / RUNS - march)
     again, collected = walls[SWEEP, "again"], walls[COLLECT, "all"]
     started = 1e3 * walls[START, "--version"]
     lines = [
         ("start of the program, which prints its version", f"{short(started)} ms", f"{START_MILLISECONDS} ms",
          verdict(started, START_MILLISECONDS)),
-        (f"all members, {cores} at a time", f"{short(walls[SWEEP, 'all'])} s", "", ""),
-        ("a member beyond its march", f"{short(beyond)} ms", f"{MEMBER_MILLISECONDS} ms",
-         verdict(beyond, MEMBER_MILLISECONDS)),
-        ("the march of a member", f"{short(1e3 * march)} ms", "", ""),
-        ("a member in a process of its own", f"{short(1e3 * brief)} ms", "", ""),
-        ("a second call, with all members complete", f"{short(again)} s", "", ""),
+        (f"all runs, {cores} at a time", f"{short(walls[SWEEP, 'all'])} s", "", ""),
+        ("a run beyond its march", f"{short(beyond)} ms", f"{RUN_MILLISECONDS} ms",
+         verdict(beyond, RUN_MILLISECONDS)),
+        ("the march of a run", f"{short(1e3 * march)} ms", "", ""),
+        ("a run in a process of its own", f"{short(1e3 * brief)} ms", "", ""),
+        ("a second call, with all runs complete", f"{short(again)} s", "", ""),
         ("collecting into one file", f"{short(collected)} s", f"{COLLECT_SECONDS} s",
          verdict(collected, COLLECT_SECONDS)),
     ]  # fmt: skip

@@ -150,8 +150,8 @@ cost.
 
 ### Sweeps and studies
 
-One call runs {members} members of 0.1 s without friction on all cores, and a second one collects their
-results into one file. The time of a member "beyond its march" is its time on a core minus the time that 0.1
+One call runs {runs} runs of 0.1 s without friction on all cores, and a second one collects their
+results into one file. The time of a run "beyond its march" is its time on a core minus the time that 0.1
 s more of a run takes; it contains reading, the contact table, the equilibrium, the file and its spectra.
 
 {study}
@@ -263,7 +263,7 @@ def page(rows: dict[str, list[Row]], machine: str) -> str:
         orbits=orbits.compared(rows["orbits"]),
         checkpoint_seconds=settings.CHECKPOINT_SECONDS,
         checkpoints=costs.checkpoints(rows["production"]),
-        members=settings.MEMBERS,
+        runs=settings.RUNS,
         study=costs.study(rows["production"]),
         absolute=settings.PEER_ABSOLUTE,
         relative=settings.PEER_RELATIVE,

@@ -1,4 +1,4 @@
-"""What checkpoints cost, what a member of a sweep costs beyond its march, and what collecting costs."""
+"""What checkpoints cost, what a run of a sweep costs beyond its march, and what collecting costs."""
 
 import os
 import shutil
@@ -10,7 +10,7 @@ from pathlib import Path
 
 import tiltpad
 from runner import Row, Runner
-from settings import CHECKPOINT_CASES, CHECKPOINT_SECONDS, MEMBERS
+from settings import CHECKPOINT_CASES, CHECKPOINT_SECONDS, RUNS
 
 CHECKPOINTS, SWEEP, COLLECT, START = "checkpoints", "sweep", "collect", "start"
 #: Short runs so often; the best counts. Starts so often; their median counts.
@@ -36,7 +36,7 @@ def production(runner: Runner) -> Iterator[Row]:
         path.unlink()
         yield row
     yield Row(runner.part, "none", START, "--version", wall_seconds=start(runner))
-    yield from members(runner)
+    yield from runs(runner)
 
 
 def start(runner: Runner) -> float:
@@ -59,14 +59,14 @@ def copying(path: Path) -> float:
     return seconds
 
 
-def members(runner: Runner) -> Iterator[Row]:
+def runs(runner: Runner) -> Iterator[Row]:
     """A run, a longer one, all of a sweep of the first, the same again, and its collection."""
-    folder = runner.folder / "members"
+    folder = runner.folder / "runs"
     folder.mkdir()
     for duration in (SHORT, LONG):
         times = [timed(runner, folder, CASE.format(duration=duration)) for _ in range(REPEATS)]
         yield Row(runner.part, "one", SWEEP, f"{duration:g}", wall_seconds=min(times), rotor_seconds=duration)
-    text = CASE.format(duration=SHORT) + SWEPT.format(last=1e-5 * MEMBERS)
+    text = CASE.format(duration=SHORT) + SWEPT.format(last=1e-5 * RUNS)
     for setting in ("all", "again"):
         yield Row(runner.part, "sweep", SWEEP, setting, wall_seconds=timed(runner, folder, text))
     collect = Path(sys.executable).with_name("tiltpad-collect")

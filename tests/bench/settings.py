@@ -82,8 +82,8 @@ CHECKPOINT_CASES = (
     Case("steady_lugre", "LuGre, over-relaxation", MAIN[1].input_file,
           ("operation%duration=1", "film%solver=sor")),
 )  # fmt: skip
-#: Members of the sweep of short runs; milliseconds allowed beyond a member's march; seconds to collect all.
-MEMBERS, MEMBER_MILLISECONDS, COLLECT_SECONDS = 1000, 6, 10
+#: Runs of the sweep of short runs; milliseconds allowed beyond a run's march; seconds to collect all.
+RUNS, RUN_MILLISECONDS, COLLECT_SECONDS = 1000, 6, 10
 #: Start of the program, which does nothing else.
 START_MILLISECONDS = 20
 

@@ -80,12 +80,12 @@ def check_modes(group, modes, pivot):
 
 
 def test_sweep_goes_on_without_equilibrium(tiltpad, root, tmp_path):
-    """A load between pads that nothing carries: its member is marked, the others are whole."""
+    """A load between pads that nothing carries: its run is marked, the others are whole."""
     loads = "sweep%rotor%static_load(2)=0,1e5,1000"
     arguments = ("--output", tmp_path / "map", "--quiet", "--set", TASK, "--set", loads)
     done = tiltpad(root / "input/paper/steady_tr.nml", *arguments)
     assert done.returncode == 2
-    assert "member 2 (rotor%static_load(2) = 1e5): no equilibrium found" in done.stderr
+    assert "run 2 (rotor%static_load(2) = 1e5): no equilibrium found" in done.stderr
     for number, complete in ((1, 1), (2, 0), (3, 1)):
         with h5py.File(tmp_path / "map" / f"{number:04d}.h5") as file:
             assert file.attrs["complete"] == complete

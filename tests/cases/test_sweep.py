@@ -1,4 +1,4 @@
-"""Sweeps: counting and checking members, running them side by side, failures, signals, what is refused."""
+"""Sweeps: counting and checking runs, running them side by side, failures, signals, what is refused."""
 
 import os
 import re
@@ -12,7 +12,7 @@ import h5py
 import pytest
 from conftest import FAST_CLOCK, PATIENCE, on_a_terminal, one_error, wait_for
 
-# quick members; a member of a second or two; and one that does not end by itself
+# quick runs; a run of a second or two; and one that does not end by itself
 QUICK = "&case task='equilibrium' /\n"
 LONG = "&operation duration=0.2 / &integration max_step=5e-5 / &output checkpoint_seconds=1e-9 /\n"
 ENDLESS = LONG.replace("0.2", "10000")
@@ -66,7 +66,7 @@ def speed(path):
 
 # ---- counting and checking -----------------------------------------------------------------------
 @pytest.mark.parametrize(
-    ("text", "members"),
+    ("text", "runs"),
     [
         ("&case /\n", 1),
         (sweep("operation%speed_rpm = 5000"), 1),
@@ -76,9 +76,9 @@ def speed(path):
         (sweep("rotor%mass = 1:100000:1"), 100000),
     ],
 )
-def test_count(tiltpad, case, text, members):
+def test_count(tiltpad, case, text, runs):
     folder = case(text)
-    assert result(tiltpad("--count", "case.nml", cwd=folder)) == (f"{members}\n", [])
+    assert result(tiltpad("--count", "case.nml", cwd=folder)) == (f"{runs}\n", [])
     assert files(folder) == ["case.nml"]
 
 
@@ -95,7 +95,7 @@ def test_check_prints_a_case_that_resolves_to_itself(tiltpad, case):
     assert result(tiltpad("--check", "again.nml", cwd=folder)) == (text, [])
     for k in range(1, 13):
         first, second = (
-            plain(result(tiltpad("--check", "--member", k, name, cwd=folder))[0])
+            plain(result(tiltpad("--check", "--run", k, name, cwd=folder))[0])
             for name in ("case.nml", "again.nml")
         )
         assert first == second
@@ -105,10 +105,10 @@ def test_check_prints_a_case_that_resolves_to_itself(tiltpad, case):
 
 def test_members_in_order_and_to_the_last_bit(tiltpad, case):
     folder = case(sweep("operation%speed_rpm=0.3:0.9:0.1", "rotor%mass=1e-3:1e1:*10"))
-    members = [(0.3 + i * 0.1, 1e-3 * 10.0**k) for i in range(7) for k in range(5)]
-    assert result(tiltpad("--count", "case.nml", cwd=folder)) == (f"{len(members)}\n", [])
-    for k, (rpm, mass) in enumerate(members, 1):
-        text, _ = result(tiltpad("--check", "--member", k, "case.nml", cwd=folder))
+    runs = [(0.3 + i * 0.1, 1e-3 * 10.0**k) for i in range(7) for k in range(5)]
+    assert result(tiltpad("--count", "case.nml", cwd=folder)) == (f"{len(runs)}\n", [])
+    for k, (rpm, mass) in enumerate(runs, 1):
+        text, _ = result(tiltpad("--check", "--run", k, "case.nml", cwd=folder))
         assert float(case_value(text, "operation", "speed_rpm")) == rpm
         assert float(case_value(text, "operation", "final_speed_rpm")) == rpm
         assert float(case_value(text, "rotor", "mass")) == mass
@@ -117,7 +117,7 @@ def test_members_in_order_and_to_the_last_bit(tiltpad, case):
 def test_zip(tiltpad, case):
     folder = case(sweep("order='zip'", "operation%speed_rpm=1000,2000", "friction%model='none','lugre'"))
     for k, pair in enumerate([("1000", "'none'"), ("2000", "'lugre'")], 1):
-        text, _ = result(tiltpad("--check", "--member", k, "case.nml", cwd=folder))
+        text, _ = result(tiltpad("--check", "--run", k, "case.nml", cwd=folder))
         assert pair == (case_value(text, "operation", "speed_rpm"), case_value(text, "friction", "model"))
 
 
@@ -142,7 +142,7 @@ def test_all_members_run(tiltpad, case, options):
     folder = case(sweep("operation%speed_rpm=3000:3400:100"))
     stdout, errors = result(tiltpad("case.nml", *options, cwd=folder))
     assert errors == []
-    assert re.fullmatch(r"5 members: 5 done, 0 failed; [0-9.]+ s; in case\n", stdout)
+    assert re.fullmatch(r"5 runs: 5 done, 0 failed; [0-9.]+ s; in case\n", stdout)
     assert files(folder) == ["case", "case.nml"]
     assert files(folder / "case") == [f"000{k}.h5" for k in range(1, 6)]
     assert [speed(path) for path in sorted((folder / "case").iterdir())] == [3000, 3100, 3200, 3300, 3400]
@@ -151,10 +151,10 @@ def test_all_members_run(tiltpad, case, options):
 def test_a_member_is_the_run_of_its_case(tiltpad, case):
     folder = case("&operation duration=0.01 /\n&sweep operation%speed_rpm=3000:5000:1000 /\n")
     assert result(tiltpad("--quiet", "case.nml", cwd=folder)) == ("", [])
-    text, _ = result(tiltpad("--check", "--member", 2, "case.nml", cwd=folder))
+    text, _ = result(tiltpad("--check", "--run", 2, "case.nml", cwd=folder))
     (folder / "second.nml").write_text(text)
     result(tiltpad("second.nml", cwd=folder))
-    stdout, _ = result(tiltpad("--member", 2, "case.nml", "--output", "alone", cwd=folder))
+    stdout, _ = result(tiltpad("--run", 2, "case.nml", "--output", "alone", cwd=folder))
     assert "written: alone/0002.h5" in stdout
     assert files(folder / "alone") == ["0002.h5"]
     with (
@@ -181,10 +181,10 @@ def test_default_folder(tiltpad, tmp_path, name, folder):
 def test_a_file_says_which_member_it_is(tiltpad, case):
     folder = case(sweep("operation%speed_rpm=3000,4000", "friction%model='none','lugre'"))
     result(tiltpad("case.nml", cwd=folder))
-    result(tiltpad("case.nml", "--member", 2, "-o", "alone", cwd=folder))
+    result(tiltpad("case.nml", "--run", 2, "-o", "alone", cwd=folder))
     for path in ("case/0002.h5", "alone/0002.h5"):
         with h5py.File(folder / path) as file:
-            assert (file.attrs["member"], file.attrs["members"]) == (2, 4)
+            assert (file.attrs["run"], file.attrs["runs"]) == (2, 4)
             assert file.attrs["sweep"] == "operation%speed_rpm = 3000\nfriction%model = 'lugre'"
 
 
@@ -195,7 +195,7 @@ def test_a_second_call_runs_what_is_missing(tiltpad, case):
     result(tiltpad("case.nml", cwd=folder))
     before = {path.name: path.stat() for path in (folder / "case").iterdir()}
     (folder / "case/0002.h5").unlink()
-    assert result(tiltpad("case.nml", cwd=folder))[0].startswith("3 members: 3 done, 0 failed; ")
+    assert result(tiltpad("case.nml", cwd=folder))[0].startswith("3 runs: 3 done, 0 failed; ")
     for name, status in before.items():
         now = (folder / "case" / name).stat()
         assert (now.st_mtime_ns == status.st_mtime_ns) == (name != "0002.h5")
@@ -218,8 +218,7 @@ def test_two_sweeps_are_not_mixed(tiltpad, case):
         ("rotor%mass=1900", f"0001.h5: {other}; rotor%mass = 2000 there, 1900 here{WAY_OUT}"),
         (
             "sweep%operation%speed_rpm=3000,4000",
-            "0003.h5: is no member of this sweep, which has 2; remove it, or name another folder with "
-            "--output",
+            "0003.h5: is no run of this sweep, which has 2; remove it, or name another folder with --output",
         ),
     ):
         before = {path: path.read_bytes() for path in (folder / "case").iterdir()}
@@ -235,16 +234,16 @@ def test_a_single_member_looks_at_its_neighbours(tiltpad, case):
     folder = case(sweep("operation%speed_rpm=3000,4000,5000"))
     result(tiltpad("case.nml", cwd=folder))
     other = ("--set", "sweep%operation%speed_rpm=3000:7000:500")
-    _, errors = result(tiltpad("case.nml", "--member", 4, *other, cwd=folder), status=3)
-    assert errors == ["case/0003.h5: is of another sweep than member 4" + WAY_OUT]
+    _, errors = result(tiltpad("case.nml", "--run", 4, *other, cwd=folder), status=3)
+    assert errors == ["case/0003.h5: is of another sweep than run 4" + WAY_OUT]
     assert len(files(folder / "case")) == 3
     grown = ("--set", "sweep%operation%speed_rpm=3000:7000:1000")
-    result(tiltpad("case.nml", "--member", 4, *grown, cwd=folder))
+    result(tiltpad("case.nml", "--run", 4, *grown, cwd=folder))
     # nor is it a run of its own
     (folder / "one.nml").write_text(QUICK)
     options = ("--set", "operation%speed_rpm=3000", "--output", "case/0001.h5")
     _, errors = result(tiltpad("one.nml", *options, cwd=folder), status=3)
-    assert errors == ["case/0001.h5: is member 1 of a sweep" + WAY_OUT]
+    assert errors == ["case/0001.h5: is run 1 of a sweep" + WAY_OUT]
 
 
 def test_a_sweep_may_grow(tiltpad, case):
@@ -252,64 +251,64 @@ def test_a_sweep_may_grow(tiltpad, case):
     result(tiltpad("case.nml", cwd=folder))
     before = (folder / "case/0001.h5").read_bytes()
     longer = ("--set", "sweep%operation%speed_rpm=3000,4000,5000")
-    assert result(tiltpad("case.nml", *longer, cwd=folder))[0].startswith("3 members: 3 done")
+    assert result(tiltpad("case.nml", *longer, cwd=folder))[0].startswith("3 runs: 3 done")
     assert (folder / "case/0001.h5").read_bytes() == before
     assert [speed(folder / f"case/000{k}.h5") for k in (1, 2, 3)] == [3000, 4000, 5000]
 
 
 def test_the_same_case_in_another_place_is_refused(tiltpad, case):
-    """A member of a sweep over something else, or a run that is none: a study could not tell what it is."""
+    """A run of a sweep over something else, or a run that is none: a study could not tell what it is."""
     folder = case(sweep("operation%speed_rpm=6500"))
     result(tiltpad("case.nml", cwd=folder))
     _, errors = result(tiltpad("case.nml", "--set", "sweep%rotor%gravity=9.81", cwd=folder), status=3)
     assert errors[0].endswith(
-        "case/0001.h5: is member 1 of another sweep; operation%speed_rpm = 6500 there, "
+        "case/0001.h5: is run 1 of another sweep; operation%speed_rpm = 6500 there, "
         "operation%speed_rpm = 6500, rotor%gravity = 9.81 here" + WAY_OUT
     )
     (folder / "one.nml").write_text(QUICK)
     result(tiltpad("one.nml", "--output", "case/0001.h5", "--overwrite", cwd=folder))
     _, errors = result(tiltpad("case.nml", cwd=folder), status=3)
-    assert errors == ["case/0001.h5: is the result of the same case, but no member of a sweep" + WAY_OUT]
+    assert errors == ["case/0001.h5: is the result of the same case, but no run of a sweep" + WAY_OUT]
 
 
 def test_file_names_have_the_digits_of_the_last_member(tiltpad, case):
     folder = case(sweep("operation%speed_rpm=1:20000:1"))
-    result(tiltpad("--quiet", "--member", 7, "case.nml", cwd=folder))
-    result(tiltpad("--quiet", "--member", 20000, "case.nml", cwd=folder))
+    result(tiltpad("--quiet", "--run", 7, "case.nml", cwd=folder))
+    result(tiltpad("--quiet", "--run", 20000, "case.nml", cwd=folder))
     assert files(folder / "case") == ["00007.h5", "20000.h5"]
 
 
-# ---- members that fail ---------------------------------------------------------------------------
+# ---- runs that fail ---------------------------------------------------------------------------
 def test_a_failing_member_among_good_ones(tiltpad, case):
     values = ("operation%speed_rpm=3000,4000", "integration%max_steps=100000,20")
     folder = case(sweep(*values, base="&operation duration=0.01 /\n"))
     stdout, errors = result(tiltpad("case.nml", cwd=folder), status=2)
-    assert re.match(r"4 members: 2 done, 2 failed; ", stdout)
+    assert re.match(r"4 runs: 2 done, 2 failed; ", stdout)
     quiet = tiltpad("--quiet", "--jobs", 1, "case.nml", "-o", "Case", cwd=folder)
     assert result(quiet, status=2) == ("", [line.replace("case/", "Case/") for line in errors])
     again, _ = result(tiltpad("case.nml", cwd=folder), status=2)
-    assert re.match(r"4 members: 2 done, 2 failed; ", again)
+    assert re.match(r"4 runs: 2 done, 2 failed; ", again)
     assert len(errors) == 3
     for line, k, rpm in zip(errors, (2, 4), (3000, 4000), strict=False):
-        start = f"member {k} (operation%speed_rpm = {rpm}, integration%max_steps = 20): "
+        start = f"run {k} (operation%speed_rpm = {rpm}, integration%max_steps = 20): "
         assert line.startswith(start)
         assert "after 20 steps" in line
         assert f"case/000{k}.h5" in line
-    assert errors[2] == "2 of 4 members failed"
+    assert errors[2] == "2 of 4 runs failed"
     for k, complete in enumerate((1, 0, 1, 0), 1):
         with h5py.File(folder / f"case/000{k}.h5") as file:
             assert file.attrs["complete"] == complete
 
 
 def test_a_file_error_has_its_own_status(tiltpad, case):
-    """A folder where one member's file is to be, beside a member whose numerics fail."""
+    """A folder where one run's file is to be, beside a run whose numerics fail."""
     folder = case(sweep("integration%max_steps=20,21,100000", base="&operation duration=0.01 /\n"))
     (folder / "case").mkdir()
     (folder / "case/0003.h5").mkdir()
     _, errors = result(tiltpad("case.nml", cwd=folder), status=3)
-    assert errors[2].startswith("member 3 (integration%max_steps = 100000): ")
+    assert errors[2].startswith("run 3 (integration%max_steps = 100000): ")
     assert "case/0003.h5" in errors[2]
-    assert errors[3] == "3 of 3 members failed"
+    assert errors[3] == "3 of 3 runs failed"
 
 
 def children(process):
@@ -322,18 +321,18 @@ def children(process):
 
 @pytest.fixture
 def started(start):
-    """started(folder, arguments, members=2): the program under way, with so many children."""
+    """started(folder, arguments, runs=2): the program under way, with so many children."""
 
-    def begin(folder, *arguments, members=1):
+    def begin(folder, *arguments, runs=1):
         process = start(folder, *arguments)
-        wait_for(lambda: len(children(process)) >= members, process)
+        wait_for(lambda: len(children(process)) >= runs, process)
         return process
 
     return begin
 
 
 def test_a_killed_member_is_a_failed_one_and_the_others_go_on(start, tiltpad, case):
-    """The first member is long; it is killed as soon as it says who runs it."""
+    """The first run is long; it is killed as soon as it says who runs it."""
     durations = "operation%duration=0.2" + 4 * ",0.01"
     folder = case(sweep("order='zip'", "rotor%mass=2000:2400:100", durations, base=LONG))
     process = start(folder, "--jobs", "2", "case.nml")
@@ -342,19 +341,19 @@ def test_a_killed_member_is_a_failed_one_and_the_others_go_on(start, tiltpad, ca
     os.kill(int(lock.read_text().split()[1]), signal.SIGKILL)
     stdout, stderr = process.communicate(timeout=PATIENCE)
     assert process.returncode == 3
-    assert re.match(r"5 members: 4 done, 1 failed; ", stdout)
+    assert re.match(r"5 runs: 4 done, 1 failed; ", stdout)
     line, total = stderr.splitlines()
-    member = "member 1 (rotor%mass = 2000, operation%duration = 0.2)"
-    assert line == f"tiltpad: error: {member}: ended by signal 9"
-    assert total == "tiltpad: error: 1 of 5 members failed"
+    run = "run 1 (rotor%mass = 2000, operation%duration = 0.2)"
+    assert line == f"tiltpad: error: {run}: ended by signal 9"
+    assert total == "tiltpad: error: 1 of 5 runs failed"
     assert all(speed(folder / f"case/000{k}.h5") for k in range(2, 6))
     stdout, _ = result(tiltpad("case.nml", cwd=folder))
-    assert stdout.startswith("5 members: 5 done, 0 failed; ")
+    assert stdout.startswith("5 runs: 5 done, 0 failed; ")
     assert all(speed(folder / f"case/000{k}.h5") for k in range(1, 6))
 
 
 def test_a_child_runs_many_members_and_leaves_nothing_open(program, tiltpad, case):
-    """Few processes for many members, with hardly more descriptors than one member needs."""
+    """Few processes for many runs, with hardly more descriptors than one run needs."""
     folder = case(sweep("rotor%mass=2000:2119:1"))
     seen = set()
     limit = (24, resource.getrlimit(resource.RLIMIT_NOFILE)[1])
@@ -365,9 +364,9 @@ def test_a_child_runs_many_members_and_leaves_nothing_open(program, tiltpad, cas
             time.sleep(0.001)
     assert process.returncode == 0
     assert len(files(folder / "case")) == 120
-    # fifty members a child
+    # fifty runs a child
     assert len(seen) <= 4
-    result(tiltpad("--member", 60, "-o", "alone", "case.nml", cwd=folder))
+    result(tiltpad("--run", 60, "-o", "alone", "case.nml", cwd=folder))
     with h5py.File(folder / "case/0060.h5") as one, h5py.File(folder / "alone/0060.h5") as other:
         assert one["equilibrium/journal_y"][()] == other["equilibrium/journal_y"][()]
 
@@ -386,7 +385,7 @@ def test_as_many_at_a_time_as_processors(start, case):
 
 
 def check_members_at_a_time(process, folder, count):
-    """So many of members that do not end run, and no more."""
+    """So many of runs that do not end run, and no more."""
     results = [folder / f"case/000{k}.h5" for k in range(1, count + 1)]
     wait_for(lambda: all(path.exists() for path in results), process)
     assert len(children(process)) == count
@@ -398,10 +397,10 @@ def check_members_at_a_time(process, folder, count):
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGUSR1])
 def test_a_signal_stops_the_sweep(started, case, number):
     folder = case(sweep("rotor%mass=2000:2900:1", base=ENDLESS))
-    process = started(folder, "--jobs", "2", "case.nml", members=2)
+    process = started(folder, "--jobs", "2", "case.nml", runs=2)
     process.send_signal(number)
     stdout, stderr = process.communicate(timeout=PATIENCE)
-    totals = "901 members: 0 done, 0 failed, 2 stopped, 899 not started"
+    totals = "901 runs: 0 done, 0 failed, 2 stopped, 899 not started"
     assert process.returncode == 4
     assert stderr == f"tiltpad: error: stopped by signal {number.value}; of {totals.replace(':', '')}\n"
     # after a note that the results are large
@@ -413,12 +412,12 @@ def test_stopped_members_go_on_at_the_second_call(started, tiltpad, case):
     whole = {}
     for output in ("stopped", "through"):
         if output == "stopped":
-            process = started(folder, "--jobs", "2", "case.nml", "-o", output, members=2)
+            process = started(folder, "--jobs", "2", "case.nml", "-o", output, runs=2)
             wait_for(lambda: all((folder / f"stopped/000{k}.h5").exists() for k in (1, 2)), process)
             process.terminate()
             assert "2 stopped" in one_error(process, 4)
         stdout, _ = result(tiltpad("case.nml", "-o", output, cwd=folder))
-        assert stdout.startswith("2 members: 2 done, 0 failed; ")
+        assert stdout.startswith("2 runs: 2 done, 0 failed; ")
         for k in (1, 2):
             with h5py.File(folder / output / f"000{k}.h5") as file:
                 assert file.attrs["complete"] == 1
@@ -431,10 +430,10 @@ def test_stopped_members_go_on_at_the_second_call(started, tiltpad, case):
 def test_members_end_with_the_program(started, case):
     """Nobody is left behind by a program that is killed."""
     folder = case(sweep("rotor%mass=2000,2100", base=ENDLESS))
-    process = started(folder, "--quiet", "--jobs", "2", "case.nml", members=2)
-    members = children(process)
+    process = started(folder, "--quiet", "--jobs", "2", "case.nml", runs=2)
+    runs = children(process)
     process.kill()
-    wait_for(lambda: not any(running(member) for member in members))
+    wait_for(lambda: not any(running(run) for run in runs))
 
 
 def running(process):
@@ -456,11 +455,11 @@ def test_a_terminal_has_one_line_for_all_members(program, case, loaded):
     lines = re.findall(r"\r(\d[^\r\n]*)\x1b", text)
     assert len(lines) >= 2
     for line in lines:
-        assert re.fullmatch(r"\d+ of 20 members, \d+ failed(, \d+ s left)?", line), line
+        assert re.fullmatch(r"\d+ of 20 runs, \d+ failed(, \d+ s left)?", line), line
     counts = [int(line.split()[0]) for line in lines]
     assert counts == sorted(counts)
-    assert "\n" not in text[: text.index("20 members: ")]
-    assert re.search(r"\r\x1b\[K20 members: 10 done, 10 failed; [0-9.]+ s; in case\r\n$", text)
+    assert "\n" not in text[: text.index("20 runs: ")]
+    assert re.search(r"\r\x1b\[K20 runs: 10 done, 10 failed; [0-9.]+ s; in case\r\n$", text)
 
 
 def test_nothing_is_printed_twice(tiltpad, case):
@@ -516,7 +515,7 @@ SWEEPS = {
 
 
 @pytest.mark.parametrize("line", SWEEPS, ids=lambda line: line or "empty")
-@pytest.mark.parametrize("options", [(), ("--check",), ("--count",), ("--member", "1")], ids=" ".join)
+@pytest.mark.parametrize("options", [(), ("--check",), ("--count",), ("--run", "1")], ids=" ".join)
 def test_sweep_refused(refused, case, line, options):
     """Whatever is asked for, also where the sweep is not run."""
     case(sweep(*line.split(", ")) if line else "\n&sweep /\n")
@@ -527,12 +526,12 @@ def test_sweep_refused(refused, case, line, options):
 @pytest.mark.parametrize(
     ("line", "names"),
     [
-        ("rotor%mass=1:3:1, -1", ["line 3, member 4", "rotor%mass = -1", "1e-6 to"]),
-        ("friction%model='none','lugre','coulomb'", ["line 3, member 3", "'coulomb'", "bengisu_akay"]),
-        ("film%axial_cells=4,4.5", ["line 3, member 2", "film%axial_cells = 4.5", "whole"]),
-        ("friction%dynamic_coefficient=0.1,0.2", ["member 2", "friction%static_coefficient"]),
-        ("rotor%static_load=1,2", ["line 3, member 1", "rotor%static_load", "2 values"]),
-        ("pads%pivot_angle_deg(1)=-90,-80", ["line 3, member 1", "pads%pivot_angle_deg", "subscript"]),
+        ("rotor%mass=1:3:1, -1", ["line 3, run 4", "rotor%mass = -1", "1e-6 to"]),
+        ("friction%model='none','lugre','coulomb'", ["line 3, run 3", "'coulomb'", "bengisu_akay"]),
+        ("film%axial_cells=4,4.5", ["line 3, run 2", "film%axial_cells = 4.5", "whole"]),
+        ("friction%dynamic_coefficient=0.1,0.2", ["run 2", "friction%static_coefficient"]),
+        ("rotor%static_load=1,2", ["line 3, run 1", "rotor%static_load", "2 values"]),
+        ("pads%pivot_angle_deg(1)=-90,-80", ["line 3, run 1", "pads%pivot_angle_deg", "subscript"]),
     ],
 )
 def test_a_bad_member_is_named_and_nothing_runs(refused, case, options, line, names):
@@ -542,30 +541,30 @@ def test_a_bad_member_is_named_and_nothing_runs(refused, case, options, line, na
 
 def test_only_the_member_that_runs_must_be_good(tiltpad, refused, case):
     folder = case(sweep("rotor%mass=2000,-1"))
-    result(tiltpad("--member", 1, "case.nml", cwd=folder))
-    refused("--member", 2, "case.nml", names=["line 3, member 2: rotor%mass = -1"])
+    result(tiltpad("--run", 1, "case.nml", cwd=folder))
+    refused("--run", 2, "case.nml", names=["line 3, run 2: rotor%mass = -1"])
 
 
 # command lines: arguments, what the message must name
 LINES = {
-    "member beyond the last": (["--member", "3"], ["--member 3", "1 to 2"]),
-    "member zero": (["--member", "0"], ["--member 0", "whole number"]),
-    "member by name": (["--member", "first"], ["--member first", "whole number"]),
-    "member too large": (["--member", "99999999999"], ["--member 99999999999", "whole number"]),
+    "run beyond the last": (["--run", "3"], ["--run 3", "1 to 2"]),
+    "run zero": (["--run", "0"], ["--run 0", "whole number"]),
+    "run by name": (["--run", "first"], ["--run first", "whole number"]),
+    "run too large": (["--run", "99999999999"], ["--run 99999999999", "whole number"]),
     "no jobs": (["--jobs", "0"], ["--jobs 0", "whole number"]),
     "negative jobs": (["--jobs", "-2"], ["--jobs -2", "whole number"]),
     "half a job": (["--jobs", "0.5"], ["--jobs 0.5", "whole number"]),
     "empty number": (["--jobs", ""], ["--jobs", "whole number"]),
     "count and check": (["--count", "--check"], ["--count", "--check"]),
-    "jobs and a member": (["--jobs", "2", "--member", "1"], ["--jobs", "--member"]),
+    "jobs and a run": (["--jobs", "2", "--run", "1"], ["--jobs", "--run"]),
     "jobs and count": (["--jobs", "2", "--count"], ["--jobs", "--count"]),
-    "count and member": (["--count", "--member", "1"], ["--count", "--member"]),
+    "count and run": (["--count", "--run", "1"], ["--count", "--run"]),
     "set of what is swept": (
         ["--set", "rotor%mass=1"],
         ["--set rotor%mass = 1", "swept", "case.nml line 3", "--set sweep%rotor%mass="],
     ),
     "bad sweep by set": (["--set", "sweep%rotor%gravity=1:2:-1"], ["--set", "sweep%rotor%gravity = 1:2:-1"]),
-    "bad member by set": (["--set", "sweep%rotor%mass=1,-1"], ["--set, member 2", "rotor%mass = -1"]),
+    "bad run by set": (["--set", "sweep%rotor%mass=1,-1"], ["--set, run 2", "rotor%mass = -1"]),
     "bad order by set": (["--set", "sweep%order='all'"], ["--set", "sweep%order = 'all'"]),
     "resume of a sweep": (["--resume", "case.h5"], ["--resume", "case.nml"]),
     "output is the case": (["--output", "case.nml"], ["case.nml", "replace"]),
@@ -579,7 +578,7 @@ def test_command_line(refused, case, key):
     refused("case.nml", *arguments, names=names)
 
 
-@pytest.mark.parametrize("option", ["--member", "--jobs"])
+@pytest.mark.parametrize("option", ["--run", "--jobs"])
 def test_a_case_without_a_sweep(refused, case, option):
     """With the option's value, and without."""
     case(QUICK)
@@ -595,7 +594,7 @@ def test_folder_that_cannot_be(refused, case):
         outputs["/proc"] = ""
     outputs[300 * "x"] = "too long"
     for output, reason in outputs.items():
-        for options in ((), ("--member", "2")):
+        for options in ((), ("--run", "2")):
             refused("case.nml", *options, "-o", output, names=["folder", output, reason], status=3)
 
 
@@ -624,8 +623,8 @@ def test_members_leave_nothing_in_memory(program, tiltpad, tmp_path):
     (tmp_path / "one.nml").write_text("&case /\n")
     whole = tiltpad("--check", "one.nml", cwd=tmp_path).stdout
     most = {}
-    for members in (1, 5000):
-        (tmp_path / "case.nml").write_text(f"{whole}&sweep rotor%mass=1001:{1000 + members}:1 /\n")
+    for runs in (1, 5000):
+        (tmp_path / "case.nml").write_text(f"{whole}&sweep rotor%mass=1001:{1000 + runs}:1 /\n")
         command = [sys.executable, "-S", "-c", MEMORY, program, "--check", "case.nml"]
-        most[members] = int(subprocess.run(command, cwd=tmp_path, capture_output=True, check=True).stdout)
+        most[runs] = int(subprocess.run(command, cwd=tmp_path, capture_output=True, check=True).stdout)
     assert most[5000] - most[1] < 5000

@@ -14,21 +14,21 @@ CASE = """&case task='equilibrium' /
   oil%supply_temperature = 20, 80
 /
 """
-#: Members whose asperities carry: heaviest load and slowest, or thin hot oil.
+#: Runs whose asperities carry: heaviest load and slowest, or thin hot oil.
 BOILING = (5, 6, 7, 8, 14)
 
 
 @pytest.fixture
 def sweep(tiltpad, tmp_path):
-    """sweep(overrides): the ends of the members that failed, by their number."""
+    """sweep(overrides): the ends of the runs that failed, by their number."""
     (tmp_path / "case.nml").write_text(CASE)
 
     def run(*overrides):
         words = ("case.nml", "--quiet", "--overwrite", "--output", "range")
         done = tiltpad(*words, overrides=overrides, cwd=tmp_path)
-        lines = [line for line in done.stderr.splitlines() if "error: member" in line]
+        lines = [line for line in done.stderr.splitlines() if "error: run" in line]
         assert done.returncode == (2 if lines else 0)
-        return {int(line.split("error: member ")[1].split()[0]): line for line in lines}
+        return {int(line.split("error: run ")[1].split()[0]): line for line in lines}
 
     return run
 

@@ -89,7 +89,7 @@ class Campaign:
         if intended is not None and reply.status != 0:
             wrong.append("a valid case is refused")
         if intended and reply.text.partition(b"\0")[0] != b"%d" % intended:
-            wrong.append(f"not {intended} members")
+            wrong.append(f"not {intended} runs")
         return wrong, reply
 
     def note(self, case: Case, what: str, kind: str, words) -> None:

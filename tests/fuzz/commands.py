@@ -14,12 +14,12 @@ import mutate
 import spelling
 from harness import SANITIZER, Case, Reply
 from judge import CONTROL, findings
-from members import SHOWN
 from reference import Variable
+from runs import SHOWN
 
 PREFIX = b"tiltpad: error: "
 TRACE = re.compile(rb"At line|Fortran runtime|HDF5-DIAG|Backtrace|Program received|runtime error|Sanitizer")
-MEMBER = re.compile(rb", member (\d+): ")
+RUN = re.compile(rb", run (\d+): ")
 # longest a command may take, s
 LIMIT = 60
 NAMES = (
@@ -91,18 +91,18 @@ def set_arguments(dice: Random, program: Path, folder: Path, variables, corpus):
         said = out if status == 0 else errors.removeprefix(PREFIX)[:-1]
         if b"\n&sweep\n" in said:
             said = with_members(program, folder, arguments, said)
-        refused = MEMBER.search(said) if status else None
-        # the program looks at every member, the second reader at those that are shown
+        refused = RUN.search(said) if status else None
+        # the program looks at every run, the second reader at those that are shown
         if not refused or int(refused[1]) <= SHOWN:
             wrong = findings(case, Reply(status, 0, said), variables)
     return arguments + [b"<", case.text], wrong
 
 
 def with_members(program: Path, folder: Path, arguments: list[bytes], resolved: bytes) -> bytes:
-    """What the harness would say of a sweep: how many, the resolved case, some members."""
+    """What the harness would say of a sweep: how many, the resolved case, some runs."""
     count = run(program, folder, b"--count", *arguments[1:])[1].strip()
-    members = [*range(1, min(SHOWN, int(count)) + 1), *([int(count)] if int(count) > SHOWN else [])]
-    cases = [run(program, folder, b"--member", b"%d" % k, *arguments)[1] for k in members]
+    runs = [*range(1, min(SHOWN, int(count)) + 1), *([int(count)] if int(count) > SHOWN else [])]
+    cases = [run(program, folder, b"--run", b"%d" % k, *arguments)[1] for k in runs]
     return b"\0".join((count, resolved, *cases, b""))
 
 
@@ -162,7 +162,7 @@ def options(dice: Random, program: Path, folder: Path, variables, corpus):
     (folder / "case.nml").write_bytes(b"&case task='equilibrium' /\n")
     words = (
         b"--check --check --check --quiet -q --set --output -o case.nml case.nml rotor%mass=1 --help -h "
-        b"--version --reference -- - --resume --count --member --jobs 1 -1 --set=rotor%mass=1 --output=a "
+        b"--version --reference -- - --resume --count --run --jobs 1 -1 --set=rotor%mass=1 --output=a "
         b"--chec".split()
     )
     arguments = dice.choices((*words, b"", b" ", b"\n", b"\xff", b"x" * 3000), k=dice.choice((0, 1, 2, 3, 5)))

@@ -4,14 +4,14 @@
 !> then the arguments of --set. The reply on standard output is the length of what follows, the exit status, what the
 !> case was the first to reach (0 without instrumentation), and a text: what the program would print, the resolved
 !> case or the error. Every number has four bytes. A resolved case that does not read back to itself, where that is
-!> asked for, gives the status `not_itself` and both texts. Of a sweep the text is the number of members, the resolved
-!> case and some members, the first ones and the last, with a zero byte behind each.
+!> asked for, gives the status `not_itself` and both texts. Of a study the text is the number of runs, the resolved
+!> case and some runs, the first ones and the last, with a zero byte behind each.
 program fuzz_input
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_size_t
    use errors, only: error_type
    use text, only: printable, to_text
    use case_inputs, only: case_type
-   use sweep, only: sweep_type, sweep_from_text
+   use parameter_study, only: study_type, study_from_text
    use namelist_writer, only: namelist_of
    use input_reference, only: reference_text
    use standard_output, only: write_output
@@ -41,8 +41,8 @@ program fuzz_input
    !> What to do, and the status that no error has.
    integer, parameter :: to_read = 0, to_read_back = 1, to_give_reference = 2
    integer, parameter :: not_itself = 99
-   !> Members of a sweep that are looked at, with the last.
-   integer, parameter :: most_members = 3
+   !> Runs of a study that are looked at, with the last.
+   integer, parameter :: most_runs = 3
    character(len=*), parameter :: name = 'case.nml'
    type(text_type), allocatable :: parts(:)
    integer :: task, count, i
@@ -106,26 +106,26 @@ contains
       call reply(0, news, said)
    end subroutine answer
 
-   !> The resolved case, and what is to be said of it: the same, or what a sweep makes of it.
+   !> The resolved case, and what is to be said of it: the same, or what a study makes of it.
    subroutine resolve(case_text, overrides, resolved, said, error)
       character(len=*), intent(in) :: case_text, overrides(:)
       character(len=:), allocatable, intent(out) :: resolved, said
       type(error_type), allocatable, intent(out) :: error
-      type(sweep_type) :: sweep
+      type(study_type) :: study
       type(case_type) :: inputs
       integer :: k
-      call sweep_from_text(case_text, name, overrides, sweep, error)
+      call study_from_text(case_text, name, overrides, study, error)
       if (allocated(error)) return
       said = ''
-      do k = 1, sweep%members
-         if (k > most_members .and. k < sweep%members) cycle
-         call sweep%inputs(k, inputs, error)
+      do k = 1, study%runs
+         if (k > most_runs .and. k < study%runs) cycle
+         call study%inputs(k, inputs, error)
          if (allocated(error)) return
          said = said//namelist_of(inputs)//achar(0)
       end do
-      if (sweep%given) then
-         call sweep%resolved(resolved, error)
-         if (.not. allocated(error)) said = to_text(sweep%members)//achar(0)//resolved//achar(0)//said
+      if (study%given) then
+         call study%resolved(resolved, error)
+         if (.not. allocated(error)) said = to_text(study%runs)//achar(0)//resolved//achar(0)//said
       else
          resolved = namelist_of(inputs)
          said = resolved

@@ -3,16 +3,16 @@
 import re
 
 from harness import NOT_ITSELF, Case, Reply
-from members import answered
-from members import expected as members_of
 from reader import Refused
 from reference import Variable
+from runs import answered
+from runs import expected as runs_of
 
 # longest line of an error, and what is no part of one: control characters of ASCII and Latin-1
 LONGEST = 800
 CONTROL = re.compile("[\0-\x1f\x7f-\x9f\u2028\u2029]")
 # values that do not fit together, which the second reader does not judge
-UNFIT = re.compile(rb"case\.nml(, member \d+)?: \w+%\w+ = ")
+UNFIT = re.compile(rb"case\.nml(, run \d+)?: \w+%\w+ = ")
 
 
 def findings(case: Case, reply: Reply, variables: dict[str, Variable], words=None) -> list[str]:
@@ -25,15 +25,15 @@ def findings(case: Case, reply: Reply, variables: dict[str, Variable], words=Non
             found.append("a fault is accepted")
         found += [f"the refusal does not name {word!r}" for word in words if word not in reply.text]
     try:
-        members, expected = members_of(case, variables)
+        runs, expected = runs_of(case, variables)
     except Refused as refused:
         if reply.status == 0:
             found.append(f"accepted, but: {refused}")
         return found
     if reply.status == 0:
         count, cases = answered(reply.text)
-        if (count, len(cases)) != (members, len(expected)):
-            return [*found, f"{count} members, not {members}"]
+        if (count, len(cases)) != (runs, len(expected)):
+            return [*found, f"{count} runs, not {runs}"]
         for inputs, values in zip(cases, expected, strict=True):
             found += differences(values, inputs)
     elif not UNFIT.match(reply.text):

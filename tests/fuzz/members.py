@@ -1,4 +1,4 @@
-"""What a case stands for, by the second reader: one run, or the members of a sweep."""
+"""What a case stands for, by the second reader: one run, or the runs of a sweep."""
 
 import math
 from dataclasses import replace
@@ -7,8 +7,8 @@ from harness import Case
 from reader import LONGEST_NUMBER, NUMBER, SWEEP, Assignment, Refused, read, resolve, resolved
 from reference import Variable
 
-MOST_MEMBERS = 100000
-# the members that the harness shows, with the last
+MOST_RUNS = 100000
+# the runs that the harness shows, with the last
 SHOWN = 3
 # part of a stride by which the last value of a range may miss its end; sizes of its numbers
 ROUNDING = 1e-6
@@ -16,18 +16,18 @@ SMALLEST, LARGEST = 1e-100, 1e100
 
 
 def expected(case: Case, variables: dict[str, Variable]) -> tuple[int, list[dict[str, tuple]]]:
-    """How many members, 0 without a sweep, and the values of those that are shown; or Refused."""
+    """How many runs, 0 without a sweep, and the values of those that are shown; or Refused."""
     assignments, sweep = read(case, {v.group for v in variables.values()})
     base = [each for each in assignments if each.group != SWEEP]
     if not sweep:
         return 0, [resolve(base, variables)]
     zipped, swept = swept_variables([each for each in assignments if each.group == SWEEP], base)
     counts = [sum(count_of(piece) for piece in pieces) for _, pieces in swept]
-    members = counts[0] if zipped else math.prod(counts)
-    if zipped and len(set(counts)) > 1 or members > MOST_MEMBERS:
-        raise Refused("number of members")
-    shown = [*range(1, min(SHOWN, members) + 1), *([members] if members > SHOWN else [])]
-    return members, [resolve(member(k, zipped, swept, counts, base), variables) for k in shown]
+    runs = counts[0] if zipped else math.prod(counts)
+    if zipped and len(set(counts)) > 1 or runs > MOST_RUNS:
+        raise Refused("number of runs")
+    shown = [*range(1, min(SHOWN, runs) + 1), *([runs] if runs > SHOWN else [])]
+    return runs, [resolve(run(k, zipped, swept, counts, base), variables) for k in shown]
 
 
 def answered(text: bytes) -> tuple[int, list[dict[str, tuple]]]:
@@ -85,7 +85,7 @@ def piece(text: bytes, quoted: bool):
         if step == 0 or (last - first) * step < 0:
             raise Refused("no range")
         steps = (last - first) / step
-    if steps >= MOST_MEMBERS:
+    if steps >= MOST_RUNS:
         raise Refused("too many values")
     return first, step, geometric, 1 + math.floor(steps + ROUNDING)
 
@@ -118,8 +118,8 @@ def value_of(pieces, n: int) -> tuple[bytes, bool]:
     return str(round(x) if whole else x).encode(), False
 
 
-def member(k: int, zipped: bool, swept, counts: list[int], base: list[Assignment]) -> list[Assignment]:
-    """The assignments of the k-th member."""
+def run(k: int, zipped: bool, swept, counts: list[int], base: list[Assignment]) -> list[Assignment]:
+    """The assignments of the k-th run."""
     at, assignments = k - 1, base
     places = []
     for count in reversed(counts):

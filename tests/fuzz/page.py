@@ -39,7 +39,7 @@ and the test judges the result:
 
 A refusal is exit status 1 and one printable line of limited length that says where the error is. If a case
 is accepted, the program prints it, and reading this text must give the same text again. A sweep must have
-the number of members that the second reader counts, and the members must have the values that it finds. If
+the number of runs that the second reader counts, and the runs must have the values that it finds. If
 there is no answer within {limit:g} s, the test counts a hang.
 
 **Commands** run the program itself, with any bytes after `--set`, any names of cases and results, and
@@ -48,7 +48,7 @@ ranges, which must be completed or end with one line within {command:g} s. Reade
 bounds checks, floating-point traps and the sanitizers for addresses and undefined behaviour (the `extremes`
 run without sanitizers).
 
-**Damaged results** are tried by `make test` (`tests/post/damages.py`): results, checkpoints, members of
+**Damaged results** are tried by `make test` (`tests/post/damages.py`): results, checkpoints, runs of
 sweeps and studies with flipped bits, other blocks, very large numbers in their structure, other lengths, and
 other objects and attributes in place of theirs. Every reader in Python, and the program, must give values or
 one line, within 5 s of the processor's time and 500 MB, and leave nothing behind.

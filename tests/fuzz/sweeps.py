@@ -19,18 +19,18 @@ NO_TARGETS = (
 
 
 def draw(dice: Random, variables: dict[str, Variable]) -> tuple[Group, int]:
-    """A sweep of some variables, and how many members it has."""
+    """A sweep of some variables, and how many runs it has."""
     zipped = dice.random() < 0.4
     count = dice.randint(1, 5)
-    items, members = [], 1
+    items, runs = [], 1
     for variable in dice.sample(sweepable(variables), dice.randint(1, 3)):
         values, number = swept(dice, variable, count if zipped else None)
         items.append(Item(f"sweep%{variable.key}", target(dice, variable), values))
-        members = number if zipped else members * number
+        runs = number if zipped else runs * number
     order = b"'zip'" if zipped else b"'product'"
     if zipped or dice.random() < 0.5:
         items.insert(dice.randint(0, len(items)), Item("sweep%order", spelling.cased(dice, "order"), [order]))
-    return Group(spelling.cased(dice, "sweep"), items), members
+    return Group(spelling.cased(dice, "sweep"), items), runs
 
 
 def sweepable(variables: dict[str, Variable]) -> list[Variable]:
@@ -112,6 +112,6 @@ def wrong(dice: Random, groups: list[Group], variables: dict[str, Variable]) -> 
     if kind == 5:
         many = dice.sample(sweepable(variables), 3)
         group.items = [Item(f"sweep%{v.key}", v.key.encode(), [b"1:99:1"]) for v in many]
-        return group, b"members"
+        return group, b"runs"
     group.items = [good, Item(good.key, good.target + dice.choice((b"(1)", b"")), [b"1"])]
     return group.items[1], number.key.encode()

@@ -179,7 +179,7 @@ def made(result, opened, tmp_path):
 def sweep(tiltpad):
     """sweep(folder, "&friction model='lugre' /", {"operation%speed_rpm": [2000, 3000]}, failed=(2,)).
 
-    The members of the product of these values as a folder of results; the numbers in `failed` are members
+    The runs of the product of these values as a folder of results; the numbers in `failed` are runs
     whose equilibrium was not found. Gives the folder.
     """
     import h5py
@@ -188,16 +188,16 @@ def sweep(tiltpad):
         folder.mkdir()
         namelist = folder.with_suffix(".nml")
         namelist.write_text(case.replace(" / &", " /\n&") + "\n")
-        members = list(itertools.product(*values.values()))
-        for number, member in enumerate(members, 1):
+        runs = list(itertools.product(*values.values()))
+        for number, one_run in enumerate(runs, 1):
             path = folder / f"{number:04d}.h5"
-            texts = [f"'{each}'" if isinstance(each, str) else f"{each}" for each in member]
+            texts = [f"'{each}'" if isinstance(each, str) else f"{each}" for each in one_run]
             changes = [f"{name}={text}" for name, text in zip(values, texts, strict=True)]
             done = tiltpad("--quiet", namelist, "--output", path, *(w for c in changes for w in ("--set", c)))
             assert done.returncode in (0, 2), done.stderr
             with h5py.File(path, "r+") as file:
                 lines = "\n".join(f"{name} = {text}" for name, text in zip(values, texts, strict=True))
-                own = {"member": number, "members": len(members), "sweep": lines}
+                own = {"run": number, "runs": len(runs), "sweep": lines}
                 file.attrs.update(own | {"resumes": 0, "history": ""})
                 file.attrs.update({"exit_status": done.returncode, "reason": done.stderr.strip()})
                 if number in failed:

@@ -116,7 +116,7 @@ def calculate_study(path: Path) -> None:
     with tiltpad.read_study(path) as study:
         repr(study), dir(study), study.parameters, study.done
         for name in study.names():
-            if name != "members":
+            if name != "runs":
                 study[name], study.about(name, "units"), study.about(name, "long_name")
 
 

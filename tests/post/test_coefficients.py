@@ -18,7 +18,7 @@ PIVOTS = ["free", "stuck", "locked"]
 
 @pytest.fixture(scope="module")
 def folder(sweep, cases, tmp_path_factory):
-    """Members at five speeds, the slowest one last; the second has no equilibrium."""
+    """Runs at five speeds, the slowest one last; the second has no equilibrium."""
     values = {"operation%speed_rpm": SPEEDS[1:] + SPEEDS[:1]}
     return sweep(tmp_path_factory.mktemp("sweeps") / "offset", cases["offset"], values, failed=(FAILED,))
 
@@ -32,7 +32,7 @@ def study(folder):
 
 @pytest.fixture
 def run(folder, opened):
-    """The member at 5000 rpm."""
+    """The run at 5000 rpm."""
     return opened(folder / "0001.h5")
 
 
@@ -73,11 +73,11 @@ def test_members_with_other_frequencies_are_placed_by_their_labels(result, tiltp
 
 def test_xarray_selects_by_names(study, run):
     with xarray.open_dataset(study.path, engine="h5netcdf") as data:
-        assert data.stiffness.dims == ("member", "pivot", "frequency_ratio", "row", "column")
-        over = data.set_index(member="speed_rpm").stiffness.sel(
+        assert data.stiffness.dims == ("run", "pivot", "frequency_ratio", "row", "column")
+        over = data.set_index(run="speed_rpm").stiffness.sel(
             pivot="stuck", frequency_ratio=1, row="y", column="z"
         )
-        assert over.sel(member=5000) == run["coefficients/stiffness"][1, 1, 0, 1]
+        assert over.sel(run=5000) == run["coefficients/stiffness"][1, 1, 0, 1]
     own = run.to_xarray("coefficients").stiffness.sel(pivot="stuck", frequency_ratio=1, row="y", column="z")
     assert own == run["coefficients/stiffness"][1, 1, 0, 1]
 
@@ -222,7 +222,7 @@ def test_the_command_draws_studies_and_results(study, run, tmp_path, capsys, plo
     capsys.readouterr()
     for options, message in (
         (["--pivot", "nix"], "pivot nix: there are free, stuck, locked"),
-        (["--where", "speed_rpm=1"], "no member with speed_rpm = 1: there are 4000"),
+        (["--where", "speed_rpm=1"], "no run with speed_rpm = 1: there are 4000"),
         (["--over", "nix"], "--over: nix is not"),
         (["--pad", "1"], f"--pad: not for the plot {plot}"),
         (["--last", "1"], f"--last: not for the plot {plot}"),
@@ -253,7 +253,7 @@ def test_results_without_coefficients_say_why(result, opened, folder):
         ({"frequency_ratio": -1}, "must be numbers from 0 on"),
         ({"frequency_ratio": [1, np.nan]}, "must be numbers from 0 on"),
         ({"pivot": "nix"}, "pivot nix: there are free, stuck, locked"),
-        ({"where": {"speed_rpm": 1}}, "no member with speed_rpm = 1"),
+        ({"where": {"speed_rpm": 1}}, "no run with speed_rpm = 1"),
     ],
 )
 def test_wrong_arguments(study, options, message):

@@ -25,7 +25,7 @@ SWEEPS = {
 
 @pytest.fixture(scope="module")
 def study(sweep, tmp_path_factory):
-    """study("grid"): that study, opened; of `wide` the members are copies of one."""
+    """study("grid"): that study, opened; of `wide` the runs are copies of one."""
     folder, opened = tmp_path_factory.mktemp("sweeps"), {}
 
     def read(name):
@@ -33,10 +33,10 @@ def study(sweep, tmp_path_factory):
             values, failed = SWEEPS[name]
             if name == "wide":
                 values = {variable: list(each)[:1] for variable, each in values.items()}
-            members = sweep(folder / name, CASE, values, failed)
+            runs = sweep(folder / name, CASE, values, failed)
             if name == "wide":
-                grown(members, *SWEEPS["wide"][0].values())
-            tiltpad.collect(members, folder / f"{name}.h5")
+                grown(runs, *SWEEPS["wide"][0].values())
+            tiltpad.collect(runs, folder / f"{name}.h5")
             opened[name] = tiltpad.read_study(folder / f"{name}.h5")
         return opened[name]
 
@@ -45,16 +45,16 @@ def study(sweep, tmp_path_factory):
         each.close()
 
 
-def grown(members, speeds, unbalances):
-    """A member for every pair of values, copies of the first."""
-    content = (members / "0001.h5").read_bytes()
+def grown(runs, speeds, unbalances):
+    """A run for every pair of values, copies of the first."""
+    content = (runs / "0001.h5").read_bytes()
     pairs = [(speed, unbalance) for speed in speeds for unbalance in unbalances]
     for number, (speed, unbalance) in enumerate(pairs, 1):
-        path = members / f"{number:04d}.h5"
+        path = runs / f"{number:04d}.h5"
         path.write_bytes(content)
         with h5py.File(path, "r+") as file:
             text = f"operation%speed_rpm = {speed}\nrotor%unbalance = {unbalance}"
-            file.attrs.update({"member": number, "members": len(pairs), "sweep": text})
+            file.attrs.update({"run": number, "runs": len(pairs), "sweep": text})
 
 
 def test_a_line_over_a_parameter(study):
@@ -70,7 +70,7 @@ def test_a_line_over_a_parameter(study):
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("speed (rpm)", "orbit, peak to peak (µm)")
     assert [text.get_text() for text in ax.get_legend().get_texts()] == ["not done (1)"]
     said = figures.study(case).get_supxlabel().replace("\n", " ")
-    assert said == "member 2 (speed_rpm = 4000) failed in its numerics: no equilibrium found"
+    assert said == "run 2 (speed_rpm = 4000) failed in its numerics: no equilibrium found"
 
 
 def test_axes_that_are_given_are_used_and_returned(study):
@@ -206,7 +206,7 @@ def test_values_spread_in_ratio(values, evenly):
         ),
         ("speed", ["--show", "orbitsize"], "is not a result of this study (did you mean orbit_size?): "),
         ("speed", ["--show", "poincare_y", "--as", "lines"], "poincare_y is once a revolution: --as bifurc"),
-        ("text", ["--where", "model=none2"], "no member with model = none2: there are none, lugre"),
+        ("text", ["--where", "model=none2"], "no run with model = none2: there are none, lugre"),
         ("speed", ["--over", "nix"], "--over: nix is not a parameter of this study: speed_rpm"),
         (
             "speed",
@@ -217,7 +217,7 @@ def test_values_spread_in_ratio(values, evenly):
         ("speed", ["--where", "nix=1"], "--where: nix is not a parameter"),
         ("speed", ["--where", "speed_rpm=3000", "--where", "speed_rpm=4000"], "--where: one value of each"),
         ("speed", ["--last", "3"], "--last: not for the plot study"),
-        ("speed", ["--where", "speed_rpm=1"], "no member with speed_rpm = 1: there are 3000, 4000, 6500"),
+        ("speed", ["--where", "speed_rpm=1"], "no run with speed_rpm = 1: there are 3000, 4000, 6500"),
         ("speed", ["--where", "speed_rpm=4000", "--as", "map"], "a map needs two parameters"),
         ("speed", ["--where", "speed_rpm"], "speed_rpm: must be PARAMETER=VALUE"),
         ("speed", ["--as", "pie"], "invalid choice: 'pie'"),
@@ -251,11 +251,11 @@ def test_the_command_writes_a_picture(study, tmp_path, name):
 
 
 def test_a_study_of_which_nothing_is_left(sweep, tmp_path, capsys):
-    """All members failed: results that they have are drawn, a message names a result that none has."""
+    """All runs failed: results that they have are drawn, a message names a result that none has."""
     folder = sweep(tmp_path / "a", CASE, {"operation%speed_rpm": [4000, 5000]}, (1, 2))
     tiltpad.collect(folder, tmp_path / "a.h5")
     assert command.main(["study", str(tmp_path / "a.h5"), "-o", str(tmp_path / "a.png")]) == 1
-    assert "no orbit_size in this study: no member has it" in capsys.readouterr().err
+    assert "no orbit_size in this study: no run has it" in capsys.readouterr().err
     assert (
         command.main(["study", str(tmp_path / "a.h5"), "--show", "status", "-o", str(tmp_path / "a.png")])
         == 0

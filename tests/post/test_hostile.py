@@ -63,8 +63,8 @@ def attribute(**values):
     return lambda file: file.attrs.update(values)
 
 
-def member(variable):
-    return attribute(member=np.int32(1), members=np.int32(2), sweep=f"{variable} = 3")
+def run(variable):
+    return attribute(run=np.int32(1), runs=np.int32(2), sweep=f"{variable} = 3")
 
 
 def through_a_link(file):
@@ -116,7 +116,7 @@ OUTSIDE = {
 FALSE = {
     "zeros for a count": zeros("statistics/steps"),
     "unknown zeros": zeros("zeros"),
-    "a thousand million members": attribute(member=1, members=10**9, sweep="operation%speed_rpm = 3000"),
+    "a thousand million runs": attribute(run=1, runs=10**9, sweep="operation%speed_rpm = 3000"),
     "a list of flags": attribute(complete=np.zeros(3000, np.int32)),
     "a list of texts": attribute(input=np.array(["&case /"] * 100, h5py.string_dtype())),
     "a group in itself": root_in("equilibrium/self"),
@@ -134,12 +134,12 @@ FALSE = {
         f"without {name}": lambda file, name=name: file.attrs.__delitem__(name)
         for name in ("complete", "task", "input")
     },
-    "sweep over member": member("operation%member"),
-    "sweep over status": member("rotor%status"),
-    "sweep out of its group": member("operation%../../status"),
-    "sweep over a blank": member("operation%a b"),
-    "sweep over nothing": attribute(member=np.int32(1), members=np.int32(2), sweep="operation%speed_rpm"),
-    "member without members": attribute(member=np.int32(1)),
+    "sweep over run": run("operation%run"),
+    "sweep over status": run("rotor%status"),
+    "sweep out of its group": run("operation%../../status"),
+    "sweep over a blank": run("operation%a b"),
+    "sweep over nothing": attribute(run=np.int32(1), runs=np.int32(2), sweep="operation%speed_rpm"),
+    "run without runs": attribute(run=np.int32(1)),
     "texts for numbers": replaced("journal_y", dtype="S3"),
     "chunks of two gigabytes": chunks_of_two_gigabytes(),
     "deflated chunks of two gigabytes": chunks_of_two_gigabytes(compression="gzip"),
@@ -235,8 +235,8 @@ def test_one_bad_member_stops_no_study(hostile, result, attack, tmp_path, monkey
     single = result("none")
     bad = hostile(attack)
     monkeypatch.chdir(tmp_path)
-    if attack.startswith(("sweep", "member", "a thousand")):
-        # as a member of a sweep it is refused beside a single run, or unreadable
+    if attack.startswith(("sweep", "run", "a thousand")):
+        # as a run of a sweep it is refused beside a single run, or unreadable
         assert within_limits(lambda: command.collect([str(bad), str(single), "-o", "study.h5"])) in (0, 1)
     else:
         assert within_limits(lambda: command.collect([str(bad), str(single), "-o", "study.h5"])) == 0

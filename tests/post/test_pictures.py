@@ -228,7 +228,7 @@ def test_the_report_of_a_study(sweep, tmp_path, capsys):
     tiltpad.collect(folder, tmp_path / "speeds.h5")
     assert command.report([str(tmp_path / "speeds.h5"), "-o", str(tmp_path / "a.html")]) == 0
     page = (tmp_path / "a.html").read_text()
-    assert "3 members, 2 of them done. speed: 3000, 4000, 6500." in page
+    assert "3 runs, 2 of them done. speed: 3000, 4000, 6500." in page
     failed = "<tr><td>2</td><td>4000</td><td>failed in its numerics</td><td>no equilibrium found</td></tr>"
     assert failed in page
     assert '<img alt="equilibrium_min_film_thickness"' in page

@@ -72,7 +72,7 @@ def study(sweep, tmp_path_factory):
     """Periodic orbits under a small unbalance, over the speed."""
     folder = tmp_path_factory.mktemp("response")
     collected = tiltpad.collect(
-        sweep(folder / "members", CASE, {"operation%speed_rpm": SPEEDS}), folder / "study.h5"
+        sweep(folder / "runs", CASE, {"operation%speed_rpm": SPEEDS}), folder / "study.h5"
     )
     with tiltpad.read_study(collected.output) as opened:
         yield opened

@@ -39,7 +39,7 @@ def ross(root):
 
 @pytest.fixture(scope="module")
 def study(sweep, cases, tmp_path_factory):
-    """The offset bearing at several speeds; one member has no equilibrium."""
+    """The offset bearing at several speeds; one run has no equilibrium."""
     folder = tmp_path_factory.mktemp("sweeps") / "speeds"
     sweep(folder, cases["offset"], {"operation%speed_rpm": [*SPEEDS, 9000]}, failed=(len(SPEEDS) + 1,))
     tiltpad.collect(folder, folder.with_suffix(".h5"))
@@ -127,7 +127,7 @@ def mirrored(line):
 
 
 def test_keywords_without_ross(study, run, tmp_path):
-    """Shapes, axes, and members without equilibrium left out."""
+    """Shapes, axes, and runs without equilibrium left out."""
     both = tiltpad.to_ross(study)
     assert both["kxx"].shape == (len(SPEEDS), 25)
     np.testing.assert_allclose(both["speed"] * 30 / np.pi, SPEEDS)
@@ -150,7 +150,7 @@ def test_keywords_without_ross(study, run, tmp_path):
     [
         ({"over": "time"}, "over = time: must be speed, frequency, both"),
         ({"over": "speed", "frequency": [1]}, "frequency: not for tables over the speed"),
-        ({"over": "frequency"}, "of one member, choose it by where"),
+        ({"over": "frequency"}, "of one run, choose it by where"),
         ({"frequency": [-1.0]}, "must be numbers from 0 on"),
         ({"frequency": []}, "must be numbers from 0 on"),
         ({"path": "bearing.json"}, "the name must end in .toml"),
@@ -170,6 +170,6 @@ def test_several_members_at_one_speed(tiltpad, tmp_path):
     tiltpad("--quiet", "case.nml", *words, "--output", "loads", cwd=tmp_path, status=0)
     package.collect(tmp_path / "loads", tmp_path / "loads.h5")
     with package.read_study(tmp_path / "loads.h5") as study:
-        with pytest.raises(ValueError, match="several members at 3000 rpm, which differ in mass: choose"):
+        with pytest.raises(ValueError, match="several runs at 3000 rpm, which differ in mass: choose"):
             package.to_ross(study)
         assert package.to_ross(study, where={"mass": 1000})["kxx"].shape == (2,)

@@ -166,7 +166,7 @@ def test_a_study_as_csv(result, tmp_path):
         head, *rows = (tmp_path / "a.csv").read_text().splitlines()
         place = head.split(",").index("orbit_y")
         assert [float(row.split(",")[place]) for row in rows] == list(study.orbit_y)
-        assert study.to_xarray().orbit_y.dims == ("member",)
+        assert study.to_xarray().orbit_y.dims == ("run",)
 
 
 def test_brute_force_goes_up_and_down_from_the_end_of_each_march(tmp_path):

@@ -22,7 +22,7 @@ SPEEDS, MODELS = [4000, 5000, 6500], ["none", "lugre"]
 
 @pytest.fixture(scope="module")
 def folder(sweep, tmp_path_factory):
-    """Members of three speeds times two models; the fourth, 5000 rpm with LuGre, failed."""
+    """Runs of three speeds times two models; the fourth, 5000 rpm with LuGre, failed."""
     values = {"operation%speed_rpm": SPEEDS, "friction%model": MODELS}
     return sweep(tmp_path_factory.mktemp("sweeps") / "grid", CASE, values, failed=(4,))
 
@@ -48,10 +48,10 @@ def edited(path, edit):
 
 def test_parameters_and_results_are_those_of_the_members(study, copy):
     assert study.parameters == ["speed_rpm", "model"]
-    np.testing.assert_array_equal(study.member, range(1, 7))
+    np.testing.assert_array_equal(study.run, range(1, 7))
     np.testing.assert_array_equal(study.speed_rpm, np.repeat(SPEEDS, 2))
     assert list(study["model"]) == MODELS * 3
-    assert (study.title, study.task, study.format_version, study.members) == ("Grid", "study", 3, 6)
+    assert (study.title, study.task, study.format_version, study.runs) == ("Grid", "study", 3, 6)
     for k in (0, 5):
         with tiltpad.read(copy / f"{k + 1:04d}.h5") as run:
             y, z = tiltpad.orbit_size(run)
@@ -103,13 +103,13 @@ def test_an_incomplete_member_has_its_time_and_no_results(copy, tmp_path):
 
 def test_xarray_sees_parameters_as_coordinates(study):
     with xarray.open_dataset(study.path, engine="h5netcdf") as data:
-        assert {"member", "speed_rpm", "model", "pad", "revolution"} == set(data.coords)
-        assert data.orbit_y.dims == ("member",)
-        assert data.poincare_tilt.dims == ("member", "revolution", "pad")
+        assert {"run", "speed_rpm", "model", "pad", "revolution"} == set(data.coords)
+        assert data.orbit_y.dims == ("run",)
+        assert data.poincare_tilt.dims == ("run", "revolution", "pad")
         assert data.speed_rpm.attrs["units"] == "rpm"
         assert data.orbit_y.attrs["units"] == "m"
         assert data.revolution.values[-1] == 0
-        grid = data.set_index(member=["speed_rpm", "model"]).unstack()
+        grid = data.set_index(run=["speed_rpm", "model"]).unstack()
         assert dict(grid.orbit_y.sizes) == {"speed_rpm": 3, "model": 2}
         assert grid.orbit_y.sel(speed_rpm=6500, model="lugre") == study.orbit_y[5]
         assert np.isnan(grid.orbit_y.sel(speed_rpm=5000, model="lugre"))
@@ -127,7 +127,7 @@ def test_the_members_are_reached_also_after_a_move(study, tmp_path):
     for name in ("grid", "grid.h5"):
         shutil.move(tmp_path / name, moved / name)
     with h5py.File(moved / "grid.h5") as file, tiltpad.read(moved / "grid/0003.h5") as run:
-        np.testing.assert_array_equal(file["members/0003/journal_y"][()], run.journal_y)
+        np.testing.assert_array_equal(file["runs/0003/journal_y"][()], run.journal_y)
         assert [each.decode() for each in file["file"]] == [f"grid/{k:04d}.h5" for k in range(1, 7)]
 
 
@@ -136,7 +136,7 @@ def test_the_members_of_a_study_elsewhere(copy, tmp_path):
     tiltpad.collect(copy, tmp_path / "studies/a.h5")
     with h5py.File(tmp_path / "studies/a.h5") as file:
         assert file["file"][0] == b"../grid/0001.h5"
-        assert "journal_y" in file["members/0001"]
+        assert "journal_y" in file["runs/0001"]
 
 
 def test_a_damaged_and_a_missing_member(copy, tmp_path, capsys):
@@ -145,14 +145,14 @@ def test_a_damaged_and_a_missing_member(copy, tmp_path, capsys):
     assert command.collect([str(copy), "-o", str(tmp_path / "a.h5")]) == 0
     said = capsys.readouterr()
     assert said.out == (
-        f"5 members: 3 done, 1 failed, 0 incomplete, 1 unreadable, 1 missing; written: {tmp_path / 'a.h5'}\n"
+        f"5 runs: 3 done, 1 failed, 0 incomplete, 1 unreadable, 1 missing; written: {tmp_path / 'a.h5'}\n"
     )
     assert said.err.splitlines() == [
         f"tiltpad-collect: warning: {copy / '0002.h5'}: not an HDF5 file",
-        f"tiltpad-collect: warning: {copy}: missing members: 5",
+        f"tiltpad-collect: warning: {copy}: missing runs: 5",
     ]
     with tiltpad.read_study(tmp_path / "a.h5") as study:
-        np.testing.assert_array_equal(study.member, [1, 2, 3, 4, 6])
+        np.testing.assert_array_equal(study.run, [1, 2, 3, 4, 6])
         assert np.isnan([study.status[1], study.speed_rpm[1], study.orbit_y[1]]).all()
         assert study["model"][1] == ""
         assert "not an HDF5 file" in study.reason[1]
@@ -164,24 +164,24 @@ def test_two_studies_are_not_mixed(copy, sweep, tmp_path, capsys):
     assert command.collect([str(copy), str(other), "-o", str(tmp_path / "a.h5")]) == 1
     said = capsys.readouterr().err
     assert said.count("\n") == 1
-    sweeps = "over operation%speed_rpm, friction%model, and a member of a sweep over rotor%unbalance"
-    assert f"not of one study: a member of a sweep {sweeps}" in said
+    sweeps = "over operation%speed_rpm, friction%model, and a run of a sweep over rotor%unbalance"
+    assert f"not of one study: a run of a sweep {sweeps}" in said
     assert not (tmp_path / "a.h5").exists()
-    edited(copy / "0006.h5", lambda file: file.attrs.update({"member": 1}))
-    with pytest.raises(ValueError, match="both are member 1"):
+    edited(copy / "0006.h5", lambda file: file.attrs.update({"run": 1}))
+    with pytest.raises(ValueError, match="both are run 1"):
         tiltpad.collect(copy, tmp_path / "a.h5")
 
 
 def test_a_sweep_that_grew_is_one_study(copy, tmp_path):
-    """Its first members know of fewer."""
+    """Its first runs know of fewer."""
     for k in (1, 2, 3):
-        edited(copy / f"000{k}.h5", lambda file: file.attrs.update({"members": 3}))
+        edited(copy / f"000{k}.h5", lambda file: file.attrs.update({"runs": 3}))
     (copy / "0006.h5").unlink()
-    with pytest.warns(tiltpad.MemberWarning, match="missing members: 6"):
+    with pytest.warns(tiltpad.RunWarning, match="missing runs: 6"):
         found = tiltpad.collect(copy, tmp_path / "a.h5")
-    assert (found.members, found.missing) == (5, [6])
+    assert (found.runs, found.missing) == (5, [6])
     with tiltpad.read_study(tmp_path / "a.h5") as study:
-        assert (study.members, study.missing) == (6, "6")
+        assert (study.runs, study.missing) == (6, "6")
 
 
 def test_a_folder_of_two_sweeps(tiltpad, tmp_path, monkeypatch, capsys):
@@ -202,7 +202,7 @@ def test_a_folder_of_two_sweeps(tiltpad, tmp_path, monkeypatch, capsys):
             shutil.copy(source / f"000{number}.h5", mixed)
         assert command.collect(["mixed"]) == 1
         said = capsys.readouterr().err
-        assert "members of two sweeps; run one of them into another folder, or with --overwrite" in said
+        assert "runs of two sweeps; run one of them into another folder, or with --overwrite" in said
         assert not (tmp_path / "mixed.h5").exists()
         shutil.rmtree(mixed)
     ran("three", "3e3:7e3:1e3")
@@ -215,8 +215,8 @@ def test_a_folder_of_two_sweeps(tiltpad, tmp_path, monkeypatch, capsys):
 def test_a_file_named_twice_is_one_member(copy, tmp_path, monkeypatch, result):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "link.h5").symlink_to(copy / "0002.h5")
-    assert tiltpad.collect(["grid", copy, "grid/0001.h5", "link.h5"], "a.h5").members == 6
-    assert tiltpad.collect([result("lugre"), result("lugre")], "b.h5").members == 1
+    assert tiltpad.collect(["grid", copy, "grid/0001.h5", "link.h5"], "a.h5").runs == 6
+    assert tiltpad.collect([result("lugre"), result("lugre")], "b.h5").runs == 1
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full")
@@ -237,7 +237,7 @@ def test_the_summary_cannot_be_printed(copy, tmp_path):
 def test_the_output(copy, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert command.collect(["grid"]) == 0
-    assert "6 members: 5 done, 1 failed, 0 incomplete; written: grid.h5\n" in capsys.readouterr().out
+    assert "6 runs: 5 done, 1 failed, 0 incomplete; written: grid.h5\n" in capsys.readouterr().out
     assert command.collect(["grid"]) == 0
     assert (
         command.collect(["grid", "-o", "grid/all.h5"]) == command.collect(["grid", "-o", "grid/all.h5"]) == 0
@@ -270,7 +270,7 @@ def test_runs_that_are_no_members(result, tmp_path):
         assert sorted(study.parameters) == sorted(names)
         assert list(study["model"]) == ["none", "lugre", "lugre", "lugre"]
         assert list(study.motion) == ["tilting_radial", "tilting_radial", "tilting_only", "tilting_radial"]
-        assert list(study.member) == [1, 2, 3, 4]
+        assert list(study.run) == [1, 2, 3, 4]
     tiltpad.collect([result("lugre"), result("four"), result("equilibrium")], output)
     with tiltpad.read_study(output) as study:
         assert list(study.pads) == [2, 4, 2]

@@ -45,7 +45,7 @@ def test_positions_without_numbers_are_left_out():
 
 
 def test_modes_that_cross_keep_their_places():
-    """Two frequencies cross; a member in the middle has nothing; the modes of each come in rising order."""
+    """Two frequencies cross; a run in the middle has nothing; the modes of each come in rising order."""
     speed = np.linspace(0, 1, 21)
     own = np.stack([-1 + 1j * (10 + 10 * speed), -2 + 1j * (20 - 10 * speed)], axis=1)
     forms = np.broadcast_to(np.array([[1, 0, 0.1], [0.1j, 1, 0]]), (21, 2, 3))

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 import tiltpad
 
-#: Members of the sweep, and the one that fails.
-MEMBERS, FAILING = range(1, 7), 3
+#: Runs of the sweep, and the one that fails.
+RUNS, FAILING = range(1, 7), 3
 SHORT = "operation%duration=1"
 
 
@@ -25,7 +25,7 @@ def one(duration: float = 40) -> str:
 
 def sweep(duration: float = 40, speeds: str = "5000:7500:500") -> str:
     """A sweep over six speeds, of which the third fails."""
-    steps = ", ".join("10" if k == FAILING else "1000000" for k in MEMBERS)
+    steps = ", ".join("10" if k == FAILING else "1000000" for k in RUNS)
     return f"""{one(duration)}
 &sweep
    order = 'zip'
@@ -186,7 +186,7 @@ def test_sweep_in_one_job_goes_on(cluster, scripts, folder):
     begun(cluster, folder / "speeds/0002.h5")
     cluster.ask("scancel", "--batch", "--signal=USR1", job)
     assert outcome(cluster.ended(job)) == ("FAILED", "2:0", "1")
-    for k in MEMBERS:
+    for k in RUNS:
         if k != FAILING:
             check_whole(folder / f"speeds/{k:04d}.h5", resumed=k <= 2)
 
@@ -196,7 +196,7 @@ def test_several_members_a_task(cluster, scripts, folder):
     array = cluster.submit("--array=1-2", scripts / "sweep.sh", "speeds.nml", "4", cwd=folder)
     assert outcome(cluster.ended(f"{array}_1")) == ("FAILED", "2:0", "0")
     assert outcome(cluster.ended(f"{array}_2")) == ("COMPLETED", "0:0", "0")
-    for k in MEMBERS:
+    for k in RUNS:
         if k != FAILING:
             check_whole(folder / f"speeds/{k:04d}.h5", resumed=False)
 
@@ -215,14 +215,14 @@ def test_study(cluster, scripts, folder):
 
     cluster.wait_for(watched, "the study")
     assert max(seen) == at_a_time
-    for k in MEMBERS:
+    for k in RUNS:
         expected = ("FAILED", "2:0", "0") if k == FAILING else ("COMPLETED", "0:0", "0")
         assert outcome(cluster.job(f"{array}_{k}")) == expected
     assert outcome(cluster.job(collection)) == ("COMPLETED", "0:0", "0")
     with tiltpad.read_study(folder / "speeds.h5") as study:
-        assert list(study["member"]) == list(MEMBERS)
-        assert list(study["status"]) == [2.0 if k == FAILING else 0.0 for k in MEMBERS]
-        np.testing.assert_array_equal(np.isnan(study["orbit_size"]), [k == FAILING for k in MEMBERS])
+        assert list(study["run"]) == list(RUNS)
+        assert list(study["status"]) == [2.0 if k == FAILING else 0.0 for k in RUNS]
+        np.testing.assert_array_equal(np.isnan(study["orbit_size"]), [k == FAILING for k in RUNS])
     cluster.ask("tiltpad-plot", "study", "speeds.h5", "-o", "study.png", cwd=folder)
     assert (folder / "study.png").read_bytes().startswith(b"\x89PNG")
 

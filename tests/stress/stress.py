@@ -45,7 +45,7 @@ def arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def member(options: argparse.Namespace, number: int, known: dict[int, Result]) -> Result:
+def run(options: argparse.Namespace, number: int, known: dict[int, Result]) -> Result:
     """Draws, runs and judges one case in a folder of its own, if its result is not known."""
     if number in known:
         return known[number]
@@ -112,7 +112,7 @@ def main() -> int:
     results, known = [], recorded(options)
     with ThreadPoolExecutor(options.jobs) as pool:
         numbers = options.only or range(options.first, options.first + options.cases)
-        for result in pool.map(lambda number: member(options, number, known), numbers):
+        for result in pool.map(lambda number: run(options, number, known), numbers):
             tell(result, options.verbose)
             results.append(result)
     summary = page(results, options.seed)

@@ -397,7 +397,7 @@ contains
       call expect_text(put([assigned('a', 'x', 0, '1 5'), assigned('a', 'x', 1, '3')]), 'a%x = 1, 5|a%x(1) = 3|')
    end subroutine elements_stay
 
-   !> Their order is that of the members.
+   !> Their order is that of the runs.
    subroutine sweeps_keep_their_order()
       call expect_text(put([assigned('sweep', 'a%x', 0, '1 2'), assigned('sweep', 'a%y', 0, '3'), &
          & assigned('sweep', 'a%x', 0, '4 5 6')]), 'sweep%a%x = 4, 5, 6|sweep%a%y = 3|')

@@ -1,4 +1,4 @@
-"""Stiffness and damping coefficients of the bearing, of a run or over the members of a study."""
+"""Stiffness and damping coefficients of the bearing, of a run or over the runs of a study."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
@@ -28,14 +28,14 @@ class Coefficients(NamedTuple):
     """Stiffness and damping of the bearing at the journal, pads condensed; its fields:
 
         pivot              of which they are: free, stuck or locked
-        speed_rpm          shaft speed, (); of a study (member,), rising
+        speed_rpm          shaft speed, (); of a study (run,), rising
         frequency_ratio    whirl frequency over shaft speed, (frequency_ratio,)
-        stiffness          N/m, (frequency_ratio, row, column); of a study (member, ...) before these
+        stiffness          N/m, (frequency_ratio, row, column); of a study (run, ...) before these
         damping            N s/m, likewise
-        parameters         of a study: values of its parameters by name, (member,) each
+        parameters         of a study: values of its parameters by name, (run,) each
 
     Rows are directions of the force on the journal, columns directions of its motion: y (up), z. The shaft
-    turns from +y to +z. Members of a study that have no equilibrium are nan.
+    turns from +y to +z. Runs of a study that have no equilibrium are nan.
     """
 
     pivot: str
@@ -47,17 +47,17 @@ class Coefficients(NamedTuple):
 
     @property
     def frequency(self) -> np.ndarray:
-        """Whirl frequency, rad/s, (frequency_ratio,); of a study (member, frequency_ratio)."""
+        """Whirl frequency, rad/s, (frequency_ratio,); of a study (run, frequency_ratio)."""
         return np.multiply.outer(np.pi / 30 * np.asarray(self.speed_rpm), self.frequency_ratio)
 
 
 class Series(NamedTuple):
-    """Datasets of some members, (member, ...) each; a run is one member. Its fields:
+    """Datasets of some runs, (run, ...) each; a run is one run. Its fields:
 
     pivot         that they are of
-    speed_rpm     shaft speed, (member,), rising
+    speed_rpm     shaft speed, (run,), rising
     values        by the names that the datasets have in a study
-    parameters    of the study, (member,) each
+    parameters    of the study, (run,) each
     """
 
     pivot: str
@@ -74,7 +74,7 @@ def coefficients(
 ) -> Coefficients:
     """Stiffness and damping of a run of the task coefficients, or of a study of such runs.
 
-    `pivot` is one of those in the file, by default the first; `where` keeps the members of a study with these
+    `pivot` is one of those in the file, by default the first; `where` keeps the runs of a study with these
     values of parameters. With `frequency_ratio` (whirl frequency over shaft speed, from 0 on) the pads are
     condensed at these frequencies; without it they are the program's own coefficients.
     """
@@ -94,7 +94,7 @@ def coefficients(
 
 
 def at_frequencies(found: Series, frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Coefficients at whirl frequencies in rad/s, (member, frequency): (member, frequency, row, column)."""
+    """Coefficients at whirl frequencies in rad/s, (run, frequency): (run, frequency, row, column)."""
     matrices = (found.values[name] for name in ("full_stiffness", "full_damping", "full_mass"))
     each = [condensed(k, c, m, at) for k, c, m, at in zip(*matrices, frequency, strict=True)]
     stiffness, damping = zip(*each, strict=True)
@@ -127,7 +127,7 @@ def series(
     where: Mapping[str, Any] | None = None,
     over: str | None = None,
 ) -> Series:
-    """Coefficients and modes of a run, or of the chosen members of a study at rising speed or parameter."""
+    """Coefficients and modes of a run, or of the chosen runs of a study at rising speed or parameter."""
     own, k = chosen_pivot(source, pivot)
     if single := isinstance(source, Run):
         if where:

@@ -1,4 +1,4 @@
-"""Modes of rotor and pads, of a run or over the members of a study."""
+"""Modes of rotor and pads, of a run or over the runs of a study."""
 
 from collections.abc import Mapping
 from typing import Any, NamedTuple
@@ -17,17 +17,17 @@ class Modes(NamedTuple):
     """Modes of rotor and pads at the equilibrium; its fields:
 
         pivot            of which they are: free, stuck or locked
-        speed_rpm        shaft speed, (); of a study (member,), rising
-        eigenvalue       1/s, complex, (mode,); of a study (member, mode)
+        speed_rpm        shaft speed, (); of a study (run,), rising
+        eigenvalue       1/s, complex, (mode,); of a study (run, mode)
         frequency        Hz, likewise
         damping_ratio, log_decrement     likewise; a mode without vibration has no decrement (nan)
-        shape            complex, (mode, position); of a study (member, mode, position)
+        shape            complex, (mode, position); of a study (run, mode, position)
         position         names of the positions: y, z, tilt_1, penetration_1, ...
         threshold_rpm    lowest speed at which a mode turns unstable, nan where there is none, or none was
-                         looked for; of a study (member,)
-        parameters       of a study: values of its parameters by name, (member,) each
+                         looked for; of a study (run,)
+        parameters       of a study: values of its parameters by name, (run,) each
 
-    In a study a mode keeps its place over the speed, and nan stands where a member does not have it. Where
+    In a study a mode keeps its place over the speed, and nan stands where a run does not have it. Where
     modes change in a leap, as when a pad is lifted off its pivot, those behind it have places of their own.
     """
 
@@ -51,7 +51,7 @@ def modes(
 ) -> Modes:
     """Modes of a run of the task coefficients, or of a study of such runs over the speed.
 
-    `pivot` is one of those in the file, by default the first; `where` keeps the members of a study with these
+    `pivot` is one of those in the file, by default the first; `where` keeps the runs of a study with these
     values of parameters; `over` is a parameter of the study that rises in place of the speed.
     """
     found = series(source, pivot, where, over)
@@ -71,36 +71,36 @@ def modes(
 
 
 def tracked(eigenvalue: np.ndarray, shape: np.ndarray) -> np.ndarray:
-    """For each member and place the mode to put there, so that a mode keeps its place: (member, place).
+    """For each run and place the mode to put there, so that a mode keeps its place: (run, place).
 
-    Each member's modes are paired with the last ones before them: the pairs that are closest by eigenvalue
+    Each run's modes are paired with the last ones before them: the pairs that are closest by eigenvalue
     and shape first. A mode that is like none of them begins a new place, as where a pad is lifted off its
-    pivot; -1 stands where a member has no mode for a place.
+    pivot; -1 stands where a run has no mode for a place.
     """
-    members, last, forms = len(eigenvalue), np.zeros(0), np.zeros((0, shape.shape[-1]))
+    runs, last, forms = len(eigenvalue), np.zeros(0), np.zeros((0, shape.shape[-1]))
     places: list[np.ndarray] = []
     for k, (now, form) in enumerate(zip(eigenvalue, shape, strict=True)):
         there = np.flatnonzero(np.isfinite(now))
         found = paired(distance(last, forms, now[there], form[there]))
         new = np.setdiff1d(np.arange(len(there)), found)
-        places += [np.full(members, -1) for _ in new]
+        places += [np.full(runs, -1) for _ in new]
         found = np.concatenate([found, new])
         here = found >= 0
         for place in np.flatnonzero(here):
             places[place][k] = there[found[place]]
         last, forms = np.append(last, now[there][new]), np.append(forms, form[there][new], axis=0)
         last[here], forms[here] = now[there][found[here]], form[there][found[here]]
-    return np.array(places, dtype=int).reshape(-1, members).T
+    return np.array(places, dtype=int).reshape(-1, runs).T
 
 
 def placed(values: np.ndarray, order: np.ndarray) -> np.ndarray:
-    """Values, (member, mode, ...), at the places of `order`, (member, place); nan where it is -1."""
+    """Values, (run, mode, ...), at the places of `order`, (run, place); nan where it is -1."""
     whole = np.concatenate([values, np.full_like(values[:, :1], np.nan)], axis=1)
     return np.array([each[at] for each, at in zip(whole, order, strict=True)])
 
 
 def distance(before: np.ndarray, forms: np.ndarray, now: np.ndarray, form: np.ndarray) -> np.ndarray:
-    """How far the modes of two members are apart, (mode before, mode now)."""
+    """How far the modes of two runs are apart, (mode before, mode now)."""
     size = np.maximum(np.abs(before)[:, None], np.abs(now))
     apart = np.abs(before[:, None] - now) / np.where(size > 0, size, 1)
     return apart + 1 - likeness(forms, form)

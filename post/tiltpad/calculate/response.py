@@ -78,7 +78,7 @@ class Response(NamedTuple):
                      amplitude * cos(shaft angle - phase); without jumps of 2 pi, z next to y + pi/2
         peaks        critical speeds, those of y first; none over another parameter than the speed
 
-    Members of a study that have no motion are nan.
+    Runs of a study that have no motion are nan.
     """
 
     parameter: str
@@ -93,7 +93,7 @@ def response(
 ) -> Response:
     """Response of a study over the speed, of a run-up, or of a branch of periodic orbits.
 
-    The members of a study are marches, or periodic orbits; `where` keeps those with these values of
+    The runs of a study are marches, or periodic orbits; `where` keeps those with these values of
     parameters, `over` is a parameter in place of the speed. Peaks are looked for on a cubic through the
     points; one from which the curve climbs higher before it falls to half power is part of another.
     """
@@ -130,13 +130,13 @@ def aligned(phase: np.ndarray) -> np.ndarray:
 def of_study(
     study: Study, where: Mapping[str, Any], over: str | None
 ) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
-    """Parameter, its rising values, amplitudes and phases of the members of a study."""
+    """Parameter, its rising values, amplitudes and phases of the runs of a study."""
     chosen = selected(study, where)
     several = [name for name in study.parameters if len(distinct(study[name][chosen])) > 1]
     over = over or (SPEED if SPEED in several else default_over(study, several, chosen))
     needs(over, study.parameters, "over", "a parameter")
     if others := [name for name in several if name != over]:
-        raise ValueError(f"{study.path}: members differ in {', '.join(others)}, too: choose by where")
+        raise ValueError(f"{study.path}: runs differ in {', '.join(others)}, too: choose by where")
     place = np.flatnonzero(chosen)
     place = place[np.argsort(study[over][place], kind="stable")]
     return over, study[over][place], *harmonics(study, place)

@@ -41,7 +41,7 @@ def to_ross(
     run are over the frequency, those of a study over both where its runs have several frequency ratios, and
     otherwise over the speed. The pads are condensed at each `frequency` (rad/s) without interpolation; by
     default these are the run's own, or 25 over the range of the study. `pivot` and `where` choose as in
-    `coefficients`. Members of a study without equilibrium are left out.
+    `coefficients`. Runs of a study without equilibrium are left out.
 
     With `path` (.toml) a file is written, too, for `ross.BearingElement.load(path)`, for the node `node`.
     """
@@ -79,10 +79,10 @@ def tables(found: Series, whirl: np.ndarray, over: str) -> dict[str, np.ndarray]
 
 
 def at_rest(source: Run | Study, found: Series) -> Series:
-    """The members that have an equilibrium."""
+    """The runs that have an equilibrium."""
     there = np.isfinite(found.values["full_stiffness"][:, 0, 0])
     if not there.any():
-        raise NotInRunError(f"{source.path}: no coefficients to write: no member has an equilibrium")
+        raise NotInRunError(f"{source.path}: no coefficients to write: no run has an equilibrium")
     values = {name: each[there] for name, each in found.values.items()}
     parameters = {name: each[there] for name, each in found.parameters.items()}
     return Series(found.pivot, found.speed_rpm[there], values, parameters)
@@ -98,11 +98,11 @@ def check(source: Run | Study, over: str, frequency: Sequence[float] | None, fou
         raise ValueError(f"frequency = {frequency}: must be numbers from 0 on, rad/s")
     speeds = found.speed_rpm
     if over == "frequency" and len(speeds) > 1:
-        raise ValueError(f"{source.path}: over = frequency: of one member, choose it by where")
+        raise ValueError(f"{source.path}: over = frequency: of one run, choose it by where")
     if (twice := speeds[1:][np.diff(speeds) <= 0]).size:
         others = ", ".join(name for name in found.parameters if name != "speed_rpm") or "nothing"
         raise ValueError(
-            f"{source.path}: several members at {twice[0]:g} rpm, which differ in {others}: choose by where"
+            f"{source.path}: several runs at {twice[0]:g} rpm, which differ in {others}: choose by where"
         )
 
 

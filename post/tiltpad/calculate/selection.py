@@ -1,4 +1,4 @@
-"""Members of a study by the values of their parameters."""
+"""Runs of a study by the values of their parameters."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -30,8 +30,8 @@ class ArgumentError(ValueError):
 
 
 def selected(study: Study, where: Mapping[str, Any]) -> np.ndarray:
-    """True for the members with the given values of parameters, (member,)."""
-    chosen = np.ones(study.length("member"), dtype=bool)
+    """True for the runs with the given values of parameters, (run,)."""
+    chosen = np.ones(study.length("run"), dtype=bool)
     for name, value in where.items():
         needs(name, study.parameters, "where", "a parameter")
         values = study[name]
@@ -44,17 +44,17 @@ def selected(study: Study, where: Mapping[str, Any]) -> np.ndarray:
             here = np.array([spelled(value) in (spelled(each), spelled(written(each))) for each in values])
         if not here.any():
             there = ", ".join(each if isinstance(each, str) else f"{each:g}" for each in distinct(values))
-            raise ValueError(f"{study.path}: no member with {name} = {value}: there are {there}")
+            raise ValueError(f"{study.path}: no run with {name} = {value}: there are {there}")
         chosen &= here
     if not chosen.any():
-        raise ValueError(f"{study.path}: no member with all of these values")
+        raise ValueError(f"{study.path}: no run with all of these values")
     return chosen
 
 
 def default_over(study: Study, several: Sequence[str], chosen: np.ndarray) -> str:
     """The number with the most values; without numbers the text with the most."""
     if not study.parameters:
-        raise ValueError(f"{study.path}: its members differ in no parameter that they could be drawn over")
+        raise ValueError(f"{study.path}: its runs differ in no parameter that they could be drawn over")
     names = several or study.parameters
     numeric = [name for name in names if is_number(study, name)]
     return max(numeric or names, key=lambda name: len(distinct(study[name][chosen])))

@@ -1,7 +1,7 @@
 """Studies: the results of many runs in one file.
 
-The members of a study are those of a sweep, or any runs. The study has the parameters, results of the last
-revolution, Poincare points and the cost of each member, and links to the files of the members; it does not
+The runs of a study are those of a sweep, or any runs. The study has the parameters, results of the last
+revolution, Poincare points and the cost of each run, and links to the files of the runs; it does not
 have their series over time.
 """
 
@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tiltpad.collect.members import DONE, UNENDED, Member, member, planned
+from tiltpad.collect.runs import DONE, UNENDED, StudyRun, planned, run
 from tiltpad.collect.study_file import ranges, write
 from tiltpad.files.archive import RunError, opened, plain
 from tiltpad.files.read import IncompleteRunWarning
@@ -27,14 +27,14 @@ PathLike = str | os.PathLike
 WORTH_A_PROCESS, CHUNK = 100, 20
 
 
-class MemberWarning(UserWarning):
-    """A member is missing, or its file cannot be read."""
+class RunWarning(UserWarning):
+    """A run is missing, or its file cannot be read."""
 
 
 class Collected(NamedTuple):
-    """The numbers of members by the way they ended, the missing members, and the file of the study."""
+    """The numbers of runs by the way they ended, the missing runs, and the file of the study."""
 
-    members: int
+    runs: int
     done: int
     failed: int
     incomplete: int
@@ -46,7 +46,7 @@ class Collected(NamedTuple):
         parts = [f"{self.done} done, {self.failed} failed, {self.incomplete} incomplete"]
         parts += [f"{self.unreadable} unreadable"] if self.unreadable else []
         parts += [f"{len(self.missing)} missing"] if self.missing else []
-        return f"{self.members} members: {', '.join(parts)}; written: {plain(f'{self.output}')}"
+        return f"{self.runs} runs: {', '.join(parts)}; written: {plain(f'{self.output}')}"
 
 
 def collect(
@@ -55,7 +55,7 @@ def collect(
     """Writes the study of a folder of results, or of result files, into one HDF5 file.
 
     `output` is by default the folder's name with .h5, in the working directory. A file that cannot be read
-    becomes a member without values, with a MemberWarning. Raises ValueError for members of different sweeps
+    becomes a run without values, with a RunWarning. Raises ValueError for runs of different sweeps
     and for an output that would replace anything but a study, and RunError if no file can be read.
     """
     given = [Path(each) for each in ([paths] if isinstance(paths, str | os.PathLike) else paths)]
@@ -67,40 +67,40 @@ def collect(
     if any(file.resolve() == target.resolve() for file in files):
         raise ValueError(f"{target}: it is one of the results, and would be replaced by the study")
     check_replaceable(target)
-    members = gathered(files)
-    for each in members:
+    runs = gathered(files)
+    for each in runs:
         if np.isnan(each.status):
-            warnings.warn(each.reason, MemberWarning, stacklevel=2)
-    if not any(each.input for each in members):
-        raise RunError(f"{given[0]}: none of {len(members)} files can be read")
-    check_one_study(members)
-    members = numbered(members)
-    missing = sorted(set(range(1, planned(members) + 1)) - {each.number for each in members})
+            warnings.warn(each.reason, RunWarning, stacklevel=2)
+    if not any(each.input for each in runs):
+        raise RunError(f"{given[0]}: none of {len(runs)} files can be read")
+    check_one_study(runs)
+    runs = numbered(runs)
+    missing = sorted(set(range(1, planned(runs) + 1)) - {each.number for each in runs})
     if missing:
-        warnings.warn(f"{given[0]}: missing members: {ranges(missing)}", MemberWarning, stacklevel=2)
-    write(target, members, missing)
-    done = sum(each.status == DONE for each in members)
-    unended = sum(each.status in UNENDED for each in members)
-    lost = sum(bool(np.isnan(each.status)) for each in members)
-    return Collected(len(members), done, len(members) - done - unended - lost, unended, lost, missing, target)
+        warnings.warn(f"{given[0]}: missing runs: {ranges(missing)}", RunWarning, stacklevel=2)
+    write(target, runs, missing)
+    done = sum(each.status == DONE for each in runs)
+    unended = sum(each.status in UNENDED for each in runs)
+    lost = sum(bool(np.isnan(each.status)) for each in runs)
+    return Collected(len(runs), done, len(runs) - done - unended - lost, unended, lost, missing, target)
 
 
-def gathered(files: Sequence[Path]) -> list[Member]:
-    """The members of the files, read by as many processes as there are processors."""
+def gathered(files: Sequence[Path]) -> list[StudyRun]:
+    """The runs of the files, read by as many processes as there are processors."""
     jobs = min(len(os.sched_getaffinity(0)), len(files) // WORTH_A_PROCESS)
     if jobs < 2:
-        return [silent_member(file) for file in files]
+        return [silent_run(file) for file in files]
     try:
         with ProcessPoolExecutor(jobs) as pool:
-            return list(pool.map(silent_member, files, chunksize=CHUNK))
+            return list(pool.map(silent_run, files, chunksize=CHUNK))
     except BrokenExecutor as error:
         raise RunError(f"{files[0].parent}: reading its files ended a process: {error}") from error
 
 
-def silent_member(path: Path) -> Member:
-    """The member of a file, without the warning for an incomplete run, which its status shows."""
+def silent_run(path: Path) -> StudyRun:
+    """The run of a file, without the warning for an incomplete run, which its status shows."""
     with warnings.catch_warnings(action="ignore", category=IncompleteRunWarning):
-        return member(path)
+        return run(path)
 
 
 def default_output(given: Sequence[Path]) -> Path:
@@ -132,15 +132,15 @@ def check_replaceable(target: Path) -> None:
         raise ValueError(f"{target}: it exists and is not a study; remove it, or give the study another name")
 
 
-def check_one_study(members: Sequence[Member]) -> None:
-    """Raises ValueError for members of two sweeps, and for two files of one member.
+def check_one_study(runs: Sequence[StudyRun]) -> None:
+    """Raises ValueError for runs of two sweeps, and for two files of one run.
 
-    The sweep may have got more members since the first ones were run.
+    The sweep may have got more runs since the first ones were run.
     """
-    readable = [each for each in members if each.input]
+    readable = [each for each in runs if each.input]
     first = readable[0]
     for each in readable[1:]:
-        if (each.members is None, *each.sweep) != (first.members is None, *first.sweep):
+        if (each.runs is None, *each.sweep) != (first.runs is None, *first.sweep):
             raise ValueError(
                 f"{first.path} and {each.path}: not of one study: {kind(first)}, and {kind(each)}"
             )
@@ -148,44 +148,44 @@ def check_one_study(members: Sequence[Member]) -> None:
     seen: dict[int, Path] = {}
     for each in readable:
         if each.number is not None and seen.setdefault(each.number, each.path) != each.path:
-            raise ValueError(f"{seen[each.number]} and {each.path}: both are member {each.number}")
+            raise ValueError(f"{seen[each.number]} and {each.path}: both are run {each.number}")
 
 
-def check_marks(readable: Sequence[Member]) -> None:
-    """Raises ValueError where the checksums of the members show that they are of two sweeps.
+def check_marks(readable: Sequence[StudyRun]) -> None:
+    """Raises ValueError where the checksums of the runs show that they are of two sweeps.
 
-    Members of sweeps of one size have the checksum of all members in common. A sweep that has grown has the
-    checksum of the smaller one at its last member.
+    Runs of sweeps of one size have the checksum of all runs in common. A sweep that has grown has the
+    checksum of the smaller one at its last run.
     """
-    marked = [(each, each.number or 0, each.members or 0, each.marks) for each in readable if each.marks]
+    marked = [(each, each.number or 0, each.runs or 0, each.marks) for each in readable if each.marks]
     marks = {number: (each, own) for each, number, _, own in marked}
-    whole: dict[int, tuple[Member, str]] = {}
-    for each, number, members, (before, _, of_all) in marked:
-        others = [(*whole.setdefault(members, (each, of_all)), of_all)]
-        for beside, expected in ((number - 1, before), (members, of_all)):
+    whole: dict[int, tuple[StudyRun, str]] = {}
+    for each, number, runs, (before, _, of_all) in marked:
+        others = [(*whole.setdefault(runs, (each, of_all)), of_all)]
+        for beside, expected in ((number - 1, before), (runs, of_all)):
             if beside in marks:
                 others.append((marks[beside][0], marks[beside][1][1], expected))
         for other, found, expected in others:
             if found != expected:
                 raise ValueError(
-                    f"{other.path} and {each.path}: members of two sweeps; run one of them into another "
+                    f"{other.path} and {each.path}: runs of two sweeps; run one of them into another "
                     "folder, or with --overwrite"
                 )
 
 
-def kind(one: Member) -> str:
-    """The study that a member is from, in words."""
-    return f"a member of a sweep over {', '.join(one.sweep)}" if one.members else "a run of its own"
+def kind(one: StudyRun) -> str:
+    """The study that a run is from, in words."""
+    return f"a run of a sweep over {', '.join(one.sweep)}" if one.runs else "a run of its own"
 
 
-def numbered(members: Sequence[Member]) -> list[Member]:
-    """The members in the order of their numbers; members without a number get the next free ones."""
-    if not any(each.members for each in members):
-        return [each._replace(number=k) for k, each in enumerate(members, 1)]
-    known = {each.number for each in members if each.input}
-    free = max(each.number or 0 for each in members if each.input) + 1
+def numbered(runs: Sequence[StudyRun]) -> list[StudyRun]:
+    """The runs in the order of their numbers; runs without a number get the next free ones."""
+    if not any(each.runs for each in runs):
+        return [each._replace(number=k) for k, each in enumerate(runs, 1)]
+    known = {each.number for each in runs if each.input}
+    free = max(each.number or 0 for each in runs if each.input) + 1
     found = []
-    for each in members:
+    for each in runs:
         if not each.input and (each.number is None or each.number in known):
             each, free = each._replace(number=free), free + 1
         found.append(each)

@@ -11,13 +11,13 @@ from tiltpad.files import namelist, units
 
 
 class Parameter(NamedTuple):
-    """A variable in which members differ, with the value of each member; its fields:
+    """A variable in which runs differ, with the value of each run; its fields:
 
     name         short and without special characters: speed_rpm, arc_deg_1
     variable     as in the namelist: operation%speed_rpm, pads%arc_deg(1)
     long_name    in words: speed; arc, 1
     units        of the values; empty for texts
-    values       numbers, nan where a member has none, or texts, empty where it has none
+    values       numbers, nan where a run has none, or texts, empty where it has none
     """
 
     name: str
@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
 
 
 def swept(text: str) -> dict[str, Any]:
-    """Values by variable from the attribute `sweep` of a member: a line "operation%speed_rpm = 1500" each."""
+    """Values by variable from the attribute `sweep` of a run: a line "operation%speed_rpm = 1500" each."""
     lines = [line.partition("=") for line in text.splitlines() if line.strip()]
     return {variable.strip(): namelist.value_of(value.strip()) for variable, _, value in lines}
 
@@ -68,16 +68,16 @@ def elements(name: str, values: Sequence[Any]) -> list[dict[str, Any]]:
     return [{f"{name}({k + 1})": each[k] for k in differ if k < len(each)} for each in lists]
 
 
-def parameters(members: Sequence[dict[str, Any] | None], taken: Collection[str] = ()) -> list[Parameter]:
-    """The parameters of members from their values by variable; None for a member that is not known.
+def parameters(runs: Sequence[dict[str, Any] | None], taken: Collection[str] = ()) -> list[Parameter]:
+    """The parameters of runs from their values by variable; None for a run that is not known.
 
     A name that another group has too, or that is `taken`, gets its group.
     """
-    variables = list(dict.fromkeys(variable for each in members for variable in each or {}))
+    variables = list(dict.fromkeys(variable for each in runs for variable in each or {}))
     short = Counter(short_name(variable) for variable in variables)
     found = []
     for variable in variables:
-        values = [None if each is None else each.get(variable) for each in members]
+        values = [None if each is None else each.get(variable) for each in runs]
         name, (words, unit) = short_name(variable), units.named(variable.partition("(")[0])
         group, _, rest = variable.rpartition("%")
         if short[name] > 1 or name in taken:

@@ -1,4 +1,4 @@
-"""The file of a study: parameters and results of the members with dimensions and units, links to files."""
+"""The file of a study: parameters and results of the runs with dimensions and units, links to files."""
 
 import os
 import warnings
@@ -10,15 +10,15 @@ from typing import Any, NamedTuple
 import h5py
 import numpy as np
 
-from tiltpad.collect.members import Member, planned
 from tiltpad.collect.parameters import differing, parameters
+from tiltpad.collect.runs import StudyRun, planned
 from tiltpad.files.archive import FORMAT_VERSION, RunError, plain
 from tiltpad.files.read import read
-from tiltpad.files.study import MEMBER
+from tiltpad.files.study import RUN
 
 
 class Column(NamedTuple):
-    """An array over the members: further dimensions, unit, meaning."""
+    """An array over the runs: further dimensions, unit, meaning."""
 
     dimensions: tuple[str, ...]
     units: str
@@ -26,7 +26,7 @@ class Column(NamedTuple):
 
 
 REVOLUTION, OF_PADS = ("revolution",), ("revolution", "pad")
-#: Columns that are no datasets of the members' files.
+#: Columns that are no datasets of the runs' files.
 OWN = {
     "status": Column((), "1", "exit status: 0 done, nan if the file cannot be read"),
     "complete": Column((), "1", "1 where the run reached its end"),
@@ -41,13 +41,13 @@ OWN = {
         )
     },
 }
-#: Meanings of the dimensions that the members' files do not have.
-COUNTED = {"member": "number of the member", "revolution": "revolutions before the last Poincare point"}
-#: Texts of a member with their meaning.
+#: Meanings of the dimensions that the runs' files do not have.
+COUNTED = {"run": "number of the run", "revolution": "revolutions before the last Poincare point"}
+#: Texts of a run with their meaning.
 TEXTS = {"reason": "reason of the failure", "file": "result file, relative to the folder of this file"}
 
 
-def write(target: Path, members: Sequence[Member], missing: Sequence[int]) -> None:
+def write(target: Path, runs: Sequence[StudyRun], missing: Sequence[int]) -> None:
     """Writes the file under a temporary name, which nothing had before, and renames it when it is whole."""
     if not target.parent.is_dir():
         raise RunError(f"{target.parent}: no such folder")
@@ -58,25 +58,25 @@ def write(target: Path, members: Sequence[Member], missing: Sequence[int]) -> No
         raise RunError(f"{temporary}: is in the way; remove or rename it") from None
     try:
         with h5py.File(temporary, "w") as file:
-            fill(file, members, missing, target.resolve().parent)
+            fill(file, runs, missing, target.resolve().parent)
         os.replace(temporary, target)
     finally:
         temporary.unlink(missing_ok=True)
 
 
-def fill(file: h5py.File, members: Sequence[Member], missing: Sequence[int], folder: Path) -> None:
+def fill(file: h5py.File, runs: Sequence[StudyRun], missing: Sequence[int], folder: Path) -> None:
     """Attributes, dimension scales, parameters, results and links of a study."""
-    readable = [each for each in members if each.input]
+    readable = [each for each in runs if each.input]
     first = readable[0]
-    if first.members:
+    if first.runs:
         known = {each.path: each.sweep for each in readable}
     else:
         own = differing([each.input for each in readable])
         known = {each.path: values for each, values in zip(readable, own, strict=True)}
-    columns = described(members)
+    columns = described(runs)
     wanted = {dimension for each in columns.values() for dimension in each.dimensions}
-    taken = {*COUNTED, *TEXTS, "members", *OWN, *wanted, *columns}
-    found = parameters([known.get(each.path) for each in members], taken)
+    taken = {*COUNTED, *TEXTS, "runs", *OWN, *wanted, *columns}
+    found = parameters([known.get(each.path) for each in runs], taken)
     titles = {each.origin["title"] for each in readable}
     file.attrs.update(
         {
@@ -89,31 +89,31 @@ def fill(file: h5py.File, members: Sequence[Member], missing: Sequence[int], fol
             "input": first.origin["input"],
             "parameters": " ".join(each.name for each in found),
             "variables": "\n".join(each.variable for each in found),
-            "members": planned(members) or len(members),
+            "runs": planned(runs) or len(runs),
             "missing": ranges(missing),
         }
     )
-    labels = scales(file, members, columns)
+    labels = scales(file, runs, columns)
     coordinates = " ".join(each.name for each in found)
     for one in found:
-        put(file, one.name, one.values, MEMBER, one.units, one.long_name)
-    paths = [os.path.relpath(each.path.resolve(), folder) for each in members]
-    for name, texts in (("reason", [each.reason for each in members]), ("file", paths)):
-        put(file, name, texts, MEMBER, "", TEXTS[name], coordinates)
-    put(file, "status", [each.status for each in members], MEMBER, *OWN["status"][1:], coordinates)
+        put(file, one.name, one.values, RUN, one.units, one.long_name)
+    paths = [os.path.relpath(each.path.resolve(), folder) for each in runs]
+    for name, texts in (("reason", [each.reason for each in runs]), ("file", paths)):
+        put(file, name, texts, RUN, "", TEXTS[name], coordinates)
+    put(file, "status", [each.status for each in runs], RUN, *OWN["status"][1:], coordinates)
     for name, (dimensions, unit, meant) in columns.items():
-        values = placed(name, dimensions, members, labels)
-        put(file, name, values, (*MEMBER, *dimensions), unit, meant, coordinates)
-    links = file.create_group("members")
-    digits = max(4, len(str(members[-1].number)))
-    for each, path in zip(members, paths, strict=True):
+        values = placed(name, dimensions, runs, labels)
+        put(file, name, values, (*RUN, *dimensions), unit, meant, coordinates)
+    links = file.create_group("runs")
+    digits = max(4, len(str(runs[-1].number)))
+    for each, path in zip(runs, paths, strict=True):
         links[f"{each.number:0{digits}d}"] = h5py.ExternalLink(path, "/")
 
 
-def described(members: Sequence[Member]) -> dict[str, Column]:
-    """The columns that any member has, as the file of the first member that has one describes it."""
-    found = {name: OWN[name] for name in OWN if any(name in each.values for each in members)}
-    for each in members:
+def described(runs: Sequence[StudyRun]) -> dict[str, Column]:
+    """The columns that any run has, as the file of the first run that has one describes it."""
+    found = {name: OWN[name] for name in OWN if any(name in each.values for each in runs)}
+    for each in runs:
         new = {name: own for name, own in each.found.items() if name not in found}
         if new:
             with warnings.catch_warnings(action="ignore"), read(each.path) as run:
@@ -123,17 +123,17 @@ def described(members: Sequence[Member]) -> dict[str, Column]:
 
 
 def scales(
-    file: h5py.File, members: Sequence[Member], columns: dict[str, Column]
+    file: h5py.File, runs: Sequence[StudyRun], columns: dict[str, Column]
 ) -> dict[str, dict[Any, int]]:
-    """Writes the dimensions; gives the places of the values of each: those that any of the members has.
+    """Writes the dimensions; gives the places of the values of each: those that any of the runs has.
 
-    Members have their numbers, revolutions are counted from the last one, which is 0. Numbers rise; texts
-    stay in the order of the members.
+    Runs have their numbers, revolutions are counted from the last one, which is 0. Numbers rise; texts
+    stay in the order of the runs.
     """
     wanted = {dimension for each in columns.values() for dimension in each.dimensions} | {"pad"}
-    found: dict[str, list[Any]] = {"member": [each.number for each in members]}
+    found: dict[str, list[Any]] = {"run": [each.number for each in runs]}
     for name in sorted(wanted):
-        values = list(dict.fromkeys(value for each in members for value in each.labels.get(name, ())))
+        values = list(dict.fromkeys(value for each in runs for value in each.labels.get(name, ())))
         found[name] = values if any(isinstance(value, str) for value in values) else sorted(values)
     for name, own in ((name, own) for name, own in found.items() if own):
         if isinstance(own[0], str):
@@ -141,23 +141,23 @@ def scales(
         else:
             file[name] = np.array(own)
         file[name].make_scale(name)
-        file[name].attrs.update({"units": "1", "long_name": COUNTED.get(name) or meaning(members, name)})
+        file[name].attrs.update({"units": "1", "long_name": COUNTED.get(name) or meaning(runs, name)})
     return {name: {label: k for k, label in enumerate(own)} for name, own in found.items()}
 
 
-def meaning(members: Sequence[Member], dimension: str) -> str:
-    """What a dimension is, from the file of a member that has it."""
-    path = next(each.path for each in members if dimension in each.labels)
+def meaning(runs: Sequence[StudyRun], dimension: str) -> str:
+    """What a dimension is, from the file of a run that has it."""
+    path = next(each.path for each in runs if dimension in each.labels)
     with warnings.catch_warnings(action="ignore"), read(path) as run:
         return run.about(dimension, "long_name")
 
 
 def placed(
-    name: str, dimensions: Sequence[str], members: Sequence[Member], labels: dict[str, dict[Any, int]]
+    name: str, dimensions: Sequence[str], runs: Sequence[StudyRun], labels: dict[str, dict[Any, int]]
 ) -> np.ndarray:
-    """One array of the members' own, each value at the place of its labels; nan where there is none."""
-    table = np.full((len(members), *(len(labels[each]) for each in dimensions)), np.nan)
-    for k, each in enumerate(members):
+    """One array of the runs' own, each value at the place of its labels; nan where there is none."""
+    table = np.full((len(runs), *(len(labels[each]) for each in dimensions)), np.nan)
+    for k, each in enumerate(runs):
         if name in each.values and each.found.get(name, ("", dimensions))[1] == dimensions:
             part = [[labels[own][label] for label in each.labels[own]] for own in dimensions]
             place: Any = (k, *np.ix_(*part))

@@ -1,6 +1,6 @@
 """Diagrams of a study on one pair of axes.
 
-They are drawn from the arrays of the study alone. Members that failed are marked.
+They are drawn from the arrays of the study alone. Runs that failed are marked.
 """
 
 from collections.abc import Mapping, Sequence
@@ -35,13 +35,13 @@ DEFAULTS = ("orbit_size", "least_damping_ratio", "equilibrium_min_film_thickness
 MOST_LINES = 10
 #: Up to this number of values of a second parameter there is a line for each, beyond it a map.
 LINES_UP_TO = 6
-#: Values of the members, and the unit in which they are shown.
+#: Values of the runs, and the unit in which they are shown.
 Result = tuple[np.ndarray, Shown]
 #: An axis is logarithmic if its values rise by equal factors, over this ratio at least.
 LOG_FROM = 9.9
 #: Characters on a line of the vertical axis' label.
 LABEL = 38
-#: A member that was not done: in a cell of a map, and over an axis.
+#: A run that was not done: in a cell of a map, and over an axis.
 FAILED = {"linestyle": "", "marker": "x", "color": "0.4", "markersize": 5, "zorder": 4}
 NOT_DONE = {"linestyle": (0, (1, 2)), "color": "0.5", "linewidth": 1.2, "zorder": 0.5, "gid": "not done"}
 
@@ -57,12 +57,12 @@ def diagram(
     pad: int | None = None,
     pivot: str | None = None,
 ) -> Axes:
-    """A result of the members over a parameter: lines, a map over two of them, or a bifurcation diagram.
+    """A result of the runs over a parameter: lines, a map over two of them, or a bifurcation diagram.
 
     `show` is a result, by default the first of DEFAULTS that the study has (poincare_y for a bifurcation
     diagram); with `pad` (1, 2, ...) it is a result of the pads; `pivot` chooses of which pivots results of
     small vibrations are (the first ones by default); `over` is a parameter, by default the number with the
-    most values; `kind` is one of KINDS; `where` keeps the members with these values of parameters. Raises
+    most values; `kind` is one of KINDS; `where` keeps the runs with these values of parameters. Raises
     ValueError for arguments that do not fit the study.
     """
     chosen = selected(study, where or {})
@@ -85,14 +85,14 @@ def diagram(
 
 
 def of_pivot(study: Study, name: str, pivot: str | None) -> Result:
-    """A result of pivots, (member,): of the ones that are asked for, or of the first."""
+    """A result of pivots, (run,): of the ones that are asked for, or of the first."""
     own, k = chosen_pivot(study, pivot)
     shown = described(study, name)
     return study[name][:, k], shown._replace(text=f"{shown.text}, pivots {own}")
 
 
 def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str], chosen: np.ndarray) -> Axes:
-    """A line for every combination of the other parameters; a dotted line across where a member failed."""
+    """A line for every combination of the other parameters; a dotted line across where a run failed."""
     values, shown = show
     at, place = axis(study, over, ax, "x")
     groups = grouped(study, others, chosen)
@@ -114,7 +114,7 @@ def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
 
 
 def field(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str], chosen: np.ndarray) -> Axes:
-    """Colours over two parameters; a cross where a member failed, white where there is no member."""
+    """Colours over two parameters; a cross where a run failed, white where there is no run."""
     numeric = [name for name in others if is_number(study, name)]
     if not is_number(study, over) or not numeric:
         raise ValueError(
@@ -131,7 +131,7 @@ def field(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
         if taken[cell]:
             rest = ", ".join(name for name in others if name != second) or "nothing"
             raise ArgumentError(
-                "{path}: a map has one member in each cell, here are several that differ in {rest}: "
+                "{path}: a map has one run in each cell, here are several that differ in {rest}: "
                 "choose by {where}",
                 path=study.path,
                 rest=rest,
@@ -193,17 +193,17 @@ def default_kind(study: Study, show: str | None, over: str, others: Sequence[str
 
 
 def result(study: Study, name: str, revolutions: bool, pad: int | None) -> Result:
-    """A result, (member,) or with `revolutions` (member, revolution); with `pad` that of a pad."""
+    """A result, (run,) or with `revolutions` (run, revolution); with `pad` that of a pad."""
     if name in (*DEFAULTS, *POINTS) and name not in study:
-        raise ValueError(f"{study.path}: no {name} in this study: no member has it")
+        raise ValueError(f"{study.path}: no {name} in this study: no run has it")
     results = [
         each
         for each in study.names()
-        if each not in ("member", "file", "reason", *study.parameters) and study.about(each, "units")
+        if each not in ("run", "file", "reason", *study.parameters) and study.about(each, "units")
     ]
-    wanted = ("member", *(["revolution"] if revolutions else []), *(["pad"] if pad is not None else []))
+    wanted = ("run", *(["revolution"] if revolutions else []), *(["pad"] if pad is not None else []))
     if not all(each in study for each in wanted):
-        raise ValueError(f"{study.path}: no Poincare points in this study: no member has them")
+        raise ValueError(f"{study.path}: no Poincare points in this study: no run has them")
     what = f"{'Poincare points' if revolutions else 'a result'}{' of a pad' if pad is not None else ''}"
     has = study.scales(name) or () if name in results else ()
     if "pad" in has and pad is None:
@@ -220,7 +220,7 @@ def result(study: Study, name: str, revolutions: bool, pad: int | None) -> Resul
 
 
 def axis(study: Study, name: str, ax: Axes, which: str) -> tuple[Shown, np.ndarray]:
-    """Unit of a parameter, positions of the members along its axis, (member,); sets scale and ticks."""
+    """Unit of a parameter, positions of the runs along its axis, (run,); sets scale and ticks."""
     values = study[name]
     text = study.about(name, "long_name") or name
     if not is_number(study, name):
@@ -251,7 +251,7 @@ def spread_in_ratio(values: Sequence[float]) -> bool:
 
 
 def grouped(study: Study, others: Sequence[str], chosen: np.ndarray) -> list[tuple[str, np.ndarray]]:
-    """Name and members of every combination of the other parameters; without members of unknown values."""
+    """Name and runs of every combination of the other parameters; without runs of unknown values."""
     keys = list(zip(*(study[name] for name in others), strict=True)) if others else [()] * len(chosen)
     found: dict[tuple, list[int]] = {}
     for k in np.flatnonzero(chosen):
@@ -282,7 +282,7 @@ def mark_failed(ax: Axes, place: np.ndarray, color: str | None) -> None:
 def explain(
     study: Study, ax: Axes, others: Sequence[str], chosen: np.ndarray, mark: Mapping[str, Any] = NOT_DONE
 ) -> None:
-    """The legend above the axes: the meaning of the lines, and the number of members that were not done."""
+    """The legend above the axes: the meaning of the lines, and the number of runs that were not done."""
     handles, texts = ax.get_legend_handles_labels() if others else ([], [])
     if failed := int((~study.done[chosen]).sum()):
         handles = [*handles, plt.Line2D([], [], **mark)]

@@ -82,7 +82,7 @@ def of_several(draw: Callable[..., Figure]) -> Callable[..., Figure]:
 
 
 def remark_unfinished(fig: Figure, source: Run | Study, name: str = "") -> None:
-    """Says below the picture that a run did not come to its end, or which members of a study, and why."""
+    """Says below the picture that a run did not come to its end, or which runs of a study, and why."""
     if isinstance(source, Run):
         said = [] if source.complete else [f"incomplete{source.end()}"]
     else:

@@ -1,4 +1,4 @@
-"""A page about a study: its members, those that failed, and curves of its key results."""
+"""A page about a study: its runs, those that failed, and curves of its key results."""
 
 from collections.abc import Iterator
 from functools import partial
@@ -35,36 +35,36 @@ def study_report(study: Study) -> str:
     parts = [
         f"<p class=origin>{escape(origin)}</p>",
         summary(study),
-        section("Members that were not done", failures(study)),
+        section("Runs that were not done", failures(study)),
         section("Curves", "".join(curves(study))),
-        section("Members", members(study)),
-        section("Input of the first member", f"<pre>{escape(by.get('input', '').strip())}</pre>"),
+        section("Runs", runs(study)),
+        section("Input of the first run", f"<pre>{escape(by.get('input', '').strip())}</pre>"),
     ]
     return page(title, parts)
 
 
 def summary(study: Study) -> str:
-    """How many members there are and were done, and what they differ in."""
+    """How many runs there are and were done, and what they differ in."""
     count, done = len(study.done), int(study.done.sum())
     missing = study.attributes.get("missing", "")
-    text = f"{count} members, {done} of them done."
+    text = f"{count} runs, {done} of them done."
     for name in study.parameters:
         values = distinct(study[name])
         if values:
             several = f"{written(values[0])} to {written(values[-1])}, {len(values)} values"
             own = several if len(values) > 4 else ", ".join(map(written, values))
             text += f" {study.about(name, 'long_name') or name}: {own}."
-    lost = paragraph(f"Members without a file: {missing}.", warning=True) if missing else ""
+    lost = paragraph(f"Runs without a file: {missing}.", warning=True) if missing else ""
     return paragraph(text) + lost
 
 
 def failures(study: Study) -> str:
-    """A row for each member that was not done, with the recorded reason."""
+    """A row for each run that was not done, with the recorded reason."""
     rows = [
-        (f"{each.member}", *(written(value) for value in each.values.values()), each.how, each.reason)
+        (f"{each.run}", *(written(value) for value in each.values.values()), each.how, each.reason)
         for each in study.failures()[:ROWS]
     ]
-    return table(("member", *named(study), "end", "reason"), rows, words=True)
+    return table(("run", *named(study), "end", "reason"), rows, words=True)
 
 
 def named(study: Study) -> list[str]:
@@ -72,14 +72,14 @@ def named(study: Study) -> list[str]:
     return [label(study, name) for name in study.parameters]
 
 
-def members(study: Study) -> str:
-    """Parameters and key results of every member."""
+def runs(study: Study) -> str:
+    """Parameters and key results of every run."""
     keys = [name for name in KEYS if name in study and np.isfinite(values(study, name)).any()][:COLUMNS]
     shown = [described(study, name) for name in keys]
     columns = [values(study, name) for name in keys]
     rows = [
         (
-            f"{study.member[k]}",
+            f"{study.run[k]}",
             *(written(study[name][k]) for name in study.parameters),
             "yes" if study.done[k] else "no",
             *(digits(own.factor * column[k]) for own, column in zip(shown, columns, strict=True)),
@@ -87,12 +87,12 @@ def members(study: Study) -> str:
         for k in range(min(len(study.done), ROWS))
     ]
     rest = len(study.done) - ROWS
-    heads = ("member", *named(study), "done", *(each.label for each in shown))
+    heads = ("run", *named(study), "done", *(each.label for each in shown))
     return table(heads, rows) + paragraph(f"and {rest} more, in the file." if rest > 0 else "")
 
 
 def values(study: Study, name: str) -> np.ndarray:
-    """A result of each member; of pivots, of the first ones."""
+    """A result of each run; of pivots, of the first ones."""
     found = study[name]
     return found if found.ndim == 1 else found[:, 0]
 

@@ -120,7 +120,7 @@ def draw(
 def over_parameter(
     study: Study, where: Mapping[str, Any], over: str, pad: int | None, upper: Axes, lower: Axes
 ) -> list[int]:
-    """Draws temperatures and viscosities of the members over a parameter; gives the pads."""
+    """Draws temperatures and viscosities of the runs over a parameter; gives the pads."""
     place = study[over]
     order = np.flatnonzero(selected(study, where) & np.isfinite(place))
     order = order[np.argsort(place[order], kind="stable")]

@@ -24,7 +24,7 @@ from tiltpad.files.former_names import FORMER_NAMES, renamed
 OLDEST_VERSION, FORMAT_VERSION = 2, 3
 #: Attributes of every file, and those that are numbers.
 REQUIRED = ("version", "created", "title", "task", "input")
-NUMBERS = ("format_version", "complete", "exit_status", "resumes", "member", "members")
+NUMBERS = ("format_version", "complete", "exit_status", "resumes", "run", "runs")
 #: Characters that no page and no picture can show: control characters, halves of characters.
 UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f\ud800-\udfff]")
 #: The library's own filters; it would look for others on the machine.
@@ -55,7 +55,7 @@ class Archive:
         "checkpoint",
         "coefficients",
         "modes",
-        "members",
+        "runs",
         "special_points",
         "asperities",
         "oil",

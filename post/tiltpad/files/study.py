@@ -10,7 +10,7 @@ from tiltpad.files.archive import Archive, RunError, damaged, plain, reading
 from tiltpad.files.read import Run, StudyError, read
 
 #: The dimension of all arrays, and of what has a value for each of the pivots in small vibrations.
-MEMBER, PIVOTS = ("member",), ("member", "pivot")
+RUN, PIVOTS = ("run",), ("run", "pivot")
 #: Maximum number of revolutions of which Poincare points are kept.
 REVOLUTIONS = 50
 #: States that Poincare points are kept of.
@@ -18,9 +18,9 @@ POINTS = {"poincare_y": "journal_y", "poincare_z": "journal_z", "poincare_tilt":
 
 
 class Failure(NamedTuple):
-    """A member that was not done: its number, its values of the parameters, how and why it ended."""
+    """A run that was not done: its number, its values of the parameters, how and why it ended."""
 
-    member: int
+    run: int
     values: dict[str, Any]
     how: str
     reason: str
@@ -30,10 +30,10 @@ class Failure(NamedTuple):
             f"{k} = {v if isinstance(v, str) else format(v, 'g')}" for k, v in self.values.items()
         )
         why = f": {self.reason}" if self.reason else ""
-        return f"member {self.member}{f' ({own})' if own else ''} {self.how}{why}"
+        return f"run {self.run}{f' ({own})' if own else ''} {self.how}{why}"
 
 
-#: How a member ended, by its status.
+#: How a run ended, by its status.
 ENDS = {2: "failed in its numerics", 3: "failed at a file", 4: "was stopped", -1: "has not ended"}
 
 
@@ -55,33 +55,33 @@ class Study(Archive):
 
     Everything in the file has its name here:
 
-        study.orbit_y, study["orbit_y"]      a result, (member,), in SI units; nan of a member that failed
-        study.speed_rpm                      a parameter, (member,), as in the input
-        study.poincare_y                     Poincare points, (member, revolution)
+        study.orbit_y, study["orbit_y"]      a result, (run,), in SI units; nan of a run that failed
+        study.speed_rpm                      a parameter, (run,), as in the input
+        study.poincare_y                     Poincare points, (run, revolution)
         study.parameters                     names of the parameters
         study.title, study.created, ...      attributes of the file; study.attributes has all of them
-        study.file["members/0003/journal_y"] a dataset of a member's own file, as h5py gives it
+        study.file["runs/0003/journal_y"] a dataset of a run's own file, as h5py gives it
     """
 
     KINDS = "fiuO"
 
     def __repr__(self) -> str:
-        members, over = self.length("member"), ", ".join(self.parameters)
-        return f"<tiltpad study {self.path!r}: {members} members over {over}>"
+        runs, over = self.length("run"), ", ".join(self.parameters)
+        return f"<tiltpad study {self.path!r}: {runs} runs over {over}>"
 
     def to_xarray(self) -> Any:
-        """The datasets as an xarray.Dataset in memory, over the members; needs xarray and h5netcdf."""
+        """The datasets as an xarray.Dataset in memory, over the runs; needs xarray and h5netcdf."""
         import xarray
 
         with reading(self.path, "it"):
             return xarray.load_dataset(self.path, engine="h5netcdf")
 
     def to_csv(self, path: str | os.PathLike) -> None:
-        """Writes parameters and results of one number, a row for each member."""
-        others = {*MEMBER, *self.parameters, *self.GROUPS}
+        """Writes parameters and results of one number, a row for each run."""
+        others = {*RUN, *self.parameters, *self.GROUPS}
         there = [name for name in self.names() if name not in others]
-        single = [name for name in there if self.scales(name) == MEMBER]
-        names = ["member", *self.parameters, *single]
+        single = [name for name in there if self.scales(name) == RUN]
+        names = ["run", *self.parameters, *single]
         with open(path, "w", newline="", encoding="utf-8") as file:
             rows = csv.writer(file, lineterminator="\n")
             rows.writerow(names)
@@ -94,15 +94,15 @@ class Study(Archive):
 
     @property
     def done(self) -> np.ndarray:
-        """True for the members that were done, (member,)."""
+        """True for the runs that were done, (run,)."""
         return self.status == 0
 
     def failures(self) -> list[Failure]:
-        """The members that were not done, with their recorded reasons."""
+        """The runs that were not done, with their recorded reasons."""
         reasons = self.reason if "reason" in self else np.full(len(self.done), "", dtype=object)
         return [
             Failure(
-                int(self.member[k]),
+                int(self.run[k]),
                 {name: self[name][k] for name in self.parameters},
                 ENDS.get(self.status[k], "cannot be read"),
                 reasons[k],
@@ -116,7 +116,7 @@ class Study(Archive):
             raise RunError(f"{self.path}: the result of one run, not a study: see tiltpad-collect")
         if not isinstance(self.attributes.get("parameters"), str):
             raise damaged(self.path, "attribute 'parameters'", "it is missing")
-        for name in ("member", "status", *self.parameters):
+        for name in ("run", "status", *self.parameters):
             if name not in self:
                 raise damaged(self.path, name, "it is missing")
 

@@ -1,14 +1,14 @@
-!> Sweeps: the values of a variable, single ones as they stand and ranges to the last bit; how many members, which
+!> Sweeps: the values of a variable, single ones as they stand and ranges to the last bit; how many runs, which
 !> values in which order; what is refused.
 program test_sweep
    use kinds, only: wp
    use text, only: to_text, exact_text
    use errors, only: error_type, input_error
    use assignments, only: token_type
-   use swept_values, only: swept_values_type, read_swept_values
+   use varied_values, only: varied_values_type, read_swept_values
    use case_inputs, only: case_type
    use namelist_writer, only: namelist_of
-   use sweep, only: sweep_type, member_tag, sweep_from_text
+   use parameter_study, only: study_type, run_tag, study_from_text
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, between, report
    implicit none (type, external)
    integer :: i
@@ -23,7 +23,7 @@ program test_sweep
    end do
    if (runs('longest')) call longest()
    if (runs('wrong_values')) call wrong_values()
-   if (runs('no_sweep')) call no_sweep()
+   if (runs('no_study')) call no_study()
    if (runs('product_order')) call product_order()
    if (runs('zip_order')) call zip_order()
    if (runs('ranges')) call ranges()
@@ -40,7 +40,7 @@ contains
    !> Tokens of words between blanks; those that begin with a quote are quoted.
    subroutine read_values(words, values, error)
       character(len=*), intent(in) :: words
-      type(swept_values_type), intent(out) :: values
+      type(varied_values_type), intent(out) :: values
       type(error_type), allocatable, intent(out) :: error
       type(token_type), allocatable :: tokens(:)
       type(token_type) :: token
@@ -62,7 +62,7 @@ contains
    !> The values are these, separated by blanks.
    subroutine expect_values(words, expected)
       character(len=*), intent(in) :: words, expected
-      type(swept_values_type) :: values
+      type(varied_values_type) :: values
       type(error_type), allocatable :: error
       type(token_type) :: token
       character(len=:), allocatable :: found
@@ -79,7 +79,7 @@ contains
    end subroutine expect_values
 
    subroutine single_values()
-      type(swept_values_type) :: values
+      type(varied_values_type) :: values
       type(error_type), allocatable :: error
       type(token_type) :: token
       call expect_values('1 2.50 -3e5', '1 2.50 -3e5')
@@ -114,7 +114,7 @@ contains
    subroutine expect_count(words, expected)
       character(len=*), intent(in) :: words
       integer, intent(in) :: expected
-      type(swept_values_type) :: values
+      type(varied_values_type) :: values
       type(error_type), allocatable :: error
       call read_values(words, values, error)
       call expect_no_error(error, words)
@@ -123,7 +123,7 @@ contains
    end subroutine expect_count
 
    subroutine mixed()
-      type(swept_values_type) :: values
+      type(varied_values_type) :: values
       type(error_type), allocatable :: error
       call expect_values('7 1:3:1 9 10:1000:*10 11', '7 1 2 3 9 10 100 1000 11')
       call read_values('7 1:3:1 9', values, error)
@@ -132,7 +132,7 @@ contains
 
    !> first + i*stride, the product rounded by itself; first*factor**i, not a product of products.
    subroutine to_the_last_bit()
-      type(swept_values_type) :: values
+      type(varied_values_type) :: values
       type(error_type), allocatable :: error
       type(token_type) :: token
       real(wp), volatile :: product
@@ -167,7 +167,7 @@ contains
 
    subroutine expect_wrong(words, reason)
       character(len=*), intent(in) :: words, reason
-      type(swept_values_type) :: values
+      type(varied_values_type) :: values
       type(error_type), allocatable :: error
       call read_values(words, values, error)
       call expect_error(error, input_error, reason, 'refused: '//words)
@@ -175,7 +175,7 @@ contains
    end subroutine expect_wrong
 
    subroutine wrong_values()
-      call expect_wrong('3*1', 'not for a sweep')
+      call expect_wrong('3*1', 'not for a study')
       call expect_wrong('1:2', 'a range is first:last:stride')
       call expect_wrong('1:2:3:4', 'a range is')
       call expect_wrong('1:', 'a range is')
@@ -203,97 +203,97 @@ contains
       call expect_wrong('2:1:*2', 'must be < 1')
    end subroutine wrong_values
 
-   !> A sweep from text that must be good.
-   type(sweep_type) function sweep_of(text, overrides) result(sweep)
+   !> A study from text that must be good.
+   type(study_type) function study_of(text, overrides) result(study)
       character(len=*), intent(in) :: text
       character(len=*), intent(in), optional :: overrides(:)
       type(error_type), allocatable :: error
       if (present(overrides)) then
-         call sweep_from_text(text, 'case.nml', overrides, sweep, error)
+         call study_from_text(text, 'case.nml', overrides, study, error)
       else
-         call sweep_from_text(text, 'case.nml', [character(len=1) ::], sweep, error)
+         call study_from_text(text, 'case.nml', [character(len=1) ::], study, error)
       end if
       call expect_no_error(error, 'accepted: '//text)
-   end function sweep_of
+   end function study_of
 
-   !> The case of a member that must be good.
-   type(case_type) function member(sweep, k) result(inputs)
-      type(sweep_type), intent(in) :: sweep
+   !> The case of a run that must be good.
+   type(case_type) function run(study, k) result(inputs)
+      type(study_type), intent(in) :: study
       integer, intent(in) :: k
       type(error_type), allocatable :: error
-      call sweep%inputs(k, inputs, error)
-      call expect_no_error(error, 'member '//to_text(k)//' is good')
-   end function member
+      call study%inputs(k, inputs, error)
+      call expect_no_error(error, 'run '//to_text(k)//' is good')
+   end function run
 
-   !> The speeds of all members are these bits.
+   !> The speeds of all runs are these bits.
    subroutine expect_speeds(text, expected)
       character(len=*), intent(in) :: text
       real(wp), intent(in) :: expected(:)
-      type(sweep_type) :: sweep
+      type(study_type) :: study
       type(case_type) :: inputs
       integer :: k
-      sweep = sweep_of('&sweep operation%speed_rpm = '//text//' /')
-      call expect(sweep%members == size(expected), text//' has '//to_text(sweep%members)//' members')
-      do k = 1, min(sweep%members, size(expected))
-         inputs = member(sweep, k)
-         call expect_close(inputs%operation%speed_rpm, expected(k), 0.0_wp, text//', member '//to_text(k))
+      study = study_of('&sweep operation%speed_rpm = '//text//' /')
+      call expect(study%runs == size(expected), text//' has '//to_text(study%runs)//' runs')
+      do k = 1, min(study%runs, size(expected))
+         inputs = run(study, k)
+         call expect_close(inputs%operation%speed_rpm, expected(k), 0.0_wp, text//', run '//to_text(k))
       end do
    end subroutine expect_speeds
 
    !> Values of a range with a factor have the bits of the power, rounded once and not at every product.
    subroutine expect_powers(first, factor)
       real(wp), intent(in) :: first, factor
-      type(sweep_type) :: sweep
+      type(study_type) :: study
       type(case_type) :: inputs
       type(error_type), allocatable :: error
       integer, parameter :: more = selected_real_kind(30)
       integer :: k
-      sweep = sweep_of('&sweep film%relaxation = '//exact_text(first)//':1e-20:*'//exact_text(factor)//'/')
-      do k = 1, sweep%members
-         call sweep%inputs(k, inputs, error)
+      study = study_of('&sweep film%relaxation = '//exact_text(first)//':1e-20:*'//exact_text(factor)//'/')
+      do k = 1, study%runs
+         call study%inputs(k, inputs, error)
          call expect_close(inputs%film%relaxation, first*real(real(factor, more)**(k - 1), wp), 0.0_wp, &
             & 'power '//to_text(k - 1))
       end do
    end subroutine expect_powers
 
-   subroutine expect_tag(sweep, k, expected)
-      type(sweep_type), intent(in) :: sweep
+   subroutine expect_tag(study, k, expected)
+      type(study_type), intent(in) :: study
       integer, intent(in) :: k
       character(len=*), intent(in) :: expected
-      type(member_tag) :: tag
-      call sweep%tag(k, tag)
-      call expect(tag%number == k .and. tag%members == sweep%members, 'number of a member')
-      call expect(tag%sweep == expected .and. len(tag%sweep) == len(expected), expected//' came out as '//tag%sweep)
+      type(run_tag) :: tag
+      call study%tag(k, tag)
+      call expect(tag%number == k .and. tag%runs == study%runs, 'number of a run')
+      call expect(tag%study == expected .and. len(tag%study) == len(expected), expected//' came out as '//tag%study)
    end subroutine expect_tag
 
-   subroutine no_sweep()
-      type(sweep_type) :: sweep
+   subroutine no_study()
+      type(study_type) :: study
       type(case_type) :: inputs
       type(error_type), allocatable :: error
-      sweep = sweep_of('&rotor mass = 1234 /')
-      call expect(.not. sweep%given .and. sweep%members == 1, 'a case without a sweep')
-      inputs = member(sweep, 1)
-      call expect_close(inputs%rotor%mass, 1234.0_wp, 0.0_wp, 'is its one member')
-      call expect_tag(sweep, 1, '')
-      sweep = sweep_of('&rotor mass = -1 /')
-      call sweep%inputs(1, inputs, error)
+      study = study_of('&rotor mass = 1234 /')
+      call expect(.not. study%given .and. study%runs == 1, 'a case without a study')
+      inputs = run(study, 1)
+      call expect_close(inputs%rotor%mass, 1234.0_wp, 0.0_wp, 'is its one run')
+      call expect_tag(study, 1, '')
+      study = study_of('&rotor mass = -1 /')
+      call study%inputs(1, inputs, error)
       call expect_error(error, input_error, 'case.nml line 1: rotor%mass = -1', 'a bad value in it')
-   end subroutine no_sweep
+   end subroutine no_study
 
    !> The first variable is the slowest.
    subroutine product_order()
-      type(sweep_type) :: sweep
+      type(study_type) :: study
       type(case_type) :: inputs
-      sweep = sweep_of('&sweep'//newline//'operation%speed_rpm = 1e3, 2e3'//newline//'friction%model = ''none'', ' &
+      study = study_of('&sweep'//newline//'operation%speed_rpm = 1e3, 2e3'//newline//'friction%model = ''none'', ' &
          & //'"LuGre", bengisu_akay Pads%Arc_deg(2)=60 65/')
-      call expect(sweep%given .and. sweep%members == 12, 'product of 2, 3 and 2')
-      call expect_tag(sweep, 1, 'operation%speed_rpm = 1e3'//newline//'friction%model = ''none'''//newline &
+      call expect(study%given .and. study%runs == 12, 'product of 2, 3 and 2')
+      call expect_tag(study, 1, 'operation%speed_rpm = 1e3'//newline//'friction%model = ''none'''//newline &
          & //'pads%arc_deg(2) = 60')
-      call expect_tag(sweep, 2, 'operation%speed_rpm = 1e3'//newline//'friction%model = ''none'''//newline &
+      call expect_tag(study, 2, 'operation%speed_rpm = 1e3'//newline//'friction%model = ''none'''//newline &
          & //'pads%arc_deg(2) = 65')
-      call expect_tag(sweep, 9, 'operation%speed_rpm = 2e3'//newline//'friction%model = ''LuGre'''//newline &
+      call expect_tag(study, 9, 'operation%speed_rpm = 2e3'//newline//'friction%model = ''LuGre'''//newline &
          & //'pads%arc_deg(2) = 60')
-      inputs = member(sweep, 12)
+      inputs = run(study, 12)
       call expect_close(inputs%operation%speed_rpm, 2000.0_wp, 0.0_wp, 'speed of the last')
       call expect_close(inputs%operation%final_speed_rpm, 2000.0_wp, 0.0_wp, 'its final speed is the same')
       call expect(inputs%friction%model == 'bengisu_akay', 'its friction')
@@ -301,19 +301,19 @@ contains
    end subroutine product_order
 
    subroutine zip_order()
-      type(sweep_type) :: sweep
-      sweep = sweep_of('&sweep order = '' Zip '', rotor%mass = 1:3:1, rotor%unbalance = 0.1, 0.2:0.3:0.1 /')
-      call expect(sweep%members == 3, 'three pairs')
-      call expect_tag(sweep, 2, 'rotor%mass = 2'//newline//'rotor%unbalance = 0.2')
-      sweep = sweep_of('&sweep order = ''product'', rotor%mass = 1:3:1, rotor%unbalance = 0.1, 0.2 /')
-      call expect(sweep%members == 6, 'the product in so many words')
+      type(study_type) :: study
+      study = study_of('&sweep order = '' Zip '', rotor%mass = 1:3:1, rotor%unbalance = 0.1, 0.2:0.3:0.1 /')
+      call expect(study%runs == 3, 'three pairs')
+      call expect_tag(study, 2, 'rotor%mass = 2'//newline//'rotor%unbalance = 0.2')
+      study = study_of('&sweep order = ''product'', rotor%mass = 1:3:1, rotor%unbalance = 0.1, 0.2 /')
+      call expect(study%runs == 6, 'the product in so many words')
    end subroutine zip_order
 
    !> The last value is in up to rounding, and every value has the bits of the multiplication.
    subroutine ranges()
       real(wp) :: x
       integer :: i
-      type(sweep_type) :: sweep
+      type(study_type) :: study
       ! the multiplications are the machine's own, one by one, not the compiler's
       real(wp), volatile :: product
       real(wp) :: tenths(10)
@@ -327,97 +327,97 @@ contains
       call expect_powers(593842e-12_wp, 93.44e-4_wp)
       call expect_speeds('7, 1:2:1, 4:8:*2 , 5', [7.0_wp, 1.0_wp, 2.0_wp, 4.0_wp, 8.0_wp, 5.0_wp])
       ! whole numbers are written as such
-      sweep = sweep_of('&sweep integration%max_steps = 1e6:3e6:1e6, output%samples_per_revolution = 90:360:*2 /')
-      call expect(sweep%members == 9, 'whole numbers')
-      call expect_tag(sweep, 9, 'integration%max_steps = 3000000'//newline//'output%samples_per_revolution = 360')
-      x = real(member_steps(sweep, 9), wp)
+      study = study_of('&sweep integration%max_steps = 1e6:3e6:1e6, output%samples_per_revolution = 90:360:*2 /')
+      call expect(study%runs == 9, 'whole numbers')
+      call expect_tag(study, 9, 'integration%max_steps = 3000000'//newline//'output%samples_per_revolution = 360')
+      x = real(steps_of_run(study, 9), wp)
       call expect_close(x, 3e6_wp, 0.0_wp, 'and read as such')
-      sweep = sweep_of('&sweep rotor%static_load(2) = -1:-100:*10, rotor%static_load(1) = -2:2:2 /')
-      call expect(sweep%members == 9, 'negative numbers, and elements')
-      call expect_tag(sweep, 5, 'rotor%static_load(2) = -10'//newline//'rotor%static_load(1) = 0')
-      sweep = sweep_of('&sweep rotor%mass = 1:100000:1 /')
-      call expect(sweep%members == 100000, 'the most members')
-      call expect_tag(sweep, 100000, 'rotor%mass = 100000')
+      study = study_of('&sweep rotor%static_load(2) = -1:-100:*10, rotor%static_load(1) = -2:2:2 /')
+      call expect(study%runs == 9, 'negative numbers, and elements')
+      call expect_tag(study, 5, 'rotor%static_load(2) = -10'//newline//'rotor%static_load(1) = 0')
+      study = study_of('&sweep rotor%mass = 1:100000:1 /')
+      call expect(study%runs == 100000, 'the most runs')
+      call expect_tag(study, 100000, 'rotor%mass = 100000')
    end subroutine ranges
 
-   integer function member_steps(sweep, k)
-      type(sweep_type), intent(in) :: sweep
+   integer function steps_of_run(study, k)
+      type(study_type), intent(in) :: study
       integer, intent(in) :: k
       type(case_type) :: inputs
-      inputs = member(sweep, k)
-      member_steps = inputs%integration%max_steps
-   end function member_steps
+      inputs = run(study, k)
+      steps_of_run = inputs%integration%max_steps
+   end function steps_of_run
 
    !> A swept value stands in place of the case's, be that good or bad, and elements in place of elements.
    subroutine in_place_of_the_case()
-      type(sweep_type) :: sweep
+      type(study_type) :: study
       type(case_type) :: inputs
-      sweep = sweep_of('&rotor mass = -1, gravity = 5 / &sweep rotor%mass = 10, 20 / &pads arc_deg(1) = 50, 51 /')
-      inputs = member(sweep, 2)
+      study = study_of('&rotor mass = -1, gravity = 5 / &sweep rotor%mass = 10, 20 / &pads arc_deg(1) = 50, 51 /')
+      inputs = run(study, 2)
       call expect_close(inputs%rotor%mass, 20.0_wp, 0.0_wp, 'a bad value mended')
       call expect_close(inputs%rotor%gravity, 5.0_wp, 0.0_wp, 'what is not swept stays')
-      sweep = sweep_of('&pads arc_deg(1) = 50, 51 / &sweep pads%arc_deg(1) = 60 /')
-      inputs = member(sweep, 1)
+      study = study_of('&pads arc_deg(1) = 50, 51 / &sweep pads%arc_deg(1) = 60 /')
+      inputs = run(study, 1)
       call expect_close(maxval(abs(inputs%pads%arc_deg - [60.0_wp, 51.0_wp])), 0.0_wp, 0.0_wp, 'one element of a list')
-      sweep = sweep_of('&pads arc_deg = 50, 51 / &sweep pads%arc_deg = 60 /')
-      inputs = member(sweep, 1)
+      study = study_of('&pads arc_deg = 50, 51 / &sweep pads%arc_deg = 60 /')
+      inputs = run(study, 1)
       call expect_close(maxval(abs(inputs%pads%arc_deg - 60)), 0.0_wp, 0.0_wp, 'one value for all pads')
    end subroutine in_place_of_the_case
 
-   !> --set sweep%... keeps the order of the variables, and makes a sweep where there is none.
+   !> --set sweep%... keeps the order of the variables, and makes a study where there is none.
    subroutine overrides()
       character(len=*), parameter :: case = '&sweep rotor%mass = 1, 2, rotor%unbalance = 3, 4 /'
-      type(sweep_type) :: sweep
-      sweep = sweep_of(case, [character(len=30) :: 'sweep%rotor%mass=5:7:1'])
-      call expect(sweep%members == 6, 'other values')
-      call expect_tag(sweep, 2, 'rotor%mass = 5'//newline//'rotor%unbalance = 4')
-      sweep = sweep_of(case, [character(len=30) :: 'sweep%order=''zip'''])
-      call expect(sweep%members == 2, 'another order')
-      sweep = sweep_of(case, [character(len=30) :: 'sweep%rotor%gravity=1,2,3', 'SWEEP%rotor%gravity=5'])
-      call expect_tag(sweep, 4, 'rotor%mass = 2'//newline//'rotor%unbalance = 4'//newline//'rotor%gravity = 5')
-      sweep = sweep_of('&rotor /', [character(len=30) :: 'sweep%pads%mass(2)=0.9,1'])
-      call expect(sweep%given .and. sweep%members == 2, 'a sweep where there was none')
-      call expect_tag(sweep, 2, 'pads%mass(2) = 1')
-      sweep = sweep_of('&sweep pads%mass(2) = 0.9, 1/', [character(len=30) :: 'pads%mass(1)=0.7'])
-      call expect(sweep%members == 2, 'an override of another element')
+      type(study_type) :: study
+      study = study_of(case, [character(len=30) :: 'sweep%rotor%mass=5:7:1'])
+      call expect(study%runs == 6, 'other values')
+      call expect_tag(study, 2, 'rotor%mass = 5'//newline//'rotor%unbalance = 4')
+      study = study_of(case, [character(len=30) :: 'sweep%order=''zip'''])
+      call expect(study%runs == 2, 'another order')
+      study = study_of(case, [character(len=30) :: 'sweep%rotor%gravity=1,2,3', 'SWEEP%rotor%gravity=5'])
+      call expect_tag(study, 4, 'rotor%mass = 2'//newline//'rotor%unbalance = 4'//newline//'rotor%gravity = 5')
+      study = study_of('&rotor /', [character(len=30) :: 'sweep%pads%mass(2)=0.9,1'])
+      call expect(study%given .and. study%runs == 2, 'a study where there was none')
+      call expect_tag(study, 2, 'pads%mass(2) = 1')
+      study = study_of('&sweep pads%mass(2) = 0.9, 1/', [character(len=30) :: 'pads%mass(1)=0.7'])
+      call expect(study%runs == 2, 'an override of another element')
    end subroutine overrides
 
-   !> The resolved text is a case with the same members, whose resolved text it is.
+   !> The resolved text is a case with the same runs, whose resolved text it is.
    subroutine resolved_again()
       character(len=*), parameter :: cases(*) = [character(len=200) :: &
          & '&sweep operation%speed_rpm = 0.1:0.5:0.1, 1e3:1e5:*10, 7, friction%model = ''LuGre'', none /', &
          & '&operation final_speed_rpm = 3000 / &sweep order=''zip'' operation%speed_rpm = 1:2:1 rotor%mass=3,4 /', &
          & '&pads mass = 1, 2, arc_deg = 50 / &sweep pads%mass(2) = 0.7, 0.9 pads%arc_deg = 60:30:-10 /', &
          & '&pads arc_deg = 300 / &sweep pads%pivot_angle_deg = -90, -80 /']
-      type(sweep_type) :: sweep, again
+      type(study_type) :: study, again
       type(error_type), allocatable :: error
       character(len=:), allocatable :: text, second
       integer :: i, k
       do i = 1, size(cases)
-         sweep = sweep_of(trim(cases(i)))
-         call sweep%resolved(text, error)
+         study = study_of(trim(cases(i)))
+         call study%resolved(text, error)
          call expect_no_error(error, 'resolved: '//trim(cases(i)))
          if (allocated(error)) cycle
-         again = sweep_of(text)
+         again = study_of(text)
          call again%resolved(second, error)
          call expect(text == second .and. len(text) == len(second), 'resolves to itself: '//trim(cases(i)))
-         call expect(again%members == sweep%members .and. sweep%members > 1, 'as many members')
-         do k = 1, sweep%members
-            call expect(namelist_of(member(again, k)) == namelist_of(member(sweep, k)), 'the same member '//to_text(k))
+         call expect(again%runs == study%runs .and. study%runs > 1, 'as many runs')
+         do k = 1, study%runs
+            call expect(namelist_of(run(again, k)) == namelist_of(run(study, k)), 'the same run '//to_text(k))
          end do
       end do
    end subroutine resolved_again
 
-   !> The message names the place and has the words, before any member is looked at.
+   !> The message names the place and has the words, before any run is looked at.
    subroutine expect_refused(text, words, overrides)
       character(len=*), intent(in) :: text, words
       character(len=*), intent(in), optional :: overrides(:)
-      type(sweep_type) :: sweep
+      type(study_type) :: study
       type(error_type), allocatable :: error
       if (present(overrides)) then
-         call sweep_from_text(text, 'case.nml', overrides, sweep, error)
+         call study_from_text(text, 'case.nml', overrides, study, error)
       else
-         call sweep_from_text('&rotor /'//newline//text, 'case.nml', [character(len=1) ::], sweep, error)
+         call study_from_text('&rotor /'//newline//text, 'case.nml', [character(len=1) ::], study, error)
       end if
       call expect_error(error, input_error, words, 'refused: '//text)
       if (.not. allocated(error)) return
@@ -425,9 +425,9 @@ contains
       call expect(index(error%message, newline) == 0, 'one line')
    end subroutine expect_refused
 
-   !> However many variables a sweep has, the message that counts them is short.
+   !> However many variables a study has, the message that counts them is short.
    subroutine many_variables()
-      type(sweep_type) :: sweep
+      type(study_type) :: study
       type(error_type), allocatable :: error
       character(len=:), allocatable :: text
       integer :: i
@@ -435,8 +435,8 @@ contains
       do i = 1, 900
          text = text//' a%b'//to_text(i)//' = 1:9:1'
       end do
-      call sweep_from_text(text//' /', 'case.nml', [character(len=1) ::], sweep, error)
-      call expect_error(error, input_error, 'a%b8 has 9, ...', 'too many members')
+      call study_from_text(text//' /', 'case.nml', [character(len=1) ::], study, error)
+      call expect_error(error, input_error, 'a%b8 has 9, ...', 'too many runs')
    end subroutine many_variables
 
    !> The values of a variable have more in wrong_values.
@@ -464,9 +464,9 @@ contains
       call expect_refused('&sweep rotor%mass = 1:2/', range)
       call expect_refused('&sweep rotor%mass = 1 : 2 : 1/', range)
       call expect_refused('&sweep rotor%mass = 1:1000:1 rotor%gravity = 0:100:1/', &
-         & 'more than 100000 members: rotor%mass has 1000, rotor%gravity has 101')
+         & 'more than 100000 runs: rotor%mass has 1000, rotor%gravity has 101')
       call expect_refused('&sweep rotor%mass = 1:90000:1 rotor%gravity = 1:90000:1 rotor%unbalance = 1:90000:1' &
-         & //' bearing%viscosity = 1:90000:1 /', 'more than 100000 members')
+         & //' bearing%viscosity = 1:90000:1 /', 'more than 100000 runs')
       call expect_refused('&sweep order=''zip'' rotor%mass = 1, 2 rotor%gravity = 1, 2, 3/', &
          & 'rotor%mass has 2, rotor%gravity has 3')
       call expect_refused('&sweep rotor%mass = 1, 2/', 'rotor%mass = 3: is swept (case.nml line 1)', ['rotor%mass=3'])
@@ -476,28 +476,28 @@ contains
       call expect_refused('&rotor /', '--set: unknown variable sweep%mass', ['sweep%mass=3'])
    end subroutine refused
 
-   !> What the case of a member shows; every member knows names that there are not.
+   !> What the case of a run shows; every run knows names that there are not.
    subroutine refused_members()
-      call expect_bad(1, 'roter%mass = 1', 'case.nml line 2, member 1: unknown group roter')
-      call expect_bad(1, 'rotor%mess = 1', 'case.nml line 2, member 1: unknown variable rotor%mess')
-      call expect_bad(2, 'rotor%mass = 1, -1', 'case.nml line 2, member 2: rotor%mass = -1: must be 1e-6')
-      call expect_bad(3, 'rotor%mass = 1:3:1, rotor%mess=1', 'case.nml line 2, member 3: unknown variable')
-      call expect_bad(3, 'film%axial_cells = 2:5:*1.5', 'member 3: film%axial_cells = 4.5: must be a whole number')
-      call expect_bad(1, 'friction%model = 1:2:1', 'member 1: friction%model = 1: must be one of')
-      call expect_bad(1, 'rotor%static_load = 1, 2', 'member 1: rotor%static_load = 1: takes 2 values')
-      call expect_bad(1, 'pads%mass(3) = 1, 2', 'member 1: pads%mass(3) = 1: at most 2')
+      call expect_bad(1, 'roter%mass = 1', 'case.nml line 2, run 1: unknown group roter')
+      call expect_bad(1, 'rotor%mess = 1', 'case.nml line 2, run 1: unknown variable rotor%mess')
+      call expect_bad(2, 'rotor%mass = 1, -1', 'case.nml line 2, run 2: rotor%mass = -1: must be 1e-6')
+      call expect_bad(3, 'rotor%mass = 1:3:1, rotor%mess=1', 'case.nml line 2, run 3: unknown variable')
+      call expect_bad(3, 'film%axial_cells = 2:5:*1.5', 'run 3: film%axial_cells = 4.5: must be a whole number')
+      call expect_bad(1, 'friction%model = 1:2:1', 'run 1: friction%model = 1: must be one of')
+      call expect_bad(1, 'rotor%static_load = 1, 2', 'run 1: rotor%static_load = 1: takes 2 values')
+      call expect_bad(1, 'pads%mass(3) = 1, 2', 'run 1: pads%mass(3) = 1: at most 2')
       call expect_bad(2, 'friction%dynamic_coefficient = 0.1, 0.2', &
-         & 'case.nml, member 2: friction%dynamic_coefficient = 0.2: must not exceed')
+         & 'case.nml, run 2: friction%dynamic_coefficient = 0.2: must not exceed')
    end subroutine refused_members
 
    subroutine expect_bad(k, assignment, words)
       integer, intent(in) :: k
       character(len=*), intent(in) :: assignment, words
-      type(sweep_type) :: sweep
+      type(study_type) :: study
       type(case_type) :: inputs
       type(error_type), allocatable :: error
-      sweep = sweep_of('&sweep'//newline//assignment//'/')
-      call sweep%inputs(k, inputs, error)
-      call expect_error(error, input_error, words, 'a bad member: '//assignment)
+      study = study_of('&sweep'//newline//assignment//'/')
+      call study%inputs(k, inputs, error)
+      call expect_error(error, input_error, words, 'a bad run: '//assignment)
    end subroutine expect_bad
 end program test_sweep

@@ -1,5 +1,5 @@
 !> The values of a swept variable: single values, and the numbers of ranges.
-module swept_values
+module varied_values
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, i8
    use text, only: to_text, exact_text, lower_case, shortened
@@ -8,7 +8,7 @@ module swept_values
    use assignments, only: token_type, value_text
    implicit none (type, external)
    private
-   public :: swept_values_type, read_swept_values
+   public :: varied_values_type, read_swept_values
 
    !> Most values of a range.
    integer, parameter :: most_values = 100000
@@ -26,14 +26,14 @@ module swept_values
       real(wp) :: first = 0, step = 0
    end type piece_type
 
-   type :: swept_values_type
+   type :: varied_values_type
       private
       type(piece_type), allocatable :: pieces(:)
    contains
       procedure :: count => value_count
       procedure :: value
       procedure :: text => values_text
-   end type swept_values_type
+   end type varied_values_type
 
 contains
 
@@ -41,7 +41,7 @@ contains
    subroutine read_swept_values(tokens, name, values, error)
       type(token_type), intent(in) :: tokens(:)
       character(len=*), intent(in) :: name
-      type(swept_values_type), intent(out) :: values
+      type(varied_values_type), intent(out) :: values
       type(error_type), allocatable, intent(out) :: error
       integer :: i
       allocate (values%pieces(size(tokens)))
@@ -65,7 +65,7 @@ contains
       first = index(token%text, ':')
       if (token%quoted .or. first == 0) then
          if (.not. token%quoted .and. index(token%text, '*') > 0) call raise(error, input_error, &
-            & 'n*value is not for a sweep, where each value is a member''s; a range is first:last:*factor')
+            & 'n*value is not for a study, where each value is a run''s; a range is first:last:*factor')
          return
       end if
       piece%is_range = .true.
@@ -125,13 +125,13 @@ contains
    end subroutine count_steps
 
    pure integer function value_count(self)
-      class(swept_values_type), intent(in) :: self
+      class(varied_values_type), intent(in) :: self
       value_count = sum(self%pieces%count)
    end function value_count
 
    !> The n-th value.
    subroutine value(self, n, token)
-      class(swept_values_type), intent(in) :: self
+      class(varied_values_type), intent(in) :: self
       integer, intent(in) :: n
       type(token_type), intent(out) :: token
       ! a product rounded by itself, not as part of a fused addition: the same bits on every machine
@@ -161,7 +161,7 @@ contains
 
    !> All values as the case has them.
    pure function values_text(self) result(text)
-      class(swept_values_type), intent(in) :: self
+      class(varied_values_type), intent(in) :: self
       character(len=:), allocatable :: text
       integer :: i
       text = value_text(self%pieces(1)%token)
@@ -169,4 +169,4 @@ contains
          text = text//', '//value_text(self%pieces(i)%token)
       end do
    end function values_text
-end module swept_values
+end module varied_values

@@ -1,48 +1,48 @@
-!> A child process that runs members of a sweep one after another: its parent orders each. A new process for each would
+!> A child process that performs runs of a study one after another: its parent orders each. A new process for each would
 !> cost as much as a short run.
-module sweep_child
+module study_child
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
    use errors, only: error_type
    use case_inputs, only: case_type
-   use sweep, only: sweep_type, member_tag
+   use parameter_study, only: study_type, run_tag
    use processes, only: process_id, record_length, new_process, end_child, end_with_parent, open_pipe, close_pipe, &
       & send_record, receive_record, wait_for_record, ended
-   use sweep_folder, only: member_file
+   use study_folder, only: result_path
    use stop_signals, only: stop_requested
    implicit none (type, external)
    private
-   public :: child_type, report_type, read_report, member_runner, pause
+   public :: child_type, report_type, read_report, study_runner, pause
 
    abstract interface
-      !> Runs one member to its result file, and prints nothing.
-      subroutine member_runner(inputs, path, tag, error)
-         import :: case_type, member_tag, error_type
+      !> Performs one run to its result file, and prints nothing.
+      subroutine study_runner(inputs, path, tag, error)
+         import :: case_type, run_tag, error_type
          type(case_type), intent(in) :: inputs
          character(len=*), intent(in) :: path
-         type(member_tag), intent(in) :: tag
+         type(run_tag), intent(in) :: tag
          type(error_type), allocatable, intent(out) :: error
-      end subroutine member_runner
+      end subroutine study_runner
    end interface
 
    !> Milliseconds between two looks for children that ended without a report.
    integer, parameter :: pause = 100
-   !> Members that a child runs before a new one replaces it, so that what they may leave in memory does not add up.
-   integer, parameter :: members_a_child = 50
-   !> In the report of a member: its number, its status, and whether its child stays; its message follows.
+   !> Runs that a child runs before a new one replaces it, so that what they may leave in memory does not add up.
+   integer, parameter :: runs_a_child = 50
+   !> In the report of a run: its number, its status, and whether its child stays; its message follows.
    character(len=*), parameter :: head_format = '(2i12,l1,a)'
    integer, parameter :: head = 25
 
-   !> What a child reports of a member that has ended.
+   !> What a child reports of a run that has ended.
    type :: report_type
-      integer :: member = 0
+      integer :: run = 0
       type(error_type) :: error
       !> Whether the child waits for the order of another.
       logical :: stays = .false.
    end type report_type
 
-   !> A child process, if its number is not 0, and the member that it runs; 0: it waits for the order of another.
+   !> A child process, if its number is not 0, and the run that it runs; 0: it waits for the order of another.
    type :: child_type
-      integer :: process = 0, member = 0
+      integer :: process = 0, run = 0
       !> The pipe of its orders.
       integer :: orders(2) = 0
       !> How it ended, where that is known before its last report is read.
@@ -56,12 +56,12 @@ module sweep_child
 
 contains
 
-   !> Orders a child that waits to run the k-th member.
+   !> Orders a child that waits to perform the k-th run.
    subroutine order(child, k)
       class(child_type), intent(inout) :: child
       integer, intent(in) :: k
       character(len=record_length) :: record
-      child%member = k
+      child%run = k
       write (record, '(i12)') k
       call send_record(child%orders(2), record)
    end subroutine order
@@ -85,16 +85,16 @@ contains
       end if
       call close_pipe(child%orders)
       child%process = 0
-      child%member = 0
+      child%run = 0
    end subroutine wait_for_end
 
-   !> Starts a child with its first member; `child` has no member where no process could be started.
-   subroutine start(child, sweep, folder, k, pipe, run_member)
+   !> Starts a child with its first run; `child` has no run where no process could be started.
+   subroutine start(child, study, folder, k, pipe, perform_run)
       class(child_type), intent(inout) :: child
-      type(sweep_type), intent(in) :: sweep
+      type(study_type), intent(in) :: study
       character(len=*), intent(in) :: folder
       integer, intent(in) :: k, pipe
-      procedure(member_runner) :: run_member
+      procedure(study_runner) :: perform_run
       integer :: parent, process
       logical :: ok
       call open_pipe(child%orders, ok)
@@ -106,28 +106,28 @@ contains
       process = new_process()
       if (process == 0) then
          call end_with_parent(parent)
-         call run_in_child(sweep, folder, k, child%orders(1), pipe, run_member)
+         call run_in_child(study, folder, k, child%orders(1), pipe, perform_run)
       else if (process < 0) then
          call close_pipe(child%orders)
       else
          child%process = process
-         child%member = k
+         child%run = k
       end if
    end subroutine start
 
-   !> What a child does: it runs its first member and those that it is ordered to, and sends a report of each. It ends
+   !> What a child does: it runs its first run and those that it is ordered to, and sends a report of each. It ends
    !> after one that failed, as a library may then be in a bad state.
-   subroutine run_in_child(sweep, folder, first, orders, pipe, run_member)
-      type(sweep_type), intent(in) :: sweep
+   subroutine run_in_child(study, folder, first, orders, pipe, perform_run)
+      type(study_type), intent(in) :: study
       character(len=*), intent(in) :: folder
-      !> Its first member; the end of a pipe that its orders come from, and that of one for its reports.
+      !> Its first run; the end of a pipe that its orders come from, and that of one for its reports.
       integer, intent(in) :: first, orders, pipe
-      procedure(member_runner) :: run_member
+      procedure(study_runner) :: perform_run
       integer :: k, count
       logical :: stays
       k = first
-      do count = 1, members_a_child
-         call run_one(sweep, folder, k, pipe, count < members_a_child, run_member, stays)
+      do count = 1, runs_a_child
+         call run_one(study, folder, k, pipe, count < runs_a_child, perform_run, stays)
          if (.not. stays) exit
          call receive_order(orders, k)
          if (k == 0) exit
@@ -135,7 +135,7 @@ contains
       call end_child(0)
    end subroutine run_in_child
 
-   !> Waits for an order: the number of a member; 0 for the end, also where a signal has come.
+   !> Waits for an order: the number of a run; 0 for the end, also where a signal has come.
    subroutine receive_order(orders, k)
       integer, intent(in) :: orders
       integer, intent(out) :: k
@@ -152,21 +152,21 @@ contains
       if (ok) read (record, '(i12)') k
    end subroutine receive_order
 
-   !> Runs a member and sends its report, with whether the child stays for another.
-   subroutine run_one(sweep, folder, k, pipe, may_stay, run_member, stays)
-      type(sweep_type), intent(in) :: sweep
+   !> Performs a run and sends its report, with whether the child stays for another.
+   subroutine run_one(study, folder, k, pipe, may_stay, perform_run, stays)
+      type(study_type), intent(in) :: study
       character(len=*), intent(in) :: folder
       integer, intent(in) :: k, pipe
       logical, intent(in) :: may_stay
-      procedure(member_runner) :: run_member
+      procedure(study_runner) :: perform_run
       logical, intent(out) :: stays
       type(case_type) :: inputs
-      type(member_tag) :: tag
+      type(run_tag) :: tag
       type(error_type), allocatable :: error
       character(len=record_length) :: record
-      call sweep%tag(k, tag)
-      call sweep%inputs(k, inputs, error)
-      if (.not. allocated(error)) call run_member(inputs, member_file(folder, k, sweep%members), tag, error)
+      call study%tag(k, tag)
+      call study%inputs(k, inputs, error)
+      if (.not. allocated(error)) call perform_run(inputs, result_path(folder, k, study%runs), tag, error)
       if (.not. allocated(error)) error = error_type(0, '')
       stays = may_stay .and. error%status == 0
       write (record, head_format) k, error%status, stays, error%message(:min(len(error%message), record_length - head))
@@ -181,7 +181,7 @@ contains
       character(len=record_length) :: record
       call receive_record(pipe, record, ok)
       if (.not. ok) return
-      read (record(:head), head_format) report%member, report%error%status, report%stays
+      read (record(:head), head_format) report%run, report%error%status, report%stays
       report%error%message = trim(record(head + 1:))
    end subroutine read_report
-end module sweep_child
+end module study_child

@@ -1,9 +1,9 @@
-!> The folder of a sweep: the names of its files, and that they are of one sweep.
-module sweep_folder
+!> The folder of a study: the names of its files, and that they are of one study.
+module study_folder
    use text, only: to_text
    use errors, only: error_type, raise, system_error, stopped
    use case_inputs, only: case_type
-   use sweep, only: sweep_type, member_tag
+   use parameter_study, only: study_type, run_tag
    use files, only: is_regular
    use processes, only: process_id, make_folder, remove_folder, other_number
    use restart, only: restart_type, read_result, refuse_other_case
@@ -11,26 +11,26 @@ module sweep_folder
    use stop_signals, only: stop_requested, stop_reason
    implicit none (type, external)
    private
-   public :: member_file, prepare_folder, check_folder, check_neighbours
+   public :: result_path, prepare_folder, check_folder, check_neighbours
 
 contains
 
-   !> Result file of a member: FOLDER/0001.h5, with as many digits as the last one needs.
-   function member_file(folder, k, members) result(path)
+   !> Result file of a run: FOLDER/0001.h5, with as many digits as the last one needs.
+   function result_path(folder, k, runs) result(path)
       character(len=*), intent(in) :: folder
-      integer, intent(in) :: k, members
+      integer, intent(in) :: k, runs
       character(len=:), allocatable :: path, number
       number = to_text(k)
-      path = folder//'/'//repeat('0', name_width(members) - len(number))//number//'.h5'
-   end function member_file
+      path = folder//'/'//repeat('0', name_width(runs) - len(number))//number//'.h5'
+   end function result_path
 
    !> Digits in the names of the files.
-   integer function name_width(members)
-      integer, intent(in) :: members
-      name_width = max(4, len(to_text(members)))
+   integer function name_width(runs)
+      integer, intent(in) :: runs
+      name_width = max(4, len(to_text(runs)))
    end function name_width
 
-   !> Makes the folder of the members if it is not there, and tries to write into it.
+   !> Makes the folder of the runs if it is not there, and tries to write into it.
    subroutine prepare_folder(folder, error)
       character(len=*), intent(in) :: folder
       type(error_type), allocatable, intent(out) :: error
@@ -45,54 +45,54 @@ contains
       if (refusal /= '') call raise(error, system_error, 'cannot write into the folder '//folder//': '//refusal)
    end subroutine prepare_folder
 
-   !> Refuses a folder with results of another sweep: results that are not those of this sweep's members, unless they
-   !> may be overwritten, and numbers that this sweep does not have. The sweep may have grown. What cannot be read is
-   !> left to the run of its member.
-   subroutine check_folder(sweep, folder, overwrite, error)
-      type(sweep_type), intent(in) :: sweep
+   !> Refuses a folder with results of another study: results that are not those of this study's runs, unless they
+   !> may be overwritten, and numbers that this study does not have. The study may have grown. What cannot be read is
+   !> left to its run.
+   subroutine check_folder(study, folder, overwrite, error)
+      type(study_type), intent(in) :: study
       character(len=*), intent(in) :: folder
       logical, intent(in) :: overwrite
       type(error_type), allocatable, intent(out) :: error
       type(restart_type) :: found
       type(case_type) :: inputs
-      type(member_tag) :: tag
+      type(run_tag) :: tag
       character(len=:), allocatable :: path, other
       integer :: k
-      other = other_number(folder, name_width(sweep%members), sweep%members)
-      if (other /= '') call raise(error, system_error, folder//'/'//other//': is no member of this sweep, which has ' &
-         & //to_text(sweep%members)//'; remove it, or name another folder with --output')
+      other = other_number(folder, name_width(study%runs), study%runs)
+      if (other /= '') call raise(error, system_error, folder//'/'//other//': is no run of this study, which has ' &
+         & //to_text(study%runs)//'; remove it, or name another folder with --output')
       if (overwrite) return
-      do k = 1, sweep%members
-         if (stop_requested()) call raise(error, stopped, stop_reason()//'; no member was started')
+      do k = 1, study%runs
+         if (stop_requested()) call raise(error, stopped, stop_reason()//'; no run was started')
          if (allocated(error)) return
-         path = member_file(folder, k, sweep%members)
+         path = result_path(folder, k, study%runs)
          if (.not. is_readable(path, found)) cycle
-         call sweep%inputs(k, inputs, error)
+         call study%inputs(k, inputs, error)
          if (allocated(error)) return
-         call sweep%tag(k, tag)
+         call study%tag(k, tag)
          call refuse_other_case(path, inputs, tag, .true., found, error)
          if (allocated(error)) error%message = error%message//way_out
       end do
    end subroutine check_folder
 
-   !> The same for a run of the k-th member alone, which looks at the results of its neighbours only, as a study may
+   !> The same for the k-th run alone, which looks at the results of its neighbours only, as a study may
    !> have very many.
-   subroutine check_neighbours(sweep, folder, k, error)
-      type(sweep_type), intent(in) :: sweep
+   subroutine check_neighbours(study, folder, k, error)
+      type(study_type), intent(in) :: study
       character(len=*), intent(in) :: folder
       integer, intent(in) :: k
       type(error_type), allocatable, intent(out) :: error
       type(restart_type) :: found
-      type(member_tag) :: tag
+      type(run_tag) :: tag
       character(len=:), allocatable :: path
       integer :: i
-      do i = max(1, k - 1), min(sweep%members, k + 1)
-         path = member_file(folder, i, sweep%members)
+      do i = max(1, k - 1), min(study%runs, k + 1)
+         path = result_path(folder, i, study%runs)
          if (i == k) cycle
          if (.not. is_readable(path, found)) cycle
-         call sweep%tag(i, tag)
+         call study%tag(i, tag)
          if (found%tag%number == i .and. found%tag%same_up_to(tag)) cycle
-         call raise(error, system_error, path//': is of another sweep than member '//to_text(k)//way_out)
+         call raise(error, system_error, path//': is of another study than run '//to_text(k)//way_out)
          return
       end do
    end subroutine check_neighbours
@@ -107,4 +107,4 @@ contains
       call read_result(path, found, error)
       is_readable = .not. allocated(error)
    end function is_readable
-end module sweep_folder
+end module study_folder

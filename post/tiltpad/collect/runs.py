@@ -1,4 +1,4 @@
-"""Members of a study: how a run ended, the figures in its file, Poincare points."""
+"""Runs of a study: how a run ended, the figures in its file, Poincare points."""
 
 import re
 from collections.abc import Sequence
@@ -14,14 +14,14 @@ from tiltpad.files.archive import NotInRunError, RunError, damaged, reading
 from tiltpad.files.read import Run, read
 from tiltpad.files.study import POINTS, REVOLUTIONS
 
-#: Exit status of a member that was done, and those of one that did not end: running or killed, stopped.
+#: Exit status of a run that was done, and those of one that did not end: running or killed, stopped.
 DONE, UNENDED = 0, (-1, 4)
-#: Most members of a sweep.
+#: Most runs of a sweep.
 MOST = 100_000
 #: Names as the program writes them: of a swept variable, and of a dataset.
 VARIABLE = re.compile(r"[a-z]\w*%[a-z]\w*(\(\d+\))?", re.ASCII)
 DATASET = re.compile(r"[a-z]\w*", re.ASCII)
-#: Groups of a member's file that are columns of a study, and what stands before the names in them.
+#: Groups of a run's file that are columns of a study, and what stands before the names in them.
 GROUPS = {
     **dict.fromkeys(("summary", "coefficients", "modes", "statistics"), ""),
     **{group: f"{group}_" for group in ("equilibrium", "periodic")},
@@ -30,19 +30,19 @@ GROUPS = {
 OF_ANY = ("speed", "time_reached", "equilibrium_")
 
 
-class Member(NamedTuple):
+class StudyRun(NamedTuple):
     """A run as a study has it.
 
     Its fields:
 
-        path, number      its file; its number in the sweep, None of a run that is no member
+        path, number      its file; its number in the sweep, None of a run of its own
         status, reason    exit status (nan: the file cannot be read), and the reason where it failed
-        members, sweep    members of the whole sweep, and its own swept values by variable
-        marks             checksums of the sweep: up to the member before, up to this one, of all; None where
+        runs, sweep    runs of the whole sweep, and its own swept values by variable
+        marks             checksums of the sweep: up to the run before, up to this one, of all; None where
                           they are not known
         input             resolved namelist, empty where the file cannot be read
         origin            version, title and input text
-        values            its columns of the study, with their dimensions less the member
+        values            its columns of the study, with their dimensions less the run
         found             of those that are datasets of its file: their names there, and these dimensions
         labels            values of its dimensions
     """
@@ -51,7 +51,7 @@ class Member(NamedTuple):
     number: int | None
     status: float
     reason: str
-    members: int | None = None
+    runs: int | None = None
     sweep: dict[str, Any] = {}
     marks: tuple[str, str, str] | None = None
     input: dict[str, dict[str, Any]] = {}
@@ -61,31 +61,31 @@ class Member(NamedTuple):
     labels: dict[str, Sequence[Any]] = {}
 
 
-def member(path: Path) -> Member:
-    """The member of a file; only with the reason where the file cannot be read."""
+def one_run(path: Path) -> StudyRun:
+    """The run of a file; only with the reason where the file cannot be read."""
     try:
         with read(path) as run:
             return measured(path, run)
     except RunError as error:
         return unreadable(path, f"{error}")
     except Exception as error:
-        # whatever a damaged file brings about, the other members are to be collected
+        # whatever a damaged file brings about, the other runs are to be collected
         return unreadable(path, f"{damaged(f'{path}', 'it', error)}")
 
 
-def unreadable(path: Path, reason: str) -> Member:
-    """The member of a file that cannot be read; its number is that in its name, if any."""
+def unreadable(path: Path, reason: str) -> StudyRun:
+    """The run of a file that cannot be read; its number is that in its name, if any."""
     stem = path.stem
     number = int(stem) if stem.isascii() and stem.isdecimal() and len(stem) <= len(f"{MOST}") else 0
-    return Member(path, number if 1 <= number <= MOST else None, np.nan, reason)
+    return StudyRun(path, number if 1 <= number <= MOST else None, np.nan, reason)
 
 
-def measured(path: Path, run: Run) -> Member:
-    """The member of a run that can be read."""
+def measured(path: Path, run: Run) -> StudyRun:
+    """The run of a run that can be read."""
     attributes = run.attributes
     complete = bool(run.complete)
     with reading(run.path, "its place in a sweep"):
-        number, members, sweep, marks = place(attributes)
+        number, runs, sweep, marks = place(attributes)
     status = int(attributes.get("exit_status", DONE if complete else 2))
     if not complete and status == DONE:
         status = UNENDED[0]
@@ -102,12 +102,12 @@ def measured(path: Path, run: Run) -> Member:
             values |= ends_of_revolutions(run, len(points["time"]))
     count = len(values.get("poincare_y", ()))
     known = dict.fromkeys(each for _, dimensions in found.values() for each in dimensions)
-    return Member(
+    return StudyRun(
         path,
         number,
         status,
         reason,
-        members,
+        runs,
         sweep,
         marks,
         run.input,
@@ -119,20 +119,20 @@ def measured(path: Path, run: Run) -> Member:
 
 
 def place(attributes: dict[str, Any]) -> tuple[int | None, int | None, dict[str, Any], Any]:
-    """Number, members, values and marks of a member of a sweep; None, None, {} and None of another run.
+    """Number, runs, values and marks of a run of a sweep; None, None, {} and None of another run.
 
     Raises ValueError where they are not those of a sweep that the program makes.
     """
-    if "member" not in attributes:
+    if "run" not in attributes:
         return None, None, {}, None
-    number, members = (int(attributes.get(name, 0)) for name in ("member", "members"))
-    if not 1 <= number <= members <= MOST:
-        raise ValueError(f"member {number} of {members}")
+    number, runs = (int(attributes.get(name, 0)) for name in ("run", "runs"))
+    if not 1 <= number <= runs <= MOST:
+        raise ValueError(f"run {number} of {runs}")
     sweep = swept(attributes.get("sweep", ""))
     if strange := [name for name in sweep if not VARIABLE.fullmatch(name)]:
         raise ValueError(f"{strange[0]!r} is no variable")
     marks = tuple(f"{attributes.get('sweep_marks', '')}".split())
-    return number, members, sweep, marks if len(marks) == len(("before", "own", "all")) else None
+    return number, runs, sweep, marks if len(marks) == len(("before", "own", "all")) else None
 
 
 def columns(run: Run, done: bool) -> dict[str, tuple[str, tuple[str, ...]]]:
@@ -167,6 +167,6 @@ def ends_of_revolutions(run: Run, count: int) -> dict[str, Any]:
     return values
 
 
-def planned(members: Sequence[Member]) -> int:
-    """Number of members that the sweep has, by the file that says most; 0 for single runs."""
-    return max(each.members or 0 for each in members)
+def planned(runs: Sequence[StudyRun]) -> int:
+    """Number of runs that the sweep has, by the file that says most; 0 for single runs."""
+    return max(each.runs or 0 for each in runs)
