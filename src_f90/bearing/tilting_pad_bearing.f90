@@ -302,7 +302,7 @@ contains
       end associate
    end function warning
 
-   !> True where no friction puts kinks into the motion.
+   !> True where no friction puts switching points into the motion.
    pure logical function smooth(self)
       class(tilting_pad_bearing_type), intent(in) :: self
       smooth = .not. self%rubs .or. same_type_as(self%friction, no_rubbing)

@@ -35,10 +35,10 @@ contains
          direction = direction/sqrt(sum(problem%weight*direction**2))
       end do
       n = problem%orbit%intervals()
-      associate (orbit => problem%orbit, time => problem%orbit%time, kink => problem%orbit%kink)
+      associate (orbit => problem%orbit, time => problem%orbit%time, switching_point => problem%orbit%switching_point)
          twice = orbit
          call twice%set_mesh([time, time(n) + time(1:)], reshape([orbit%at, orbit%at], [problem%n, points, 2*n]), &
-            & [kink, kink(1:)])
+            & [switching_point, switching_point(1:)])
       end associate
       problem%orbit = twice
       problem%turns = 2*problem%turns

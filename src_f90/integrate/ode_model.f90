@@ -20,7 +20,7 @@ module ode_model
       !> Which states are displacements, and which their rates.
       procedure :: pairs
       procedure :: blocks
-      procedure :: kinks
+      procedure :: switching_points
       procedure :: df_dt
       !> The quantities sampled beside the states.
       procedure :: output
@@ -84,12 +84,12 @@ contains
    end subroutine blocks
 
    !> States and values of them at which the derivatives of the rates jump.
-   pure subroutine kinks(self, state, value)
+   pure subroutine switching_points(self, state, value)
       class(ode_model_type), intent(in) :: self
       integer, allocatable, intent(out) :: state(:)
       real(wp), allocatable, intent(out) :: value(:)
       allocate (state(0), value(0))
-   end subroutine kinks
+   end subroutine switching_points
 
    !> The derivatives of the rates over time, in a state that stays.
    pure function df_dt(self, t)

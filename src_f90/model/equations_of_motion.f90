@@ -49,7 +49,7 @@ module equations_of_motion
       procedure :: warning
       procedure :: pairs
       procedure :: blocks
-      procedure :: kinks
+      procedure :: switching_points
       procedure :: df_dt
       procedure :: evaluate
       procedure :: set_point
@@ -209,7 +209,7 @@ contains
    end subroutine linearize
 
    !> b := (1 - gamma J)^(-1) b, with film and contact as linearised last and friction as evaluated last: Newton's
-   !> iteration then crosses the kinks of friction, where old derivatives would mislead it.
+   !> iteration then crosses the switching points of friction, where old derivatives would mislead it.
    subroutine solve(self, gamma, b, ok)
       class(bearing_model), intent(inout) :: self
       real(wp), intent(in) :: gamma
@@ -263,18 +263,18 @@ contains
       states = self%layout%per_pad
    end subroutine blocks
 
-   !> The tilt rates at which the pivot passes a kink of its friction.
-   pure subroutine kinks(self, state, value)
+   !> The tilt rates at which the pivot passes a switching point of its friction.
+   pure subroutine switching_points(self, state, value)
       class(bearing_model), intent(in) :: self
       integer, allocatable, intent(out) :: state(:)
       real(wp), allocatable, intent(out) :: value(:)
       real(wp), allocatable :: velocity(:)
       integer :: pads, i, j
-      velocity = self%bearing%friction%kinks()
+      velocity = self%bearing%friction%switching_points()
       pads = merge(self%layout%pads, 0, self%layout%tilting)
       state = [((self%layout%tilt_rate(i), j=1, size(velocity)), i=1, pads)]
       value = [(velocity/self%bearing%pads(i)%ball_radius, i=1, pads)]
-   end subroutine kinks
+   end subroutine switching_points
 
    !> The unbalance turns; at constant speed.
    pure function df_dt(self, t)
@@ -310,7 +310,7 @@ contains
       sampled = self%bearing%sampled()
    end function sampled
 
-   !> True where no friction puts kinks into the motion.
+   !> True where no friction puts switching points into the motion.
    pure logical function smooth(self)
       class(bearing_model), intent(in) :: self
       smooth = self%bearing%smooth()

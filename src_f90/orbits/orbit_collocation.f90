@@ -14,8 +14,8 @@ module orbit_collocation
    private
    public :: orbit_equations_type, parameter_shift_type, condense, closing_equations, move_orbit, collocated_state
 
-   !> The derivatives at the end of an interval are taken this part of the way to the point before: at a kink, on the
-   !> interval's side of it. To the same order the rates are still those at the end.
+   !> The derivatives at the end of an interval are taken this part of the way to the point before: at a switching
+   !> point, on the interval's side of it. To the same order the rates are still those at the end.
    real(wp), parameter :: inward = 1e-5_wp
 
    !> The equations linearised on an orbit and eliminated inside of its intervals, all over the scales.
@@ -27,7 +27,7 @@ module orbit_collocation
       !> How the end of the period follows, (column, state): columns 1 to n from a change of the state at its start,
       !> n + 1 from what the equations lack, n + 2 (where it is asked for) from a change of the parameter by 1.
       real(wp), allocatable :: at_end(:, :)
-      !> How the ends of intervals go with these columns where they lie at a kink, s, (column, 0:intervals).
+      !> How the ends of intervals go with these columns where they lie at a switching point, s, (column, 0:intervals).
       real(wp), allocatable :: shift(:, :)
    end type orbit_equations_type
 
@@ -39,14 +39,14 @@ module orbit_collocation
       real(wp), allocatable :: rates(:, :, :)
    end type parameter_shift_type
 
-   !> The shortest that intervals between kinks become at once, over what they were.
+   !> The shortest that intervals between switching points become at once, over what they were.
    real(wp), parameter :: shortest = 0.1_wp
 
 contains
 
    !> Linearises the equations on an orbit and eliminates the points inside of the intervals: sets the orbit's monodromy
    !> matrix and residual. A numerics error where the model refuses a state or an interval's equations have no solution.
-   !> Ends of intervals at a kink go where the orbit passes it; between them the mesh is stretched.
+   !> Ends of intervals at a switching point go where the orbit passes it; between them the mesh is stretched.
    subroutine condense(model, orbit, equations, error, shift)
       class(ode_model_type), intent(inout) :: model
       type(orbit_type), intent(inout) :: orbit
@@ -60,9 +60,9 @@ contains
       logical :: ok
       n = model%n
       columns = n + merge(2, 1, present(shift))
-      constants = columns - n + merge(2, 0, any(orbit%kink > 0))
+      constants = columns - n + merge(2, 0, any(orbit%switching_point > 0))
       equations%constants = constants
-      ! the last column is how far the next end at a kink goes
+      ! the last column is how far the next end at a switching point goes
       associate (rows => padded(columns + 1))
          allocate (gap(n, constants, points), start(rows, n + constants), at(rows, n, points))
       end associate
@@ -78,7 +78,7 @@ contains
       do k = 1, orbit%intervals()
          if (k > to) then
             from = to
-            to = next_kink(orbit, k)
+            to = next_switching_point(orbit, k)
             if (to < orbit%intervals()) equations%shift(columns + 1, to) = 1
          end if
          call linearize(model, orbit, k, jacobian, gap, error, shift)
@@ -92,7 +92,8 @@ contains
          if (constants > columns - n) start(:columns + 1, columns + 1:) = stretched(orbit, equations%shift, from, to, k)
          call equations%maps%follow(k, points, start, at)
          start(:, :n) = at(:, :, points)
-         if (k == to .and. k < orbit%intervals()) call put_at_kink(model, orbit, k, start(:columns + 1, :n), &
+         if (k == to .and. k < orbit%intervals()) call put_at_switching_point(model, orbit, k, start(:columns + 1, &
+            :n), &
             & equations%shift(:, k))
       end do
       equations%at_end = start(:columns, :n)
@@ -104,15 +105,15 @@ contains
       orbit%residual = max(orbit%residual, maxval(abs(gap_of(orbit))))
    end subroutine condense
 
-   !> The end at a kink, or of the period, that comes next at or behind the end of interval k.
-   pure integer function next_kink(orbit, k) result(end)
+   !> The end at a switching point, or of the period, that comes next at or behind the end of interval k.
+   pure integer function next_switching_point(orbit, k) result(end)
       type(orbit_type), intent(in) :: orbit
       integer, intent(in) :: k
       end = k
-      do while (end < orbit%intervals() .and. orbit%kink(end) <= 0)
+      do while (end < orbit%intervals() .and. orbit%switching_point(end) <= 0)
          end = end + 1
       end do
-   end function next_kink
+   end function next_switching_point
 
    !> By how much both ends of interval k go, s, (column, end), where the mesh is stretched between two ends.
    pure function stretched(orbit, shift, from, to, k)
@@ -127,8 +128,8 @@ contains
       end do
    end function stretched
 
-   !> Lets end k go so far that the state is at the kink there, which puts this into how all states follow.
-   pure subroutine put_at_kink(model, orbit, k, states, shift)
+   !> Lets end k go so far that the state is at the switching point there, which puts this into how all states follow.
+   pure subroutine put_at_switching_point(model, orbit, k, states, shift)
       class(ode_model_type), intent(in) :: model
       type(orbit_type), intent(in) :: orbit
       integer, intent(in) :: k
@@ -138,9 +139,9 @@ contains
       real(wp), allocatable :: value(:)
       integer :: i, columns
       columns = size(shift) - 1
-      call model%kinks(state, value)
+      call model%switching_points(state, value)
       shift = 0
-      associate (s => state(orbit%kink(k)), v => value(orbit%kink(k)), n => size(states, 2))
+      associate (s => state(orbit%switching_point(k)), v => value(orbit%switching_point(k)), n => size(states, 2))
          if (abs(states(columns + 1, s)) > 0) then
             shift(:columns) = -states(:columns, s)
             shift(n + 1) = shift(n + 1) + (v - orbit%at(s, points, k))/orbit%scale(s)
@@ -151,7 +152,7 @@ contains
          states(:columns, i) = states(:columns, i) + shift(:columns)*states(columns + 1, i)
       end do
       states(columns + 1, :) = 0
-   end subroutine put_at_kink
+   end subroutine put_at_switching_point
 
    !> By how much the end misses the start, over the scales.
    pure function gap_of(orbit) result(gap)
@@ -202,7 +203,7 @@ contains
          do k = 1, orbit%intervals()
             if (k > to) then
                from = to
-               to = next_kink(orbit, k)
+               to = next_switching_point(orbit, k)
             end if
             start(:, size(columns) + 1:) = stretched(orbit, shift, from, to, k)
             shift(:, k) = start(:, size(columns) + 2)
@@ -224,7 +225,8 @@ contains
       orbit%time = orbit%time + share*shift(1, :)
    end subroutine move_orbit
 
-   !> Where two ends at kinks would come together, or change their order, the one that goes further lies there no more.
+   !> Where two ends at switching points would come together, or change their order, the one that goes further lies
+   !> there no more.
    pure subroutine keep_order(orbit, shift, kept)
       type(orbit_type), intent(inout) :: orbit
       real(wp), intent(in) :: shift(0:)
@@ -234,11 +236,13 @@ contains
       kept = .true.
       from = 0
       do while (kept .and. from < orbit%intervals())
-         to = next_kink(orbit, from + 1)
+         to = next_switching_point(orbit, from + 1)
          associate (length => orbit%time(to) - orbit%time(from))
-            kept = length + shift(to) - shift(from) >= shortest*length .or. max(orbit%kink(from), orbit%kink(to)) <= 0
+            kept = length + shift(to) - shift(from) >= shortest*length .or. max(orbit%switching_point(from), &
+               orbit%switching_point(to)) <= 0
          end associate
-         if (.not. kept) orbit%kink(merge(from, to, abs(shift(from)) > abs(shift(to)) .or. orbit%kink(to) <= 0)) = -1
+         if (.not. kept) orbit%switching_point(merge(from, to, abs(shift(from)) > abs(shift(to)) &
+            .or. orbit%switching_point(to) <= 0)) = -1
          from = to
       end do
    end subroutine keep_order

@@ -15,8 +15,9 @@ module orbit_polynomials
    type :: orbit_type
       !> Ends of the intervals, s, (0:intervals).
       real(wp), allocatable :: time(:)
-      !> Which of the model's kinks the orbit passes at each end, (0:intervals); 0: none; -1: one that lost its place.
-      integer, allocatable :: kink(:)
+      !> Which of the model's switching points the orbit passes at each end, (0:intervals); 0: none; -1: one that lost
+      !> its place.
+      integer, allocatable :: switching_point(:)
       !> State at the start of the period; states at the points, (state, point, interval): the last point of an interval
       !> is its end.
       real(wp), allocatable :: start(:), at(:, :, :)
@@ -110,12 +111,12 @@ contains
       end do
    end function interval_of
 
-   !> Puts the same motion on intervals that end at other times, s; the first and the last stay. Kinks at them, as in
-   !> the component; none if they are not given.
-   pure subroutine change_mesh(self, time, kink)
+   !> Puts the same motion on intervals that end at other times, s; the first and the last stay. Switching points at
+   !> them, as in the component; none if they are not given.
+   pure subroutine change_mesh(self, time, switching_point)
       class(orbit_type), intent(inout) :: self
       real(wp), intent(in) :: time(0:)
-      integer, intent(in), optional :: kink(0:)
+      integer, intent(in), optional :: switching_point(0:)
       real(wp), allocatable :: at(:, :, :)
       integer :: k, i
       allocate (at(size(self%start), points, ubound(time, 1)))
@@ -124,18 +125,18 @@ contains
             call self%state_at(time(k - 1) + place(i)*(time(k) - time(k - 1)), at(:, i, k))
          end do
       end do
-      call self%set_mesh(time, at, kink)
+      call self%set_mesh(time, at, switching_point)
    end subroutine change_mesh
 
-   !> Takes ends of intervals, s, and the states at their points; kinks as for `change_mesh`.
-   pure subroutine set_mesh(self, time, at, kink)
+   !> Takes ends of intervals, s, and the states at their points; switching points as for `change_mesh`.
+   pure subroutine set_mesh(self, time, at, switching_point)
       class(orbit_type), intent(inout) :: self
       real(wp), intent(in) :: time(0:), at(:, :, :)
-      integer, intent(in), optional :: kink(0:)
-      if (allocated(self%time)) deallocate (self%time, self%kink)
+      integer, intent(in), optional :: switching_point(0:)
+      if (allocated(self%time)) deallocate (self%time, self%switching_point)
       allocate (self%time(0:ubound(time, 1)), source=time)
-      allocate (self%kink(0:ubound(time, 1)), source=0)
-      if (present(kink)) self%kink(:) = kink
+      allocate (self%switching_point(0:ubound(time, 1)), source=0)
+      if (present(switching_point)) self%switching_point(:) = switching_point
       self%at = at
       self%correction = huge(self%correction)
    end subroutine set_mesh

@@ -5,7 +5,7 @@ module orbit_problem
    use errors, only: error_type
    use newton_method, only: branch_problem_type, place_part_type, branch_point_type
    use orbit_polynomials, only: orbit_type, points, place
-   use kink_mesh, only: follow_kinks
+   use event_mesh, only: follow_switching_points
    use orbit_collocation, only: orbit_equations_type, parameter_shift_type, condense, closing_equations, move_orbit, &
       & collocated_state
    use parametric_ode, only: parametric_ode_type
@@ -93,7 +93,7 @@ contains
       self%refused = allocated(error)
       if (self%refused) return
       call set_period(self%orbit, self%period())
-      call follow_kinks(self%ode%model, self%orbit)
+      call follow_switching_points(self%ode%model, self%orbit)
       if (size(matrix, 2) > self%n) then
          allocate (shift)
          call self%set_shift(shift, error)
@@ -157,8 +157,8 @@ contains
       correction = max(correction, abs(change(self%n + 1)))
    end subroutine move
 
-   !> The mesh goes along, and with it the kinks; where the orbit has changed so much that it fits its mesh less, from a
-   !> new one.
+   !> The mesh goes along, and with it the switching points; where the orbit has changed so much that it fits its mesh
+   !> less, from a new one.
    subroutine predict(self, change)
       class(orbit_problem_type), intent(inout) :: self
       real(wp), intent(in) :: change(:)
@@ -237,8 +237,8 @@ contains
       end if
    end function kind_of
 
-   !> Turns, parameter, first defect, intervals, and their ends, the kinks there, start and points; where the model is
-   !> sought.
+   !> Turns, parameter, first defect, intervals, and their ends, the switching points there, start and points; where the
+   !> model is sought.
    pure subroutine get_place(self, place)
       class(orbit_problem_type), intent(in) :: self
       real(wp), allocatable, intent(out) :: place(:)
@@ -246,7 +246,7 @@ contains
       call self%ode%get_start(sought)
       associate (orbit => self%orbit)
          place = [real(self%turns, wp), self%parameter, self%first_defect, real(orbit%intervals(), wp), orbit%time, &
-            & real(orbit%kink, wp), orbit%start, orbit%at, sought]
+            & real(orbit%switching_point, wp), orbit%start, orbit%at, sought]
       end associate
    end subroutine get_place
 
@@ -270,7 +270,7 @@ contains
          & 'state and viscosities from which equilibria are sought')]
    end function parts_of
 
-   !> The mesh grows, every turn has an interval, and kinks are among those of the model.
+   !> The mesh grows, every turn has an interval, and switching points are among those of the model.
    pure logical function fits(self, place)
       class(orbit_problem_type), intent(in) :: self
       real(wp), intent(in) :: place(:)
@@ -285,9 +285,9 @@ contains
       ends = nint(place(4)) + 1
       fits = size(place) == o + 2*ends + self%n*(1 + points*(ends - 1)) + size(sought)
       if (.not. fits) return
-      call self%ode%model%kinks(state, value)
-      associate (time => place(o + 1:o + ends), kink => place(o + ends + 1:o + 2*ends))
-         fits = all(time(2:) > time(:ends - 1)) .and. all(kink >= -1 .and. kink <= size(state))
+      call self%ode%model%switching_points(state, value)
+      associate (time => place(o + 1:o + ends), switching_point => place(o + ends + 1:o + 2*ends))
+         fits = all(time(2:) > time(:ends - 1)) .and. all(switching_point >= -1 .and. switching_point <= size(state))
       end associate
    end function fits
 
@@ -300,10 +300,10 @@ contains
       self%first_defect = place(3)
       ends = nint(place(4)) + 1
       o = 4 + 2*ends
-      associate (orbit => self%orbit, time => place(5:4 + ends), kink => place(5 + ends:o))
+      associate (orbit => self%orbit, time => place(5:4 + ends), switching_point => place(5 + ends:o))
          orbit%start = place(o + 1:o + self%n)
          o = o + self%n
-         call orbit%set_mesh(time, reshape(place(o + 1:), [self%n, points, ends - 1]), nint(kink))
+         call orbit%set_mesh(time, reshape(place(o + 1:), [self%n, points, ends - 1]), nint(switching_point))
          o = o + size(orbit%at)
       end associate
       call self%ode%set_start(place(o + 1:))

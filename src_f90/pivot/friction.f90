@@ -29,8 +29,8 @@ module friction
       !> Velocity over which the force changes from one direction to the other, m/s; far above all others
       !> where there is no such velocity.
       procedure :: sticking_velocity
-      !> Velocities at which the force has a kink, m/s.
-      procedure :: kinks
+      !> Velocities at which the force has a switching point, m/s.
+      procedure :: switching_points
    end type friction_law
 
    abstract interface
@@ -56,7 +56,7 @@ module friction
    contains
       procedure :: evaluate => evaluate_bengisu_akay
       procedure :: sticking_velocity => critical_velocity
-      procedure :: kinks => kinks_of_bengisu_akay
+      procedure :: switching_points => switching_points_of_bengisu_akay
    end type bengisu_akay_friction
 
    !> LuGre amended for a varying normal force, eqs (23)-(25).
@@ -67,7 +67,7 @@ module friction
       real(wp) :: bristle_stiffness, bristle_damping, viscous_coefficient
    contains
       procedure :: evaluate => evaluate_lugre
-      procedure :: kinks => kinks_of_lugre
+      procedure :: switching_points => switching_points_of_lugre
    end type lugre_friction
 
 contains
@@ -84,23 +84,23 @@ contains
       sticking_velocity = 1e30_wp
    end function sticking_velocity
 
-   pure function kinks(self)
+   pure function switching_points(self)
       class(friction_law), intent(in) :: self
-      real(wp), allocatable :: kinks(:)
-      allocate (kinks(0))
-   end function kinks
+      real(wp), allocatable :: switching_points(:)
+      allocate (switching_points(0))
+   end function switching_points
 
-   pure function kinks_of_bengisu_akay(self) result(kinks)
+   pure function switching_points_of_bengisu_akay(self) result(switching_points)
       class(bengisu_akay_friction), intent(in) :: self
-      real(wp), allocatable :: kinks(:)
-      kinks = [-self%critical_velocity, 0.0_wp, self%critical_velocity]
-   end function kinks_of_bengisu_akay
+      real(wp), allocatable :: switching_points(:)
+      switching_points = [-self%critical_velocity, 0.0_wp, self%critical_velocity]
+   end function switching_points_of_bengisu_akay
 
-   pure function kinks_of_lugre(self) result(kinks)
+   pure function switching_points_of_lugre(self) result(switching_points)
       class(lugre_friction), intent(in) :: self
-      real(wp), allocatable :: kinks(:)
-      kinks = [0.0_wp]
-   end function kinks_of_lugre
+      real(wp), allocatable :: switching_points(:)
+      switching_points = [0.0_wp]
+   end function switching_points_of_lugre
 
    pure real(wp) function critical_velocity(self)
       class(bengisu_akay_friction), intent(in) :: self

@@ -48,7 +48,7 @@ def test_the_file(run, tmp_path):
         assert (np.diff(modulus) < 1e-12).all()
         # 1e-3: the films' tables; without them test_periodic_orbits is as close as 1e-6
         assert (real[0], abs(imag[0])) == pytest.approx((-0.0504, 0.2970), abs=1e-3)
-        # before the first rounds there may be fewer intervals: kinks add some
+        # before the first rounds there may be fewer intervals: switching points add some
         most = 3 * group["intervals"][()] * group["iterations"][()]
         assert 0.9 * most < group["evaluations"][()] <= most
         assert file["statistics/rhs_evaluations"][()] > group["evaluations"][()]
@@ -120,7 +120,7 @@ def factors(series):
     return np.linalg.eigvals(series[:, 1:] @ np.linalg.pinv(series[:, :-1]))
 
 
-def test_a_kink_that_is_passed_slowly(run, tmp_path):
+def test_a_switching_point_that_is_passed_slowly(run, tmp_path):
     """Pads creep while they stick: where ends of intervals followed each passage of the velocity 0, the
     corrections fell by a tenth a round only, and no orbit was found before the march had doubled.
     """

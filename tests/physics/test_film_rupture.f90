@@ -77,12 +77,12 @@ contains
       answer = r(1)
    end function answer
 
-   !> The clipped pressure has a kink where the film ends. Along the arc the modes find it, so that their error
-   !> is that for the whole film, of fourth order. Across, the eight Gauss points on the half width miss a kink
-   !> by which the slope jumps by J by at most 2.8e-3 J times its square (by trying all places), however many
-   !> the cells; J comes from the cells of the reference, so that the bound knows nothing of the modes. The
-   !> reference is extrapolated over-relaxation. A factor of its second order changes with the place of the
-   !> kink in its cell, and is not extrapolated: a quarter of the last change from grid to grid is allowed.
+   !> The clipped pressure has a switching point where the film ends. Along the arc the modes find it, so that their
+   !> error is that for the whole film, of fourth order. Across, the eight Gauss points on the half width miss a
+   !> switching point by which the slope jumps by J by at most 2.8e-3 J times its square (by trying all places), however
+   !> many the cells; J comes from the cells of the reference, so that the bound knows nothing of the modes. The
+   !> reference is extrapolated over-relaxation. A factor of its second order changes with the place of the switching
+   !> point in its cell, and is not extrapolated: a quarter of the last change from grid to grid is allowed.
    subroutine guembel(what, film, motion)
       character(len=*), intent(in) :: what
       type(pad_gap_type), intent(in) :: film
@@ -111,7 +111,7 @@ contains
       end do
    end subroutine guembel
 
-   !> What the Gauss points across miss at most at the kinks of a clipped field.
+   !> What the Gauss points across miss at most at the switching points of a clipped field.
    pure real(wp) function missed_across(film, p)
       type(pad_gap_type), intent(in) :: film
       real(wp), intent(in) :: p(:, :)
@@ -392,7 +392,7 @@ contains
       direction(3:4) = -path%velocity_cosine*sin(angle)
    end function direction
 
-   !> The second difference of the force of auto along a path: where the force is smooth or has a kink, with
+   !> The second difference of the force of auto along a path: where the force is smooth or has a switching point, with
    !> steps ten times shorter ten times less at least, down to the modes' error; a jump would stay. The forces
    !> are the same on the way back, to rounding, whatever was solved before.
    subroutine no_chatter(path)

@@ -126,8 +126,8 @@ contains
 
    !> Intervals of a quarter of the length leave an error of the multipliers that is 4^5 times smaller, or, where the
    !> motion is stiff, something between 4^3 (the order of the states inside an interval) and this; measured are 400 and
-   !> more, 170 with LuGre and 90 with Bengisu-Akay, where rounding leaves 1e-9. With kinks beside the ends of intervals
-   !> the first mesh would err by 1e-5 and more. The error is the difference to intervals of an eighth.
+   !> more, 170 with LuGre and 90 with Bengisu-Akay, where rounding leaves 1e-9. With switching points beside the ends
+   !> of intervals the first mesh would err by 1e-5 and more. The error is the difference to intervals of an eighth.
    subroutine order(friction, tolerance, factor, limit)
       character(len=*), intent(in) :: friction
       !> Of the march; factor by which the error falls; what is left of it.
@@ -155,12 +155,12 @@ contains
       complex(wp), allocatable :: values(:)
       type(error_type), allocatable :: error
       real(wp) :: mesh(0:2*orbit%intervals())
-      integer :: kink(0:2*orbit%intervals()), round
+      integer :: switching_point(0:2*orbit%intervals()), round
       mesh(0::2) = orbit%time
       mesh(1::2) = 0.5_wp*(orbit%time(:orbit%intervals() - 1) + orbit%time(1:))
-      kink = 0
-      kink(0::2) = orbit%kink
-      call orbit%change_mesh(mesh, kink)
+      switching_point = 0
+      switching_point(0::2) = orbit%switching_point
+      call orbit%change_mesh(mesh, switching_point)
       do round = 1, 12
          call newton_round(model, orbit, error, values)
          call expect_no_error(error, 'a round')

@@ -395,7 +395,7 @@ contains
          if (.not. length > 0) exit
          place = place + step/max(1.0_wp, length)
       end do
-      ! kinks may keep it from the last digits
+      ! switching points may keep it from the last digits
       ok = ok .and. norm2(force) < 0.1_wp*reference
       if (ok) y = state_on_curves(model, curves, place, at, t)
    end subroutine journal_on_curves

@@ -255,7 +255,7 @@ contains
       end do
    end subroutine polynomials
 
-   !> A step of first order looks at its two ends alone: no older kink is seen.
+   !> A step of first order looks at its two ends alone: no older switching point is seen.
    subroutine youngest_points()
       type(step_history_type) :: history
       real(wp) :: found(1)

@@ -159,7 +159,7 @@ contains
       end do
    end function step_scale
 
-   !> Pads carrying, tilted, in motion, sliding at some mm/s: away from the kinks at rest and at v_c.
+   !> Pads carrying, tilted, in motion, sliding at some mm/s: away from the switching points at rest and at v_c.
    function moving_state(model) result(y)
       type(bearing_model), intent(in) :: model
       real(wp), allocatable :: y(:)

@@ -128,7 +128,7 @@ contains
       end do
    end subroutine steady_sliding
 
-   !> Slopes of force and rate by differences, away from the kink at rest. Steps of 1e-4 of velocity and
+   !> Slopes of force and rate by differences, away from the switching point at rest. Steps of 1e-4 of velocity and
    !> deflection: errors below 1e-7 of f/v (the Stribeck term has third derivatives of order 10 f/v**3 and
    !> less), rounding 1e-12.
    subroutine lugre_slopes(exponent)

@@ -45,7 +45,7 @@ module orbit_problems
    contains
       procedure :: rates => bent_rates
       procedure :: jacobian => bent_jacobian
-      procedure :: kinks => bend_of_spring
+      procedure :: switching_points => bend_of_spring
       procedure :: df_dt => turn_of_force
    end type bent_problem
 
@@ -167,7 +167,7 @@ program test_orbit_collocation
    if (runs('state_at')) call state_at()
    if (runs('limit_cycle')) call limit_cycle()
    if (runs('blocks')) call blocks()
-   if (runs('kinks')) call kinks()
+   if (runs('switching points')) call switching_points()
    call report()
 
 contains
@@ -308,10 +308,10 @@ contains
       call expect_close(orbit(2)%residual, 0.0_wp, 1e-12_wp, 'its equations are satisfied')
    end subroutine blocks
 
-   !> Ends of intervals at a kink: the orbit passes it exactly there, Newton's method stays quadratic, and the
-   !> multipliers keep their order, which a kink inside of an interval would take from them. Their product is
-   !> exp(-4 pi d), and their sum is that of the two springs, each for the time between two ends.
-   subroutine kinks()
+   !> Ends of intervals at a switching point: the orbit passes it exactly there, Newton's method stays quadratic, and
+   !> the multipliers keep their order, which a switching point inside of an interval would take from them. Their
+   !> product is exp(-4 pi d), and their sum is that of the two springs, each for the time between two ends.
+   subroutine switching_points()
       type(bent_problem), target :: problem
       type(orbit_type) :: orbit
       type(error_type), allocatable :: error
@@ -329,11 +329,11 @@ contains
                & //to_text(orbit%correction))
             last = orbit%correction
          end do
-         call expect(count(orbit%kink == 1) == 2, 'two passages')
-         if (count(orbit%kink == 1) /= 2) return
-         passages = pack(orbit%time, orbit%kink == 1)
+         call expect(count(orbit%switching_point == 1) == 2, 'two passages')
+         if (count(orbit%switching_point == 1) /= 2) return
+         passages = pack(orbit%time, orbit%switching_point == 1)
          call orbit%state_at(passages(1), y)
-         call expect_close(y(1), problem%bend, 1e-14_wp, 'the kink is there')
+         call expect_close(y(1), problem%bend, 1e-14_wp, 'the switching point is there')
          call expect_close(real(product(values)), exp(-4*pi*problem%damping), 1e-6_wp, 'product of the multipliers')
          between = passages(2) - passages(1)
          if (orbit%start(1) > problem%bend) between = 2*pi - between
@@ -341,7 +341,7 @@ contains
       end do
       call expect(errors(1)/errors(2) > 28 .and. errors(1)/errors(2) < 36, 'order 5: '//to_text(errors(1))//' to ' &
          & //to_text(errors(2)))
-   end subroutine kinks
+   end subroutine switching_points
 
    !> The trace of the product of both springs' exact solutions, that of the stiffer one for so long in a period.
    real(wp) function sum_of_multipliers(problem, length) result(sum)

@@ -60,7 +60,7 @@ contains
    !> clearance times the speed) in the five-point form: error h**4/30 of the fifth derivative, which the
    !> clearance over the minimum film thickness, up to 4, raises to the fifth power: 1e-12 * 1024 * some 10 = 1e-8.
    !> Solutions converged to 1e-12 (residual, amplified by 50 on this grid) give 1e-10/h = 1e-7.
-   !> With rupture the force has a kink where a cell leaves or joins the film; where the cells of the film
+   !> With rupture the force has a switching point where a cell leaves or joins the film; where the cells of the film
    !> are not the same at all places of the stencil, the motion is passed over.
    subroutine slopes(cavitation)
       integer, intent(in) :: cavitation

@@ -99,7 +99,7 @@ contains
       bearing = new_tilting_pad_bearing(inputs)
    end function rough_bearing
 
-   !> Pads that carry, tilted, in motion, sliding at some mm/s: away from the kinks of friction.
+   !> Pads that carry, tilted, in motion, sliding at some mm/s: away from the switching points of friction.
    subroutine draw(journal, pads)
       type(journal_motion), intent(out) :: journal
       type(pad_state), intent(out) :: pads(2)

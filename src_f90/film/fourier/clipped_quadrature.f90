@@ -1,6 +1,6 @@
 !> Integrals of a smooth function over a line, and over the part of it where it is positive, from its values at
 !> equally spaced nodes: there by the cubic through four nodes, cell by cell, up to where it crosses zero. The
-!> weights move with the crossing without a jump, and the integral does so without a kink.
+!> weights move with the crossing without a jump, and the integral does so without a switching point.
 module clipped_quadrature
    use kinds, only: wp
    implicit none (type, external)

@@ -1,6 +1,7 @@
-!> The kinks that an orbit passes: intervals of its collocation end there, or the polynomials would lose their order.
-!> Such an end goes with the orbit as Newton's method corrects it; here it is found that there is, or is no longer, one.
-module kink_mesh
+!> The switching points that an orbit passes: intervals of its collocation end there, or the polynomials would lose
+!> their order. Such an end goes with the orbit as Newton's method corrects it; here it is found that there is, or is no
+!> longer, one.
+module event_mesh
    ! heap: arrays as long as a run
    use kinds, only: wp
    use roots, only: root_bracket
@@ -8,7 +9,7 @@ module kink_mesh
    use orbit_polynomials, only: orbit_type, points, place
    implicit none (type, external)
    private
-   public :: follow_kinks
+   public :: follow_switching_points
 
    !> Ends that are closer than this part of the period are one.
    real(wp), parameter :: rounding = 1e-9_wp
@@ -16,10 +17,10 @@ module kink_mesh
    real(wp), parameter :: closeness = 1e-14_wp
    integer, parameter :: most_cuts = 50
 
-   !> A mesh in the making: ends of intervals, s, and the kinks at them.
+   !> A mesh in the making: ends of intervals, s, and the switching points at them.
    type :: mesh_type
       real(wp), allocatable :: time(:)
-      integer, allocatable :: kink(:)
+      integer, allocatable :: switching_point(:)
       logical :: changed = .false.
    contains
       procedure :: put_end
@@ -28,31 +29,32 @@ module kink_mesh
 
 contains
 
-   !> Puts an end of an interval wherever an orbit passes a kink of its model, and drops those where it no longer does.
-   subroutine follow_kinks(model, orbit)
+   !> Puts an end of an interval wherever an orbit passes a switching point of its model, and drops those where it no
+   !> longer does.
+   subroutine follow_switching_points(model, orbit)
       class(ode_model_type), intent(in) :: model
       type(orbit_type), intent(inout) :: orbit
       type(mesh_type) :: mesh
       integer, allocatable :: state(:)
       real(wp), allocatable :: value(:)
-      integer :: kink, k
-      call model%kinks(state, value)
+      integer :: switching_point, k
+      call model%switching_points(state, value)
       mesh%time = [orbit%time]
-      mesh%kink = [orbit%kink]
+      mesh%switching_point = [orbit%switching_point]
       do k = 1, orbit%intervals()
-         if (orbit%kink(k) < 0) call mesh%drop_end(orbit%time(k))
+         if (orbit%switching_point(k) < 0) call mesh%drop_end(orbit%time(k))
       end do
-      do kink = 1, size(state)
-         call follow_kink(orbit, kink, state(kink), value(kink), mesh)
+      do switching_point = 1, size(state)
+         call follow_switching_point(orbit, switching_point, state(switching_point), value(switching_point), mesh)
       end do
-      if (mesh%changed) call orbit%change_mesh(mesh%time, mesh%kink)
-   end subroutine follow_kinks
+      if (mesh%changed) call orbit%change_mesh(mesh%time, mesh%switching_point)
+   end subroutine follow_switching_points
 
-   !> Does so for one kink. The state is on different sides before and after an end that lies there, and elsewhere on
-   !> one side from point to point.
-   subroutine follow_kink(orbit, kink, state, value, mesh)
+   !> Does so for one switching point. The state is on different sides before and after an end that lies there, and
+   !> elsewhere on one side from point to point.
+   subroutine follow_switching_point(orbit, switching_point, state, value, mesh)
       type(orbit_type), intent(in) :: orbit
-      integer, intent(in) :: kink, state
+      integer, intent(in) :: switching_point, state
       real(wp), intent(in) :: value
       type(mesh_type), intent(inout) :: mesh
       logical :: at_end
@@ -64,14 +66,15 @@ contains
       do k = 1, orbit%intervals()
          do i = 1, points
             now = orbit%time(k - 1) + place(i)*(orbit%time(k) - orbit%time(k - 1))
-            if (i == points .and. orbit%kink(k) == kink) then
+            if (i == points .and. orbit%switching_point(k) == switching_point) then
                at_end = .true.
             else
                above = orbit%at(state, i, k) - value
                if (at_end) then
                   if (above < 0 .eqv. last < 0) call mesh%drop_end(orbit%time(k - 1))
                else if (above < 0 .neqv. last < 0) then
-                  call mesh%put_end(passage(orbit, state, value, root_bracket([before, now], [last, above])), kink)
+                  call mesh%put_end(passage(orbit, state, value, root_bracket([before, now], [last, above])), &
+                     switching_point)
                end if
                at_end = .false.
                last = above
@@ -79,22 +82,23 @@ contains
             before = now
          end do
       end do
-   end subroutine follow_kink
+   end subroutine follow_switching_point
 
-   !> An end at a kink at time t, s: a new one, or the one that is there, if it lies at no other kink.
-   pure subroutine put_end(self, t, kink)
+   !> An end at a switching point at time t, s: a new one, or the one that is there, if it lies at no other switching
+   !> point.
+   pure subroutine put_end(self, t, switching_point)
       class(mesh_type), intent(inout) :: self
       real(wp), intent(in) :: t
-      integer, intent(in) :: kink
+      integer, intent(in) :: switching_point
       integer :: near, before
       near = minloc(abs(self%time - t), dim=1)
       if (abs(self%time(near) - t) <= rounding*self%time(size(self%time))) then
-         if (self%kink(near) /= 0 .or. near == 1 .or. near == size(self%time)) return
-         self%kink(near) = kink
+         if (self%switching_point(near) /= 0 .or. near == 1 .or. near == size(self%time)) return
+         self%switching_point(near) = switching_point
       else
          before = count(self%time < t)
          self%time = [self%time(:before), t, self%time(before + 1:)]
-         self%kink = [self%kink(:before), kink, self%kink(before + 1:)]
+         self%switching_point = [self%switching_point(:before), switching_point, self%switching_point(before + 1:)]
       end if
       self%changed = .true.
    end subroutine put_end
@@ -103,7 +107,7 @@ contains
    pure subroutine drop_end(self, t)
       class(mesh_type), intent(inout) :: self
       real(wp), intent(in) :: t
-      self%kink = pack(self%kink, abs(self%time - t) > 0)
+      self%switching_point = pack(self%switching_point, abs(self%time - t) > 0)
       self%time = pack(self%time, abs(self%time - t) > 0)
       self%changed = .true.
    end subroutine drop_end
@@ -125,4 +129,4 @@ contains
          call bracket%narrow(passage, y(state) - value)
       end do
    end function passage
-end module kink_mesh
+end module event_mesh
