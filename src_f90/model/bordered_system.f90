@@ -9,7 +9,7 @@ module bordered_system
    public :: bordered_matrix, new_bordered_matrix
 
    !> Rows are filled up to a multiple of this, for vector instructions.
-   integer, parameter :: lanes = 4
+   integer, parameter :: simd_width = 4
    !> Border of a rigid journal's rates, and the length of the rows of its pads.
    integer, parameter :: usual_border = 2, usual_width = 8
 
@@ -32,7 +32,7 @@ contains
       integer, intent(in) :: border, m, blocks
       type(bordered_matrix) :: matrix
       integer :: width
-      width = max(usual_width, lanes*((m + border + lanes)/lanes))
+      width = max(usual_width, simd_width*((m + border + simd_width)/simd_width))
       matrix%border = border
       matrix%m = m
       allocate (matrix%corner(border, border), source=0.0_wp)

@@ -4,7 +4,7 @@
 !> neither with its cube nor with its square. Displacements x, x' = v, follow from their rates and are no unknowns.
 module interval_maps
    use kinds, only: wp
-   use whole_vectors, only: lanes, padded, apply
+   use simd_padding, only: simd_width, padded, apply
    use ode_model, only: ode_model_type
    use orbit_polynomials, only: points
    implicit none (type, external)
@@ -249,14 +249,14 @@ contains
          swapped = rows(:, best)
          rows(:, best) = rows(:, i)
          rows(:, i) = (1/swapped(i))*swapped
-         ! whole vectors, from that with number i; those before it are no longer read
-         first = lanes*((i - 1)/lanes)
+         ! whole SIMD vectors, from that with number i; those before it are no longer read
+         first = simd_width*((i - 1)/simd_width)
          do j = 1, n
             if (j == i) cycle
             factor = rows(i, j)
-            do l = first, width - 1, lanes
+            do l = first, width - 1, simd_width
                !$omp simd
-               do k = 1, lanes
+               do k = 1, simd_width
                   rows(l + k, j) = rows(l + k, j) - factor*rows(l + k, i)
                end do
             end do
@@ -266,7 +266,7 @@ contains
    end subroutine reduce
 
    !> Changes of the points of interval k, from point `first` on, that follow from changes at its start, all over the
-   !> scales: (column, state or constant), (column, state, point); one column, or whole vectors of them.
+   !> scales: (column, state or constant), (column, state, point); one column, or whole SIMD vectors of them.
    pure subroutine follow(self, k, first, start, at)
       class(interval_maps_type), intent(in) :: self
       integer, intent(in) :: k, first

@@ -6,7 +6,7 @@ program test_rupture_table
    use pad_gap, only: pad_gap_type
    use unit_pad, only: unit_pad_type, new_unit_pad
    use ruptured_drive, only: ruptured_drive_type, drive_type, new_ruptured_drive
-   use cubic_patch, only: lanes
+   use cubic_patch, only: simd_width
    use octaves, only: interval, lower_end
    use rupture_table, only: rupture_table_type, new_rupture_table
    use check, only: runs, expect, expect_close, between, report
@@ -42,7 +42,7 @@ contains
       type(rupture_table_type) :: table
       type(ruptured_drive_type) :: solver
       type(drive_type) :: drive
-      real(wp) :: place(3), value(lanes), slope(lanes, 3), w(2), worst
+      real(wp) :: place(3), value(simd_width), slope(simd_width, 3), w(2), worst
       integer :: trial, last
       logical :: good
       table = new_rupture_table(pad, gumbel, tolerance)
@@ -64,8 +64,8 @@ contains
    subroutine slopes()
       type(rupture_table_type) :: table
       real(wp) :: place(3), shift(3), error
-      real(wp), dimension(lanes) :: value, ahead, back
-      real(wp), dimension(lanes, 3) :: slope, unused
+      real(wp), dimension(simd_width) :: value, ahead, back
+      real(wp), dimension(simd_width, 3) :: slope, unused
       integer :: trial, last, axis
       logical :: good
       table = new_rupture_table(pad, .true., tolerance)
@@ -93,8 +93,8 @@ contains
       type(ruptured_drive_type) :: solver
       type(drive_type) :: drive
       real(wp) :: place(3), below(3), jump, worst
-      real(wp), dimension(lanes) :: value, value_below
-      real(wp) :: slope(lanes, 3)
+      real(wp), dimension(simd_width) :: value, value_below
+      real(wp) :: slope(simd_width, 3)
       integer :: trial, last, axis, meet
       logical :: good
       table = new_rupture_table(pad, .true., tolerance)
@@ -124,7 +124,7 @@ contains
    !> At T next to 0 the drive is w, next to 1 and at 1 it is nothing.
    subroutine both_ends()
       type(rupture_table_type) :: table
-      real(wp) :: value(lanes), slope(lanes, 3), t
+      real(wp) :: value(simd_width), slope(simd_width, 3), t
       integer :: last, k, pass
       logical :: good, gumbel
       gumbel = .false.
@@ -157,7 +157,7 @@ contains
       type(rupture_table_type) :: table
       type(ruptured_drive_type) :: solver
       type(drive_type) :: drive
-      real(wp) :: edges(2), value(lanes), slope(lanes, 3), w(2), worst, h
+      real(wp) :: edges(2), value(simd_width), slope(simd_width, 3), w(2), worst, h
       integer :: k, last, found, missing
       logical :: good
       real(wp), parameter :: t = 0.3_wp
@@ -188,7 +188,8 @@ contains
       logical, intent(in) :: full
       integer, parameter :: n = 12
       type(rupture_table_type) :: table, other
-      real(wp) :: places(3, n), value(lanes, n), slope(lanes, 3, n), value_there(lanes), slope_there(lanes, 3)
+      real(wp) :: places(3, n), value(simd_width, n), slope(simd_width, 3, n), value_there(simd_width), &
+         slope_there(simd_width, 3)
       integer :: k, last, different, pass
       logical :: good, gumbel
       gumbel = .false.

@@ -2,7 +2,7 @@
 program test_square_patch
    use kinds, only: wp
    use text, only: to_text
-   use square_patch, only: nodes, lanes, node_points, fitted, evaluate_patch, patch_values
+   use square_patch, only: nodes, simd_width, node_points, fitted, evaluate_patch, patch_values
    use check, only: runs, expect_close, between, report
    implicit none (type, external)
 
@@ -15,8 +15,8 @@ contains
 
    !> Polynomials of the highest degree along both axes, with their derivatives, to rounding.
    subroutine polynomials()
-      real(wp) :: factors(lanes, 0:nodes - 1, 0:nodes - 1), values(lanes, nodes, nodes), points(nodes)
-      real(wp) :: coefficients(lanes, nodes, nodes), found(lanes), slope(lanes, 2), s(2), few(lanes)
+      real(wp) :: factors(simd_width, 0:nodes - 1, 0:nodes - 1), values(simd_width, nodes, nodes), points(nodes)
+      real(wp) :: coefficients(simd_width, nodes, nodes), found(simd_width), slope(simd_width, 2), s(2), few(simd_width)
       real(wp), parameter :: rounding = 1e-12_wp
       integer :: i, k, trial
       call random_number(factors)
@@ -33,16 +33,16 @@ contains
          call expect_close(norm2(found - polynomial(factors, s, [0, 0])), 0.0_wp, rounding, 'values')
          call expect_close(norm2(slope(:, 1) - polynomial(factors, s, [1, 0])), 0.0_wp, 10*rounding, 'first slope')
          call expect_close(norm2(slope(:, 2) - polynomial(factors, s, [0, 1])), 0.0_wp, 10*rounding, 'second slope')
-         few = patch_values(lanes, nodes, coefficients, s)
+         few = patch_values(simd_width, nodes, coefficients, s)
          call expect_close(norm2(few - found), 0.0_wp, rounding, 'values alone')
       end do
    end subroutine polynomials
 
    !> A derivative (orders along both axes, 0 or 1) of polynomials with these factors of s1^i s2^k.
    pure function polynomial(factors, s, orders) result(value)
-      real(wp), intent(in) :: factors(lanes, 0:nodes - 1, 0:nodes - 1), s(2)
+      real(wp), intent(in) :: factors(simd_width, 0:nodes - 1, 0:nodes - 1), s(2)
       integer, intent(in) :: orders(2)
-      real(wp) :: value(lanes), first(0:nodes - 1), second(0:nodes - 1)
+      real(wp) :: value(simd_width), first(0:nodes - 1), second(0:nodes - 1)
       integer :: i, k
       first = merge([(s(1)**i, i=0, nodes - 1)], [0.0_wp, (i*s(1)**(i - 1), i=1, nodes - 1)], orders(1) == 0)
       second = merge([(s(2)**i, i=0, nodes - 1)], [0.0_wp, (i*s(2)**(i - 1), i=1, nodes - 1)], orders(2) == 0)
@@ -78,8 +78,9 @@ contains
 
    !> The error of exp(a s1 + b s2) over half the square is 2^-nodes of that over the whole; its slopes lose one order.
    subroutine order()
-      real(wp) :: errors(2, 0:1), points(nodes), values(lanes, nodes, nodes), found(lanes), slope(lanes, 2), s(2), size
-      real(wp) :: coefficients(lanes, nodes, nodes), ratio
+      real(wp) :: errors(2, 0:1), points(nodes), values(simd_width, nodes, nodes), found(simd_width), &
+         slope(simd_width, 2), s(2), size
+      real(wp) :: coefficients(simd_width, nodes, nodes), ratio
       integer :: halving, i, k
       points = node_points(nodes)
       errors = 0

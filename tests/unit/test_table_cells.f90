@@ -7,7 +7,7 @@ program test_table_cells
    use cell_index, only: cell_index_type, cell_key
    use kinds, only: wp
    use octaves, only: interval, lower_end
-   use cubic_patch, only: lanes, terms, corner_data, corners, cubic_transform, evaluate_cubic
+   use cubic_patch, only: simd_width, terms, corner_data, corners, cubic_transform, evaluate_cubic
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
    integer, parameter :: finest = 8
@@ -179,9 +179,9 @@ contains
 
    !> Terms of functions with these data at the corners.
    function terms_of(data) result(c)
-      real(wp), intent(in) :: data(lanes, corner_data, 0:corners - 1)
-      real(wp) :: c(lanes, terms)
-      c = matmul(reshape(data, [lanes, terms]), transpose(transform))
+      real(wp), intent(in) :: data(simd_width, corner_data, 0:corners - 1)
+      real(wp) :: c(simd_width, terms)
+      c = matmul(reshape(data, [simd_width, terms]), transpose(transform))
    end function terms_of
 
    pure function place(corner)
@@ -192,7 +192,8 @@ contains
 
    !> Whatever values and derivatives the corners have, the functions have them there.
    subroutine corner_values()
-      real(wp) :: data(lanes, corner_data, 0:corners - 1), value(lanes), slope(lanes, 3), c(lanes, terms)
+      real(wp) :: data(simd_width, corner_data, 0:corners - 1), value(simd_width), slope(simd_width, 3), &
+         c(simd_width, terms)
       integer :: corner
       call random_number(data)
       c = terms_of(data)
@@ -206,7 +207,8 @@ contains
    !> Central differences of step e err by the third derivative times e^2/6, and by rounding over e.
    subroutine slopes()
       real(wp), parameter :: step = 1e-5_wp
-      real(wp) :: c(lanes, terms), value(lanes), slope(lanes, 3), unused(lanes, 3), back(lanes), shift(3), s(3)
+      real(wp) :: c(simd_width, terms), value(simd_width), slope(simd_width, 3), unused(simd_width, 3), &
+         back(simd_width), shift(3), s(3)
       integer :: trial, axis
       do trial = 1, 10
          call random_number(c)
@@ -224,7 +226,8 @@ contains
 
    !> Every product of powers of a total degree up to three is met.
    subroutine cubics()
-      real(wp) :: data(lanes, corner_data, 0:corners - 1), value(lanes), slope(lanes, 3), c(lanes, terms), s(3)
+      real(wp) :: data(simd_width, corner_data, 0:corners - 1), value(simd_width), slope(simd_width, 3), &
+         c(simd_width, terms), s(3)
       integer :: i, j, k, corner
       do k = 0, 3
          do j = 0, 3 - k
@@ -260,9 +263,9 @@ contains
    !> On a face, values and the slopes along it follow from the corners of this face: what the other four corners have
    !> changes nothing, so that neighbours agree.
    subroutine across_faces()
-      real(wp) :: data(lanes, corner_data, 0:corners - 1), other(lanes, corner_data, 0:corners - 1)
-      real(wp), dimension(lanes, 3) :: slope, slope_there
-      real(wp) :: value(lanes), value_there(lanes), s(3), there(3)
+      real(wp) :: data(simd_width, corner_data, 0:corners - 1), other(simd_width, corner_data, 0:corners - 1)
+      real(wp), dimension(simd_width, 3) :: slope, slope_there
+      real(wp) :: value(simd_width), value_there(simd_width), s(3), there(3)
       integer :: axis, corner, trial
       do axis = 1, 3
          call random_number(data)
@@ -289,7 +292,8 @@ contains
    !> Half the box leaves a sixteenth of the error, of slopes an eighth.
    subroutine order()
       real(wp), parameter :: rate(3) = [1.0_wp, -0.7_wp, 0.5_wp]
-      real(wp) :: data(lanes, corner_data, 0:corners - 1), value(lanes), slope(lanes, 3), c(lanes, terms), s(3)
+      real(wp) :: data(simd_width, corner_data, 0:corners - 1), value(simd_width), slope(simd_width, 3), &
+         c(simd_width, terms), s(3)
       real(wp) :: errors(2, 0:1), size, found
       integer :: halving, corner, trial
       errors = 0

@@ -7,7 +7,7 @@ program test_whole_table
    use pad_gap, only: pad_gap_type
    use unit_pad, only: unit_oil, unit_pad_type, new_unit_pad, thickness_scale
    use modal_film, only: modal_film_type, new_modal_film
-   use square_patch, only: lanes
+   use square_patch, only: simd_width
    use octaves, only: interval, lower_end
    use whole_table, only: whole_table_type, new_whole_table
    use check, only: runs, expect, expect_close, between, report
@@ -65,7 +65,7 @@ contains
    !> The tolerance holds at a cell's corners and middle; elsewhere the polynomials err by a few times that at most.
    subroutine against_modes()
       type(whole_table_type) :: table
-      real(wp) :: edges(2), driven(3), supplied(2), value(lanes), slope(lanes, 2), worst, worst_supplied
+      real(wp) :: edges(2), driven(3), supplied(2), value(simd_width), slope(simd_width, 2), worst, worst_supplied
       integer :: trial, last
       logical :: good
       table = new_whole_table(pad, .true., tolerance)
@@ -90,8 +90,8 @@ contains
    subroutine slopes()
       type(whole_table_type) :: table
       real(wp) :: edges(2), shift(2), error
-      real(wp), dimension(lanes) :: value, ahead, back
-      real(wp), dimension(lanes, 2) :: slope, slope_of_supply, unused
+      real(wp), dimension(simd_width) :: value, ahead, back
+      real(wp), dimension(simd_width, 2) :: slope, slope_of_supply, unused
       integer :: trial, last, axis
       logical :: good
       table = new_whole_table(pad, .true., tolerance)
@@ -122,8 +122,8 @@ contains
    subroutine between_cells()
       type(whole_table_type) :: table
       real(wp) :: edges(2), below(2), worst, worst_slope
-      real(wp), dimension(lanes) :: value, value_below
-      real(wp), dimension(lanes, 2) :: slope, slope_below
+      real(wp), dimension(simd_width) :: value, value_below
+      real(wp), dimension(simd_width, 2) :: slope, slope_below
       integer :: trial, last, axis
       logical :: good
       table = new_whole_table(pad, .false., tolerance)
@@ -153,7 +153,7 @@ contains
    !> by no more than the solver that would stand in, 1e-4.
    subroutine closing_films()
       type(whole_table_type) :: table
-      real(wp) :: edges(2), driven(3), supplied(2), value(lanes), slope(lanes, 2), worst, h
+      real(wp) :: edges(2), driven(3), supplied(2), value(simd_width), slope(simd_width, 2), worst, h
       integer :: k, last, found
       logical :: good
       table = new_whole_table(pad, .false., tolerance)
@@ -179,8 +179,8 @@ contains
       logical, intent(in) :: full
       integer, parameter :: n = 16
       type(whole_table_type) :: table, other
-      real(wp) :: edges(2, n), value(lanes, n), slope(lanes, 2, n), pressure(n)
-      real(wp) :: value_there(lanes), slope_there(lanes, 2), pressure_there, w(2)
+      real(wp) :: edges(2, n), value(simd_width, n), slope(simd_width, 2, n), pressure(n)
+      real(wp) :: value_there(simd_width), slope_there(simd_width, 2), pressure_there, w(2)
       integer :: k, last, different
       logical :: good(n), good_there
       w = [1.0_wp, 0.5_wp]

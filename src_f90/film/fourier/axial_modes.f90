@@ -1,12 +1,12 @@
 !> Axial modes of a pad, b_k cos(lambda_k Z), lambda_k = (2k-1) pi/L, b_k = -4 (-1)^k/((2k-1) pi), k = 1, 2, ..., and
 !> what the sums over those beyond the first `modes` are.
 !>
-!> Of many modes only some are solved, the `lanes`: the solution is a smooth function of lambda, so that the first few
-!> and Chebyshev's points of log(lambda) beyond give the others by interpolation.
+!> Of many modes only some are solved, the ``simd_width``: the solution is a smooth function of lambda, so that the
+!> first few and Chebyshev's points of log(lambda) beyond give the others by interpolation.
 module axial_modes
    use kinds, only: wp, pi
    use pad_gap, only: pad_gap_type
-   use modal_sweeps, only: lanes
+   use modal_sweeps, only: simd_width
    implicit none (type, external)
    private
    public :: axial_modes_type, new_axial_modes
@@ -20,11 +20,11 @@ module axial_modes
       !> Lambda_1 = R lambda_1, and L/R.
       real(wp) :: first, width
       integer :: modes, blocks
-      !> (R lambda)^2 of the lanes, idle ones 0.
+      !> (R lambda)^2 of the `simd_width`, idle ones 0.
       real(wp), allocatable :: square(:)
-      !> How much of each mode's solution is that of a lane, (lane, mode).
-      real(wp), allocatable :: of_lane(:, :)
-      !> By lane c_k = (L/2) b_k^2, m; sums over the modes left out of c_k/Lambda_k^j, j = 1, 2, 3, m.
+      !> How much of each mode's solution is that of a slot, (slot, mode).
+      real(wp), allocatable :: of_slot(:, :)
+      !> By slot c_k = (L/2) b_k^2, m; sums over the modes left out of c_k/Lambda_k^j, j = 1, 2, 3, m.
       real(wp), allocatable :: c(:)
       real(wp) :: tail(3)
    contains
@@ -52,24 +52,24 @@ contains
          solved = first_solved + 8*ceiling(log(order(modes)/(2*first_solved + 1))/log(4.0_wp))
          solved = min(solved, modes)
       end if
-      self%blocks = (solved + lanes - 1)/lanes
-      allocate (self%square(lanes*self%blocks), self%c(lanes*self%blocks), source=0.0_wp)
-      allocate (self%of_lane(lanes*self%blocks, modes), source=0.0_wp)
+      self%blocks = (solved + simd_width - 1)/simd_width
+      allocate (self%square(simd_width*self%blocks), self%c(simd_width*self%blocks), source=0.0_wp)
+      allocate (self%of_slot(simd_width*self%blocks, modes), source=0.0_wp)
       x = order
       if (solved < modes) x(first_solved + 1:solved) = chebyshev(solved - first_solved, order(first_solved + 1), &
          & order(modes))
       self%square(:solved) = (x(:solved)*self%first)**2
       do k = 1, modes
          if (k <= first_solved .or. solved == modes) then
-            self%of_lane(k, k) = 1
+            self%of_slot(k, k) = 1
          else
             do j = first_solved + 1, solved
-               self%of_lane(j, k) = lagrange(log(x(first_solved + 1:solved)), j - first_solved, log(order(k)))
+               self%of_slot(j, k) = lagrange(log(x(first_solved + 1:solved)), j - first_solved, log(order(k)))
             end do
          end if
       end do
       c = 8*gap%axial_length/(order*pi)**2
-      self%c = matmul(self%of_lane, c)
+      self%c = matmul(self%of_slot, c)
       do j = 1, 3
          self%tail(j) = (8*gap%axial_length/pi**2*odd_sums(j) - sum(c/order**j))/self%first**j
       end do
@@ -95,13 +95,13 @@ contains
       end do
    end function lagrange
 
-   !> b_k cos(lambda_k Z) by lane, at Z over half the width.
+   !> b_k cos(lambda_k Z) by slot, at Z over half the width.
    pure function profile(self, position)
       class(axial_modes_type), intent(in) :: self
       real(wp), intent(in) :: position
       real(wp) :: profile(size(self%square))
       integer :: k
-      profile = matmul(self%of_lane, [(of_mode(k, position), k=1, self%modes)])
+      profile = matmul(self%of_slot, [(of_mode(k, position), k=1, self%modes)])
    end function profile
 
    elemental real(wp) function of_mode(k, position)

@@ -9,7 +9,7 @@ module film_resolution
    use kinds, only: wp, pi
    use pad_gap, only: pad_gap_type, pad_directions
    use modal_pad, only: modal_pad_type, init_pad
-   use modal_sweeps, only: lanes
+   use modal_sweeps, only: simd_width
    implicit none (type, external)
    private
    public :: resolution_type, new_resolution, enough_cells, enough_modes, most_levels, usual_error
@@ -53,7 +53,7 @@ contains
 
    pure integer function enough_modes(gaps)
       type(pad_gap_type), intent(in) :: gaps(:)
-      enough_modes = lanes*maxval(ceiling(aspect(gaps) &
+      enough_modes = simd_width*maxval(ceiling(aspect(gaps) &
          & /merge(1.2_wp, 2.5_wp, gaps%supply_pressure > gaps%ambient_pressure)))
    end function enough_modes
 

@@ -9,7 +9,7 @@ module modal_edges
    use kinds, only: wp, pi
    use film_solver, only: film_oil
    use modal_pad, only: modal_pad_type
-   use modal_sweeps, only: lanes
+   use modal_sweeps, only: simd_width
    implicit none (type, external)
    private
    public :: edge_flows
@@ -22,7 +22,7 @@ contains
       type(modal_pad_type), intent(in) :: pad
       type(film_oil), intent(in) :: oil
       real(wp) :: flows(2)
-      real(wp) :: falling, leading(lanes), trailing(lanes)
+      real(wp) :: falling, leading(simd_width), trailing(simd_width)
       integer :: b
       associate (n => pad%n, h => pad%h, gap => pad%gap)
          ! how fast a layer falls as the film becomes thicker
@@ -36,8 +36,8 @@ contains
             ! q = 0 at the edge itself
             trailing = -slope(pad%q(:, 0, b), pad%q(:, 1, b), pad%q(:, 2, b), pad%a(:, 1, b), pad%a(:, 1, b), &
                & pad%a(:, 2, b))/h(0)**2
-            associate (c => pad%axial%c(lanes*b - lanes + 1:lanes*b), &
-               & even => sqrt(pad%axial%square(lanes*b - lanes + 1:lanes*b)))
+            associate (c => pad%axial%c(simd_width*b - simd_width + 1:simd_width*b), &
+               & even => sqrt(pad%axial%square(simd_width*b - simd_width + 1:simd_width*b)))
                flows(1) = flows(1) + sum(c*(leading - even + falling))
                flows(2) = flows(2) + sum(c*trailing)
             end associate

@@ -9,7 +9,7 @@
 module modal_field
    use kinds, only: wp, pi
    use modal_pad, only: modal_pad_type
-   use modal_sweeps, only: lanes
+   use modal_sweeps, only: simd_width
    use sommerfeld_nodes, only: span
    implicit none (type, external)
    private
@@ -28,7 +28,7 @@ contains
       real(wp), intent(in) :: phi(:), z(:)
       real(wp) :: pressure(size(z), size(phi))
       real(wp) :: position(size(z)), narrow(size(z)), smooth(size(z), 0:pad%n)
-      real(wp) :: profile(lanes*pad%axial%blocks, size(z)), amplitude(lanes), rise, h, angle
+      real(wp) :: profile(simd_width*pad%axial%blocks, size(z)), amplitude(simd_width), rise, h, angle
       integer :: i, j, b
       associate (gap => pad%gap, n => pad%n)
          rise = gap%supply_pressure - gap%ambient_pressure
@@ -42,7 +42,7 @@ contains
             angle = gap%leading_angle - atan2(pad%sine(i), pad%cosine(i))
             if (i > 0) smooth(:, i) = -narrow*pad%narrow(i)/pad%h(i)
             do b = 1, pad%axial%blocks
-               associate (first => lanes*b - lanes + 1, last => lanes*b)
+               associate (first => simd_width*b - simd_width + 1, last => simd_width*b)
                   amplitude = pad%q(:, i, b)/pad%h(i)
                   if (abs(rise) > 0) amplitude = amplitude - rise*even_layer(pad, i) &
                      & *exp(-sqrt(pad%axial%square(first:last))*angle)

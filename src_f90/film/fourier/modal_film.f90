@@ -20,7 +20,7 @@ module modal_film
    use modal_field, only: field_of_modes
    use modal_pad, only: modal_pad_type, set_weights, set_motion, gauss, middle, point_weights
    use modal_slopes, only: force_slopes
-   use modal_sweeps, only: lanes, weigh_nodes, solve_modes, sum_modes, lowest_pressure
+   use modal_sweeps, only: simd_width, weigh_nodes, solve_modes, sum_modes, lowest_pressure
    use sommerfeld_nodes, only: span
    implicit none (type, external)
    private
@@ -140,7 +140,8 @@ contains
       integer :: b
       rise = pad%gap%supply_pressure - pad%gap%ambient_pressure
       do b = 1, pad%axial%blocks
-         call solve_modes(pad%n, pad%axial%square(lanes*b - lanes + 1:lanes*b), pad%base, pad%rate, pad%load, &
+         call solve_modes(pad%n, pad%axial%square(simd_width*b - simd_width + 1:simd_width*b), pad%base, pad%rate, &
+            pad%load, &
             & rise*pad%h(pad%n), pad%a(:, :, b), pad%f(:, :, b), pad%q(:, :, b))
       end do
       call sum_up(pad, rise, response)
@@ -187,7 +188,7 @@ contains
          call weigh_nodes(n, pad%weight, sine, cosine, pad%narrow, tail(2), pad%point_tail(middle), along, outward, &
             & force, p_middle)
          do b = 1, pad%axial%blocks
-            associate (first => lanes*b - lanes + 1, last => lanes*b)
+            associate (first => simd_width*b - simd_width + 1, last => simd_width*b)
                call sum_modes(n, along, outward, pad%axial%c(first:last), pad%at_middle(first:last), pad%q(:, :, b), &
                   & force, p_middle)
             end associate
@@ -259,8 +260,8 @@ contains
          do i = 1, n - 1
             p = -pad%point_tail(:gauss)*pad%narrow(i)
             do b = 1, pad%axial%blocks
-               do k = 1, lanes
-                  p = p + pad%across(:, lanes*(b - 1) + k)*pad%q(k, i, b)
+               do k = 1, simd_width
+                  p = p + pad%across(:, simd_width*(b - 1) + k)*pad%q(k, i, b)
                end do
             end do
             deficit(:, i) = floor*pad%h(i) - p
@@ -281,8 +282,8 @@ contains
             pad%floor_share(i) = sum(lost(:, i))*floor
             pad%narrow_share(i) = pad%narrow_share(i) - dot_product(lost(:, i), pad%point_tail(:gauss))
             do b = 1, pad%axial%blocks
-               do k = 1, lanes
-                  l = lanes*(b - 1) + k
+               do k = 1, simd_width
+                  l = simd_width*(b - 1) + k
                   pad%share(k, i, b) = pad%share(k, i, b) - dot_product(lost(:, i), pad%across(:, l))
                end do
             end do
@@ -295,7 +296,7 @@ contains
       type(modal_pad_type), intent(inout) :: pad
       integer :: b
       do b = 1, pad%axial%blocks
-         pad%share(:, :, b) = spread(pad%axial%c(lanes*b - lanes + 1:lanes*b), 2, pad%n + 1)
+         pad%share(:, :, b) = spread(pad%axial%c(simd_width*b - simd_width + 1:simd_width*b), 2, pad%n + 1)
       end do
       pad%narrow_share = pad%axial%tail(2)
       pad%floor_share = 0

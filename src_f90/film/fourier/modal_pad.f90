@@ -6,7 +6,7 @@ module modal_pad
    use axial_modes, only: axial_modes_type, new_axial_modes
    use clipped_quadrature, only: gregory_weights, clipped_weights
    use sommerfeld_nodes, only: place_nodes
-   use modal_sweeps, only: lanes, looks
+   use modal_sweeps, only: simd_width, looks
    implicit none (type, external)
    private
    public :: modal_pad_type, init_pad, set_weights, set_motion
@@ -26,8 +26,8 @@ module modal_pad
    real(wp), parameter :: point_weights(gauss) = roots*[half_weights, half_weights]
 
    !> One pad. Nodes 0:n run from the trailing to the leading edge at equal steps d of Sommerfeld's variable; film
-   !> thickness H, and position e are over the clearance. Modes fill up blocks of `lanes`;
-   !> idle lanes have c = 0.
+   !> thickness H, and position e are over the clearance. Modes fill up blocks of ``simd_width``;
+   !> idle `simd_width` have c = 0.
    type :: modal_pad_type
       type(pad_gap_type) :: gap
       type(pad_directions) :: directions
@@ -36,7 +36,7 @@ module modal_pad
       real(wp) :: d, radius
       !> Weights of the quadrature, in steps.
       real(wp), allocatable :: weight(:)
-      !> b_k cos(lambda_k Z) at (point, lane), at Gauss's points and where rupture is looked for, and in the middle;
+      !> b_k cos(lambda_k Z) at (point, slot), at Gauss's points and where rupture is looked for, and in the middle;
       !> sums over the modes left out of b_k cos(lambda_k Z)/Lambda_k^2.
       real(wp), allocatable :: across(:, :), look(:, :), at_middle(:)
       real(wp) :: point_tail(all_points)
@@ -44,9 +44,9 @@ module modal_pad
       real(wp) :: wedge, squeeze, e(2), w(2)
       !> At the nodes: H, sine and cosine of phi, s and s/H^2; 1 - d^2 v/12, d^2 H^2/12 and the scheme's load.
       real(wp), allocatable, dimension(:) :: h, sine, cosine, s, narrow, base, rate, load
-      !> By lane, node and block: a = 1 - d^2 V/12, factors f of the elimination, q.
+      !> By slot, node and block: a = 1 - d^2 V/12, factors f of the elimination, q.
       real(wp), allocatable :: a(:, :, :), f(:, :, :), q(:, :, :)
-      !> What q by (lane, node, block) and -s/H^2 by node count along the width: c and tail(2), less the part of the
+      !> What q by (slot, node, block) and -s/H^2 by node count along the width: c and tail(2), less the part of the
       !> width where the film has ruptured, if it has; and what the cavitation pressure counts there.
       real(wp), allocatable :: share(:, :, :), narrow_share(:), floor_share(:)
       logical :: shares_are_stale = .true.
@@ -68,7 +68,7 @@ contains
       pad%n = n
       pad%radius = gap%pad_radius()
       associate (blocks => pad%axial%blocks)
-         allocate (pad%across(gauss, lanes*blocks), pad%look(looks, lanes*blocks))
+         allocate (pad%across(gauss, simd_width*blocks), pad%look(looks, simd_width*blocks))
          do i = 1, all_points
             profile = pad%axial%profile(points(i))
             if (i <= gauss) pad%across(i, :) = profile
@@ -78,8 +78,8 @@ contains
          end do
          allocate (pad%weight(0:n), pad%h(0:n), pad%sine(0:n), pad%cosine(0:n), pad%s(0:n), pad%narrow(0:n), &
             & pad%base(0:n), pad%rate(0:n), pad%load(0:n))
-         allocate (pad%a(lanes, 0:n, blocks), pad%f(lanes, 0:n, blocks), pad%q(lanes, 0:n, blocks))
-         allocate (pad%share(lanes, 0:n, blocks), pad%narrow_share(0:n), pad%floor_share(0:n))
+         allocate (pad%a(simd_width, 0:n, blocks), pad%f(simd_width, 0:n, blocks), pad%q(simd_width, 0:n, blocks))
+         allocate (pad%share(simd_width, 0:n, blocks), pad%narrow_share(0:n), pad%floor_share(0:n))
       end associate
    end subroutine init_pad
 

@@ -3,7 +3,7 @@
 module modal_slopes
    use kinds, only: wp
    use modal_pad, only: modal_pad_type
-   use modal_sweeps, only: lanes, solve_adjoints, sum_adjoint
+   use modal_sweeps, only: simd_width, solve_adjoints, sum_adjoint
    use sommerfeld_nodes, only: node_shifts
    implicit none (type, external)
    private
@@ -20,7 +20,7 @@ contains
       real(wp), intent(in) :: rise
       real(wp) :: derivatives(2, 4)
       real(wp), dimension(0:pad%n, 2) :: along, over_s, over_v, over_h2, shift
-      real(wp) :: adjoint(lanes, 0:pad%n, 2), solved(0:pad%n), boundary(2), stretch(2)
+      real(wp) :: adjoint(simd_width, 0:pad%n, 2), solved(0:pad%n), boundary(2), stretch(2)
       integer :: i, m, b
       associate (n => pad%n, blocks => pad%axial%blocks)
          ! derivatives of the force over share q, over d^2 v/12, d^2 H^2/12 and d^2 s/12 at the nodes
@@ -34,7 +34,8 @@ contains
          do b = 1, blocks
             call solve_adjoints(n, pad%a(:, :, b), pad%f(:, :, b), pad%share(:, :, b), along, adjoint)
             do m = 1, 2
-               call sum_adjoint(n, adjoint(:, :, m), pad%q(:, :, b), pad%axial%square(lanes*b - lanes + 1:lanes*b), &
+               call sum_adjoint(n, adjoint(:, :, m), pad%q(:, :, b), pad%axial%square(simd_width*b - simd_width &
+                  + 1:simd_width*b), &
                   & over_s(:, m), over_v(:, m), over_h2(:, m))
                ! q = rise H at the leading edge stands in the last equation as a q
                boundary(m) = boundary(m) - dot_product(adjoint(:, n - 1, m), pad%a(:, n, b))*rise

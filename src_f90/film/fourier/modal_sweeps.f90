@@ -4,11 +4,11 @@ module modal_sweeps
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: lanes, weigh_nodes, solve_modes, solve_adjoints, sum_modes, looks, &
+   public :: simd_width, weigh_nodes, solve_modes, solve_adjoints, sum_modes, looks, &
       & lowest_pressure, sum_adjoint
 
    !> Modes solved side by side: the length of a vector register.
-   integer, parameter :: lanes = 8
+   integer, parameter :: simd_width = 8
 
    !> Points across the width where rupture is looked for.
    integer, parameter :: looks = 4
@@ -23,11 +23,11 @@ contains
    pure subroutine solve_modes(n, square, base, rate, load, last, a, f, q)
       ! long: a kernel
       integer, intent(in) :: n
-      !> Lambda^2 by lane; by node 1 - d^2 v/12, d^2 H^2/12 and the load; q(n).
-      real(wp), intent(in) :: square(lanes), base(0:n), rate(0:n), load(0:n), last
+      !> Lambda^2 by slot; by node 1 - d^2 v/12, d^2 H^2/12 and the load; q(n).
+      real(wp), intent(in) :: square(simd_width), base(0:n), rate(0:n), load(0:n), last
       !> a, and the factors of the elimination, for the adjoint; the solution.
-      real(wp), intent(out) :: a(lanes, 0:n), f(lanes, 0:n), q(lanes, 0:n)
-      real(wp), dimension(lanes) :: e, e2, y, y2, w, w2
+      real(wp), intent(out) :: a(simd_width, 0:n), f(simd_width, 0:n), q(simd_width, 0:n)
+      real(wp), dimension(simd_width) :: e, e2, y, y2, w, w2
       integer :: i, j, k
       e = 0
       e2 = 0
@@ -37,7 +37,7 @@ contains
       do i = 1, n/2 - 1
          j = n - i
          !$omp simd
-         do k = 1, lanes
+         do k = 1, simd_width
             a(k, i) = base(i) - square(k)*rate(i)
             f(k, i) = 1/(12 - a(k, i)*(10 + e(k)))
             q(k, i) = y(k) - load(i)
@@ -45,7 +45,7 @@ contains
             y(k) = e(k)*q(k, i)
          end do
          !$omp simd
-         do k = 1, lanes
+         do k = 1, simd_width
             a(k, j) = base(j) - square(k)*rate(j)
             f(k, j) = 1/(12 - a(k, j)*(10 + e2(k)))
             q(k, j) = y2(k) - load(j)
@@ -55,7 +55,7 @@ contains
       end do
       i = n/2
       !$omp simd
-      do k = 1, lanes
+      do k = 1, simd_width
          a(k, i) = base(i) - square(k)*rate(i)
          f(k, i) = 1/(12 - a(k, i)*(10 + e(k) + e2(k)))
          q(k, i) = f(k, i)*(y(k) + y2(k) - load(i))
@@ -65,12 +65,12 @@ contains
       do i = n/2 - 1, 1, -1
          j = n - i
          !$omp simd
-         do k = 1, lanes
+         do k = 1, simd_width
             q(k, i) = f(k, i)*(w(k) + q(k, i))
             w(k) = a(k, i)*q(k, i)
          end do
          !$omp simd
-         do k = 1, lanes
+         do k = 1, simd_width
             q(k, j) = f(k, j)*(w2(k) + q(k, j))
             w2(k) = a(k, j)*q(k, j)
          end do
@@ -83,9 +83,9 @@ contains
    !> the columns of a symmetric matrix.
    pure subroutine solve_adjoints(n, a, f, share, load, adjoint)
       integer, intent(in) :: n
-      real(wp), intent(in) :: a(lanes, 0:n), f(lanes, 0:n), share(lanes, 0:n), load(0:n, 2)
-      real(wp), intent(out) :: adjoint(lanes, 0:n, 2)
-      real(wp), dimension(lanes) :: y, y2
+      real(wp), intent(in) :: a(simd_width, 0:n), f(simd_width, 0:n), share(simd_width, 0:n), load(0:n, 2)
+      real(wp), intent(out) :: adjoint(simd_width, 0:n, 2)
+      real(wp), dimension(simd_width) :: y, y2
       integer :: i, j, k, m
       do m = 1, 2
          y = 0
@@ -93,19 +93,19 @@ contains
          do i = 1, n/2 - 1
             j = n - i
             !$omp simd
-            do k = 1, lanes
+            do k = 1, simd_width
                y(k) = f(k, i)*(a(k, i)*y(k) - share(k, i)*load(i, m))
                adjoint(k, i, m) = y(k)
             end do
             !$omp simd
-            do k = 1, lanes
+            do k = 1, simd_width
                y2(k) = f(k, j)*(a(k, j)*y2(k) - share(k, j)*load(j, m))
                adjoint(k, j, m) = y2(k)
             end do
          end do
          i = n/2
          !$omp simd
-         do k = 1, lanes
+         do k = 1, simd_width
             y(k) = f(k, i)*(a(k, i)*(y(k) + y2(k)) - share(k, i)*load(i, m))
             adjoint(k, i, m) = y(k)
             y2(k) = y(k)
@@ -113,12 +113,12 @@ contains
          do i = n/2 - 1, 1, -1
             j = n - i
             !$omp simd
-            do k = 1, lanes
+            do k = 1, simd_width
                y(k) = adjoint(k, i, m) + a(k, i)*f(k, i)*y(k)
                adjoint(k, i, m) = y(k)
             end do
             !$omp simd
-            do k = 1, lanes
+            do k = 1, simd_width
                y2(k) = adjoint(k, j, m) + a(k, j)*f(k, j)*y2(k)
                adjoint(k, j, m) = y2(k)
             end do
@@ -150,26 +150,26 @@ contains
       sums = [sum_along, sum_outward]
    end subroutine weigh_nodes
 
-   !> Adds a block's sums over nodes and lanes of c q (along, outward), and its part of the pressure in
+   !> Adds a block's sums over nodes and `simd_width` of c q (along, outward), and its part of the pressure in
    !> the middle (times H).
    pure subroutine sum_modes(n, along, outward, c, middle, q, sums, p_middle)
       integer, intent(in) :: n
-      !> By node; by lane: c, and b_k.
-      real(wp), intent(in) :: along(0:n), outward(0:n), c(lanes), middle(lanes), q(lanes, 0:n)
+      !> By node; by slot: c, and b_k.
+      real(wp), intent(in) :: along(0:n), outward(0:n), c(simd_width), middle(simd_width), q(simd_width, 0:n)
       real(wp), intent(inout) :: sums(2), p_middle(0:n)
-      real(wp) :: sum_along(lanes), sum_outward(lanes), at_middle
+      real(wp) :: sum_along(simd_width), sum_outward(simd_width), at_middle
       integer :: i, k
       sum_along = 0
       sum_outward = 0
       do i = 0, n
          !$omp simd
-         do k = 1, lanes
+         do k = 1, simd_width
             sum_along(k) = sum_along(k) + along(i)*q(k, i)
             sum_outward(k) = sum_outward(k) + outward(i)*q(k, i)
          end do
          at_middle = 0
          !$omp simd reduction(+:at_middle)
-         do k = 1, lanes
+         do k = 1, simd_width
             at_middle = at_middle + middle(k)*q(k, i)
          end do
          p_middle(i) = p_middle(i) + at_middle
@@ -180,8 +180,9 @@ contains
    !> Lowest pressure above ambient where rupture is looked for. It lies where s > 0, or at an edge.
    pure real(wp) function lowest_pressure(n, blocks, narrow, h, tail, look, q)
       integer, intent(in) :: n, blocks
-      !> s/H^2 and H by node; the modes left out; b_k cos(lambda_k Z) by point and lane.
-      real(wp), intent(in) :: narrow(0:n), h(0:n), tail(looks), look(looks, lanes, blocks), q(lanes, 0:n, blocks)
+      !> s/H^2 and H by node; the modes left out; b_k cos(lambda_k Z) by point and slot.
+      real(wp), intent(in) :: narrow(0:n), h(0:n), tail(looks), look(looks, simd_width, blocks), q(simd_width, 0:n, &
+         blocks)
       real(wp) :: even(looks), odd(looks)
       integer :: i, b, k, l
       lowest_pressure = 0
@@ -190,7 +191,7 @@ contains
          even = 0
          odd = -tail*narrow(i)
          do b = 1, blocks
-            do k = 1, lanes, 2
+            do k = 1, simd_width, 2
                !$omp simd
                do l = 1, looks
                   odd(l) = odd(l) + look(l, k, b)*q(k, i, b)
@@ -202,11 +203,11 @@ contains
       end do
    end function lowest_pressure
 
-   !> Adds a block's sums over its lanes of m(i-1) + 10 m(i) + m(i+1), alone, times q and times Lambda^2 q.
+   !> Adds a block's sums over its `simd_width` of m(i-1) + 10 m(i) + m(i+1), alone, times q and times Lambda^2 q.
    pure subroutine sum_adjoint(n, adjoint, q, square, over_s, over_v, over_h2)
       integer, intent(in) :: n
-      !> Lambda^2 by lane.
-      real(wp), intent(in) :: adjoint(lanes, 0:n), q(lanes, 0:n), square(lanes)
+      !> Lambda^2 by slot.
+      real(wp), intent(in) :: adjoint(simd_width, 0:n), q(simd_width, 0:n), square(simd_width)
       real(wp), intent(inout) :: over_s(0:n), over_v(0:n), over_h2(0:n)
       real(wp) :: stencil, alone, times_q, times_square
       integer :: i, k
@@ -215,7 +216,7 @@ contains
          times_q = 0
          times_square = 0
          !$omp simd reduction(+:alone, times_q, times_square)
-         do k = 1, lanes
+         do k = 1, simd_width
             stencil = adjoint(k, max(i - 1, 0)) + 10*adjoint(k, i) + adjoint(k, min(i + 1, n))
             alone = alone + stencil
             times_q = times_q + stencil*q(k, i)

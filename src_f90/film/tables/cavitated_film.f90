@@ -5,7 +5,7 @@ module cavitated_film
    use kinds, only: wp, i8
    use unit_pad, only: unit_pad_type, thickness_scale
    use ruptured_drive, only: ruptured_drive_type, drive_type, new_ruptured_drive, least_tolerance
-   use cubic_patch, only: lanes, corner_data
+   use cubic_patch, only: simd_width, corner_data
    implicit none (type, external)
    private
    public :: cavitated_film_type, solved_cavitated_film_type, node_type, new_solved_cavitated_film
@@ -29,12 +29,12 @@ module cavitated_film
       !> place in a table, 0 at first. `good` is false where d is not as close as it should be: next to a film that
       !> closes.
       subroutine look_up_drive(self, edges, t, want_slopes, last, value, slope, good)
-         import :: cavitated_film_type, wp, lanes
+         import :: cavitated_film_type, wp, simd_width
          class(cavitated_film_type), intent(inout) :: self
          real(wp), intent(in) :: edges(2), t
          logical, intent(in) :: want_slopes
          integer, intent(inout) :: last
-         real(wp), intent(out) :: value(lanes), slope(lanes, 3)
+         real(wp), intent(out) :: value(simd_width), slope(simd_width, 3)
          logical, intent(out) :: good
       end subroutine look_up_drive
    end interface
@@ -42,7 +42,7 @@ module cavitated_film
    !> Functions: the two components of d, the highest pressure of the whole film driven by v over that of the ruptured
    !> one, and 0. Their values, and derivatives over both thicknesses and T, (function, value or derivative).
    type :: node_type
-      real(wp) :: data(lanes, corner_data) = 0
+      real(wp) :: data(simd_width, corner_data) = 0
       !> Error of the force over that of the film that is just whole, per error of d.
       real(wp) :: weight(2, 2) = 0
       !> Whether the film is open and was solved.
@@ -80,7 +80,7 @@ contains
       real(wp), intent(in) :: edges(2), t
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
-      real(wp), intent(out) :: value(lanes), slope(lanes, 3)
+      real(wp), intent(out) :: value(simd_width), slope(simd_width, 3)
       logical, intent(out) :: good
       type(node_type) :: node
       call self%find([edges, t], node)

@@ -6,17 +6,18 @@ module cubic_patch
    use lapack, only: dgesv
    implicit none (type, external)
    private
-   public :: lanes, terms, corner_data, corners, cubic_transform, evaluate_cubic
+   public :: simd_width, terms, corner_data, corners, cubic_transform, evaluate_cubic
 
    !> Functions; terms of a cubic; at each corner a value and three derivatives.
-   integer, parameter :: lanes = 4, terms = 32, corner_data = 4, corners = 8
+   integer, parameter :: simd_width = 4, terms = 32, corner_data = 4, corners = 8
 
 contains
 
    !> Terms from the data at the corners: (term, datum), with the data as (value and derivatives over s, corner) and
    !> the corners in Fortran's order of 0 and 1 along the three axes.
    function cubic_transform() result(transform)
-      real(wp) :: transform(terms, terms), matrix(terms, terms), unit(lanes, terms), value(lanes), slope(lanes, 3)
+      real(wp) :: transform(terms, terms), matrix(terms, terms), unit(simd_width, terms), value(simd_width), &
+         slope(simd_width, 3)
       integer :: corner, term, pivots(terms), info
       transform = 0
       do term = 1, terms
@@ -35,11 +36,11 @@ contains
    !> s1^2, s1^3, each times 1, s2, s3, s2 s3; s2^2, s2^3, each times 1, s1, s3, s1 s3; s3^2, s3^3, each times 1, s1,
    !> s2, s1 s2.
    pure subroutine evaluate_cubic(c, s, want_slopes, value, slope)
-      real(wp), intent(in) :: c(lanes, terms), s(3)
+      real(wp), intent(in) :: c(simd_width, terms), s(3)
       logical, intent(in) :: want_slopes
-      real(wp), intent(out) :: value(lanes), slope(lanes, 3)
+      real(wp), intent(out) :: value(simd_width), slope(simd_width, 3)
       integer, parameter :: f = 4
-      real(wp) :: line(lanes, f), rising(lanes, f), part(lanes, 0:3)
+      real(wp) :: line(simd_width, f), rising(simd_width, f), part(simd_width, 0:3)
       associate (x => s(1), y => s(2), z => s(3))
          if (.not. want_slopes) then
             slope = 0
@@ -71,15 +72,15 @@ contains
 
    !> Value of line times (1, a, b, a b).
    pure function along_two(line, a, b) result(value)
-      real(wp), intent(in) :: line(lanes, 4), a, b
-      real(wp) :: value(lanes)
+      real(wp), intent(in) :: line(simd_width, 4), a, b
+      real(wp) :: value(simd_width)
       value = line(:, 1) + a*line(:, 2) + b*(line(:, 3) + a*line(:, 4))
    end function along_two
 
    !> Value of line times (1, a, b, a b), and derivatives along the line, over a and over b.
    pure function bilinear(line, rising, a, b) result(part)
-      real(wp), intent(in) :: line(lanes, 4), rising(lanes, 4), a, b
-      real(wp) :: part(lanes, 0:3)
+      real(wp), intent(in) :: line(simd_width, 4), rising(simd_width, 4), a, b
+      real(wp) :: part(simd_width, 0:3)
       part(:, 2) = line(:, 2) + b*line(:, 4)
       part(:, 3) = line(:, 3) + a*line(:, 4)
       part(:, 0) = line(:, 1) + a*line(:, 2) + b*part(:, 3)

@@ -6,7 +6,7 @@ module full_film
    use film_solver, only: film_motion, film_response, film_ok
    use unit_pad, only: unit_pad_type, unit_oil, thickness_scale
    use modal_film, only: modal_film_type, converged_film
-   use square_patch, only: lanes
+   use square_patch, only: simd_width
    implicit none (type, external)
    private
    public :: full_film_type, solved_full_film_type, new_solved_full_film
@@ -29,23 +29,23 @@ module full_film
       !> open film with these thicknesses at its edges. `last` is the caller's memory of the place in a table, 0 at
       !> first. `good` is false where the functions are not as close as they should be: next to a film that closes.
       subroutine look_up_driven(self, edges, want_slopes, last, value, slope, good)
-         import :: full_film_type, wp, lanes
+         import :: full_film_type, wp, simd_width
          class(full_film_type), intent(inout) :: self
          real(wp), intent(in) :: edges(2)
          logical, intent(in) :: want_slopes
          integer, intent(inout) :: last
-         real(wp), intent(out) :: value(lanes), slope(lanes, 2)
+         real(wp), intent(out) :: value(simd_width), slope(simd_width, 2)
          logical, intent(out) :: good
       end subroutine look_up_driven
 
       !> The same for the force, (along, outward, 0, 0), of a pressure 1 at the leading edge.
       subroutine look_up_supplied(self, edges, want_slopes, last, value, slope)
-         import :: full_film_type, wp, lanes
+         import :: full_film_type, wp, simd_width
          class(full_film_type), intent(inout) :: self
          real(wp), intent(in) :: edges(2)
          logical, intent(in) :: want_slopes
          integer, intent(inout) :: last
-         real(wp), intent(out) :: value(lanes), slope(lanes, 2)
+         real(wp), intent(out) :: value(simd_width), slope(simd_width, 2)
       end subroutine look_up_supplied
 
       !> The highest pressure in the middle plane, or 0, where the film is open and has these thicknesses at its edges,
@@ -88,7 +88,7 @@ contains
       real(wp), intent(in) :: edges(2)
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
-      real(wp), intent(out) :: value(lanes), slope(lanes, 2)
+      real(wp), intent(out) :: value(simd_width), slope(simd_width, 2)
       logical, intent(out) :: good
       type(film_response), dimension(1) :: along, outward
       integer :: i
@@ -113,7 +113,7 @@ contains
       real(wp), intent(in) :: edges(2)
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
-      real(wp), intent(out) :: value(lanes), slope(lanes, 2)
+      real(wp), intent(out) :: value(simd_width), slope(simd_width, 2)
       type(film_response) :: still(1)
       call self%supplied_film%evaluate([film_motion(self%pad%position(edges))], [unit_oil], 0.0_wp, want_slopes, still)
       value = [still(1)%force, 0.0_wp, 0.0_wp]
@@ -144,7 +144,7 @@ contains
    !> is shared.
    pure function symmetric(along, outward) result(m)
       real(wp), intent(in) :: along(2), outward(2)
-      real(wp) :: m(lanes)
+      real(wp) :: m(simd_width)
       m = [along(1), 0.5_wp*(along(2) + outward(1)), outward(2), 0.0_wp]
    end function symmetric
 

@@ -13,7 +13,7 @@ module rupture_table
    use cavitated_film, only: cavitated_film_type, solved_cavitated_film_type, node_type, new_solved_cavitated_film
    use octaves, only: interval, lower_end
    use cell_index, only: cell_index_type, cell_key
-   use cubic_patch, only: lanes, terms, corner_data, corners, cubic_transform, evaluate_cubic
+   use cubic_patch, only: simd_width, terms, corner_data, corners, cubic_transform, evaluate_cubic
    implicit none (type, external)
    private
    public :: rupture_table_type, new_rupture_table
@@ -31,7 +31,7 @@ module rupture_table
       real(wp) :: lower(3), upper(3), per_size(3)
       !> Whether d is as close as it should be; whether the cell is cut in eight.
       logical :: good, cut
-      real(wp) :: coefficients(lanes, terms)
+      real(wp) :: coefficients(simd_width, terms)
    end type cell_type
 
    type, extends(cavitated_film_type) :: rupture_table_type
@@ -79,7 +79,7 @@ contains
       real(wp), intent(in) :: edges(2), t
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
-      real(wp), intent(out) :: value(lanes), slope(lanes, 3)
+      real(wp), intent(out) :: value(simd_width), slope(simd_width, 3)
       logical, intent(out) :: good
       real(wp) :: place(3)
       integer :: axis
@@ -153,7 +153,8 @@ contains
       integer, intent(in) :: level, at(3)
       type(cell_type), intent(inout) :: cell
       type(node_type) :: node
-      real(wp) :: data(lanes, corner_data, 0:corners - 1), value(lanes), slope(lanes, 3), size_of(3), error
+      real(wp) :: data(simd_width, corner_data, 0:corners - 1), value(simd_width), slope(simd_width, 3), size_of(3), &
+         error
       integer :: corner, i, finer
       cell%lower = [lower_end(at(:2), octave_level + level), at(3)/real(parts*2**level, wp)]
       cell%upper = [lower_end(at(:2) + 1, octave_level + level), (at(3) + 1)/real(parts*2**level, wp)]
@@ -167,7 +168,7 @@ contains
       do corner = 0, corners - 1
          call self%find_node(finer*(at + ibits(corner, [0, 1, 2], 1)), node)
          if (.not. node%ok) return
-         data(:, :, corner) = node%data*spread([1.0_wp, size_of], 1, lanes)
+         data(:, :, corner) = node%data*spread([1.0_wp, size_of], 1, simd_width)
       end do
       ! the ratio of pressures, which falls smoothly from 1 to 0, is linear between corners
       do corner = 0, corners - 1
@@ -177,7 +178,7 @@ contains
             end associate
          end do
       end do
-      cell%coefficients = matmul(reshape(data, [lanes, terms]), transpose(self%transform))
+      cell%coefficients = matmul(reshape(data, [simd_width, terms]), transpose(self%transform))
       call self%find_node(finer*at + finer/2, node)
       if (.not. node%ok) return
       call evaluate_cubic(cell%coefficients, [0.5_wp, 0.5_wp, 0.5_wp], .true., value, slope)

@@ -3,10 +3,10 @@ module square_patch
    use kinds, only: wp, pi
    implicit none (type, external)
    private
-   public :: nodes, lanes, node_points, fitted, evaluate_patch, patch_values
+   public :: nodes, simd_width, node_points, fitted, evaluate_patch, patch_values
 
    !> Of `evaluate_patch`: nodes along either axis; functions at once, as many as a vector holds.
-   integer, parameter :: nodes = 6, lanes = 4
+   integer, parameter :: nodes = 6, simd_width = 4
 
 contains
 
@@ -49,10 +49,10 @@ contains
 
    !> Values of four functions at s and, if they are wanted, derivatives over s, (function, axis).
    pure subroutine evaluate_patch(coefficients, s, want_slopes, value, slope)
-      real(wp), intent(in) :: coefficients(lanes, nodes, nodes), s(2)
+      real(wp), intent(in) :: coefficients(simd_width, nodes, nodes), s(2)
       logical, intent(in) :: want_slopes
-      real(wp), intent(out) :: value(lanes), slope(lanes, 2)
-      real(wp), dimension(lanes, nodes) :: line, rising
+      real(wp), intent(out) :: value(simd_width), slope(simd_width, 2)
+      real(wp), dimension(simd_width, nodes) :: line, rising
       integer :: i
       if (.not. want_slopes) then
          slope = 0

@@ -5,7 +5,7 @@ module table_pad
    use pad_gap, only: pad_gap_type, pad_directions
    use unit_pad, only: unit_pad_type
    use middle_frame, only: middle_frame_type, middle_motion, middle_force, new_middle_frame
-   use square_patch, only: lanes
+   use square_patch, only: simd_width
    use full_film, only: full_film_type
    use cavitated_film, only: cavitated_film_type
    implicit none (type, external)
@@ -120,7 +120,7 @@ contains
       real(wp), intent(in) :: room
       logical, intent(in) :: want_derivatives
       type(pad_drive), intent(out) :: drive
-      real(wp) :: d(lanes), slope(lanes, 3), side(2), along
+      real(wp) :: d(simd_width), slope(simd_width, 3), side(2), along
       integer :: leading, trailing
       associate (w => seen%w)
          ! where w_1 < 0 the film diverges at the leading edge: seen in a mirror, at the trailing one
@@ -148,7 +148,7 @@ contains
       type(pad_drive), intent(in) :: drive
       logical, intent(in) :: want_derivatives
       type(middle_force), intent(out) :: force
-      real(wp) :: m(lanes), slope(lanes, 2)
+      real(wp) :: m(simd_width), slope(simd_width, 2)
       integer :: i
       call tables%whole%look_up(seen%edges, want_derivatives, self%whole_cell, m, slope, self%found)
       if (.not. self%found) return
@@ -172,7 +172,7 @@ contains
       type(middle_motion), intent(in) :: seen
       logical, intent(in) :: want_derivatives
       type(middle_force), intent(inout) :: force
-      real(wp) :: supply(lanes), slope(lanes, 2)
+      real(wp) :: supply(simd_width), slope(simd_width, 2)
       call tables%whole%look_up_supply(seen%edges, want_derivatives, self%whole_cell, supply, slope)
       force%value = force%value + (self%rise*self%square)*supply(1:2)
       if (want_derivatives) force%over_edges = force%over_edges + (self%rise*self%square)*slope(1:2, :)

@@ -10,7 +10,7 @@ module whole_table
    use unit_pad, only: unit_pad_type
    use film_resolution, only: usual_error
    use full_film, only: full_film_type, solved_full_film_type, new_solved_full_film
-   use square_patch, only: nodes, lanes, node_points, fitted, evaluate_patch
+   use square_patch, only: nodes, simd_width, node_points, fitted, evaluate_patch
    use pressure_profile, only: pressure_profile_type, new_pressure_profile
    use octaves, only: interval, lower_end
    use cell_index, only: cell_index_type, cell_key
@@ -31,7 +31,7 @@ module whole_table
       !> Whether the functions are as close as they should be; whether the cell is cut in four.
       logical :: good, cut
       !> M_11, M_12, M_22; the force, along and outward, of a pressure 1 at the leading edge.
-      real(wp) :: driven(lanes, nodes, nodes), supplied(lanes, nodes, nodes)
+      real(wp) :: driven(simd_width, nodes, nodes), supplied(simd_width, nodes, nodes)
       !> Built when a pressure is first asked for.
       type(pressure_profile_type), allocatable :: profile
    end type cell_type
@@ -81,7 +81,7 @@ contains
       real(wp), intent(in) :: edges(2)
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
-      real(wp), intent(out) :: value(lanes), slope(lanes, 2)
+      real(wp), intent(out) :: value(simd_width), slope(simd_width, 2)
       logical, intent(out) :: good
       if (.not. holds(self, last, edges)) call self%find_cell(edges, last)
       good = self%cells(last)%good
@@ -94,7 +94,7 @@ contains
       real(wp), intent(in) :: edges(2)
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
-      real(wp), intent(out) :: value(lanes), slope(lanes, 2)
+      real(wp), intent(out) :: value(simd_width), slope(simd_width, 2)
       if (.not. holds(self, last, edges)) call self%find_cell(edges, last)
       call evaluate_in(self%cells(last), self%cells(last)%supplied, edges, want_slopes, value, slope)
    end subroutine look_up_supply
@@ -102,9 +102,9 @@ contains
    !> Four of a cell's functions, with these coefficients, and their derivatives over both thicknesses.
    pure subroutine evaluate_in(cell, coefficients, edges, want_slopes, value, slope)
       type(cell_type), intent(in) :: cell
-      real(wp), intent(in) :: coefficients(lanes, nodes, nodes), edges(2)
+      real(wp), intent(in) :: coefficients(simd_width, nodes, nodes), edges(2)
       logical, intent(in) :: want_slopes
-      real(wp), intent(out) :: value(lanes), slope(lanes, 2)
+      real(wp), intent(out) :: value(simd_width), slope(simd_width, 2)
       call evaluate_patch(coefficients, (edges - cell%middle)*cell%per_half, want_slopes, value, slope)
       slope(:, 1) = slope(:, 1)*cell%per_half(1)
       slope(:, 2) = slope(:, 2)*cell%per_half(2)
@@ -190,8 +190,8 @@ contains
       class(whole_table_type), intent(inout) :: self
       integer, intent(in) :: level, place(2)
       type(cell_type), intent(inout) :: cell
-      real(wp), dimension(lanes, nodes, nodes) :: driven, supplied
-      real(wp) :: exact(lanes), found(lanes), slope(lanes, 2)
+      real(wp), dimension(simd_width, nodes, nodes) :: driven, supplied
+      real(wp) :: exact(simd_width), found(simd_width), slope(simd_width, 2)
       !> A cell that is not cut any more serves where it is as close as the solver that would stand in for it.
       real(wp) :: allowed
       real(wp) :: points(nodes)

@@ -1,8 +1,8 @@
 !> The inner loops of elimination_film: chains of single equations by mode of the grid, and small dense blocks one
-!> column of cells wide. Modes and rows are filled up to whole vectors.
+!> column of cells wide. Modes and rows are filled up to whole SIMD vectors.
 module column_sweeps
    use kinds, only: wp
-   use whole_vectors, only: lanes
+   use simd_padding, only: simd_width
    implicit none (type, external)
    private
    public :: green_chain, factor_chain, solve_chain, finish_chain, multiply_columns, weighted, invert
@@ -17,16 +17,16 @@ contains
       !> As in the chains below.
       real(wp), intent(in) :: along(0:n), beside(n), eigenvalue(m), uniform(m), at_edge(m), load(3, n), edge_load(n)
       real(wp), intent(out) :: per_pivot(m, kept), x(m, 3, kept)
-      real(wp), dimension(lanes) :: pivot, one, two, three
+      real(wp), dimension(simd_width) :: pivot, one, two, three
       integer :: i, k, first
-      do first = 0, m - 1, lanes
+      do first = 0, m - 1, simd_width
          pivot = 0
          one = 0
          two = 0
          three = 0
          do i = n, 1, -1
             !$omp simd
-            do k = 1, lanes
+            do k = 1, simd_width
                ! along(n) stands in the diagonal alone
                pivot(k) = 1/(along(i - 1) + along(i) + beside(i)*eigenvalue(first + k) - along(i)**2*pivot(k))
                one(k) = pivot(k)*(load(1, i)*uniform(first + k) + edge_load(i)*at_edge(first + k) + along(i)*one(k))
@@ -35,7 +35,7 @@ contains
             end do
             if (i > kept) cycle
             !$omp simd
-            do k = 1, lanes
+            do k = 1, simd_width
                per_pivot(first + k, i) = pivot(k)
                x(first + k, 1, i) = one(k)
                x(first + k, 2, i) = two(k)
@@ -58,16 +58,16 @@ contains
       !> Conductances through the faces and beside; axial eigenvalue by mode.
       real(wp), intent(in) :: along(0:n), beside(n), eigenvalue(m)
       real(wp), intent(inout) :: per_pivot(m, n)
-      real(wp) :: behind(lanes), around, coupling
+      real(wp) :: behind(simd_width), around, coupling
       integer :: i, k, first, step
       step = merge(1, -1, from == 1)
-      do first = 0, m - 1, lanes
+      do first = 0, m - 1, simd_width
          behind = 0
          do i = from, to, step
             around = along(i - 1) + along(i)
             coupling = along(face_behind(i, step))**2
             !$omp simd
-            do k = 1, lanes
+            do k = 1, simd_width
                behind(k) = 1/(around + beside(i)*eigenvalue(first + k) - coupling*behind(k))
                per_pivot(first + k, i) = behind(k)
             end do
@@ -80,15 +80,15 @@ contains
       integer, intent(in) :: m, n, from, to
       real(wp), intent(in) :: along(0:n), per_pivot(m, n), load(n), uniform(m), edge_load(n), at_edge(m)
       real(wp), intent(inout) :: x(m, n)
-      real(wp) :: behind(lanes), coupling
+      real(wp) :: behind(simd_width), coupling
       integer :: i, k, first, step
       step = merge(1, -1, from == 1)
-      do first = 0, m - 1, lanes
+      do first = 0, m - 1, simd_width
          behind = 0
          do i = from, to, step
             coupling = along(face_behind(i, step))
             !$omp simd
-            do k = 1, lanes
+            do k = 1, simd_width
                behind(k) = per_pivot(first + k, i)*(load(i)*uniform(first + k) + edge_load(i)*at_edge(first + k) &
                   & + coupling*behind(k))
                x(first + k, i) = behind(k)
@@ -102,15 +102,15 @@ contains
       integer, intent(in) :: m, n, from, to
       real(wp), intent(in) :: along(0:n), per_pivot(m, n), inward(m)
       real(wp), intent(inout) :: x(m, n)
-      real(wp) :: ahead(lanes), coupling
+      real(wp) :: ahead(simd_width), coupling
       integer :: i, k, first, step
       step = merge(1, -1, from == 1)
-      do first = 0, m - 1, lanes
-         ahead = inward(first + 1:first + lanes)
+      do first = 0, m - 1, simd_width
+         ahead = inward(first + 1:first + simd_width)
          do i = to, from, -step
             coupling = along(face_behind(i, -step))
             !$omp simd
-            do k = 1, lanes
+            do k = 1, simd_width
                ahead(k) = x(first + k, i) + coupling*per_pivot(first + k, i)*ahead(k)
                x(first + k, i) = ahead(k)
             end do
@@ -152,12 +152,12 @@ contains
    pure real(wp) function weighted(m, weight, x)
       integer, intent(in) :: m
       real(wp), intent(in) :: weight(m), x(m)
-      real(wp) :: part(lanes)
+      real(wp) :: part(simd_width)
       integer :: k, first
       part = 0
-      do first = 0, m - 1, lanes
+      do first = 0, m - 1, simd_width
          !$omp simd
-         do k = 1, lanes
+         do k = 1, simd_width
             part(k) = part(k) + weight(first + k)*x(first + k)
          end do
       end do

@@ -12,7 +12,7 @@ module elimination_film
    use volume_equations, only: volume_equations_type, new_volume_equations
    use film_rim, only: rim_conductance
    use slight_rupture, only: force_of_few
-   use whole_vectors, only: apply
+   use simd_padding, only: apply
    use column_sweeps, only: weighted
    implicit none (type, external)
    private

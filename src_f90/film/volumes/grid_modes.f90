@@ -4,14 +4,14 @@
 module grid_modes
    use kinds, only: wp
    use lapack, only: dstev
-   use whole_vectors, only: padded, apply
+   use simd_padding, only: padded, apply
    use film_grid, only: film_grid_type
    implicit none (type, external)
    private
    public :: grid_modes_type, new_grid_modes
 
    type :: grid_modes_type
-      !> Rows and modes, filled up with zeros to whole vectors.
+      !> Rows and modes, filled up with zeros to whole SIMD vectors.
       integer :: m
       !> (row, mode) and (mode, row), and the eigenvalues.
       real(wp), allocatable :: modes(:, :), transposed(:, :), eigenvalue(:)

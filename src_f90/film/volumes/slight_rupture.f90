@@ -9,7 +9,7 @@ module slight_rupture
    use kinds, only: wp
    use film_grid, only: film_grid_type
    use grid_modes, only: grid_modes_type
-   use whole_vectors, only: apply
+   use simd_padding, only: apply
    use column_sweeps, only: green_chain, weighted
    implicit none (type, external)
    private
