@@ -9,10 +9,10 @@ module march_start
    use equilibrium, only: equilibrium_type, find_equilibrium, find_partial_equilibrium
    use heat_balance_equations, only: has_warm_oil
    use last_state, only: read_last_state
-   use march_results, only: put_viscosity, put_course
+   use march_results, only: put_viscosity, put_viscosity_history
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
-   use viscosity_course, only: viscosity_course_type
+   use viscosity_history, only: viscosity_history_type
    use groove_transient, only: find_groove_transient
    use equilibrium_start, only: create_file, start_at_equilibrium, nothing_computed
    use run_summary, only: print_start
@@ -69,7 +69,7 @@ contains
       type(case_run_type), intent(inout) :: run
       if (run%inputs%about%task == 'branch') return
       if (has_warm_oil(run%model)) call put_viscosity(run%file, run%model%oil%viscosity)
-      if (run%model%oil_course%runs()) call put_course(run%file, run%model%oil_course)
+      if (run%model%oil_course%runs()) call put_viscosity_history(run%file, run%model%oil_course)
    end subroutine note_oil
 
    !> Gives warm oil the viscosities of the equilibrium, which it keeps in a march that starts elsewhere or goes on from
@@ -105,7 +105,7 @@ contains
       type(case_run_type), intent(inout) :: run
       real(wp), intent(in) :: y(:)
       type(error_type), allocatable, intent(inout) :: error
-      type(viscosity_course_type) :: course
+      type(viscosity_history_type) :: course
       if (run%inputs%thermal%march /= 'groove' .or. .not. abs(run%model%point%acceleration) > 0) return
       call find_groove_transient(run%model, y, run%inputs%operation%duration, course, error, stop_requested)
       if (allocated(error)) return

@@ -6,7 +6,7 @@ module groove_transient
    use text, only: to_text
    use errors, only: error_type, add_context, asked_to_stop
    use heat_balance, only: oil_temperatures_type
-   use viscosity_course, only: viscosity_course_type, new_viscosity_course
+   use viscosity_history, only: viscosity_history_type, new_viscosity_history
    use equations_of_motion, only: bearing_model
    use static_model, only: make_static
    use heat_balance_equations, only: state_balance_type, find_temperatures
@@ -28,7 +28,7 @@ contains
    subroutine find_groove_transient(model, y, duration, course, error, give_up)
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: y(:), duration
-      type(viscosity_course_type), intent(out) :: course
+      type(viscosity_history_type), intent(out) :: course
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       type(bearing_model) :: static
@@ -63,7 +63,7 @@ contains
          rate = 0
          if (k > 0) rate = (entering - before)/(time(k) - time(k - 1))
       end do
-      course = new_viscosity_course(time, viscosity)
+      course = new_viscosity_history(time, viscosity)
    end subroutine find_groove_transient
 
    !> Times, s, between which the speed changes by equal factors; near standstill nothing is followed.

@@ -9,7 +9,7 @@ module equations_of_motion
    use tilting_pad_bearing, only: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
    use rigid_journal, only: rigid_journal_type, journal_motion
    use ode_model, only: ode_model_type
-   use viscosity_course, only: viscosity_course_type
+   use viscosity_history, only: viscosity_history_type
    use state_layout, only: state_layout_type, new_state_layout, at_tilt, at_tilt_rate, at_penetration, &
       & at_penetration_rate
    use natural_sizes, only: state_scales
@@ -36,7 +36,7 @@ module equations_of_motion
       type(tilting_pad_bearing_type) :: bearing
       !> The oil of each pad, and its course where it warms or cools in a motion.
       type(film_oil), allocatable :: oil(:)
-      type(viscosity_course_type) :: oil_course
+      type(viscosity_history_type) :: oil_course
       !> Natural size of each state.
       real(wp), allocatable :: scale(:)
       type(newton_system_type), private :: newton

@@ -4,12 +4,12 @@ module march_results
    use kinds, only: wp, i8, pi
    use errors, only: error_type
    use hdf5_file, only: hdf5_type
-   use viscosity_course, only: viscosity_course_type
+   use viscosity_history, only: viscosity_history_type
    use equations_of_motion, only: model_sample
    use run_file, only: run_file_type
    implicit none (type, external)
    private
-   public :: add_sample, put_spectrum, put_viscosity, put_course
+   public :: add_sample, put_spectrum, put_viscosity, put_viscosity_history
 
    !> Values of a sample: of the journal, and of a pad at most.
    integer, parameter :: of_journal = 7, of_pad = 12
@@ -88,9 +88,9 @@ contains
    end subroutine put_viscosity
 
    !> Writes the course of these viscosities in a run-up.
-   subroutine put_course(file, course)
+   subroutine put_viscosity_history(file, course)
       type(run_file_type), intent(inout) :: file
-      type(viscosity_course_type), intent(in) :: course
+      type(viscosity_history_type), intent(in) :: course
       real(wp), allocatable :: time(:), viscosity(:, :)
       integer :: k
       ! counted from 1, in brackets
@@ -102,7 +102,7 @@ contains
       call file%file%make_group('oil')
       call file%file%put_list('oil/time', time, 's', 'time', 'oil/time')
       call file%file%put_table('oil/viscosity', viscosity, 'Pa s', 'viscosity of the oil on each pad', 'oil/time pad')
-   end subroutine put_course
+   end subroutine put_viscosity_history
 
    !> Amplitude spectra over the last revolutions of a run at constant speed, rad/s.
    subroutine put_spectrum(file, interval, revolutions, speed, journal_y, journal_z, journal_full, tilt)

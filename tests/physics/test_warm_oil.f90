@@ -11,7 +11,7 @@ program test_warm_oil
    use static_figures, only: static_figures_type, find_static_figures
    use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
    use stability_threshold, only: find_thresholds
-   use viscosity_course, only: viscosity_course_type
+   use viscosity_history, only: viscosity_history_type
    use groove_transient, only: find_groove_transient
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
@@ -216,7 +216,7 @@ contains
       type(equilibrium_type) :: static
       type(static_figures_type) :: figures
       type(bearing_model) :: model
-      type(viscosity_course_type) :: course
+      type(viscosity_history_type) :: course
       type(error_type), allocatable :: error
       inputs = case_of('&operation speed_rpm = 3000, final_speed_rpm = 4000/ &film cavitation = ''none''/'//vg46)
       inputs%oil%shaft_temperature = 55

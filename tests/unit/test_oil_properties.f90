@@ -8,7 +8,7 @@ program test_oil_properties
    use bearing_numbers, only: sommerfeld_number
    use equations_of_motion, only: bearing_model, new_bearing_model
    use checked_case, only: derived_text
-   use viscosity_course, only: viscosity_course_type, new_viscosity_course
+   use viscosity_history, only: viscosity_history_type, new_viscosity_history
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
    character(len=*), parameter :: measured = '&oil kinematic_viscosity = 46e-6, 6.8e-6, density_at_15 = 870,' &
@@ -182,10 +182,10 @@ contains
    end function logarithm
 
    subroutine parabola()
-      type(viscosity_course_type) :: course
+      type(viscosity_history_type) :: course
       real(wp) :: found(2)
       integer :: k
-      course = new_viscosity_course(time, exp(reshape([(logarithm(time(k)), 2*logarithm(time(k)), k=0, 4)], [2, 5])))
+      course = new_viscosity_history(time, exp(reshape([(logarithm(time(k)), 2*logarithm(time(k)), k=0, 4)], [2, 5])))
       do k = 0, 40
          call course%at(k*0.05_wp, found)
          call expect_close(log(found(1)), logarithm(k*0.05_wp), 1e-13_wp, 'first pad')
@@ -195,11 +195,11 @@ contains
 
    !> No leap of value or slope at a node.
    subroutine smooth()
-      type(viscosity_course_type) :: course
+      type(viscosity_history_type) :: course
       real(wp), dimension(1) :: far_before, before, after, far_after
       real(wp), parameter :: step = 1e-5_wp
       integer :: k
-      course = new_viscosity_course(time, reshape([3.0_wp, 2.0_wp, 5.0_wp, 4.0_wp, 1.0_wp], [1, 5]))
+      course = new_viscosity_history(time, reshape([3.0_wp, 2.0_wp, 5.0_wp, 4.0_wp, 1.0_wp], [1, 5]))
       do k = 1, 3
          call course%at(time(k) - 2*step, far_before)
          call course%at(time(k) - step, before)
@@ -211,10 +211,10 @@ contains
    end subroutine smooth
 
    subroutine ends()
-      type(viscosity_course_type) :: course
+      type(viscosity_history_type) :: course
       real(wp) :: found(1)
       call expect(.not. course%runs(), 'none before it is made')
-      course = new_viscosity_course(time, reshape([3.0_wp, 2.0_wp, 5.0_wp, 4.0_wp, 1.0_wp], [1, 5]))
+      course = new_viscosity_history(time, reshape([3.0_wp, 2.0_wp, 5.0_wp, 4.0_wp, 1.0_wp], [1, 5]))
       call expect(course%runs(), 'made')
       call course%at(-1.0_wp, found)
       call expect_close(found(1), 3.0_wp, 1e-14_wp, 'before')

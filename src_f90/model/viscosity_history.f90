@@ -1,11 +1,11 @@
 !> Viscosities of the oil on every pad as a course over time: cubics between nodes, smooth across them.
-module viscosity_course
+module viscosity_history
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: viscosity_course_type, new_viscosity_course
+   public :: viscosity_history_type, new_viscosity_history
 
-   type :: viscosity_course_type
+   type :: viscosity_history_type
       !> Nodes, s, (0:n).
       real(wp), allocatable :: time(:)
       !> Logarithms of the viscosities, Pa s, there, (pad, 0:n), and their slopes, 1/s.
@@ -14,12 +14,12 @@ module viscosity_course
       procedure :: runs
       procedure :: pads
       procedure :: at
-   end type viscosity_course_type
+   end type viscosity_history_type
 
 contains
 
    !> The course through viscosities, Pa s, (pad, 0:n), at n + 1 >= 3 times, s.
-   pure type(viscosity_course_type) function new_viscosity_course(time, viscosity) result(course)
+   pure type(viscosity_history_type) function new_viscosity_history(time, viscosity) result(course)
       real(wp), intent(in) :: time(0:), viscosity(:, 0:)
       real(wp) :: steep(size(viscosity, 1), size(time) - 1), step(size(time) - 1)
       integer :: k, n
@@ -37,22 +37,22 @@ contains
       end do
       course%slope(:, 0) = 2*steep(:, 1) - course%slope(:, 1)
       course%slope(:, n) = 2*steep(:, n) - course%slope(:, n - 1)
-   end function new_viscosity_course
+   end function new_viscosity_history
 
    !> False where there is no course: then viscosities stay.
    pure logical function runs(self)
-      class(viscosity_course_type), intent(in) :: self
+      class(viscosity_history_type), intent(in) :: self
       runs = allocated(self%time)
    end function runs
 
    pure integer function pads(self)
-      class(viscosity_course_type), intent(in) :: self
+      class(viscosity_history_type), intent(in) :: self
       pads = size(self%value, 1)
    end function pads
 
    !> The viscosities at a time, s; before and behind the course those at its ends.
    pure subroutine at(self, time, viscosity)
-      class(viscosity_course_type), intent(in) :: self
+      class(viscosity_history_type), intent(in) :: self
       real(wp), intent(in) :: time
       real(wp), intent(out) :: viscosity(:)
       real(wp) :: s, step
@@ -66,4 +66,4 @@ contains
             & + step*s*(1 - s)*((1 - s)*self%slope(:, k - 1) - s*self%slope(:, k)))
       end associate
    end subroutine at
-end module viscosity_course
+end module viscosity_history
