@@ -17,7 +17,7 @@ MARCH = ("start%from=file", "integration%relative_tolerance=1e-10", "output%samp
 
 
 class Point(NamedTuple):
-    """A special point of a branch over the speed, which is on the way between both `sides`, rpm.
+    """A bifurcation point of a branch over the speed, which is on the way between both `sides`, rpm.
 
     `multiplier` is the place of the one that crosses there. Marches start beside the orbit by `beside`; when
     the first of their periods are skipped, so many `modes` of the motion are left.
@@ -79,7 +79,7 @@ def from_file(result):
 
 
 def special_point(program, folder, point, first, last, *overrides):
-    """The special point of the branch from one speed to another, rpm."""
+    """The bifurcation point of the branch from one speed to another, rpm."""
     way = (f"branch%of={point.of}", f"branch%last={last:.17g}", f"branch%step={(last - first) / 4:.17g}")
     task = ("case%task=branch", 'branch%parameter="operation%speed_rpm"')
     if point.of == "periodic":
@@ -87,7 +87,7 @@ def special_point(program, folder, point, first, last, *overrides):
     with run(
         program, point.case, folder, *point.overrides, *FILMS, *task, *way, at(first), *overrides
     ) as result:
-        return branches.special_points(result)[point.special]
+        return branches.bifurcations(result)[point.special]
 
 
 def multipliers(orbit):
@@ -141,7 +141,7 @@ def compared(program, folder, point, orbit, words, expected):
 
 
 def both_sides(program, folder):
-    """Rows of marches against multipliers, before and behind special points, and on both sides of a fold."""
+    """Rows of marches against multipliers, before and behind bifurcation points, and on both sides of a fold."""
     for point in POINTS:
         special = special_point(program, folder, point, *point.sides)
         words = f"{point.words}: {branches.KINDS[special.kind][1]} at {special.parameter:.2f} rpm"

@@ -19,7 +19,7 @@ from paper.tables import digits, table
 
 RPM = SHOWN["speed"].label
 #: What happens where the orbit is lost or comes back, in a table.
-HAPPENS = {"neimark_sacker": "second frequency", "flip": "period doubles", "fold": "turns back"}
+HAPPENS = {"neimark_sacker": "second frequency", "period_doubling": "period doubles", "fold": "turns back"}
 #: The upper pad of the four-pad bearing that is shown.
 UPPER = 3
 #: Folder of the marches up and down, in that of the studies, and the step of their speed, rpm.
@@ -142,7 +142,7 @@ def lost_table(runs: Runs) -> str:
 
 def part_words(run: tiltpad.Run, low: float, high: float) -> str:
     """Speeds of an unstable part, and what happens at its ends."""
-    kinds = {round(each.parameter, 6): each.kind for each in branches.special_points(run)}
+    kinds = {round(each.parameter, 6): each.kind for each in branches.bifurcations(run)}
     ends = []
     for speed in (low, high):
         kind = HAPPENS.get(kinds.get(round(speed, 6), ""), "")
@@ -179,9 +179,9 @@ def doubling_words(runs: Runs) -> str:
     crossed = [
         f"{each.parameter:.0f} rpm ({HAPPENS.get(each.kind, each.kind)}, "
         f"multiplier {digits(each.value.real, 4)} +- {digits(abs(each.value.imag), 2)} i)"
-        for each in branches.special_points(once)
+        for each in branches.bifurcations(once)
     ]
-    folds = [each.parameter for each in branches.special_points(twice) if each.kind == "fold"]
+    folds = [each.parameter for each in branches.bifurcations(twice) if each.kind == "fold"]
     leading = np.abs(branches.multipliers(twice)[:, 0])
     calm = bool(twice["stable"].any())
     said = [f"The synchronous orbit loses its stability at {', and again at '.join(crossed)}."]

@@ -1,18 +1,18 @@
-!> What a run prints of its branches: special points as they are found, and at the end all of it.
+!> What a run prints of its branches: bifurcation points as they are found, and at the end all of it.
 module branch_summary
    use kinds, only: wp
    use text, only: to_text, fixed_text
-   use special_points, only: special_point_type
+   use bifurcations, only: bifurcation_type
    use run_file, only: run_file_type
    implicit none (type, external)
    private
-   public :: print_special_point, print_branch, branch_end
+   public :: print_bifurcation, print_branch, branch_end
 
 contains
 
-   !> A special point, found between two points.
-   subroutine print_special_point(special, parameter, warm)
-      type(special_point_type), intent(in) :: special
+   !> A bifurcation point, found between two points.
+   subroutine print_bifurcation(special, parameter, warm)
+      type(bifurcation_type), intent(in) :: special
       character(len=*), intent(in) :: parameter
       !> Whether the oil has temperatures.
       logical, intent(in) :: warm
@@ -21,7 +21,7 @@ contains
             & //fixed_text(value%re, 4)//merge(' + ', ' - ', value%im >= 0)//fixed_text(abs(value%im), 4)//' i' &
             & //frozen(warm)
       end associate
-   end subroutine print_special_point
+   end subroutine print_bifurcation
 
    !> Ten significant digits.
    function precise(x) result(digits)

@@ -10,19 +10,19 @@ module branch_task
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
    use march_settings, only: march_settings_of
    use newton_method, only: branch_point_type
-   use special_points, only: special_point_type
+   use bifurcations, only: bifurcation_type
    use branch_progress, only: branch_progress_type
    use orbit_figures, only: orbit_figures_type, find_orbit_figures, figures_at_rest
    use heat_balance, only: oil_temperatures_type
    use heat_balance_equations, only: has_warm_oil
-   use branch_results, only: branch_orbit_type, noted_point_type, begin_branches, add_point, put_special_points, noted
+   use branch_results, only: branch_orbit_type, noted_point_type, begin_branches, add_point, put_bifurcations, noted
    use branch_checkpoint, only: put_branches, get_branches
    use provenance, only: running
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use equilibrium_start, only: seek_equilibrium, note_equilibrium
    use march_start, only: make_start
-   use branch_summary, only: print_special_point, print_branch, branch_end
+   use branch_summary, only: print_bifurcation, print_branch, branch_end
    implicit none (type, external)
    private
    public :: run_branch
@@ -184,12 +184,12 @@ contains
       run%computed = .true.
    end subroutine open_series
 
-   !> Brings the file up to what it has not as series: special points, ends of branches, counts.
+   !> Brings the file up to what it has not as series: bifurcation points, ends of branches, counts.
    subroutine bring_up_to_date(run, b, notes)
       type(case_run_type), intent(inout) :: run
       type(branch_progress_type), intent(inout) :: b
       type(notes_type), intent(in) :: notes
-      call put_special_points(run%file%file, notes%special, b%parameter)
+      call put_bifurcations(run%file%file, notes%special, b%parameter)
       call run%file%file%put_text('branch_ends', notes%ends)
       associate (counts => run%counts, orbits => b%orbits)
          counts%rhs_evaluations = counts%rhs_evaluations + orbits%evaluations + orbits%tangents
@@ -205,7 +205,7 @@ contains
       type(branch_progress_type), intent(inout), target :: b
       type(notes_type), intent(inout) :: notes
       type(error_type), allocatable, intent(out) :: error
-      type(special_point_type), allocatable :: special(:)
+      type(bifurcation_type), allocatable :: special(:)
       character(len=:), allocatable :: at_end
       logical :: found
       do
@@ -219,11 +219,11 @@ contains
       notes%ends = notes%ends//branch_end(b%branch, b%given%parameter, b%here%parameter, at_end)
    end subroutine follow
 
-   !> Adds the point that was found to the file, and the special points before it.
+   !> Adds the point that was found to the file, and the bifurcation points before it.
    subroutine record_step(run, b, special, notes, error)
       type(case_run_type), intent(inout) :: run
       type(branch_progress_type), intent(inout), target :: b
-      type(special_point_type), intent(in) :: special(:)
+      type(bifurcation_type), intent(in) :: special(:)
       type(notes_type), intent(inout) :: notes
       type(error_type), allocatable, intent(out) :: error
       integer :: k
@@ -232,7 +232,7 @@ contains
          call record(run, b, special(k)%point, error)
          if (allocated(error)) return
          notes%special = [notes%special, noted(run%file, b%branch, special(k))]
-         if (.not. run%quiet) call print_special_point(special(k), b%given%parameter, has_warm_oil(run%model))
+         if (.not. run%quiet) call print_bifurcation(special(k), b%given%parameter, has_warm_oil(run%model))
       end do
       if (size(special) > 0) call b%stand_at(b%here)
       call record(run, b, b%here, error)

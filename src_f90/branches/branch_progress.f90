@@ -12,7 +12,7 @@ module branch_progress
    use orbit_problem, only: orbit_problem_type, begin_orbits
    use newton_method, only: branch_problem_type, place_part_type, branch_point_type, can_be_of
    use continuation, only: branch_options, start_branch, advance, return_to
-   use special_points, only: special_point_type, find_special_points
+   use bifurcations, only: bifurcation_type, find_bifurcations
    use period_doubling, only: double_period, half_apart, forget_flips
    use varied_bearing, only: varied_bearing_type
    use bearing_orbits, only: bearing_orbits_type
@@ -43,8 +43,8 @@ module branch_progress
       type(branch_point_type) :: here
       !> Orbits of fewer turns of the shaft are followed where their period doubles.
       integer, private :: longest_turns = 0
-      !> Flips from which branches are still to be followed.
-      type(branch_point_type), allocatable :: flips(:)
+      !> Period doublings from which branches are still to be followed.
+      type(branch_point_type), allocatable :: period_doublings(:)
    contains
       procedure :: prepare
       procedure :: begin_oil
@@ -92,7 +92,7 @@ contains
       self%given = model%inputs%branch
       self%longest_turns = longest_period*model%inputs%periodic%revolutions
       self%length = self%options%first_step
-      allocate (self%flips(0))
+      allocate (self%period_doublings(0))
       if (self%of_orbits) then
          self%options%tolerance = model%inputs%periodic%tolerance
          self%ode%bearing%model => model
@@ -177,7 +177,8 @@ contains
       real(wp), allocatable :: growth(:)
       integer :: k
       problem => followed(self)
-      ok = can_be_of(problem, self%here) .and. all([(can_be_of(problem, self%flips(k)), k=1, size(self%flips))])
+      ok = can_be_of(problem, self%here) .and. all([(can_be_of(problem, self%period_doublings(k)), k=1, &
+         size(self%period_doublings))])
       if (.not. ok) return
       call return_to(problem, self%here, refusal)
       ok = .not. allocated(refusal)
@@ -185,12 +186,12 @@ contains
       if (ok) ok = size(growth) == size(self%here%growth)
    end subroutine go_on
 
-   !> Goes from `here` to the next point, with the special points before it, at none of which the problem need stand
+   !> Goes from `here` to the next point, with the bifurcation points before it, at none of which the problem need stand
    !> then. Where the branch has ended `at_end` says why, else it is empty; `found` is false where it has ended without
    !> another point. An error of status `stopped` leaves all as it was.
    subroutine take_step(self, special, found, at_end, error, give_up)
       class(branch_progress_type), intent(inout), target :: self
-      type(special_point_type), allocatable, intent(out) :: special(:)
+      type(bifurcation_type), allocatable, intent(out) :: special(:)
       logical, intent(out) :: found
       character(len=:), allocatable, intent(out) :: at_end
       type(error_type), allocatable, intent(out) :: error
@@ -220,12 +221,12 @@ contains
       if (self%branch > 1 .and. self%points > 0) then
          if (dot_product(split, half_apart(self%orbits)) < 0) then
             at_end = 'it comes back to the branch that it left'
-            call forget_flips(self%flips, self%here, next, self%orbits%turns)
+            call forget_flips(self%period_doublings, self%here, next, self%orbits%turns)
             return
          end if
       end if
       ! where a branch of double period begins a multiplier is 1
-      if (self%points > 0) call find_special_points(problem, self%options, self%here, next, special, error, give_up)
+      if (self%points > 0) call find_bifurcations(problem, self%options, self%here, next, special, error, give_up)
       if (allocated(error)) return
       call note_flips(self, special)
       found = .true.
@@ -238,14 +239,15 @@ contains
          & //' points (branch%max_points)'
    end subroutine take_step
 
-   !> Keeps the flips among special points from which a branch is to be followed.
+   !> Keeps the period doublings among bifurcation points from which a branch is to be followed.
    pure subroutine note_flips(branches, special)
       type(branch_progress_type), intent(inout) :: branches
-      type(special_point_type), intent(in) :: special(:)
+      type(bifurcation_type), intent(in) :: special(:)
       integer :: k
       if (.not. branches%given%switch .or. branches%orbits%turns >= branches%longest_turns) return
       do k = 1, size(special)
-         if (special(k)%kind == 'flip') branches%flips = [branches%flips, special(k)%point]
+         if (special(k)%kind == 'period_doubling') branches%period_doublings = [branches%period_doublings, &
+            special(k)%point]
       end do
    end subroutine note_flips
 
@@ -295,12 +297,12 @@ contains
    subroutine begin_double(self, more)
       class(branch_progress_type), intent(inout) :: self
       logical, intent(out) :: more
-      type(branch_point_type) :: flip
+      type(branch_point_type) :: period_doubling
       more = .false.
-      do while (size(self%flips) > 0 .and. .not. more)
-         flip = self%flips(1)
-         self%flips = self%flips(2:)
-         call double_period(self%orbits, flip, self%here, more)
+      do while (size(self%period_doublings) > 0 .and. .not. more)
+         period_doubling = self%period_doublings(1)
+         self%period_doublings = self%period_doublings(2:)
+         call double_period(self%orbits, period_doubling, self%here, more)
       end do
       if (more) self%branch = self%branch + 1
       self%points = 0

@@ -1,4 +1,4 @@
-!> Branches of orbits of double period, which begin at a flip.
+!> Branches of orbits of double period, which begin at a period doubling.
 module period_doubling
    use kinds, only: wp
    use lapack, only: dgesv
@@ -12,17 +12,17 @@ module period_doubling
 
 contains
 
-   !> From a flip of a problem: the point of the branch of double period there, on which the problem stands then. Its
-   !> tangent is the disturbance that comes back with the opposite sign after a period.
-   subroutine double_period(problem, flip, point, ok)
+   !> From a period doubling of a problem: the point of the branch of double period there, on which the problem stands
+   !> then. Its tangent is the disturbance that comes back with the opposite sign after a period.
+   subroutine double_period(problem, period_doubling, point, ok)
       type(orbit_problem_type), intent(inout) :: problem
-      type(branch_point_type), intent(in) :: flip
+      type(branch_point_type), intent(in) :: period_doubling
       type(branch_point_type), intent(out) :: point
       logical, intent(out) :: ok
       type(orbit_type) :: twice
       real(wp) :: direction(problem%n), matrix(problem%n, problem%n)
       integer :: pivots(problem%n), info, i, n
-      call return_to(problem, flip)
+      call return_to(problem, period_doubling)
       direction = 1
       do i = 1, 3
          matrix = problem%orbit%monodromy
@@ -45,7 +45,7 @@ contains
       call problem%get_place(point%place)
       allocate (point%change(problem%n + 1), source=0.0_wp)
       point%tangent = [direction, 0.0_wp]
-      point%parameter = flip%parameter
+      point%parameter = period_doubling%parameter
       call return_to(problem, point)
       call problem%spectrum(point%values, point%growth, ok)
    end subroutine double_period
@@ -64,16 +64,17 @@ contains
       end associate
    end function half_apart
 
-   !> A branch of double period, of orbits of so many turns, that ends at another flip between two points need not be
-   !> followed from there again.
-   pure subroutine forget_flips(flips, here, next, turns)
-      type(branch_point_type), allocatable, intent(inout) :: flips(:)
+   !> A branch of double period, of orbits of so many turns, that ends at another period doubling between two points
+   !> need not be followed from there again.
+   pure subroutine forget_flips(period_doublings, here, next, turns)
+      type(branch_point_type), allocatable, intent(inout) :: period_doublings(:)
       type(branch_point_type), intent(in) :: here, next
       integer, intent(in) :: turns
       real(wp) :: step
       integer :: k
       step = abs(next%parameter - here%parameter)
-      flips = pack(flips, [(abs(flips(k)%parameter - next%parameter) > 2*step .or. 2*turns_at(flips(k)) /= turns, &
-         & k=1, size(flips))])
+      period_doublings = pack(period_doublings, [(abs(period_doublings(k)%parameter - next%parameter) > 2*step &
+         .or. 2*turns_at(period_doublings(k)) /= turns, &
+         & k=1, size(period_doublings))])
    end subroutine forget_flips
 end module period_doubling

@@ -9,7 +9,7 @@ module stability_threshold
    use bearing_coefficients, only: bearing_coefficients_type
    use newton_method, only: branch_point_type
    use continuation, only: branch_options, start_branch, advance, return_to
-   use special_points, only: special_point_type, find_special_points
+   use bifurcations, only: bifurcation_type, find_bifurcations
    use varied_bearing, only: varied_bearing_type
    use equilibrium_branch, only: equilibrium_problem_type, begin_equilibria
    implicit none (type, external)
@@ -68,7 +68,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       type(branch_point_type) :: here, next
-      type(special_point_type), allocatable :: special(:)
+      type(bifurcation_type), allocatable :: special(:)
       real(wp) :: length
       logical :: ends
       reached = problem%parameter
@@ -85,7 +85,7 @@ contains
             ends = .false.
             cycle
          end if
-         call find_special_points(problem, options, here, next, special, error, give_up)
+         call find_bifurcations(problem, options, here, next, special, error, give_up)
          if (allocated(error)) exit
          reached = next%parameter
          if (size(special) > 0) then

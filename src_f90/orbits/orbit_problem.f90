@@ -231,7 +231,7 @@ contains
       if (abs(value%im) > 0) then
          kind = 'neimark_sacker'
       else if (value%re < 0) then
-         kind = 'flip'
+         kind = 'period_doubling'
       else
          kind = 'fold'
       end if

@@ -5,7 +5,7 @@ module branch_checkpoint
    use text, only: to_text
    use errors, only: error_type, raise, system_error
    use newton_method, only: branch_point_type, place_part_type
-   use special_points, only: kinds_of_points
+   use bifurcations, only: kinds_of_points
    use branch_progress, only: branch_progress_type
    use branch_results, only: noted_point_type
    use hdf5_file, only: hdf5_type
@@ -15,7 +15,7 @@ module branch_checkpoint
 
 contains
 
-   !> Into the group of the checkpoint, which is there; the file has the special points, too.
+   !> Into the group of the checkpoint, which is there; the file has the bifurcation points, too.
    subroutine put_branches(file, branches, special)
       type(hdf5_type), intent(inout) :: file
       type(branch_progress_type), intent(in) :: branches
@@ -25,14 +25,14 @@ contains
       call file%put_count('checkpoint/points', int(branches%points, i8), 'its points so far')
       call file%put_real('checkpoint/step', branches%length, '1', 'length of its next step')
       if (size(special) > 0) call file%put_list('checkpoint/special_kinds', real(special%kind, wp), '1', &
-         & 'kind of each special point: number in the list of all kinds', '')
+         & 'kind of each bifurcation point: number in the list of all kinds', '')
       call put_point(file, 'checkpoint/point', branches, branches%here)
-      do k = 1, size(branches%flips)
-         call put_point(file, flip_name(k), branches, branches%flips(k))
+      do k = 1, size(branches%period_doublings)
+         call put_point(file, flip_name(k), branches, branches%period_doublings(k))
       end do
    end subroutine put_branches
 
-   !> The group of a flip from which a branch is still to be followed.
+   !> The group of a period doubling from which a branch is still to be followed.
    function flip_name(k) result(name)
       integer, intent(in) :: k
       character(len=:), allocatable :: name
@@ -79,7 +79,7 @@ contains
       type(noted_point_type), allocatable, intent(out) :: special(:)
       logical, intent(out) :: ok
       type(error_type), allocatable, intent(out) :: error
-      type(branch_point_type) :: flip
+      type(branch_point_type) :: period_doubling
       ok = .false.
       if (.not. file%has('checkpoint/point')) then
          call raise(error, system_error, path//': its checkpoint is of another version of tiltpad; start the run anew')
@@ -91,9 +91,9 @@ contains
       call get_special(file, special, ok)
       ok = ok .and. branches%branch > 0 .and. branches%points >= 0 .and. ieee_is_finite(branches%length)
       if (ok) call get_point(file, 'checkpoint/point', branches, branches%here, ok)
-      do while (ok .and. file%has(flip_name(size(branches%flips) + 1)))
-         call get_point(file, flip_name(size(branches%flips) + 1), branches, flip, ok)
-         branches%flips = [branches%flips, flip]
+      do while (ok .and. file%has(flip_name(size(branches%period_doublings) + 1)))
+         call get_point(file, flip_name(size(branches%period_doublings) + 1), branches, period_doubling, ok)
+         branches%period_doublings = [branches%period_doublings, period_doubling]
       end do
    end subroutine get_branches
 
@@ -107,11 +107,11 @@ contains
       allocate (special(0))
       if (.not. file%has('checkpoint/special_kinds')) return
       kind = list(file, 'checkpoint/special_kinds')
-      point = list(file, 'special_points/point')
-      branch = list(file, 'special_points/branch')
-      parameter = list(file, 'special_points/parameter')
-      re = list(file, 'special_points/value_real')
-      im = list(file, 'special_points/value_imag')
+      point = list(file, 'bifurcations/point')
+      branch = list(file, 'bifurcations/branch')
+      parameter = list(file, 'bifurcations/parameter')
+      re = list(file, 'bifurcations/value_real')
+      im = list(file, 'bifurcations/value_imag')
       ok = all([size(point), size(branch), size(parameter), size(re), size(im)] == size(kind))
       if (ok) ok = all(kind >= 1 .and. kind <= size(kinds_of_points)) .and. all(abs([point, branch]) < huge(1))
       if (ok) special = [(noted_point_type(nint(point(k)), nint(kind(k)), nint(branch(k)), parameter(k), &

@@ -4,16 +4,16 @@ module branch_results
    use errors, only: error_type
    use case_parameter, only: case_parameter_type
    use newton_method, only: branch_point_type
-   use special_points, only: special_point_type, kinds_of_points, kind_length
+   use bifurcations, only: bifurcation_type, kinds_of_points, kind_length
    use heat_balance, only: oil_temperatures_type
    use orbit_figures, only: orbit_figures_type
    use hdf5_file, only: hdf5_type
    use run_file, only: run_file_type
    implicit none (type, external)
    private
-   public :: noted_point_type, branch_orbit_type, begin_branches, add_point, put_special_points, noted
+   public :: noted_point_type, branch_orbit_type, begin_branches, add_point, put_bifurcations, noted
 
-   !> A special point as the file has it: its number among all points and among the kinds, and where it is.
+   !> A bifurcation point as the file has it: its number among all points and among the kinds, and where it is.
    type :: noted_point_type
       integer :: point = 0, kind = 0, branch = 1
       real(wp) :: parameter = 0
@@ -127,33 +127,33 @@ contains
       end subroutine each
    end subroutine add_point
 
-   !> How a special point of a branch is noted that is the last point of the file.
+   !> How a bifurcation point of a branch is noted that is the last point of the file.
    type(noted_point_type) function noted(file, branch, special)
       type(run_file_type), intent(in) :: file
       integer, intent(in) :: branch
-      type(special_point_type), intent(in) :: special
+      type(bifurcation_type), intent(in) :: special
       noted = noted_point_type(int(file%samples()), findloc(kinds_of_points, special%kind, dim=1), branch, &
          & special%point%parameter, special%value)
    end function noted
 
-   !> Writes the special points anew, if there are any.
-   subroutine put_special_points(file, special, parameter)
+   !> Writes the bifurcation points anew, if there are any.
+   subroutine put_bifurcations(file, special, parameter)
       type(hdf5_type), intent(inout) :: file
       type(noted_point_type), intent(in) :: special(:)
       type(case_parameter_type), intent(in) :: parameter
-      character(len=*), parameter :: over = 'special_points/point'
+      character(len=*), parameter :: over = 'bifurcations/point'
       character(len=kind_length) :: kinds(size(special))
-      call file%delete('special_points')
+      call file%delete('bifurcations')
       if (size(special) == 0) return
-      call file%make_group('special_points')
+      call file%make_group('bifurcations')
       kinds = kinds_of_points(special%kind)
       call file%put_list(over, real(special%point, wp), '1', 'number of the point', over)
-      call file%put_labels('special_points/kind', kinds, 'kind of special point')
-      call file%put_list('special_points/parameter', special%parameter, parameter%unit, parameter%meaning, over)
-      call file%put_list('special_points/branch', real(special%branch, wp), '1', 'branch number', over)
-      call file%put_list('special_points/value_real', special%value%re, '1', &
+      call file%put_labels('bifurcations/kind', kinds, 'kind of bifurcation point')
+      call file%put_list('bifurcations/parameter', special%parameter, parameter%unit, parameter%meaning, over)
+      call file%put_list('bifurcations/branch', real(special%branch, wp), '1', 'branch number', over)
+      call file%put_list('bifurcations/value_real', special%value%re, '1', &
          & 'multiplier or eigenvalue (1/s) that crosses, real part', over)
-      call file%put_list('special_points/value_imag', special%value%im, '1', &
+      call file%put_list('bifurcations/value_imag', special%value%im, '1', &
          & 'multiplier or eigenvalue (1/s) that crosses, imaginary part', over)
-   end subroutine put_special_points
+   end subroutine put_bifurcations
 end module branch_results

@@ -23,7 +23,7 @@ def test_equilibria_lose_their_stability_at_the_threshold(run, tmp_path):
     threshold = ("case%task='coefficients'", "coefficients%threshold_up_to_rpm=16000")
     run(LIGHT, *threshold, name="coefficients")
     with h5py.File(tmp_path / "case.h5") as branch, h5py.File(tmp_path / "coefficients.h5") as coefficients:
-        special = branch["special_points"]
+        special = branch["bifurcations"]
         assert list(special["kind"]) == [b"hopf", b"hopf"]
         assert special["parameter"][0] == pytest.approx(coefficients["modes/threshold_rpm"][0], rel=1e-7)
         at = int(special["point"][0]) - 1

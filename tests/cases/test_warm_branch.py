@@ -33,8 +33,8 @@ def test_equilibria_have_their_temperatures_and_thresholds(run, tmp_path):
         h5py.File(tmp_path / "threshold.h5") as other,
         h5py.File(tmp_path / "rest.h5") as rest,
     ):
-        assert list(branch["special_points/kind"]) == [b"hopf"]
-        found = branch["special_points/parameter"][0]
+        assert list(branch["bifurcations/kind"]) == [b"hopf"]
+        found = branch["bifurcations/parameter"][0]
         assert found == pytest.approx(other["modes/threshold_rpm"][0], rel=1e-7)
         assert max(branch["iterations"]) <= 4
         # as close as the films of both
@@ -59,7 +59,7 @@ def test_oil_that_does_not_thin_has_the_branch_of_cold_oil(run, tmp_path):
         run(steady, *EQUILIBRIA, f"thermal%model='{name}'", name=name)
     with h5py.File(tmp_path / "pad.h5") as warm, h5py.File(tmp_path / "none.h5") as cold:
         assert "viscosity" not in cold
-        for name in ("parameter", "journal_y_max", "eigenvalue_real", "special_points/parameter"):
+        for name in ("parameter", "journal_y_max", "eigenvalue_real", "bifurcations/parameter"):
             np.testing.assert_allclose(warm[name][:], cold[name][:], rtol=1e-9, err_msg=name)
 
 
@@ -93,8 +93,8 @@ def test_heat_that_runs_away_turns_the_branch_back(run, tmp_path):
         "branch%step=1000",
     )
     with h5py.File(tmp_path / "case.h5") as branch:
-        assert list(branch["special_points/kind"]) == [b"fold"]
-        fold, at = branch["special_points/parameter"][0], int(branch["special_points/point"][0]) - 1
+        assert list(branch["bifurcations/kind"]) == [b"fold"]
+        fold, at = branch["bifurcations/parameter"][0], int(branch["bifurcations/point"][0]) - 1
         assert branch["parameter"][-1] == 5000
         assert (branch["mean_temperature"][at + 1 :] > branch["mean_temperature"][at]).all()
     run(THIN, "case%task='equilibrium'", f"rotor%mass={0.998 * fold}", name="before")

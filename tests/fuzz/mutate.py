@@ -47,7 +47,7 @@ def some(dice: Random, text: bytes) -> tuple[int, int]:
     return start, min(len(text), start + dice.choice((1, 1, 2, 4, 10, 100)))
 
 
-def flip(dice: Random, text: bytes, other: bytes) -> bytes:
+def period_doubling(dice: Random, text: bytes, other: bytes) -> bytes:
     i, _ = some(dice, text)
     return text[:i] + bytes((dice.randrange(256),)) + text[i + 1 :]
 
@@ -94,7 +94,7 @@ def digit(dice: Random, text: bytes, other: bytes) -> bytes:
     return text[:i] + dice.choice((b"0", b"1", b"9", b"+", b"-", b".", b"e", b"d", b"")) + text[i + 1 :]
 
 
-CHANGES = (flip, insert, insert, overwrite, delete, double, swap, splice, digit)
+CHANGES = (period_doubling, insert, insert, overwrite, delete, double, swap, splice, digit)
 
 
 def shrunk(case: Case, same: Callable[[Case], bool], tries: int = 2000) -> Case:

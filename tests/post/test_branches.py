@@ -14,7 +14,7 @@ pytestmark = pytest.mark.usefixtures("quick_pictures")
 
 @pytest.fixture
 def turned(changed, opened):
-    """A branch of nine points whose fifth is a flip, and a second branch that is unstable but for its end."""
+    """A branch of nine points whose fifth is a period doubling, and a second branch that is unstable but for its end."""
 
     def edit(file):
         count = len(file["point"])
@@ -23,18 +23,18 @@ def turned(changed, opened):
         stable[-1] = 1
         for name, values in (("branch", number), ("stable", stable)):
             file[name][...] = values
-        own = file.create_group("special_points")
+        own = file.create_group("bifurcations")
         for name, value in (("point", 5), ("branch", 1), ("parameter", file["parameter"][4])):
             own[name] = np.array([value], float)
         own["value_real"], own["value_imag"] = np.array([-1.0]), np.array([0.0])
-        own["kind"] = np.array([b"flip          "])
+        own["kind"] = np.array([b"period doubling          "])
 
     return opened(changed("branch", edit))
 
 
-def test_parts_and_special_points(turned, run):
-    (special,) = branches.special_points(turned)
-    assert (special.kind, special.letters, special.branch, special.point) == ("flip", "PD", 1, 4)
+def test_parts_and_bifurcations(turned, run):
+    (special,) = branches.bifurcations(turned)
+    assert (special.kind, special.letters, special.branch, special.point) == ("period_doubling", "PD", 1, 4)
     assert (special.parameter, special.value) == (turned["parameter"][4], -1)
     last = len(turned["point"]) - 1
     parts = branches.stretches(turned)
@@ -45,7 +45,7 @@ def test_parts_and_special_points(turned, run):
         branches.stretches(run("none"))
 
 
-def test_what_is_unstable_is_dashed_and_special_points_have_letters(turned):
+def test_what_is_unstable_is_dashed_and_bifurcations_have_letters(turned):
     upper, _ = pictures.branch(turned).axes
     lines = [line for line in upper.get_lines() if len(line.get_xdata()) > 1]
     assert [line.is_dashed() for line in lines] == [False, True, True] * 2

@@ -199,7 +199,7 @@ program test_continuation
    use errors, only: error_type
    use newton_method, only: branch_problem_type, branch_point_type
    use continuation, only: branch_options, start_branch, advance, return_to
-   use special_points, only: special_point_type, find_special_points
+   use bifurcations, only: bifurcation_type, find_bifurcations
    use orbit_polynomials, only: orbit_type
    use resting_orbit, only: at_rest
    use orbit_problem, only: orbit_problem_type, begin_orbits
@@ -211,7 +211,7 @@ program test_continuation
    if (runs('fold')) call fold()
    if (runs('refused')) call refused()
    if (runs('return')) call return()
-   if (runs('flip')) call flip()
+   if (runs('period_doubling')) call period_doubling()
    if (runs('torus')) call torus()
    if (runs('duffing')) call duffing_folds()
    if (runs('cascade')) call cascade()
@@ -219,13 +219,13 @@ program test_continuation
 
 contains
 
-   !> Follows a branch to its end; the special points on the way.
+   !> Follows a branch to its end; the bifurcation points on the way.
    subroutine follow(problem, options, here, special)
       class(branch_problem_type), intent(inout) :: problem
       type(branch_options), intent(in) :: options
       type(branch_point_type), intent(inout) :: here
-      type(special_point_type), allocatable, intent(out) :: special(:)
-      type(special_point_type), allocatable :: found(:)
+      type(bifurcation_type), allocatable, intent(out) :: special(:)
+      type(bifurcation_type), allocatable :: found(:)
       type(branch_point_type) :: next
       type(error_type), allocatable :: error
       real(wp) :: length
@@ -237,7 +237,7 @@ contains
          call advance(problem, options, here, length, next, ends, error)
          call expect_no_error(error, 'a step')
          if (allocated(error)) return
-         call find_special_points(problem, options, here, next, found, error)
+         call find_bifurcations(problem, options, here, next, found, error)
          special = [special, found]
          here = next
          if (ends) return
@@ -248,14 +248,14 @@ contains
    subroutine fold()
       type(parabola) :: problem
       type(branch_point_type) :: here
-      type(special_point_type), allocatable :: special(:)
+      type(bifurcation_type), allocatable :: special(:)
       type(branch_options) :: options
       options = branch_options(low=-1.0_wp, high=1.0_wp, tolerance=1e-10_wp)
       call begin_parabola(problem, options, here)
       call follow(problem, options, here, special)
       call expect_close(here%parameter, 1.0_wp, 0.0_wp, 'the end is at the bound')
       call expect_close(problem%x, -1.0_wp, 1e-9_wp, 'on the other side')
-      call expect(size(special) == 1, 'one special point')
+      call expect(size(special) == 1, 'one bifurcation point')
       call expect(special(1)%kind == 'fold' .and. special(1)%destabilises, 'a fold, to the unstable side')
       call expect_close(special(1)%point%parameter, 0.0_wp, 1e-12_wp, 'at 0')
       ! int_-1^1 sqrt(1 + 4 x**2) dx, of whose arc the tangents cut little
@@ -335,15 +335,15 @@ contains
       options = branch_options(first_step=0.05_wp, max_step=0.1_wp, low=-0.5_wp, high=0.5_wp)
    end subroutine begin_frame
 
-   !> The rest at w = 0 has the multipliers -exp(2 pi p) and -exp(-2 pi): a flip at p = 0. The orbits of double period
-   !> are w_1 = +-sqrt(p) with the multipliers exp(-8 pi p) and exp(-4 pi). Radau's error on 20 intervals is of (2
-   !> pi/20/2)^5/7200 = 1e-8.
-   subroutine flip()
+   !> The rest at w = 0 has the multipliers -exp(2 pi p) and -exp(-2 pi): a period doubling at p = 0. The orbits of
+   !> double period are w_1 = +-sqrt(p) with the multipliers exp(-8 pi p) and exp(-4 pi). Radau's error on 20 intervals
+   !> is of (2 pi/20/2)^5/7200 = 1e-8.
+   subroutine period_doubling()
       type(turning_frame), target :: model
       type(oscillator_orbits), target :: ode
       type(orbit_problem_type) :: problem
       type(branch_point_type) :: here
-      type(special_point_type), allocatable :: special(:), others(:)
+      type(bifurcation_type), allocatable :: special(:), others(:)
       type(error_type), allocatable :: error
       type(branch_options) :: options
       logical :: ok
@@ -352,8 +352,8 @@ contains
       call expect_close(here%values(1)%re, -exp(-pi), 1e-7_wp, 'leading multiplier at the start')
       call follow(problem, options, here, special)
       call expect_close(here%values(1)%re, -exp(pi), 1e-4_wp, 'leading multiplier at the end')
-      call expect(size(special) == 1, 'one special point')
-      call expect(special(1)%kind == 'flip' .and. special(1)%destabilises, 'a flip')
+      call expect(size(special) == 1, 'one bifurcation point')
+      call expect(special(1)%kind == 'period_doubling' .and. special(1)%destabilises, 'a period doubling')
       call expect_close(special(1)%point%parameter, 0.0_wp, 1e-7_wp, 'at 0')
       call double_period(problem, special(1)%point, here, ok)
       call expect(ok, 'the doubled orbit')
@@ -365,7 +365,7 @@ contains
       call expect_close(norm2(problem%orbit%start), sqrt(0.5_wp), 1e-6_wp, 'its size')
       call expect_close(here%values(1)%re, exp(-4*pi), 1e-6_wp, 'its leading multiplier')
       call expect_close(problem%period(), 4*pi, 1e-12_wp, 'its period')
-   end subroutine flip
+   end subroutine period_doubling
 
    !> Rest has the multipliers exp(2 pi (p +- i/sqrt(5))): a torus begins at p = 0.
    subroutine torus()
@@ -373,13 +373,13 @@ contains
       type(oscillator_orbits), target :: ode
       type(orbit_problem_type) :: problem
       type(branch_point_type) :: here
-      type(special_point_type), allocatable :: special(:)
+      type(bifurcation_type), allocatable :: special(:)
       type(error_type), allocatable :: error
       type(branch_options) :: options
       call begin_frame(model, ode, .false., problem, options)
       call start_branch(problem, options, .true., here, error)
       call follow(problem, options, here, special)
-      call expect(size(special) == 1, 'one special point')
+      call expect(size(special) == 1, 'one bifurcation point')
       call expect(special(1)%kind == 'neimark_sacker', 'a second frequency')
       call expect_close(special(1)%point%parameter, 0.0_wp, 1e-7_wp, 'at 0')
       call expect_close(special(1)%value%re, cos(2*pi/sqrt(5.0_wp)), 1e-7_wp, 'its multiplier')
@@ -393,7 +393,7 @@ contains
       type(oscillator_orbits), target :: ode
       type(orbit_problem_type) :: problem
       type(branch_point_type) :: here
-      type(special_point_type), allocatable :: special(:)
+      type(bifurcation_type), allocatable :: special(:)
       type(error_type), allocatable :: error
       type(branch_options) :: options
       real(wp), parameter :: upper = 1.52244802_wp, lower = 1.252014959_wp
@@ -406,7 +406,7 @@ contains
       call expect_no_error(error, 'the start')
       call follow(problem, options, here, special)
       call expect_close(here%parameter, 2.5_wp, 0.0_wp, 'the branch goes on behind both folds')
-      call expect(size(special) == 2, 'two special points')
+      call expect(size(special) == 2, 'two bifurcation points')
       call expect(all(special%kind == 'fold'), 'folds')
       call expect_close(special(1)%point%parameter, upper, 1e-6_wp, 'the upper one')
       call expect_close(special(2)%point%parameter, lower, 1e-6_wp, 'the lower one')
@@ -421,8 +421,8 @@ contains
       type(oscillator_orbits), target :: ode
       type(orbit_problem_type) :: problem
       type(orbit_type) :: well
-      type(branch_point_type) :: here, flip
-      type(special_point_type), allocatable :: special(:)
+      type(branch_point_type) :: here, period_doubling
+      type(bifurcation_type), allocatable :: special(:)
       type(error_type), allocatable :: error
       type(branch_options) :: options
       real(wp), parameter :: doublings(2) = [0.2655817860556_wp, 0.2866931578237_wp]
@@ -441,12 +441,12 @@ contains
       call expect_no_error(error, 'the start')
       do k = 1, 2
          call follow(problem, options, here, special)
-         special = pack(special, special%kind == 'flip')
+         special = pack(special, special%kind == 'period_doubling')
          call expect(size(special) == 1, 'one doubling')
          if (size(special) /= 1) return
-         flip = special(1)%point
-         call expect_close(flip%parameter, doublings(k), 2e-6_wp, 'where it doubles')
-         call double_period(problem, flip, here, ok)
+         period_doubling = special(1)%point
+         call expect_close(period_doubling%parameter, doublings(k), 2e-6_wp, 'where it doubles')
+         call double_period(problem, period_doubling, here, ok)
          call expect(ok, 'the doubled orbit')
          here%growth(1) = -1
       end do

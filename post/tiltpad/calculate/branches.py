@@ -1,4 +1,4 @@
-"""Branches of equilibria or periodic orbits over a parameter: stable and unstable parts, special points."""
+"""Branches of equilibria or periodic orbits over a parameter: stable and unstable parts, bifurcation points."""
 
 from typing import NamedTuple
 
@@ -7,10 +7,10 @@ import numpy as np
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 
-#: Kinds of special points: letters in a picture, and words.
+#: Kinds of bifurcation points: letters in a picture, and words.
 KINDS = {
     "fold": ("LP", "fold"),
-    "flip": ("PD", "period doubling"),
+    "period_doubling": ("PD", "period doubling"),
     "neimark_sacker": ("NS", "second frequency"),
     "hopf": ("HB", "Hopf"),
     "branch_point": ("BP", "branch point"),
@@ -50,7 +50,7 @@ def stretches(run: Run) -> list[Stretch]:
     number, stable = run["branch"], run["stable"] > 0
     # the last point before a change belongs to neither
     special = np.zeros(len(number), bool)
-    special[[each.point for each in special_points(run)]] = True
+    special[[each.point for each in bifurcations(run)]] = True
     found = []
     for branch in np.unique(number):
         own = np.flatnonzero(number == branch)
@@ -63,12 +63,12 @@ def stretches(run: Run) -> list[Stretch]:
     return found
 
 
-def special_points(run: Run) -> list[SpecialPoint]:
+def bifurcations(run: Run) -> list[SpecialPoint]:
     """Folds, period doublings, Hopf points, ... in the order of the points."""
     needs_branch(run)
-    if "special_points" not in run:
+    if "bifurcations" not in run:
         return []
-    own = run["special_points"]
+    own = run["bifurcations"]
     value = own["value_real"] + 1j * own["value_imag"]
     places = zip(own["kind"], own["branch"], own["point"], own["parameter"], value, strict=True)
     return [

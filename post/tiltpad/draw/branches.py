@@ -37,7 +37,7 @@ from tiltpad.files.read import Run
 from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN
 
-#: Lines of what is unstable, marks of special points, and marches below.
+#: Lines of what is unstable, marks of bifurcation points, and marches below.
 UNSTABLE = {"linestyle": (0, (4, 2)), "linewidth": 0.9}
 MARK = {"linestyle": "", "marker": "o", "markersize": 4, "markerfacecolor": "white", "zorder": 4}
 MARCHED = {"linestyle": "", "marker": ".", "markersize": 2, "color": "0.65", "zorder": 0}
@@ -92,7 +92,7 @@ def in_words(peak: Peak) -> str:
 
 @of_several
 def branch(runs: Sequence[Run | Study], last: float | None = None, pad: int | None = None) -> Figure:
-    """Highest and lowest values along branches, unstable parts dashed, special points by their letters.
+    """Highest and lowest values along branches, unstable parts dashed, bifurcation points by their letters.
 
     They are those of the journal, or of its y and, with `pad`, of its tilt. Studies of marches over the same
     parameter, as tiltpad.brute_force makes them, lie below: highest and lowest values of each revolution.
@@ -119,7 +119,7 @@ def branch(runs: Sequence[Run | Study], last: float | None = None, pad: int | No
     else:
         numbers = np.unique(found[0]["branch"]).astype(int)
         names = [(f"branch {each}", {"color": color_of(each)}) for each in numbers if len(numbers) > 1]
-    kinds = dict.fromkeys(each.kind for run in found for each in branches.special_points(run))
+    kinds = dict.fromkeys(each.kind for run in found for each in branches.bifurcations(run))
     marks: list[tuple[str, dict[str, Any]]]
     frozen = " at frozen viscosity" if any("viscosity" in run for run in found) else ""
     marks = [(f"stable{frozen}", {"color": "0.3"}), ("unstable", {"color": "0.3"} | UNSTABLE)]
@@ -130,9 +130,9 @@ def branch(runs: Sequence[Run | Study], last: float | None = None, pad: int | No
 
 
 def draw_branches(run: Run, ax: Axes, name: str, pad: int | None, color: str | None) -> None:
-    """The highest and lowest values of a dataset along all branches of a run, with the special points."""
+    """The highest and lowest values of a dataset along all branches of a run, with the bifurcation points."""
     part = slice(None) if pad is None else (slice(None), pad - 1)
-    parameter, special = run["parameter"], branches.special_points(run)
+    parameter, special = run["parameter"], branches.bifurcations(run)
     for values in (SHOWN[name].factor * run[f"{name}_{end}"][part] for end in ("max", "min")):
         for each in branches.stretches(run):
             line = {"color": color or color_of(each.branch)} | ({} if each.stable else UNSTABLE)

@@ -23,7 +23,7 @@ PICTURES = {
     "size": "Peak to peak of the journal over the speed.",
     "orders": "Amplitude of the first orders over the speed, and the phase of the first.",
     "waterfall": "Amplitudes over speed and frequency.",
-    "branch": "Highest and lowest values along the branches; special points by their letters.",
+    "branch": "Highest and lowest values along the branches; bifurcation points by their letters.",
     "response": "First harmonic of the journal: critical speeds, and their amplification factors (AF).",
     "hysteresis": "Friction moment over tilt: the area is the work dissipated in the last revolution.",
     "friction": "Friction coefficient over sliding velocity, last revolution.",

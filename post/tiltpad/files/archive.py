@@ -56,7 +56,7 @@ class Archive:
         "coefficients",
         "modes",
         "runs",
-        "special_points",
+        "bifurcations",
         "asperities",
         "oil",
         "periodic",

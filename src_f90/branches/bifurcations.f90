@@ -1,6 +1,6 @@
 !> Where a branch changes its stability or turns: between two points of it the value that crosses is followed until the
 !> parameter is known closely.
-module special_points
+module bifurcations
    use kinds, only: wp
    use errors, only: error_type, stopped, asked_to_stop
    use roots, only: root_bracket
@@ -8,40 +8,41 @@ module special_points
    use continuation, only: branch_options, return_to
    implicit none (type, external)
    private
-   public :: special_point_type, find_special_points, kinds_of_points, kind_length
+   public :: bifurcation_type, find_bifurcations, kinds_of_points, kind_length
 
    !> Length of the names of kinds, and all names.
-   integer, parameter :: kind_length = 14
-   character(len=kind_length), parameter :: kinds_of_points(*) = [character(len=kind_length) :: 'fold', 'flip', &
+   integer, parameter :: kind_length = 15
+   character(len=kind_length), parameter :: kinds_of_points(*) = [character(len=kind_length) :: 'fold', &
+      'period_doubling', &
       & 'neimark_sacker', 'hopf', 'branch_point', 'divergence']
 
-   type :: special_point_type
+   type :: bifurcation_type
       character(len=kind_length) :: kind = ''
       type(branch_point_type) :: point
       !> The value that crosses, whether it does so towards the unstable side.
       complex(wp) :: value = 0
       logical :: destabilises = .false.
-   end type special_point_type
+   end type bifurcation_type
 
    !> The bracket of the parameter, over its size or its natural change, at the end; that of the way along the branch,
    !> over the step; most cuts.
    real(wp), parameter :: accuracy = 1e-7_wp, closeness = 1e-6_wp
    integer, parameter :: most_cuts = 40
-   !> Most special points between two points.
+   !> Most bifurcation points between two points.
    integer, parameter :: most_points = 4
 
 contains
 
-   !> The special points between a point and the next, at which the problem stands before and after, in their order.
+   !> The bifurcation points between a point and the next, at which the problem stands before and after, in their order.
    !> What cannot be located is left out; an error only of status `stopped`, where `give_up` says so.
-   subroutine find_special_points(problem, options, here, next, found, error, give_up)
+   subroutine find_bifurcations(problem, options, here, next, found, error, give_up)
       class(branch_problem_type), intent(inout) :: problem
       type(branch_options), intent(in) :: options
       type(branch_point_type), intent(in) :: here, next
-      type(special_point_type), allocatable, intent(out) :: found(:)
+      type(bifurcation_type), allocatable, intent(out) :: found(:)
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      type(special_point_type) :: one
+      type(bifurcation_type) :: one
       integer :: first, last, k
       logical :: ok, turns, moved
       allocate (found(0))
@@ -72,13 +73,13 @@ contains
          if (ok) call put(one, found)
       end if
       if (moved) call return_to(problem, next)
-   end subroutine find_special_points
+   end subroutine find_bifurcations
 
    !> Adds a point where it belongs along the branch.
    subroutine put(one, found)
-      type(special_point_type), intent(in) :: one
-      type(special_point_type), allocatable, intent(inout) :: found(:)
-      type(special_point_type), allocatable :: longer(:)
+      type(bifurcation_type), intent(in) :: one
+      type(bifurcation_type), allocatable, intent(inout) :: found(:)
+      type(bifurcation_type), allocatable :: longer(:)
       integer :: before, k
       before = count([(found(k)%point%along <= one%point%along, k=1, size(found))])
       allocate (longer(size(found) + 1))
@@ -107,7 +108,7 @@ contains
       type(branch_options), intent(in) :: options
       type(branch_point_type), intent(in) :: here, next
       integer, intent(in) :: k
-      type(special_point_type), intent(out) :: found
+      type(bifurcation_type), intent(out) :: found
       logical, intent(out) :: ok
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
@@ -150,4 +151,4 @@ contains
          watched = point%growth(k)
       end if
    end function watched
-end module special_points
+end module bifurcations
