@@ -31,7 +31,7 @@ def films(run: tiltpad.Run) -> tuple[np.ndarray, np.ndarray]:
     angle, distance = (np.array(pads[name]) for name in ("pivot_angle_deg", "pivot_distance"))
     angle, half_arc = np.radians(angle), 0.5 * np.radians(pads["arc_deg"])
     tilt = run.values("pad_tilt", part)
-    out = journal_radius + run.clearance + distance + run.values("pad_penetration", part)
+    out = journal_radius + run.clearance + distance + run.values("pivot_deflection", part)
     y = run.values("journal_y", part)[:, None] - out * np.sin(angle)
     z = run.values("journal_z", part)[:, None] - out * np.cos(angle)
     frame = angle - tilt

@@ -123,7 +123,7 @@ def one_pad(ax: Axes) -> None:
     write(ax, (JOURNAL + 0.5 * ASSEMBLED) * down + [-0.14, 0], "$c_r$", DIMENSION)
     arrow(ax, (JOURNAL + ASSEMBLED) * down, pivot, DIMENSION, "<|-|>")
     write(ax, pivot + [-0.12, 0.5 * DISTANCE], "$\\kappa$", DIMENSION)
-    write(ax, pivot + [0.66, -0.42], "penetration $\\eta$:\nthe pad moves out", fontsize=8)
+    write(ax, pivot + [0.66, -0.42], "pivot deflection $\\eta$:\nthe pad moves out", fontsize=8)
     # the frame of the pad, and its tilt
     arrow(ax, pivot, pivot + [0.62, 0])
     write(ax, pivot + [0.62, -0.12], "$y'$")

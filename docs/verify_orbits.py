@@ -67,7 +67,7 @@ FOLD = Point(
     ),
     **{"modes": 3, "periods": 30, "skipped": 4},
 )
-PAD_STATES = ("pad_tilt", "pad_tilt_rate", "pad_penetration", "pad_penetration_rate")
+PAD_STATES = ("pad_tilt", "pad_tilt_rate", "pivot_deflection", "pivot_deflection_rate")
 
 
 def at(speed):

@@ -12,14 +12,14 @@ from tiltpad.files.units import SHOWN
 from paper.measures import stribeck_curve
 from paper.runs import Runs
 
-PENETRATION, FORCE = SHOWN["pad_penetration"], SHOWN["contact_force"]
-#: The example of Figs. 3 and 4: socket radius, m, load of Fig. 3, N, radius differences, um, and penetrations
+PENETRATION, FORCE = SHOWN["pivot_deflection"], SHOWN["contact_force"]
+#: The example of Figs. 3 and 4: socket radius, m, load of Fig. 3, N, radius differences, um, and pivot deflections
 #: up to, m, of Fig. 4. The paper prints the first of them only.
 FANG_PIVOT, FANG_LOAD, FANG_DIFFERENCES, FANG_PENETRATION = 0.1, 1e4, (0, 15, 30, 60), 20e-6
 #: Contact laws beside the paper's, by their overrides.
 LAWS = {
     "Fang, factor 4": (),
-    r"Fang, factor 2 pi": (f"pivot%penetration_factor={2 * pi:.15g}",),
+    r"Fang, factor 2 pi": (f"pivot%deflection_factor={2 * pi:.15g}",),
     "Hertz": ("pivot%law=hertz",),
 }
 LAW_DIFFERENCES = (15, 30)
@@ -39,19 +39,21 @@ def quoted(word: str) -> str:
 
 
 def fang_force(difference: float) -> tuple[np.ndarray, np.ndarray]:
-    """Penetration, m, and force, N, of the paper's example of Fig. 4."""
-    penetration = np.linspace(0, FANG_PENETRATION, 201)
-    return penetration, tiltpad.contact_force(penetration, pivot(difference, socket_radius=FANG_PIVOT))
+    """Pivot deflection, m, and force, N, of the paper's example of Fig. 4."""
+    pivot_deflection = np.linspace(0, FANG_PENETRATION, 201)
+    return pivot_deflection, tiltpad.contact_force(
+        pivot_deflection, pivot(difference, socket_radius=FANG_PIVOT)
+    )
 
 
 def figure_3(runs: Runs) -> Figure:
     """Contact pressure over the projected contact, without radius difference."""
     case = pivot(0, socket_radius=FANG_PIVOT)
-    # without radius difference the force is proportional to the penetration
-    penetration = FANG_LOAD / float(tiltpad.contact_force(1.0e-6, case)) * 1e-6
-    radius = float(tiltpad.contact(penetration, case).radius)
+    # without radius difference the force is proportional to the pivot deflection
+    pivot_deflection = FANG_LOAD / float(tiltpad.contact_force(1.0e-6, case)) * 1e-6
+    radius = float(tiltpad.contact(pivot_deflection, case).radius)
     r, angle = np.meshgrid(radius * np.sqrt(1 - np.linspace(1, 0, 80) ** 4), np.linspace(0, 2 * np.pi, 121))
-    pressure = tiltpad.contact_pressure(penetration, r, case)
+    pressure = tiltpad.contact_pressure(pivot_deflection, r, case)
     fig = plt.figure(figsize=(COLUMN + 0.6, 2.8))
     ax = fig.subplots(subplot_kw={"projection": "3d"})
     place = 1e3 * r * np.cos(angle), 1e3 * r * np.sin(angle)
@@ -69,13 +71,15 @@ def figure_3(runs: Runs) -> Figure:
 
 
 def figure_4(runs: Runs) -> Figure:
-    """Force over penetration for several radius differences."""
+    """Force over pivot deflection for several radius differences."""
     fig = plt.figure(figsize=(COLUMN, 2.6))
     ax = fig.subplots()
     for difference in FANG_DIFFERENCES:
-        penetration, force = fang_force(difference)
+        pivot_deflection, force = fang_force(difference)
         ax.plot(
-            PENETRATION.factor * penetration, FORCE.factor * force, label=f"$\\Delta R$ = {difference} µm"
+            PENETRATION.factor * pivot_deflection,
+            FORCE.factor * force,
+            label=f"$\\Delta R$ = {difference} µm",
         )
     ax.set(xlabel=PENETRATION.label, ylabel=FORCE.label, xlim=(0, None), ylim=(0, None))
     ax.legend()
@@ -115,15 +119,15 @@ def laws4(runs: Runs) -> Figure:
     ax = fig.subplots()
     load = runs["steady_tr"].values("contact_force", tiltpad.last_revolutions(runs["steady_tr"]))
     ax.axhspan(*(FORCE.factor * each for each in (load.min(), load.max())), color="0.93", zorder=0)
-    penetration = np.linspace(0, 15e-6, 201)
+    pivot_deflection = np.linspace(0, 15e-6, 201)
     for color, (law, overrides) in enumerate(LAWS.items()):
         for dash, difference in zip((":", "-", "--"), (0, *LAW_DIFFERENCES), strict=True):
             if difference == 0 and law == "Hertz":
                 continue
-            force = tiltpad.contact_force(penetration, pivot(difference, *overrides))
+            force = tiltpad.contact_force(pivot_deflection, pivot(difference, *overrides))
             look = {"color": f"C{color}", "linestyle": dash}
             label = f"{law_text(law)}, $\\Delta R$ = {difference} µm"
-            ax.plot(PENETRATION.factor * penetration, FORCE.factor * force, label=label, **look)
+            ax.plot(PENETRATION.factor * pivot_deflection, FORCE.factor * force, label=label, **look)
     ax.set(xlabel=PENETRATION.label, ylabel=FORCE.label, xlim=(0, 15), ylim=(0, 40))
     fig.legend(loc="outside upper center", ncols=3)
     return fig

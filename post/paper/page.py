@@ -67,13 +67,13 @@ The table gives the time in which pad 1 sticks, in %:
 
 {map_words}
 
-## Penetration factor and Hertz's law
+## Pivot deflection factor and Hertz's law
 
 Eq. (13) as printed has the factor 4; with 2 pi the law agrees with Hertz's law for small contacts. The
 pictures show the difference in Fig. 4, for the pivot of the bearing (grey: the load of its frictionless
 orbit), and in Fig. 10. Hertz's law is not defined for dR = 0.
 
-![Force over penetration by contact law](laws4.png)
+![Force over pivot deflection by contact law](laws4.png)
 
 ![Orbit, tilt and tilt rate by contact law](laws.png)
 

@@ -19,7 +19,7 @@ class Section:
 SECTIONS = (
     Section(
         "Figs. 3 and 4: contact",
-        {"3": "Contact pressure over the projected contact", "4": "Force over penetration"},
+        {"3": "Contact pressure over the projected contact", "4": "Force over pivot deflection"},
         "the pressure field generated in the BS coupling is shown in Fig. 3. [...] The resulting force "
         "generated in the BS coupling for various radius differences is shown in Fig. 4. [...] It is "
         "supposed that the snug fit [...] is the stiffest option.",

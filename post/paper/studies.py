@@ -192,11 +192,11 @@ def laws_table(runs: Runs) -> str:
             for difference in LAW_DIFFERENCES:
                 run = runs[law_name(law, difference, friction)]
                 part = tiltpad.last_revolutions(run, LAST)
-                penetration = of_pad(run, "pad_penetration", part).mean()
+                pivot_deflection = of_pad(run, "pivot_deflection", part).mean()
                 tilts = (1e3 * peak_to_peak(run, name) for name in ("pad_tilt", "pad_tilt_rate"))
-                numbers = 1e6 * penetration, 1e6 * height(run), 1e6 * size(run), *tilts
+                numbers = 1e6 * pivot_deflection, 1e6 * height(run), 1e6 * size(run), *tilts
                 rows.append((law, difference, "0.1" if friction else "none", *map(digits, numbers)))
-    head = ("law", "dR, um", "friction", "mean penetration, um", "mean journal y, um", "orbit size, um",
+    head = ("law", "dR, um", "friction", "mean pivot deflection, um", "mean journal y, um", "orbit size, um",
             "tilt, mrad", "tilt rate, mrad/s")  # fmt: skip
     return table(head, rows)
 

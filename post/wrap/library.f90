@@ -25,7 +25,8 @@ module tiltpad_library
 contains
 
    !> Pressure of every pad's film, and what the program samples of it, in one state of the bearing.
-   subroutine film_pressure(text, name, viscosity, time, journal, tilt, penetration, along, across, phi, z, pressure, &
+   subroutine film_pressure(text, name, viscosity, time, journal, tilt, pivot_deflection, along, across, phi, z, &
+      pressure, &
       & force, max_pressure, min_film_thickness, status, message, pads, n, m)
       integer(c_int), intent(in) :: pads, n, m
       character(len=*), intent(in) :: text, name
@@ -33,8 +34,8 @@ contains
       real(c_double), intent(in) :: viscosity(pads)
       !> s, of which the speed follows; y, z of the journal, m, and their rates, m/s.
       real(c_double), intent(in) :: time, journal(4)
-      !> Tilt, rad, and penetration, m (tilting-only: no matter), each with its rate.
-      real(c_double), intent(in) :: tilt(2, pads), penetration(2, pads)
+      !> Tilt, rad, and pivot deflection, m (tilting-only: no matter), each with its rate.
+      real(c_double), intent(in) :: tilt(2, pads), pivot_deflection(2, pads)
       !> Points: share of the arc from the trailing edge (0) to the leading one (1); share of half the width from the
       !> middle plane.
       real(c_double), intent(in) :: along(n), across(m)
@@ -65,7 +66,7 @@ contains
          model = new_bearing_model(inputs)
          if (all(viscosity > 0)) model%oil%viscosity = viscosity
          y = model%state(journal_motion(journal(:2), journal(3:4)), &
-            & [(pad_state(tilt(1, i), tilt(2, i), penetration(1, i), penetration(2, i)), i=1, pads)])
+            & [(pad_state(tilt(1, i), tilt(2, i), pivot_deflection(1, i), pivot_deflection(2, i)), i=1, pads)])
          call model%evaluate(time, y, .false., ok)
          if (.not. ok) call raise(error, numerics_error, name//': '//model%refusal)
       end if
@@ -87,11 +88,13 @@ contains
    end subroutine film_pressure
 
    !> Loads, losses and flows of all pads in n states of the bearing.
-   subroutine power_losses(text, name, viscosity, time, journal, tilt, penetration, losses, status, message, pads, n)
+   subroutine power_losses(text, name, viscosity, time, journal, tilt, pivot_deflection, losses, status, message, &
+      pads, n)
       integer(c_int), intent(in) :: pads, n
       character(len=*), intent(in) :: text, name
       !> As in film_pressure, state by state.
-      real(c_double), intent(in) :: viscosity(pads), time(n), journal(4, n), tilt(2, pads, n), penetration(2, pads, n)
+      real(c_double), intent(in) :: viscosity(pads), time(n), journal(4, n), tilt(2, pads, n), pivot_deflection(2, &
+         pads, n)
       !> Load, N; Couette, pressure and boundary loss, W; drag on the journal and on the pad, N m; inlet, outlet and
       !> side flow, m^3/s. No numbers where a film is closed.
       real(c_double), intent(out) :: losses(9, pads, n)
@@ -113,7 +116,8 @@ contains
          finder = new_bearing_losses(inputs)
          do k = 1, n
             call finder%find(model%bearing, journal_motion(journal(:2, k), journal(3:4, k)), &
-               & [(pad_state(tilt(1, i, k), tilt(2, i, k), penetration(1, i, k), penetration(2, i, k)), i=1, pads)], &
+               & [(pad_state(tilt(1, i, k), tilt(2, i, k), pivot_deflection(1, i, k), pivot_deflection(2, i, k)), &
+                  i=1, pads)], &
                & model%oil, model%point%speed(time(k)), found)
             do i = 1, pads
                associate (pad => found(i))
@@ -126,18 +130,18 @@ contains
       call tell(error, status, message)
    end subroutine power_losses
 
-   !> Contact of a pivot at penetrations, m; all zero where these are not positive.
-   subroutine contact(text, name, penetration, force, slope, radius, exponent, peak_pressure, status, message, n)
+   !> Contact of a pivot at pivot deflections, m; all zero where these are not positive.
+   subroutine contact(text, name, pivot_deflection, force, slope, radius, exponent, peak_pressure, status, message, n)
       integer(c_int), intent(in) :: n
       character(len=*), intent(in) :: text, name
-      real(c_double), intent(in) :: penetration(n)
+      real(c_double), intent(in) :: pivot_deflection(n)
       !> N; N/m; projected radius of the contact, m; exponent and peak, Pa, of the pressure (11).
       real(c_double), intent(out) :: force(n), slope(n), radius(n), exponent(n), peak_pressure(n)
       integer(c_int), intent(out) :: status
       character(len=2000), intent(out) :: message
       type(error_type), allocatable :: error
       type(contact_point) :: points(n)
-      call find_contacts(text, name, penetration, points, error)
+      call find_contacts(text, name, pivot_deflection, points, error)
       force = points%force
       slope = points%stiffness
       radius = points%radius
@@ -146,18 +150,18 @@ contains
       call tell(error, status, message)
    end subroutine contact
 
-   !> Contact pressure (11), Pa, at penetrations, m, and projected distances r from the axis, m, one each.
-   subroutine contact_pressure(text, name, penetration, r, pressure, status, message, n)
+   !> Contact pressure (11), Pa, at pivot deflections, m, and projected distances r from the axis, m, one each.
+   subroutine contact_pressure(text, name, pivot_deflection, r, pressure, status, message, n)
       integer(c_int), intent(in) :: n
       character(len=*), intent(in) :: text, name
-      real(c_double), intent(in) :: penetration(n), r(n)
+      real(c_double), intent(in) :: pivot_deflection(n), r(n)
       real(c_double), intent(out) :: pressure(n)
       integer(c_int), intent(out) :: status
       character(len=2000), intent(out) :: message
       type(error_type), allocatable :: error
       type(contact_point) :: points(n)
       integer :: i
-      call find_contacts(text, name, penetration, points, error)
+      call find_contacts(text, name, pivot_deflection, points, error)
       do i = 1, n
          pressure(i) = points(i)%pressure(r(i))
       end do
@@ -228,10 +232,10 @@ contains
          & //' pads, but states of '//to_text(pads))
    end subroutine read_case_of
 
-   !> The contact at each penetration, m; that of no force where it is not positive.
-   subroutine find_contacts(text, name, penetration, points, error)
+   !> The contact at each pivot deflection, m; that of no force where it is not positive.
+   subroutine find_contacts(text, name, pivot_deflection, points, error)
       character(len=*), intent(in) :: text, name
-      real(c_double), intent(in) :: penetration(:)
+      real(c_double), intent(in) :: pivot_deflection(:)
       type(contact_point), intent(out) :: points(:)
       type(error_type), allocatable, intent(out) :: error
       type(case_type) :: inputs
@@ -241,7 +245,7 @@ contains
       if (allocated(error)) return
       call make_law(inputs, law)
       do i = 1, size(points)
-         if (penetration(i) > 0) points(i) = law%at(penetration(i))
+         if (pivot_deflection(i) > 0) points(i) = law%at(pivot_deflection(i))
       end do
    end subroutine find_contacts
 

@@ -127,7 +127,7 @@ contains
          call add_context(error, 'the oil takes the temperatures of the equilibrium')
          if (allocated(error)) return
          run%model%oil%viscosity = static%viscosity
-         at_rest = run%model%at_rest(static%journal, static%tilt, static%penetration)
+         at_rest = run%model%at_rest(static%journal, static%tilt, static%pivot_deflection)
       end if
       call b%begin_oil(run%model, at_rest)
    end subroutine rest_oil

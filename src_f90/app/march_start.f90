@@ -90,7 +90,7 @@ contains
       end if
       if (.not. allocated(error)) then
          run%model%oil%viscosity = static%viscosity
-         y = run%model%at_rest(static%journal, static%tilt, static%penetration)
+         y = run%model%at_rest(static%journal, static%tilt, static%pivot_deflection)
          call let_grooves_warm(run, y, error)
          if (present(at_rest)) at_rest = y
       else if (error%status == stopped) then
@@ -160,7 +160,7 @@ contains
       end if
       journal%position = static%journal
       pads%tilt = static%tilt
-      pads%penetration = static%penetration
+      pads%pivot_deflection = static%pivot_deflection
       run%model%oil%viscosity = static%viscosity
       do i = 1, size(held)
          if (held(i) .and. .not. run%quiet) print '(a)', 'pad '//to_text(i)//' has no rest position: it starts ' &
@@ -172,8 +172,8 @@ contains
    pure logical function is_disturbed(run)
       type(case_run_type), intent(in) :: run
       associate (s => run%inputs%start)
-         is_disturbed = any(abs([s%journal, s%journal_velocity, s%pad_tilt, s%pad_tilt_rate, s%pad_penetration, &
-            & s%pad_penetration_rate]) > 0)
+         is_disturbed = any(abs([s%journal, s%journal_velocity, s%pad_tilt, s%pad_tilt_rate, s%pivot_deflection, &
+            & s%pivot_deflection_rate]) > 0)
       end associate
    end function is_disturbed
 
@@ -187,8 +187,8 @@ contains
          journal%velocity = journal%velocity + s%journal_velocity
          pads%tilt = pads%tilt + s%pad_tilt
          pads%tilt_rate = pads%tilt_rate + s%pad_tilt_rate
-         pads%penetration = pads%penetration + s%pad_penetration
-         pads%penetration_rate = pads%penetration_rate + s%pad_penetration_rate
+         pads%pivot_deflection = pads%pivot_deflection + s%pivot_deflection
+         pads%pivot_deflection_rate = pads%pivot_deflection_rate + s%pivot_deflection_rate
       end associate
    end subroutine disturb
 end module march_start

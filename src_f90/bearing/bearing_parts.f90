@@ -12,7 +12,7 @@ module bearing_parts
 
    type :: bearing_parts_type
       type(tilting_pad_type), allocatable :: pads(:)
-      !> Of each pad rates of tilt rate and penetration rate per moment and force, (2, 2, pad).
+      !> Of each pad rates of tilt rate and pivot deflection rate per moment and force, (2, 2, pad).
       real(wp), allocatable :: per_mass(:, :, :)
       class(friction_law), allocatable :: friction
       type(asperity_contact_type) :: asperities

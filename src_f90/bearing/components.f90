@@ -185,7 +185,7 @@ contains
       class(contact_law_type), allocatable, intent(out) :: law
       associate (v => inputs%pivot)
          call make_contact_law(v%law, v%socket_radius, v%radius_difference, v%young_modulus, &
-            & v%poisson_ratio, v%penetration_factor, law)
+            & v%poisson_ratio, v%deflection_factor, law)
       end associate
    end subroutine make_law
 

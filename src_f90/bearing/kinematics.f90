@@ -5,21 +5,21 @@ module kinematics
    implicit none (type, external)
    private
    public :: pad_state, pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global
-   public :: columns, journal_columns, tilt_column, tilt_rate_column, penetration_column, penetration_rate_column
+   public :: columns, journal_columns, tilt_column, tilt_rate_column, deflection_column, deflection_rate_column
    public :: position_columns, rate_columns
 
    !> A pad's derivatives stand in these columns: over y, z of the journal and their rates, and over its own tilt,
-   !> tilt rate, penetration and penetration rate.
+   !> tilt rate, pivot deflection and pivot deflection rate.
    integer, parameter :: columns = 8, journal_columns = 4
-   integer, parameter :: tilt_column = 5, tilt_rate_column = 6, penetration_column = 7, penetration_rate_column = 8
+   integer, parameter :: tilt_column = 5, tilt_rate_column = 6, deflection_column = 7, deflection_rate_column = 8
    !> Those of displacements, and of their rates in the same order.
-   integer, parameter :: position_columns(4) = [1, 2, tilt_column, penetration_column]
-   integer, parameter :: rate_columns(4) = [3, 4, tilt_rate_column, penetration_rate_column]
+   integer, parameter :: position_columns(4) = [1, 2, tilt_column, deflection_column]
+   integer, parameter :: rate_columns(4) = [3, 4, tilt_rate_column, deflection_rate_column]
 
    !> State of a pad; what a pad lacks stays 0.
    type :: pad_state
-      !> rad and rad/s; of the pivot's penetration, m and m/s.
-      real(wp) :: tilt = 0, tilt_rate = 0, penetration = 0, penetration_rate = 0
+      !> rad and rad/s; of the pivot's pivot deflection, m and m/s.
+      real(wp) :: tilt = 0, tilt_rate = 0, pivot_deflection = 0, pivot_deflection_rate = 0
       !> Deflection of the bristles, m.
       real(wp) :: deflection = 0
    end type pad_state
@@ -42,27 +42,27 @@ module kinematics
 
 contains
 
-   !> The frame of a pad with tilt, rad, and penetration, m; journal at (y, z), m.
-   pure function frame_of(position, journal, tilt, penetration) result(frame)
+   !> The frame of a pad with tilt, rad, and pivot deflection, m; journal at (y, z), m.
+   pure function frame_of(position, journal, tilt, pivot_deflection) result(frame)
       type(pad_position), intent(in) :: position
-      real(wp), intent(in) :: journal(2), tilt, penetration
+      real(wp), intent(in) :: journal(2), tilt, pivot_deflection
       type(pad_frame) :: frame
       real(wp) :: r(2)
-      r = journal - (position%pivot_radius + penetration)*[position%sin_angle, position%cos_angle]
+      r = journal - (position%pivot_radius + pivot_deflection)*[position%sin_angle, position%cos_angle]
       frame%s = sin(position%angle - tilt)
       frame%c = cos(position%angle - tilt)
       frame%along = r(1)*frame%c - r(2)*frame%s
       frame%outward = r(1)*frame%s + r(2)*frame%c
    end function frame_of
 
-   !> Relative position and velocity, with journal velocity, m/s, tilt rate, rad/s, penetration rate, m/s.
-   pure function motion_of(position, frame, velocity, tilt_rate, penetration_rate) result(motion)
+   !> Relative position and velocity, with journal velocity, m/s, tilt rate, rad/s, pivot deflection rate, m/s.
+   pure function motion_of(position, frame, velocity, tilt_rate, pivot_deflection_rate) result(motion)
       type(pad_position), intent(in) :: position
       type(pad_frame), intent(in) :: frame
-      real(wp), intent(in) :: velocity(2), tilt_rate, penetration_rate
+      real(wp), intent(in) :: velocity(2), tilt_rate, pivot_deflection_rate
       type(film_motion) :: motion
       real(wp) :: w(2)
-      w = velocity - penetration_rate*[position%sin_angle, position%cos_angle]
+      w = velocity - pivot_deflection_rate*[position%sin_angle, position%cos_angle]
       motion%position = [frame%along, frame%outward + position%centre_distance]
       motion%velocity = [w(1)*frame%c - w(2)*frame%s + tilt_rate*frame%outward, &
          & w(1)*frame%s + w(2)*frame%c - tilt_rate*frame%along]
@@ -95,9 +95,9 @@ contains
       derivatives(:, tilt_column) = [frame%outward, -frame%along, w_z - tilt_rate*frame%along, &
          & -w_y - tilt_rate*frame%outward]
       derivatives(3:4, tilt_rate_column) = [frame%outward, -frame%along]
-      ! penetration
-      derivatives(:, penetration_column) = [-out_y, -out_z, -tilt_rate*out_z, tilt_rate*out_y]
-      derivatives(3:4, penetration_rate_column) = [-out_y, -out_z]
+      ! pivot deflection
+      derivatives(:, deflection_column) = [-out_y, -out_z, -tilt_rate*out_z, tilt_rate*out_y]
+      derivatives(3:4, deflection_rate_column) = [-out_y, -out_z]
    end function motion_derivatives
 
    !> A pad-frame vector in global (y, z), eq (5).

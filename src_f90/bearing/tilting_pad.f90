@@ -9,7 +9,7 @@ module tilting_pad
    use friction, only: friction_law, friction_response
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_state, pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global, &
-      & columns, tilt_column, tilt_rate_column, penetration_column, position_columns, rate_columns
+      & columns, tilt_column, tilt_rate_column, deflection_column, position_columns, rate_columns
    implicit none (type, external)
    private
    public :: tilting_pad_type, pad_loads, pad_derivatives
@@ -25,7 +25,7 @@ module tilting_pad
       real(wp) :: mass = 0, inertia = 0, weight = 0, centre_tangential = 0, centre_radial = 0
       !> R1 of the pivot.
       real(wp) :: ball_radius
-      !> Whether the pad tilts; whether its pivot yields: then its penetration is a state, else its force is the
+      !> Whether the pad tilts; whether its pivot yields: then its pivot deflection is a state, else its force is the
       !> reaction.
       logical :: tilts, radial
    contains
@@ -42,7 +42,7 @@ module tilting_pad
    type :: pad_loads
       !> Force of film and asperities on the journal along global y and z, N.
       real(wp) :: journal(2) = 0
-      !> Contact force F_bs, N, and its derivative over the penetration, N/m (0 tilting-only).
+      !> Contact force F_bs, N, and its derivative over the pivot deflection, N/m (0 tilting-only).
       real(wp) :: contact = 0, contact_stiffness = 0
       !> Friction of the pivot.
       type(friction_response) :: friction
@@ -66,7 +66,7 @@ contains
       class(tilting_pad_type), intent(in) :: self
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: state
-      frame = frame_of(self%position, journal%position, state%tilt, state%penetration)
+      frame = frame_of(self%position, journal%position, state%tilt, state%pivot_deflection)
    end function frame
 
    !> The motion of the journal seen from the pad.
@@ -75,7 +75,7 @@ contains
       type(pad_frame), intent(in) :: frame
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: state
-      motion = motion_of(self%position, frame, journal%velocity, state%tilt_rate, state%penetration_rate)
+      motion = motion_of(self%position, frame, journal%velocity, state%tilt_rate, state%pivot_deflection_rate)
    end function motion
 
    !> The loads in a state with a film force in the pad frame, N.
@@ -96,7 +96,7 @@ contains
       inertial = self%mass*self%centre_radial*state%tilt_rate**2
       answer%radial = -force(2) - self%weight*frame%s + inertial
       if (self%radial) then
-         call contact%lookup(state%penetration, answer%contact, answer%contact_stiffness)
+         call contact%lookup(state%pivot_deflection, answer%contact, answer%contact_stiffness)
       else
          answer%contact = max(0.0_wp, answer%radial)
       end if
@@ -140,7 +140,7 @@ contains
          radial(tilt_rate_column) = radial(tilt_rate_column) + 2*self%mass*self%centre_radial*state%tilt_rate
          if (self%radial) then
             contact = 0
-            contact(penetration_column) = loads%contact_stiffness
+            contact(deflection_column) = loads%contact_stiffness
          else
             contact = merge(radial, 0.0_wp, loads%contact > 0)
          end if
@@ -153,7 +153,7 @@ contains
    end subroutine derivatives
 
    !> The derivatives of the force on the journal, moment and radial force over displacements and over their rates: rows
-   !> and columns in the order journal y, z, tilt, penetration.
+   !> and columns in the order journal y, z, tilt, pivot deflection.
    pure subroutine as_matrices(self, over_positions, over_rates)
       class(pad_derivatives), intent(in) :: self
       real(wp), intent(out) :: over_positions(4, 4), over_rates(4, 4)
@@ -186,7 +186,7 @@ contains
       over_deflection = per_moment*(-self%ball_radius*friction%force_deflection)
    end subroutine add_friction
 
-   !> Mass matrix of eqs (3)-(4): moment and force per rate of tilt rate and penetration rate.
+   !> Mass matrix of eqs (3)-(4): moment and force per rate of tilt rate and pivot deflection rate.
    pure function masses(self)
       class(tilting_pad_type), intent(in) :: self
       real(wp) :: masses(2, 2)

@@ -63,7 +63,7 @@ module tilting_pad_bearing
       procedure :: pressure_field
       procedure :: warning
       procedure :: smooth
-      procedure :: penetration
+      procedure :: pivot_deflection
       procedure :: contact_force
       procedure :: counters
       procedure :: films_rupture
@@ -308,19 +308,19 @@ contains
       smooth = .not. self%rubs .or. same_type_as(self%friction, no_rubbing)
    end function smooth
 
-   !> Penetration of a pivot, m, that carries a force > 0, N.
-   pure real(wp) function penetration(self, force)
+   !> Pivot deflection of a pivot, m, that carries a force > 0, N.
+   pure real(wp) function pivot_deflection(self, force)
       class(tilting_pad_bearing_type), intent(in) :: self
       real(wp), intent(in) :: force
-      penetration = self%contact%penetration(force)
-   end function penetration
+      pivot_deflection = self%contact%pivot_deflection(force)
+   end function pivot_deflection
 
-   !> Contact force of a pivot, N, at a penetration, m.
-   pure real(wp) function contact_force(self, penetration)
+   !> Contact force of a pivot, N, at a pivot deflection, m.
+   pure real(wp) function contact_force(self, pivot_deflection)
       class(tilting_pad_bearing_type), intent(in) :: self
-      real(wp), intent(in) :: penetration
+      real(wp), intent(in) :: pivot_deflection
       real(wp) :: stiffness
-      call self%contact%lookup(penetration, contact_force, stiffness)
+      call self%contact%lookup(pivot_deflection, contact_force, stiffness)
    end function contact_force
 
    !> What the films have cost so far.

@@ -149,9 +149,10 @@ contains
          call require(inputs%tilting() .or. all(abs([s%pad_tilt, s%pad_tilt_rate]) <= 0), 'start%pad_tilt = ' &
             & //to_text(s%pad_tilt(1))//', pad_tilt_rate = '//to_text(s%pad_tilt_rate(1)) &
             & //': must be 0 for pads%motion = ''fixed''', error)
-         call require(inputs%tilting_radial() .or. all(abs([s%pad_penetration, s%pad_penetration_rate]) <= 0), &
-            & 'start%pad_penetration = '//to_text(s%pad_penetration(1))//', pad_penetration_rate = ' &
-            & //to_text(s%pad_penetration_rate(1))//': must be 0 for pads%motion = '''//inputs%pads%motion//'''', error)
+         call require(inputs%tilting_radial() .or. all(abs([s%pivot_deflection, s%pivot_deflection_rate]) <= 0), &
+            & 'start%pivot_deflection = '//to_text(s%pivot_deflection(1))//', pivot_deflection_rate = ' &
+            & //to_text(s%pivot_deflection_rate(1))//': must be 0 for pads%motion = '''//inputs%pads%motion//'''', &
+               error)
       end associate
    end subroutine check_start
 

@@ -103,7 +103,7 @@ module case_inputs
       real(wp) :: socket_radius = 13e-3_wp, radius_difference = 15e-6_wp
       !> Of ball and socket.
       real(wp) :: young_modulus(2) = 2.1e11_wp, poisson_ratio(2) = 0.3_wp
-      real(wp) :: penetration_factor = 4
+      real(wp) :: deflection_factor = 4
    end type pivot_type
 
    type :: friction_type
@@ -130,9 +130,9 @@ module case_inputs
       character(len=:), allocatable :: from
       !> The result that a start from a file continues.
       character(len=:), allocatable :: file
-      !> What is added: journal, m, m/s; per pad tilt, rad, penetration, m, and their rates.
+      !> What is added: journal, m, m/s; per pad tilt, rad, pivot deflection, m, and their rates.
       real(wp) :: journal(2) = 0, journal_velocity(2) = 0
-      real(wp), allocatable :: pad_tilt(:), pad_tilt_rate(:), pad_penetration(:), pad_penetration_rate(:)
+      real(wp), allocatable :: pad_tilt(:), pad_tilt_rate(:), pivot_deflection(:), pivot_deflection_rate(:)
    end type start_type
 
    type :: film_type
@@ -260,8 +260,8 @@ contains
       inputs%start%file = ''
       inputs%start%pad_tilt = [0.0_wp, 0.0_wp]
       inputs%start%pad_tilt_rate = [0.0_wp, 0.0_wp]
-      inputs%start%pad_penetration = [0.0_wp, 0.0_wp]
-      inputs%start%pad_penetration_rate = [0.0_wp, 0.0_wp]
+      inputs%start%pivot_deflection = [0.0_wp, 0.0_wp]
+      inputs%start%pivot_deflection_rate = [0.0_wp, 0.0_wp]
       inputs%film%solver = 'auto'
       inputs%film%cavitation = 'reynolds'
       inputs%coefficients%frequency_ratio = [1.0_wp]

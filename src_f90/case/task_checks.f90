@@ -42,7 +42,7 @@ contains
          call require(inputs%start%from == 'equilibrium', 'start%from = '''//inputs%start%from//''''//without, error)
          associate (s => inputs%start)
             call require(.not. any(abs([s%journal, s%journal_velocity, s%pad_tilt, s%pad_tilt_rate, &
-               & s%pad_penetration, s%pad_penetration_rate]) > 0), 'start%journal = '//to_text(s%journal(1)) &
+               & s%pivot_deflection, s%pivot_deflection_rate]) > 0), 'start%journal = '//to_text(s%journal(1)) &
                & //', ...: a disturbance'//without, error)
          end associate
       end associate
@@ -107,7 +107,7 @@ contains
             & //' with case%task = ''branch''', error)
          call require(s%from == 'equilibrium', 'start%from = '''//s%from//''''//without, error)
          call require(.not. any(abs([s%journal, s%journal_velocity, s%pad_tilt, s%pad_tilt_rate, &
-            & s%pad_penetration, s%pad_penetration_rate]) > 0), 'start%journal = '//to_text(s%journal(1)) &
+            & s%pivot_deflection, s%pivot_deflection_rate]) > 0), 'start%journal = '//to_text(s%journal(1)) &
             & //', ...: a disturbance'//without, error)
          call require(b%switch, 'branch%switch = .false.'//without, error)
       end associate

@@ -193,7 +193,7 @@ contains
       real(wp) :: scale(model%n)
       integer :: i
       scale = model%scale
-      if (model%layout%radial) scale(model%layout%penetration([(i, i=1, model%layout%pads)])) &
+      if (model%layout%radial) scale(model%layout%pivot_deflection([(i, i=1, model%layout%pads)])) &
          & = model%inputs%bearing%assembled_clearance
       clearances = scale(model%layout%positions())
    end function clearances

@@ -55,7 +55,7 @@ contains
          call find_isothermal(warm, found, error, give_up)
          if (.not. allocated(error)) then
             call make_static(warm, warm%point%rupture, static)
-            y = static%at_rest(found%journal, found%tilt, found%penetration)
+            y = static%at_rest(found%journal, found%tilt, found%pivot_deflection)
             call come_to_warm_rest(static, y, found%residual, error, give_up)
          end if
          if (allocated(error)) then

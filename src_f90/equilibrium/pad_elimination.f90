@@ -109,7 +109,7 @@ contains
       film = film_of(model, i, journal, pad)
       do
          step = solved(stiffness + damping/time_step, -force)
-         trial = pad_state(tilt=pad%tilt + step(1), penetration=pad%penetration + step(2))
+         trial = pad_state(tilt=pad%tilt + step(1), pivot_deflection=pad%pivot_deflection + step(2))
          if (max(abs(step(1)*model%bearing%pads(i)%gap%arc()*model%bearing%pads(i)%gap%pad_radius()), abs(step(2))) &
             & <= longest_move*clearance .and. film_of(model, i, journal, trial) >= least_film*film &
             & .and. abs(trial%tilt) < model%bearing%pads(i)%largest_tilt) exit
@@ -228,7 +228,7 @@ contains
          open = .true.
          do i = 1, size(pads)
             change = matmul(follow(:, :, i), step)
-            trial(i) = pad_state(tilt=pads(i)%tilt + change(1), penetration=pads(i)%penetration + change(2))
+            trial(i) = pad_state(tilt=pads(i)%tilt + change(1), pivot_deflection=pads(i)%pivot_deflection + change(2))
             if (film_of(model, i, moved, trial(i)) < least_film*film_of(model, i, journal, pads(i))) open = .false.
          end do
          ! a film that is closed already, or nearly, stops no journal for ever

@@ -1,5 +1,5 @@
-!> The rest of one pad for a given journal, wherever there is one: at every tilt the penetration is sought at which the
-!> radial forces balance, and, along the tilts with these, where the moment changes its sign.
+!> The rest of one pad for a given journal, wherever there is one: at every tilt the pivot deflection is sought at which
+!> the radial forces balance, and, along the tilts with these, where the moment changes its sign.
 module pad_rest
    use kinds, only: wp, pi
    use roots, only: root_bracket
@@ -84,22 +84,22 @@ contains
       type(pad_state), intent(inout) :: pad
       logical, intent(out) :: found
       type(place_type) :: places(tilts)
-      real(wp), allocatable :: penetrations(:)
+      real(wp), allocatable :: pivot_deflections(:)
       real(wp) :: thinnest
       type(place_type) :: sides(2)
       type(pad_state) :: rest
       integer :: k, turn
       logical :: rests
       found = .false.
-      penetrations = penetrations_of(alone, journal)
-      places = tilted(alone, journal, penetrations)
+      pivot_deflections = deflections_of(alone, journal)
+      places = tilted(alone, journal, pivot_deflections)
       do turn = 1, 2
          do k = 2, tilts
             if (.not. (places(k - 1)%ok .and. places(k)%ok)) cycle
             if (places(k - 1)%moment < 0 .eqv. places(k)%moment < 0) cycle
             if (places(k)%moment < 0 .neqv. turn == 1) cycle
             sides = places(k - 1:k)
-            call close_in(alone, journal, penetrations, sides)
+            call close_in(alone, journal, pivot_deflections, sides)
             call settle_between(alone, journal, sides%pad, rest, rests)
             if (.not. rests) cycle
             if (found .and. film_of(alone, 1, journal, rest) > thinnest) cycle
@@ -111,72 +111,73 @@ contains
       end do
    end subroutine find_rest
 
-   !> Penetrations to look at: of a pad that floats, then of one on its pivot.
-   function penetrations_of(alone, journal) result(penetrations)
+   !> Pivot deflections to look at: of a pad that floats, then of one on its pivot.
+   function deflections_of(alone, journal) result(pivot_deflections)
       type(bearing_model), intent(in) :: alone
       type(journal_motion), intent(in) :: journal
-      real(wp), allocatable :: penetrations(:)
+      real(wp), allocatable :: pivot_deflections(:)
       type(pad_frame) :: frame
       real(wp) :: gap, force
       integer :: k
       if (.not. alone%layout%radial) then
-         penetrations = [0.0_wp]
+         pivot_deflections = [0.0_wp]
          return
       end if
       frame = alone%bearing%pads(1)%frame(journal, pad_state())
       associate (clearance => alone%bearing%pads(1)%gap%machined_clearance, &
          & centre_distance => alone%bearing%pads(1)%position%centre_distance)
          gap = clearance - centre_distance + norm2([frame%along, frame%outward])
-         penetrations = [real(wp) ::]
-         if (gap > least_gap*clearance) penetrations = &
+         pivot_deflections = [real(wp) ::]
+         if (gap > least_gap*clearance) pivot_deflections = &
             & [(least_gap*clearance*(gap/(least_gap*clearance))**(real(k, wp)/floats) - gap, k=0, floats)]
       end associate
       force = max(norm2(alone%point%load), alone%bearing%pads(1)%weight, 1.0_wp)
-      penetrations = [penetrations, (alone%bearing%penetration(force*least_contact**(1 - real(k, wp)/contacts)), k=0, &
+      pivot_deflections = [pivot_deflections, (alone%bearing%pivot_deflection(force*least_contact**(1 - real(k, &
+         wp)/contacts)), k=0, &
          & contacts)]
-   end function penetrations_of
+   end function deflections_of
 
-   !> The pad at tilts that leave the film open at the largest penetration, where its radial forces balance.
-   function tilted(alone, journal, penetrations) result(places)
+   !> The pad at tilts that leave the film open at the largest pivot deflection, where its radial forces balance.
+   function tilted(alone, journal, pivot_deflections) result(places)
       type(bearing_model), intent(inout) :: alone
       type(journal_motion), intent(in) :: journal
-      real(wp), intent(in) :: penetrations(:)
+      real(wp), intent(in) :: pivot_deflections(:)
       type(place_type) :: places(tilts)
       type(pad_frame) :: frame
       real(wp) :: middle, last, ways(2), part
       integer :: k
       frame = alone%bearing%pads(1)%frame(journal, pad_state())
       middle = atan2(frame%along, -frame%outward)
-      last = penetrations(size(penetrations))
-      if (.not. film_of(alone, 1, journal, pad_state(tilt=middle, penetration=last)) > 0) return
+      last = pivot_deflections(size(pivot_deflections))
+      if (.not. film_of(alone, 1, journal, pad_state(tilt=middle, pivot_deflection=last)) > 0) return
       ways = [middle - last_open(alone, journal, last, middle, -1.0_wp), &
          & last_open(alone, journal, last, middle, 1.0_wp) - middle]
       do k = 1, tilts
          part = sin(pi*((k - 0.5_wp)/tilts - 0.5_wp))
-         places(k) = radial_balance(alone, journal, penetrations, middle + sinh(wide*part)/sinh(wide) &
+         places(k) = radial_balance(alone, journal, pivot_deflections, middle + sinh(wide*part)/sinh(wide) &
             & *ways(merge(1, 2, part < 0)))
       end do
    end function tilted
 
-   !> The pad at a tilt where its radial forces balance: between two of the penetrations.
-   type(place_type) function radial_balance(alone, journal, penetrations, tilt) result(balance)
+   !> The pad at a tilt where its radial forces balance: between two of the pivot deflections.
+   type(place_type) function radial_balance(alone, journal, pivot_deflections, tilt) result(balance)
       type(bearing_model), intent(inout) :: alone
       type(journal_motion), intent(in) :: journal
-      real(wp), intent(in) :: penetrations(:), tilt
+      real(wp), intent(in) :: pivot_deflections(:), tilt
       type(root_bracket) :: bracket
       integer :: first, last, middle, k
-      last = size(penetrations)
-      balance = place_at(alone, journal, pad_state(tilt=tilt, penetration=penetrations(last)))
+      last = size(pivot_deflections)
+      balance = place_at(alone, journal, pad_state(tilt=tilt, pivot_deflection=pivot_deflections(last)))
       if (.not. alone%layout%radial) return
       balance%ok = balance%ok .and. balance%radial < 0
       if (.not. balance%ok) return
-      bracket = root_bracket(penetrations(last), balance%radial)
+      bracket = root_bracket(pivot_deflections(last), balance%radial)
       first = 0
       do while (last - first > 1)
          middle = (first + last)/2
-         balance = place_at(alone, journal, pad_state(tilt=tilt, penetration=penetrations(middle)))
+         balance = place_at(alone, journal, pad_state(tilt=tilt, pivot_deflection=pivot_deflections(middle)))
          k = merge(2, 1, balance%radial < 0)
-         bracket%place(k) = penetrations(middle)
+         bracket%place(k) = pivot_deflections(middle)
          bracket%value(k) = balance%radial
          if (balance%radial < 0) then
             last = middle
@@ -188,19 +189,19 @@ contains
          if (first == 0) exit
          ! films push far more than pivots pull
          bracket%value = min(bracket%value, -minval(bracket%value))
-         balance = place_at(alone, journal, pad_state(tilt=tilt, penetration=bracket%estimate()))
+         balance = place_at(alone, journal, pad_state(tilt=tilt, pivot_deflection=bracket%estimate()))
          if (balance%ok .and. abs(balance%radial) <= balanced*max(norm2(alone%bearing%loads(1)%journal), &
             & alone%bearing%pads(1)%weight)) return
-         call bracket%narrow(balance%pad%penetration, balance%radial)
+         call bracket%narrow(balance%pad%pivot_deflection, balance%radial)
       end do
       balance%ok = .false.
    end function radial_balance
 
    !> Brings two tilts between which the moment changes its sign close together, likewise.
-   subroutine close_in(alone, journal, penetrations, sides)
+   subroutine close_in(alone, journal, pivot_deflections, sides)
       type(bearing_model), intent(inout) :: alone
       type(journal_motion), intent(in) :: journal
-      real(wp), intent(in) :: penetrations(:)
+      real(wp), intent(in) :: pivot_deflections(:)
       type(place_type), intent(inout) :: sides(2)
       type(root_bracket) :: bracket
       type(place_type) :: next
@@ -210,7 +211,7 @@ contains
       if (sides(1)%moment > 0) sides = sides([2, 1])
       bracket = root_bracket(sides%pad%tilt, sides%moment)
       do k = 1, steps
-         next = radial_balance(alone, journal, penetrations, bracket%estimate())
+         next = radial_balance(alone, journal, pivot_deflections, bracket%estimate())
          if (.not. next%ok) return
          call bracket%narrow(next%pad%tilt, next%moment)
          sides(merge(1, 2, next%moment < 0)) = next
@@ -232,17 +233,17 @@ contains
    end function place_at
 
    !> The last tilt in one sense from the middle that leaves the film open.
-   real(wp) function last_open(alone, journal, penetration, middle, sense)
+   real(wp) function last_open(alone, journal, pivot_deflection, middle, sense)
       type(bearing_model), intent(in) :: alone
       type(journal_motion), intent(in) :: journal
-      real(wp), intent(in) :: penetration, middle, sense
+      real(wp), intent(in) :: pivot_deflection, middle, sense
       real(wp) :: closed, tilt
       integer :: k
       last_open = middle
       closed = middle + sense*alone%bearing%pads(1)%largest_tilt
       do k = 1, 50
          tilt = 0.5_wp*(last_open + closed)
-         if (film_of(alone, 1, journal, pad_state(tilt=tilt, penetration=penetration)) > 0 &
+         if (film_of(alone, 1, journal, pad_state(tilt=tilt, pivot_deflection=pivot_deflection)) > 0 &
             & .and. abs(tilt) < alone%bearing%pads(1)%largest_tilt) then
             last_open = tilt
          else
@@ -251,7 +252,7 @@ contains
       end do
    end function last_open
 
-   !> Newton's method from places between two, which lie apart where penetrations leap; whether one leads to rest.
+   !> Newton's method from places between two, which lie apart where pivot deflections leap; whether one leads to rest.
    subroutine settle_between(alone, journal, sides, rest, rests)
       type(bearing_model), intent(inout) :: alone
       type(journal_motion), intent(in) :: journal
@@ -263,7 +264,7 @@ contains
       do k = 0, guesses
          share = real(k, wp)/guesses
          rest%tilt = (1 - share)*sides(1)%tilt + share*sides(2)%tilt
-         rest%penetration = (1 - share)*sides(1)%penetration + share*sides(2)%penetration
+         rest%pivot_deflection = (1 - share)*sides(1)%pivot_deflection + share*sides(2)%pivot_deflection
          call settle(alone, journal, rest, rests)
          if (rests) return
       end do
@@ -294,7 +295,8 @@ contains
          step = solved(stiffness, -force)
          step = step*longest/max(longest, abs(step(1))*arc, abs(step(2)))
          do halving = 0, patience
-            trial = pad_state(tilt=pad%tilt + step(1)/2**halving, penetration=pad%penetration + step(2)/2**halving)
+            trial = pad_state(tilt=pad%tilt + step(1)/2**halving, pivot_deflection=pad%pivot_deflection &
+               + step(2)/2**halving)
             call alone%evaluate(0.0_wp, alone%state(journal, [trial]), .false., ok)
             if (.not. ok) cycle
             if (all(unbalanced_forces(alone) < last)) exit

@@ -17,9 +17,9 @@ module static_model
    public :: equilibrium_type, describe, make_static, make_quick, make_fine, come_to_rest, start, starts
 
    type :: equilibrium_type
-      !> Journal, m; per pad tilt, rad, penetration, m (0 tilting-only), contact force, N.
+      !> Journal, m; per pad tilt, rad, pivot deflection, m (0 tilting-only), contact force, N.
       real(wp) :: journal(2) = 0
-      real(wp), allocatable :: tilt(:), penetration(:), contact_force(:)
+      real(wp), allocatable :: tilt(:), pivot_deflection(:), contact_force(:)
       !> Per pad minimum film thickness, m, and maximum pressure, Pa.
       real(wp), allocatable :: min_film_thickness(:), max_pressure(:)
       !> Of the oil on every pad, Pa s.
@@ -112,7 +112,7 @@ contains
       associate (load => model%point%load, bearing => model%inputs%bearing)
          if (norm2(load) > 0) then
             journal%position = fractions(k)*bearing%assembled_clearance*load/norm2(load)
-            if (model%layout%radial) pads%penetration = model%bearing%penetration(norm2(load)/size(pads))
+            if (model%layout%radial) pads%pivot_deflection = model%bearing%pivot_deflection(norm2(load)/size(pads))
          end if
          if (.not. model%layout%tilting) journal%position = journal%position + middle_of_bores(model)
          do i = 1, size(pads)
@@ -146,7 +146,7 @@ contains
       samples = model%sampled()
       found%journal = journal%position
       found%tilt = pads%tilt
-      found%penetration = pads%penetration
+      found%pivot_deflection = pads%pivot_deflection
       found%contact_force = samples%contact_force
       found%min_film_thickness = samples%min_film_thickness
       found%max_pressure = samples%max_pressure

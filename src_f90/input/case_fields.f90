@@ -196,7 +196,7 @@ contains
          & 'dR = R_2 - R_1, R_1 being the radius of the ball'))
       call v%numbers(pivot%young_modulus, field('young_modulus', 1e6_wp, 1e14_wp, 'Pa', 'values of ball and socket'))
       call v%numbers(pivot%poisson_ratio, field('poisson_ratio', -0.99_wp, 0.5_wp, '1', 'values of ball and socket'))
-      call v%number(pivot%penetration_factor, field('penetration_factor', 0.1_wp, 100.0_wp, '1', &
+      call v%number(pivot%deflection_factor, field('deflection_factor', 0.1_wp, 100.0_wp, '1', &
          & 'factor of eq (13): 4 as printed; 2 pi agrees with Hertz''s law'))
    end subroutine visit_pivot
 
@@ -261,9 +261,9 @@ contains
          & 'velocity of the journal along y and z'))
       call v%per_pad(start%pad_tilt, field('pad_tilt', -3.0_wp, 3.0_wp, 'rad', 'tilts of the pads'))
       call v%per_pad(start%pad_tilt_rate, field('pad_tilt_rate', -1e5_wp, 1e5_wp, 'rad/s', 'their rates'))
-      call v%per_pad(start%pad_penetration, field('pad_penetration', -0.1_wp, 0.1_wp, 'm', &
-         & 'tilting_radial: penetrations of the pivots'))
-      call v%per_pad(start%pad_penetration_rate, field('pad_penetration_rate', -1e3_wp, 1e3_wp, 'm/s', &
+      call v%per_pad(start%pivot_deflection, field('pivot_deflection', -0.1_wp, 0.1_wp, 'm', &
+         & 'tilting_radial: pivot deflections of the pivots'))
+      call v%per_pad(start%pivot_deflection_rate, field('pivot_deflection_rate', -1e3_wp, 1e3_wp, 'm/s', &
          & 'tilting_radial: their rates'))
    end subroutine visit_start
 

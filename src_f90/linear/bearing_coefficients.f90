@@ -34,7 +34,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       logical :: ok
-      y = model%at_rest(found%journal, found%tilt, found%penetration)
+      y = model%at_rest(found%journal, found%tilt, found%pivot_deflection)
       model%oil%viscosity = found%viscosity
       call come_to_warm_rest(model, y, found%residual, error, give_up)
       if (allocated(error)) return

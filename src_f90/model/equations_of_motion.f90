@@ -10,8 +10,8 @@ module equations_of_motion
    use rigid_journal, only: rigid_journal_type, journal_motion
    use ode_model, only: ode_model_type
    use viscosity_history, only: viscosity_history_type
-   use state_layout, only: state_layout_type, new_state_layout, at_tilt, at_tilt_rate, at_penetration, &
-      & at_penetration_rate
+   use state_layout, only: state_layout_type, new_state_layout, at_tilt, at_tilt_rate, at_deflection, &
+      & at_deflection_rate
    use natural_sizes, only: state_scales
    use newton_system, only: newton_system_type, new_newton_system
    implicit none (type, external)
@@ -21,7 +21,7 @@ module equations_of_motion
    !> What is sampled at a time, s: shaft angle, rad; speed, rad/s; journal; states and loads of the pads.
    type :: model_sample
       real(wp) :: time = 0, shaft_angle = 0, speed = 0
-      !> Whether the pads tilt, have penetrations and bristle deflections, and whether their asperities may touch.
+      !> Whether the pads tilt, have pivot deflections and bristle deflections, and whether their asperities may touch.
       logical :: tilting = .true., radial = .false., bristles = .false., asperities = .false.
       type(journal_motion) :: journal
       type(pad_state), allocatable :: states(:)
@@ -104,7 +104,7 @@ contains
       type(operating_point_type) :: point
       associate (a => self%inputs%pivot, b => inputs%pivot)
          call self%bearing%adopt(inputs, any(abs([a%socket_radius - b%socket_radius, &
-            & a%radius_difference - b%radius_difference, a%penetration_factor - b%penetration_factor, &
+            & a%radius_difference - b%radius_difference, a%deflection_factor - b%deflection_factor, &
             & a%young_modulus - b%young_modulus, a%poisson_ratio - b%poisson_ratio]) > 0))
       end associate
       self%inputs = inputs
@@ -116,14 +116,14 @@ contains
       call self%set_point(point)
    end subroutine adopt
 
-   !> The state with journal and pads at rest at given positions, m, tilts, rad, and penetrations, m (what a pad lacks
-   !> does not matter), bristles undeflected.
-   pure function at_rest(self, journal, tilt, penetration) result(y)
+   !> The state with journal and pads at rest at given positions, m, tilts, rad, and pivot deflections, m (what a pad
+   !> lacks does not matter), bristles undeflected.
+   pure function at_rest(self, journal, tilt, pivot_deflection) result(y)
       class(bearing_model), intent(in) :: self
-      real(wp), intent(in) :: journal(2), tilt(:), penetration(:)
+      real(wp), intent(in) :: journal(2), tilt(:), pivot_deflection(:)
       real(wp) :: y(self%n)
       integer :: i
-      y = self%state(journal_motion(journal), [(pad_state(tilt(i), 0.0_wp, penetration(i)), i=1, size(tilt))])
+      y = self%state(journal_motion(journal), [(pad_state(tilt(i), 0.0_wp, pivot_deflection(i)), i=1, size(tilt))])
    end function at_rest
 
    !> The state with this motion of the journal and these states of the pads.
@@ -190,8 +190,8 @@ contains
             rates = self%bearing%per_mass(:, 1, i)*loads%moment + self%bearing%per_mass(:, 2, i)*loads%radial
             dydt(o + at_tilt_rate) = rates(1)
             if (layout%radial) then
-               dydt(o + at_penetration) = y(o + at_penetration_rate)
-               dydt(o + at_penetration_rate) = rates(2)
+               dydt(o + at_deflection) = y(o + at_deflection_rate)
+               dydt(o + at_deflection_rate) = rates(2)
             end if
             if (layout%bristles) dydt(o + layout%per_pad) = loads%friction%rate
          end associate

@@ -49,7 +49,7 @@ contains
    end subroutine force_derivatives
 
    !> What a pad adds to these: derivatives of the force on the journal along y and z, of its own moment and radial
-   !> force over the displacements of the journal, its tilt and penetration, and over their rates.
+   !> force over the displacements of the journal, its tilt and pivot deflection, and over their rates.
    pure subroutine pad_derivatives(model, pad, over_positions, over_rates)
       type(bearing_model), intent(in) :: model
       integer, intent(in) :: pad

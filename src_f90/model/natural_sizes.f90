@@ -16,7 +16,7 @@ module natural_sizes
 
 contains
 
-   !> Natural size of each state: clearance; clearance over pad length; the penetration under the load;
+   !> Natural size of each state: clearance; clearance over pad length; the pivot deflection under the load;
    !> the deflection at which bristles yield; rates: times the highest speed, but the tilt rate not above
    !> ten times that at which friction changes its direction, or its moment would be no better than 1e-2.
    pure function state_scales(inputs, point, rotor, bearing, layout) result(scale)
@@ -39,9 +39,9 @@ contains
                & /bearing%pads(i)%ball_radius)
             if (layout%radial) then
                force = norm2(point%load) + point%unbalance*speed**2
-               pads(i)%penetration = 1e-3_wp*b%assembled_clearance
-               if (force > 0) pads(i)%penetration = max(pads(i)%penetration, bearing%penetration(force))
-               pads(i)%penetration_rate = pads(i)%penetration*speed
+               pads(i)%pivot_deflection = 1e-3_wp*b%assembled_clearance
+               if (force > 0) pads(i)%pivot_deflection = max(pads(i)%pivot_deflection, bearing%pivot_deflection(force))
+               pads(i)%pivot_deflection_rate = pads(i)%pivot_deflection*speed
             end if
             if (layout%bristles) pads(i)%deflection = friction%static_coefficient &
                & /inputs%friction%bristle_stiffness

@@ -16,7 +16,7 @@ module newton_system
       !> Where the displacements of rotor and pads stand among the states, and their rates.
       integer, allocatable :: position_at(:), rate_at(:)
       !> What film and contact of a pad add to the derivatives of the accelerations, (4, 4, pad), over displacements and
-      !> over rates; rows and columns in the order journal y, z, tilt, penetration.
+      !> over rates; rows and columns in the order journal y, z, tilt, pivot deflection.
       real(wp), allocatable :: over_positions(:, :, :), over_rates(:, :, :)
       !> The system on the rates alone.
       type(bordered_matrix) :: matrix

@@ -1,19 +1,19 @@
 !> This module alone knows where the states lie. Those of the rotor come first, displacements and then their rates. Each
-!> pad follows with tilt, tilt rate, (pivots that yield) penetration and its rate, (LuGre) bristle deflection. A state
-!> that a model lacks is left out: fixed pads have none.
+!> pad follows with tilt, tilt rate, (pivots that yield) pivot deflection and its rate, (LuGre) bristle deflection. A
+!> state that a model lacks is left out: fixed pads have none.
 module state_layout
    use kinds, only: wp
    use kinematics, only: pad_state, columns, journal_columns
    implicit none (type, external)
    private
    public :: state_layout_type, new_state_layout
-   public :: at_tilt, at_tilt_rate, at_penetration, at_penetration_rate
+   public :: at_tilt, at_tilt_rate, at_deflection, at_deflection_rate
 
    !> Order of a pad's own states; those of its motion stand in the order of the columns of its derivatives.
-   integer, parameter :: at_tilt = 1, at_tilt_rate = 2, at_penetration = 3, at_penetration_rate = 4
+   integer, parameter :: at_tilt = 1, at_tilt_rate = 2, at_deflection = 3, at_deflection_rate = 4
 
    !> Names of a pad's displacements; length of such a name with the number of a pad.
-   character(len=*), parameter :: of_pad(2) = [character(len=11) :: 'tilt', 'penetration']
+   character(len=*), parameter :: of_pad(2) = [character(len=16) :: 'tilt', 'pivot_deflection']
    integer, parameter :: longest_name = 14
 
    type :: state_layout_type
@@ -25,8 +25,8 @@ module state_layout
       procedure :: first
       procedure :: tilt
       procedure :: tilt_rate
-      procedure :: penetration
-      procedure :: penetration_rate
+      procedure :: pivot_deflection
+      procedure :: pivot_deflection_rate
       procedure :: bristle
       procedure :: positions
       procedure :: rates
@@ -51,7 +51,7 @@ contains
       layout%radial = tilting .and. radial
       layout%bristles = tilting .and. bristles
       layout%motion = 0
-      if (tilting) layout%motion = merge(at_penetration_rate, at_tilt_rate, radial)
+      if (tilting) layout%motion = merge(at_deflection_rate, at_tilt_rate, radial)
       layout%per_pad = layout%motion + merge(1, 0, layout%bristles)
       layout%n = rotor + pads*layout%per_pad
    end function new_state_layout
@@ -77,19 +77,19 @@ contains
       tilt_rate = self%first(pad) + at_tilt_rate - 1
    end function tilt_rate
 
-   !> Index of a pad's penetration; only where the pivots yield.
-   elemental integer function penetration(self, pad)
+   !> Index of a pad's pivot deflection; only where the pivots yield.
+   elemental integer function pivot_deflection(self, pad)
       class(state_layout_type), intent(in) :: self
       integer, intent(in) :: pad
-      penetration = self%first(pad) + at_penetration - 1
-   end function penetration
+      pivot_deflection = self%first(pad) + at_deflection - 1
+   end function pivot_deflection
 
-   !> Index of the rate of a pad's penetration; only where the pivots yield.
-   elemental integer function penetration_rate(self, pad)
+   !> Index of the rate of a pad's pivot deflection; only where the pivots yield.
+   elemental integer function pivot_deflection_rate(self, pad)
       class(state_layout_type), intent(in) :: self
       integer, intent(in) :: pad
-      penetration_rate = self%first(pad) + at_penetration_rate - 1
-   end function penetration_rate
+      pivot_deflection_rate = self%first(pad) + at_deflection_rate - 1
+   end function pivot_deflection_rate
 
    !> Index of a pad's bristle deflection; only where there are bristles.
    elemental integer function bristle(self, pad)
@@ -133,7 +133,7 @@ contains
       end do
    end function position_names
 
-   !> Which of these is a pad's tilt; its penetration is the next.
+   !> Which of these is a pad's tilt; its pivot deflection is the next.
    elemental integer function first_position(self, pad)
       class(state_layout_type), intent(in) :: self
       integer, intent(in) :: pad
@@ -160,8 +160,8 @@ contains
          pads(i)%tilt = y(o + at_tilt)
          pads(i)%tilt_rate = y(o + at_tilt_rate)
          if (self%radial) then
-            pads(i)%penetration = y(o + at_penetration)
-            pads(i)%penetration_rate = y(o + at_penetration_rate)
+            pads(i)%pivot_deflection = y(o + at_deflection)
+            pads(i)%pivot_deflection_rate = y(o + at_deflection_rate)
          end if
          if (self%bristles) pads(i)%deflection = y(o + self%per_pad)
       end do
@@ -179,8 +179,8 @@ contains
          y(o + at_tilt) = pads(i)%tilt
          y(o + at_tilt_rate) = pads(i)%tilt_rate
          if (self%radial) then
-            y(o + at_penetration) = pads(i)%penetration
-            y(o + at_penetration_rate) = pads(i)%penetration_rate
+            y(o + at_deflection) = pads(i)%pivot_deflection
+            y(o + at_deflection_rate) = pads(i)%pivot_deflection_rate
          end if
          if (self%bristles) y(o + self%per_pad) = pads(i)%deflection
       end do

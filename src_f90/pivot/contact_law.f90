@@ -1,4 +1,4 @@
-!> Normal force of a ball in a socket over the penetration: closed forms.
+!> Normal force of a ball in a socket over the pivot deflection: closed forms.
 !>
 !> Fang's conformal law (Dyk et al. 2023, eqs (11)-(18)) is explicit once the projected contact
 !> radius `a` is chosen: `n(a)`, `B(n)`, `g(a)`; then eq (14) with (16) is linear in the force.
@@ -9,9 +9,9 @@ module contact_law
    private
    public :: contact_law_type, contact_point, make_contact_law
 
-   !> State of the contact at one penetration.
+   !> State of the contact at one pivot deflection.
    type :: contact_point
-      !> Normal force, N, and its derivative over the penetration, N/m.
+      !> Normal force, N, and its derivative over the pivot deflection, N/m.
       real(wp) :: force = 0, stiffness = 0
       !> Projected contact radius, m; exponent of the pressure distribution (11); its peak (12), Pa.
       real(wp) :: radius = 0, exponent = 0.5_wp, peak_pressure = 0
@@ -26,32 +26,32 @@ module contact_law
       !> k1 + k2 of eq (18), 1/Pa.
       real(wp) :: compliance
    contains
-      !> The contact at a penetration > 0, m.
-      procedure(at_penetration), deferred :: at
-      !> Penetration, m, that carries a force, N.
-      procedure :: penetration
+      !> The contact at a pivot deflection > 0, m.
+      procedure(at_deflection), deferred :: at
+      !> Pivot deflection, m, that carries a force, N.
+      procedure :: pivot_deflection
    end type contact_law_type
 
    abstract interface
-      pure function at_penetration(self, penetration) result(point)
+      pure function at_deflection(self, pivot_deflection) result(point)
          import :: contact_law_type, contact_point, wp
          class(contact_law_type), intent(in) :: self
-         real(wp), intent(in) :: penetration
+         real(wp), intent(in) :: pivot_deflection
          type(contact_point) :: point
-      end function at_penetration
+      end function at_deflection
    end interface
 
    !> Fang's conformal law for dR > 0.
    type, extends(contact_law_type) :: fang_law
       !> 4 in eq (13); 2 pi agrees with Hertz's approach.
-      real(wp) :: penetration_factor
+      real(wp) :: deflection_factor
    contains
       procedure :: at => fang_at
    end type fang_law
 
    !> Its limit dR = 0: contact over the whole socket, a linear spring.
    type, extends(contact_law_type) :: snug_law
-      real(wp) :: penetration_factor
+      real(wp) :: deflection_factor
    contains
       procedure :: at => snug_at
    end type snug_law
@@ -74,77 +74,77 @@ contains
    !> The law called `name` ('fang' or 'hertz'; hertz needs dR > 0). No function: gfortran never frees the result of one
    !> whose type is chosen within.
    subroutine make_contact_law(name, socket_radius, radius_difference, young_modulus, &
-      & poisson_ratio, penetration_factor, law)
+      & poisson_ratio, deflection_factor, law)
       character(len=*), intent(in) :: name
       !> R2 and dR, m.
       real(wp), intent(in) :: socket_radius, radius_difference
       !> Of ball and socket; Pa and 1.
       real(wp), intent(in) :: young_modulus(2), poisson_ratio(2)
       !> Factor of eq (13).
-      real(wp), intent(in) :: penetration_factor
+      real(wp), intent(in) :: deflection_factor
       class(contact_law_type), allocatable, intent(out) :: law
       real(wp) :: compliance
       compliance = sum((1 - poisson_ratio**2)/(pi*young_modulus))
       if (name == 'hertz') then
          law = hertz_law(socket_radius, radius_difference, compliance)
       else if (radius_difference > snug_ratio*socket_radius) then
-         law = fang_law(socket_radius, radius_difference, compliance, penetration_factor)
+         law = fang_law(socket_radius, radius_difference, compliance, deflection_factor)
       else
-         law = snug_law(socket_radius, radius_difference, compliance, penetration_factor)
+         law = snug_law(socket_radius, radius_difference, compliance, deflection_factor)
       end if
    end subroutine make_contact_law
 
-   pure function hertz_at(self, penetration) result(point)
+   pure function hertz_at(self, pivot_deflection) result(point)
       class(hertz_law), intent(in) :: self
-      real(wp), intent(in) :: penetration
+      real(wp), intent(in) :: pivot_deflection
       type(contact_point) :: point
       real(wp) :: effective_radius
       effective_radius = (self%socket_radius - self%radius_difference)*self%socket_radius &
          & /self%radius_difference
-      point%force = 4/(3*pi*self%compliance)*sqrt(effective_radius*penetration)*penetration
-      point%stiffness = 1.5_wp*point%force/penetration
-      point%radius = sqrt(effective_radius*penetration)
+      point%force = 4/(3*pi*self%compliance)*sqrt(effective_radius*pivot_deflection)*pivot_deflection
+      point%stiffness = 1.5_wp*point%force/pivot_deflection
+      point%radius = sqrt(effective_radius*pivot_deflection)
       point%peak_pressure = 1.5_wp*point%force/(pi*point%radius**2)
    end function hertz_at
 
-   pure function snug_at(self, penetration) result(point)
+   pure function snug_at(self, pivot_deflection) result(point)
       class(snug_law), intent(in) :: self
-      real(wp), intent(in) :: penetration
+      real(wp), intent(in) :: pivot_deflection
       type(contact_point) :: point
       point = force_over_radius(self%socket_radius, self%socket_radius, self%compliance, &
-         & self%penetration_factor, penetration)
-      point%stiffness = point%force/penetration
+         & self%deflection_factor, pivot_deflection)
+      point%stiffness = point%force/pivot_deflection
    end function snug_at
 
-   !> Finds the contact radius of a penetration by safeguarded Newton steps on ln(eta), which is monotone and nearly
-   !> straight over ln(a), then takes the force from eq (13), which is well conditioned.
-   pure function fang_at(self, penetration) result(point)
+   !> Finds the contact radius of a pivot deflection by safeguarded Newton steps on ln(eta), which is monotone and
+   !> nearly straight over ln(a), then takes the force from eq (13), which is well conditioned.
+   pure function fang_at(self, pivot_deflection) result(point)
       class(fang_law), intent(in) :: self
-      real(wp), intent(in) :: penetration
+      real(wp), intent(in) :: pivot_deflection
       type(contact_point) :: point
       real(wp) :: a, change, low, high, log_eta, d_log_eta, d_log_force
       integer :: i
       low = 0
       high = self%socket_radius
       ! Hertz's, of whom this is the limit for a light contact
-      a = min(0.5_wp*high, sqrt((high - self%radius_difference)*high/self%radius_difference*penetration))
+      a = min(0.5_wp*high, sqrt((high - self%radius_difference)*high/self%radius_difference*pivot_deflection))
       do i = 1, 200
          call radius_curve(self, a, log_eta, d_log_eta, d_log_force)
-         if (log_eta > log(penetration)) then
+         if (log_eta > log(pivot_deflection)) then
             high = a
          else
             low = a
          end if
          ! beyond the unbounded force of eq (14) the derivative says nothing
          change = -huge(a)
-         if (log_eta < huge(a)) change = (log(penetration) - log_eta)/(d_log_eta*a)
+         if (log_eta < huge(a)) change = (log(pivot_deflection) - log_eta)/(d_log_eta*a)
          call newton_step(change, low, high, a)
          if (abs(change) <= small_step) exit
       end do
       call radius_curve(self, a, log_eta, d_log_eta, d_log_force)
-      point = force_over_radius(a, self%socket_radius, self%compliance, self%penetration_factor, &
-         & penetration)
-      point%stiffness = point%force/penetration*d_log_force/d_log_eta
+      point = force_over_radius(a, self%socket_radius, self%compliance, self%deflection_factor, &
+         & pivot_deflection)
+      point%stiffness = point%force/pivot_deflection*d_log_force/d_log_eta
    end function fang_at
 
    !> Changes x > 0 by a step of ln(x), or where that leaves low to high, halves the interval.
@@ -157,13 +157,13 @@ contains
       x = next
    end subroutine newton_step
 
-   !> Eqs (12), (13), (15), (16) solved for the force at a contact radius and a penetration.
-   pure function force_over_radius(a, socket_radius, compliance, factor, penetration) result(point)
-      real(wp), intent(in) :: a, socket_radius, compliance, factor, penetration
+   !> Eqs (12), (13), (15), (16) solved for the force at a contact radius and a pivot deflection.
+   pure function force_over_radius(a, socket_radius, compliance, factor, pivot_deflection) result(point)
+      real(wp), intent(in) :: a, socket_radius, compliance, factor, pivot_deflection
       type(contact_point) :: point
       point%radius = a
       point%exponent = pressure_exponent(a/socket_radius)
-      point%peak_pressure = penetration/(factor*compliance*exp(log_b(point%exponent))*a)
+      point%peak_pressure = pivot_deflection/(factor*compliance*exp(log_b(point%exponent))*a)
       point%force = point%peak_pressure*pi*a**2/(point%exponent + 1)
    end function force_over_radius
 
@@ -191,7 +191,7 @@ contains
       d_room = 4*r1*r2*(2*n + 1.5_wp)*dn - 3*fang_constant*a**2/r2
       log_force = log(a**3*pi*g*self%radius_difference/(self%compliance*room)) - ln_b
       d_log_force = 3/a + 2*a/(r2**2*g) - d_room/room - dlog_b
-      log_eta = log(self%penetration_factor*self%compliance*(n + 1)/(pi*a)) + ln_b + log_force
+      log_eta = log(self%deflection_factor*self%compliance*(n + 1)/(pi*a)) + ln_b + log_force
       d_log_eta = dlog_b + dn/(n + 1) + d_log_force - 1/a
    end subroutine radius_curve
 
@@ -240,8 +240,8 @@ contains
       if (abs(r) < self%radius) pressure = self%peak_pressure*(1 - (r/self%radius)**2)**self%exponent
    end function pressure
 
-   !> Penetration, m, that carries a force > 0, N, by safeguarded Newton steps on ln(F) over ln(eta).
-   pure function penetration(self, force) result(eta)
+   !> Pivot deflection, m, that carries a force > 0, N, by safeguarded Newton steps on ln(F) over ln(eta).
+   pure function pivot_deflection(self, force) result(eta)
       class(contact_law_type), intent(in) :: self
       real(wp), intent(in) :: force
       real(wp) :: eta, change, low, high
@@ -261,5 +261,5 @@ contains
          call newton_step(change, low, high, eta)
          if (abs(change) <= small_step) exit
       end do
-   end function penetration
+   end function pivot_deflection
 end module contact_law

@@ -1,6 +1,6 @@
-!> The contact law tabulated over the penetration, for constant-time lookup.
+!> The contact law tabulated over the pivot deflection, for constant-time lookup.
 !>
-!> Every octave of the penetration is cut into `2**bits` equal cells, so the leading bits of the
+!> Every octave of the pivot deflection is cut into `2**bits` equal cells, so the leading bits of the
 !> floating-point number are the cell's index. In each cell the force is the cubic that meets the
 !> law's force and stiffness at both ends: force and stiffness are continuous. The relative error of the force is
 !> the same in all octaves, about (2**-bits)**4/384 times eta**4 F''''/F, below 1e-6 by far: 3e-8.
@@ -23,7 +23,7 @@ module contact_table
    integer(i8), parameter :: base = int(bias + first, i8)*2_i8**bits
    integer, parameter :: n_cells = (last - first + 1)*2**bits
 
-   !> Force and stiffness of one pivot over the penetration.
+   !> Force and stiffness of one pivot over the pivot deflection.
    type :: contact_table_type
       private
       class(contact_law_type), allocatable :: law
@@ -35,10 +35,10 @@ module contact_table
       real(wp) :: low_exponent = 1
       type(contact_point) :: low_end, high_end
    contains
-      !> Force, N, and stiffness, N/m, at a penetration, m; both zero where it is not positive.
+      !> Force, N, and stiffness, N/m, at a pivot deflection, m; both zero where it is not positive.
       procedure :: lookup
-      !> Penetration, m, that carries a force > 0, N, by the law itself.
-      procedure :: penetration
+      !> Pivot deflection, m, that carries a force > 0, N, by the law itself.
+      procedure :: pivot_deflection
    end type contact_table_type
 
 contains
@@ -76,42 +76,42 @@ contains
       table%high_end = law%at(cell_start(n_cells))
    end function new_untabulated_contact
 
-   pure subroutine lookup(self, penetration, force, stiffness)
+   pure subroutine lookup(self, pivot_deflection, force, stiffness)
       class(contact_table_type), intent(in) :: self
-      real(wp), intent(in) :: penetration
+      real(wp), intent(in) :: pivot_deflection
       real(wp), intent(out) :: force, stiffness
       type(contact_point) :: point
       integer(i8) :: k
       real(wp) :: t, d
       force = 0
       stiffness = 0
-      if (.not. penetration > 0) return
-      k = shiftr(transfer(penetration, 1_i8), shift) - base
+      if (.not. pivot_deflection > 0) return
+      k = shiftr(transfer(pivot_deflection, 1_i8), shift) - base
       if (k < 0) then
-         force = self%low_end%force*(penetration/cell_start(0))**self%low_exponent
-         stiffness = force*self%low_exponent/penetration
+         force = self%low_end%force*(pivot_deflection/cell_start(0))**self%low_exponent
+         stiffness = force*self%low_exponent/pivot_deflection
       else if (k >= n_cells) then
-         d = penetration - cell_start(n_cells)
+         d = pivot_deflection - cell_start(n_cells)
          force = self%high_end%force + self%high_end%stiffness*d
          stiffness = self%high_end%stiffness
       else if (.not. allocated(self%cubic)) then
-         point = self%law%at(penetration)
+         point = self%law%at(pivot_deflection)
          force = point%force
          stiffness = point%stiffness
       else
          associate (c => self%cubic(:, k))
-            t = (penetration - self%start(k))*self%per_width(k)
+            t = (pivot_deflection - self%start(k))*self%per_width(k)
             force = c(1) + t*(c(2) + t*(c(3) + t*c(4)))
             stiffness = (c(2) + t*(2*c(3) + t*3*c(4)))*self%per_width(k)
          end associate
       end if
    end subroutine lookup
 
-   pure real(wp) function penetration(self, force)
+   pure real(wp) function pivot_deflection(self, force)
       class(contact_table_type), intent(in) :: self
       real(wp), intent(in) :: force
-      penetration = self%law%penetration(force)
-   end function penetration
+      pivot_deflection = self%law%pivot_deflection(force)
+   end function pivot_deflection
 
    !> Lower end of cell k, m: the real whose leading bits are the index.
    elemental function cell_start(k) result(x)

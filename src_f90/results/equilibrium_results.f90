@@ -14,7 +14,7 @@ module equilibrium_results
 
 contains
 
-   !> Writes an equilibrium; `tilting` where the pads have tilts, `radial` where they have penetrations.
+   !> Writes an equilibrium; `tilting` where the pads have tilts, `radial` where they have pivot deflections.
    subroutine put_equilibrium(file, found, tilting, radial)
       type(hdf5_type), intent(inout) :: file
       type(equilibrium_type), intent(in) :: found
@@ -23,8 +23,8 @@ contains
       call file%put_real('equilibrium/journal_y', found%journal(1), 'm', 'journal displacement, vertical')
       call file%put_real('equilibrium/journal_z', found%journal(2), 'm', 'journal displacement, horizontal')
       if (tilting) call file%put_list('equilibrium/pad_tilt', found%tilt, 'rad', 'pad tilt', 'pad')
-      if (radial) call file%put_list('equilibrium/pad_penetration', found%penetration, 'm', &
-         & 'pivot penetration', 'pad')
+      if (radial) call file%put_list('equilibrium/pivot_deflection', found%pivot_deflection, 'm', &
+         & 'pivot pivot deflection', 'pad')
       if (tilting) call file%put_list('equilibrium/contact_force', found%contact_force, 'N', 'pivot contact force', &
          & 'pad')
       call file%put_list('equilibrium/min_film_thickness', found%min_film_thickness, 'm', &

@@ -113,8 +113,8 @@ contains
       journal%velocity(2) = one(1)
       if (layout%tilting) call read_one('pad_tilt', pads%tilt)
       if (layout%tilting) call read_one('pad_tilt_rate', pads%tilt_rate)
-      if (layout%radial) call read_one('pad_penetration', pads%penetration)
-      if (layout%radial) call read_one('pad_penetration_rate', pads%penetration_rate)
+      if (layout%radial) call read_one('pivot_deflection', pads%pivot_deflection)
+      if (layout%radial) call read_one('pivot_deflection_rate', pads%pivot_deflection_rate)
       if (layout%bristles) call read_one('bristle_deflection', pads%deflection)
    contains
       !> The values of a series in the sample.
@@ -137,6 +137,6 @@ contains
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: pads(:)
       all_finite = all(ieee_is_finite([journal%position, journal%velocity, pads%tilt, pads%tilt_rate, &
-         & pads%penetration, pads%penetration_rate, pads%deflection]))
+         & pads%pivot_deflection, pads%pivot_deflection_rate, pads%deflection]))
    end function all_finite
 end module last_state

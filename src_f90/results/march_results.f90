@@ -51,8 +51,8 @@ contains
                call each('pad_tilt_rate', state%tilt_rate, 'rad/s', 'pad tilt rate')
             end if
             if (sample%radial) then
-               call each('pad_penetration', state%penetration, 'm', 'pivot penetration')
-               call each('pad_penetration_rate', state%penetration_rate, 'm/s', 'pivot penetration rate')
+               call each('pivot_deflection', state%pivot_deflection, 'm', 'pivot pivot deflection')
+               call each('pivot_deflection_rate', state%pivot_deflection_rate, 'm/s', 'pivot pivot deflection rate')
             end if
             if (sample%bristles) call each('bristle_deflection', state%deflection, 'm', 'bristle deflection')
             if (sample%asperities) call each('asperity_force', pad%asperity_force, 'N', &

@@ -29,7 +29,7 @@ def compliance(pivot: dict) -> float:
 
 
 def contact_table(pivot: dict, cells: int = 4000) -> tuple[float, np.ndarray]:
-    """Fang's law (11)-(18): spacing of the penetrations, and the force at each; forces up to some 100 kN."""
+    """Fang's law (11)-(18): spacing of the pivot deflections, and the force at each; forces up to some 100 kN."""
     outer = pivot["socket_radius"]
     inner = outer - pivot["radius_difference"]
     k = compliance(pivot)
@@ -42,10 +42,10 @@ def contact_table(pivot: dict, cells: int = 4000) -> tuple[float, np.ndarray]:
     grows = room > 0.01 * room.max()
     grows &= np.cumprod(grows).astype(bool) | (a < 0.3 * outer)
     force = a**3 * np.pi * g * pivot["radius_difference"] / np.where(grows, room, 1.0)
-    penetration = pivot["penetration_factor"] * k * b * (n + 1) * force / (np.pi * a)
-    a, force, penetration = a[grows], force[grows], penetration[grows]
-    most = min(penetration[-1], 4e-5)
-    law = PchipInterpolator(np.append(0, penetration), np.append(0, force))
+    pivot_deflection = pivot["deflection_factor"] * k * b * (n + 1) * force / (np.pi * a)
+    a, force, pivot_deflection = a[grows], force[grows], pivot_deflection[grows]
+    most = min(pivot_deflection[-1], 4e-5)
+    law = PchipInterpolator(np.append(0, pivot_deflection), np.append(0, force))
     return most / cells, law(np.linspace(0, most, cells + 1))
 
 

@@ -21,7 +21,7 @@ DIFFERENCE = 1e-4
 def first_state(run: tiltpad.Run) -> np.ndarray:
     """The state of the first sample."""
     journal = [run[name][0] for name in ("journal_y", "journal_z", "journal_vy", "journal_vz")]
-    names = ("pad_tilt", "pad_tilt_rate", "pad_penetration", "pad_penetration_rate", "bristle_deflection")
+    names = ("pad_tilt", "pad_tilt_rate", "pivot_deflection", "pivot_deflection_rate", "bristle_deflection")
     return np.concatenate([journal, np.column_stack([run[name][0] for name in names]).ravel()])
 
 
@@ -78,7 +78,7 @@ def main() -> None:
     with tiltpad.read(options.archive) as run:
         bearing = Bearing(run.input, options.film_tolerance)
         first, times = first_state(run), run.time
-        scales = bearing.scales(run.clearance, run.pad_penetration[0].max())
+        scales = bearing.scales(run.clearance, run.pivot_deflection[0].max())
     # compiles, and gives the film its first field
     bearing(0.0, first)
     np.savez(options.result, **marched(bearing, first, times, scales, options))

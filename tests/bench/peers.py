@@ -150,12 +150,12 @@ def case(run: tiltpad.Run) -> str:
         "machined": inputs["machined_clearance"], "radius": bearing.geometry[0, 0],
         "inner": inputs["journal_radius"], "viscosity": inputs["viscosity"], "speed": bearing.speed,
         "outer": pivot["socket_radius"], "difference": pivot["radius_difference"],
-        "compliance": compliance(pivot), "factor": pivot["penetration_factor"],
+        "compliance": compliance(pivot), "factor": pivot["deflection_factor"],
         "relative": settings.PEER_RELATIVE, "absolute": settings.PEER_ABSOLUTE,
     }  # fmt: skip
     equilibrium = run.equilibrium
     first = [equilibrium["journal_y"], equilibrium["journal_z"], 0, 0]
-    for tilt, depth in zip(equilibrium["pad_tilt"], equilibrium["pad_penetration"], strict=True):
+    for tilt, depth in zip(equilibrium["pad_tilt"], equilibrium["pivot_deflection"], strict=True):
         first += [tilt, 0, depth, 0, 0]
     lines = [f"s.{name} = {row_of(value)};" for name, value in values.items()]
     lines += [f"first = {row_of(first)}';", f"times = {row_of(run.time)}';"]

@@ -15,7 +15,7 @@ FIVE_PADS = (
 DROPPED = (
     "title='dropped' / &rotor unbalance=0 / &operation speed_rpm=600, duration=3 / "
     "&pads pivot_angle_deg=-45,225,90 / "
-    "&start pad_tilt_rate=0,0,-40, pad_penetration=0,0,80e-6, pad_penetration_rate=0,0,-0.05"
+    "&start pad_tilt_rate=0,0,-40, pivot_deflection=0,0,80e-6, pivot_deflection_rate=0,0,-0.05"
 )
 ROUGHNESS = 0.5e-6
 

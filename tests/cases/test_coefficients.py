@@ -34,7 +34,7 @@ def test_file_fits_its_own_matrices(case):
     _, path = case("steady_lugre", TASK, *changes)
     with h5py.File(path) as file:
         assert list(file["pivot"].asstr()) == ["free", "stuck", "locked"]
-        names = ["y", "z", "tilt_1", "penetration_1", "tilt_2", "penetration_2"]
+        names = ["y", "z", "tilt_1", "pivot_deflection_1", "tilt_2", "pivot_deflection_2"]
         assert list(file["position_row"].asstr()) == list(file["position_column"].asstr()) == names
         group, modes = file["coefficients"], file["modes"]
         speed = 6500 * np.pi / 30

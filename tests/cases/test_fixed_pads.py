@@ -11,7 +11,7 @@ CASE = """&pads motion='fixed', pivot_angle_deg=-90,90, arc_deg=160 /
 &rotor mass=300, balance_grade=2.5 /
 &operation speed_rpm=5000, duration=0.5 /
 """
-OF_TILTING = ("pad_tilt", "pad_penetration", "contact_force", "friction_moment", "bristle_deflection")
+OF_TILTING = ("pad_tilt", "pivot_deflection", "contact_force", "friction_moment", "bristle_deflection")
 STARTS = {
     "partial": ("start%from='partial'",),
     "centred": ("start%from='centred'",),
@@ -107,7 +107,7 @@ def test_a_sweep_is_collected(tiltpad, run):
 REFUSED = {
     "friction": (("friction%model='lugre'",), 1, "friction%model = 'lugre': must be 'none'"),
     "tilt": (("start%pad_tilt=1e-3",), 1, "start%pad_tilt = 0.001, pad_tilt_rate = 0: must be 0"),
-    "penetration": (("start%pad_penetration=1e-6",), 1, "must be 0 for pads%motion = 'fixed'"),
+    "pivot_deflection": (("start%pivot_deflection=1e-6",), 1, "must be 0 for pads%motion = 'fixed'"),
     "arc": (("pads%arc_deg=360.5",), 1, "0.1 to 360"),
     "overlap": (("pads%arc_deg=181",), 1, "overlap"),
     "other states": (("start%from='file'", "start%file='paper.h5'"), 3, "has pads%motion = 'tilting_radial'"),

@@ -48,7 +48,7 @@ UNITS = """
 0 0 1: duration time period
 0 1 0: journal_radius assembled_clearance machined_clearance axial_length pivot_distance centre_radial
 0 1 0: socket_radius radius_difference roughness journal
-0 1 0: journal_y journal_z pad_penetration bristle_deflection min_film_thickness
+0 1 0: journal_y journal_z pivot_deflection bristle_deflection min_film_thickness
 1 -1 -1: reference_viscosity viscosity
 1 -1 -2: supply_pressure young_modulus elastic_modulus max_pressure
 1 -3 0: density

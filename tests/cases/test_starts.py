@@ -76,7 +76,14 @@ def test_equilibrium_is_the_default(run):
 
 def test_it_begins_where_it_says(run):
     centred, given = run("centred", *STARTS["centred"]), run("given", *STARTS["given"])
-    for name in ("journal_y", "journal_z", "journal_vy", "pad_tilt", "pad_penetration", "bristle_deflection"):
+    for name in (
+        "journal_y",
+        "journal_z",
+        "journal_vy",
+        "pad_tilt",
+        "pivot_deflection",
+        "bristle_deflection",
+    ):
         assert np.all(begins(centred, name) == 0), name
     assert (begins(given, "journal_y"), begins(given, "journal_z")) == (-20e-6, 20e-6)
     assert list(begins(given, "pad_tilt")) == [1e-4, 2e-4]
@@ -100,7 +107,7 @@ def test_a_file_goes_on(run):
     turns = whole["shaft_angle"][:] / (2 * np.pi)
     at = np.flatnonzero(np.abs(turns - np.round(turns)) < 1e-6)[-1]
     assert at > whole["time"].size - 361
-    for name in (*SIZES, "journal_vy", "journal_vz", "pad_tilt_rate", "pad_penetration_rate"):
+    for name in (*SIZES, "journal_vy", "journal_vz", "pad_tilt_rate", "pivot_deflection_rate"):
         assert np.array_equal(begins(other, name), whole[name][at]), name
     for name, size in SIZES.items():
         rest = whole[name][at:]
@@ -147,7 +154,7 @@ REFUSED = {
     "turned over": (("start%from='given'", "start%pad_tilt(2)=1.2"), 2, "pad 2 turned over"),
     "closed": (("start%from='centred'", "start%journal=-90e-6,0"), 2, "the film of pad 1 closed"),
     "rigid": (
-        ("start%pad_penetration=1e-6", "pads%motion='tilting_only'"),
+        ("start%pivot_deflection=1e-6", "pads%motion='tilting_only'"),
         1,
         "must be 0 for pads%motion = 'tilting_only'",
     ),

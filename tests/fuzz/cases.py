@@ -37,7 +37,7 @@ ALONE = ("rotor%balance_speed_rpm", "film%circumferential_cells", "film%axial_ce
 #: Where a march starts; the values of the pads are not drawn.
 START = (
     *("start%from", "start%file", "start%journal", "start%journal_velocity", "start%pad_tilt"),
-    *("start%pad_tilt_rate", "start%pad_penetration", "start%pad_penetration_rate"),
+    *("start%pad_tilt_rate", "start%pivot_deflection", "start%pivot_deflection_rate"),
 )
 #: The oil's law, what it needs, and the heat balance.
 OIL = (

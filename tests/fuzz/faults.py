@@ -43,7 +43,7 @@ TOGETHER = (
     ({"thermal%march": "groove"}, "thermal%march"),
     ({"start%file": "'x.h5'"}, "start%file"),
     ({"start%from": "file"}, "start%file"),
-    ({"start%pad_penetration": "1e-6", "pads%motion": "tilting_only"}, "start%pad_penetration"),
+    ({"start%pivot_deflection": "1e-6", "pads%motion": "tilting_only"}, "start%pivot_deflection"),
     ({"pads%motion": "fixed", "friction%model": "lugre"}, "friction%model"),
     ({"pads%motion": "fixed", "start%pad_tilt": "1e-3"}, "start%pad_tilt"),
     ({"pads%pivot_angle_deg": "0, 60"}, "pads%pivot_angle_deg"),

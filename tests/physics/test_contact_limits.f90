@@ -51,7 +51,7 @@ contains
       end do
    end subroutine hertz_limit
 
-   !> The factor scales the penetration and nothing else: with 4 as printed a load sinks 2/pi as deep as
+   !> The factor scales the pivot deflection and nothing else: with 4 as printed a load sinks 2/pi as deep as
    !> with 2 pi. Bisections end at rounding.
    subroutine printed_factor()
       class(contact_law_type), allocatable :: printed, consistent
@@ -59,12 +59,13 @@ contains
       printed = paper_law('fang', 15e-6_wp)
       consistent = paper_law('fang', 15e-6_wp, 2*pi)
       do e = -3, 6
-         call expect_close(printed%penetration(10.0_wp**e)/consistent%penetration(10.0_wp**e), 2/pi, 1e-13_wp, &
+         call expect_close(printed%pivot_deflection(10.0_wp**e)/consistent%pivot_deflection(10.0_wp**e), 2/pi, &
+            1e-13_wp, &
             & 'printed over consistent factor at 1e'//to_text(e)//' N')
       end do
    end subroutine printed_factor
 
-   !> dR -> 0 at one penetration: the force tends to the linear spring's, its distance falling with dR
+   !> dR -> 0 at one pivot deflection: the force tends to the linear spring's, its distance falling with dR
    !> itself once g dR is well below C of (16), 2e-6 m here; a tenth for the next order.
    subroutine snug_limit()
       class(contact_law_type), allocatable :: law, snug
@@ -97,7 +98,7 @@ contains
       do e = 0, 6
          do k = 1, size(differences)
             law = paper_law('fang', differences(k))
-            depth(k) = law%penetration(10.0_wp**e)
+            depth(k) = law%pivot_deflection(10.0_wp**e)
          end do
          call expect(all(depth(2:) > depth(:size(depth) - 1)), 'looser is deeper at 1e'//to_text(e)//' N')
       end do

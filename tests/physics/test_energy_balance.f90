@@ -58,9 +58,9 @@ contains
                power(3) = power(3) - films(pad)%friction_moment*pads(pad)%tilt_rate
                if (b%layout%radial) then
                   weight = p%mass(pad)*b%inputs%rotor%gravity
-                  power(2) = power(2) - force(2)*pads(pad)%penetration_rate
+                  power(2) = power(2) - force(2)*pads(pad)%pivot_deflection_rate
                   power(4) = power(4) + (p%mass(pad)*p%centre_radial(pad)*pads(pad)%tilt_rate**2 - weight*sin(a)) &
-                     & *pads(pad)%penetration_rate
+                     & *pads(pad)%pivot_deflection_rate
                end if
             end associate
          end do
@@ -110,7 +110,7 @@ contains
          a = bearing%bearing%pads(i)%position%angle - pads(i)%tilt
          taken = dot_product(force, [cos(a)*y(3) - sin(a)*y(4), sin(a)*y(3) + cos(a)*y(4)]) &
             & - force(1)*bearing%bearing%pads(i)%position%centre_distance*pads(i)%tilt_rate
-         if (bearing%layout%radial) taken = taken - force(2)*pads(i)%penetration_rate
+         if (bearing%layout%radial) taken = taken - force(2)*pads(i)%pivot_deflection_rate
       end function taken
    end subroutine add_asperities
 
@@ -188,9 +188,9 @@ contains
                energy(3) = energy(3) + p%mass(pad)*r%gravity &
                   & *(p%centre_tangential(pad)*cos(a) + p%centre_radial(pad)*sin(a))
                if (b%layout%radial) then
-                  energy(2) = energy(2) + p%mass(pad)*(0.5_wp*state%penetration_rate**2 &
-                     & + p%centre_tangential(pad)*state%tilt_rate*state%penetration_rate)
-                  energy(4) = energy(4) + stored(b, state%penetration)
+                  energy(2) = energy(2) + p%mass(pad)*(0.5_wp*state%pivot_deflection_rate**2 &
+                     & + p%centre_tangential(pad)*state%tilt_rate*state%pivot_deflection_rate)
+                  energy(4) = energy(4) + stored(b, state%pivot_deflection)
                end if
                energy(4) = energy(4) + pressed(b, y, pad)
             end associate
@@ -276,7 +276,7 @@ contains
       call find_equilibrium(bearing, static, error)
       call expect_no_error(error, 'the equilibrium is found')
       call closes(inputs, bearing%at_rest(static%journal + [10e-6_wp, 5e-6_wp], static%tilt + [1e-4_wp, -5e-5_wp], &
-         & static%penetration*[1.02_wp, 0.97_wp]), what, rubbed, touched)
+         & static%pivot_deflection*[1.02_wp, 0.97_wp]), what, rubbed, touched)
       call expect(.not. touched, 'nothing touches, '//what)
       if (friction == 'none') then
          call expect(abs(rubbed) <= 0, 'nothing rubs, '//what)

@@ -82,9 +82,9 @@ contains
          inputs%film%solver = trim(solvers(k))
          found = found_in(inputs)
          call expect_place(found, [-55.595_wp, 0.0266_wp], [-0.2029_wp, 1.0269_wp], 41.512_wp, 'TR 6500 '//solvers(k))
-         ! the pivots are 2 MN/mm stiff: their penetration follows the load, to its 1e-4, and not the film
-         call expect_close(found%penetration(1), 7.0915e-6_wp, 1e-9_wp, 'penetration 1, '//solvers(k))
-         call expect_close(found%penetration(2), 7.0870e-6_wp, 1e-9_wp, 'penetration 2, '//solvers(k))
+         ! the pivots are 2 MN/mm stiff: their pivot deflection follows the load, to its 1e-4, and not the film
+         call expect_close(found%pivot_deflection(1), 7.0915e-6_wp, 1e-9_wp, 'pivot deflection 1, '//solvers(k))
+         call expect_close(found%pivot_deflection(2), 7.0870e-6_wp, 1e-9_wp, 'pivot deflection 2, '//solvers(k))
       end do
    end subroutine tilting_radial_table
 
@@ -152,7 +152,7 @@ contains
             a = theta - found%tilt(pad)
             along = [cos(a), -sin(a)]
             outward = [sin(a), cos(a)]
-            pivot = (b%journal_radius + b%assembled_clearance + p%pivot_distance(pad) + found%penetration(pad)) &
+            pivot = (b%journal_radius + b%assembled_clearance + p%pivot_distance(pad) + found%pivot_deflection(pad)) &
                & *[sin(theta), cos(theta)]
             centre = pivot - (b%journal_radius + b%machined_clearance + p%pivot_distance(pad))*outward
             e = found%journal - centre
@@ -233,7 +233,7 @@ contains
       if (.not. allocated(found%tilt)) return
       call expect(found%residual <= 1e-8_wp, 'at rest')
       call expect(found%stability%name /= 'divergent', 'where a motion can start')
-      call expect(any(found%penetration < 0), 'with a pad that floats')
+      call expect(any(found%pivot_deflection < 0), 'with a pad that floats')
    end subroutine floating_pads
 
    !> A load away from the two lower pads is carried by nothing: that is told, in words.

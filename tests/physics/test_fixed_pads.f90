@@ -159,7 +159,7 @@ contains
       rest%sommerfeld = sommerfeld
       rest%eccentricity = norm2(found%journal)/inputs%bearing%assembled_clearance
       rest%attitude = atan2(-found%journal(2), -found%journal(1))/degree
-      call model%evaluate(0.0_wp, model%at_rest(found%journal, found%tilt, found%penetration), .true., ok)
+      call model%evaluate(0.0_wp, model%at_rest(found%journal, found%tilt, found%pivot_deflection), .true., ok)
       call expect(ok, 'derivatives at S = '//to_text(sommerfeld))
       call force_derivatives(model, k, c)
       ! along the load is -y, across it, in the sense of the rotation, -z: both turn the signs of no coefficient
@@ -265,7 +265,7 @@ contains
          if (i == 2) model = new_bearing_model(other)
          call find_equilibrium(model, rest(i), error)
          call expect_no_error(error, 'an equilibrium')
-         call model%evaluate(0.0_wp, model%at_rest(rest(i)%journal, rest(i)%tilt, rest(i)%penetration), .true., ok)
+         call model%evaluate(0.0_wp, model%at_rest(rest(i)%journal, rest(i)%tilt, rest(i)%pivot_deflection), .true., ok)
          call force_derivatives(model, k(:, :, i), c(:, :, i))
       end do
       call expect_close(norm2(rest(2)%journal - matmul(turn, rest(1)%journal)), 0.0_wp, 1e-12_wp, 'the place')
@@ -441,7 +441,7 @@ contains
       real(wp), allocatable, intent(out) :: places(:, :)
       real(wp), allocatable :: y(:)
       y = model%at_rest(found%journal + [beside*model%inputs%bearing%assembled_clearance, 0.0_wp], found%tilt, &
-         & found%penetration)
+         & found%pivot_deflection)
       allocate (places(2, samples*revolutions))
       call march_samples(model, model%scale, [1e-7_wp, 1e-7_wp], y, 0.0_wp, &
          & 2*pi/model%point%speed(0.0_wp)/samples, places)

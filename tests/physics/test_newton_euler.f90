@@ -41,7 +41,7 @@ contains
       y(3:4) = [between(-0.02_wp, 0.02_wp), between(-0.02_wp, 0.02_wp)]
       do pad = 1, 2
          y(model%layout%tilt_rate(pad)) = between(-5.0_wp, 5.0_wp)
-         if (model%layout%radial) y(model%layout%penetration_rate(pad)) = between(-5e-3_wp, 5e-3_wp)
+         if (model%layout%radial) y(model%layout%pivot_deflection_rate(pad)) = between(-5e-3_wp, 5e-3_wp)
          y(model%layout%bristle(pad)) = between(-1e-7_wp, 1e-7_wp)
       end do
    end function random_state
@@ -70,7 +70,7 @@ contains
             a = model%bearing%pads(pad)%position%angle - y(model%layout%tilt(pad))
             rate = y(model%layout%tilt_rate(pad))
             tilt_acceleration = f(model%layout%tilt_rate(pad))
-            radial_acceleration = f(model%layout%penetration_rate(pad))
+            radial_acceleration = f(model%layout%pivot_deflection_rate(pad))
             ! C = (C_xi, C_eta) turns with the pad: C' = rate (-C_eta, C_xi) and so on
             associate (c_t => p%centre_tangential(pad), c_r => p%centre_radial(pad), m => p%mass(pad))
                acceleration = [-tilt_acceleration*c_r - rate**2*c_t, &
@@ -170,7 +170,7 @@ contains
                y(model%layout%tilt_rate(pad)) = merge(0.0_wp, 3.0_wp, k == 1)
                call model%rhs(0.0_wp, y, f, ok)
                loads(:, k) = [model%bearing%loads(pad)%moment, model%bearing%loads(pad)%radial]
-               rates(:, k) = f([model%layout%tilt_rate(pad), model%layout%penetration_rate(pad)])
+               rates(:, k) = f([model%layout%tilt_rate(pad), model%layout%pivot_deflection_rate(pad)])
             end do
             det = loads(1, 1)*loads(2, 2) - loads(1, 2)*loads(2, 1)
             inverse = matmul(rates, reshape([loads(2, 2), -loads(2, 1), -loads(1, 2), loads(1, 1)], [2, 2]))/det

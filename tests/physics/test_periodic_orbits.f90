@@ -63,7 +63,7 @@ contains
          options%relative_tolerance = tolerance
          options%absolute_tolerance = tolerance*model%scale
          call find_periodic_orbit(model, options, model%at_rest(static%journal, static%tilt, &
-            & static%penetration), found, error)
+            & static%pivot_deflection), found, error)
       end if
       call expect_no_error(error, 'the orbit is found')
       if (allocated(error)) call expect(.false., error%message)

@@ -141,7 +141,7 @@ contains
       inputs%thermal%model = 'none'
       call solve(inputs, cold, of_cold, model)
       call expect(.not. any(abs([warm%journal - cold%journal, warm%tilt - cold%tilt, &
-         & warm%penetration - cold%penetration, warm%viscosity - cold%viscosity]) > 0), 'state')
+         & warm%pivot_deflection - cold%pivot_deflection, warm%viscosity - cold%viscosity]) > 0), 'state')
       call expect(.not. any(abs(figures%pads%power() - of_cold%pads%power()) > 0), 'losses')
       call expect(allocated(figures%oil) .and. .not. allocated(of_cold%oil), 'temperatures of warm oil alone')
    end subroutine isothermal
@@ -223,7 +223,7 @@ contains
       inputs%oil%groove_volume = volume
       inputs%operation%duration = duration
       call solve(inputs, static, figures, model)
-      call find_groove_transient(model, model%at_rest(static%journal, static%tilt, static%penetration), duration, &
+      call find_groove_transient(model, model%at_rest(static%journal, static%tilt, static%pivot_deflection), duration, &
          & course, error)
       call expect_no_error(error, 'course')
       if (.not. allocated(error)) call course%at(duration, viscosities)

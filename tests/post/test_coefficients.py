@@ -39,7 +39,7 @@ def run(folder, opened):
 def test_a_study_has_what_its_members_have(study, run, folder):
     assert list(study.pivot) == PIVOTS
     assert list(study.row) == list(study.column) == ["y", "z"]
-    assert list(study.position_row)[:4] == ["y", "z", "tilt_1", "penetration_1"]
+    assert list(study.position_row)[:4] == ["y", "z", "tilt_1", "pivot_deflection_1"]
     np.testing.assert_array_equal(study.frequency_ratio, [0.5, 1, 2])
     for group in ("coefficients", "modes"):
         for name, values in run[group].items():

@@ -16,8 +16,8 @@ SERIES = {
     "journal_vz": (TIME, "m/s"),
     "pad_tilt": (PADS, "rad"),
     "pad_tilt_rate": (PADS, "rad/s"),
-    "pad_penetration": (PADS, "m"),
-    "pad_penetration_rate": (PADS, "m/s"),
+    "pivot_deflection": (PADS, "m"),
+    "pivot_deflection_rate": (PADS, "m/s"),
     "bristle_deflection": (PADS, "m"),
     "contact_force": (PADS, "N"),
     "friction_moment": (PADS, "N m"),
@@ -37,7 +37,7 @@ EQUILIBRIUM = {
     "equilibrium/journal_y": ((), "m"),
     "equilibrium/journal_z": ((), "m"),
     "equilibrium/pad_tilt": (("pad",), "rad"),
-    "equilibrium/pad_penetration": (("pad",), "m"),
+    "equilibrium/pivot_deflection": (("pad",), "m"),
     "equilibrium/contact_force": (("pad",), "N"),
     "equilibrium/min_film_thickness": (("pad",), "m"),
     "equilibrium/max_pressure": (("pad",), "Pa"),
@@ -85,7 +85,7 @@ PERIODIC = {
 COUNTS = ["steps", "rhs_evaluations", "jacobian_evaluations", "error_test_failures", "convergence_failures"]
 COUNTS += ["film_modal", "film_volumes", "film_passes"]
 
-RADIAL = {"pad_penetration", "pad_penetration_rate", "equilibrium/pad_penetration"}
+RADIAL = {"pivot_deflection", "pivot_deflection_rate", "equilibrium/pivot_deflection"}
 BRISTLE = {"bristle_deflection"}
 TILTING = {"pad_tilt", "pad_tilt_rate", "contact_force", "friction_moment", "spectrum/pad_tilt"}
 TILTING |= {"equilibrium/pad_tilt", "equilibrium/contact_force"}

@@ -121,12 +121,12 @@ def test_a_run_without_time_has_an_equilibrium_only(run):
 def test_contact_is_the_programs(run):
     """The march takes it from a table with a relative error of 3e-8."""
     case = run("lugre")
-    force = tiltpad.contact_force(case.pad_penetration, case)
+    force = tiltpad.contact_force(case.pivot_deflection, case)
     np.testing.assert_allclose(force, case.contact_force, rtol=1e-7)
     assert force.shape == case.contact_force.shape
 
 
-@pytest.mark.parametrize("pivot", ["", "law='hertz'", "radius_difference=0", "penetration_factor=6.28"])
+@pytest.mark.parametrize("pivot", ["", "law='hertz'", "radius_difference=0", "deflection_factor=6.28"])
 def test_contact_pressure_carries_the_force(pivot):
     """Over rings of equal area: with r**2 spread evenly the midpoint rule leaves n^-(1 + exponent)."""
     case = f"&pivot {pivot} /"

@@ -35,7 +35,7 @@ def test_a_film_without_pressure_is_drawn(changed):
     """Pads that leave the journal at 10 m/s: nothing but rupture."""
 
     def leaving(file):
-        file["pad_penetration_rate"][3] = 10.0
+        file["pivot_deflection_rate"][3] = 10.0
 
     with tiltpad.read(changed("lugre", leaving)) as case:
         assert not tiltpad.pressure(case, case.time[3]).pressure.any()

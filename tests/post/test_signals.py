@@ -124,7 +124,7 @@ def test_the_poincare_section_of_a_periodic_motion_is_a_point(made):
 def test_the_poincare_section_of_a_run(run):
     section = tiltpad.poincare(run("tilting"), 5)
     assert len(section["revolution"]) == 5
-    assert "pad_penetration" not in section
+    assert "pivot_deflection" not in section
     case = run("tilting")
     np.testing.assert_allclose(section["journal_y"], case.journal_y[720:-1:360], rtol=1e-12)
 

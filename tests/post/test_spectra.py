@@ -29,14 +29,14 @@ def test_amplitudes_of_a_known_signal(made):
         interval=1 / frequency / 360,
         journal_y=lambda time, angle: 3e-6 + 5e-6 * np.cos(angle) + 1e-6 * np.sin(3 * angle),
         journal_z=lambda time, angle: 5e-6 * np.sin(angle),
-        pad_penetration=lambda time, angle: np.stack([1e-6 * np.cos(2 * angle), 0 * time], axis=1),
+        pivot_deflection=lambda time, angle: np.stack([1e-6 * np.cos(2 * angle), 0 * time], axis=1),
     )
     at, amplitude = tiltpad.one_sided(case, "journal_y", 10)
     assert at[10] == pytest.approx(frequency)
     np.testing.assert_allclose(amplitude[[0, 10, 20, 30]], [3e-6, 5e-6, 0, 1e-6], atol=1e-15)
-    at, amplitude = tiltpad.one_sided(case, "pad_penetration", 4)
+    at, amplitude = tiltpad.one_sided(case, "pivot_deflection", 4)
     np.testing.assert_allclose(amplitude[:, 8], [1e-6, 0], atol=1e-15)
-    np.testing.assert_array_equal(tiltpad.one_sided(case, "pad_penetration", 4, pad=1)[1], amplitude[0])
+    np.testing.assert_array_equal(tiltpad.one_sided(case, "pivot_deflection", 4, pad=1)[1], amplitude[0])
     at, amplitude = tiltpad.full(case, 4)
     assert at[np.argmax(amplitude)] == pytest.approx(frequency)
     assert amplitude.max() == pytest.approx(5e-6)

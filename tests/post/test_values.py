@@ -31,7 +31,7 @@ def test_shaft_angle_is_the_integral_of_the_speed(run):
 def test_positions_are_integrals_of_rates(run, case_name):
     case = run(case_name)
     rates = {"journal_y": "journal_vy", "journal_z": "journal_vz"}
-    rates |= {name: f"{name}_rate" for name in ("pad_tilt", "pad_penetration") if name in case}
+    rates |= {name: f"{name}_rate" for name in ("pad_tilt", "pivot_deflection") if name in case}
     for name, rate in rates.items():
         steps = (
             np.diff(case.time)[:, None] * (case[rate][1:] + case[rate][:-1]).reshape(case.samples - 1, -1) / 2

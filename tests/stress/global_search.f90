@@ -51,9 +51,9 @@ program global_search
    end type table_type
 
    !> A piece of a pad's curve: at its two ends the journal's way towards the pad, the force on the journal, leaning,
-   !> penetration.
+   !> pivot deflection.
    type :: piece_type
-      real(wp) :: way(2), force(2), b(2), penetration(2)
+      real(wp) :: way(2), force(2), b(2), pivot_deflection(2)
       !> Whether the pad alone comes back to it.
       logical :: stable = .true.
    end type piece_type
@@ -270,8 +270,8 @@ contains
                t = contact(1)/(contact(1) - contact(2))
                afloat = piece_type(pad%position%pivot_radius - (rho(1) + t*(rho(2) - rho(1))), &
                   & force(1) + t*(force(2) - force(1)), b(1) + t*(b(2) - b(1)), 0.0_wp, stable)
-               afloat%penetration(2) = -4*pad%gap%machined_clearance
-               afloat%way(2) = afloat%way(1) + afloat%penetration(2)
+               afloat%pivot_deflection(2) = -4*pad%gap%machined_clearance
+               afloat%way(2) = afloat%way(1) + afloat%pivot_deflection(2)
                pieces = [pieces, afloat]
                k = minloc(contact, dim=1)
                r(k) = rho(1) + t*(rho(2) - rho(1))
@@ -280,9 +280,9 @@ contains
                contact(k) = 0
             end if
             do k = 1, 2
-               if (contact(k) > 0) piece%penetration(k) = model%bearing%penetration(contact(k))
+               if (contact(k) > 0) piece%pivot_deflection(k) = model%bearing%pivot_deflection(contact(k))
             end do
-            piece%way = pad%position%pivot_radius + piece%penetration - r
+            piece%way = pad%position%pivot_radius + piece%pivot_deflection - r
          end if
          pieces = [pieces, piece]
       end associate
@@ -346,7 +346,7 @@ contains
       real(wp) :: unit(size(y))
       integer :: k, i
       unit = model%scale
-      if (model%layout%radial) unit(model%layout%penetration([(i, i=1, model%layout%pads)])) &
+      if (model%layout%radial) unit(model%layout%pivot_deflection([(i, i=1, model%layout%pads)])) &
          & = model%inputs%bearing%assembled_clearance
       known = .false.
       do k = 1, size(list, 2)
@@ -444,18 +444,19 @@ contains
       type(curve_type), intent(in) :: curves(:)
       real(wp), intent(in) :: place(2), t(:)
       integer, intent(in) :: at(:)
-      real(wp) :: y(model%n), penetration(size(at)), tilt(size(at)), r(2), out(2)
+      real(wp) :: y(model%n), pivot_deflection(size(at)), tilt(size(at)), r(2), out(2)
       integer :: i
       do i = 1, size(at)
          associate (piece => curves(i)%pieces(at(i)), position => model%bearing%pads(i)%position)
-            penetration(i) = piece%penetration(1) + t(i)*(piece%penetration(2) - piece%penetration(1))
+            pivot_deflection(i) = piece%pivot_deflection(1) + t(i)*(piece%pivot_deflection(2) &
+               - piece%pivot_deflection(1))
             out = [position%sin_angle, position%cos_angle]
-            r = place - (position%pivot_radius + penetration(i))*out
+            r = place - (position%pivot_radius + pivot_deflection(i))*out
             tilt(i) = atan2(dot_product(r, [out(2), -out(1)]), -dot_product(r, out)) &
                & - (piece%b(1) + t(i)*(piece%b(2) - piece%b(1)))
          end associate
       end do
-      y = model%at_rest(place, tilt, penetration)
+      y = model%at_rest(place, tilt, pivot_deflection)
    end function state_on_curves
 
    !> Newton's method on journal and pads, with steps cut where the films close or nothing improves.

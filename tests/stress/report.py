@@ -77,7 +77,7 @@ These cases took the most steps per revolution:
 
 The test ran {compared} of the cases that moved and were completed again over {revolutions} revolutions,
 with a `relative_tolerance` (and `film%tolerance`) {finer} times smaller. The error is the maximum
-difference of journal position, tilt and penetration at any instant, in units of the tolerance
+difference of journal position, tilt and pivot deflection at any instant, in units of the tolerance
 `relative_tolerance * (|state| + scale)`.
 
 The settings set a limit of the error: CVODE keeps the error of one step below sqrt(n) tolerances for n

@@ -200,7 +200,7 @@ def pivot(dice: Dice, bearing: dict) -> dict:
     if dice.chance(0.2):
         values["young_modulus"] = [dice.log(2e9, 4e11), dice.log(2e9, 4e11)]
     if dice.chance(0.2):
-        values["penetration_factor"] = 2 * math.pi
+        values["deflection_factor"] = 2 * math.pi
     return values
 
 

@@ -45,7 +45,7 @@ PREFIX = "tiltpad: error: "
 NO_MESSAGE = ("At line", "runtime", "Backtrace", "HDF5-DIAG", "CVODE ERROR", "NaN", "Infinity", "with code")
 #: What is no number where no oil flows.
 NO_FLOW = re.compile("equilibrium/temperature_rise")
-STATES = ("journal_y", "journal_z", "pad_tilt", "pad_penetration")
+STATES = ("journal_y", "journal_z", "pad_tilt", "pivot_deflection")
 
 
 @dataclass
@@ -253,8 +253,8 @@ def unphysical_pivots(values: dict[str, np.ndarray], promised: float, case: Case
         "contact_force < 0": np.all(values["contact_force"] >= 0),
         "friction_moment over its bound": np.all(abs(moment) <= bound * (1 + promised) + 1e-12),
         "a pad turned over": np.all(abs(values["pad_tilt"]) <= reach),
-        "contact without penetration": "pad_penetration" not in values
-        or np.all(values["contact_force"][values["pad_penetration"] < 0] == 0),
+        "contact without pivot deflection": "pivot_deflection" not in values
+        or np.all(values["contact_force"][values["pivot_deflection"] < 0] == 0),
     }
 
 
@@ -416,11 +416,11 @@ def difference(path: Path, other: Path, case: Case) -> tuple[float, float, float
 
 
 def state_scales(case: Case, file: h5py.File) -> dict[str, np.ndarray | float]:
-    """Natural size of the positions, as the absolute tolerances have it; of the penetration its largest."""
+    """Natural size of the positions, as the absolute tolerances have it; of the pivot deflection its largest."""
     bearing, clearance = case["bearing"], case["bearing"]["assembled_clearance"]
     radius = bearing["journal_radius"] + bearing["machined_clearance"]
     length = radius * np.radians(case["pads"]["arc_deg"])
     scales = {"journal_y": clearance, "journal_z": clearance, "pad_tilt": clearance / length}
-    if "pad_penetration" in file:
-        scales["pad_penetration"] = max(file["pad_penetration"][:].max(), 1e-3 * clearance)
+    if "pivot_deflection" in file:
+        scales["pivot_deflection"] = max(file["pivot_deflection"][:].max(), 1e-3 * clearance)
     return scales

@@ -116,13 +116,13 @@ contains
       call expect_allowed('&start from = ''file'', file = ''other.h5'' /')
       call expect_refused('&start from = ''centred'', file = ''other.h5'' /', &
          & 'start%file = ''other.h5'': needs start%from = ''file'', not ''centred''')
-      call expect_allowed('&start pad_penetration = 0, 1e-6 /')
-      call expect_refused('&start pad_penetration = 0, 1e-6 / &pads motion = ''tilting_only'' /', &
+      call expect_allowed('&start pivot_deflection = 0, 1e-6 /')
+      call expect_refused('&start pivot_deflection = 0, 1e-6 / &pads motion = ''tilting_only'' /', &
          & 'must be 0 for pads%motion = ''tilting_only''')
       call expect_allowed('&start pad_tilt = 1e-3 / &pads motion = ''tilting_only'' /')
       call expect_refused(fixed//'pad_tilt = 1e-3 /', 'start%pad_tilt = 0.001, pad_tilt_rate = 0: must be 0')
       call expect_refused(fixed//'pad_tilt_rate = 0, 1 /', 'must be 0 for pads%motion = ''fixed''')
-      call expect_refused(fixed//'pad_penetration = 1e-6 /', 'must be 0 for pads%motion = ''fixed''')
+      call expect_refused(fixed//'pivot_deflection = 1e-6 /', 'must be 0 for pads%motion = ''fixed''')
    end subroutine starts
 
    !> No friction in pivots that are not there; arcs all around; masses do not matter.

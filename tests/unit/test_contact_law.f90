@@ -52,12 +52,12 @@ contains
       type(contact_point) :: point
       real(wp) :: eta
       law = paper_law('fang', 15e-6_wp)
-      eta = law%penetration(1e4_wp)
+      eta = law%pivot_deflection(1e4_wp)
       point = law%at(eta)
-      call expect_close(eta, 5.5191e-6_wp, 0.5e-10_wp, 'penetration at 10 kN, dR = 15 um')
+      call expect_close(eta, 5.5191e-6_wp, 0.5e-10_wp, 'pivot deflection at 10 kN, dR = 15 um')
       call expect_close(point%radius/socket, 0.5767_wp, 0.5e-4_wp, 'contact radius at 10 kN, dR = 15 um')
       law = paper_law('fang', 30e-6_wp)
-      call expect_close(law%penetration(1e4_wp), 6.5867e-6_wp, 0.5e-10_wp, 'penetration at 10 kN, dR = 30 um')
+      call expect_close(law%pivot_deflection(1e4_wp), 6.5867e-6_wp, 0.5e-10_wp, 'pivot deflection at 10 kN, dR = 30 um')
    end subroutine check_values
 
    !> dR = 0: a = R2 at any load, so n = 0.26 and eq (13) with (12) is a line.
@@ -147,7 +147,7 @@ contains
       call expect_close(worst(4), 0.0_wp, rounding, 'eq (15), dR = '//to_text(difference))
    end subroutine printed_equations
 
-   !> Differences with a step h of the penetration: error h**2/6 of the third logarithmic derivative (of
+   !> Differences with a step h of the pivot deflection: error h**2/6 of the third logarithmic derivative (of
    !> order ten) and rounding 1e-15/h; both below 1e-8 for h = 1e-5.
    subroutine slopes(name, difference)
       character(len=*), intent(in) :: name
@@ -190,7 +190,7 @@ contains
       if (name == 'fang') call expect(point%radius <= socket, 'contact within the socket')
    end subroutine monotone
 
-   !> penetration() inverts at(): the bisection ends at the rounding of ln(eta), 30 epsilon, times the
+   !> pivot deflection() inverts at(): the bisection ends at the rounding of ln(eta), 30 epsilon, times the
    !> exponent of the law, at most 1.5 (Hertz) and somewhat more near the transition to the snug limit.
    subroutine inverse(name, difference)
       character(len=*), intent(in) :: name
@@ -202,7 +202,7 @@ contains
       law = paper_law(name, difference)
       worst = 0
       do e = -2, 7
-         point = law%at(law%penetration(3*10.0_wp**e))
+         point = law%at(law%pivot_deflection(3*10.0_wp**e))
          worst = max(worst, abs(point%force/(3*10.0_wp**e) - 1))
       end do
       call expect_close(worst, 0.0_wp, 200*epsilon(worst), 'inverse of '//name//', dR = '//to_text(difference))
@@ -275,8 +275,9 @@ contains
          end if
          call expect_close(maxval(abs(found - expected)), 0.0_wp, 0.0_wp, 'no table at '//to_text(x)//' m'//what)
       end do
-      call expect_close(table%penetration(1e3_wp), law%penetration(1e3_wp), 0.0_wp, 'penetration'//what)
-      call expect_close(plain%penetration(1e3_wp), law%penetration(1e3_wp), 0.0_wp, 'penetration without table'//what)
+      call expect_close(table%pivot_deflection(1e3_wp), law%pivot_deflection(1e3_wp), 0.0_wp, 'pivot_deflection'//what)
+      call expect_close(plain%pivot_deflection(1e3_wp), law%pivot_deflection(1e3_wp), 0.0_wp, &
+         'pivot deflection without table'//what)
    end subroutine without_table
 
    !> 32 cubic cells an octave: about (1/32)**4/384 = 2.5e-9 of the law's fourth logarithmic derivative,
@@ -304,7 +305,7 @@ contains
    end subroutine against_law
 
    !> From one side of a seam to the other, force and slope change by rounding alone: of the cubic, and
-   !> of the slope, whose terms are 32 times the force over the penetration.
+   !> of the slope, whose terms are 32 times the force over the pivot deflection.
    subroutine seams(table, what)
       type(contact_table_type), intent(in) :: table
       character(len=*), intent(in) :: what
@@ -364,7 +365,7 @@ contains
       call expect_close(slope(3), slope(1), 0.0_wp, 'constant slope above the table'//what)
    end subroutine above
 
-   !> No penetration, no force; nor for what is not a number.
+   !> No pivot deflection, no force; nor for what is not a number.
    subroutine no_contact(table, what)
       type(contact_table_type), intent(in) :: table
       character(len=*), intent(in) :: what

@@ -64,8 +64,9 @@ contains
       do pad = 1, 2
          call expect(model%layout%first(pad) == 5 + (pad - 1)*own, 'first state of a pad')
          call expect_close(y(model%layout%tilt(pad)), 2.0_wp + pad, 0.0_wp, 'tilt of a state at rest')
-         if (motion == 'tilting_radial') call expect_close(y(model%layout%penetration(pad)), 4.0_wp + pad, 0.0_wp, &
-            & 'penetration of a state at rest')
+         if (motion == 'tilting_radial') call expect_close(y(model%layout%pivot_deflection(pad)), 4.0_wp + pad, &
+            0.0_wp, &
+            & 'pivot deflection of a state at rest')
          if (friction == 'lugre') call expect(model%layout%bristle(pad) == 4 + pad*own, 'bristle of a pad')
       end do
       call expect_close(sum(y), merge(21.0_wp, 10.0_wp, motion == 'tilting_radial'), 0.0_wp, 'nothing else at rest')
@@ -171,7 +172,7 @@ contains
       if (.not. model%layout%tilting) return
       do pad = 1, 2
          y(model%layout%tilt_rate(pad)) = sign(between(0.3_wp, 0.6_wp), between(-1.0_wp, 1.0_wp))
-         if (model%layout%radial) y(model%layout%penetration_rate(pad)) = between(-2e-3_wp, 2e-3_wp)
+         if (model%layout%radial) y(model%layout%pivot_deflection_rate(pad)) = between(-2e-3_wp, 2e-3_wp)
          if (model%layout%bristles) y(model%layout%bristle(pad)) = between(-1e-7_wp, 1e-7_wp)
       end do
    end function moving_state
@@ -192,8 +193,8 @@ contains
       do pad = 1, 2
          call expect_close(f(model%layout%tilt(pad)), y(model%layout%tilt_rate(pad)), 0.0_wp, &
             & 'rate of the tilt, '//motion)
-         if (model%layout%radial) call expect_close(f(model%layout%penetration(pad)), &
-            & y(model%layout%penetration_rate(pad)), 0.0_wp, 'rate of the penetration')
+         if (model%layout%radial) call expect_close(f(model%layout%pivot_deflection(pad)), &
+            & y(model%layout%pivot_deflection_rate(pad)), 0.0_wp, 'rate of the pivot deflection')
       end do
    end subroutine trivial_rows
 
@@ -265,7 +266,7 @@ contains
       mass_position = [cos(point%shaft_angle(time)), sin(point%shaft_angle(time))]
    end function mass_position
 
-   !> Contact only pushes: none without penetration; tilting only, it is the radial reaction or nothing.
+   !> Contact only pushes: none without pivot deflection; tilting only, it is the radial reaction or nothing.
    subroutine forces_by_definition()
       type(bearing_model) :: model
       real(wp), allocatable :: y(:), f(:)
@@ -279,11 +280,11 @@ contains
       y(model%layout%bristle(2)) = 1e-7_wp
       allocate (f(model%n))
       call model%rhs(0.0_wp, y, f, ok)
-      call expect_close(model%bearing%loads(1)%contact, 0.0_wp, 0.0_wp, 'no contact without penetration')
+      call expect_close(model%bearing%loads(1)%contact, 0.0_wp, 0.0_wp, 'no contact without pivot deflection')
       call expect_close(model%bearing%loads(1)%friction%force, 0.0_wp, 0.0_wp, 'no friction without contact')
       call expect_close(model%bearing%loads(2)%friction%force, 0.1_wp*model%bearing%loads(2)%contact, &
          & 1e-14_wp*model%bearing%loads(2)%contact, 'bristles carry in contact')
-      call expect(model%bearing%loads(2)%contact > 1e3_wp, 'contact under penetration')
+      call expect(model%bearing%loads(2)%contact > 1e3_wp, 'contact under pivot deflection')
       deallocate (f)
       model = new_bearing_model(heavy_case('tilting_only', 'none', 0.0_wp))
       y = moving_state(model)

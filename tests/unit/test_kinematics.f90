@@ -46,12 +46,12 @@ contains
    end function film
 
    !> Film thickness at angle phi from the pivot, with everything at rest.
-   pure real(wp) function thickness(place, journal, tilt, penetration, phi)
+   pure real(wp) function thickness(place, journal, tilt, pivot_deflection, phi)
       type(pad_position), intent(in) :: place
-      real(wp), intent(in) :: journal(2), tilt, penetration, phi
+      real(wp), intent(in) :: journal(2), tilt, pivot_deflection, phi
       type(pad_gap_type) :: gap
       gap = film()
-      thickness = gap%thickness(motion_of(place, frame_of(place, journal, tilt, penetration), [0.0_wp, 0.0_wp], &
+      thickness = gap%thickness(motion_of(place, frame_of(place, journal, tilt, pivot_deflection), [0.0_wp, 0.0_wp], &
          & 0.0_wp, 0.0_wp), sin(phi), cos(phi))
    end function thickness
 
@@ -78,7 +78,7 @@ contains
       call expect_close(thickness(place, step*towards, 0.0_wp, 0.0_wp, 0.0_wp), c_r - step, rounding(), &
          & 'the journal towards the pivot thins the film')
       call expect_close(thickness(place, centre, 0.0_wp, step, 0.0_wp), c_r + step, rounding(), &
-         & 'penetration opens the film')
+         & 'pivot deflection opens the film')
       ! tilting by delta carries the journal, seen from the pad, by the pivot's radius times delta along -y':
       ! h grows by that times sin(phi), to second order in delta
       h = thickness(place, centre, 1e-4_wp, 0.0_wp, 0.6_wp)
@@ -94,22 +94,23 @@ contains
    !> turned about its pivot. It differs from the thickness by e**2/(2 R_J) and less.
    subroutine against_geometry(place)
       type(pad_position), intent(in) :: place
-      real(wp) :: journal(2), tilt, penetration, phi, pivot(2), along(2), outward(2), point(2), gap, allowed, worst
+      real(wp) :: journal(2), tilt, pivot_deflection, phi, pivot(2), along(2), outward(2), point(2), gap, allowed, worst
       integer :: k
       worst = 0
       do k = 1, 200
          journal = [random(60e-6_wp), random(60e-6_wp)]
          tilt = random(2e-3_wp)
-         penetration = random(20e-6_wp)
+         pivot_deflection = random(20e-6_wp)
          phi = random(0.6_wp)
-         pivot = (place%pivot_radius + penetration)*[place%sin_angle, place%cos_angle]
+         pivot = (place%pivot_radius + pivot_deflection)*[place%sin_angle, place%cos_angle]
          ! the pad's own directions, turned from the pivot's in the sense of the journal's rotation
          outward = turned([place%sin_angle, place%cos_angle], tilt)
          along = turned([place%cos_angle, -place%sin_angle], tilt)
          point = pivot - place%centre_distance*outward + (journal_radius + c_m)*(sin(phi)*along + cos(phi)*outward)
          gap = norm2(point - journal) - journal_radius
-         allowed = (norm2(journal) + abs(tilt)*place%centre_distance + abs(penetration) + c_m)**2/(2*journal_radius)
-         worst = max(worst, abs(gap - thickness(place, journal, tilt, penetration, phi))/(allowed + rounding()))
+         allowed = (norm2(journal) + abs(tilt)*place%centre_distance + abs(pivot_deflection) &
+            + c_m)**2/(2*journal_radius)
+         worst = max(worst, abs(gap - thickness(place, journal, tilt, pivot_deflection, phi))/(allowed + rounding()))
       end do
       call expect(worst < 1.01_wp, 'thickness against plane geometry, in units of e**2/(2 R_J): '//to_text(worst))
    end subroutine against_geometry
@@ -143,14 +144,15 @@ contains
    pure type(film_motion) function on_path(place, t)
       type(pad_position), intent(in) :: place
       real(wp), intent(in) :: t
-      real(wp) :: journal(2), velocity(2), tilt, tilt_rate, penetration, penetration_rate
+      real(wp) :: journal(2), velocity(2), tilt, tilt_rate, pivot_deflection, pivot_deflection_rate
       journal = 1e-3_wp*[sin(t), cos(1.3_wp*t)]
       velocity = 1e-3_wp*[cos(t), -1.3_wp*sin(1.3_wp*t)]
       tilt = 0.3_wp + 1e-2_wp*sin(0.7_wp*t)
       tilt_rate = 0.7e-2_wp*cos(0.7_wp*t)
-      penetration = 1e-3_wp*cos(0.9_wp*t)
-      penetration_rate = -0.9e-3_wp*sin(0.9_wp*t)
-      on_path = motion_of(place, frame_of(place, journal, tilt, penetration), velocity, tilt_rate, penetration_rate)
+      pivot_deflection = 1e-3_wp*cos(0.9_wp*t)
+      pivot_deflection_rate = -0.9e-3_wp*sin(0.9_wp*t)
+      on_path = motion_of(place, frame_of(place, journal, tilt, pivot_deflection), velocity, tilt_rate, &
+         pivot_deflection_rate)
    end function on_path
 
    !> Slopes against central differences, each in the unit of its state: the relations are at most
@@ -160,8 +162,8 @@ contains
       real(wp), parameter :: h = 1e-4_wp
       real(wp) :: local(8), up(8), down(8), found(4, 8), expected(4)
       integer :: k, trial
-      character(len=*), parameter :: names(8) = [character(len=16) :: 'y', 'z', 'y rate', 'z rate', 'tilt', &
-         & 'tilt rate', 'penetration', 'penetration rate']
+      character(len=*), parameter :: names(8) = [character(len=21) :: 'y', 'z', 'y rate', 'z rate', 'tilt', &
+         & 'tilt rate', 'pivot_deflection', 'pivot deflection rate']
       do trial = 1, 5
          do k = 1, 8
             local(k) = random(1.0_wp)

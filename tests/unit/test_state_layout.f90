@@ -3,8 +3,8 @@ program test_state_layout
    use kinds, only: wp
    use text, only: to_text
    use rigid_journal, only: journal_motion
-   use kinematics, only: pad_state, columns, tilt_column, tilt_rate_column, penetration_column, &
-      & penetration_rate_column
+   use kinematics, only: pad_state, columns, tilt_column, tilt_rate_column, deflection_column, &
+      & deflection_rate_column
    use state_layout, only: state_layout_type, new_state_layout
    use case_inputs, only: case_type
    use equations_of_motion, only: bearing_model, new_bearing_model
@@ -45,7 +45,7 @@ contains
       type(state_layout_type), intent(in) :: layout
       character(len=:), allocatable :: what
       what = ', rotor of '//to_text(layout%rotor)
-      if (layout%radial) what = what//', penetrations'
+      if (layout%radial) what = what//', pivot deflections'
       if (layout%bristles) what = what//', bristles'
    end function what
 
@@ -59,7 +59,7 @@ contains
       all_pads = [(i, i=1, pads)]
       call expect(all(layout%first(all_pads) == layout%rotor + 1 + own*(all_pads - 1)), 'first states'//what(layout))
       found = [[(i, i=1, layout%rotor)], layout%tilt(all_pads), layout%tilt_rate(all_pads)]
-      if (layout%radial) found = [found, layout%penetration(all_pads), layout%penetration_rate(all_pads)]
+      if (layout%radial) found = [found, layout%pivot_deflection(all_pads), layout%pivot_deflection_rate(all_pads)]
       if (layout%bristles) found = [found, layout%bristle(all_pads)]
       call expect_each_once(layout, found, 'all states')
       found = [layout%positions(), layout%rates()]
@@ -88,7 +88,7 @@ contains
       call layout%put_pads(states, y)
       call expect(all(y < 0), 'nothing is put')
       states = layout%pad_states(y)
-      call expect(all(abs([states%tilt, states%tilt_rate, states%penetration, states%penetration_rate, &
+      call expect(all(abs([states%tilt, states%tilt_rate, states%pivot_deflection, states%pivot_deflection_rate, &
          & states%deflection]) <= 0), 'all is 0')
       change = layout%over_columns([1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp], y)
       call expect(all(abs(sum(change, dim=1) - 10) <= 0) .and. all(abs(change(tilt_column:, :)) <= 0), 'the journal''s')
@@ -120,17 +120,18 @@ contains
       call expect_close(maxval(abs(back%tilt - states%tilt) + abs(back%tilt_rate - states%tilt_rate)), 0.0_wp, 0.0_wp, &
          & 'tilts come back'//what(layout))
       if (.not. layout%radial) then
-         states%penetration = 0
-         states%penetration_rate = 0
+         states%pivot_deflection = 0
+         states%pivot_deflection_rate = 0
       end if
       if (.not. layout%bristles) states%deflection = 0
-      call expect_close(maxval(abs(back%penetration - states%penetration) &
-         & + abs(back%penetration_rate - states%penetration_rate) + abs(back%deflection - states%deflection)), &
+      call expect_close(maxval(abs(back%pivot_deflection - states%pivot_deflection) &
+         & + abs(back%pivot_deflection_rate - states%pivot_deflection_rate) + abs(back%deflection &
+            - states%deflection)), &
          & 0.0_wp, 0.0_wp, 'what a pad has comes back, the rest is 0'//what(layout))
       do i = 1, pads
          call expect_close(y(layout%tilt_rate(i)), 20.0_wp + i, 0.0_wp, 'tilt rate by its index'//what(layout))
-         if (layout%radial) call expect_close(y(layout%penetration(i)), 30.0_wp + i, 0.0_wp, &
-            & 'penetration by its index'//what(layout))
+         if (layout%radial) call expect_close(y(layout%pivot_deflection(i)), 30.0_wp + i, 0.0_wp, &
+            & 'pivot deflection by its index'//what(layout))
          if (layout%bristles) call expect_close(y(layout%bristle(i)), 50.0_wp + i, 0.0_wp, &
             & 'bristles by their index'//what(layout))
       end do
@@ -150,8 +151,8 @@ contains
          expected(tilt_column) = y(layout%tilt(i))
          expected(tilt_rate_column) = y(layout%tilt_rate(i))
          if (layout%radial) then
-            expected(penetration_column) = y(layout%penetration(i))
-            expected(penetration_rate_column) = y(layout%penetration_rate(i))
+            expected(deflection_column) = y(layout%pivot_deflection(i))
+            expected(deflection_rate_column) = y(layout%pivot_deflection_rate(i))
          end if
          call expect_close(maxval(abs(change(:, i) - expected)), 0.0_wp, 0.0_wp, &
             & 'columns of pad '//to_text(i)//what(layout))

@@ -6,7 +6,7 @@ program test_tilting_pad_bearing
    use case_inputs, only: case_type
    use film_solver, only: film_oil
    use rigid_journal, only: journal_motion
-   use kinematics, only: pad_state, columns, journal_columns, tilt_column, tilt_rate_column, penetration_column, &
+   use kinematics, only: pad_state, columns, journal_columns, tilt_column, tilt_rate_column, deflection_column, &
       & position_columns, rate_columns
    use tilting_pad, only: pad_derivatives
    use tilting_pad_bearing, only: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing
@@ -128,10 +128,10 @@ contains
          pads(pad)%tilt = pads(pad)%tilt + step
       case (tilt_rate_column)
          pads(pad)%tilt_rate = pads(pad)%tilt_rate + step
-      case (penetration_column)
-         pads(pad)%penetration = pads(pad)%penetration + step
+      case (deflection_column)
+         pads(pad)%pivot_deflection = pads(pad)%pivot_deflection + step
       case default
-         pads(pad)%penetration_rate = pads(pad)%penetration_rate + step
+         pads(pad)%pivot_deflection_rate = pads(pad)%pivot_deflection_rate + step
       end select
    end subroutine move
 
@@ -184,9 +184,9 @@ contains
             end do
             found(:, column) = found(:, column)*steps(column)
          end do
-         ! the pads of a bearing that only tilt have no penetration, fixed ones no tilt
+         ! the pads of a bearing that only tilt have no pivot deflection, fixed ones no tilt
          if (motion == 'fixed') found(:, tilt_column:) = expected(:, tilt_column:)
-         if (motion == 'tilting_only') found(:, penetration_column:) = expected(:, penetration_column:)
+         if (motion == 'tilting_only') found(:, deflection_column:) = expected(:, deflection_column:)
          do row = 1, size(found, 1)
             call expect_close(maxval(abs(found(row, :) - expected(row, :))), 0.0_wp, &
                & 1e-7_wp*maxval(abs(expected(row, :))), 'load '//to_text(row)//' of pad ' &

@@ -17,12 +17,12 @@ Case = Mapping[str, Mapping[str, Any]]
 
 
 class State(NamedTuple):
-    """Journal (y, z), and tilts and penetrations of the pads, (pad,), at a time, s (None: at rest)."""
+    """Journal (y, z), and tilts and pivot deflections of the pads, (pad,), at a time, s (None: at rest)."""
 
     time: float | None
     journal: np.ndarray
     tilt: np.ndarray
-    penetration: np.ndarray
+    pivot_deflection: np.ndarray
 
 
 class Surfaces(NamedTuple):
@@ -44,7 +44,7 @@ def of_pads(case: Case, name: str) -> np.ndarray:
 
 
 def centred(case: Case) -> State:
-    """The journal in the middle of the bearing, pads without tilt and penetration."""
+    """The journal in the middle of the bearing, pads without tilt and pivot deflection."""
     none = np.zeros(len(of_pads(case, "pivot_angle_deg")))
     return State(None, np.zeros(2), none, none)
 
@@ -59,19 +59,19 @@ def at_rest(run: Run) -> State:
 
 def at_time(run: Run, time: float | None) -> State:
     """The sample next to `time`, s; None: the equilibrium."""
-    at, journal, (tilt, penetration) = library.state(run, time)
-    return State(at, journal[:2], tilt[0], penetration[0])
+    at, journal, (tilt, pivot_deflection) = library.state(run, time)
+    return State(at, journal[:2], tilt[0], pivot_deflection[0])
 
 
 def samples(run: Run, part: slice) -> list[State]:
     """The states of the samples `part`."""
     times = run.values("time", part)
     none = np.zeros((len(times), run.pads))
-    tilt, penetration = (
-        run.values(name, part) if name in run else none for name in ("pad_tilt", "pad_penetration")
+    tilt, pivot_deflection = (
+        run.values(name, part) if name in run else none for name in ("pad_tilt", "pivot_deflection")
     )
     journal = np.column_stack([run.values(name, part) for name in ("journal_y", "journal_z")])
-    return [State(*each) for each in zip(times.tolist(), journal, tilt, penetration, strict=True)]
+    return [State(*each) for each in zip(times.tolist(), journal, tilt, pivot_deflection, strict=True)]
 
 
 def surfaces(case: Case, state: State, points: int = 91) -> Surfaces:
@@ -81,7 +81,7 @@ def surfaces(case: Case, state: State, points: int = 91) -> Surfaces:
     machined, back = bearing["machined_clearance"], of_pads(case, "pivot_distance")
     phi = np.linspace(-(1 - ratio) * arc, ratio * arc, points).T
     # the journal from the pivot, in the pad's own directions (docs/theory/film.md)
-    own, reach = pivot - state.tilt, bearing["journal_radius"] + back + state.penetration
+    own, reach = pivot - state.tilt, bearing["journal_radius"] + back + state.pivot_deflection
     y = state.journal[0] - (reach + bearing["assembled_clearance"]) * np.sin(pivot)
     z = state.journal[1] - (reach + bearing["assembled_clearance"]) * np.cos(pivot)
     along = y * np.cos(own) - z * np.sin(own)

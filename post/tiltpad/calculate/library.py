@@ -91,11 +91,11 @@ class Losses(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """Contact of ball and socket, arrays of the shape of the penetrations.
+    """Contact of ball and socket, arrays of the shape of the pivot deflections.
 
     Its fields:
 
-        force, slope              normal force, N, and its derivative by the penetration, N/m
+        force, slope              normal force, N, and its derivative by the pivot deflection, N/m
         radius                    projected radius of the contact, m
         exponent, peak_pressure   of the contact pressure, eq (11), 1 and Pa
     """
@@ -148,7 +148,7 @@ def losses(run: Run, last: float = 1) -> Losses:
         # the library counts samples last
         return np.moveaxis(np.array(values), 1, -1)
 
-    states = motion("pad_tilt"), motion("pad_penetration")
+    states = motion("pad_tilt"), motion("pivot_deflection")
     (found,) = called("power_losses", run, viscosity(run, time.mean()), time, np.array(journal), *states)
     load, couette, pressure, boundary, *others = np.moveaxis(found, -1, 1)
     return Losses(time, load, couette + pressure + boundary, couette, pressure, boundary, *others)
@@ -165,13 +165,13 @@ def viscosity(run: Run, time: float | None) -> np.ndarray:
 
 
 def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple[np.ndarray, np.ndarray]]:
-    """Time of the sample next to `time`, journal (4,), tilts and penetrations with their rates, (2, pad)."""
+    """Time of the sample next to `time`, journal (4,), tilts and pivot deflections with their rates, (2, pad)."""
     if time is None:
         rest = run["equilibrium"]
         still = np.zeros(run.pads)
-        tilt, penetration = (rest.get(name, still) for name in ("pad_tilt", "pad_penetration"))
+        tilt, pivot_deflection = (rest.get(name, still) for name in ("pad_tilt", "pivot_deflection"))
         journal = np.array([run["equilibrium/journal_y"], run["equilibrium/journal_z"], 0, 0])
-        return None, journal, (np.array([tilt, still]), np.array([penetration, still]))
+        return None, journal, (np.array([tilt, still]), np.array([pivot_deflection, still]))
     start, end = signals.ends(run, "time")
     step = run.values("time", slice(0, 2))[-1] - start
     if not start - step <= time <= end + step:
@@ -190,7 +190,7 @@ def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple
     def pads(name: str) -> np.ndarray:
         return sample(name, f"{name}_rate") if name in run else np.zeros((2, run.pads))
 
-    return float(run.values("time", k)), journal, (pads("pad_tilt"), pads("pad_penetration"))
+    return float(run.values("time", k)), journal, (pads("pad_tilt"), pads("pivot_deflection"))
 
 
 def shares(points: int | np.ndarray, first: float, outside: str) -> np.ndarray:
@@ -203,25 +203,25 @@ def shares(points: int | np.ndarray, first: float, outside: str) -> np.ndarray:
     return given
 
 
-def contact(penetration: float | np.ndarray, case: Run | str = PAPER) -> Contact:
-    """Contact of a pivot at penetrations, m; it is zero where these are not positive."""
-    return Contact(*elementwise("contact", case, penetration))
+def contact(pivot_deflection: float | np.ndarray, case: Run | str = PAPER) -> Contact:
+    """Contact of a pivot at pivot deflections, m; it is zero where these are not positive."""
+    return Contact(*elementwise("contact", case, pivot_deflection))
 
 
-def contact_force(penetration: float | np.ndarray, case: Run | str = PAPER) -> np.ndarray:
-    """Normal force, N, of a pivot at penetrations, m."""
-    return contact(penetration, case).force
+def contact_force(pivot_deflection: float | np.ndarray, case: Run | str = PAPER) -> np.ndarray:
+    """Normal force, N, of a pivot at pivot deflections, m."""
+    return contact(pivot_deflection, case).force
 
 
 def contact_pressure(
-    penetration: float | np.ndarray, r: float | np.ndarray, case: Run | str = PAPER
+    pivot_deflection: float | np.ndarray, r: float | np.ndarray, case: Run | str = PAPER
 ) -> np.ndarray:
-    """Contact pressure (11), Pa, at penetrations, m, and distances r from the contact's axis, m.
+    """Contact pressure (11), Pa, at pivot deflections, m, and distances r from the contact's axis, m.
 
     The two broadcast. r is projected along the axis, as the radius of the contact is; beyond it the pressure
     is zero.
     """
-    return elementwise("contact_pressure", case, penetration, r)[0]
+    return elementwise("contact_pressure", case, pivot_deflection, r)[0]
 
 
 def friction_force(

@@ -22,7 +22,7 @@ class Modes(NamedTuple):
         frequency        Hz, likewise
         damping_ratio, log_decrement     likewise; a mode without vibration has no decrement (nan)
         shape            complex, (mode, position); of a study (run, mode, position)
-        position         names of the positions: y, z, tilt_1, penetration_1, ...
+        position         names of the positions: y, z, tilt_1, pivot_deflection_1, ...
         threshold_rpm    lowest speed at which a mode turns unstable, nan where there is none, or none was
                          looked for; of a study (run,)
         parameters       of a study: values of its parameters by name, (run,) each

@@ -17,7 +17,7 @@ COVER = 3
 #: States of the motion, as far as the case has them.
 STATES = (
     *("journal_y", "journal_z", "journal_vy", "journal_vz", "pad_tilt", "pad_tilt_rate"),
-    *("pad_penetration", "pad_penetration_rate", "bristle_deflection"),
+    *("pivot_deflection", "pivot_deflection_rate", "bristle_deflection"),
 )
 
 

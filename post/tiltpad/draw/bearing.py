@@ -92,7 +92,7 @@ class Drawing:
             self.middles[k] = np.clip((inner + outer) / 2, -FAR, FAR)
             self.numbers[k].set_position(self.middles[k][len(inner) // 2])
         for k, pivot in enumerate(self.pivots):
-            away = 1 + CLEARANCE + BACK + 0.045 + self.scale * state.penetration[k]
+            away = 1 + CLEARANCE + BACK + 0.045 + self.scale * state.pivot_deflection[k]
             pivot.center = polar(away, np.degrees(found.pivot[k]))
 
 

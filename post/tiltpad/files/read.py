@@ -182,7 +182,7 @@ class Run(Archive):
         friction, motion = self.input["friction"]["model"], self.input["pads"]["motion"]
         if name == "bristle_deflection" and friction != "lugre":
             return f"friction model is '{friction}'"
-        if "pad_penetration" in name and motion != "tilting_radial":
+        if "pivot_deflection" in name and motion != "tilting_radial":
             return f"pad motion is '{motion}'"
         if motion == "fixed" and any(each in name for each in OF_TILTING):
             return "pad motion is 'fixed'"
