@@ -133,7 +133,7 @@ def figure_15(runs: Runs) -> Figure:
 
 
 def figure_pads(runs: Runs) -> Figure:
-    """Four pads against two: orbit, tilt of the upper pads, and their contact force."""
+    """Four pads against two: orbit, tilt of the upper pads, and their pivot load."""
     fig, (axes,) = panels(1)
     two, four = runs["two_pads"], runs["four_pads"]
     lines = [("two pads", two, {"color": "C0"}), ("four pads", four, {"color": "C1", "linestyle": "--"})]
@@ -142,7 +142,7 @@ def figure_pads(runs: Runs) -> Figure:
         trajectory(run, axes[0], tiltpad.last_revolutions(run, 2), **look)
     for pad, color in ((1, "C1"), (3, "C2"), (4, "C3")):
         look = {"color": color}
-        for ax, name in zip(axes[1:], ("pad_tilt", "contact_force"), strict=True):
+        for ax, name in zip(axes[1:], ("pad_tilt", "pivot_load"), strict=True):
             tiltpad.plots.waveform(four, ax, name, 5, pad, **look)
         lines.append((f"pad {pad} of four" + (" (upper)" if pad > 2 else ""), four, look))
     return legend(fig, lines, 5)

@@ -12,7 +12,7 @@ from tiltpad.files.units import SHOWN
 from paper.measures import stribeck_curve
 from paper.runs import Runs
 
-PENETRATION, FORCE = SHOWN["pivot_deflection"], SHOWN["contact_force"]
+PENETRATION, FORCE = SHOWN["pivot_deflection"], SHOWN["pivot_load"]
 #: The example of Figs. 3 and 4: socket radius, m, load of Fig. 3, N, radius differences, um, and pivot deflections
 #: up to, m, of Fig. 4. The paper prints the first of them only.
 FANG_PIVOT, FANG_LOAD, FANG_DIFFERENCES, FANG_PENETRATION = 0.1, 1e4, (0, 15, 30, 60), 20e-6
@@ -41,16 +41,14 @@ def quoted(word: str) -> str:
 def fang_force(difference: float) -> tuple[np.ndarray, np.ndarray]:
     """Pivot deflection, m, and force, N, of the paper's example of Fig. 4."""
     pivot_deflection = np.linspace(0, FANG_PENETRATION, 201)
-    return pivot_deflection, tiltpad.contact_force(
-        pivot_deflection, pivot(difference, socket_radius=FANG_PIVOT)
-    )
+    return pivot_deflection, tiltpad.pivot_load(pivot_deflection, pivot(difference, socket_radius=FANG_PIVOT))
 
 
 def figure_3(runs: Runs) -> Figure:
     """Contact pressure over the projected contact, without radius difference."""
     case = pivot(0, socket_radius=FANG_PIVOT)
     # without radius difference the force is proportional to the pivot deflection
-    pivot_deflection = FANG_LOAD / float(tiltpad.contact_force(1.0e-6, case)) * 1e-6
+    pivot_deflection = FANG_LOAD / float(tiltpad.pivot_load(1.0e-6, case)) * 1e-6
     radius = float(tiltpad.contact(pivot_deflection, case).radius)
     r, angle = np.meshgrid(radius * np.sqrt(1 - np.linspace(1, 0, 80) ** 4), np.linspace(0, 2 * np.pi, 121))
     pressure = tiltpad.contact_pressure(pivot_deflection, r, case)
@@ -117,14 +115,14 @@ def laws4(runs: Runs) -> Figure:
     """Fig. 4 for the bearing's pivot by other contact laws."""
     fig = plt.figure(figsize=(PAGE - 1, 2.8))
     ax = fig.subplots()
-    load = runs["steady_tr"].values("contact_force", tiltpad.last_revolutions(runs["steady_tr"]))
+    load = runs["steady_tr"].values("pivot_load", tiltpad.last_revolutions(runs["steady_tr"]))
     ax.axhspan(*(FORCE.factor * each for each in (load.min(), load.max())), color="0.93", zorder=0)
     pivot_deflection = np.linspace(0, 15e-6, 201)
     for color, (law, overrides) in enumerate(LAWS.items()):
         for dash, difference in zip((":", "-", "--"), (0, *LAW_DIFFERENCES), strict=True):
             if difference == 0 and law == "Hertz":
                 continue
-            force = tiltpad.contact_force(pivot_deflection, pivot(difference, *overrides))
+            force = tiltpad.pivot_load(pivot_deflection, pivot(difference, *overrides))
             look = {"color": f"C{color}", "linestyle": dash}
             label = f"{law_text(law)}, $\\Delta R$ = {difference} µm"
             ax.plot(PENETRATION.factor * pivot_deflection, FORCE.factor * force, label=label, **look)

@@ -105,7 +105,7 @@ SECTIONS = (
     ),
     Section(
         "Section 3: the upper pads",
-        {"pads": "Orbit with two and four pads, tilt and contact force of the upper pads"},
+        {"pads": "Orbit with two and four pads, tilt and pivot load of the upper pads"},
         "only two lower pads are considered, and we neglect the influence of upper pads. [...] the upper "
         "pads do not have a load-carrying function [...] and they are, under some conditions, even "
         "subjected to pad fluttering.",

@@ -24,10 +24,10 @@ from tiltpad.calculate.library import (
     Pressure,
     bristle_rate,
     contact,
-    contact_force,
     contact_pressure,
     friction_force,
     losses,
+    pivot_load,
     pressure,
 )
 from tiltpad.calculate.modes import Modes, modes
@@ -88,7 +88,7 @@ __all__ = [
     "coefficients",
     "collect",
     "contact",
-    "contact_force",
+    "pivot_load",
     "contact_pressure",
     "deviations",
     "envelope",

@@ -56,7 +56,7 @@ contains
       do i = 1, size(static%tilt)
          pivot = ''
          if (inputs%tilting()) pivot = 'tilt '//milli(static%tilt(i))//' mrad, pivot deflection ' &
-            & //micro(static%pivot_deflection(i))//' um, contact '//fixed_text(static%contact_force(i), 1)//' N, '
+            & //micro(static%pivot_deflection(i))//' um, contact '//fixed_text(static%pivot_load(i), 1)//' N, '
          print '(a)', '  pad '//to_text(i)//': '//pivot//'minimum film thickness ' &
             & //micro(static%min_film_thickness(i))//' um, maximum pressure '//mega(static%max_pressure(i))//' MPa'
       end do

@@ -42,7 +42,7 @@ module tilting_pad
    type :: pad_loads
       !> Force of film and asperities on the journal along global y and z, N.
       real(wp) :: journal(2) = 0
-      !> Contact force F_bs, N, and its derivative over the pivot deflection, N/m (0 tilting-only).
+      !> Pivot load F_bs, N, and its derivative over the pivot deflection, N/m (0 tilting-only).
       real(wp) :: contact = 0, contact_stiffness = 0
       !> Friction of the pivot.
       type(friction_response) :: friction
@@ -170,7 +170,7 @@ contains
    pure subroutine add_friction(self, friction, contact, per_moment, over_positions, over_rates, over_deflection)
       class(tilting_pad_type), intent(in) :: self
       type(friction_response), intent(in) :: friction
-      !> Derivatives of the contact force.
+      !> Derivatives of the pivot load.
       real(wp), intent(in) :: contact(columns), per_moment(2)
       real(wp), intent(inout) :: over_positions(4, 4), over_rates(4, 4)
       real(wp), intent(out) :: over_deflection(2)

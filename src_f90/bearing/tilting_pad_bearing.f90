@@ -26,7 +26,7 @@ module tilting_pad_bearing
    !> What is sampled of a pad beside its state.
    type :: pad_sample
       !> N; N m; film force on the journal in the pad frame, N.
-      real(wp) :: contact_force = 0, friction_moment = 0, film_force(2) = 0
+      real(wp) :: pivot_load = 0, friction_moment = 0, film_force(2) = 0
       !> m; Pa.
       real(wp) :: min_film_thickness = 0, max_pressure = 0
       !> Normal force between the asperities of pad and journal, N.
@@ -64,7 +64,7 @@ module tilting_pad_bearing
       procedure :: warning
       procedure :: smooth
       procedure :: pivot_deflection
-      procedure :: contact_force
+      procedure :: pivot_load
       procedure :: counters
       procedure :: films_rupture
       procedure :: films_converge
@@ -315,13 +315,13 @@ contains
       pivot_deflection = self%contact%pivot_deflection(force)
    end function pivot_deflection
 
-   !> Contact force of a pivot, N, at a pivot deflection, m.
-   pure real(wp) function contact_force(self, pivot_deflection)
+   !> Pivot load of a pivot, N, at a pivot deflection, m.
+   pure real(wp) function pivot_load(self, pivot_deflection)
       class(tilting_pad_bearing_type), intent(in) :: self
       real(wp), intent(in) :: pivot_deflection
       real(wp) :: stiffness
-      call self%contact%lookup(pivot_deflection, contact_force, stiffness)
-   end function contact_force
+      call self%contact%lookup(pivot_deflection, pivot_load, stiffness)
+   end function pivot_load
 
    !> What the films have cost so far.
    pure type(film_counters) function counters(self)

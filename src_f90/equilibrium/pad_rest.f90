@@ -18,9 +18,9 @@ module pad_rest
    !> Tilts looked at, closest where the pad faces the journal, by a hyperbolic sine up to this number, and at the ends.
    integer, parameter :: tilts = 61
    real(wp), parameter :: wide = 5
-   !> Gaps in which the pad floats, and contact forces on its pivot, that are looked at.
+   !> Gaps in which the pad floats, and pivot loads on its pivot, that are looked at.
    integer, parameter :: floats = 24, contacts = 7
-   !> Gap over the machined clearance, contact force over the load, from which on they are looked at.
+   !> Gap over the machined clearance, pivot load over the load, from which on they are looked at.
    real(wp), parameter :: least_gap = 2e-3_wp, least_contact = 1e-5_wp
    !> Radial force over that of film or weight, moment over that at the tilts beside it, that count as balanced; steps
    !> to them.

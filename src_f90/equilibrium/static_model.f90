@@ -17,9 +17,9 @@ module static_model
    public :: equilibrium_type, describe, make_static, make_quick, make_fine, come_to_rest, start, starts
 
    type :: equilibrium_type
-      !> Journal, m; per pad tilt, rad, pivot deflection, m (0 tilting-only), contact force, N.
+      !> Journal, m; per pad tilt, rad, pivot deflection, m (0 tilting-only), pivot load, N.
       real(wp) :: journal(2) = 0
-      real(wp), allocatable :: tilt(:), pivot_deflection(:), contact_force(:)
+      real(wp), allocatable :: tilt(:), pivot_deflection(:), pivot_load(:)
       !> Per pad minimum film thickness, m, and maximum pressure, Pa.
       real(wp), allocatable :: min_film_thickness(:), max_pressure(:)
       !> Of the oil on every pad, Pa s.
@@ -147,7 +147,7 @@ contains
       found%journal = journal%position
       found%tilt = pads%tilt
       found%pivot_deflection = pads%pivot_deflection
-      found%contact_force = samples%contact_force
+      found%pivot_load = samples%pivot_load
       found%min_film_thickness = samples%min_film_thickness
       found%max_pressure = samples%max_pressure
       found%viscosity = model%oil%viscosity

@@ -63,7 +63,7 @@ contains
       end associate
    end subroutine pad_derivatives
 
-   !> Adds to the derivatives of the forces at rest what friction adds where the pivots stick, under the contact forces
+   !> Adds to the derivatives of the forces at rest what friction adds where the pivots stick, under the pivot loads
    !> evaluated last: bristles that are not deflected move with the pivot; a law without them has its slope at no
    !> velocity.
    pure subroutine add_sticking(model, over_positions, over_rates)

@@ -128,14 +128,14 @@ contains
       real(wp), allocatable :: tilt(:, :), contact(:, :)
       integer :: i
       call file%last_samples('pad_tilt', n, tilt)
-      call file%last_samples('contact_force', n, contact)
+      call file%last_samples('pivot_load', n, contact)
       associate (highest => maxval(tilt, dim=2), lowest => minval(tilt, dim=2))
          call put_figure(file%file, 'pad_tilt_max', highest, 'rad', 'highest tilt')
          call put_figure(file%file, 'pad_tilt_min', lowest, 'rad', 'lowest tilt')
          call put_figure(file%file, 'pad_tilt_size', highest - lowest, 'rad', 'tilt, peak to peak')
       end associate
       call put_figure(file%file, 'pad_contact_force', [(mean(contact(i, :)), i=1, size(contact, 1))], 'N', &
-         & 'mean contact force')
+         & 'mean pivot load')
    end subroutine put_tilt
 
    !> Vibrations with the shaft, and at half its speed, over the last revolution and the last two; of a periodic orbit
@@ -250,7 +250,7 @@ contains
          call put_figure(file%file, 'pad_rubbing', found%rubbing, '1', 'share of the time in which the surfaces touch')
       end if
       if (inputs%tilting()) then
-         call file%last_samples('contact_force', n, contact)
+         call file%last_samples('pivot_load', n, contact)
          call take('pad_tilt', tilt)
          associate (b => inputs%bearing)
             call behaviour_of(found, contact, tilt, turns, b%assembled_clearance/(0.5_wp*inputs%pads%arc_deg*degree &
@@ -306,7 +306,7 @@ contains
    subroutine put_behaviour(file, found)
       type(run_file_type), intent(inout) :: file
       type(pad_behaviour_type), intent(in) :: found(:)
-      call put_figure(file%file, 'pad_load', found%load, 'N', 'mean contact force, last revolutions')
+      call put_figure(file%file, 'pad_load', found%load, 'N', 'mean pivot load, last revolutions')
       call put_figure(file%file, 'pad_unloaded', merge(1.0_wp, 0.0_wp, found%unloaded), '1', &
          & '1 where it carries no load')
       call put_figure(file%file, 'pad_lifted', found%lifted, '1', 'share of the time lifted off its pivot')

@@ -39,7 +39,7 @@ contains
          k = 0
          associate (state => sample%states(i), pad => sample%loads(i))
             if (sample%tilting) then
-               call each('contact_force', pad%contact_force, 'N', 'pivot contact force')
+               call each('pivot_load', pad%pivot_load, 'N', 'pivot pivot load')
                call each('friction_moment', pad%friction_moment, 'N m', 'pivot friction moment')
             end if
             call each('film_force_tangential', pad%film_force(1), 'N', 'film force on the journal along the pad (y'')')

@@ -9,7 +9,7 @@ module pad_behaviour
    public :: pad_behaviour_type, behaviour_of, whirl_of, dominant, evenly
 
    type :: pad_behaviour_type
-      !> Mean contact force of the pivot, N; shares of the time in which it carries nothing, and in which the film is so
+      !> Mean pivot load of the pivot, N; shares of the time in which it carries nothing, and in which the film is so
       !> thin that the surfaces touch.
       real(wp) :: load = 0, lifted = 0, rubbing = 0
       !> Order of the largest part of the tilt, < 0 where it is not known, and its amplitude, rad.
@@ -28,7 +28,7 @@ module pad_behaviour
 
 contains
 
-   !> What the pads do beside rubbing, by samples (pad, time) of contact force, N, and tilt, rad, this at equal steps of
+   !> What the pads do beside rubbing, by samples (pad, time) of pivot load, N, and tilt, rad, this at equal steps of
    !> the shaft angle, over so many revolutions.
    subroutine behaviour_of(found, contact, tilt, revolutions, edge)
       type(pad_behaviour_type), intent(inout) :: found(:)

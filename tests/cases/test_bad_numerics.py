@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 NUMBER = r"-?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?"
-SAMPLED = ("journal_y", "journal_z", "pad_tilt", "contact_force", "min_film_thickness", "max_pressure")
+SAMPLED = ("journal_y", "journal_z", "pad_tilt", "pivot_load", "min_film_thickness", "max_pressure")
 
 
 def fails(tiltpad, folder, *values, options=()):

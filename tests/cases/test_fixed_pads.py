@@ -11,7 +11,7 @@ CASE = """&pads motion='fixed', pivot_angle_deg=-90,90, arc_deg=160 /
 &rotor mass=300, balance_grade=2.5 /
 &operation speed_rpm=5000, duration=0.5 /
 """
-OF_TILTING = ("pad_tilt", "pivot_deflection", "contact_force", "friction_moment", "bristle_deflection")
+OF_TILTING = ("pad_tilt", "pivot_deflection", "pivot_load", "friction_moment", "bristle_deflection")
 STARTS = {
     "partial": ("start%from='partial'",),
     "centred": ("start%from='centred'",),

@@ -36,7 +36,7 @@ def test_the_file(run, tmp_path):
         assert period == pytest.approx(60 / 6500, rel=1e-12)
         assert len(file["time"]) == 91
         assert file["time"][-1] == pytest.approx(period, rel=1e-12)
-        for name in ("journal_y", "pad_tilt_rate", "bristle_deflection", "contact_force", "max_pressure"):
+        for name in ("journal_y", "pad_tilt_rate", "bristle_deflection", "pivot_load", "max_pressure"):
             series = file[name][:]
             np.testing.assert_allclose(series[-1], series[0], atol=1e-7 * np.ptp(series), err_msg=name)
         assert file["spectrum/revolutions"][()] == 1

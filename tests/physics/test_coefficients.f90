@@ -325,7 +325,7 @@ contains
       call analyse(inputs, what, found, static, model)
       associate (free => found%bearings(1), stuck => found%bearings(2), at => model%layout%first_position([1, 2]))
          do i = 1, 2
-            associate (normal => radius**2*static%contact_force(i))
+            associate (normal => radius**2*static%pivot_load(i))
                free%stiffness(at(i), at(i)) = free%stiffness(at(i), at(i)) + stiffness*normal
                free%damping(at(i), at(i)) = free%damping(at(i), at(i)) + damping*normal
             end associate

@@ -19,7 +19,7 @@ SERIES = {
     "pivot_deflection": (PADS, "m"),
     "pivot_deflection_rate": (PADS, "m/s"),
     "bristle_deflection": (PADS, "m"),
-    "contact_force": (PADS, "N"),
+    "pivot_load": (PADS, "N"),
     "friction_moment": (PADS, "N m"),
     "film_force_tangential": (PADS, "N"),
     "film_force_radial": (PADS, "N"),
@@ -38,7 +38,7 @@ EQUILIBRIUM = {
     "equilibrium/journal_z": ((), "m"),
     "equilibrium/pad_tilt": (("pad",), "rad"),
     "equilibrium/pivot_deflection": (("pad",), "m"),
-    "equilibrium/contact_force": (("pad",), "N"),
+    "equilibrium/pivot_load": (("pad",), "N"),
     "equilibrium/min_film_thickness": (("pad",), "m"),
     "equilibrium/max_pressure": (("pad",), "Pa"),
     "equilibrium/residual": ((), "1"),
@@ -87,8 +87,8 @@ COUNTS += ["film_modal", "film_volumes", "film_passes"]
 
 RADIAL = {"pivot_deflection", "pivot_deflection_rate", "equilibrium/pivot_deflection"}
 BRISTLE = {"bristle_deflection"}
-TILTING = {"pad_tilt", "pad_tilt_rate", "contact_force", "friction_moment", "spectrum/pad_tilt"}
-TILTING |= {"equilibrium/pad_tilt", "equilibrium/contact_force"}
+TILTING = {"pad_tilt", "pad_tilt_rate", "pivot_load", "friction_moment", "spectrum/pad_tilt"}
+TILTING |= {"equilibrium/pad_tilt", "equilibrium/pivot_load"}
 ABSENT = {
     "lugre": set(PERIODIC),
     "bengisu": BRISTLE | set(PERIODIC),

@@ -173,7 +173,7 @@ def test_sizes_that_the_file_cannot_hold_are_not_allocated(changed):
 @pytest.mark.parametrize("other", ["group", "itself"])
 def test_a_group_in_place_of_an_array(changed, other):
     """Whoever reads the array is told so."""
-    for name in ("contact_force", "time", "pad", "equilibrium/journal_y", "statistics/steps"):
+    for name in ("pivot_load", "time", "pad", "equilibrium/journal_y", "statistics/steps"):
 
         def edit(file, name=name):
             del file[name]

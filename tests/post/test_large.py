@@ -30,9 +30,7 @@ def large(made):
     """A made run, some 20 MB; nothing in it moves but the shaft and the journal."""
 
     def run(case_name):
-        return made(
-            case_name, SECONDS, INTERVAL, journal_y=lambda time, angle: 1e-6 * time, contact_force=1e3
-        )
+        return made(case_name, SECONDS, INTERVAL, journal_y=lambda time, angle: 1e-6 * time, pivot_load=1e3)
 
     return run
 

@@ -121,9 +121,9 @@ def test_a_run_without_time_has_an_equilibrium_only(run):
 def test_contact_is_the_programs(run):
     """The march takes it from a table with a relative error of 3e-8."""
     case = run("lugre")
-    force = tiltpad.contact_force(case.pivot_deflection, case)
-    np.testing.assert_allclose(force, case.contact_force, rtol=1e-7)
-    assert force.shape == case.contact_force.shape
+    force = tiltpad.pivot_load(case.pivot_deflection, case)
+    np.testing.assert_allclose(force, case.pivot_load, rtol=1e-7)
+    assert force.shape == case.pivot_load.shape
 
 
 @pytest.mark.parametrize("pivot", ["", "law='hertz'", "radius_difference=0", "deflection_factor=6.28"])
@@ -138,17 +138,17 @@ def test_contact_pressure_carries_the_force(pivot):
     np.testing.assert_allclose(tiltpad.contact_pressure(eta, 0, case), point.peak_pressure, rtol=1e-12)
     assert not tiltpad.contact_pressure(eta, 1.001 * point.radius, case).any()
     step = 1e-4 * eta
-    force = [tiltpad.contact_force(eta + d, case) for d in (-step, step)]
+    force = [tiltpad.pivot_load(eta + d, case) for d in (-step, step)]
     np.testing.assert_allclose((force[1] - force[0]) / (2 * step), point.slope, rtol=1e-6)
 
 
 def test_contact_numbers_of_a_double():
     """A real of single precision on the way would change the eighth digit."""
     eta = 5.5191e-6
-    assert tiltpad.contact_force(eta) == pytest.approx(1e4, rel=1e-4)
-    both = tiltpad.contact_force([eta, eta * (1 + 1e-12)])
+    assert tiltpad.pivot_load(eta) == pytest.approx(1e4, rel=1e-4)
+    both = tiltpad.pivot_load([eta, eta * (1 + 1e-12)])
     assert both[1] / both[0] - 1 == pytest.approx(1.32e-12, rel=0.1)
-    assert tiltpad.contact_force([0, -1e-6]).tolist() == [0, 0]
+    assert tiltpad.pivot_load([0, -1e-6]).tolist() == [0, 0]
 
 
 @pytest.mark.parametrize("case_name", ["lugre", "bengisu", "tilting"])
@@ -157,7 +157,7 @@ def test_friction_is_the_programs(run, case_name):
     pivot = case.input["pivot"]
     radius = pivot["socket_radius"] - pivot["radius_difference"]
     deflection = case.bristle_deflection if "bristle_deflection" in case else 0
-    force = tiltpad.friction_force(radius * case.pad_tilt_rate, case.contact_force, deflection, case)
+    force = tiltpad.friction_force(radius * case.pad_tilt_rate, case.pivot_load, deflection, case)
     scale = np.abs(case.friction_moment).max()
     np.testing.assert_allclose(radius * force, case.friction_moment, atol=1e-9 * scale, rtol=1e-9)
 
@@ -200,7 +200,7 @@ def test_spectra_are_numpys(n):
 def test_errors_of_the_library_are_exceptions(case, message):
     """The same text as on the program's standard error, with the same exit status."""
     with pytest.raises(tiltpad.LibraryError) as caught:
-        tiltpad.contact_force(1e-6, case)
+        tiltpad.pivot_load(1e-6, case)
     assert str(caught.value).startswith(message)
     assert caught.value.status == 1
 
@@ -243,13 +243,13 @@ class Heap(ctypes.Structure):
     "call",
     [
         lambda run: tiltpad.pressure(run, None, 3, 3),
-        lambda run: tiltpad.contact_force(1e-6, run),
+        lambda run: tiltpad.pivot_load(1e-6, run),
         lambda run: tiltpad.contact_pressure(1e-6, 0, run),
         lambda run: tiltpad.friction_force(1e-3, 1e4, 0, run),
         lambda _: library.one_sided_amplitude(np.ones(100)),
         lambda _: pytest.raises(tiltpad.LibraryError, tiltpad.contact, 1e-6, "&pivot law='x' /"),
     ],
-    ids=["pressure", "contact_force", "contact_pressure", "friction_force", "one_sided", "refused"],
+    ids=["pressure", "pivot_load", "contact_pressure", "friction_force", "one_sided", "refused"],
 )
 def test_no_memory_is_lost(run, call):
     """Not 20 bytes a call, counted by the library that gives the memory; the first calls may fill caches."""

@@ -88,7 +88,7 @@ def test_loop_width(changed):
         phase, radius = file["shaft_angle"][()], 0.013 - 15e-6
         velocity = 1e-3 * np.cos(phase)
         file["pad_tilt_rate"][...] = (velocity / radius)[:, None]
-        file["contact_force"][...] = 1e4
+        file["pivot_load"][...] = 1e4
         file["friction_moment"][...] = (1e4 * radius * (0.06 * np.cos(phase) - 0.02 * np.sin(phase)))[:, None]
 
     with package.read(changed("lugre", loop)) as run:

@@ -34,7 +34,7 @@ def test_a_pivot_that_carries_nothing_has_no_coefficient(made):
     def force(time, angle):
         return np.stack([1e3 * (time > 0.05), 1e3 + 0 * time], axis=1)
 
-    case = made("bengisu", 0.1, contact_force=force, friction_moment=2.0)
+    case = made("bengisu", 0.1, pivot_load=force, friction_moment=2.0)
     coefficient = tiltpad.friction_coefficient(case, 1, 100)[1]
     np.testing.assert_array_equal(np.isnan(coefficient), case.time <= 0.05)
     assert coefficient[-1] == pytest.approx(2 / (1e3 * R1))

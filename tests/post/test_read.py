@@ -67,12 +67,12 @@ def test_a_closed_file_can_be_overwritten(run):
         ("tilting", "pivot_deflection", "no pivot_deflection in this run: pad motion is 'tilting_only'"),
         ("tilting", "equilibrium/pivot_deflection", "pad motion is 'tilting_only'"),
         ("fixed", "pad_tilt", "no pad_tilt in this run: pad motion is 'fixed'"),
-        ("fixed", "equilibrium/contact_force", "pad motion is 'fixed'"),
+        ("fixed", "equilibrium/pivot_load", "pad motion is 'fixed'"),
         ("fixed", "spectrum/pad_tilt", "pad motion is 'fixed'"),
         ("runup", "spectrum/journal_y", "no spectrum in this run: the speed changes"),
         ("equilibrium", "journal_y", "no journal_y in this run: its task is 'equilibrium'"),
         ("lugre", "journal_x", "no journal_x in this run: there are asperity_force, "),
-        ("lugre", "contact_forces", "time (did you mean contact_force?)"),
+        ("lugre", "contact_forces", "time (did you mean pivot_load?)"),
     ],
 )
 def test_a_dataset_that_the_case_lacks(run, result, case_name, name, reason):

@@ -250,11 +250,11 @@ def unphysical_pivots(values: dict[str, np.ndarray], promised: float, case: Case
     moment, bound = values["friction_moment"], moment_bound(values, case)
     reach = 0.5 * np.radians(case["pads"]["arc_deg"])
     return {
-        "contact_force < 0": np.all(values["contact_force"] >= 0),
+        "pivot_load < 0": np.all(values["pivot_load"] >= 0),
         "friction_moment over its bound": np.all(abs(moment) <= bound * (1 + promised) + 1e-12),
         "a pad turned over": np.all(abs(values["pad_tilt"]) <= reach),
         "contact without pivot deflection": "pivot_deflection" not in values
-        or np.all(values["contact_force"][values["pivot_deflection"] < 0] == 0),
+        or np.all(values["pivot_load"][values["pivot_deflection"] < 0] == 0),
     }
 
 
@@ -263,7 +263,7 @@ def moment_bound(values: dict[str, np.ndarray], case: Case) -> np.ndarray:
     friction, contact = case["friction"], case["pivot"]
     ball = contact["socket_radius"] - contact["radius_difference"]
     if friction["model"] == "none":
-        return 0 * values["contact_force"]
+        return 0 * values["pivot_load"]
     coefficient = friction["static_coefficient"]
     if friction["model"] == "lugre":
         damping = friction.get("bristle_damping", -1.0)
@@ -273,7 +273,7 @@ def moment_bound(values: dict[str, np.ndarray], case: Case) -> np.ndarray:
         ratio = coefficient / friction["dynamic_coefficient"]
         slope = damping * (1 + ratio) + friction.get("viscous_coefficient", 0.0)
         coefficient = coefficient + slope * velocity
-    return coefficient * values["contact_force"] * ball
+    return coefficient * values["pivot_load"] * ball
 
 
 def read_cost(path: Path, result: Result) -> None:

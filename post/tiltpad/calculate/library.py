@@ -208,7 +208,7 @@ def contact(pivot_deflection: float | np.ndarray, case: Run | str = PAPER) -> Co
     return Contact(*elementwise("contact", case, pivot_deflection))
 
 
-def contact_force(pivot_deflection: float | np.ndarray, case: Run | str = PAPER) -> np.ndarray:
+def pivot_load(pivot_deflection: float | np.ndarray, case: Run | str = PAPER) -> np.ndarray:
     """Normal force, N, of a pivot at pivot deflections, m."""
     return contact(pivot_deflection, case).force
 

@@ -67,11 +67,11 @@ def sliding_velocity(run: Run, pad: int = 1, last: float = 1) -> np.ndarray:
 def friction_coefficient(run: Run, pad: int = 1, last: float = 1) -> tuple[np.ndarray, np.ndarray]:
     """Sliding velocity, m/s, and friction coefficient of a pivot, each (time,).
 
-    The coefficient is the friction moment over contact force and R1, with the sign of the moment; nan where
+    The coefficient is the friction moment over pivot load and R1, with the sign of the moment; nan where
     the pivot carries no load.
     """
     moment, part = hysteresis(run, pad, last)[1], last_revolutions(run, last)
-    limit = ball_radius(run) * series(run, "contact_force", part, pad)
+    limit = ball_radius(run) * series(run, "pivot_load", part, pad)
     coefficient = np.divide(moment, limit, out=np.full_like(moment, np.nan), where=limit > 0)
     return sliding_velocity(run, pad, last), coefficient
 

@@ -18,7 +18,7 @@ AXES = ("time", "shaft_angle", "speed", "pivot_angle")
 #: Groups of a file, and the tasks that write them.
 TASKS = {"coefficients": "coefficients", "modes": "coefficients", "periodic": "periodic"}
 #: What only pads that tilt have.
-OF_TILTING = ("pad_tilt", "contact_force", "friction_moment")
+OF_TILTING = ("pad_tilt", "pivot_load", "friction_moment")
 #: Series of branches, by which a run without them is told that it is none.
 OF_BRANCHES = ("point", "branch", "parameter", "multiplier_real", "eigenvalue_real")
 

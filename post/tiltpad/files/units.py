@@ -39,7 +39,7 @@ SHOWN = {
     "pivot_deflection": Shown("pivot_deflection", 1e6, "µm"),
     "pivot_deflection_rate": Shown("pivot deflection rate", 1e3, "mm/s"),
     "bristle_deflection": Shown("bristle deflection", 1e6, "µm"),
-    "contact_force": Shown("contact force", 1e-3, "kN"),
+    "pivot_load": Shown("pivot load", 1e-3, "kN"),
     "friction_moment": Shown("friction moment", 1, "N m"),
     "work": Shown("work", 1e3, "mJ"),
     "power": Shown("power", 1e3, "mW"),
