@@ -216,7 +216,7 @@ contains
          ! the integral of dA/h over what oil fills
          part = losses%couette/(films*(speed*self%journal_radius)**2)
          net%capacity = oil%density*oil%specific_heat*max(self%least_flow(speed), (losses%inlet + losses%outlet)/2)
-         call film_shares(oil%wall_exchange*oil%conductivity*part/net%capacity, net%left, net%f, net%g)
+         call film_shares(oil%shaft_nusselt*oil%conductivity*part/net%capacity, net%left, net%f, net%g)
          net%hot = hot_shares(self, losses)
          matrix = 0
          right = 0

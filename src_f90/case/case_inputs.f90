@@ -73,7 +73,7 @@ module case_inputs
       !> Part of a pad's outflow that enters the next pad, where the gap between them is not wider than this.
       real(wp) :: carry_over = 0.8_wp, widest_gap_deg = 60
       !> Nusselt number of the exchange with the shaft; its temperature (unset: it takes no net heat).
-      real(wp) :: wall_exchange = 3, shaft_temperature = unset
+      real(wp) :: shaft_nusselt = 3, shaft_temperature = unset
       !> Oil between two pads, m^3.
       real(wp) :: groove_volume = 0
    end type oil_type

@@ -215,7 +215,7 @@ contains
       if (.not. ok) then
          call raise(error, numerics_error, 'the oil has no heat balance: neither its flow nor the shaft carries the ' &
             & //'heat of the films off; it needs fresh oil (oil%carry_over below 1) or exchange with the shaft ' &
-            & //'(oil%wall_exchange)')
+            & //'(oil%shaft_nusselt)')
          return
       end if
       hottest = maxloc(oil%outlet, dim=1)

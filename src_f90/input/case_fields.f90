@@ -137,7 +137,7 @@ contains
          & 'part of the oil leaving a pad that enters the next one'))
       call v%number(oil%widest_gap_deg, field('widest_gap_deg', 0.0_wp, 360.0_wp, 'deg', &
          & 'widest gap between two pads that oil is carried across; beyond it a pad draws fresh oil'))
-      call v%number(oil%wall_exchange, field('wall_exchange', 0.0_wp, 1e3_wp, '1', &
+      call v%number(oil%shaft_nusselt, field('shaft_nusselt', 0.0_wp, 1e3_wp, '1', &
          & 'Nusselt number of the exchange of heat between film and shaft; 0: none'))
       call v%number(oil%shaft_temperature, field('shaft_temperature', low, high, 'C', &
          & 'temperature of the shaft; if left out, that at which it takes no heat on the whole'))

@@ -49,7 +49,7 @@ EQUILIBRIUM = {
     "equilibrium/load": (("pad",), "N"),
     "equilibrium/power_loss": (("pad",), "W"),
     "equilibrium/couette_loss": (("pad",), "W"),
-    "equilibrium/pressure_loss": (("pad",), "W"),
+    "equilibrium/poiseuille_loss": (("pad",), "W"),
     "equilibrium/boundary_loss": (("pad",), "W"),
     "equilibrium/journal_drag": (("pad",), "N m"),
     "equilibrium/pad_drag": (("pad",), "N m"),

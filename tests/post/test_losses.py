@@ -12,7 +12,7 @@ FLOWS = ("inlet_flow", "outlet_flow", "side_flow")
 def test_a_march_starts_with_those_of_its_equilibrium(run, case_name):
     case = run(case_name)
     series, rest = package.losses(case, last=100), case["equilibrium"]
-    names = {"power": "power_loss", "couette": "couette_loss", "pressure": "pressure_loss"}
+    names = {"power": "power_loss", "couette": "couette_loss", "pressure": "poiseuille_loss"}
     for name in ("load", "journal_drag", "pad_drag", *FLOWS, *names):
         expected = rest[names.get(name, name)]
         np.testing.assert_allclose(

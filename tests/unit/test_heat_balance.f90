@@ -69,7 +69,7 @@ contains
       type(case_type), intent(in) :: inputs
       type(pad_loss), intent(in) :: loss
       real(wp), intent(in) :: film
-      conductance = inputs%oil%wall_exchange*inputs%oil%conductivity*loss%couette &
+      conductance = inputs%oil%shaft_nusselt*inputs%oil%conductivity*loss%couette &
          & /(film*(speed*inputs%bearing%journal_radius)**2)
    end function conductance
 
@@ -105,8 +105,8 @@ contains
          capacity = inputs%oil%density*inputs%oil%specific_heat*5e-5_wp
          ! N from 0.001 to 30, on both sides of where series give way to closed forms
          n = shares(i)
-         inputs%oil%wall_exchange = 1
-         inputs%oil%wall_exchange = n*capacity/conductance(inputs, loss, films(1))
+         inputs%oil%shaft_nusselt = 1
+         inputs%oil%shaft_nusselt = n*capacity/conductance(inputs, loss, films(1))
          oil = balanced(inputs, [loss])
          t = inputs%oil%supply_temperature
          mean = 0
@@ -137,7 +137,7 @@ contains
       type(oil_temperatures_type) :: oil
       real(wp) :: rise(4)
       inputs = four_pads()
-      inputs%oil%wall_exchange = 0
+      inputs%oil%shaft_nusselt = 0
       losses = some_losses()
       oil = balanced(inputs, losses)
       rise = losses%power()/(inputs%oil%density*inputs%oil%specific_heat*(losses%inlet + losses%outlet)/2)
@@ -267,7 +267,7 @@ contains
       logical :: ok
       inputs = four_pads()
       inputs%oil%carry_over = 1
-      inputs%oil%wall_exchange = 0
+      inputs%oil%shaft_nusselt = 0
       losses = some_losses()
       losses%outlet = losses(1)%inlet
       losses%inlet = losses(1)%inlet
