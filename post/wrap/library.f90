@@ -8,7 +8,7 @@ module tiltpad_library
    use text, only: to_text
    use case_inputs, only: case_type
    use case_namelist, only: case_from_text
-   use components, only: make_law, make_friction
+   use factories, only: make_law, make_friction
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_state
    use tilting_pad_bearing, only: pad_sample

@@ -10,7 +10,7 @@ module bearing_losses
    use kinematics, only: pad_state
    use tilting_pad, only: tilting_pad_type
    use tilting_pad_bearing, only: tilting_pad_bearing_type
-   use components, only: new_losses
+   use factories, only: new_losses
    implicit none (type, external)
    private
    public :: bearing_losses_type, pad_loss, new_bearing_losses

@@ -13,9 +13,9 @@ module tilting_pad_bearing
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_state, pad_frame, columns
    use tilting_pad, only: tilting_pad_type, pad_loads, pad_derivatives
-   use pad_admission, only: admitted, why_not
-   use components, only: make_film, make_contact, march_films, static_films
-   use bearing_parts, only: bearing_parts_type
+   use film_validity, only: admitted, why_not
+   use factories, only: make_film, make_contact, march_films, static_films
+   use bearing_construction, only: bearing_parts_type
    implicit none (type, external)
    private
    public :: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
@@ -42,7 +42,7 @@ module tilting_pad_bearing
       !> False: the pivots slide freely, whatever the law.
       logical :: rubs = .true.
       class(film_solver_type), allocatable, private :: film
-      !> What its films are for (components).
+      !> What its films are for (factories).
       integer, private :: accuracy = march_films
       type(contact_table_type), private :: contact
       !> Of the state evaluated last: speed, rad/s, and oil of the pads; frames and motions.
@@ -82,7 +82,7 @@ module tilting_pad_bearing
 
 contains
 
-   !> The bearing of a valid case with films for a march or, as components has it, for something else.
+   !> The bearing of a valid case with films for a march or, as factories has it, for something else.
    function new_tilting_pad_bearing(inputs, accuracy) result(bearing)
       type(case_type), intent(in) :: inputs
       integer, intent(in), optional :: accuracy

@@ -3,7 +3,7 @@
 module pad_elimination
    use kinds, only: wp
    use errors, only: asked_to_stop, asked
-   use two_equations, only: solved
+   use solve_2x2, only: solved
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_state
    use equations_of_motion, only: bearing_model

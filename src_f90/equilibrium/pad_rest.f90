@@ -7,7 +7,7 @@ module pad_rest
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_state, pad_frame
    use equations_of_motion, only: bearing_model
-   use two_equations, only: solved
+   use solve_2x2, only: solved
    use damped_newton, only: reference_force, longest_move
    use pad_elimination, only: pad_balance, hold_second, unbalanced_forces, film_of, pad_limit
    use static_model, only: make_quick

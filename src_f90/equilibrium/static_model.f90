@@ -4,7 +4,7 @@ module static_model
    use kinds, only: wp
    use case_inputs, only: case_type
    use operating_point, only: operating_point_type
-   use components, only: converged_films, quick_films
+   use factories, only: converged_films, quick_films
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_frame, pad_state
    use tilting_pad_bearing, only: pad_sample

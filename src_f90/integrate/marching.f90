@@ -6,7 +6,7 @@ module marching
    use ode_model, only: ode_model_type
    use integrator_counts, only: integrator_counts_type
    use cvode_integrator, only: integrator_type, integrator_options
-   use order_watch, only: order_watch_type, stable_order
+   use order_control, only: order_control_type, stable_order
    use march_observer, only: march_observer_type
    implicit none (type, external)
    private
@@ -54,13 +54,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(integrator_type) :: integrator
       type(integrator_counts_type) :: earlier
-      type(order_watch_type) :: watch
+      type(order_control_type) :: watch
       real(wp) :: t
       integer(i8) :: next
       integer :: order
 
       t = t_start
-      watch = order_watch_type(options%short_step, t)
+      watch = order_control_type(options%short_step, t)
       order = options%max_order
       next = plan%next
       call integrator%start(model, options, t, y, t_end, error)
@@ -97,7 +97,7 @@ contains
       type(integrator_type), intent(inout) :: integrator
       class(ode_model_type), intent(inout), target :: model
       class(march_options), intent(in) :: options
-      type(order_watch_type), intent(in) :: watch
+      type(order_control_type), intent(in) :: watch
       real(wp), intent(in) :: t_end
       !> The highest in force.
       integer, intent(inout) :: order

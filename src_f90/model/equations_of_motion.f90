@@ -12,7 +12,7 @@ module equations_of_motion
    use viscosity_history, only: viscosity_history_type
    use state_layout, only: state_layout_type, new_state_layout, at_tilt, at_tilt_rate, at_deflection, &
       & at_deflection_rate
-   use natural_sizes, only: state_scales
+   use characteristic_scales, only: state_scales
    use newton_system, only: newton_system_type, new_newton_system
    implicit none (type, external)
    private
@@ -66,7 +66,7 @@ module equations_of_motion
 
 contains
 
-   !> The model of a valid case, at its operating point, with films for a march or, as components has it, for something
+   !> The model of a valid case, at its operating point, with films for a march or, as factories has it, for something
    !> else.
    function new_bearing_model(inputs, accuracy) result(model)
       type(case_type), intent(in) :: inputs

@@ -7,7 +7,7 @@ module restart
    use case_namelist, only: case_from_text
    use namelist_writer, only: namelist_of
    use hdf5_file, only: hdf5_type
-   use hdf5_trial, only: try_reading
+   use guarded_open, only: try_reading
    use provenance, only: format_version
    use parameter_study, only: run_tag
    use files, only: is_regular

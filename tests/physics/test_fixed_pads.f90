@@ -9,7 +9,7 @@ program test_fixed_pads
    use force_balance, only: force_derivatives
    use film_solver, only: film_solver_type, film_motion, film_response
    use pad_gap, only: pad_gap_type
-   use components, only: make_film, march_films
+   use factories, only: make_film, march_films
    use paper_bearing, only: paper_oil
    use random_films, only: film_state, volumes_type, new_volumes, extrapolated, shaft_speed
    use rigid_journal, only: journal_motion

@@ -7,7 +7,7 @@ program test_periodic_orbits
    use case_inputs, only: case_type
    use marching, only: march_options
    use cvode_integrator, only: integrator_type
-   use components, only: converged_films
+   use factories, only: converged_films
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use force_balance, only: force_derivatives, masses

@@ -16,10 +16,10 @@ program global_search
    use case_inputs, only: case_type
    use case_text, only: read_text
    use case_namelist, only: case_from_text
-   use two_equations, only: solved
+   use solve_2x2, only: solved
    use lapack, only: dgesv
    use film_solver, only: film_solver_type, film_motion, film_response, film_ok
-   use components, only: make_film, march_films
+   use factories, only: make_film, march_films
    use tilting_pad, only: tilting_pad_type
    use operating_point, only: operating_point_type
    use equations_of_motion, only: bearing_model, new_bearing_model

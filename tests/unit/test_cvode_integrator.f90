@@ -57,7 +57,7 @@ program test_cvode_integrator
    use integrator_counts, only: integrator_counts_type
    use swinging, only: oscillator, exact
    use step_history, only: step_history_type, new_step_history
-   use order_watch, only: order_watch_type, stable_order
+   use order_control, only: order_control_type, stable_order
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
    real(wp), parameter :: tolerance = 1e-8_wp
@@ -283,7 +283,7 @@ contains
 
    !> Goes on from a step with steps of this length, s, until the orders change; the number of the step then.
    subroutine go_on(watch, t, steps, length, last)
-      type(order_watch_type), intent(inout) :: watch
+      type(order_control_type), intent(inout) :: watch
       real(wp), intent(inout) :: t
       integer(i8), intent(inout) :: steps
       real(wp), intent(in) :: length
@@ -297,13 +297,13 @@ contains
 
    !> Where the steps are long nothing is tried, nor where they are not short for long.
    subroutine long_steps()
-      type(order_watch_type) :: watch
+      type(order_control_type) :: watch
       real(wp) :: t
       integer(i8) :: steps
       integer :: k
       t = 5
       steps = 0
-      watch = order_watch_type(1.0_wp, t)
+      watch = order_control_type(1.0_wp, t)
       do k = 1, 20
          call go_on(watch, t, steps, merge(0.1_wp, 1.1_wp, modulo(k, 4) > 0), 250_i8*k)
       end do
@@ -313,12 +313,12 @@ contains
    !> Low orders that go twice as far stay, until high ones are tried; these stay where they go as far as low ones, and
    !> low ones are then tried as soon as at first.
    subroutine stays()
-      type(order_watch_type) :: watch
+      type(order_control_type) :: watch
       real(wp) :: t
       integer(i8) :: steps
       t = 5
       steps = 0
-      watch = order_watch_type(1.0_wp, t)
+      watch = order_control_type(1.0_wp, t)
       call go_on(watch, t, steps, 0.1_wp, 100000_i8)
       call expect(watch%low .and. steps == 1000, 'a trial at step '//to_text(steps))
       call expect(abs(watch%mean_step - 0.1_wp) < 1e-9_wp, 'after a mean step of '//to_text(watch%mean_step))
@@ -335,12 +335,12 @@ contains
 
    !> High orders that go less far than low ones are left, and tried again after a longer wait.
    subroutine returns()
-      type(order_watch_type) :: watch
+      type(order_control_type) :: watch
       real(wp) :: t
       integer(i8) :: steps
       t = 0
       steps = 0
-      watch = order_watch_type(1.0_wp, t)
+      watch = order_control_type(1.0_wp, t)
       call go_on(watch, t, steps, 0.1_wp, 1000_i8)
       call go_on(watch, t, steps, 0.2_wp, 100000_i8)
       call go_on(watch, t, steps, 0.19_wp, 100000_i8)
@@ -352,12 +352,12 @@ contains
    !> Low orders that go much less far are left after half the trial, those that go hardly further after the whole. The
    !> waits grow.
    subroutine in_vain()
-      type(order_watch_type) :: watch
+      type(order_control_type) :: watch
       real(wp) :: t
       integer(i8) :: steps
       t = 0
       steps = 0
-      watch = order_watch_type(1.0_wp, t)
+      watch = order_control_type(1.0_wp, t)
       call go_on(watch, t, steps, 0.1_wp, 1000_i8)
       call go_on(watch, t, steps, 0.04_wp, 100000_i8)
       call expect(.not. watch%low .and. steps == 1500, 'much less far: until step '//to_text(steps))

@@ -5,7 +5,7 @@ program test_film_viscosity
    use case_inputs, only: case_type
    use film_solver, only: film_solver_type, film_motion, film_oil, film_response
    use film_losses, only: film_losses_type, film_loss
-   use components, only: make_film, march_films, converged_films, new_losses
+   use factories, only: make_film, march_films, converged_films, new_losses
    use paper_bearing, only: speed, clearance
    use check, only: runs, expect, report
    implicit none (type, external)

@@ -9,7 +9,7 @@
 !> before.
 module ruptured_drive
    use kinds, only: wp
-   use two_equations, only: solved
+   use solve_2x2, only: solved
    use film_solver, only: film_motion, film_response, film_counters, film_ok
    use unit_pad, only: unit_pad_type, unit_oil
    use film_grid, only: new_film_grid

@@ -1,5 +1,5 @@
 !> Which states of a pad have loads, and why others have none.
-module pad_admission
+module film_validity
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use text, only: to_text
    use film_solver, only: film_response, film_ok, film_closed, film_not_converged
@@ -41,4 +41,4 @@ contains
          reason = 'the film force of pad '//to_text(number)//' is not finite'//thickness
       end if
    end function why_not
-end module pad_admission
+end module film_validity

@@ -1,11 +1,11 @@
 !> Watches how far the steps of a march go, and says when low orders may go further: in a light vibration BDF of the
 !> orders 3 to 5 is unstable, so that the error test keeps the steps short where nothing happens.
-module order_watch
+module order_control
    use kinds, only: wp, i8
    use eigenvalues, only: find_eigenvalues
    implicit none (type, external)
    private
-   public :: order_watch_type, stable_order
+   public :: order_control_type, stable_order
 
    !> Steps that are looked at together.
    integer(i8), parameter :: window = 250
@@ -22,7 +22,7 @@ module order_watch
    !> Radians of a vibration in a step below which the steps resolve it, whatever the order.
    real(wp), parameter :: resolved = 0.2_wp
 
-   type :: order_watch_type
+   type :: order_control_type
       !> Mean step, s, below which low orders are tried; 0: they never are.
       real(wp) :: short_step = 0
       !> Time at the end of the last window, s, where the march begins at first.
@@ -37,13 +37,13 @@ module order_watch
       integer, private :: windows = 0, wait = first_wait
    contains
       procedure :: changes
-   end type order_watch_type
+   end type order_control_type
 
 contains
 
    !> True where the orders change now, at time t, s, after so many steps: to those of `low`.
    logical function changes(self, t, steps)
-      class(order_watch_type), intent(inout) :: self
+      class(order_control_type), intent(inout) :: self
       real(wp), intent(in) :: t
       integer(i8), intent(in) :: steps
       changes = .false.
@@ -66,7 +66,7 @@ contains
 
    !> After each half of a trial, at time t, s: whether it was in vain. Where it was not, its orders stay.
    subroutine judge_trial(self, t, in_vain)
-      class(order_watch_type), intent(inout) :: self
+      class(order_control_type), intent(inout) :: self
       real(wp), intent(in) :: t
       logical, intent(out) :: in_vain
       real(wp) :: least
@@ -96,4 +96,4 @@ contains
          if (ok .and. all(-values%re >= stable_damping(order)*abs(values) .or. abs(values%im)*step < resolved)) return
       end do
    end function stable_order
-end module order_watch
+end module order_control

@@ -1,11 +1,11 @@
 !> The parts of a bearing that a case makes at once: pads, friction, asperities. Films and contact take time to make.
-module bearing_parts
+module bearing_construction
    use kinds, only: wp
    use case_inputs, only: case_type
    use friction, only: friction_law
    use asperity_contact, only: asperity_contact_type
    use tilting_pad, only: tilting_pad_type
-   use components, only: make_friction, new_asperities, new_pads
+   use factories, only: make_friction, new_asperities, new_pads
    implicit none (type, external)
    private
    public :: bearing_parts_type
@@ -35,4 +35,4 @@ contains
       call make_friction(inputs, self%friction)
       self%asperities = new_asperities(inputs)
    end subroutine set_parts
-end module bearing_parts
+end module bearing_construction

@@ -1,5 +1,5 @@
 !> The natural size of each state, over which tolerances and corrections are measured.
-module natural_sizes
+module characteristic_scales
    use kinds, only: wp, degree
    use case_inputs, only: case_type
    use operating_point, only: operating_point_type
@@ -49,4 +49,4 @@ contains
       end associate
       call layout%put_pads(pads, scale)
    end function state_scales
-end module natural_sizes
+end module characteristic_scales

@@ -1,6 +1,6 @@
 !> Builds the film solver, contact law, friction law and pads of a case: the only module that turns names of the
 !> input into types.
-module components
+module factories
    use kinds, only: wp, degree
    use case_inputs, only: case_type
    use pad_gap, only: pad_gap_type
@@ -264,4 +264,4 @@ contains
          end associate
       end do
    end function new_pads
-end module components
+end module factories

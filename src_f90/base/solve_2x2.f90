@@ -1,5 +1,5 @@
 !> Two linear equations.
-module two_equations
+module solve_2x2
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -15,4 +15,4 @@ contains
       determinant = a(1, 1)*a(2, 2) - a(1, 2)*a(2, 1)
       if (abs(determinant) > 0) x = [a(2, 2)*b(1) - a(1, 2)*b(2), a(1, 1)*b(2) - a(2, 1)*b(1)]/determinant
    end function solved
-end module two_equations
+end module solve_2x2

@@ -1,6 +1,6 @@
 !> Tries in a child process whether an HDF5 file can be read at all: if it is damaged, the library may crash or run
 !> for ever.
-module hdf5_trial
+module guarded_open
    use hdf5, only: h5gn_members_f, h5gget_obj_info_idx_f, h5g_group_f
    use kinds, only: wp
    use hdf5_file, only: hdf5_type
@@ -88,4 +88,4 @@ contains
          end if
       end do
    end subroutine read_group
-end module hdf5_trial
+end module guarded_open
