@@ -14,7 +14,7 @@ from matplotlib.patches import Rectangle
 from tiltpad.draw.layout import PAGE
 from tiltpad.draw.plots import STYLE
 
-#: Size of an uncut cell: octaves of film thickness are cut into so many parts, and T from 0 to 1.
+#: Size of an uncut cell: each doubling of film thickness is cut into this number of parts, and T from 0 to 1.
 OCTAVE_PARTS, T_PARTS = 2, 8
 
 

@@ -8,7 +8,7 @@ import tiltpad
 from verify_runs import EXAMPLES, row, run
 
 # Coefficients at the journal, MN/m and MN s/m, by independent programs without rupture: motion, rpm, whirl
-# frequency over speed, pivots: yy, yz, zy, zz of K and of C, as far as they are known.
+# frequency over speed, pivots: yy, yz, zy, zz of K and of C, where they are known.
 INDEPENDENT = {
     ("tilting_radial", 6500, 1.0, "free"): (
         (521.449, -0.768, -0.200, 522.734),

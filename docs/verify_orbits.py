@@ -20,7 +20,7 @@ class Point(NamedTuple):
     """A bifurcation point of a branch over the speed, which is on the way between both `sides`, rpm.
 
     `multiplier` is the place of the one that crosses there. Marches start beside the orbit by `beside`; when
-    the first of their periods are skipped, so many `modes` of the motion are left.
+    the first of their periods are skipped, and this number of `modes` of the motion is left.
     """
 
     words: str

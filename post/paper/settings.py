@@ -96,7 +96,7 @@ UPPER_PADS = (
 RESOLUTION = 0.01
 #: Journal paths closer than this part of the orbit's size agree.
 AGREEMENT = 0.1
-#: A pad that is slow so many times as long as a sinusoid of its amplitude comes to rest.
+#: A pad comes to rest if it is slow for this multiple of the time that a sinusoid of its amplitude would be.
 RESTS = 2.0
 #: Part of f_s within which friction coefficients lie on one curve.
 ON_CURVE = 0.01

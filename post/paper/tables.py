@@ -10,7 +10,7 @@ def table(head: Sequence, rows: Iterable[Sequence]) -> str:
 
 
 def digits(value: float, count: int = 3) -> str:
-    """A number with so many digits, without an exponent where it is of common size."""
+    """A number with this number of digits, without an exponent where it is of common size."""
     if value == 0 or 1e-3 <= abs(value) < 1e4:
         text = f"{value:#.{count}g}"
         return text.rstrip(".")

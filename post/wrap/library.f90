@@ -220,7 +220,7 @@ contains
       call case_from_text(text, name, inputs, error)
    end subroutine read_case
 
-   !> The same, which has to have so many pads.
+   !> The same, which has to have this number of pads.
    subroutine read_case_of(text, name, pads, inputs, error)
       character(len=*), intent(in) :: text, name
       integer, intent(in) :: pads

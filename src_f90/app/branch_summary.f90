@@ -87,7 +87,7 @@ contains
             & //' mPa s, pad at most '//fixed_text(maxval(highest(i, :), mask=own), 1)//' C'
       end do
    contains
-      !> "lowest to highest", with so many decimals.
+      !> "lowest to highest", with this number of decimals.
       function span(values, decimals) result(text)
          real(wp), intent(in) :: values(:)
          integer, intent(in) :: decimals

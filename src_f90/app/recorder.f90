@@ -38,7 +38,7 @@ module recorder
       procedure, private :: follow_orbit
    end type recorder_type
 
-   !> Every so many samples one is timed.
+   !> One of this number of samples is timed.
    integer(i8), parameter :: timing_stride = 16
 
 contains

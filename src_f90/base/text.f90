@@ -34,7 +34,7 @@ contains
       string = of_digits(x, 6)
    end function real_text
 
-   !> So many significant digits, without needless zeros.
+   !> A number with this number of significant digits, without needless zeros.
    pure function of_digits(x, digits) result(string)
       real(wp), intent(in) :: x
       integer, intent(in) :: digits
@@ -88,7 +88,7 @@ contains
       if (.not. abs(x) > 0) string = '-0'
    end function exact_text
 
-   !> So many decimals, with a digit before the point.
+   !> A number with this number of decimals, and a digit before the point.
    pure function fixed_text(x, decimals) result(string)
       real(wp), intent(in) :: x
       integer, intent(in) :: decimals

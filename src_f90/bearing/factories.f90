@@ -40,7 +40,7 @@ module factories
    !> (damped_newton).
    real(wp), parameter :: static_residual = 1e-9_wp
    integer, parameter :: static_sweeps = 100000
-   !> So many volumes serve an arc of this length, rad, and shorter ones.
+   !> This number of volumes serves an arc of this length, rad, and shorter ones.
    real(wp), parameter :: usual_arc = 120*degree
    !> Residual of over-relaxation over the relative tolerance of the march, at most, and what rounding leaves: films
    !> solved less well shake stiff pivots, and the steps become short.

@@ -74,7 +74,7 @@ module tilting_pad_bearing
       procedure, private :: set_loads
    end type tilting_pad_bearing_type
 
-   !> Every so many evaluations of the films one is timed.
+   !> One of this number of film evaluations is timed.
    integer(i8), parameter :: timing_stride = 16
    !> Film thickness over assembled clearance below which a failed march is put down to it.
    real(wp), parameter :: nearly_closed = 1e-2_wp

@@ -17,7 +17,7 @@ module orbit_figures
 
 contains
 
-   !> The figures of an orbit of so many revolutions, from so many samples in each.
+   !> The figures of an orbit over a number of revolutions, from a number of samples in each.
    subroutine find_orbit_figures(model, orbit, revolutions, samples, figures)
       type(bearing_model), intent(in) :: model
       type(orbit_type), intent(in) :: orbit

@@ -7,7 +7,7 @@ module result_size
    private
    public :: sample_interval, sample_count, result_bytes, bytes_text, size_note
 
-   !> From so many bytes on the size is said before a run.
+   !> From this number of bytes on, the size is printed before a run.
    real(wp), parameter :: large = 100e6_wp
    !> Bytes of a value, and of a file without samples.
    real(wp), parameter :: of_value = 8, of_frame = 1e5_wp
@@ -52,7 +52,7 @@ contains
       end if
    end function bytes_text
 
-   !> A word on so many results of this case that are large together; else empty.
+   !> A remark on that many results of this case that are large together; else empty.
    function size_note(inputs, results) result(note)
       type(case_type), intent(in) :: inputs
       integer, intent(in) :: results

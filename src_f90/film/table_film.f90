@@ -123,7 +123,7 @@ contains
       end do
    end function sorted_by_shape
 
-   !> True where the film in a gap is told by its thickness at the edges.
+   !> True where the thickness at the edges describes the film in a gap.
    elemental logical function has_tables(gap)
       type(pad_gap_type), intent(in) :: gap
       has_tables = 0.5_wp*gap%arc() <= largest_half_arc

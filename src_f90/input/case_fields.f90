@@ -319,7 +319,7 @@ contains
          & 'samples per revolution at the maximum speed of the run'))
       call v%number(output%start_time, field('start_time', 0.0_wp, 1e6_wp, 's', 'time of the first sample'))
       call v%whole(output%spectrum_revolutions, field('spectrum_revolutions', 1.0_wp, 1e6_wp, '1', &
-         & 'number of revolutions at the end of the run that the spectra cover, as far as there are samples'))
+         & 'number of revolutions at the end of the run that the spectra cover, where there are samples'))
       call v%number(output%checkpoint_seconds, field('checkpoint_seconds', 0.0_wp, 1e9_wp, 's', &
          & 'wall time between checkpoints, from which --resume continues; 0: only when a signal stops the run'))
    end subroutine visit_output

@@ -75,7 +75,7 @@ contains
       allocate (x(0), v(0))
    end subroutine pairs
 
-   !> The last states form so many blocks of one size: the rates of a block's states do not depend on other blocks.
+   !> The last states form a number of blocks of one size: the rates of a block's states do not depend on other blocks.
    pure subroutine blocks(self, number, states)
       class(ode_model_type), intent(in) :: self
       integer, intent(out) :: number, states

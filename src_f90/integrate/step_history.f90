@@ -25,7 +25,7 @@ module step_history
 
 contains
 
-   !> An empty history of so many values.
+   !> An empty history of a number of values.
    pure type(step_history_type) function new_step_history(n) result(history)
       integer, intent(in) :: n
       allocate (history%values(n, 0:highest_order), source=0.0_wp)

@@ -27,7 +27,7 @@ module bordered_system
 
 contains
 
-   !> A matrix of zeros with a border of this size and so many blocks of m unknowns each.
+   !> A matrix of zeros with a border of this size and a number of blocks of m unknowns each.
    pure function new_bordered_matrix(border, m, blocks) result(matrix)
       integer, intent(in) :: border, m, blocks
       type(bordered_matrix) :: matrix

@@ -97,7 +97,7 @@ contains
    end subroutine set_point
 
    !> Makes the model that of another case, which differs in numbers alone and not in that of the pads. Tables, films
-   !> and natural sizes stay as far as they can; so do the effects that do not act.
+   !> and natural sizes stay where they can; so do the effects that do not act.
    subroutine adopt(self, inputs)
       class(bearing_model), intent(inout) :: self
       type(case_type), intent(in) :: inputs

@@ -41,7 +41,7 @@ module state_layout
 
 contains
 
-   !> The layout for a rotor of so many states and so many pads.
+   !> The layout for a number of rotor states and a number of pads.
    pure type(state_layout_type) function new_state_layout(rotor, pads, tilting, radial, bristles) result(layout)
       integer, intent(in) :: rotor, pads
       logical, intent(in) :: tilting, radial, bristles
@@ -167,7 +167,7 @@ contains
       end do
    end function pad_states
 
-   !> Puts the states of the pads into y, as far as the model has them.
+   !> Puts those states of the pads into y that the model has.
    pure subroutine put_pads(self, pads, y)
       class(state_layout_type), intent(in) :: self
       type(pad_state), intent(in) :: pads(:)

@@ -47,7 +47,7 @@ module interval_maps
 
 contains
 
-   !> Room for so many intervals of a model, with these scales of its states, and so many constants.
+   !> Room for a number of intervals of a model, with these scales of its states, and a number of constants.
    function new_interval_maps(model, scale, intervals, constants) result(maps)
       class(ode_model_type), intent(in) :: model
       real(wp), intent(in) :: scale(:)
@@ -70,7 +70,7 @@ contains
       allocate (maps%length(intervals), maps%gap(constants, size(maps%x), points, intervals))
    end function new_interval_maps
 
-   !> The part of these n states, of which so many stand before.
+   !> The part of these n states that follows this number of states.
    pure type(part_type) function new_part(maps, before, n) result(part)
       type(interval_maps_type), intent(in) :: maps
       integer, intent(in) :: before, n

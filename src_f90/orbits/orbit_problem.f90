@@ -53,7 +53,7 @@ module orbit_problem
 
 contains
 
-   !> A problem that stands at an orbit, of so many periods of its forcing, of an ODE at a value of the parameter.
+   !> A problem that stands at an orbit over a number of periods of its forcing, of an ODE at a value of the parameter.
    subroutine begin_orbits(problem, ode, orbit, turns, parameter, unit)
       type(orbit_problem_type), intent(out) :: problem
       class(parametric_ode_type), intent(in), target :: ode

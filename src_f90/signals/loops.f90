@@ -60,7 +60,8 @@ contains
       slow_share = slow/(time(size(time)) - time(1))
    end function slow_share
 
-   !> For so many signals, sampled so often in a revolution, of which so many whole revolutions have passed unseen.
+   !> For a number of signals, with a number of samples a revolution, after a number of whole revolutions that have
+   !> passed unseen.
    pure function new_periodicity(samples, signals, passed) result(orbit)
       integer, intent(in) :: samples, signals, passed
       type(periodicity) :: orbit

@@ -68,9 +68,9 @@ contains
       whirls = amplitude > visible*clearance
    end subroutine whirl_of
 
-   !> Order and amplitude of the largest part of values at equal steps over so many revolutions. A Hann window and the
-   !> higher neighbour tell them between the lines of the spectrum. Mean and drift do not count, nor do orders that are
-   !> closer to a whole number than `apart`.
+   !> Order and amplitude of the largest part of values at equal steps over a number of revolutions. A Hann window and
+   !> the higher neighbour tell them between the lines of the spectrum. Mean and drift do not count, nor do orders that
+   !> are closer to a whole number than `apart`.
    subroutine dominant(values, revolutions, apart, order, amplitude)
       real(wp), intent(in) :: values(:), revolutions, apart
       real(wp), intent(out) :: order, amplitude

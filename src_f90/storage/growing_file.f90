@@ -76,7 +76,7 @@ contains
    end subroutine open_part
 
    !> Series over an axis, 'time' or another, follow; they start from the samples that are in the file, if any.
-   !> `expected`: how many there will be in the end, as far as is known.
+   !> `expected`: how many there will be in the end, if this is known.
    subroutine begin_series(self, axis, expected)
       class(growing_file_type), intent(inout) :: self
       character(len=*), intent(in) :: axis

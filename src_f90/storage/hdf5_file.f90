@@ -83,7 +83,7 @@ contains
       call self%write_reals(path, [values], int(shape(values), hsize_t), units, long_name, scales)
    end subroutine put_table
 
-   !> Values in the order of Fortran, with so many in each dimension, the fastest first.
+   !> Values in the order of Fortran, with these numbers in each dimension, the fastest first.
    subroutine put_array(self, path, values, counts, units, long_name, scales)
       class(hdf5_type), intent(inout) :: self
       character(len=*), intent(in) :: path, units, long_name, scales

@@ -36,7 +36,7 @@ module hdf5_series
 contains
 
    !> A new dataset; with width > 0 of (axis, width), with width 0 of (axis). `scales` as in hdf5_file. `expected`: how
-   !> many samples it will have, as far as is known; HDF5 takes room for whole chunks.
+   !> many samples it will have, if this is known; HDF5 takes room for whole chunks.
    subroutine create(self, file, path, width, units, long_name, scales, expected)
       class(hdf5_series_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file

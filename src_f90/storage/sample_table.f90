@@ -20,7 +20,7 @@ module sample_table
       private
       !> Name of the series that is the scale of all; it is declared first.
       character(len=:), allocatable :: axis
-      !> How many samples there will be, as far as is known.
+      !> How many samples there will be, if this is known.
       integer(i8) :: expected = 0
       type(series_type), allocatable :: series(:)
       !> Samples held back, series after series with room for a chunk each, and how many there are.
@@ -69,8 +69,8 @@ contains
       call scale%close(file)
    end subroutine begin
 
-   !> A series of so many values over the axis, or, where `across` names another scale, over both. One that is in the
-   !> file must have this width and be as long as all others.
+   !> A series of this number of values over the axis, or, where `across` names another scale, over both. One that is in
+   !> the file must have this width and be as long as all others.
    subroutine declare(self, file, name, width, across, units, long_name)
       class(sample_table_type), intent(inout) :: self
       type(hdf5_type), intent(inout) :: file

@@ -142,7 +142,7 @@ contains
       if (c_gethostname(buffer, int(name_length, c_size_t)) == 0) host_name = fortran_text(c_loc(buffer))
    end function host_name
 
-   !> Does nothing for so many seconds, or until a signal comes.
+   !> Does nothing for this number of seconds, or until a signal comes.
    subroutine pause_seconds(seconds)
       integer, intent(in) :: seconds
       integer(c_int) :: ignored
@@ -174,8 +174,8 @@ contains
       if (present(made)) made = found == 1
    end subroutine make_folder
 
-   !> A name in a folder that is a number with '.h5', but not one from 1 to `last` with so many digits; empty where
-   !> there is none.
+   !> A name in a folder that is a number with '.h5', but not one from 1 to `last` with this number of digits; empty
+   !> where there is none.
    function other_number(folder, digits, last) result(name)
       character(len=*), intent(in) :: folder
       integer, intent(in) :: digits, last
@@ -204,8 +204,8 @@ contains
       call c_leave(int(status, c_int))
    end subroutine end_child
 
-   !> Called in a child: it prints nothing from now on, and ends after so many seconds, of time or of the processor's
-   !> time; it gets so many megabytes of memory more than it has.
+   !> Called in a child: it prints nothing from now on, and ends after this number of seconds, of time or of the
+   !> processor's time; it gets this number of megabytes of memory more than it has.
    subroutine limit_child(seconds, work, room)
       integer, intent(in) :: seconds, work, room
       call c_limit_child(int(seconds, c_int), int(work, c_int), int(room, c_int))
@@ -276,7 +276,7 @@ contains
       ok = c_read(int(pipe, c_int), record, len(record, c_size_t)) == record_length
    end subroutine receive_record
 
-   !> Waits until a record is there, or so many milliseconds, or until a signal comes; true if one is there.
+   !> Waits until a record is there, or this number of milliseconds, or until a signal comes; true if one is there.
    logical function wait_for_record(pipe, milliseconds)
       integer, intent(in) :: pipe, milliseconds
       wait_for_record = c_can_read(int(pipe, c_int), int(milliseconds, c_int)) == 1

@@ -201,7 +201,7 @@ int tiltpad_make_folder(const char *path)
    return errno == EEXIST ? 2 : 0;
 }
 
-/* A name in a folder that is a number with .h5, but not one from 1 to `last` with so many digits; empty where there is
+/* A name in a folder that is a number with .h5, but not one from 1 to `last` with this number of digits; empty where there is
    none. */
 void tiltpad_other_number(const char *folder, int digits, long last, char *name, size_t size)
 {
@@ -224,7 +224,7 @@ int tiltpad_end_with_parent(int parent)
    return getppid() == parent;
 }
 
-/* Whether there is something to read from a pipe, after so many milliseconds at most. */
+/* Whether there is something to read from a pipe, after at most this number of milliseconds. */
 int tiltpad_can_read(int pipe, int milliseconds)
 {
    struct pollfd list = {pipe, POLLIN, 0};
@@ -247,8 +247,8 @@ void tiltpad_stop(int process)
    kill(process, SIGTERM);
 }
 
-/* From now on this process prints nothing, and ends after so many seconds of time, or of the processor's; it gets so
-   many megabytes of memory more than it has. */
+/* From now on this process prints nothing, and ends after this number of seconds of time, or of the processor's; it gets this
+   number of megabytes of memory more than it has. */
 void tiltpad_limit_child(int seconds, int work, int room)
 {
    struct rlimit time = {work, work}, memory, core = {0, 0};

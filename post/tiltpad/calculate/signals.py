@@ -14,7 +14,7 @@ from tiltpad.files.read import Run
 BLOCK = 1 << 16
 #: Revolutions in which a motion of about half the order shows its whole extent.
 COVER = 3
-#: States of the motion, as far as the case has them.
+#: States of the motion that the case has.
 STATES = (
     *("journal_y", "journal_z", "journal_vy", "journal_vz", "pad_tilt", "pad_tilt_rate"),
     *("pivot_deflection", "pivot_deflection_rate", "bristle_deflection"),
@@ -236,7 +236,7 @@ def revolution_mean(angle: np.ndarray, values: np.ndarray) -> np.ndarray:
 
 
 def spans_of(run: Run, spans: int) -> Iterator[slice]:
-    """Samples of at most so many spans, which turn the shaft by equal angles of at least a revolution."""
+    """Samples of at most this number of spans, which turn the shaft by equal angles of at least a revolution."""
     last_revolutions(run)
     first, final = ends(run, "shaft_angle")
     count = max(1, min(spans, int((final - first) / (2 * np.pi) + 1e-9)))

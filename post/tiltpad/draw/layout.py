@@ -28,14 +28,14 @@ DASHES = (
     *("-", "--", ":", "-.", (0, (7, 1.5, 1, 1.5, 1, 1.5)), (0, (9, 3)), (0, (1, 4))),
     *((0, (3, 1, 1, 1, 1, 1, 1, 1)), (0, (12, 2, 3, 2))),
 )
-#: From so many points on a line has no marks.
+#: From this number of points on, a line has no marks.
 DENSE = 60
 #: More runs or parts than this have colours along a scale.
 FEW = 7
 SCALE = "viridis"
 #: An axis reaches over this share of its largest number at least: what does not move is a flat line.
 SHORTEST_AXIS = 2e-4
-#: A file has so many remarks under a picture; the report has all.
+#: A picture file has this number of remarks under it; the report has all.
 MOST_REMARKS = 3
 
 
@@ -189,7 +189,7 @@ def heading(fig: Figure, entries: Sequence[tuple[str, dict[str, Any]]], title: s
 
 
 def columns_of(texts: Sequence[str], characters: int) -> int:
-    """Number of columns of a legend that is so many characters wide; it is filled column by column."""
+    """Number of columns of a legend that is this number of characters wide; it is filled column by column."""
     long = np.array([max(map(len, text.splitlines() or [""])) for text in texts])
     for columns in range(len(texts), 1, -1):
         if sum(each.max() + 7 for each in np.array_split(long, columns)) <= characters:

@@ -270,7 +270,7 @@ def waterfall(
 ) -> Axes:
     """Amplitudes of a dataset over the speed of a run-up and the frequency, or `by` order, up to an order.
 
-    The colours reach down by so many decades. Lines mark the orders on an axis of frequencies.
+    The colours reach down by this number of decades. Lines mark the orders on an axis of frequencies.
     """
     revolutions = int(np.clip(signals.turned(run) / 20, *WINDOW))
     speed, order, amplitude = spectra.waterfall(run, name, pad, orders, revolutions)

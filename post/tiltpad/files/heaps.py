@@ -13,7 +13,7 @@ SEARCHED = 1 << 22
 #: A heap begins with its signature, version 1 and three zeros; then its length, 8 bytes.
 SIGNATURE = b"GCOL\x01\x00\x00\x00"
 HEAD = 16
-#: Lengths of objects are multiples of this, and are calculated in so many bits.
+#: Lengths of objects are multiples of this, and are calculated with this number of bits.
 ALIGNED, BITS = 8, 64
 
 

@@ -149,7 +149,7 @@ def fitted(own: Shown, values: Sequence[float] | np.ndarray) -> Shown:
 
 
 def digits(value: float, count: int = 4) -> str:
-    """A number with so many digits, without an exponent unless it is very small (9.86×10⁻⁶)."""
+    """A number with this number of digits, without an exponent unless it is very small (9.86×10⁻⁶)."""
     if value == 0 or not np.isfinite(value):
         return "0" if value == 0 else "–"
     if abs(value) >= 10 ** (count - 1):
@@ -164,7 +164,7 @@ RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def numbers(shown: Shown, values: Sequence[float] | np.ndarray, count: int = 4) -> list[str]:
-    """Values in a unit, with so many digits; those that are nothing beside the largest with its decimals."""
+    """Values in a unit, with this number of digits; those that are nothing beside the largest with its decimals."""
     own = [shown.factor * float(each) for each in values]
     largest = max((abs(each) for each in own if np.isfinite(each)), default=0.0)
     places = len(digits(largest, count).partition(".")[2])

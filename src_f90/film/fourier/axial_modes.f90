@@ -11,7 +11,7 @@ module axial_modes
    private
    public :: axial_modes_type, new_axial_modes
 
-   !> Up to so many modes every one is solved; of more, the first so many.
+   !> Up to this number of modes every one is solved; of more, only the first ones.
    integer, parameter :: most_solved = 16, first_solved = 8
    !> Sums over the odd numbers m of 1/m^3, 1/m^4, 1/m^5: 7/8 zeta(3), pi^4/96, 31/32 zeta(5).
    real(wp), parameter :: odd_sums(3) = [7*1.2020569031595943_wp/8, pi**4/96, 31*1.0369277551433699_wp/32]
@@ -34,7 +34,7 @@ module axial_modes
 
 contains
 
-   !> So many modes of a pad; all of them solved, or as many as the solution's smoothness asks for.
+   !> A number of modes of a pad; all of them solved, or as many as the solution's smoothness asks for.
    pure function new_axial_modes(gap, modes, all_solved) result(self)
       type(pad_gap_type), intent(in) :: gap
       integer, intent(in) :: modes

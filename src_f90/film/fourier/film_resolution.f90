@@ -63,7 +63,7 @@ contains
       aspect = gap%axial_length/(gap%pad_radius()*gap%arc())
    end function aspect
 
-   !> A resolution that follows the film from so many cells and modes on where a tolerance is given, else these.
+   !> A resolution that follows the film, with at least these cells and modes, where a tolerance is given; else these.
    pure function new_resolution(gap, cells, modes, tolerance) result(self)
       type(pad_gap_type), intent(in) :: gap
       integer, intent(in) :: cells, modes

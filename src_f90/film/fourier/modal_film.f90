@@ -49,9 +49,9 @@ module modal_film
 
 contains
 
-   !> A solver for the films of a bearing's pads with an even number of cells along the arc and at most so many modes,
-   !> with Guembel's condition or none. With a tolerance of the force (over itself, or over a tenth of the highest
-   !> pressure on the whole pad) these serve ordinary films, and others get as many as they need.
+   !> A solver for the films of a bearing's pads with an even number of cells along the arc and at most this number of
+   !> modes, with Guembel's condition or none. With a tolerance of the force (over itself, or over a tenth of the
+   !> highest pressure on the whole pad) these serve ordinary films, and others get as many as they need.
    pure function new_modal_film(gaps, cells, modes, gumbel, tolerance) result(solver)
       type(pad_gap_type), intent(in) :: gaps(:)
       integer, intent(in) :: cells, modes

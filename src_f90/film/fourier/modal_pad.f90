@@ -54,7 +54,7 @@ module modal_pad
 
 contains
 
-   !> A pad with n cells, n even, and so many modes: all of them solved, or as many as suffice.
+   !> A pad with n cells, n even, and a number of modes: all of them solved, or as many as suffice.
    pure subroutine init_pad(pad, gap, n, modes, all_solved)
       type(modal_pad_type), intent(out) :: pad
       type(pad_gap_type), intent(in) :: gap

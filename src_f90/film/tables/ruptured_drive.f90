@@ -26,7 +26,7 @@ module ruptured_drive
    real(wp), parameter :: least_tolerance = base_tolerance*(real(base_rows, wp)/most_rows)**2
    !> Share of the columns where the film diverges or has gone, and where it has gone.
    real(wp), parameter :: diverging_share = 0.5_wp, empty_share = 1.0_wp/32
-   !> So many columns beside the film count as part of it.
+   !> This number of columns beside the film count as part of it.
    integer, parameter :: margin = 3
 
    !> A solver for one pad.

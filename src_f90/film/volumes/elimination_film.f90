@@ -43,8 +43,8 @@ module elimination_film
 
 contains
 
-   !> The film of one pad on a grid of so many cells along the arc and along half the width, the columns equal or
-   !> between these angles (film_grid).
+   !> The film of one pad on a grid with this number of cells along the arc and along half the width, the columns equal
+   !> or between these angles (film_grid).
    function new_elimination_film(gap, columns, rows, angles) result(self)
       type(pad_gap_type), intent(in) :: gap
       integer, intent(in) :: columns, rows

@@ -57,8 +57,8 @@ module film_grid
 
 contains
 
-   !> A grid of so many cells along the arc and along half the width; of equal columns, or with these angles from the
-   !> pivot, rad, (0:columns), from the trailing to the leading edge, between them.
+   !> A grid with this number of cells along the arc and along half the width; of equal columns, or with these angles
+   !> from the pivot, rad, (0:columns), from the trailing to the leading edge, between them.
    pure function new_film_grid(gap, columns, rows, angles) result(grid)
       type(pad_gap_type), intent(in) :: gap
       integer, intent(in) :: columns, rows

@@ -19,7 +19,7 @@ module following_volumes
 
 contains
 
-   !> Volumes for a film at a motion that leaves it open and a journal speed, rad/s, on so many rows.
+   !> Volumes for a film at a motion that leaves it open and a journal speed,  rad/s, on this number of rows.
    type(elimination_film_type) function new_following_film(gap, motion, speed, rows) result(film)
       type(pad_gap_type), intent(in) :: gap
       type(film_motion), intent(in) :: motion
