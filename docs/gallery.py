@@ -107,7 +107,12 @@ PICTURES = (
     ("film", "five_pads", "", "thickness and pressure around the bearing"),
     ("bearing", "five_pads", "", "pads, angles, load and sense of rotation, at the equilibrium"),
     ("movie", "five_pads", "--last 2", "the unloaded top pad flutters at half the shaft speed"),
-    ("branch", "branch", "", "with LuGre friction a second frequency appears at high speed"),
+    (
+        "branch",
+        "branch",
+        "",
+        "with LuGre friction a torus (Neimark-Sacker) bifurcation appears at high speed",
+    ),
     ("response", "soft", "", "pivots that are soft give the rotor a critical speed"),
     ("coefficients", "whirl", "", "stiffness and damping over speed, at two whirl frequencies"),
     ("stability", "whirl", "--pivot stuck", "the modes with pivots that stick"),

@@ -19,7 +19,7 @@ from paper.tables import digits, table
 
 RPM = SHOWN["speed"].label
 #: What happens where the orbit is lost or comes back, in a table.
-HAPPENS = {"neimark_sacker": "second frequency", "period_doubling": "period doubles", "fold": "turns back"}
+HAPPENS = {"neimark_sacker": "torus bifurcation", "period_doubling": "period doubles", "fold": "turns back"}
 #: The upper pad of the four-pad bearing that is shown.
 UPPER = 3
 #: Folder of the marches up and down, in that of the studies, and the step of their speed, rpm.

@@ -162,7 +162,7 @@ contains
       character(len=:), allocatable :: loss
       associate (leading => values(1))
          if (abs(leading%im) > 0) then
-            loss = 'a second frequency grows'
+            loss = 'a vibration of a second frequency grows (torus bifurcation)'
          else if (leading%re < 0) then
             loss = 'the period doubles'
          else

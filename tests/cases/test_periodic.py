@@ -74,7 +74,7 @@ def test_a_march_leaves_an_unstable_orbit_as_its_multipliers_say(run, tmp_path):
     eigenvalues these are, up to 1e-2 of the orbit (the square of which is left out).
     """
     done = run(WHIRL, PERIODIC, "integration%relative_tolerance=1e-7")
-    assert "unstable: a second frequency grows" in done.stdout
+    assert "unstable: a vibration of a second frequency grows (torus bifurcation)" in done.stdout
     start = ("start%from='file'", "start%file='case.h5'", "start%journal=1e-9,0")
     run(WHIRL, *start, "integration%relative_tolerance=1e-9", name="march")
     with h5py.File(tmp_path / "case.h5") as orbit, h5py.File(tmp_path / "march.h5") as march:

@@ -380,7 +380,7 @@ contains
       call start_branch(problem, options, .true., here, error)
       call follow(problem, options, here, special)
       call expect(size(special) == 1, 'one bifurcation point')
-      call expect(special(1)%kind == 'neimark_sacker', 'a second frequency')
+      call expect(special(1)%kind == 'neimark_sacker', 'a torus bifurcation')
       call expect_close(special(1)%point%parameter, 0.0_wp, 1e-7_wp, 'at 0')
       call expect_close(special(1)%value%re, cos(2*pi/sqrt(5.0_wp)), 1e-7_wp, 'its multiplier')
    end subroutine torus

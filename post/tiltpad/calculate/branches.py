@@ -11,7 +11,7 @@ from tiltpad.files.read import Run
 KINDS = {
     "fold": ("LP", "fold"),
     "period_doubling": ("PD", "period doubling"),
-    "neimark_sacker": ("NS", "second frequency"),
+    "neimark_sacker": ("NS", "torus bifurcation"),
     "hopf": ("HB", "Hopf"),
     "branch_point": ("BP", "branch point"),
     "divergence": ("DV", "divergence"),
