@@ -69,7 +69,7 @@ default settings.
 ## Default settings against tight ones
 
 The table gives the maximum deviation in the last revolution, over the peak-to-peak or, where a pad hardly
-moves, over 5 % of the natural scale (assembled clearance; clearance over pad radius). The tight settings
+moves, over 5 % of the characteristic scale (assembled clearance; clearance over pad radius). The tight settings
 are {tight}.
 
 | case | journal y | journal z | tilt | friction moment |

@@ -28,7 +28,7 @@ module equilibrium_branch
       character(len=pivot_name) :: pivot = 'free'
       real(wp) :: cross_stiffness = 0
       type(varied_bearing_type), private :: bearing
-      !> Natural sizes of unknowns, and of what is out of balance.
+      !> Characteristic scales of unknowns, and of what is out of balance.
       real(wp), allocatable, private :: scale(:), force(:)
       !> Derivatives of the forces where they were taken last.
       real(wp), allocatable, private :: stiffness(:, :), damping(:, :)

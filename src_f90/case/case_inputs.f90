@@ -179,7 +179,7 @@ module case_inputs
    type :: periodic_type
       !> Turns of the shaft in a period.
       integer :: revolutions = 1
-      !> How far from the orbit Newton's method may end, over the natural size of each state; most rounds.
+      !> How far from the orbit Newton's method may end, over the characteristic scale of each state; most rounds.
       real(wp) :: tolerance = 1e-8_wp
       integer :: max_iterations = 30
    end type periodic_type

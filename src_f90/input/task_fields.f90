@@ -28,7 +28,7 @@ contains
       call v%whole(periodic%revolutions, field('revolutions', 1.0_wp, 1000.0_wp, '1', &
          & 'revolutions of the shaft in a period'))
       call v%number(periodic%tolerance, field('tolerance', 1e-12_wp, 1e-2_wp, '1', &
-         & 'how far from the orbit Newton''s method may end, over the natural size of each state'))
+         & 'how far from the orbit Newton''s method may end, over the characteristic scale of each state'))
       call v%whole(periodic%max_iterations, field('max_iterations', 1.0_wp, 1e6_wp, '1', &
          & 'maximum number of iterations of Newton''s method; more is a failure'))
    end subroutine visit_periodic

@@ -1,4 +1,4 @@
-!> The natural size of each state, over which tolerances and corrections are measured.
+!> The characteristic scale of each state, over which tolerances and corrections are measured.
 module characteristic_scales
    use kinds, only: wp, degree
    use case_inputs, only: case_type
@@ -16,7 +16,7 @@ module characteristic_scales
 
 contains
 
-   !> Natural size of each state: clearance; clearance over pad length; the pivot deflection under the load;
+   !> Characteristic scale of each state: clearance; clearance over pad length; the pivot deflection under the load;
    !> the deflection at which bristles yield; rates: times the highest speed, but the tilt rate not above
    !> ten times that at which friction changes its direction, or its moment would be no better than 1e-2.
    pure function state_scales(inputs, point, rotor, bearing, layout) result(scale)

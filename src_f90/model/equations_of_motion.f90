@@ -37,7 +37,7 @@ module equations_of_motion
       !> The oil of each pad, and its course where it warms or cools in a motion.
       type(film_oil), allocatable :: oil(:)
       type(viscosity_history_type) :: oil_course
-      !> Natural size of each state.
+      !> Characteristic scale of each state.
       real(wp), allocatable :: scale(:)
       type(newton_system_type), private :: newton
    contains
@@ -97,7 +97,7 @@ contains
    end subroutine set_point
 
    !> Makes the model that of another case, which differs in numbers alone and not in that of the pads. Tables, films
-   !> and natural sizes stay where they can; so do the effects that do not act.
+   !> and characteristic scales stay where they can; so do the effects that do not act.
    subroutine adopt(self, inputs)
       class(bearing_model), intent(inout) :: self
       type(case_type), intent(in) :: inputs

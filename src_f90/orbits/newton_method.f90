@@ -17,10 +17,10 @@ module newton_method
       character(len=64) :: long_name = ''
    end type place_part_type
 
-   !> n unknowns and a parameter. All changes are over the natural sizes of what changes.
+   !> n unknowns and a parameter. All changes are over the characteristic scales of what changes.
    type, abstract :: branch_problem_type
       integer :: n = 0
-      !> Present value of the parameter, and natural size of its changes.
+      !> Present value of the parameter, and characteristic scale of its changes.
       real(wp) :: parameter = 0, unit = 1
       !> How much each unknown counts in the length of a branch, where the parameter counts 1.
       real(wp), allocatable :: weight(:)
@@ -115,7 +115,7 @@ module newton_method
    end type branch_point_type
 
    type :: newton_options
-      !> What Newton's method may leave, over the natural sizes; most rounds.
+      !> What Newton's method may leave, over the characteristic scales; most rounds.
       real(wp) :: tolerance = 1e-8_wp
       integer :: max_iterations = 20
    end type newton_options
@@ -183,7 +183,8 @@ contains
             call raise(error, stopped, 'asked to stop')
          else if (point%iterations == options%max_iterations) then
             call raise(error, numerics_error, 'Newton''s method stopped after '//to_text(point%iterations) &
-               & //' iterations at a correction of '//to_text(point%correction)//' of the natural size of the states')
+               & //' iterations at a correction of '//to_text(point%correction) &
+                  & //' of the characteristic scale of the states')
          end if
          if (allocated(error)) return
          point%iterations = point%iterations + 1
@@ -198,7 +199,7 @@ contains
          if (.not. allocated(error)) call solve(matrix, b, error)
          if (.not. allocated(error) .and. present(normal)) then
             if (maxval(abs(b(:, 1))) > longest) call raise(error, numerics_error, 'the correction is ' &
-               & //to_text(maxval(abs(b(:, 1))))//' of the natural size of the states')
+               & //to_text(maxval(abs(b(:, 1))))//' of the characteristic scale of the states')
          end if
          if (.not. problem%refused) call add_context(error, 'iteration '//to_text(point%iterations) &
             & //' of Newton''s method')

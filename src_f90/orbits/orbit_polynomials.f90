@@ -21,7 +21,7 @@ module orbit_polynomials
       !> State at the start of the period; states at the points, (state, point, interval): the last point of an interval
       !> is its end.
       real(wp), allocatable :: start(:), at(:, :, :)
-      !> Natural size of each state.
+      !> Characteristic scale of each state.
       real(wp), allocatable :: scale(:)
       !> What the state at the start's change does to the state a period later, over the scales: it has the multipliers
       !> as eigenvalues.

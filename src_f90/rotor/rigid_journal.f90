@@ -49,7 +49,7 @@ contains
       states(rates_of_y_z) = journal%velocity
    end function with_journal
 
-   !> Natural size of each state, with the clearance, m, and the highest speed, rad/s.
+   !> Characteristic scale of each state, with the clearance, m, and the highest speed, rad/s.
    pure function scales(self, clearance, speed)
       class(rigid_journal_type), intent(in) :: self
       real(wp), intent(in) :: clearance, speed

@@ -176,7 +176,7 @@ class Bearing:
         return np.column_stack([self.each(value) for value in values])
 
     def scales(self, clearance: float, depth: float) -> np.ndarray:
-        """Natural size of each state, as tiltpad has it (docs/theory)."""
+        """Characteristic scale of each state, as tiltpad has it (docs/theory)."""
         tilt = clearance / (self.geometry[0, 0] * (self.geometry[0, 4] + self.geometry[0, 5]))
         bristle = self.friction[1] / self.friction[4]
         pad = [tilt, tilt * self.speed, depth, depth * self.speed, bristle]

@@ -12,7 +12,7 @@ import tiltpad
 from errors import Deviation
 from peer_model import COLUMNS, ROWS, STATES, Bearing, compliance
 from runner import Launched, Row, Runner, launch
-from tiltpad.calculate.deviations import SIGNALS, deviation, natural_scale
+from tiltpad.calculate.deviations import SIGNALS, characteristic_scale, deviation
 
 HERE = Path(__file__).parent
 PROGRAM = "octave-cli"
@@ -69,7 +69,7 @@ def compare(row: Row, found: dict[str, np.ndarray], files: tuple[Path, Path]) ->
             if part.start == 0:
                 return
             errors = {
-                name: deviation(values[part], true.values(name, part), natural_scale(true, name))
+                name: deviation(values[part], true.values(name, part), characteristic_scale(true, name))
                 for name, values in found.items()
             }
         if path == files[0]:

@@ -416,7 +416,7 @@ def difference(path: Path, other: Path, case: Case) -> tuple[float, float, float
 
 
 def state_scales(case: Case, file: h5py.File) -> dict[str, np.ndarray | float]:
-    """Natural size of the positions, as the absolute tolerances have it; of the pivot deflection its largest."""
+    """Characteristic scale of the positions, as the absolute tolerances have it; of the pivot deflection its largest."""
     bearing, clearance = case["bearing"], case["bearing"]["assembled_clearance"]
     radius = bearing["journal_radius"] + bearing["machined_clearance"]
     length = radius * np.radians(case["pads"]["arc_deg"])

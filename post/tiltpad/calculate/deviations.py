@@ -11,11 +11,11 @@ from tiltpad.files.read import Run
 
 #: Journal orbit, pad tilts and friction moments.
 SIGNALS = ("journal_y", "journal_z", "pad_tilt", "friction_moment")
-#: The deviation of a signal that hardly moves is taken over this share of its natural scale.
+#: The deviation of a signal that hardly moves is taken over this share of its characteristic scale.
 RESTING = 0.05
 
 
-def natural_scale(run: Run, name: str) -> float:
+def characteristic_scale(run: Run, name: str) -> float:
     """Assembled clearance for journal positions, clearance over pad radius for tilts; 0 for others."""
     bearing = run.input["bearing"]
     radius = bearing["journal_radius"] + bearing["machined_clearance"]
@@ -24,7 +24,7 @@ def natural_scale(run: Run, name: str) -> float:
 
 def deviation(values: np.ndarray, true: np.ndarray, scale: float = 0.0) -> float | None:
     """Largest deviation of a signal, (time,) or (time, pad), from the true one, over the peak-to-peak of the
-    latter (of the pad that moves most), or over 5 % of its natural scale where it moves less; None where
+    latter (of the pad that moves most), or over 5 % of its characteristic scale where it moves less; None where
     there is neither.
     """
     span = max(float(np.ptp(true, axis=0).max()), RESTING * scale)
@@ -44,5 +44,5 @@ def deviations(run: Run, reference: Run, part: slice | None = None) -> dict[str,
             raise RunError(
                 f"{run.path} and {reference.path}: not the same samples, {name} cannot be compared"
             )
-        found[name] = deviation(values, true, natural_scale(reference, name))
+        found[name] = deviation(values, true, characteristic_scale(reference, name))
     return {name: value for name, value in found.items() if value is not None}
