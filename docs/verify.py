@@ -69,7 +69,7 @@ default settings.
 ## Default settings against tight ones
 
 The table gives the maximum deviation in the last revolution, over the peak-to-peak or, where a pad hardly
-moves, over 5 % of the characteristic scale (assembled clearance; clearance over pad radius). The tight settings
+moves, over 5 % of the characteristic scale (bearing clearance; clearance over pad radius). The tight settings
 are {tight}.
 
 | case | journal y | journal z | tilt | friction moment |
@@ -118,7 +118,7 @@ speed; the lower one was found from states that were continued over the root of 
 ## Four tilting pads: Someya's table
 
 Someya (*Journal-Bearing Databook*, 1989), four pads of 80 degrees, load between them, L/D = 0.5, no preload. The
-definitions of the table are not at hand; taken are S = mu N L D/W (R/c)^2, eccentricity over the assembled clearance,
+definitions of the table are not at hand; taken are S = mu N L D/W (R/c)^2, eccentricity over the bearing clearance,
 K c/W and C c omega/W along the load, synchronous, of pads without mass on rigid pivots. Each cell gives the
 program's number at that eccentricity, the table's, and how much they differ. Nothing was tuned.
 

@@ -9,7 +9,7 @@ module paper_bearing
    public :: paper_pad, offset_pad, paper_law
    public :: speed, clearance, paper_oil
 
-   !> Shaft speed of 6,494 rpm, rad/s; machined clearance, m.
+   !> Shaft speed of 6,494 rpm, rad/s; pad clearance, m.
    real(wp), parameter :: speed = 680, clearance = 100e-6_wp
    !> The oil of its films.
    type(film_oil), parameter :: paper_oil = film_oil(19e-3_wp)

@@ -88,7 +88,7 @@ def tilting_only_smaller(runs: Runs) -> Verdict:
 
 @CLAIMS.add("Fig. 9", "TO orbits lie higher than TR")
 def tilting_only_higher(runs: Runs) -> Verdict:
-    """Mean height of TO above TR over the assembled clearance, frictionless."""
+    """Mean height of TO above TR over the bearing clearance, frictionless."""
     only, radial = runs["steady_to"], runs["steady_tr"]
     return above((height(only) - height(radial)) / radial.clearance, RESOLUTION)
 
@@ -130,7 +130,7 @@ for column, words in enumerate(("frictionless", "with friction")):
 
     @CLAIMS.add("Fig. 10", f"A larger radius difference moves the journal downwards, {words}")
     def lowers(runs: Runs, friction: int = column) -> Verdict:
-        """Minimum step down of the mean height from one dR to the next, over the assembled clearance."""
+        """Minimum step down of the mean height from one dR to the next, over the bearing clearance."""
         found = by_difference(runs, friction)
         steps = [(height(a) - height(b)) / a.clearance for a, b in pairwise(found)]
         return above(min(steps), RESOLUTION)

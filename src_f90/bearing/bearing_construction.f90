@@ -16,7 +16,7 @@ module bearing_construction
       real(wp), allocatable :: per_mass(:, :, :)
       class(friction_law), allocatable :: friction
       type(asperity_contact_type) :: asperities
-      !> Assembled clearance, m.
+      !> Bearing clearance, m.
       real(wp) :: clearance = 0
    contains
       procedure :: set_parts

@@ -34,7 +34,7 @@ module heat_balance
       real(wp) :: journal_radius
       !> Length of each pad's arc, m.
       real(wp), allocatable :: arc(:)
-      !> Machined clearance times length of the pads, m^2.
+      !> Pad clearance times length of the pads, m^2.
       real(wp) :: section
    contains
       procedure :: temperatures

@@ -76,7 +76,7 @@ module tilting_pad_bearing
 
    !> One of this number of film evaluations is timed.
    integer(i8), parameter :: timing_stride = 16
-   !> Film thickness over assembled clearance below which a failed march is put down to it.
+   !> Film thickness over bearing clearance below which a failed march is put down to it.
    real(wp), parameter :: nearly_closed = 1e-2_wp
    type(no_friction), parameter :: no_rubbing = no_friction()
 

@@ -1,4 +1,4 @@
-!> What a case may leave out, because it follows from other variables: final speed, machined clearance, law of the oil,
+!> What a case may leave out, because it follows from other variables: final speed, pad clearance, law of the oil,
 !> and mass, inertia and centre of gravity of the pads.
 module case_completion
    use kinds, only: wp, degree
@@ -46,7 +46,7 @@ contains
       end do
    end subroutine complete_case
 
-   !> The machined clearance: as given, by the preload, or the paper's.
+   !> The pad clearance: as given, by the preload, or the paper's.
    subroutine set_clearance(inputs, error)
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error

@@ -20,7 +20,7 @@ module case_inputs
    !> What the input allows of the pads, kg, kg m^2 and m: their masses may follow from other variables.
    real(wp), parameter :: mass_range(2) = [1e-9_wp, 1e9_wp], inertia_range(2) = [1e-15_wp, 1e12_wp]
    real(wp), parameter :: centre_range(2) = [-100.0_wp, 100.0_wp]
-   !> What it allows of the machined clearance, over the journal's radius.
+   !> What it allows of the pad clearance, over the journal's radius.
    real(wp), parameter :: clearance_range(2) = [1e-5_wp, 0.05_wp]
    !> What it allows of temperatures, C, and of the oil's viscosity, Pa s.
    real(wp), parameter :: temperature_range(2) = [-100.0_wp, 500.0_wp], viscosity_range(2) = [1e-6_wp, 10.0_wp]
@@ -49,7 +49,7 @@ module case_inputs
    type :: bearing_type
       real(wp) :: journal_radius = 49.9e-3_wp, machined_clearance = 100e-6_wp
       real(wp) :: assembled_clearance = 80e-6_wp, axial_length = 100e-3_wp
-      !> 1 - assembled over machined clearance where it is given instead of the latter; unset in a complete case.
+      !> 1 - assembled over pad clearance where it is given instead of the latter; unset in a complete case.
       real(wp) :: preload = unset
       !> Of the oil, where its law is 'constant'; else unset in a complete case.
       real(wp) :: viscosity = 19e-3_wp

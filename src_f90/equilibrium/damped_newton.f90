@@ -24,7 +24,7 @@ module damped_newton
    !> Of 709 searches with this limit that succeed in the bearings of docs/stability.md, *Searches of an equilibrium*,
    !> 90 % end within 131 and 99.5 % within 360.
    integer, parameter :: max_iterations = 400
-   !> Longest move of journal or pad edge in one iteration, in assembled clearances.
+   !> Longest move of journal or pad edge in one iteration, in bearing clearances.
    real(wp), parameter :: longest_move = 0.2_wp
    !> Move below which an iteration without progress is the last.
    real(wp), parameter :: shortest_move = 1e-12_wp
@@ -147,7 +147,7 @@ contains
       logical, intent(in) :: free(:)
       real(wp), intent(inout) :: time_step
       real(wp), allocatable, intent(out) :: step(:)
-      !> Longest move, in assembled clearances.
+      !> Longest move, in bearing clearances.
       real(wp), intent(out) :: move
       logical, intent(out) :: ok
       real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: stiffness, damping
@@ -186,7 +186,7 @@ contains
       y = trial
    end subroutine take_step
 
-   !> Assembled clearance in the unit of each position (tilt: at the pad's edge).
+   !> Bearing clearance in the unit of each position (tilt: at the pad's edge).
    pure function clearances(model)
       type(bearing_model), intent(in) :: model
       real(wp), allocatable :: clearances(:)
@@ -238,7 +238,7 @@ contains
    end function unbalanced
 
    !> What unbalanced forces are measured by: the load, or, without load, the heaviest pad, or the drag of a film as
-   !> thick as the machined clearance; at least a share of the largest force of a film in the state evaluated last.
+   !> thick as the pad clearance; at least a share of the largest force of a film in the state evaluated last.
    pure real(wp) function reference_force(model)
       type(bearing_model), intent(in) :: model
       associate (gap => model%bearing%pads%gap, loads => model%bearing%loads)

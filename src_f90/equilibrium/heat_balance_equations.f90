@@ -98,7 +98,7 @@ contains
    end subroutine set_lack
 
    !> The derivatives of what lacks in the state y, whose balance was found, over positions and then over the logarithms
-   !> of the viscosities; positions over their sizes, which are such that a film that is an assembled clearance thick
+   !> of the viscosities; positions over their sizes, which are such that a film that is an bearing clearance thick
    !> changes by as much. Pads are moved together: the losses of each follow from the journal and from its own state.
    subroutine find_lack_slopes(model, y, balance, sizes, slopes)
       type(bearing_model), intent(inout) :: model

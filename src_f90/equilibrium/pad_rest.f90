@@ -20,7 +20,7 @@ module pad_rest
    real(wp), parameter :: wide = 5
    !> Gaps in which the pad floats, and pivot loads on its pivot, that are looked at.
    integer, parameter :: floats = 24, contacts = 7
-   !> Gap over the machined clearance, pivot load over the load, from which on they are looked at.
+   !> Gap over the pad clearance, pivot load over the load, from which on they are looked at.
    real(wp), parameter :: least_gap = 2e-3_wp, least_contact = 1e-5_wp
    !> Radial force over that of film or weight, moment over that at the tilts beside it, that count as balanced; steps
    !> to them.

@@ -14,7 +14,7 @@ module static_figures
    public :: static_figures_type, find_static_figures
 
    type :: static_figures_type
-      !> Distance of the journal from the middle over the assembled clearance; angle from the load to the journal in the
+      !> Distance of the journal from the middle over the bearing clearance; angle from the load to the journal in the
       !> sense of rotation, rad.
       real(wp) :: eccentricity_ratio = 0, attitude_angle = 0
       type(pad_loss), allocatable :: pads(:)

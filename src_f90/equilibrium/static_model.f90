@@ -34,7 +34,7 @@ module static_model
    !> Unbalanced force over the reference force that leaps of ruptured films may leave.
    real(wp), parameter :: largest_leap = 1e-5_wp
 
-   !> Positions of the journal to start from, in assembled clearances down the load.
+   !> Positions of the journal to start from, in bearing clearances down the load.
    real(wp), parameter :: fractions(*) = [-0.6_wp, -0.3_wp, 0.0_wp, 0.3_wp, 0.6_wp, 0.9_wp]
    integer, parameter :: starts = size(fractions)
 

@@ -308,7 +308,7 @@ contains
          & 'maximum number of steps of the march; more is a failure'))
       call v%number(integration%stop_when_periodic, field('stop_when_periodic', 0.0_wp, 1.0_wp, '1', &
          & '> 0: the run ends when the samples repeat from one revolution to the next within this part of the ' &
-         & //'assembled clearance (journal) and of the clearance over the pad''s length (tilts)'))
+         & //'bearing clearance (journal) and of the clearance over the pad''s length (tilts)'))
    end subroutine visit_integration
 
    subroutine visit_output(output, v)

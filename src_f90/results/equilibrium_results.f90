@@ -51,7 +51,7 @@ contains
       type(case_type), intent(in) :: inputs
       type(static_figures_type), intent(in) :: figures
       call number('eccentricity_ratio', figures%eccentricity_ratio, '1', &
-         & 'journal displacement over assembled clearance')
+         & 'journal displacement over bearing clearance')
       call number('specific_load', specific_load(inputs), 'Pa', 'load over diameter and axial length')
       if (load(inputs) > 0) then
          call number('attitude_angle', figures%attitude_angle, 'rad', &

@@ -21,7 +21,7 @@ program film_bench
    use paper_bearing, only: paper_oil
    implicit none (type, external)
 
-   !> Journal speed, rad/s; the paper's machined clearance, m.
+   !> Journal speed, rad/s; the paper's pad clearance, m.
    real(wp), parameter :: speed = 6500*pi/30, clearance = 100e-6_wp
    !> Positions of one round, on the small circle about as far apart as a march's; its radius in clearances.
    integer, parameter :: round = 180

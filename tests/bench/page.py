@@ -21,7 +21,7 @@ Wall times are those of the whole process, including the result file, on one cor
 nothing else. For runs below 2 s the page gives the minimum of two or three runs. Memory is the maximum of
 the process. The **error** of a run is the maximum deviation of journal y, journal z, pad tilt and friction
 moment in the last revolution from a converged run of the same case. Each deviation is over the
-peak-to-peak of its signal, or over 5 % of the signal's characteristic scale (assembled clearance; clearance over
+peak-to-peak of its signal, or over 5 % of the signal's characteristic scale (bearing clearance; clearance over
 pad radius) if the peak-to-peak is smaller. The error must stay below {allowed:g}.
 
 A signal that jumps is compared by two numbers, by one rule for all cases. Where the converged signal
@@ -173,7 +173,7 @@ tiltpad with the same film and a small tolerance.
 ![March time of a right-hand side over the number of pads](images/bench_pads.png)
 
 The bearing has several equal pads of 20 degrees around the journal, with LuGre friction, a preload
-(assembled clearance 60 um) such that all pads carry load, 50 kg of rotor per pad, and `cavitation =
+(bearing clearance 60 um) such that all pads carry load, 50 kg of rotor per pad, and `cavitation =
 'none'`; the runs take 2 s. The table omits a single pad, because a journal cannot rest on one pivot. March
 time is wall time without sampling, divided by the number of right-hand sides.
 

@@ -51,7 +51,7 @@ def last_revolution(file):
 
 def deviation(a, b, name):
     """Largest difference of a signal in the last revolution over its peak-to-peak, or over 5 % of its natural
-    scale where it hardly moves: assembled clearance; clearance over pad radius."""
+    scale where it hardly moves: bearing clearance; clearance over pad radius."""
     scale = {"journal": 80e-6, "pad": 80e-6 / 50e-3}.get(name.split("_")[0], 0)
     a, b = a[name][last_revolution(a)], b[name][last_revolution(b)]
     return np.abs(a - b).max() / max(np.ptp(b, axis=0).max(), 0.05 * scale)
@@ -60,7 +60,7 @@ def deviation(a, b, name):
 @pytest.mark.parametrize("solver", ["auto", "sor"])
 @pytest.mark.parametrize(("motion", "speed"), EQUILIBRIA)
 def test_equilibrium(march, motion, speed, solver):
-    """Within 0.1 % of the assembled clearance of 80 um; axial modes to the digits of the reference."""
+    """Within 0.1 % of the bearing clearance of 80 um; axial modes to the digits of the reference."""
     y, z, tilts, film = EQUILIBRIA[motion, speed]
     place = (f"pads%motion={motion}", f"operation%speed_rpm={speed}")
     film_of = (f"film%solver={solver}", "film%cavitation=none")

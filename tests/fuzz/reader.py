@@ -202,7 +202,7 @@ def complete(found: dict[str, tuple | None], given: dict[str, list], variables: 
     """What follows from other variables."""
     (preload,) = found["bearing%preload"]
     if preload is not None and "bearing%machined_clearance" in given:
-        raise Refused("preload and machined clearance")
+        raise Refused("preload and pad clearance")
     if preload is not None:
         found["bearing%machined_clearance"] = (found["bearing%assembled_clearance"][0] / (1 - preload),)
     complete_oil(found, given)

@@ -14,7 +14,7 @@ program test_equilibrium_table
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
 
-   !> 0.1 % of the assembled clearance.
+   !> 0.1 % of the bearing clearance.
    real(wp), parameter :: small = 0.08e-6_wp
 
    if (runs('tilting_radial_table')) call tilting_radial_table()

@@ -28,7 +28,7 @@ program global_search
    use small_vibrations, only: stability_at, stability_type
    implicit none (type, external)
 
-   !> Distances and leanings of a table; distances over the machined clearance.
+   !> Distances and leanings of a table; distances over the pad clearance.
    integer, parameter :: near = 44, middle = 10, far = 8, distances = near + 2*middle + far, leanings = 65
    real(wp), parameter :: nearest = 3e-4_wp, farthest = 6
    integer :: n

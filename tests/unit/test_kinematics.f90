@@ -64,7 +64,7 @@ contains
       type(pad_position), intent(in) :: place
       real(wp), parameter :: centre(2) = 0
       call expect_close(thickness(place, centre, 0.0_wp, 0.0_wp, 0.0_wp), c_r, rounding(), &
-         & 'the assembled clearance at the pivot')
+         & 'the bearing clearance at the pivot')
       ! c_m - (c_m - c_r) cos(phi)
       call expect_close(thickness(place, centre, 0.0_wp, 0.0_wp, 0.5_wp), c_m - (c_m - c_r)*cos(0.5_wp), rounding(), &
          & 'preload away from the pivot')

@@ -53,7 +53,7 @@ contains
       type(pad_gap_type) :: film
       film = pad(50.0_wp, 20.0_wp)
       call expect_close(film%thickness(film_motion([0.0_wp, 0.0_wp]), 0.6_wp, 0.8_wp), clearance, 0.0_wp, &
-         & 'a centred journal leaves the machined clearance')
+         & 'a centred journal leaves the pad clearance')
       call expect_close(film%thickness(film_motion([10e-6_wp, 0.0_wp]), 0.6_wp, 0.8_wp), 94e-6_wp, 1e-18_wp, &
          & 'towards y'' thins the leading half')
       call expect_close(film%thickness(film_motion([0.0_wp, 10e-6_wp]), -0.6_wp, 0.8_wp), 92e-6_wp, 1e-18_wp, &

@@ -16,7 +16,7 @@ RESTING = 0.05
 
 
 def characteristic_scale(run: Run, name: str) -> float:
-    """Assembled clearance for journal positions, clearance over pad radius for tilts; 0 for others."""
+    """Bearing clearance for journal positions, clearance over pad radius for tilts; 0 for others."""
     bearing = run.input["bearing"]
     radius = bearing["journal_radius"] + bearing["machined_clearance"]
     return {"journal": run.clearance, "pad": run.clearance / radius}.get(name.split("_")[0], 0.0)

@@ -1,7 +1,7 @@
 """A picture of the bearing itself, and a film of its motion: clearances are enlarged.
 
 The journal is drawn with radius 1; distances from it, films and its own displacement, are as much larger as
-makes the assembled clearance CLEARANCE.
+makes the bearing clearance CLEARANCE.
 """
 
 from collections.abc import Sequence
@@ -22,7 +22,7 @@ from tiltpad.draw.plots import STYLE, polar
 from tiltpad.files.read import Run, needs_run
 from tiltpad.files.units import SHOWN, digits
 
-#: Assembled clearance and thickness of the pads in the picture, over the journal's radius.
+#: Bearing clearance and thickness of the pads in the picture, over the journal's radius.
 CLEARANCE, BACK = 0.16, 0.22
 #: Frames of a movie in a second, and in a revolution of the shaft.
 RATE, FRAMES = 25, 50
@@ -167,8 +167,8 @@ def figures_of(case: Case, state: State) -> str:
         f"{'anchored' if fixed else 'pivot'} at {ratio} of the arc from the leading edge",
         f"speed {first:g} rpm" if first == last else f"speed {first:g} to {last:g} rpm",
         f"journal radius {1e3 * own['journal_radius']:g} mm, length {1e3 * own['axial_length']:g} mm",
-        f"assembled clearance $c_r$ = {digits(1e6 * assembled)} µm",
-        f"machined clearance $c_m$ = {digits(1e6 * machined)} µm",
+        f"bearing clearance $c_r$ = {digits(1e6 * assembled)} µm",
+        f"pad clearance $c_m$ = {digits(1e6 * machined)} µm",
         f"preload $1 - c_r/c_m$ = {digits(1 - assembled / machined, 3)}",
         "",
         f"Clearances are {times:.0f} times larger than the journal",

@@ -124,7 +124,7 @@ class Run(Archive):
 
     @property
     def clearance(self) -> float:
-        """Assembled clearance c_r, m."""
+        """Bearing clearance c_r, m."""
         return self.input["bearing"]["assembled_clearance"]
 
     @property

@@ -11,7 +11,7 @@ module pad_gap
 
    !> Geometry and boundary pressures of one pad's film.
    type :: pad_gap_type
-      !> Journal radius R_J, machined clearance c_m, axial length L, m.
+      !> Journal radius R_J, pad clearance c_m, axial length L, m.
       real(wp) :: journal_radius, machined_clearance, axial_length
       !> Angles from the pivot to the leading and trailing edge, theta_1 and theta_2, rad, > 0.
       real(wp) :: leading_angle, trailing_angle

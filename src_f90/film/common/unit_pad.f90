@@ -1,7 +1,7 @@
 !> A pad in numbers without dimension: what its film depends on, and nothing else (docs/theory/film.md, *The table*).
 !>
 !> The frame is that of the pad's middle, lengths along the film are over the pad's radius R, film thicknesses over the
-!> machined clearance c. Wedge and squeeze drive a film together, by the velocity
+!> pad clearance c. Wedge and squeeze drive a film together, by the velocity
 !>    w = velocity + omega R_J/(2 R) (e_2, -e_1),
 !> and its force is mu R^4/c^3 times one that follows from the film thicknesses at the two edges and from w alone.
 module unit_pad
