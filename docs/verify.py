@@ -94,14 +94,14 @@ frequency, over the largest coefficient:
 |---|---|---|
 {close_films}
 
-## Thresholds of stability
+## Threshold speeds of stability
 
 The first comes from `coefficients%threshold_up_to_rpm`. The last is that of a rigid rotor on the plain bearing of Lund
 and Thomsen below; its Sommerfeld number is kept while the speed changes.
 
 | rotor and bearing | here | reference |
 |---|---|---|
-{thresholds}
+{threshold speeds}
 
 ## Orbits against marches
 

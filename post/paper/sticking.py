@@ -15,7 +15,7 @@ from paper.settings import LUGRE, Case
 from paper.tables import digits, table
 
 RPM = SHOWN["speed"].label
-#: Pivots, as results have them, and the lines of those whose thresholds lie in the pictures.
+#: Pivots, as results have them, and the lines of those whose threshold speeds lie in the pictures.
 PIVOTS = ("free", "stuck", "locked")
 LINES = {"stuck": "-", "locked": ":"}
 #: Speed for which the page tells the stiffness, rpm.
@@ -23,13 +23,13 @@ TOLD_SPEED = 6000
 #: Revolutions over which a whirl is measured.
 STRETCH = 6
 #: What sticking does to stability: the rotor's mass and other masses, kg, speeds, rpm, and bristle
-#: stiffnesses, 1/m. Thresholds are sought from the first speed up to THRESHOLD_UP_TO.
+#: stiffnesses, 1/m. Threshold speeds are sought from the first speed up to THRESHOLD_UP_TO.
 ROTOR_MASS = 2000
 STICK_MASSES = (100, 200, 400, 700, 1000, 1500, 2000, 3000, 4000)
 STICK_SPEEDS = tuple(range(1000, 12001, 1000))
 STICK_STIFFNESSES = ("1e4", "3e4", "1e5", "2e5", "5e5", "1e6", "2e6", "5e6", "2e7", "1e8")
 THRESHOLD_UP_TO = 30000
-#: Speeds of the marches, rpm, below and above the threshold of the paper's rotor on pads that stick.
+#: Speeds of the marches, rpm, below and above the threshold speed of the paper's rotor on pads that stick.
 WHIRL_SPEEDS = (8600, 9600)
 WHIRL = (
     "rotor%unbalance=0",
@@ -74,7 +74,7 @@ def thresholds(runs: Runs, kind: str, words: tuple) -> dict[str, np.ndarray]:
 
 
 def stability_figure(runs: Runs) -> Figure:
-    """Least damping ratio on pads that stick, with the thresholds; thresholds over the bristles."""
+    """Least damping ratio on pads that stick, with the threshold speeds; threshold speeds over the bristles."""
     fig, axes = plt.subplots(1, 2, figsize=(PAGE, 3.0))
     draw_ratios(axes[0], runs)
     over_mass = thresholds(runs, "mass", STICK_MASSES)
@@ -145,7 +145,7 @@ def growth(run: tiltpad.Run, first: float, last: float) -> float:
 
 
 def threshold_table(runs: Runs) -> str:
-    """Thresholds over the mass, rpm."""
+    """Threshold speeds over the mass, rpm."""
     found = thresholds(runs, "mass", STICK_MASSES)
     rows = [(mass, *(said(found[pivot][k]) for pivot in PIVOTS)) for k, mass in enumerate(STICK_MASSES)]
     return table(("mass, kg", *(f"{pivot}, rpm" for pivot in PIVOTS)), rows)
@@ -156,14 +156,14 @@ def said(threshold: float) -> str:
 
 
 def whirl_words(runs: Runs) -> str:
-    """What the marches say beside the threshold."""
+    """What the marches say beside the threshold speed."""
     k = STICK_MASSES.index(ROTOR_MASS)
     stuck = thresholds(runs, "mass", STICK_MASSES)["stuck"][k]
     below, above = (runs[f"whirl_{speed}"] for speed in WHIRL_SPEEDS)
     modes = [digits(first_growth(runs[stick_name(ROTOR_MASS, speed)])) for speed in WHIRL_SPEEDS]
     end = envelope(above)[1][-1]
     return (
-        f"For the rotor of the paper, {ROTOR_MASS} kg, the threshold on pads that stick is {stuck:.0f} rpm. "
+        f"For the rotor of the paper, {ROTOR_MASS} kg, the threshold speed on pads that stick is {stuck:.0f} rpm. "
         f"At {WHIRL_SPEEDS[0]} rpm the motion grows by {digits(growth(below, 0.1, 0.4))} 1/s (first mode: "
         f"{modes[0]}), which means that it dies away, at {WHIRL_SPEEDS[1]} rpm by "
         f"{digits(growth(above, 0.1, 0.2))} 1/s (first mode: {modes[1]}). The growth ends where the friction "

@@ -1,4 +1,4 @@
-!> What a run prints of coefficients, modes and threshold.
+!> What a run prints of coefficients, modes and threshold speed.
 module coefficients_summary
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, pi

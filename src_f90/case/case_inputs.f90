@@ -170,7 +170,7 @@ module case_inputs
    type :: coefficients_type
       !> Whirl frequencies over the speed of the shaft.
       real(wp), allocatable :: frequency_ratio(:)
-      !> > 0: up to where the threshold of stability is sought.
+      !> > 0: up to where the threshold speed of stability is sought.
       real(wp) :: threshold_up_to_rpm = 0
       !> Q at the journal, N/m: what whirls forward is driven by Q times its displacement, across it.
       real(wp) :: cross_stiffness = 0

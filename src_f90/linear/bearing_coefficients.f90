@@ -18,7 +18,7 @@ module bearing_coefficients
       !> Of the journal, N/m and N s/m, (row, column, frequency, pivot).
       real(wp), allocatable :: stiffness(:, :, :, :), damping(:, :, :, :)
       type(vibration_modes_type), allocatable :: modes(:)
-      !> Thresholds of stability, rpm, where they are asked for, and up to where they were sought.
+      !> Threshold speeds of stability, rpm, where they are asked for, and up to where they were sought.
       real(wp), allocatable :: thresholds(:)
       real(wp) :: sought_up_to = 0
    end type bearing_coefficients_type

@@ -139,7 +139,7 @@ def coefficient_table(run: Run) -> str:
 
 
 def mode_table(run: Run) -> str:
-    """The modes of all pivots, and the thresholds of stability where they were looked for."""
+    """The modes of all pivots, and the threshold speeds of stability where they were looked for."""
     if "modes" not in run:
         return ""
     rows, thresholds = [], []
@@ -158,7 +158,7 @@ def mode_table(run: Run) -> str:
         ]
         if np.isfinite(found.threshold_rpm):
             thresholds.append(f"{pivot} pivots: {found.threshold_rpm:.1f} rpm")
-    note = f"<p>Threshold of stability: {'; '.join(thresholds)}.</p>" if thresholds else ""
+    note = f"<p>Threshold speed of stability: {'; '.join(thresholds)}.</p>" if thresholds else ""
     return table(("pivots", "frequency (Hz)", "damping ratio (%)", "logarithmic decrement"), rows) + note
 
 

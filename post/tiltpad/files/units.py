@@ -65,7 +65,7 @@ SHOWN = {
     "damping_ratio": Shown("damping ratio", 100, "%"),
     "log_decrement": Shown("logarithmic decrement", 1, ""),
     "least_damping_ratio": Shown("least damping ratio", 100, "%"),
-    "threshold_rpm": Shown("threshold of stability", 1, "rpm"),
+    "threshold_rpm": Shown("threshold speed of stability", 1, "rpm"),
     "axial": Shown("axial position", 1e3, "mm"),
 }
 

@@ -3,8 +3,8 @@
 !>
 !> Two numbers of a film tell: the longest cell in lengths of the pad, as the first modes' layers at the sides are as
 !> thick as a third of its length; and the pad's length over the distance in which the thin part of the film changes,
-!> sqrt((H'/H)^2 + (1 - H)/H) at its thinnest place, up to which the modes are not narrow. The thresholds are measured
-!> (tests/physics/test_film_accuracy.f90).
+!> sqrt((H'/H)^2 + (1 - H)/H) at its thinnest place, up to which the modes are not narrow. The threshold speeds are
+!> measured (tests/physics/test_film_accuracy.f90).
 module film_resolution
    use kinds, only: wp, pi
    use pad_gap, only: pad_gap_type, pad_directions
@@ -16,7 +16,7 @@ module film_resolution
 
    !> Levels at most: in all; of a film with a tolerance above the usual one.
    integer, parameter :: most_levels = 5, loose_levels = 3
-   !> The error for which the thresholds below hold.
+   !> The error for which the threshold speeds below hold.
    real(wp), parameter :: usual_error = 1e-4_wp
    !> Cells over the arc's span times the largest H over the pad's length, and the same with the H at a leading edge
    !> under pressure; cells over the span times the largest root of v; modes times the shortest distance, or the
@@ -33,7 +33,7 @@ module film_resolution
       private
       integer :: cells = 0, modes = 0, levels = most_levels
       logical :: follows = .false., floods = .false.
-      !> What the thresholds are multiplied by.
+      !> What the threshold speeds are multiplied by.
       real(wp) :: more_cells = 1, more_modes = 1
    contains
       procedure :: level
