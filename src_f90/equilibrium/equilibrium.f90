@@ -33,9 +33,9 @@ module equilibrium
 
 contains
 
-   !> The equilibrium of a model under its load at its initial speed, stable or fluttering, with the temperatures of
-   !> warm oil; an error where none is found, or, of status `stopped`, where `give_up`, asked between evaluations of the
-   !> films, says so.
+   !> The equilibrium of a model under its load at its initial speed, stable or of oscillatory instability, with the
+   !> temperatures of warm oil; an error where none is found, or, of status `stopped`, where `give_up`, asked between
+   !> evaluations of the films, says so.
    subroutine find_equilibrium(model, found, error, give_up)
       type(bearing_model), intent(in) :: model
       type(equilibrium_type), intent(out) :: found
@@ -162,7 +162,7 @@ contains
    end function best_start
 
    !> From every start by every method, up to the first stable equilibrium; where there is none, `found` is that which
-   !> flutters least, or has no pads. All is sought with quick films; their equilibrium leads to the model's own.
+   !> grows least, or has no pads. All is sought with quick films; their equilibrium leads to the model's own.
    subroutine search_wider(static, found, traces, give_up)
       type(bearing_model), intent(inout) :: static
       type(equilibrium_type), intent(inout) :: found
@@ -197,7 +197,7 @@ contains
    end subroutine search_wider
 
    !> Whether an equilibrium is to be kept instead of another one, which may have no pads: first that which no leap of
-   !> the films disturbs, then that which flutters less.
+   !> the films disturbs, then that which grows less.
    pure logical function is_better(candidate, found)
       type(equilibrium_type), intent(in) :: candidate, found
       is_better = .not. allocated(found%tilt)
@@ -249,7 +249,7 @@ contains
       call describe(model, y, found)
       call stability_at(model, y, found%stability, is_usable)
       if (.not. is_usable) return
-      is_usable = found%stability%name /= 'divergent'
+      is_usable = found%stability%name /= 'static instability'
       if (.not. is_usable) traces%divergence = found%stability%eigenvalue%re
    end function is_usable
 

@@ -13,7 +13,7 @@ module equilibrium_refusal
       character(len=:), allocatable :: last_words
       !> Pads that found no rest where the journal and the others did.
       logical, allocatable :: restless(:)
-      !> Growth, 1/s, of the last divergent equilibrium; 0: none was found.
+      !> Growth, 1/s, of the last statically unstable equilibrium; 0: none was found.
       real(wp) :: divergence = 0
       !> Whether the first search ended at a film that did not converge: no other search would help.
       logical :: films_fail = .false.
@@ -36,7 +36,8 @@ contains
       end if
       message = message//cause(model, traces)
       if (traces%divergence > 0) then
-         message = message//' (an equilibrium that was found is divergent: a small motion grows by ' &
+         message = message &
+            & //' (an equilibrium that was found is statically unstable (divergence): a small motion grows by ' &
             & //to_text(traces%divergence)//' 1/s)'
       else if (allocated(traces%last_words)) then
          message = message//' ('//traces%last_words//')'

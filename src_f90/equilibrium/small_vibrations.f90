@@ -13,7 +13,8 @@ module small_vibrations
    type :: stability_type
       !> The eigenvalue of largest real part, 1/s; of a pair the one with positive imaginary part.
       complex(wp) :: eigenvalue = 0
-      !> 'stable'; 'fluttering': vibrations grow; 'divergent': it is left without vibration, and no motion dwells there.
+      !> 'stable'; 'oscillatory instability': vibrations grow; 'static instability': it is left without vibration, and
+      !> no motion dwells there.
       character(len=:), allocatable :: name
    end type stability_type
 
@@ -45,9 +46,9 @@ contains
       stability%eigenvalue = values(maxloc(values%re, dim=1))
       stability%eigenvalue%im = abs(stability%eigenvalue%im)
       if (any(values%re > no_growth .and. abs(values%im) <= 0)) then
-         stability%name = 'divergent'
+         stability%name = 'static instability'
       else if (stability%eigenvalue%re > no_growth) then
-         stability%name = 'fluttering'
+         stability%name = 'oscillatory instability'
       else
          stability%name = 'stable'
       end if

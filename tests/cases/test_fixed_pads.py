@@ -71,7 +71,7 @@ def test_oil_whirl_of_the_example(tiltpad, root, tmp_path):
     above = tiltpad(example, "-o", "above.h5", cwd=tmp_path, status=0)
     slower = ["operation%speed_rpm=6000"]
     below = tiltpad(example, "-o", "below.h5", overrides=slower, cwd=tmp_path, status=0)
-    assert ", fluttering (" in above.stdout
+    assert ", oscillatory instability (" in above.stdout
     assert ", stable (" in below.stdout
     assert "the journal whirls at 0.4" in above.stdout
     assert "whirls" not in below.stdout

@@ -375,7 +375,8 @@ contains
          associate (value => found%stability%eigenvalue, omega => model%point%speed(0.0_wp))
             call expect(i*value%re > 0, 'growth on either side of the threshold: '//to_text(value%re))
             call expect_close(value%im/omega, ratio, 1e-3_wp, 'whirl at '//to_text(value%im/omega))
-            call expect((found%stability%name == 'fluttering') .eqv. i > 0, 'and its name: '//found%stability%name)
+            call expect((found%stability%name == 'oscillatory instability') .eqv. i > 0, 'and its name: ' &
+               & //found%stability%name)
          end associate
       end do
    end subroutine threshold

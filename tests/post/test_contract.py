@@ -153,7 +153,7 @@ def test_attributes(file, case_name):
     assert attributes["task"] == (case_name if case_name in ("equilibrium", "periodic") else "march")
     assert attributes["input"].startswith("&case\n")
     grows = file["equilibrium/eigenvalue_real"][()] > 0
-    assert attributes["equilibrium_stability"] == ("fluttering" if grows else "stable")
+    assert attributes["equilibrium_stability"] == ("oscillatory instability" if grows else "stable")
     assert attributes["version"]
     assert attributes["commit"]
     assert np.datetime64(attributes["created"][:19]) > np.datetime64("2020-01-01")

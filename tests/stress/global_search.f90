@@ -7,8 +7,9 @@
 !> pad shape gets a table of film forces; every pad, the curves along which its moments balance, which give its force on
 !> the journal over the journal's distance, with all branches; then the journal is sought in the plane, by Newton's
 !> method on these curves from a grid of places with branches drawn at random; at last Newton's method on the whole
-!> brings the residual below 1e-8. One line tells of each case: its file, 'stable', 'fluttering', 'divergent' or 'none',
-!> and how many equilibria there are, then of the best one eigenvalue, 1/s, journal, clearances, and tilts, rad.
+!> brings the residual below 1e-8. One line tells of each case: its file, 'stable', 'oscillatory instability', 'static
+!> instability' or 'none', and how many equilibria there are, then of the best one eigenvalue, 1/s, journal, clearances,
+!> and tilts, rad.
 program global_search
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: wp, pi
@@ -336,7 +337,7 @@ contains
 
    pure integer function rank_of(name)
       character(len=*), intent(in) :: name
-      rank_of = findloc([character(len=10) :: 'divergent', 'fluttering', 'stable'], name, dim=1)
+      rank_of = findloc([character(len=10) :: 'static instability', 'oscillatory instability', 'stable'], name, dim=1)
    end function rank_of
 
    !> Whether a state is, within a part of the clearance, one of a list.

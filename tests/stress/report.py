@@ -26,7 +26,7 @@ forces >= 0, film thickness > 0 unless asperities touch, friction within its bou
 samples). It also passes if it ends with a refusal of one line that says why, where and when; the results
 up to this point are then kept and finite. After a refusal for want of an equilibrium a global search of its
 own (`tests/stress/global_search.f90`: slow, and independent of the one in the program) looks for one that is
-stable or fluttering; where it finds one the case is missed, and the test fails if more than
+stable or of oscillatory instability; where it finds one the case is missed, and the test fails if more than
 {missed_share:.0%} of the cases are. No case may hang: `integration%max_steps` limits the work, and the
 tables count a case that reaches this limit separately ("step budget"). A run is asked to stop after
 {budget} s of CPU time, which few take, whose films are dear ("time budget"); one that goes on is hung.

@@ -83,7 +83,7 @@ class Result:
     @property
     def missed(self) -> bool:
         """Whether the case was refused though it has an equilibrium from which a march can start."""
-        return self.searched in ("stable", "fluttering")
+        return self.searched in ("stable", "oscillatory instability")
 
 
 def run(program: Path, case: Case, folder: Path, name: str) -> Ended:
@@ -143,7 +143,7 @@ def cause_of(message: str) -> str:
 
 
 def searched(search: Path, case: Path) -> tuple[str, list[str]]:
-    """What the global search finds ('stable', 'fluttering', 'divergent' or 'none'), and its own faults."""
+    """What the global search finds ('stable', 'oscillatory instability', 'static instability' or 'none'), and its own faults."""
     done = limited([search, case.name], case.parent, SEARCHED)
     if done.hung:
         return "not ended", []

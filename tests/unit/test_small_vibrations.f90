@@ -19,7 +19,7 @@ program test_small_vibrations
       & //'&rotor mass = 1500 / &operation speed_rpm = 9000 / &pads pivot_angle_deg = -54, 18, 90, 162, 234, ' &
       & //'arc_deg = 60, mass = 0.8108, inertia = 4.055e-4, centre_tangential = 0, centre_radial = -10.1e-3 / ' &
       & //'&bearing journal_radius = 63.5e-3, axial_length = 63.5e-3, assembled_clearance = 0.2e-3, ' &
-      & //'machined_clearance = 0.2857e-3, viscosity = 0.022 /', 'fluttering', 8)
+      & //'machined_clearance = 0.2857e-3, viscosity = 0.022 /', 'oscillatory instability', 8)
    call report()
 
 contains
@@ -48,10 +48,11 @@ contains
       stability = stability_of(damped, 1e-3_wp)
       call expect(stability%name == 'stable', 'damped: '//stability%name)
       stability = stability_of([damped, growing], 1e-3_wp)
-      call expect(stability%name == 'fluttering', 'growing: '//stability%name)
+      call expect(stability%name == 'oscillatory instability', 'growing: '//stability%name)
       call expect_close(abs(stability%eigenvalue - growing(1)), 0.0_wp, 0.0_wp, 'the growing pair, its upper half')
       stability = stability_of([damped, growing, (0.5_wp, 0.0_wp)], 1e-3_wp)
-      call expect(stability%name == 'divergent', 'slower than the flutter, without vibration: '//stability%name)
+      call expect(stability%name == 'static instability', 'slower than the flutter, without vibration: ' &
+         & //stability%name)
       stability = stability_of([damped, (1e-4_wp, 0.0_wp)], 1e-3_wp)
       call expect(stability%name == 'stable', 'a growth of rounding: '//stability%name)
    end subroutine names
