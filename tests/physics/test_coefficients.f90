@@ -118,7 +118,7 @@ contains
       call analyse(inputs, 'threshold', found)
       call expect_close(found%thresholds(1), 14945.85_wp, 0.015_wp, 'free')
       call expect(found%thresholds(2) > 6500 .and. found%thresholds(2) < found%thresholds(1), &
-         & 'locked pivots lose stability before')
+         & 'locked pads lose stability before')
       inputs%coefficients%threshold_up_to_rpm = 8000
       call analyse(inputs, 'no threshold', found)
       call expect(all(ieee_is_nan(found%thresholds)), 'none up to 8000 rpm')
