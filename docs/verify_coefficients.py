@@ -192,8 +192,8 @@ def losses(program, folder):
     """Rows of losses and flows of a pad."""
     inputs = ("pads%motion=tilting_only", "case%task=equilibrium", "film%cavitation=none")
     names = {
-        "couette_loss": ("loss by shear, W", 1, 2684.97),
-        "poiseuille_loss": ("loss by pressure flow, W", 1, 124.15),
+        "couette_loss": ("Couette loss, W", 1, 2684.97),
+        "poiseuille_loss": ("Poiseuille loss, W", 1, 124.15),
         "inlet_flow": ("inlet flow, ml/s", 1e6, 91.06),
         "outlet_flow": ("outlet flow, ml/s", 1e6, 76.22),
     }

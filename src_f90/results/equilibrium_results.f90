@@ -61,8 +61,9 @@ contains
       associate (pads => figures%pads)
          call list('load', pads%load, 'N', 'force of film and asperities on the journal')
          call list('power_loss', pads%power(), 'W', 'power loss')
-         call list('couette_loss', pads%couette, 'W', 'power loss by shear of sliding')
-         call list('poiseuille_loss', pads%pressure, 'W', 'power loss by shear of the flow that pressure drives')
+         call list('couette_loss', pads%couette, 'W', 'Couette loss: power loss by the shear of sliding')
+         call list('poiseuille_loss', pads%pressure, 'W', &
+            'Poiseuille loss: power loss by the shear of the flow that pressure drives')
          if (inputs%asperity%model /= 'none') call list('boundary_loss', pads%boundary, 'W', &
             & 'power loss by boundary friction of asperities')
          call list('journal_drag', pads%journal_drag, 'N m', &

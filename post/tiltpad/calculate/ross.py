@@ -36,7 +36,7 @@ def to_ross(
 ) -> dict[str, Any]:
     """Keywords for ROSS's bearing: `ross.BearingElement(n=2, **tiltpad.to_ross(study))`.
 
-    The tables are `over` the speed (synchronous coefficients, for unbalance response), over the whirl
+    The tables are `over` the speed (synchronously reduced coefficients, for unbalance response), over the whirl
     `frequency` at one speed, or over both (for modes, Campbell diagrams and stability). By default those of a
     run are over the frequency, those of a study over both where its runs have several frequency ratios, and
     otherwise over the speed. The pads are condensed at each `frequency` (rad/s) without interpolation; by
