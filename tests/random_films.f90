@@ -26,7 +26,7 @@ module random_films
       type(film_motion) :: motion
       !> Thickest over thinnest; share of the film that diverges (docs/theory/film.md); pressure at the leading
       !> edge over the highest of the film without it, tension or pressure.
-      real(wp) :: inclination = 1, t = 0, supply = 0
+      real(wp) :: thickness_ratio = 1, t = 0, supply = 0
       !> Thinnest film, m; force, N, and highest pressure, Pa, of the film in the same position that is just whole,
       !> T = 0, as fast along the arc, or of this film, kept whole, where they are larger.
       real(wp) :: thinnest = 0, force = 0, pressure = 0
@@ -39,7 +39,7 @@ module random_films
 
 contains
 
-   !> A film with an inclination of this range; one that may rupture has T from -0.3 to 1, others drive it from
+   !> A film with an thickness_ratio of this range; one that may rupture has T from -0.3 to 1, others drive it from
    !> anywhere. A supply pressure is up to the highest pressure without it.
    type(film_state) function random_film(least, most, ruptures, supplied) result(state)
       real(wp), intent(in) :: least, most
@@ -56,8 +56,8 @@ contains
                & *cos(gap%leading_angle), h(1)*sin(gap%trailing_angle) + h(2)*sin(gap%leading_angle)]
             state%thinnest = gap%min_film_thickness(motion, gap%directions())
             if (state%thinnest < 0.999_wp*thin*gap%machined_clearance) cycle
-            state%inclination = thickest(gap, motion)/state%thinnest
-            if (state%inclination >= least .and. state%inclination <= most) exit
+            state%thickness_ratio = thickest(gap, motion)/state%thinnest
+            if (state%thickness_ratio >= least .and. state%thickness_ratio <= most) exit
          end associate
       end do
       tangent = tan(0.5_wp*arc)
@@ -192,7 +192,8 @@ contains
       associate (gap => state%gap)
          write (line, '(3(f0.2, a), es9.2, 3(a, f0.2))') gap%arc()/degree, ' degrees, pivot ', gap%trailing_angle &
             & /gap%arc(), ', L/D ', 0.5_wp*gap%axial_length/gap%journal_radius, ', clearance ', &
-            & gap%machined_clearance, ', inclination ', state%inclination, ', T ', state%t, ', supply ', state%supply
+            & gap%machined_clearance, ', thickness_ratio ', state%thickness_ratio, ', T ', state%t, ', supply ', &
+               state%supply
       end associate
       text = trim(line)
    end function shown
