@@ -250,10 +250,11 @@ contains
       if (has_warm_oil(run%model)) allocate (oil)
       associate (tilting => run%inputs%tilting(), orbit => b%orbits%orbit)
          if (b%of_orbits) then
-            call find_orbit_figures(run%model, orbit, b%orbits%turns, run%inputs%output%samples_per_revolution, figures)
+            call find_orbit_figures(run%model, orbit, b%orbits%period_multiple, &
+               run%inputs%output%samples_per_revolution, figures)
             if (allocated(oil)) call b%ode%oil%get_found(oil, viscosity)
             call add_point(run%file, b%branch, b%parameter, point, figures, tilting, error, oil, viscosity, &
-               & branch_orbit_type(b%orbits%turns, orbit%intervals(), b%orbits%period()))
+               & branch_orbit_type(b%orbits%period_multiple, orbit%intervals(), b%orbits%period()))
          else
             call figures_at_rest(b%static, b%equilibria%state(), figures)
             viscosity = b%equilibria%viscosity

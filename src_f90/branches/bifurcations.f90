@@ -44,9 +44,9 @@ contains
       procedure(asked_to_stop), optional :: give_up
       type(bifurcation_type) :: one
       integer :: first, last, k
-      logical :: ok, turns, moved
+      logical :: ok, period_multiple, moved
       allocate (found(0))
-      turns = parameter_part(here)*parameter_part(next) < 0
+      period_multiple = parameter_part(here)*parameter_part(next) < 0
       first = unstable(here)
       last = unstable(next)
       moved = .false.
@@ -59,13 +59,13 @@ contains
          if (ok) then
             one%destabilises = last > first
             one%kind = problem%kind(one%value)
-            if (one%kind == 'fold' .and. .not. turns) one%kind = 'branch_point'
+            if (one%kind == 'fold' .and. .not. period_multiple) one%kind = 'branch_point'
             call put(one, found)
          end if
          k = k + sign(merge(2, 1, abs(one%value%im) > 0 .and. ok), last - first)
          if ((last - first)*(last - k) < 0) exit
       end do
-      if (turns .and. .not. any(found%kind == 'fold')) then
+      if (period_multiple .and. .not. any(found%kind == 'fold')) then
          call locate(problem, options, here, next, 0, one, ok, error, give_up)
          moved = .true.
          if (allocated(error)) return

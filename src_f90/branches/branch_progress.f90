@@ -123,12 +123,12 @@ contains
       self%ode%oil = new_frozen_viscosity(varied_bearing_type(self%static, self%parameter), at_rest)
    end subroutine begin_oil
 
-   subroutine begin_with_orbit(self, orbit, turns)
+   subroutine begin_with_orbit(self, orbit, period_multiple)
       class(branch_progress_type), intent(inout), target :: self
       type(orbit_type), intent(in) :: orbit
       !> Revolutions of the shaft in it.
-      integer, intent(in) :: turns
-      call begin_orbits(self%orbits, self%ode, orbit, turns, self%first, self%way)
+      integer, intent(in) :: period_multiple
+      call begin_orbits(self%orbits, self%ode, orbit, period_multiple, self%first, self%way)
    end subroutine begin_with_orbit
 
    !> With the state of an equilibrium of `static`.
@@ -221,7 +221,7 @@ contains
       if (self%branch > 1 .and. self%points > 0) then
          if (dot_product(split, half_apart(self%orbits)) < 0) then
             at_end = 'it comes back to the branch that it left'
-            call forget_flips(self%period_doublings, self%here, next, self%orbits%turns)
+            call forget_flips(self%period_doublings, self%here, next, self%orbits%period_multiple)
             return
          end if
       end if
@@ -244,7 +244,7 @@ contains
       type(branch_progress_type), intent(inout) :: branches
       type(bifurcation_type), intent(in) :: special(:)
       integer :: k
-      if (.not. branches%given%switch .or. branches%orbits%turns >= branches%longest_turns) return
+      if (.not. branches%given%switch .or. branches%orbits%period_multiple >= branches%longest_turns) return
       do k = 1, size(special)
          if (special(k)%kind == 'period_doubling') branches%period_doublings = [branches%period_doublings, &
             special(k)%point]

@@ -5,7 +5,7 @@ module period_doubling
    use newton_method, only: branch_point_type
    use continuation, only: return_to
    use orbit_polynomials, only: orbit_type, points
-   use orbit_problem, only: orbit_problem_type, turns_at
+   use orbit_problem, only: orbit_problem_type, period_multiple_at
    implicit none (type, external)
    private
    public :: double_period, half_apart, forget_flips
@@ -41,7 +41,7 @@ contains
             & [switching_point, switching_point(1:)])
       end associate
       problem%orbit = twice
-      problem%turns = 2*problem%turns
+      problem%period_multiple = 2*problem%period_multiple
       call problem%get_place(point%place)
       allocate (point%change(problem%n + 1), source=0.0_wp)
       point%tangent = [direction, 0.0_wp]
@@ -66,15 +66,15 @@ contains
 
    !> A branch of double period, of orbits of so many turns, that ends at another period doubling between two points
    !> need not be followed from there again.
-   pure subroutine forget_flips(period_doublings, here, next, turns)
+   pure subroutine forget_flips(period_doublings, here, next, period_multiple)
       type(branch_point_type), allocatable, intent(inout) :: period_doublings(:)
       type(branch_point_type), intent(in) :: here, next
-      integer, intent(in) :: turns
+      integer, intent(in) :: period_multiple
       real(wp) :: step
       integer :: k
       step = abs(next%parameter - here%parameter)
       period_doublings = pack(period_doublings, [(abs(period_doublings(k)%parameter - next%parameter) > 2*step &
-         .or. 2*turns_at(period_doublings(k)) /= turns, &
+         .or. 2*period_multiple_at(period_doublings(k)) /= period_multiple, &
          & k=1, size(period_doublings))])
    end subroutine forget_flips
 end module period_doubling

@@ -12,12 +12,12 @@ module orbit_problem
    use eigenvalues, only: find_eigenvalues, largest_first
    implicit none (type, external)
    private
-   public :: orbit_problem_type, begin_orbits, turns_at
+   public :: orbit_problem_type, begin_orbits, period_multiple_at
 
    type, extends(branch_problem_type) :: orbit_problem_type
       type(orbit_type) :: orbit
       !> Periods of what drives the model in that of the orbit.
-      integer :: turns = 1
+      integer :: period_multiple = 1
       !> Longest correction that is made, over the scales: of a longer one a part.
       real(wp) :: longest = huge(1.0_wp)
       !> Evaluations of the rates with their derivatives, and without.
@@ -54,11 +54,11 @@ module orbit_problem
 contains
 
    !> A problem that stands at an orbit over a number of periods of its forcing, of an ODE at a value of the parameter.
-   subroutine begin_orbits(problem, ode, orbit, turns, parameter, unit)
+   subroutine begin_orbits(problem, ode, orbit, period_multiple, parameter, unit)
       type(orbit_problem_type), intent(out) :: problem
       class(parametric_ode_type), intent(in), target :: ode
       type(orbit_type), intent(in) :: orbit
-      integer, intent(in) :: turns
+      integer, intent(in) :: period_multiple
       !> Its natural change. Both are left out where the parameter stays.
       real(wp), intent(in), optional :: parameter, unit
       integer, allocatable :: x(:), v(:)
@@ -71,7 +71,7 @@ contains
       problem%weight(x) = 1.0_wp/size(x)
       problem%ode => ode
       problem%orbit = orbit
-      problem%turns = turns
+      problem%period_multiple = period_multiple
       if (present(parameter)) problem%parameter = parameter
       if (present(unit)) problem%unit = unit
    end subroutine begin_orbits
@@ -79,7 +79,7 @@ contains
    !> Period of the orbit, s.
    pure real(wp) function period(self)
       class(orbit_problem_type), intent(in) :: self
-      period = self%turns*self%ode%period
+      period = self%period_multiple*self%ode%period
    end function period
 
    subroutine linearize(self, matrix, b, error)
@@ -237,15 +237,16 @@ contains
       end if
    end function kind_of
 
-   !> Turns, parameter, first defect, intervals, and their ends, the switching points there, start and points; where the
-   !> model is sought.
+   !> Period multiple, parameter, first defect, intervals, and their ends, the switching points there, start and points;
+   !> where the model is sought.
    pure subroutine get_place(self, place)
       class(orbit_problem_type), intent(in) :: self
       real(wp), allocatable, intent(out) :: place(:)
       real(wp), allocatable :: sought(:)
       call self%ode%get_start(sought)
       associate (orbit => self%orbit)
-         place = [real(self%turns, wp), self%parameter, self%first_defect, real(orbit%intervals(), wp), orbit%time, &
+         place = [real(self%period_multiple, wp), self%parameter, self%first_defect, real(orbit%intervals(), wp), &
+            orbit%time, &
             & real(orbit%switching_point, wp), orbit%start, orbit%at, sought]
       end associate
    end subroutine get_place
@@ -295,7 +296,7 @@ contains
       class(orbit_problem_type), intent(inout) :: self
       real(wp), intent(in) :: place(:)
       integer :: ends, o
-      self%turns = nint(place(1))
+      self%period_multiple = nint(place(1))
       self%parameter = place(2)
       self%first_defect = place(3)
       ends = nint(place(4)) + 1
@@ -310,9 +311,9 @@ contains
    end subroutine go_to
 
    !> Periods of what drives the model in that of the orbit at a point.
-   pure integer function turns_at(point)
+   pure integer function period_multiple_at(point)
       type(branch_point_type), intent(in) :: point
-      turns_at = nint(point%place(1))
-   end function turns_at
+      period_multiple_at = nint(point%place(1))
+   end function period_multiple_at
 
 end module orbit_problem

@@ -27,7 +27,7 @@ module branch_problems
    !> and w_2' = -w_2 (half a turn), or w_1 + i w_2 = z with z' = (p + i/sqrt(5)) z - |z|**2 z (none).
    type, extends(small_ode_type) :: turning_frame
       real(wp) :: p = 0
-      logical :: turns = .true.
+      logical :: period_multiple = .true.
    contains
       procedure :: rates => frame_rates
       procedure :: jacobian => frame_jacobian
@@ -120,7 +120,7 @@ contains
       real(wp), intent(in) :: t
       real(wp) :: turn(2, 2)
       turn = reshape([1, 0, 0, 1], [2, 2])
-      if (self%turns) turn = reshape([cos(t/2), sin(t/2), -sin(t/2), cos(t/2)], [2, 2])
+      if (self%period_multiple) turn = reshape([cos(t/2), sin(t/2), -sin(t/2), cos(t/2)], [2, 2])
    end function frame_at
 
    !> Rates in the frame, turned back.
@@ -128,7 +128,7 @@ contains
       class(turning_frame), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
       real(wp) :: rates(size(y))
-      if (self%turns) then
+      if (self%period_multiple) then
          associate (w => matmul(transpose(self%frame(t)), y))
             rates = matmul(self%frame(t), [self%p*w(1) - w(1)**3, -w(2)]) + matmul(half_spin, y)
          end associate
@@ -143,7 +143,7 @@ contains
       class(turning_frame), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
       real(wp) :: matrix(size(y), size(y))
-      if (self%turns) then
+      if (self%period_multiple) then
          associate (turn => self%frame(t), w => matmul(transpose(self%frame(t)), y))
             matrix = reshape([self%p - 3*w(1)**2, 0.0_wp, 0.0_wp, -1.0_wp], [2, 2])
             matrix = matmul(turn, matmul(matrix, transpose(turn))) + half_spin
@@ -321,14 +321,14 @@ contains
    end subroutine return
 
    !> Orbits at rest of the model with a frame, from p = -0.5 to 0.5.
-   subroutine begin_frame(model, ode, turns, problem, options)
+   subroutine begin_frame(model, ode, period_multiple, problem, options)
       type(turning_frame), intent(inout), target :: model
       type(oscillator_orbits), intent(inout), target :: ode
-      logical, intent(in) :: turns
+      logical, intent(in) :: period_multiple
       type(orbit_problem_type), intent(out) :: problem
       type(branch_options), intent(out) :: options
       model%n = 2
-      model%turns = turns
+      model%period_multiple = period_multiple
       ode%model => model
       ode%frame => model
       call begin_orbits(problem, ode, at_rest(2, 20, 2*pi), 1, -0.5_wp, 1.0_wp)
