@@ -64,22 +64,22 @@ def boxes(ax: Axes, x: tuple[np.ndarray, np.ndarray], y: tuple[np.ndarray, np.nd
 
 
 def draw(run: tiltpad.Run) -> None:
-    """Both thicknesses on the left; on the right the trailing one and T, of films that rupture."""
+    """Both thicknesses on the left; on the right the trailing one and T, of films that cavitate."""
     edges, share = films(run)
     lower, upper = cell(edges)
     _, (left, right) = plt.subplots(1, 2, figsize=(PAGE, 3.2))
-    ruptured = (share > 0) & (share < 1)
+    cavitated = (share > 0) & (share < 1)
     boxes(left, (lower[..., 0], upper[..., 0]), (lower[..., 1], upper[..., 1]), facecolor="0.93")
     below = np.floor(share * T_PARTS) / T_PARTS
-    ends = below[ruptured], below[ruptured] + 1 / T_PARTS
-    boxes(right, (lower[ruptured, 1], upper[ruptured, 1]), ends, facecolor="0.93")
+    ends = below[cavitated], below[cavitated] + 1 / T_PARTS
+    boxes(right, (lower[cavitated, 1], upper[cavitated, 1]), ends, facecolor="0.93")
     for i in range(share.shape[1]):
         left.plot(*edges[:, i].T, color=f"C{i}", label=f"pad {i + 1}")
         right.plot(edges[:, i, 1], share[:, i], color=f"C{i}")
     right.axhline(0, color="black", linewidth=0.8)
     trailing = "film thickness at the trailing edge / $c_m$"
     left.set(xlabel="film thickness at the leading edge / $c_m$", ylabel=trailing, title="whole film")
-    right.set(xlabel=trailing, ylabel="T, part of the film that diverges", title="ruptured film, T > 0")
+    right.set(xlabel=trailing, ylabel="T, part of the film that diverges", title="cavitated film, T > 0")
     left.legend(loc="upper left", frameon=True)
 
 

@@ -27,7 +27,7 @@ The table compares the equilibrium of the paper's two pads, without unbalance an
 values of independent programs that share no code with this one. The values in brackets are those of ROSS 3
 (open-source rotordynamics, finite elements, rigid pivots). The references have no cavitation, so the first
 three rows of each block have `film%cavitation = 'none'`. The last row has the default, which differs at low
-speed, where the film ruptures near the trailing edge.
+speed, where the film cavitates near the trailing edge.
 
 | pads, rpm | film | y um | reference | z um | reference | tilts mrad | reference | minimum film thickness um | reference | deviation of y, % of c_r |
 |---|---|---|---|---|---|---|---|---|---|---|
@@ -137,7 +137,7 @@ K c/W and C c omega/W, x along the load.
 
 ## Losses and flows
 
-Pad 1 of the paper's bearing on rigid pivots at 6500 rpm, without rupture, against an independent program.
+Pad 1 of the paper's bearing on rigid pivots at 6500 rpm, without cavitation, against an independent program.
 
 | | here | reference | error |
 |---|---|---|---|
@@ -173,7 +173,7 @@ preload 0.47, VG 32 at 40 C, all oil carried over. The second is that of the pap
 references have two or three digits. Fillon's bearing stands here twice: the first values were found on films that were
 not converged, and lie up to 3e-4 (damping 1.3e-3) from those of another independent program, on finite volumes of
 240 x 48 and 480 x 96 for each half of a film, extrapolated, with pads without weight. On 60 x 12 volumes the other
-program has the temperatures of the first to 0.01 K, too. Its damping is known to 5e-4, as volumes rupture one by one.
+program has the temperatures of the first to 0.01 K, too. Its damping is known to 5e-4, as volumes cavitate one by one.
 
 | | here | reference | error |
 |---|---|---|---|

@@ -7,7 +7,7 @@ import numpy as np
 import tiltpad
 from verify_runs import EXAMPLES, row, run
 
-# Coefficients at the journal, MN/m and MN s/m, by independent programs without rupture: motion, rpm, whirl
+# Coefficients at the journal, MN/m and MN s/m, by independent programs without cavitation: motion, rpm, whirl
 # frequency over speed, pivots: yy, yz, zy, zz of K and of C, where they are known.
 INDEPENDENT = {
     ("tilting_radial", 6500, 1.0, "free"): (

@@ -69,7 +69,7 @@ def loss_sums(program, _folder):
     for line in lines(program, "test_losses"):
         if found := re.match(r"whole films, largest error +(\S+)", line):
             yield row("full films", f"{float(found[1]):.1e}")
-        elif found := re.match(r"ruptured films, largest errors at rest and squeezed +(\S+) +(\S+)", line):
+        elif found := re.match(r"cavitated films, largest errors at rest and squeezed +(\S+) +(\S+)", line):
             yield row("cavitated films without squeeze", f"{float(found[1]):.1e}")
             yield row("cavitated films with squeeze", f"{float(found[2]):.1e}")
 

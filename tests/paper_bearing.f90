@@ -16,7 +16,7 @@ module paper_bearing
 
 contains
 
-   !> A pad with pressures (default: none) at the leading edge, at the others and where the film ruptures, and an axial
+   !> A pad with pressures (default: none) at the leading edge, at the others and where the film cavitates, and an axial
    !> length (default: the paper's).
    pure type(pad_gap_type) function paper_pad(pressures, length)
       real(wp), intent(in), optional :: pressures(3), length

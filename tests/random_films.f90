@@ -39,11 +39,11 @@ module random_films
 
 contains
 
-   !> A film with an thickness_ratio of this range; one that may rupture has T from -0.3 to 1, others drive it from
+   !> A film with an thickness_ratio of this range; one that may cavitate has T from -0.3 to 1, others drive it from
    !> anywhere. A supply pressure is up to the highest pressure without it.
-   type(film_state) function random_film(least, most, ruptures, supplied) result(state)
+   type(film_state) function random_film(least, most, cavitates, supplied) result(state)
       real(wp), intent(in) :: least, most
-      logical, intent(in) :: ruptures, supplied
+      logical, intent(in) :: cavitates, supplied
       real(wp) :: arc, pivot, h(2), u(2), tangent, chance
       do
          arc = between(20.0_wp, 120.0_wp)*degree
@@ -63,7 +63,7 @@ contains
       tangent = tan(0.5_wp*arc)
       u = [1.0_wp, between(-0.3_wp, 1.0_wp)]
       chance = between(0.0_wp, 1.0_wp)
-      if (chance < 0.5_wp .and. .not. ruptures) then
+      if (chance < 0.5_wp .and. .not. cavitates) then
          u(2) = between(-0.99_wp, 0.99_wp)*pi/2
          u = [cos(u(2)), (1 - tan(u(2))/tangent)/2]
       end if
@@ -124,13 +124,13 @@ contains
       turned = [v(1)*cos(angle) + v(2)*sin(angle), v(2)*cos(angle) - v(1)*sin(angle)]
    end function turned
 
-   !> The film by finite volumes, that ruptures by the condition of Reynolds or not at all, on so many rows and eight
+   !> The film by finite volumes, that cavitates by the condition of Reynolds or not at all, on so many rows and eight
    !> times as many columns: half of them on each side of where the source of pressure changes its sign, narrow where
    !> the film is thin; with a supply pressure, half of them narrow towards the leading edge.
-   type(volumes_type) function new_volumes(state, rows, ruptures) result(volumes)
+   type(volumes_type) function new_volumes(state, rows, cavitates) result(volumes)
       type(film_state), intent(in) :: state
       integer, intent(in) :: rows
-      logical, intent(in) :: ruptures
+      logical, intent(in) :: cavitates
       type(unit_pad_type) :: pad
       type(elimination_film_type) :: grid
       type(film_counters) :: unused
@@ -153,7 +153,7 @@ contains
             & *[((real(half - i, wp)/half)**2, i=0, half)]
          grid = new_elimination_film(gap, columns, rows, middle(gap) + angles)
       end associate
-      call grid%evaluate(state%motion, paper_oil, shaft_speed, ruptures, .true., unused, r)
+      call grid%evaluate(state%motion, paper_oil, shaft_speed, cavitates, .true., unused, r)
       volumes = volumes_type(r%force, r%derivatives, r%max_pressure)
    end function new_volumes
 

@@ -28,7 +28,7 @@ module factories
 
    !> Finite volumes along the arc and along half the width where the input leaves them to the solver, by the
    !> errors in docs/benchmarks.md.
-   integer, parameter :: sor_volumes(2) = [60, 15], rupture_volumes(2) = [80, 8]
+   integer, parameter :: sor_volumes(2) = [60, 15], cavitation_volumes(2) = [80, 8]
    !> Of converged films, errors of full films, of clipped ones and of cavitated ones (test_film_accuracy); volumes
    !> where no table knows the film.
    real(wp), parameter :: converged_full_error = 4e-7_wp, converged_error = 1e-6_wp, &
@@ -68,7 +68,7 @@ contains
          ! what the input sets stays the same for every film
          if (f%circumferential_cells + f%axial_modes == 0) error = merge(quick_error, usual_error, &
             & accuracy == quick_films)
-         volumes = volumes_of(inputs, gaps, rupture_volumes)
+         volumes = volumes_of(inputs, gaps, cavitation_volumes)
          if (accuracy == quick_films) then
             film = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
             return

@@ -32,7 +32,7 @@ contains
       else if (film%status == film_closed) then
          reason = 'the film of pad '//to_text(number)//' closed'//thickness
       else if (film%status == film_not_converged .and. .not. film%residual > 0) then
-         reason = 'the film of pad '//to_text(number)//' did not converge: where it ruptures does not settle; try ' &
+         reason = 'the film of pad '//to_text(number)//' did not converge: where it cavitates does not settle; try ' &
             & //'other volumes (film%circumferential_cells, film%axial_cells)'
       else if (film%status == film_not_converged) then
          reason = 'the film of pad '//to_text(number)//' did not converge: residual '//to_text(film%residual) &

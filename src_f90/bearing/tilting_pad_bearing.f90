@@ -66,9 +66,9 @@ module tilting_pad_bearing
       procedure :: pivot_deflection
       procedure :: pivot_load
       procedure :: counters
-      procedure :: films_rupture
+      procedure :: films_cavitate
       procedure :: films_converge
-      procedure :: set_rupture
+      procedure :: set_cavitation
       procedure :: use_in_statics
       procedure, private :: evaluate_films
       procedure, private :: set_loads
@@ -127,7 +127,7 @@ contains
       class(film_solver_type), allocatable :: film
       call make_film(inputs, self%accuracy, film)
       film%counters = self%film%counters
-      call film%set_rupture(self%film%ruptures())
+      call film%set_cavitation(self%film%cavitates())
       call move_alloc(film, self%film)
    end subroutine make_films_anew
 
@@ -329,11 +329,11 @@ contains
       counters = self%film%counters
    end function counters
 
-   !> True where the films rupture.
-   pure logical function films_rupture(self)
+   !> True where the films cavitate.
+   pure logical function films_cavitate(self)
       class(tilting_pad_bearing_type), intent(in) :: self
-      films_rupture = self%film%ruptures()
-   end function films_rupture
+      films_cavitate = self%film%cavitates()
+   end function films_cavitate
 
    !> False where a film of the state evaluated last, solved by iteration, did not converge.
    pure logical function films_converge(self)
@@ -341,10 +341,10 @@ contains
       films_converge = all(self%response%status /= film_not_converged)
    end function films_converge
 
-   !> Lets the films rupture by their condition, or keeps them whole.
-   subroutine set_rupture(self, allowed)
+   !> Lets the films cavitate by their condition, or keeps them whole.
+   subroutine set_cavitation(self, allowed)
       class(tilting_pad_bearing_type), intent(inout) :: self
       logical, intent(in) :: allowed
-      call self%film%set_rupture(allowed)
-   end subroutine set_rupture
+      call self%film%set_cavitation(allowed)
+   end subroutine set_cavitation
 end module tilting_pad_bearing

@@ -119,7 +119,7 @@ contains
       class(branch_progress_type), intent(inout), target :: self
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: at_rest(:)
-      call make_static(model, model%point%rupture, self%static)
+      call make_static(model, model%point%cavitation, self%static)
       self%ode%oil = new_frozen_viscosity(varied_bearing_type(self%static, self%parameter), at_rest)
    end subroutine begin_oil
 

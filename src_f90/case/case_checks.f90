@@ -43,7 +43,7 @@ contains
          call require(f%axial_cells /= 1, 'film%axial_cells = 1: must be 2 or more, or 0 for enough', error)
          call require(f%solver /= 'modal' .or. f%cavitation /= 'reynolds', 'film%solver = ''modal''' &
             & //': needs film%cavitation = ''gumbel'' or ''none''; film%solver = ''auto'' knows ''reynolds''', error)
-         ! where films rupture, elimination keeps a block of (axial cells/2)**2 values a column and pad;
+         ! where films cavitate, elimination keeps a block of (axial cells/2)**2 values a column and pad;
          ! 0 stands for some 100 columns
          most = int(sqrt(most_in_blocks/(max(cells, 100)*inputs%pad_count())))
          call require(f%solver == 'sor' .or. f%cavitation /= 'reynolds' .or. f%axial_cells <= most, &

@@ -14,8 +14,8 @@ module operating_point
       real(wp) :: load(2) = 0
       !> Unbalance, kg m.
       real(wp) :: unbalance = 0
-      !> False: the pivots are without friction; the films do not rupture, whatever their condition.
-      logical :: friction = .true., rupture = .true.
+      !> False: the pivots are without friction; the films do not cavitate, whatever their condition.
+      logical :: friction = .true., cavitation = .true.
    contains
       procedure :: speed
       procedure :: shaft_angle

@@ -28,7 +28,7 @@ module damped_newton
    real(wp), parameter :: longest_move = 0.2_wp
    !> Move below which an iteration without progress is the last.
    real(wp), parameter :: shortest_move = 1e-12_wp
-   !> Trace of damping for pads whose film has ruptured everywhere, over mass and speed.
+   !> Trace of damping for pads whose film has cavitated everywhere, over mass and speed.
    real(wp), parameter :: trace = 1e-3_wp
 
 contains

@@ -54,7 +54,7 @@ contains
          call guess_oil(warm, guess)
          call find_isothermal(warm, found, error, give_up)
          if (.not. allocated(error)) then
-            call make_static(warm, warm%point%rupture, static)
+            call make_static(warm, warm%point%cavitation, static)
             y = static%at_rest(found%journal, found%tilt, found%pivot_deflection)
             call come_to_warm_rest(static, y, found%residual, error, give_up)
          end if
@@ -78,7 +78,7 @@ contains
       type(search_traces) :: traces
       real(wp), allocatable :: y(:)
       logical :: by_full_films
-      call make_static(model, model%point%rupture, static)
+      call make_static(model, model%point%cavitation, static)
       call search_first(model, static, y, found%residual, by_full_films, traces%films_fail, error, give_up)
       if (.not. allocated(error)) then
          found%search = trim(merge('full films', 'first     ', by_full_films))
@@ -101,7 +101,7 @@ contains
       end if
    end subroutine find_isothermal
 
-   !> From the best start along the load; with films that rupture also from the equilibrium with full films: on the way
+   !> From the best start along the load; with films that cavitate also from the equilibrium with full films: on the way
    !> a pad may lose its film and with it all stiffness.
    subroutine search_first(model, static, y, residual, by_full_films, films_fail, error, give_up)
       type(bearing_model), intent(in) :: model
@@ -117,16 +117,16 @@ contains
       real(wp), allocatable :: y_whole(:)
       y = best_start(static, give_up)
       call follow_motion(static, y, residual, error, give_up, &
-         & most=merge(patience, huge(patience), static%bearing%films_rupture()))
+         & most=merge(patience, huge(patience), static%bearing%films_cavitate()))
       films_fail = .not. static%bearing%films_converge()
       by_full_films = .false.
-      if (.not. allocated(error) .or. .not. static%bearing%films_rupture()) return
+      if (.not. allocated(error) .or. .not. static%bearing%films_cavitate()) return
       if (error%status == stopped) return
       call make_static(model, .false., whole)
       y_whole = best_start(whole, give_up)
       call follow_motion(whole, y_whole, residual, second_error, give_up)
       if (.not. allocated(second_error)) then
-         call make_static(model, model%point%rupture, static)
+         call make_static(model, model%point%cavitation, static)
          call follow_motion(static, y_whole, residual, second_error, give_up)
       end if
       if (.not. allocated(second_error)) then
@@ -175,7 +175,7 @@ contains
       integer :: method, k
       logical :: ok
       if (allocated(found%tilt)) deallocate (found%tilt)
-      call make_quick(static%inputs, static%oil%viscosity, static%point%rupture, quick)
+      call make_quick(static%inputs, static%oil%viscosity, static%point%cavitation, quick)
       do method = 1, size(methods)
          do k = 1, starts
             if (asked(give_up)) return
@@ -266,9 +266,9 @@ contains
       real(wp) :: y(model%n)
       logical :: at_rest(model%layout%pads), ok
       integer :: k
-      call make_static(model, model%point%rupture, static)
+      call make_static(model, model%point%cavitation, static)
       if (has_warm_oil(model)) call guess_oil(static, 1)
-      call make_quick(model%inputs, static%oil%viscosity, model%point%rupture, quick)
+      call make_quick(model%inputs, static%oil%viscosity, model%point%cavitation, quick)
       do k = 1, starts
          y = start(quick, k)
          call eliminate_pads(quick, y, at_rest, ok, give_up)

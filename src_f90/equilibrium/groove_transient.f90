@@ -40,7 +40,7 @@ contains
       integer :: k
       call set_nodes(model, duration, time)
       allocate (viscosity(size(entering), 0:ubound(time, 1)))
-      call make_static(model, model%point%rupture, static)
+      call make_static(model, model%point%cavitation, static)
       state = y
       entering = 0
       do k = 0, ubound(time, 1)

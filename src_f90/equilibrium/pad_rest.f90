@@ -53,7 +53,7 @@ contains
       pads = model%layout%pad_states(y)
       do i = 1, size(at_rest)
          if (at_rest(i)) cycle
-         call make_quick(case_of_pad(model%inputs, i), model%oil(i:i)%viscosity, model%point%rupture, alone)
+         call make_quick(case_of_pad(model%inputs, i), model%oil(i:i)%viscosity, model%point%cavitation, alone)
          call find_rest(alone, journal, pads(i), at_rest(i))
       end do
       y = model%state(journal, pads)

@@ -31,7 +31,7 @@ module static_model
       character(len=:), allocatable :: search
    end type equilibrium_type
 
-   !> Unbalanced force over the reference force that leaps of ruptured films may leave.
+   !> Unbalanced force over the reference force that leaps of cavitated films may leave.
    real(wp), parameter :: largest_leap = 1e-5_wp
 
    !> Positions of the journal to start from, in bearing clearances down the load.
@@ -41,33 +41,33 @@ module static_model
 contains
 
    !> A copy of the model at the static operating point, its films solved closely.
-   subroutine make_static(model, rupture, static)
+   subroutine make_static(model, cavitation, static)
       type(bearing_model), intent(in) :: model
-      logical, intent(in) :: rupture
+      logical, intent(in) :: cavitation
       type(bearing_model), intent(out) :: static
       static = model
-      call stand_still(static, rupture)
+      call stand_still(static, cavitation)
       call static%bearing%use_in_statics(static%inputs)
    end subroutine make_static
 
-   subroutine stand_still(model, rupture)
+   subroutine stand_still(model, cavitation)
       type(bearing_model), intent(inout) :: model
-      logical, intent(in) :: rupture
+      logical, intent(in) :: cavitation
       type(operating_point_type) :: point
       point = model%point%static()
-      point%rupture = rupture
+      point%cavitation = cavitation
       call model%set_point(point)
    end subroutine stand_still
 
    !> A static model of a case with films solved loosely: quick, and nearly the case's.
-   subroutine make_quick(inputs, viscosity, rupture, quick)
+   subroutine make_quick(inputs, viscosity, cavitation, quick)
       type(case_type), intent(in) :: inputs
       !> Of the oil on every pad, Pa s.
       real(wp), intent(in) :: viscosity(:)
-      logical, intent(in) :: rupture
+      logical, intent(in) :: cavitation
       type(bearing_model), intent(out) :: quick
       quick = new_bearing_model(inputs, quick_films)
-      call stand_still(quick, rupture)
+      call stand_still(quick, cavitation)
       quick%oil%viscosity = viscosity
    end subroutine make_quick
 
@@ -76,10 +76,10 @@ contains
       type(bearing_model), intent(in) :: model
       type(bearing_model), intent(out) :: fine
       fine = new_bearing_model(model%inputs, converged_films)
-      call stand_still(fine, model%point%rupture)
+      call stand_still(fine, model%point%cavitation)
    end subroutine make_fine
 
-   !> Brings a state that is nearly at rest to rest by Newton's method. Volumes of ruptured films make their force leap
+   !> Brings a state that is nearly at rest to rest by Newton's method. Volumes of cavitated films make their force leap
    !> by less than its error; where the rest lies in a leap, y ends beside it.
    subroutine come_to_rest(model, y, residual, error, give_up, held, most)
       type(bearing_model), intent(inout) :: model

@@ -16,7 +16,7 @@ module thermal_equilibrium
    public :: guess_oil, guesses, come_to_warm_rest
 
    !> Difference of the logarithms of viscosities and of those that the balance wants, at the end; what leaps of
-   !> ruptured films may leave.
+   !> cavitated films may leave.
    real(wp), parameter :: agreement = 1e-8_wp, largest_leap = 1e-4_wp
    !> Largest change of such a logarithm in a round, and least that is worth a try; most rounds.
    real(wp), parameter :: longest_step = 1, shortest_step = 1e-2_wp

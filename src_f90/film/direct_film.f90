@@ -1,8 +1,8 @@
-!> Axial modes while the film is whole; for what rupture changes, for a pad at an instant, the equations of
+!> Axial modes while the film is whole; for what cavitation changes, for a pad at an instant, the equations of
 !> over-relaxation solved by elimination.
 !>
-!> Where the film ruptures the force is that of the finite volumes with rupture, plus c times (modal - finite
-!> volumes without rupture), with c = 1 up to a tension of the whole film of a tenth of its maximum pressure,
+!> Where the film cavitates the force is that of the finite volumes with cavitation, plus c times (modal - finite
+!> volumes without cavitation), with c = 1 up to a tension of the whole film of a tenth of its maximum pressure,
 !> and 0 where they are the same. So at the onset the force does not jump by the difference of the two
 !> discretisations, a loaded pad keeps the modes' accuracy, and an empty pad is left to the finite volumes alone.
 module direct_film
@@ -14,10 +14,10 @@ module direct_film
    use following_volumes, only: new_following_film
    implicit none (type, external)
    private
-   public :: direct_film_type, new_direct_film, is_ruptured, share_of_modes
+   public :: direct_film_type, new_direct_film, is_cavitated, share_of_modes
 
    !> How far below the cavitation pressure the whole film may fall, over its maximum pressure, before it
-   !> counts as ruptured: the force left out is of the second order in it, below the discretisation error.
+   !> counts as cavitated: the force left out is of the second order in it, below the discretisation error.
    real(wp), parameter :: slight_tension = 1e-4_wp
 
    !> Rows of the volumes of a fine field.
@@ -36,11 +36,11 @@ module direct_film
       real(wp), allocatable :: cavitation_pressure(:), clearance(:)
       type(modal_film_type) :: modal
       type(elimination_film_type), allocatable :: volumes(:)
-      !> Whether the elimination looks for rupture: as the solver was made; in force.
+      !> Whether the elimination looks for cavitation: as the solver was made; in force.
       logical :: made_to_project = .true., projects = .true.
    contains
-      procedure :: ruptures
-      procedure :: set_rupture
+      procedure :: cavitates
+      procedure :: set_cavitation
       procedure :: forget
       procedure :: evaluate
       procedure :: field
@@ -72,17 +72,17 @@ contains
       end do
    end function new_direct_film
 
-   pure logical function ruptures(self)
+   pure logical function cavitates(self)
       class(direct_film_type), intent(in) :: self
-      ruptures = self%projects .or. self%modal%ruptures()
-   end function ruptures
+      cavitates = self%projects .or. self%modal%cavitates()
+   end function cavitates
 
-   pure subroutine set_rupture(self, allowed)
+   pure subroutine set_cavitation(self, allowed)
       class(direct_film_type), intent(inout) :: self
       logical, intent(in) :: allowed
       self%projects = self%made_to_project .and. allowed
-      call self%modal%set_rupture(allowed)
-   end subroutine set_rupture
+      call self%modal%set_cavitation(allowed)
+   end subroutine set_cavitation
 
    pure subroutine forget(self)
       class(direct_film_type), intent(inout) :: self
@@ -111,30 +111,30 @@ contains
             if (.not. chosen(i)) cycle
          end if
          if (response(i)%status /= film_ok) cycle
-         if (.not. (self%projects .and. is_ruptured(self%cavitation_pressure(i), response(i)))) then
+         if (.not. (self%projects .and. is_cavitated(self%cavitation_pressure(i), response(i)))) then
             self%counters%modal = self%counters%modal + 1
             cycle
          end if
          self%counters%volumes = self%counters%volumes + 1
          few = .false.
          if (.not. share_of_modes(self%cavitation_pressure(i), response(i)) < 1) then
-            call self%volumes(i)%force_of_rupture(motion(i), oil(i), speed, self%counters, force, few)
+            call self%volumes(i)%force_of_cavitation(motion(i), oil(i), speed, self%counters, force, few)
          end if
          if (few) then
             if (want_derivatives) response(i)%derivatives = response(i)%derivatives &
-               & + derivatives_of_rupture(self, i, motion(i), oil(i), speed, force)
+               & + derivatives_of_cavitation(self, i, motion(i), oil(i), speed, force)
             response(i)%force = response(i)%force + force
             response(i)%min_pressure = self%cavitation_pressure(i)
          else
-            call change_of_rupture(self, i, motion(i), oil, speed, want_derivatives, response(i), changed)
+            call change_of_cavitation(self, i, motion(i), oil, speed, want_derivatives, response(i), changed)
             response(i) = changed
          end if
       end do
    end subroutine evaluate
 
-   !> Derivatives of what slight rupture adds to a pad's force, by differences: it is solved exactly, and cheaper
+   !> Derivatives of what slight cavitation adds to a pad's force, by differences: it is solved exactly, and cheaper
    !> four times than its adjoints once. Where a neighbour is not slight any more its derivative is left out.
-   function derivatives_of_rupture(self, i, motion, oil, speed, force) result(derivatives)
+   function derivatives_of_cavitation(self, i, motion, oil, speed, force) result(derivatives)
       class(direct_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
@@ -146,10 +146,10 @@ contains
       step = steps(self%clearance(i), speed)
       derivatives = 0
       do k = 1, 4
-         call self%volumes(i)%force_of_rupture(moved(motion, k, step(k)), oil, speed, self%counters, near, few)
+         call self%volumes(i)%force_of_cavitation(moved(motion, k, step(k)), oil, speed, self%counters, near, few)
          if (few) derivatives(:, k) = (near - force)/step(k)
       end do
-   end function derivatives_of_rupture
+   end function derivatives_of_cavitation
 
    !> Derivatives of c of a pad, by differences of the pressures of its modes.
    function derivatives_of_share(self, i, motion, oil, speed, c) result(derivatives)
@@ -189,8 +189,8 @@ contains
       if (k > 2) moved%velocity(k - 2) = moved%velocity(k - 2) + step
    end function moved
 
-   !> A pad's ruptured film by elimination, from that of the modes.
-   subroutine change_of_rupture(self, i, motion, oil, speed, want_derivatives, modal, ruptured)
+   !> A pad's cavitated film by elimination, from that of the modes.
+   subroutine change_of_cavitation(self, i, motion, oil, speed, want_derivatives, modal, cavitated)
       class(direct_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
@@ -198,34 +198,35 @@ contains
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_response), intent(in) :: modal
-      type(film_response), intent(out) :: ruptured
+      type(film_response), intent(out) :: cavitated
       type(film_response) :: whole
       real(wp) :: c, differing(2), slopes(4)
       integer :: k
       c = share_of_modes(self%cavitation_pressure(i), modal)
-      call self%volumes(i)%evaluate(motion, oil(i), speed, .true., want_derivatives, self%counters, ruptured)
-      if (ruptured%status /= film_ok .or. .not. c > 0) return
+      call self%volumes(i)%evaluate(motion, oil(i), speed, .true., want_derivatives, self%counters, cavitated)
+      if (cavitated%status /= film_ok .or. .not. c > 0) return
       call self%volumes(i)%evaluate(motion, oil(i), speed, .false., want_derivatives, self%counters, whole)
       differing = modal%force - whole%force
-      ruptured%force = ruptured%force + c*differing
-      if (want_derivatives) ruptured%derivatives = ruptured%derivatives + c*(modal%derivatives - whole%derivatives)
-      if (want_derivatives .and. c < 1 .and. norm2(differing) > coarse*norm2(ruptured%force)) then
+      cavitated%force = cavitated%force + c*differing
+      if (want_derivatives) cavitated%derivatives = cavitated%derivatives + c*(modal%derivatives - whole%derivatives)
+      if (want_derivatives .and. c < 1 .and. norm2(differing) > coarse*norm2(cavitated%force)) then
          slopes = derivatives_of_share(self, i, motion, oil, speed, c)
          do k = 1, 4
-            ruptured%derivatives(:, k) = ruptured%derivatives(:, k) + slopes(k)*differing
+            cavitated%derivatives(:, k) = cavitated%derivatives(:, k) + slopes(k)*differing
          end do
       end if
-      ruptured%max_pressure = ruptured%max_pressure + c*(modal%max_pressure - whole%max_pressure)
-   end subroutine change_of_rupture
+      cavitated%max_pressure = cavitated%max_pressure + c*(modal%max_pressure - whole%max_pressure)
+   end subroutine change_of_cavitation
 
-   !> True where a pad whose whole film has the response `modal` ruptures at this pressure, Pa.
-   pure logical function is_ruptured(cavitation_pressure, modal)
+   !> True where a pad whose whole film has the response `modal` cavitates at this pressure, Pa.
+   pure logical function is_cavitated(cavitation_pressure, modal)
       real(wp), intent(in) :: cavitation_pressure
       type(film_response), intent(in) :: modal
-      is_ruptured = cavitation_pressure - modal%min_pressure > slight_tension*(modal%max_pressure - cavitation_pressure)
-   end function is_ruptured
+      is_cavitated = cavitation_pressure - modal%min_pressure > slight_tension*(modal%max_pressure &
+         - cavitation_pressure)
+   end function is_cavitated
 
-   !> c of a pad whose whole film has the response `modal`, where it ruptures at this pressure, Pa.
+   !> c of a pad whose whole film has the response `modal`, where it cavitates at this pressure, Pa.
    pure real(wp) function share_of_modes(cavitation_pressure, modal) result(c)
       real(wp), intent(in) :: cavitation_pressure
       type(film_response), intent(in) :: modal
@@ -245,7 +246,7 @@ contains
       call rebuild(self, .false., motion, oil, speed, phi, z, pressure)
    end subroutine field
 
-   !> The field, where it ruptures as accurate as the force from tables.
+   !> The field, where it cavitates as accurate as the force from tables.
    subroutine fine_field(self, motion, oil, speed, phi, z, pressure)
       class(direct_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
@@ -255,8 +256,8 @@ contains
       call rebuild(self, .true., motion, oil, speed, phi, z, pressure)
    end subroutine fine_field
 
-   !> The field. Where the film ruptures, that of volumes that follow it; or as the force: that of the finite volumes
-   !> with rupture and, outside the rupture, c times (modes - finite volumes without rupture).
+   !> The field. Where the film cavitates, that of volumes that follow it; or as the force: that of the finite volumes
+   !> with cavitation and, outside the cavitation, c times (modes - finite volumes without cavitation).
    subroutine rebuild(self, follows, motion, oil, speed, phi, z, pressure)
       class(direct_film_type), intent(inout) :: self
       logical, intent(in) :: follows
@@ -266,7 +267,7 @@ contains
       real(wp), intent(out) :: pressure(:, :, :)
       type(elimination_film_type) :: film
       type(film_response) :: response(size(motion))
-      real(wp), dimension(size(z), size(phi, 1)) :: ruptured, whole
+      real(wp), dimension(size(z), size(phi, 1)) :: cavitated, whole
       real(wp) :: c
       integer :: i
       call self%modal%evaluate(motion, oil, speed, .false., response)
@@ -274,17 +275,17 @@ contains
       if (.not. self%projects) return
       do i = 1, size(motion)
          associate (lowest => self%cavitation_pressure(i))
-            if (.not. is_ruptured(lowest, response(i))) then
+            if (.not. is_cavitated(lowest, response(i))) then
                pressure(:, :, i) = max(lowest, pressure(:, :, i))
             else if (follows) then
                film = new_following_film(self%gaps(i), motion(i), speed, fine_rows)
                call film%field(motion(i), oil(i), speed, .true., phi(:, i), z, pressure(:, :, i))
             else
                c = share_of_modes(lowest, response(i))
-               call self%volumes(i)%field(motion(i), oil(i), speed, .true., phi(:, i), z, ruptured)
+               call self%volumes(i)%field(motion(i), oil(i), speed, .true., phi(:, i), z, cavitated)
                call self%volumes(i)%field(motion(i), oil(i), speed, .false., phi(:, i), z, whole)
-               where (ruptured > lowest) ruptured = max(lowest, ruptured + c*(pressure(:, :, i) - whole))
-               pressure(:, :, i) = ruptured
+               where (cavitated > lowest) cavitated = max(lowest, cavitated + c*(pressure(:, :, i) - whole))
+               pressure(:, :, i) = cavitated
             end if
          end associate
       end do

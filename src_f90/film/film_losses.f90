@@ -4,18 +4,18 @@
 !> Shear makes mu U^2/h of heat by the sliding of the journal's surface (Couette) and h^3/(12 mu) |grad p|^2 by what
 !> pressure drives. With the velocity w that drives the film (middle_frame) the second integrates to -w . F, F the force
 !> of the pressure above that of cavitation, plus the power of the flows through edges under pressure; this holds for
-!> ruptured films too. Of a whole film the first is Sommerfeld's variable along the arc, and what pressure drives
+!> cavitated films too. Of a whole film the first is Sommerfeld's variable along the arc, and what pressure drives
 !> through an edge is, by reciprocity, the force of a unit of pressure there, times w.
 !>
-!> Where a film ruptures, finite volumes that follow it give the force and the flows with and without rupture, and how
-!> far the ruptured part is filled.
+!> Where a film cavitates, finite volumes that follow it give the force and the flows with and without cavitation, and
+!> how far the cavitated part is filled.
 module film_losses
    use kinds, only: wp
    use film_solver, only: film_motion, film_oil, film_response, film_counters, film_ok
    use pad_gap, only: pad_gap_type, pad_directions
    use film_grid, only: film_grid_type
    use elimination_film, only: elimination_film_type
-   use direct_film, only: is_ruptured, share_of_modes
+   use direct_film, only: is_cavitated, share_of_modes
    use following_volumes, only: new_following_film
    use modal_film, only: modal_film_type, converged_film
    use sommerfeld_nodes, only: span
@@ -39,7 +39,7 @@ module film_losses
       real(wp) :: couette = 0, pressure = 0, wedge = 0
       !> Flow in at the leading edge, out at the trailing edge and out at both sides, m^3/s.
       real(wp) :: inlet = 0, outlet = 0, side = 0
-      !> What a film takes up downstream of a rupture beyond what arrives there, m^3/s.
+      !> What a film takes up downstream of a cavitation beyond what arrives there, m^3/s.
       real(wp) :: unfed = 0
    end type film_loss
 
@@ -51,28 +51,28 @@ module film_losses
       !> The whole film; that of a pressure of 1 Pa at the leading and, in a mirror, at the trailing edge.
       type(modal_film_type) :: whole, leading, trailing
       logical :: reynolds, gumbel
-      !> Of the volumes of a ruptured film.
+      !> Of the volumes of a cavitated film.
       integer :: rows
    contains
       procedure :: find
       procedure, private :: whole_film
-      procedure, private :: add_rupture
+      procedure, private :: add_cavitation
       procedure, private :: set_heat
    end type film_losses_type
 
    !> What its heat follows from: force, N; flow that pressure drives in at the leading edge, m^3/s; integral of
-   !> (sin phi, cos phi) over the ruptured part, m^2.
+   !> (sin phi, cos phi) over the cavitated part, m^2.
    type :: driven_film
       real(wp) :: force(2) = 0, inlet = 0, void(2) = 0
    end type driven_film
 
 contains
 
-   !> For the films in a gap that rupture by the condition of Reynolds or Guembel or not at all.
+   !> For the films in a gap that cavitate by the condition of Reynolds or Guembel or not at all.
    pure type(film_losses_type) function new_film_losses(gap, reynolds, gumbel, rows) result(self)
       type(pad_gap_type), intent(in) :: gap
       logical, intent(in) :: reynolds, gumbel
-      !> Of the volumes of a ruptured film; enough, by default.
+      !> Of the volumes of a cavitated film; enough, by default.
       integer, intent(in), optional :: rows
       type(pad_gap_type) :: edge
       self%gap = gap
@@ -107,7 +107,7 @@ contains
       driven%force = response(1)%force
       call self%whole_film(motion, oil, speed, driven, loss)
       if (self%reynolds .or. self%gumbel) then
-         if (is_ruptured(self%gap%cavitation_pressure, response(1))) call self%add_rupture(motion, oil, &
+         if (is_cavitated(self%gap%cavitation_pressure, response(1))) call self%add_cavitation(motion, oil, &
             & speed, response(1), driven, loss)
       end if
       loss%force = driven%force
@@ -175,8 +175,9 @@ contains
       wedge_velocity = speed*self%gap%journal_radius/(2*self%gap%pad_radius())*[motion%position(2), -motion%position(1)]
    end function wedge_velocity
 
-   !> Makes the film that of volumes with rupture and, like direct_film, a share c of (modes - volumes without rupture).
-   subroutine add_rupture(self, motion, oil, speed, modal, driven, loss)
+   !> Makes the film that of volumes with cavitation and, like direct_film, a share c of (modes - volumes without
+   !> cavitation).
+   subroutine add_cavitation(self, motion, oil, speed, modal, driven, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil
@@ -186,16 +187,16 @@ contains
       type(driven_film), intent(inout) :: driven
       type(film_loss), intent(inout) :: loss
       type(elimination_film_type) :: volumes(2)
-      type(volume_flow_type) :: whole(2), ruptured(2)
+      type(volume_flow_type) :: whole(2), cavitated(2)
       real(wp) :: c
       integer :: k, status
       do k = 1, 2
          volumes(k) = new_following_film(self%gap, motion, speed, k*(self%rows/2))
-         call by_volumes(self, volumes(:k), motion, oil, speed, whole(k), ruptured(k), status)
+         call by_volumes(self, volumes(:k), motion, oil, speed, whole(k), cavitated(k), status)
          loss%status = max(loss%status, status)
       end do
       c = share_of_modes(self%gap%cavitation_pressure, modal)
-      associate (w => finer(whole(1), whole(2)), r => finer(ruptured(1), ruptured(2)))
+      associate (w => finer(whole(1), whole(2)), r => finer(cavitated(1), cavitated(2)))
          driven%force = r%force + c*(driven%force - w%force)
          driven%inlet = r%inlet + c*(driven%inlet - w%inlet)
          driven%void = r%void
@@ -204,17 +205,17 @@ contains
          loss%side = r%side + c*(loss%side - w%side)
          loss%unfed = r%unfed
       end associate
-   end subroutine add_rupture
+   end subroutine add_cavitation
 
-   !> The film on the last of these volumes that follow it, without and with rupture; in the film before, if there is
-   !> one, rupture was found already.
-   subroutine by_volumes(self, volumes, motion, oil, speed, whole, ruptured, status)
+   !> The film on the last of these volumes that follow it, without and with cavitation; in the film before, if there is
+   !> one, cavitation was found already.
+   subroutine by_volumes(self, volumes, motion, oil, speed, whole, cavitated, status)
       class(film_losses_type), intent(in) :: self
       type(elimination_film_type), intent(inout) :: volumes(:)
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
-      type(volume_flow_type), intent(out) :: whole, ruptured
+      type(volume_flow_type), intent(out) :: whole, cavitated
       integer, intent(out) :: status
       type(film_grid_type) :: grid
       type(film_response) :: response
@@ -228,9 +229,9 @@ contains
             if (size(volumes) > 1) call finest%start_from(volumes(1))
             call finest%evaluate(motion, oil, speed, .true., .false., counters, response)
             call finest%cells(grid, pressure, film)
-            ruptured = flows_of_volumes(grid, oil, surface, pressure, film > 0)
+            cavitated = flows_of_volumes(grid, oil, surface, pressure, film > 0)
          else
-            ruptured = flows_of_volumes(grid, oil, surface, pressure, pressure > 0)
+            cavitated = flows_of_volumes(grid, oil, surface, pressure, pressure > 0)
          end if
       end associate
       status = response%status

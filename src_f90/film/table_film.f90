@@ -1,7 +1,7 @@
 !> Films as tables, built where the motion goes (docs/theory/film.md, *The table*).
 !>
-!> The whole film comes from one table; where it ruptures, another adds what rupture changes. Pads of the same shape
-!> share their tables. What no table has, films that nearly close and those that may rupture with different pressures
+!> The whole film comes from one table; where it cavitates, another adds what cavitation changes. Pads of the same shape
+!> share their tables. What no table has, films that nearly close and those that may cavitate with different pressures
 !> around them, is left to the solver whose films are tabulated.
 module table_film
    use kinds, only: wp
@@ -12,7 +12,7 @@ module table_film
    use full_film, only: new_solved_full_film
    use cavitated_film, only: new_solved_cavitated_film
    use whole_table, only: new_whole_table
-   use rupture_table, only: new_rupture_table
+   use cavitation_table, only: new_cavitation_table
    use table_pad, only: table_pad_type, shape_tables, new_table_pad
    implicit none (type, external)
    private
@@ -20,11 +20,11 @@ module table_film
 
    !> Pads with half arcs above this, rad, have no table: their film is not told by its thickness at the edges.
    real(wp), parameter :: largest_half_arc = 1.3_wp
-   !> Error of the whole film over that of what rupture changes.
+   !> Error of the whole film over that of what cavitation changes.
    real(wp), parameter :: share_of_whole = 0.1_wp
 
-   !> Most cells of whole films, and most cells and most nodes of ruptured ones, over all shapes: 0.3 GB.
-   integer, parameter :: most_whole = 16000, most_ruptured = 100000
+   !> Most cells of whole films, and most cells and most nodes of cavitated ones, over all shapes: 0.3 GB.
+   integer, parameter :: most_whole = 16000, most_cavitated = 100000
 
    type, extends(film_solver_type) :: table_film_type
       private
@@ -32,11 +32,11 @@ module table_film
       type(shape_tables), allocatable :: shapes(:)
       !> Of every pad the solver for what is in no table.
       type(direct_film_type), allocatable :: single(:)
-      !> Whether the solver was made for films that rupture, and whether they may.
-      logical :: made_to_rupture, may_rupture
+      !> Whether the solver was made for films that cavitate, and whether they may.
+      logical :: made_to_cavitation, may_cavitation
    contains
-      procedure :: ruptures
-      procedure :: set_rupture
+      procedure :: cavitates
+      procedure :: set_cavitation
       procedure :: forget
       procedure :: evaluate
       procedure :: take_pressures
@@ -46,31 +46,31 @@ module table_film
 
 contains
 
-   !> Tables for the films in these gaps, that rupture by Guembel's condition, by that of Reynolds or not at all, with
+   !> Tables for the films in these gaps, that cavitate by Guembel's condition, by that of Reynolds or not at all, with
    !> errors of this tolerance over the force.
-   function new_table_film(gaps, single, ruptures, gumbel, tolerance) result(solver)
+   function new_table_film(gaps, single, cavitates, gumbel, tolerance) result(solver)
       type(pad_gap_type), intent(in) :: gaps(:)
       !> Of every pad the solver for what is in no table.
       type(direct_film_type), intent(in) :: single(:)
-      logical, intent(in) :: ruptures, gumbel
+      logical, intent(in) :: cavitates, gumbel
       real(wp), intent(in) :: tolerance
       type(table_film_type) :: solver
       integer :: k
-      solver = sorted_by_shape(gaps, single, ruptures)
+      solver = sorted_by_shape(gaps, single, cavitates)
       do k = 1, size(solver%shapes)
          associate (shape => solver%shapes(k))
             shape%whole = new_whole_table(shape%pad, shape%supplied, share_of_whole*tolerance, most_whole/size(gaps))
-            shape%rupture = new_rupture_table(shape%pad, gumbel, tolerance, most_ruptured/size(gaps))
+            shape%cavitation = new_cavitation_table(shape%pad, gumbel, tolerance, most_cavitated/size(gaps))
          end associate
       end do
    end function new_table_film
 
    !> The same films, solved at the motions themselves: quicker where motions are few, with exact derivatives. Errors of
-   !> what rupture changes and of full films are these.
-   function new_converged_film(gaps, single, ruptures, gumbel, tolerance, full_tolerance) result(solver)
+   !> what cavitation changes and of full films are these.
+   function new_converged_film(gaps, single, cavitates, gumbel, tolerance, full_tolerance) result(solver)
       type(pad_gap_type), intent(in) :: gaps(:)
       type(direct_film_type), intent(in) :: single(:)
-      logical, intent(in) :: ruptures, gumbel
+      logical, intent(in) :: cavitates, gumbel
       real(wp), intent(in) :: tolerance
       real(wp), intent(in), optional :: full_tolerance
       type(table_film_type) :: solver
@@ -78,27 +78,27 @@ contains
       integer :: k
       of_full = share_of_whole*tolerance
       if (present(full_tolerance)) of_full = full_tolerance
-      solver = sorted_by_shape(gaps, single, ruptures)
+      solver = sorted_by_shape(gaps, single, cavitates)
       do k = 1, size(solver%shapes)
          associate (shape => solver%shapes(k))
             shape%whole = new_solved_full_film(shape%pad, of_full)
-            shape%rupture = new_solved_cavitated_film(shape%pad, gumbel, tolerance)
+            shape%cavitation = new_solved_cavitated_film(shape%pad, gumbel, tolerance)
          end associate
       end do
    end function new_converged_film
 
    !> The pads with the shapes that they share.
-   function sorted_by_shape(gaps, single, ruptures) result(solver)
+   function sorted_by_shape(gaps, single, cavitates) result(solver)
       type(pad_gap_type), intent(in) :: gaps(:)
       type(direct_film_type), intent(in) :: single(:)
-      logical, intent(in) :: ruptures
+      logical, intent(in) :: cavitates
       type(table_film_type) :: solver
       type(unit_pad_type) :: pads(size(gaps))
       logical :: supplied(size(gaps))
       integer :: i, k, n
       solver%single = single
-      solver%made_to_rupture = ruptures
-      solver%may_rupture = ruptures
+      solver%made_to_cavitation = cavitates
+      solver%may_cavitation = cavitates
       allocate (solver%pads(size(gaps)))
       n = 0
       do i = 1, size(gaps)
@@ -135,20 +135,20 @@ contains
       same = .not. (abs(a%half_arc - b%half_arc) > 0 .or. abs(a%length - b%length) > 0)
    end function same
 
-   pure logical function ruptures(self)
+   pure logical function cavitates(self)
       class(table_film_type), intent(in) :: self
-      ruptures = self%may_rupture
-   end function ruptures
+      cavitates = self%may_cavitation
+   end function cavitates
 
-   pure subroutine set_rupture(self, allowed)
+   pure subroutine set_cavitation(self, allowed)
       class(table_film_type), intent(inout) :: self
       logical, intent(in) :: allowed
       integer :: i
-      self%may_rupture = allowed .and. self%made_to_rupture
+      self%may_cavitation = allowed .and. self%made_to_cavitation
       do i = 1, size(self%single)
-         call self%single(i)%set_rupture(allowed)
+         call self%single(i)%set_cavitation(allowed)
       end do
-   end subroutine set_rupture
+   end subroutine set_cavitation
 
    pure subroutine forget(self)
       class(table_film_type), intent(inout) :: self
@@ -180,7 +180,7 @@ contains
                cycle
             end if
             if (pad%shape > 0) call pad%look_up(self%shapes(pad%shape), motion(i), oil(i), &
-               & speed, self%may_rupture, want_derivatives, response(i))
+               & speed, self%may_cavitation, want_derivatives, response(i))
             if (pad%found) then
                self%counters%looked_up = self%counters%looked_up + 1
             else
@@ -210,9 +210,9 @@ contains
          counters%nodes = 0
          counters%building = 0
          do i = 1, size(shapes)
-            counters%cells = counters%cells + shapes(i)%whole%built + shapes(i)%rupture%built_cells
-            counters%nodes = counters%nodes + shapes(i)%rupture%built_nodes
-            counters%building = counters%building + shapes(i)%whole%seconds + shapes(i)%rupture%seconds
+            counters%cells = counters%cells + shapes(i)%whole%built + shapes(i)%cavitation%built_cells
+            counters%nodes = counters%nodes + shapes(i)%cavitation%built_nodes
+            counters%building = counters%building + shapes(i)%whole%seconds + shapes(i)%cavitation%seconds
          end do
       end associate
    end subroutine count_work
@@ -227,7 +227,7 @@ contains
       integer :: i
       do i = 1, size(motion)
          if (self%pads(i)%found) call self%pads(i)%look_up_pressures(self%shapes(self%pads(i)%shape), motion(i), &
-            & oil(i), speed, self%may_rupture, response(i))
+            & oil(i), speed, self%may_cavitation, response(i))
       end do
    end subroutine take_pressures
 

@@ -99,7 +99,7 @@ contains
       call v%number(bearing%ambient_pressure, field('ambient_pressure', -1e9_wp, 1e9_wp, 'Pa', &
          & 'pressure at the other edges'))
       call v%number(bearing%cavitation_pressure, field('cavitation_pressure', -1e9_wp, 1e9_wp, 'Pa', &
-         & 'pressure at which the film ruptures'))
+         & 'pressure at which the film cavitates'))
    end subroutine visit_bearing
 
    subroutine visit_oil(oil, v)
@@ -273,10 +273,10 @@ contains
       call v%group('film', 'Solver of the Reynolds equation')
       call v%word(film%solver, choice('solver', 'auto direct modal sor', &
          & 'auto: tables of converged films, direct where there is none; direct: axial modes, finite volumes where ' &
-         & //'a film ruptures; modal: axial modes; sor: over-relaxation'))
+         & //'a film cavitates; modal: axial modes; sor: over-relaxation'))
       call v%whole(film%circumferential_cells, field('circumferential_cells', 0.0_wp, 2000.0_wp, '1', &
          & 'direct, modal, sor: cells along the arc, an even number; 0: as many as axial modes need, 80 where a film ' &
-         & //'ruptures, 60 for sor, twice or three times as many from 180 or 300 degrees on'))
+         & //'cavitates, 60 for sor, twice or three times as many from 180 or 300 degrees on'))
       call v%whole(film%axial_cells, field('axial_cells', 0.0_wp, 1000.0_wp, '1', &
          & 'direct, sor: cells along half the width, at least 2; 0: 8, or 15 for sor'))
       call v%whole(film%axial_modes, field('axial_modes', 0.0_wp, 200.0_wp, '1', &
@@ -289,10 +289,10 @@ contains
       call v%whole(film%max_sweeps, field('max_sweeps', 1.0_wp, 1e8_wp, '1', &
          & 'sor: maximum number of sweeps for a film; more is a failure'))
       call v%number(film%table_tolerance, field('table_tolerance', 0.0_wp, 1e-2_wp, '1', &
-         & 'auto: error of forces from tables over that of the film at the onset of rupture; ' &
-         & //'0: relative_tolerance, with reynolds 4 times as much; ruptured films keep to 1.2e-6 at best'))
+         & 'auto: error of forces from tables over that of the film at the onset of cavitation; ' &
+         & //'0: relative_tolerance, with reynolds 4 times as much; cavitated films keep to 1.2e-6 at best'))
       call v%word(film%cavitation, choice('cavitation', 'reynolds gumbel none', &
-         & 'reynolds: p >= p_cav in the solution; gumbel: clipped after the solution; none: no rupture'))
+         & 'reynolds: p >= p_cav in the solution; gumbel: clipped after the solution; none: no cavitation'))
    end subroutine visit_film
 
    subroutine visit_integration(integration, v)

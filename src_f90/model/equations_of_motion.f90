@@ -91,7 +91,7 @@ contains
    subroutine set_point(self, point)
       class(bearing_model), intent(inout) :: self
       type(operating_point_type), intent(in) :: point
-      if (point%rupture .neqv. self%point%rupture) call self%bearing%set_rupture(point%rupture)
+      if (point%cavitation .neqv. self%point%cavitation) call self%bearing%set_cavitation(point%cavitation)
       self%bearing%rubs = point%friction
       self%point = point
    end subroutine set_point
@@ -112,7 +112,7 @@ contains
       self%rotor%mass = inputs%rotor%mass
       point = operating_point_type(inputs)
       if (.not. self%point%friction) point = point%static()
-      point%rupture = self%point%rupture
+      point%cavitation = self%point%cavitation
       call self%set_point(point)
    end subroutine adopt
 

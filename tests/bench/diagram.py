@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from errors import deviations
 from runner import Row, Runner
-from settings import DIAGRAM, FINE, LADDERS, MAIN, UNRUPTURED, Case
+from settings import DIAGRAM, FINE, FULL_FILM, LADDERS, MAIN, Case
 
 #: Groups of the ladder's rows: what the deviations are taken over.
 LAST, WHOLE = "last revolution", "whole run"
@@ -51,5 +51,5 @@ def diagram(runner: Runner) -> Iterator[Row]:
         for setting in settings:
             for case in MAIN:
                 yield runner.judged(runner.references[case.name], case, group, *setting)
-    for case in UNRUPTURED:
+    for case in FULL_FILM:
         yield runner.judged(runner.references[case.name], case, "cavitation 'none'", *FINE)

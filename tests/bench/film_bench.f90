@@ -35,9 +35,9 @@ program film_bench
       & 0.0_wp, 0.0_wp)
    write (output_unit, '(a)') 'film,condition,state,derivatives,microseconds,error,sweeps'
    call compare('whole', [-0.35_wp, 0.5_wp], cavitation_none, 'none')
-   call compare('corner ruptured', [-0.19_wp, 0.5_wp], cavitation_reynolds, 'reynolds')
-   call compare('ruptured', [-0.05_wp, 0.5_wp], cavitation_gumbel, 'gumbel')
-   call compare('ruptured', [-0.05_wp, 0.5_wp], cavitation_reynolds, 'reynolds')
+   call compare('corner cavitated', [-0.19_wp, 0.5_wp], cavitation_reynolds, 'reynolds')
+   call compare('cavitated', [-0.05_wp, 0.5_wp], cavitation_gumbel, 'gumbel')
+   call compare('cavitated', [-0.05_wp, 0.5_wp], cavitation_reynolds, 'reynolds')
    call compare('unloaded', [-0.05_wp, -0.3_wp], cavitation_gumbel, 'gumbel')
    call compare('unloaded', [-0.05_wp, -0.3_wp], cavitation_reynolds, 'reynolds')
    call tabulate()

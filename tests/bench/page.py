@@ -58,7 +58,7 @@ runs. The table gives the deviation of each step from the finest:
 {ladder_words}
 
 The last revolution of the run-up is at full speed. The rows "whole run" give the deviations over its whole
-length, which includes slow revolutions with more rupture of the film.
+length, which includes slow revolutions with more cavitation of the film.
 
 ### Choice of the defaults
 
@@ -107,7 +107,7 @@ Jacobian.
 ### What runs build
 
 A cell is built when the motion first enters it. So the table grows with the motion, not with the run, and
-what a case does not visit it does not build: no node without rupture, few over an orbit, more over a
+what a case does not visit it does not build: no node without cavitation, few over an orbit, more over a
 run-up.
 
 {visits}
@@ -123,7 +123,7 @@ twice the rows, samples as a limit of the step.
 {skips_words}
 
 The program also omits work for which there is no run to compare with: the pressures of a film without
-rupture (it computes the minimum only where rupture is possible), the blocks of Newton's matrix between
+cavitation (it computes the minimum only where cavitation is possible), the blocks of Newton's matrix between
 pads, and samples before `output%start_time`.
 
 ## Periodic orbits
@@ -216,7 +216,7 @@ them, rigid pivots, pads nearly without mass, oil of one viscosity, laminar. ROS
 code is compiled and has solved one speed; it does more than is asked here for (it has a thermal model, for
 instance, that is switched off). ROSS finds the equilibrium anew for each frequency. "K" and "K and C"
 are the largest differences of an element from tiltpad's, over the largest element; they contain the grid of
-ROSS, and both programs treat the rupture of the film in their own way. ROSS 3.1 asks for Python 3.13; where
+ROSS, and both programs treat the cavitation of the film in their own way. ROSS 3.1 asks for Python 3.13; where
 that is not at hand it runs on an older one, which its code allows.
 
 {maps}

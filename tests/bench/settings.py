@@ -65,7 +65,7 @@ FIGURES = {
 #: its derivatives, us.
 MEMORY, FILM_RATIO, FILM_MICROSECONDS = 100, 1000, 0.15
 #: That one film among those timed by themselves: its states and the solver.
-ONE_FILMS, ONE_SOLVER = ("whole, none", "corner ruptured, reynolds"), "table, same cell"
+ONE_FILMS, ONE_SOLVER = ("whole, none", "corner cavitated, reynolds"), "table, same cell"
 #: The error that every case is to stay below, and the setting that is to reach a hundredth of it.
 ALLOWED = 1e-3
 FINE = together("1e-8", "1.6e-6")
@@ -87,21 +87,21 @@ RUNS, RUN_MILLISECONDS, COLLECT_SECONDS = 1000, 6, 10
 #: Start of the program, which does nothing else.
 START_MILLISECONDS = 20
 
-#: Some of them without rupture: whole films alone.
-UNRUPTURED = tuple(
+#: Some of them without cavitation: whole films alone.
+FULL_FILM = tuple(
     Case(f"{case.name}_none", f"{case.label}, cavitation 'none'", case.input_file, ("film%cavitation=none",))
     for case in MAIN[:3]
 )
 
-#: Refinements of the cases of MAIN and of UNRUPTURED up to their references, the last.
+#: Refinements of the cases of MAIN and of FULL_FILM up to their references, the last.
 LADDER = (
     together("1e-6", "1e-5"),
     together("1e-7", "4e-6"),
     FINE,
     together("1e-9", "1.2e-6"),
 )
-UNRUPTURED_LADDER = (together("1e-7", "1e-5"), together("1e-8", "1e-6"), together("1e-9", "1e-7"))
-LADDERS = dict.fromkeys(MAIN, LADDER) | dict.fromkeys(UNRUPTURED, UNRUPTURED_LADDER)
+FULL_FILM_LADDER = (together("1e-7", "1e-5"), together("1e-8", "1e-6"), together("1e-9", "1e-7"))
+LADDERS = dict.fromkeys(MAIN, LADDER) | dict.fromkeys(FULL_FILM, FULL_FILM_LADDER)
 #: Refinements of every case of input/: the last is the reference, the other shows how far it still moves.
 REFINED = (together("1e-7", "1e-5"), together("1e-8", "2e-6"))
 
@@ -156,7 +156,7 @@ FILM_CHECKS = tuple(
 VISITS = tuple(
     Case(f"{MAIN[1].name}_{v}", f"LuGre, {v} s", MAIN[1].input_file, (f"operation%duration={v}",))
     for v in ("0.02", "0.2", "2", "20")
-) + (UNRUPTURED[1], *MAIN[2:])
+) + (FULL_FILM[1], *MAIN[2:])
 
 #: The same pad so many times: pads of 20 degrees all around, preloaded so that each carries, 50 kg a pad.
 PAD_COUNTS = (2, 4, 8, 16)

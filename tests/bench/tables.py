@@ -14,16 +14,16 @@ from settings import (
     FILM_RATIO,
     FINE,
     FINE_ALLOWED,
+    FULL_FILM,
     LADDERS,
     MAIN,
     MEMORY,
     ONE_FILMS,
     ONE_SOLVER,
-    UNRUPTURED,
     VISITS,
 )
 
-LABELS = {case.name: case.label for case in (*MAIN, *UNRUPTURED, *FILM_CASES, *VISITS)}
+LABELS = {case.name: case.label for case in (*MAIN, *FULL_FILM, *FILM_CASES, *VISITS)}
 SIGNALS = "journal y | journal z | tilt | friction moment"
 NOT_RUN = "Not run."
 

@@ -215,7 +215,7 @@ TOGETHER = {
         ["bearing%assembled_clearance", "machined_clearance"],
     ),
     "length in mm": ("&bearing axial_length=100 /", ["bearing%axial_length", "bearing%journal_radius"]),
-    "rupture above supply": (
+    "cavitation above supply": (
         "&bearing cavitation_pressure=1e5 /",
         ["bearing%cavitation_pressure", "supply_pressure"],
     ),

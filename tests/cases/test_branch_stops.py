@@ -27,7 +27,7 @@ BRANCH = "&case task='branch' / &output samples_per_revolution=90 /\n"
 EQUILIBRIA = f"""{BRANCH}&rotor mass=200 / &operation speed_rpm=14700 /
 &branch of='equilibrium', parameter='operation%speed_rpm', last=15300, step=100, max_step=200 /
 """
-#: Orbits in wide films without tables that rupture; their period doubles, and the second branch leads back.
+#: Orbits in wide films without tables that cavitate; their period doubles, and the second branch leads back.
 DOUBLED = f"""{BRANCH}&rotor mass=500, unbalance=0.007 /
 &pads motion='fixed', pivot_angle_deg=-90,90, arc_deg=160 / &bearing preload=0 /
 &branch parameter='rotor%unbalance', last=0.009, step=0.0005 /

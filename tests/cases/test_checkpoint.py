@@ -142,8 +142,8 @@ def test_a_signal_while_the_equilibrium_is_sought(start, case):
     assert [path.name for path in case.iterdir()] == ["case.nml"]
 
 
-def test_a_ruptured_film_is_resumed_to_the_bit(start, tiltpad, case):
-    """From a checkpoint where a film is ruptured: the same bits, twice."""
+def test_a_cavitated_film_is_resumed_to_the_bit(start, tiltpad, case):
+    """From a checkpoint where a film is cavitated: the same bits, twice."""
     process = start(case, "case.nml", "-q", *ENDLESS, "--set", "rotor%unbalance=0.03")
     wait_for_checkpoint(case / "case.h5", process)
     process.terminate()

@@ -154,7 +154,7 @@ def follow(dice: Random, found: dict[str, tuple]) -> None:
 
 
 def fit_memory(found: dict[str, tuple]) -> None:
-    """No more axial cells than `auto` takes where films rupture."""
+    """No more axial cells than `auto` takes where films cavitate."""
     if found.get("film%solver", (b"auto",)) != (b"auto",):
         return
     if found.get("film%cavitation", (b"reynolds",)) != (b"reynolds",):

@@ -1,4 +1,4 @@
-!> Rupture of the film: the Reynolds condition as a complementarity problem, and the order of the models.
+!> Cavitation of the film: the Reynolds condition as a complementarity problem, and the order of the models.
 program test_cavitation
    use kinds, only: wp
    use text, only: to_text
@@ -20,23 +20,23 @@ program test_cavitation
       if (runs('order_of_models')) call order_of_models()
    end do
    if (runs('whole_film')) call whole_film()
-   if (runs('level_of_rupture')) call level_of_rupture()
+   if (runs('level_of_cavitation')) call level_of_cavitation()
    call report()
 
 contains
 
-   pure type(pad_gap_type) function pad(rupture)
-      real(wp), intent(in) :: rupture
-      pad = offset_pad([3e5_wp, 1e5_wp, rupture])
+   pure type(pad_gap_type) function pad(condition)
+      real(wp), intent(in) :: condition
+      pad = offset_pad([3e5_wp, 1e5_wp, condition])
    end function pad
 
-   subroutine solve(rupture, cavitation, motion, solver, r)
-      real(wp), intent(in) :: rupture
+   subroutine solve(condition, cavitation, motion, solver, r)
+      real(wp), intent(in) :: condition
       integer, intent(in) :: cavitation
       type(film_motion), intent(in) :: motion
       type(sor_film_type), intent(out) :: solver
       type(film_response), intent(out) :: r
-      solver = new_sor_film([pad(rupture)], sor_options(nx, nz, tolerance=tolerance, max_sweeps=100000, &
+      solver = new_sor_film([pad(condition)], sor_options(nx, nz, tolerance=tolerance, max_sweeps=100000, &
          & cavitation=cavitation))
       call solver%evaluate_pad(1, motion, paper_oil, speed, .false., r)
       call expect(r%status == film_ok, 'the film converges')
@@ -97,19 +97,19 @@ contains
       type(film_response) :: r
       type(film_motion) :: motion
       real(wp) :: p(nx, nz), change(nx, nz), scale
-      real(wp), parameter :: rupture = 0.5e5_wp
-      integer :: ruptured
+      real(wp), parameter :: condition = 0.5e5_wp
+      integer :: cavitated
       motion = opening_motion()
-      call solve(rupture, cavitation_reynolds, motion, solver, r)
+      call solve(condition, cavitation_reynolds, motion, solver, r)
       p = solver%pressure_field(1)
-      change = imbalance(pad(rupture), motion, p)
+      change = imbalance(pad(condition), motion, p)
       scale = tolerance*r%max_pressure
-      ruptured = count(p <= rupture)
-      call expect(minval(p) >= rupture, 'no pressure below that of rupture')
-      call expect_close(maxval(abs(change), mask=p > rupture), 0.0_wp, 10*scale, 'balance in the full film')
-      if (ruptured > 0) call expect(maxval(change, mask=p <= rupture) <= 10*scale, &
-         & 'ruptured cells would fall further: ' &
-         & //to_text(maxval(change, mask=p <= rupture)))
+      cavitated = count(p <= condition)
+      call expect(minval(p) >= condition, 'no pressure below that of cavitation')
+      call expect_close(maxval(abs(change), mask=p > condition), 0.0_wp, 10*scale, 'balance in the full film')
+      if (cavitated > 0) call expect(maxval(change, mask=p <= condition) <= 10*scale, &
+         & 'cavitated cells would fall further: ' &
+         & //to_text(maxval(change, mask=p <= condition)))
       call expect_close(r%min_pressure, minval(p), 1e-9_wp*r%max_pressure, 'lowest pressure')
    end subroutine complementarity
 
@@ -120,23 +120,23 @@ contains
       type(film_response) :: r_none, r_gumbel, r_reynolds
       type(film_motion) :: motion
       real(wp) :: slack
-      real(wp), parameter :: rupture = 0.5e5_wp
+      real(wp), parameter :: condition = 0.5e5_wp
       motion = opening_motion()
-      call solve(rupture, cavitation_none, motion, none, r_none)
-      call solve(rupture, cavitation_gumbel, motion, gumbel, r_gumbel)
-      call solve(rupture, cavitation_reynolds, motion, reynolds, r_reynolds)
+      call solve(condition, cavitation_none, motion, none, r_none)
+      call solve(condition, cavitation_gumbel, motion, gumbel, r_gumbel)
+      call solve(condition, cavitation_reynolds, motion, reynolds, r_reynolds)
       ! solutions to the tolerance, amplified by 1/(1 - Jacobi's radius), about 200 on this grid
       slack = 1000*tolerance*max(r_none%max_pressure, -r_none%min_pressure)
       call expect(all(reynolds%pressure_field(1) >= gumbel%pressure_field(1) - slack), 'reynolds above gumbel')
-      call expect_close(maxval(abs(gumbel%pressure_field(1) - max(none%pressure_field(1), rupture))), 0.0_wp, slack, &
+      call expect_close(maxval(abs(gumbel%pressure_field(1) - max(none%pressure_field(1), condition))), 0.0_wp, slack, &
          & 'gumbel is the whole film, clipped')
       call expect(-r_reynolds%force(2) >= -r_gumbel%force(2) - slack*7e-3_wp .and. &
          & -r_gumbel%force(2) >= -r_none%force(2) - slack*7e-3_wp, 'loads in order')
-      if (r_none%min_pressure < rupture - slack) call expect(-r_reynolds%force(2) > -r_gumbel%force(2) .and. &
-         & -r_gumbel%force(2) > -r_none%force(2), 'and apart where the film ruptures')
+      if (r_none%min_pressure < condition - slack) call expect(-r_reynolds%force(2) > -r_gumbel%force(2) .and. &
+         & -r_gumbel%force(2) > -r_none%force(2), 'and apart where the film cavitates')
    end subroutine order_of_models
 
-   !> Where nothing falls below the pressure of rupture the models agree.
+   !> Where nothing falls below the pressure of cavitation the models agree.
    subroutine whole_film()
       integer, parameter :: models(3) = [cavitation_none, cavitation_gumbel, cavitation_reynolds]
       type(sor_film_type) :: solver
@@ -153,8 +153,8 @@ contains
          & 'reynolds has nothing to hold')
    end subroutine whole_film
 
-   !> A lower pressure of rupture lets more tension act: the load falls with it, down to the whole film's.
-   subroutine level_of_rupture()
+   !> A lower pressure of cavitation lets more tension act: the load falls with it, down to the whole film's.
+   subroutine level_of_cavitation()
       type(sor_film_type) :: solver
       type(film_response) :: r, whole
       real(wp) :: before
@@ -169,6 +169,6 @@ contains
       end do
       call solve(1.01_wp*whole%min_pressure, cavitation_reynolds, motion, solver, r)
       call expect_close(norm2(r%force - whole%force), 0.0_wp, 1000*tolerance*norm2(whole%force), &
-         & 'a level never reached ruptures nothing')
-   end subroutine level_of_rupture
+         & 'a level never reached cavitates nothing')
+   end subroutine level_of_cavitation
 end program test_cavitation

@@ -57,7 +57,7 @@ contains
       if (present(y)) y = state
    end subroutine analyse
 
-   !> The paper's bearing with films that do not rupture.
+   !> The paper's bearing with films that do not cavitate.
    type(case_type) function whole(speed_rpm) result(inputs)
       real(wp), intent(in) :: speed_rpm
       inputs = case_type()
@@ -143,19 +143,19 @@ contains
    end subroutine cross_stiffness
 
    !> The full matrices against central differences of the forces, to a part of each row's largest element in its
-   !> column's scale: of whole films to 1e-6; of ruptured films, whose slopes leave out how cells leave the film, to 2 %
-   !> (pads that carry nothing err most).
+   !> column's scale: of whole films to 1e-6; of cavitated films, whose slopes leave out how cells leave the film, to 2
+   !> % (pads that carry nothing err most).
    subroutine differences()
       call against_differences(whole(6500.0_wp), 'whole films', 1e-4_wp, 1e-6_wp)
-      call against_differences(ruptured(), 'ruptured films', 1e-4_wp, 2e-2_wp)
+      call against_differences(cavitated(), 'cavitated films', 1e-4_wp, 2e-2_wp)
    end subroutine differences
 
-   !> Four pads without preload: the loaded pads' films rupture at the trailing edges, two pads carry nothing.
-   type(case_type) function ruptured() result(inputs)
+   !> Four pads without preload: the loaded pads' films cavitate at the trailing edges, two pads carry nothing.
+   type(case_type) function cavitated() result(inputs)
       inputs = case_of('&case task = ''coefficients''/ &rotor mass = 1000/ &operation speed_rpm = 3000/ &bearing ' &
          & //'journal_radius = 50e-3 axial_length = 50e-3 assembled_clearance = 100e-6 machined_clearance = 100e-6 ' &
          & //'viscosity = 20e-3/ &pads pivot_angle_deg = -45, 45, 135, 225 arc_deg = 80/')
-   end function ruptured
+   end function cavitated
 
    subroutine against_differences(inputs, what, part, tolerance)
       type(case_type), intent(in) :: inputs
@@ -206,10 +206,10 @@ contains
    end subroutine agree
 
    !> With the defaults the coefficients are those of films that are five times as close at least, to 1e-6
-   !> where they are whole and to 2e-4 where they rupture: slopes of 14 rows of volumes, a pad of 80 degrees.
+   !> where they are whole and to 2e-4 where they cavitate: slopes of 14 rows of volumes, a pad of 80 degrees.
    subroutine refinement()
       call against_refined(whole(6500.0_wp), 'whole', 1e-6_wp)
-      call against_refined(ruptured(), 'ruptured', 2e-4_wp)
+      call against_refined(cavitated(), 'cavitated', 2e-4_wp)
    end subroutine refinement
 
    subroutine against_refined(inputs, what, tolerance)

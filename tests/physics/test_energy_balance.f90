@@ -250,7 +250,7 @@ program test_energy_balance
 
 contains
 
-   !> The paper's bearing with pads off their balance, without rupture.
+   !> The paper's bearing with pads off their balance, without cavitation.
    type(case_type) function shaken_case(motion, friction, unbalance) result(inputs)
       character(len=*), intent(in) :: motion, friction
       real(wp), intent(in) :: unbalance

@@ -168,7 +168,7 @@ contains
       character(len=:), allocatable :: name
       real(wp) :: limits(3, 2)
       integer :: range, i
-      !> Eight points across are few where a film under supply pressure ruptures beside the side.
+      !> Eight points across are few where a film under supply pressure cavitates beside the side.
       real(wp), parameter :: supply_limits(3) = [1e-4_wp, 3e-4_wp, 1e-3_wp]
       name = trim(merge(', gumbel', ', none  ', clips))
       if (supplied) name = name//', supply pressure'
@@ -193,23 +193,23 @@ contains
    end subroutine by_modes
 
    !> Tables for a film, whose other films are solved at the default resolution.
-   function new_tables(state, ruptures, clips, tolerance) result(tables)
+   function new_tables(state, cavitates, clips, tolerance) result(tables)
       type(film_state), intent(in) :: state
-      logical, intent(in) :: ruptures, clips
+      logical, intent(in) :: cavitates, clips
       real(wp), intent(in) :: tolerance
       type(table_film_type) :: tables
-      tables = new_table_film([state%gap], [new_direct(state, 1, ruptures, clips)], ruptures .or. clips, clips, &
+      tables = new_table_film([state%gap], [new_direct(state, 1, cavitates, clips)], cavitates .or. clips, clips, &
          & tolerance)
    end function new_tables
 
    !> `direct` with so many times its default volumes.
-   function new_direct(state, finer, ruptures, clips) result(film)
+   function new_direct(state, finer, cavitates, clips) result(film)
       type(film_state), intent(in) :: state
       integer, intent(in) :: finer
-      logical, intent(in) :: ruptures, clips
+      logical, intent(in) :: cavitates, clips
       type(direct_film_type) :: film
       associate (gaps => [state%gap])
-         film = new_direct_film(gaps, enough_cells(gaps), enough_modes(gaps), 80*finer, 8*finer, ruptures, clips, &
+         film = new_direct_film(gaps, enough_cells(gaps), enough_modes(gaps), 80*finer, 8*finer, cavitates, clips, &
             & usual_error)
       end associate
    end function new_direct
@@ -345,7 +345,7 @@ contains
             change = norm2(expected%force - (4*grids(1)%force - grids(0)%force)/3)/state%force
             call expect(change < merge(3e-4_wp, 1e-4_wp, supplied), 'the extrapolation has converged: ' &
                & //to_text(change)//', '//shown(state))
-            ! cells that rupture one by one make the slopes rough
+            ! cells that cavitate one by one make the slopes rough
             expected%derivatives = grids(2)%derivatives
             do k = 1, 2
                direct = new_direct(state, k, .true., .false.)

@@ -1,8 +1,8 @@
 !> Films from tables against every other solver, over what a bearing can ask for: pads of 20 to 120 degrees, length to
 !> diameter 0.25 to 2, films from 0.04 to 2 clearances thick at either edge, every direction of motion; with the
-!> conditions of Reynolds and Guembel and without rupture; at three tolerances.
+!> conditions of Reynolds and Guembel and without cavitation; at three tolerances.
 !>
-!> Errors are measured over the force of the same film at the onset of rupture, T = 0, as fast along the arc.
+!> Errors are measured over the force of the same film at the onset of cavitation, T = 0, as fast along the arc.
 program test_film_table
    use kinds, only: wp, degree
    use text, only: to_text

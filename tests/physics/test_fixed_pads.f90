@@ -99,9 +99,9 @@ contains
       end do
    end subroutine short_bearing
 
-   !> Long bearings: Sommerfeld's force, without rupture, and half of the film, Guembel's. The ends cost a length that
-   !> does not grow with the bearing, and what they do beyond that falls off exponentially: errors fall by half with L/D
-   !> doubled, and the extrapolated force errs as the modes do, 1e-4 (docs/theory/film.md).
+   !> Long bearings: Sommerfeld's force, without cavitation, and half of the film, Guembel's. The ends cost a length
+   !> that does not grow with the bearing, and what they do beyond that falls off exponentially: errors fall by half
+   !> with L/D doubled, and the extrapolated force errs as the modes do, 1e-4 (docs/theory/film.md).
    subroutine long_bearing()
       real(wp), parameter :: e(3) = [0.2_wp, 0.5_wp, 0.8_wp]
       type(case_type) :: inputs
@@ -275,10 +275,10 @@ contains
          & 1e-5_wp*norm2(c(:, :, 1)), 'the damping')
    end subroutine turned
 
-   !> `direct` and `sor` at their default resolution on arcs of 150 to 360 degrees, which all rupture, against volumes
-   !> that follow the film, extrapolated; `auto` is `direct` on arcs as long as these. Errors are over the force that
-   !> the whole film gives per velocity, times the velocity that drives it. Volumes are of second order: twice as many
-   !> err a quarter, or half where cells that rupture one by one make it rough.
+   !> `direct` and `sor` at their default resolution on arcs of 150 to 360 degrees, which all cavitation, against
+   !> volumes that follow the film, extrapolated; `auto` is `direct` on arcs as long as these. Errors are over the force
+   !> that the whole film gives per velocity, times the velocity that drives it. Volumes are of second order: twice as
+   !> many err a quarter, or half where cells that cavitate one by one make it rough.
    subroutine wide_films()
       character(len=*), parameter :: solvers(3) = [character(len=6) :: 'direct', 'sor', 'auto']
       real(wp), parameter :: allowed(3) = [1e-3_wp, 5e-3_wp, 1e-3_wp]
@@ -382,8 +382,9 @@ contains
    end subroutine threshold
 
    !> Marches from a little beside the rest, 10 % below and above the threshold. The whirl dies away, or grows, as its
-   !> eigenvalue says: this comes from slopes that are rough by 1 % where films rupture, so that growth over shaft speed
-   !> is uncertain by 1e-3. Above the threshold it ends as an orbit of half the shaft's frequency within the clearance.
+   !> eigenvalue says: this comes from slopes that are rough by 1 % where films cavitate, so that growth over shaft
+   !> speed is uncertain by 1e-3. Above the threshold it ends as an orbit of half the shaft's frequency within the
+   !> clearance.
    subroutine whirl()
       real(wp), parameter :: beside = 1e-3_wp
       integer, parameter :: revolutions = 150, last = 40

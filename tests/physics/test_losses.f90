@@ -22,7 +22,7 @@ program test_losses
    if (runs('petroff')) call petroff()
    if (runs('closed')) call closed()
    if (runs('whole_by_volumes')) call whole_by_volumes()
-   if (runs('ruptured_by_volumes')) call ruptured_by_volumes()
+   if (runs('cavitated_by_volumes')) call cavitated_by_volumes()
    if (runs('clipped')) call clipped()
    if (runs('under_pressure')) call under_pressure()
    if (runs('order')) call order()
@@ -33,20 +33,21 @@ program test_losses
    if (runs('mirror')) call mirror()
    if (runs('even_strip_under_pressure')) call even_strip_under_pressure()
    if (runs('supply_by_volumes')) call supply_by_volumes()
-   if (runs('onset_of_rupture')) call onset_of_rupture()
+   if (runs('onset_of_cavitation')) call onset_of_cavitation()
    call report()
 
 contains
 
    !> Loss and flows of a film on a grid by the plain sums: q = U h/2 + h^3/(12 mu) dp/dX over the edges, the square of
-   !> the pressure's gradient and 1/h over the area. With rupture a row of the film leaves off at its first empty cell
-   !> downstream, and the oil that crosses there goes on to the trailing edge; heat of sliding by its share of the gap.
-   type(film_loss) function by_volumes(gap, motion, speed, columns, rows, ruptures) result(loss)
+   !> the pressure's gradient and 1/h over the area. With cavitation a row of the film leaves off at its first empty
+   !> cell downstream, and the oil that crosses there goes on to the trailing edge; heat of sliding by its share of the
+   !> gap.
+   type(film_loss) function by_volumes(gap, motion, speed, columns, rows, cavitates) result(loss)
       type(pad_gap_type), intent(in) :: gap
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
       integer, intent(in) :: columns, rows
-      logical, intent(in) :: ruptures
+      logical, intent(in) :: cavitates
       type(elimination_film_type) :: film
       type(film_grid_type) :: grid
       type(film_response) :: response
@@ -55,12 +56,12 @@ contains
       real(wp) :: to_flow, width, surface, drop, carried, filled
       integer :: i, k
       film = new_elimination_film(gap, columns, rows)
-      call film%evaluate(motion, paper_oil, speed, ruptures, .false., unused, response)
+      call film%evaluate(motion, paper_oil, speed, cavitates, .false., unused, response)
       call film%cells(grid, p, cells)
       surface = speed*gap%journal_radius
       to_flow = grid%d_phi/(12*paper_oil%viscosity*gap%pad_radius())
       loss%force = response%force
-      if (ruptures) p(:rows, :) = p(:rows, :)*cells(:rows, :)
+      if (cavitates) p(:rows, :) = p(:rows, :)*cells(:rows, :)
       do k = 1, rows
          width = 2*grid%d_z*grid%height(k)
          drop = grid%supply - p(k, columns)
@@ -71,7 +72,7 @@ contains
             drop = p(k, i) - grid%ambient
             if (i > 1) drop = p(k, i) - p(k, i - 1)
             filled = 1
-            if (ruptures .and. .not. cells(k, i) > 0) then
+            if (cavitates .and. .not. cells(k, i) > 0) then
                if (k > 1) carried = carried + to_flow*grid%beside(i)*grid%inward(k)*p(k - 1, i)
                if (k < rows) carried = carried + to_flow*grid%beside(i)*grid%outward(k)*p(k + 1, i)
                filled = min(1.0_wp, 2*carried/(surface*grid%h_cell(i)))
@@ -91,15 +92,15 @@ contains
    end function by_volumes
 
    !> What two grids tell of one that is infinitely fine.
-   type(film_loss) function extrapolated(gap, motion, speed, columns, rows, ruptures) result(loss)
+   type(film_loss) function extrapolated(gap, motion, speed, columns, rows, cavitates) result(loss)
       type(pad_gap_type), intent(in) :: gap
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
       integer, intent(in) :: columns, rows
-      logical, intent(in) :: ruptures
+      logical, intent(in) :: cavitates
       type(film_loss) :: coarse
-      coarse = by_volumes(gap, motion, speed, columns, rows, ruptures)
-      loss = by_volumes(gap, motion, speed, 2*columns, 2*rows, ruptures)
+      coarse = by_volumes(gap, motion, speed, columns, rows, cavitates)
+      loss = by_volumes(gap, motion, speed, 2*columns, 2*rows, cavitates)
       loss%couette = (4*loss%couette - coarse%couette)/3
       loss%pressure = (4*loss%pressure - coarse%pressure)/3
       loss%inlet = (4*loss%inlet - coarse%inlet)/3
@@ -211,7 +212,7 @@ contains
 
    !> Volumes that follow the film against four times as many uniform ones: both are of first order where the film
    !> ends, and the flow at the trailing edge of a film that is squeezed is more so, as it is cut off at whole cells.
-   subroutine ruptured_by_volumes()
+   subroutine cavitated_by_volumes()
       type(film_state) :: state
       type(film_loss) :: loss, fine
       real(wp) :: error, worst(2)
@@ -228,35 +229,35 @@ contains
          if (mod(i, 2) == 1) fine%outlet = loss%outlet
          error = difference(state%gap, state%motion, shaft_speed, loss, fine)
          worst(1 + mod(i, 2)) = max(worst(1 + mod(i, 2)), error)
-         call expect(error < 5e-3_wp, 'ruptured: '//shown(state))
+         call expect(error < 5e-3_wp, 'cavitated: '//shown(state))
       end do
-      print '(a, 2es9.2)', 'ruptured films, largest errors at rest and squeezed ', worst
-   end subroutine ruptured_by_volumes
+      print '(a, 2es9.2)', 'cavitated films, largest errors at rest and squeezed ', worst
+   end subroutine cavitated_by_volumes
 
-   !> Guembel's condition leaves the field and the flow across the film's edge as they are without rupture; the force,
-   !> and with it the heat of the pressure flow, is that of the clipped pressure.
+   !> Guembel's condition leaves the field and the flow across the film's edge as they are without cavitation; the
+   !> force, and with it the heat of the pressure flow, is that of the clipped pressure.
    subroutine clipped()
-      type(film_loss) :: whole, ruptured
+      type(film_loss) :: whole, cavitated
       type(pad_gap_type) :: gap
       type(film_motion) :: motion
       gap = paper_pad()
       motion = film_motion([-5e-6_wp, 60e-6_wp])
       whole = found(gap, motion, shaft_speed, .false., .false.)
-      ruptured = found(gap, motion, shaft_speed, .false., .true.)
-      call expect(ruptured%couette < 0.999_wp*whole%couette, 'less oil, less shear')
-      call expect(ruptured%side > whole%side, 'nothing is sucked in at the sides')
-      call expect_close(ruptured%inlet, whole%inlet, 1e-3_wp*whole%inlet, 'the film begins at the leading edge')
-      call expect_close(ruptured%outlet + ruptured%side, ruptured%inlet + ruptured%unfed, 1e-10_wp*whole%inlet, &
+      cavitated = found(gap, motion, shaft_speed, .false., .true.)
+      call expect(cavitated%couette < 0.999_wp*whole%couette, 'less oil, less shear')
+      call expect(cavitated%side > whole%side, 'nothing is sucked in at the sides')
+      call expect_close(cavitated%inlet, whole%inlet, 1e-3_wp*whole%inlet, 'the film begins at the leading edge')
+      call expect_close(cavitated%outlet + cavitated%side, cavitated%inlet + cavitated%unfed, 1e-10_wp*whole%inlet, &
          & 'no oil is lost')
-      call expect_close(ruptured%wedge, ruptured%pressure, 1e-10_wp*ruptured%pressure, 'no power is lost')
+      call expect_close(cavitated%wedge, cavitated%pressure, 1e-10_wp*cavitated%pressure, 'no power is lost')
       ! the same film under a cavitation pressure that it does not reach
       gap%cavitation_pressure = -1e9_wp
-      ruptured = found(gap, motion, shaft_speed, .false., .true.)
-      call expect(all(abs([ruptured%couette - whole%couette, ruptured%inlet - whole%inlet, &
-         & ruptured%side - whole%side]) <= 0), 'whole')
+      cavitated = found(gap, motion, shaft_speed, .false., .true.)
+      call expect(all(abs([cavitated%couette - whole%couette, cavitated%inlet - whole%inlet, &
+         & cavitated%side - whole%side]) <= 0), 'whole')
    end subroutine clipped
 
-   !> Edges under pressure drive oil into the rupture: their work is heat as well. By the plain sums.
+   !> Edges under pressure drive oil into the cavitation: their work is heat as well. By the plain sums.
    subroutine under_pressure()
       real(wp), parameter :: edges = 3e5_wp
       type(film_loss) :: loss, fine, without
@@ -272,10 +273,10 @@ contains
       gap%supply_pressure = 0
       without = found(gap, motion, shaft_speed, .true., .false.)
       call expect(loss%pressure - without%pressure > 0.02_wp*without%pressure, 'the edges matter')
-      call expect(loss%wedge > 1.2_wp*loss%pressure, 'the shaft pumps oil through the rupture to the edges')
+      call expect(loss%wedge > 1.2_wp*loss%pressure, 'the shaft pumps oil through the cavitation to the edges')
    end subroutine under_pressure
 
-   !> Volumes approach the modes, and fine volumes of a ruptured film, by the second power of their cells.
+   !> Volumes approach the modes, and fine volumes of a cavitated film, by the second power of their cells.
    subroutine order()
       type(pad_gap_type) :: gap
       type(film_motion) :: motion
@@ -303,7 +304,7 @@ contains
          state = random_film(1.0_wp, 10.0_wp, .true., .false.)
          state%motion%velocity = 0
          loss = found(state%gap, state%motion, shaft_speed, .true., .false.)
-         call expect_close(loss%outlet + loss%side, loss%inlet + loss%unfed, 1e-9_wp*loss%inlet, 'ruptured: ' &
+         call expect_close(loss%outlet + loss%side, loss%inlet + loss%unfed, 1e-9_wp*loss%inlet, 'cavitated: ' &
             & //shown(state))
          if (abs(loss%unfed) > 1e-3_wp*loss%inlet) again = again + 1
       end do
@@ -328,7 +329,7 @@ contains
    end subroutine power_is_kept
 
    !> Full bearings that draw oil at the thickest place: tables of Raimondi and Boyd, ASLE Transactions 1 (1958), which
-   !> come from differences on a coarse grid and count a full gap in the ruptured part: Sommerfeld number, attitude
+   !> come from differences on a coarse grid and count a full gap in the cavitated part: Sommerfeld number, attitude
    !> angle, friction R/c, flow over R c N L, share of it that leaves at the sides.
    subroutine raimondi_boyd()
       real(wp), parameter :: tables(7, 8) = reshape([ &
@@ -470,11 +471,11 @@ contains
       end do
    end subroutine supply_by_volumes
 
-   !> Nothing leaps where a film begins to rupture.
-   subroutine onset_of_rupture()
+   !> Nothing leaps where a film begins to cavitate.
+   subroutine onset_of_cavitation()
       type(pad_gap_type) :: gap
       type(film_motion) :: motion
-      type(film_loss) :: whole, ruptured
+      type(film_loss) :: whole, cavitated
       real(wp) :: low, high
       integer :: i
       gap = paper_pad()
@@ -482,18 +483,18 @@ contains
       high = 40e-6_wp
       do i = 1, 60
          motion = film_motion([0.5_wp*(low + high), 40e-6_wp])
-         ruptured = found(gap, motion, shaft_speed, .true., .false.)
+         cavitated = found(gap, motion, shaft_speed, .true., .false.)
          whole = found(gap, motion, shaft_speed, .false., .false.)
-         if (abs(ruptured%pressure - whole%pressure) > 0) then
+         if (abs(cavitated%pressure - whole%pressure) > 0) then
             high = motion%position(1)
          else
             low = motion%position(1)
          end if
       end do
       call expect(low > -40e-6_wp .and. high < 40e-6_wp .and. high - low < 1e-15_wp, 'there is an onset')
-      call expect(abs(ruptured%pressure - whole%pressure) < 1e-6_wp*whole%couette .and. abs(ruptured%couette &
+      call expect(abs(cavitated%pressure - whole%pressure) < 1e-6_wp*whole%couette .and. abs(cavitated%couette &
          & - whole%couette) < 1e-4_wp*whole%couette, 'losses')
-      call expect(maxval(abs([ruptured%inlet - whole%inlet, ruptured%outlet - whole%outlet, ruptured%side &
+      call expect(maxval(abs([cavitated%inlet - whole%inlet, cavitated%outlet - whole%outlet, cavitated%side &
          & - whole%side])) < 1e-4_wp*whole%inlet, 'flows')
-   end subroutine onset_of_rupture
+   end subroutine onset_of_cavitation
 end program test_losses

@@ -38,7 +38,7 @@ program test_periodic_orbits
 
 contains
 
-   !> The paper's bearing with converged films that do not rupture.
+   !> The paper's bearing with converged films that do not cavitate.
    type(case_type) function paper(motion, friction) result(inputs)
       character(len=*), intent(in) :: motion, friction
       inputs = case_type()

@@ -73,7 +73,7 @@ contains
    end subroutine coefficients
 
    !> An independent program's values at 4000 rpm (finite volumes of 240 x 48 and 480 x 96, extrapolated), of pads
-   !> without weight: those of the bearing are not published. Its damping moves by single volumes that rupture.
+   !> without weight: those of the bearing are not published. Its damping moves by single volumes that cavitate.
    subroutine published()
       type(equilibrium_type) :: static
       type(static_figures_type) :: figures

@@ -40,7 +40,7 @@ def test_rebuilt_forces_are_those_archived(run, case_name):
     solved there, and the states for the rebuilt film are CVODE's interpolation. Both are as accurate as the
     march, 1e-5 of the scales of the states at the default tolerance; squeeze makes it several times that of
     the range of the force. The samples come from tables of converged films, the rebuilt ones from `direct`,
-    whose finite volumes err by 2e-4 of it where the film ruptures. The maximum pressure is that at the
+    whose finite volumes err by 2e-4 of it where the film cavitates. The maximum pressure is that at the
     points of the solver. It has switching points where it passes from one point to the next, of 1e-3 of the range,
     which no polynomial follows. The minimum film thickness in the file is calculated from the states.
     """
@@ -91,10 +91,10 @@ def test_edges_have_the_pressures_of_the_input(run):
 
 
 @pytest.mark.parametrize("case_name", ["four", "gumbel", "sor"])
-def test_a_ruptured_film_has_no_tension(run, case_name):
+def test_a_cavitated_film_has_no_tension(run, case_name):
     film = tiltpad.pressure(run(case_name), 0.015)
     assert film.pressure.min() == 0
-    assert np.any(film.pressure[2:, 1:-1, 1:-1] == 0), "an upper pad's film ruptures"
+    assert np.any(film.pressure[2:, 1:-1, 1:-1] == 0), "an upper pad's film cavitates"
 
 
 def test_own_points(run):

@@ -22,8 +22,8 @@ def test_a_march_starts_with_those_of_its_equilibrium(run, case_name):
 
 @pytest.mark.parametrize("case_name", ["none", "four", "runup", "fixed"])
 def test_forces_are_those_of_the_samples(run, case_name):
-    """A sample is as accurate as the march (test_library.py has the reasons); a table of ruptured films has
-    an error of 4e-5 of the force of a film that is just whole, and half of a fixed pad's film is ruptured.
+    """A sample is as accurate as the march (test_library.py has the reasons); a table of cavitated films has
+    an error of 4e-5 of the force of a film that is just whole, and half of a fixed pad's film is cavitated.
     """
     case = run(case_name)
     part = package.last_revolutions(case)

@@ -32,7 +32,7 @@ def test_the_pressure_over_the_unrolled_pad(run):
 
 
 def test_a_film_without_pressure_is_drawn(changed):
-    """Pads that leave the journal at 10 m/s: nothing but rupture."""
+    """Pads that leave the journal at 10 m/s: nothing but cavitation."""
 
     def leaving(file):
         file["pivot_deflection_rate"][3] = 10.0

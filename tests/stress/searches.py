@@ -18,7 +18,7 @@ LIMIT = 60
 #: The searches in their order, and what they are.
 SEARCHES = {
     "first": "pseudo-transient continuation from a start along the load",
-    "full films": "the same with full films, and from there with films that rupture",
+    "full films": "the same with full films, and from there with films that cavitate",
     "pads": "every pad in its equilibrium, then the journal, from six starts",
     "newton": "pseudo-transient continuation from these",
     "pad equilibria": "every pad in its equilibrium, sought over all its tilts",

@@ -227,7 +227,7 @@ def friction(dice: Dice) -> dict:
 
 
 def film(dice: Dice) -> dict:
-    """Every kind of rupture and solver, the grid left alone or drawn."""
+    """Every kind of cavitation and solver, the grid left alone or drawn."""
     values = {"cavitation": dice.choice(("reynolds", "reynolds", "gumbel", "gumbel", "none"))}
     if dice.chance(0.15):
         values["solver"] = "sor"

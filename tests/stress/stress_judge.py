@@ -20,7 +20,7 @@ AT_REST = 20
 COMPARED = 2.5
 #: How much finer the run is that a case is compared with.
 FINER = 100.0
-#: Residual of an equilibrium where the force of films that rupture may leap.
+#: Residual of an equilibrium where the force of films that cavitate may leap.
 LEAP = 1e-5
 #: Distance of two starts, in scales of the states, beyond which they are different equilibria.
 APART = 1e-2
@@ -226,8 +226,8 @@ def unphysical(
 ) -> list[str]:
     """What the samples must fulfil, each in words, and whether they do."""
     step = np.diff(values["time"])
-    ruptured = case["bearing"].get("cavitation_pressure", 0.0)
-    ruptured -= np.inf if case["film"]["cavitation"] == "none" else 1e-3 + 1e-6 * abs(ruptured)
+    cavitated = case["bearing"].get("cavitation_pressure", 0.0)
+    cavitated -= np.inf if case["film"]["cavitation"] == "none" else 1e-3 + 1e-6 * abs(cavitated)
     duration = case["operation"]["duration"]
     checks = {
         "time does not grow evenly": np.all(step > 0) and np.all(abs(np.diff(step)) <= 1e-9 * duration),
@@ -237,7 +237,7 @@ def unphysical(
         "min_film_thickness <= 0 without contact": np.all(
             (values["min_film_thickness"] > 0) | (values["asperity_force"] > 0)
         ),
-        "max_pressure below the film's rupture": np.all(values["max_pressure"] >= ruptured),
+        "max_pressure below the film's cavitation": np.all(values["max_pressure"] >= cavitated),
         "equilibrium not at rest": residual <= (1e-7 if case["film"]["cavitation"] == "none" else LEAP),
     }
     if case["pads"]["motion"] != "fixed":

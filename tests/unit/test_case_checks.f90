@@ -42,7 +42,7 @@ contains
       call expect_allowed('&film solver = ''modal'', cavitation = ''none'' /')
    end subroutine film
 
-   !> (axial cells/2)^2 values a column and pad, 5e7 at most; where films rupture, by `auto` alone.
+   !> (axial cells/2)^2 values a column and pad, 5e7 at most; where films cavitate, by `auto` alone.
    subroutine memory()
       character(len=*), parameter :: columns = '&film circumferential_cells = 2000, '
       call expect_allowed(columns//'axial_cells = 223 /')

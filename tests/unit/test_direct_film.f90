@@ -1,4 +1,4 @@
-!> Which solver `auto` takes for a pad, and how it joins them: modes where the film is whole, what few ruptured cells
+!> Which solver `auto` takes for a pad, and how it joins them: modes where the film is whole, what few cavitated cells
 !> add, finite volumes with a share of the modes, finite volumes alone.
 program test_direct_film
    use kinds, only: wp, degree
@@ -48,7 +48,7 @@ contains
       call expect_close(found%max_pressure, expected%max_pressure, 1e-12_wp*expected%max_pressure, 'maximum, '//what)
    end subroutine expect_same
 
-   !> A film that is squeezed enough not to rupture is that of the modes, to the last bit.
+   !> A film that is squeezed enough not to cavitate is that of the modes, to the last bit.
    subroutine whole()
       type(direct_film_type) :: auto
       type(modal_film_type) :: by_modes
@@ -65,14 +65,14 @@ contains
       call expect(auto%counters%modal == 1 .and. auto%counters%volumes == 0, 'is counted as one')
    end subroutine whole
 
-   !> A little rupture adds to the modes what it adds to the finite volumes; the slopes are those of that sum.
+   !> A little cavitation adds to the modes what it adds to the finite volumes; the slopes are those of that sum.
    subroutine slight()
       type(direct_film_type) :: auto
       type(modal_film_type) :: by_modes
       type(elimination_film_type) :: by_cells
       type(film_counters) :: counters
       type(film_motion) :: motion, forward, back
-      type(film_response) :: found(1), of_modes(1), ruptured, unruptured, moved(1)
+      type(film_response) :: found(1), of_modes(1), cavitated, unruptured, moved(1)
       real(wp) :: change(2), shift(4), step
       integer :: k
       motion%position = clearance*[between(-0.12_wp, -0.10_wp), between(0.4_wp, 0.5_wp)]
@@ -80,15 +80,15 @@ contains
       call solvers(auto, by_modes, by_cells)
       call auto%evaluate([motion], [paper_oil], speed, .true., found)
       call by_modes%evaluate([motion], [paper_oil], speed, .true., of_modes)
-      call by_cells%evaluate(motion, paper_oil, speed, .true., .false., counters, ruptured)
+      call by_cells%evaluate(motion, paper_oil, speed, .true., .false., counters, cavitated)
       call by_cells%evaluate(motion, paper_oil, speed, .false., .false., counters, unruptured)
-      change = ruptured%force - unruptured%force
+      change = cavitated%force - unruptured%force
       call expect(-of_modes(1)%min_pressure < 0.1_wp*of_modes(1)%max_pressure, 'a loaded film')
-      call expect(norm2(change) > 1e-6_wp*norm2(of_modes(1)%force), 'that ruptures')
+      call expect(norm2(change) > 1e-6_wp*norm2(of_modes(1)%force), 'that cavitates')
       call expect_close(norm2(found(1)%force - of_modes(1)%force - change), 0.0_wp, 1e-9_wp*norm2(of_modes(1)%force), &
-         & 'force of slight rupture')
+         & 'force of slight cavitation')
       call expect_close(found(1)%min_pressure, 0.0_wp, 0.0_wp, 'the minimum is the cavitation pressure')
-      call expect(auto%counters%modal == 0 .and. auto%counters%volumes == 1, 'it is counted as ruptured')
+      call expect(auto%counters%modal == 0 .and. auto%counters%volumes == 1, 'it is counted as cavitated')
       do k = 1, 4
          step = 1e-5_wp*clearance*merge(1.0_wp, speed, k <= 2)
          shift = 0
@@ -99,14 +99,14 @@ contains
          change = moved(1)%force
          call auto%evaluate([back], [paper_oil], speed, .false., moved)
          change = (change - moved(1)%force)/(2*step)
-         ! the force bends where a cell begins to rupture, seldom within such a step
+         ! the force bends where a cell begins to cavitate, seldom within such a step
          call expect_close(norm2(found(1)%derivatives(:, k) - change), 0.0_wp, 1e-3_wp*norm2(change), &
             & 'slope '//to_text(k))
       end do
    end subroutine slight
 
-   !> Finite volumes with rupture, and a share of what the modes know better: 1 at a tension of a tenth of the highest
-   !> pressure, 0 where the two are the same.
+   !> Finite volumes with cavitation, and a share of what the modes know better: 1 at a tension of a tenth of the
+   !> highest pressure, 0 where the two are the same.
    subroutine between_both()
       type(direct_film_type) :: auto
       type(modal_film_type) :: by_modes
@@ -143,7 +143,7 @@ contains
          & 0.0_wp, 0.0_wp)], 16, 4, 16, 8, .true., .false.)
       motion = film_motion([-1.1628e-5_wp, 8.8232e-5_wp], [1.13e-5_wp, 1.78e-6_wp])
       call auto%evaluate([motion], [oil], turning, .true., found)
-      call expect(auto%counters%volumes == 1, 'the film ruptures')
+      call expect(auto%counters%volumes == 1, 'the film cavitates')
       do k = 1, 4
          step = 1e-6_wp*thin*merge(1.0_wp, turning, k <= 2)
          shift = 0

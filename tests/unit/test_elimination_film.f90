@@ -39,9 +39,9 @@ contains
 
    !> Over-relaxation stops at a residual of 1e-12 of the source; on these grids the error of its solution is
    !> at most some 100 times that, and its slopes are solutions of the same kind.
-   subroutine against_relaxation(columns, rows, ruptures, pressures)
+   subroutine against_relaxation(columns, rows, cavitates, pressures)
       integer, intent(in) :: columns, rows
-      logical, intent(in) :: ruptures
+      logical, intent(in) :: cavitates
       real(wp), intent(in) :: pressures(3)
       real(wp), parameter :: tolerance = 1e-9_wp
       integer, parameter :: trials = 40
@@ -52,21 +52,21 @@ contains
       type(film_motion) :: motion
       type(film_response) :: r, expected
       real(wp) :: worst, worst_slope, worst_pressure
-      integer :: trial, ruptured, k
+      integer :: trial, cavitated, k
       film = paper_pad(pressures)
       direct = new_elimination_film(film, columns, rows)
       sor = new_sor_film([film], sor_options(columns, rows, tolerance=1e-12_wp, max_sweeps=100000, &
-         & cavitation=merge(cavitation_reynolds, cavitation_none, ruptures)))
+         & cavitation=merge(cavitation_reynolds, cavitation_none, cavitates)))
       worst = 0
       worst_slope = 0
       worst_pressure = 0
-      ruptured = 0
+      cavitated = 0
       do trial = 1, trials
          motion = random_motion()
-         call direct%evaluate(motion, paper_oil, speed, ruptures, .true., counters, r)
+         call direct%evaluate(motion, paper_oil, speed, cavitates, .true., counters, r)
          call sor%evaluate_pad(1, motion, paper_oil, speed, .true., expected)
          if (r%status /= film_ok) worst = huge(worst)
-         if (any(sor%pressure_field(1) <= pressures(3))) ruptured = ruptured + 1
+         if (any(sor%pressure_field(1) <= pressures(3))) cavitated = cavitated + 1
          worst = max(worst, deviation(r%force, expected%force))
          associate (field => sor%pressure_field(1))
             worst_pressure = max(worst_pressure, deviation([r%max_pressure], [max(maxval(field(:, 1)), &
@@ -76,11 +76,11 @@ contains
             worst_slope = max(worst_slope, deviation(r%derivatives(:, k), expected%derivatives(:, k)))
          end do
       end do
-      associate (name => to_text(columns)//' x '//to_text(rows)//merge(' ruptured', ' whole   ', ruptures))
+      associate (name => to_text(columns)//' x '//to_text(rows)//merge(' cavitated', ' full     ', cavitates))
          call expect(worst < tolerance, name//': force, error '//to_text(worst))
          call expect(worst_pressure < tolerance, name//': highest pressure, error '//to_text(worst_pressure))
          call expect(worst_slope < tolerance, name//': slopes, error '//to_text(worst_slope))
-         if (ruptures) call expect(ruptured > trials/4, name//': films do rupture, '//to_text(ruptured))
+         if (cavitates) call expect(cavitated > trials/4, name//': films do cavitate, '//to_text(cavitated))
       end associate
    end subroutine against_relaxation
 
@@ -91,8 +91,8 @@ contains
       if (norm2(expected) > 0) deviation = deviation/norm2(expected)
    end function deviation
 
-   !> Where few cells rupture their force by Green's functions is the difference of the films with and without
-   !> rupture; where it says few, no others do.
+   !> Where few cells cavitate their force by Green's functions is the difference of the films with and without
+   !> cavitation; where it says few, no others do.
    subroutine few_cells(pressures, dry)
       real(wp), intent(in) :: pressures(3)
       logical, intent(in) :: dry
@@ -101,27 +101,27 @@ contains
       type(film_motion) :: motion
       type(film_response) :: r, whole
       real(wp) :: force(2), worst
-      integer :: trial, said, with_rupture
+      integer :: trial, said, with_cavitation
       logical :: few
       direct = new_elimination_film(paper_pad(pressures), 60, 15)
       by_few = new_elimination_film(paper_pad(pressures), 60, 15)
       said = 0
-      with_rupture = 0
+      with_cavitation = 0
       worst = 0
       do trial = 1, 300
          motion%position = clearance*[between(-0.5_wp, -0.05_wp), between(0.0_wp, 0.6_wp)]
          motion%velocity = clearance*speed*[between(-0.02_wp, 0.02_wp), between(-0.02_wp, 0.02_wp)]
-         call by_few%force_of_rupture(motion, paper_oil, speed, counters, force, few)
+         call by_few%force_of_cavitation(motion, paper_oil, speed, counters, force, few)
          if (.not. few) cycle
          said = said + 1
          call direct%evaluate(motion, paper_oil, speed, .true., .false., counters, r)
          call direct%evaluate(motion, paper_oil, speed, .false., .false., counters, whole)
-         if (norm2(r%force - whole%force) > 1e-6_wp*norm2(whole%force)) with_rupture = with_rupture + 1
+         if (norm2(r%force - whole%force) > 1e-6_wp*norm2(whole%force)) with_cavitation = with_cavitation + 1
          worst = max(worst, norm2(force - (r%force - whole%force))/norm2(whole%force))
       end do
       call expect(worst < 1e-10_wp, 'few cells: error '//to_text(worst))
       call expect(said > 50, 'few cells: often, '//to_text(said))
-      call expect((with_rupture > 20) .eqv. dry, 'few cells: with rupture, '//to_text(with_rupture))
+      call expect((with_cavitation > 20) .eqv. dry, 'few cells: with cavitation, '//to_text(with_cavitation))
    end subroutine few_cells
 
    !> The answer does not depend on the film of the last motion.
@@ -138,12 +138,12 @@ contains
          call warm%evaluate(motion, paper_oil, speed, .true., .false., counters, r)
          call cold%evaluate(motion, paper_oil, speed, .true., .false., counters, expected)
          call expect_close(norm2(r%force - expected%force), 0.0_wp, 1e-12_wp*norm2(expected%force), 'any start')
-         ! without rupture nothing is remembered
+         ! without cavitation nothing is remembered
          call warm%evaluate(motion, paper_oil, speed, .false., .false., counters, r)
       end do
    end subroutine any_start
 
-   !> A pad that the journal leaves: nothing but rupture, no force, no slopes; and back.
+   !> A pad that the journal leaves: nothing but cavitation, no force, no slopes; and back.
    subroutine empty_film()
       type(elimination_film_type) :: direct
       type(film_counters) :: counters
@@ -178,7 +178,7 @@ contains
          film = new_elimination_film(gap, 640, 2)
          call film%evaluate(motion, paper_oil, speed, .true., .false., counters, fine)
       end associate
-      call expect(fine%status == film_ok, 'the rupture settles')
+      call expect(fine%status == film_ok, 'the cavitation settles')
       call expect(deviation(coarse%force, fine%force) < 2e-3_wp, 'where it does on fewer columns')
    end subroutine many_columns
 

@@ -73,7 +73,7 @@ contains
    end subroutine layout
 
    !> A case in which every term counts: pads as heavy as the load, their centres off the pivots' radius,
-   !> different from each other, and a film without rupture, hence smooth.
+   !> different from each other, and a film without cavitation, hence smooth.
    type(case_type) function heavy_case(motion, friction, offset) result(inputs)
       character(len=*), intent(in) :: motion, friction
       real(wp), intent(in) :: offset

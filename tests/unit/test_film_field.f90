@@ -1,4 +1,4 @@
-!> Pressure fields of the film solvers: their integral is the force, solvers agree, rupture, layers at the edges.
+!> Pressure fields of the film solvers: their integral is the force, solvers agree, cavitation, layers at the edges.
 program test_film_field
    use kinds, only: wp, pi, degree
    use text, only: to_text
@@ -85,7 +85,7 @@ contains
       call expect_close(missing(solver, torn), 0.0_wp, 1e-3_wp, 'integral of the modes, tension')
       solver = new_modal_film([offset_pad()], 24, 8, gumbel=.true.)
       call expect_close(missing(solver, torn), 0.0_wp, 1e-3_wp, 'integral of the clipped modes')
-      call expect(minval(field_of(solver, torn)) >= 0, 'nothing below the pressure of rupture')
+      call expect(minval(field_of(solver, torn)) >= 0, 'nothing below the pressure of cavitation')
       call expect(any(field_of(solver, torn) <= 0), 'and some at it')
    end subroutine force_of_modes
 
@@ -113,7 +113,8 @@ contains
       end do
    end subroutine force_of_volumes
 
-   !> The solver that chooses, from no rupture to an all but empty pad: there the error of the volumes (80 x 8) is left.
+   !> The solver that chooses, from no cavitation to an all but empty pad: there the error of the volumes (80 x 8) is
+   !> left.
    subroutine force_of_direct()
       type(direct_film_type) :: solver
       type(film_motion) :: motions(4)
@@ -127,7 +128,7 @@ contains
          call expect_close(missing(solver, motions(i)), 0.0_wp, tolerances(i), &
             & 'integral of direct, motion '//to_text(i))
          call expect(minval(p) >= 0, 'no tension, motion '//to_text(i))
-         call expect(any(p <= 0) .eqv. i > 1, 'rupture, motion '//to_text(i))
+         call expect(any(p <= 0) .eqv. i > 1, 'cavitation, motion '//to_text(i))
       end do
    end subroutine force_of_direct
 

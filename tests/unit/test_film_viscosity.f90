@@ -44,7 +44,7 @@ contains
       end if
    end function case_with
 
-   !> A loaded film, and one that ruptures.
+   !> A loaded film, and one that cavitates.
    function motions()
       type(film_motion) :: motions(2)
       motions = [film_motion(clearance*[-0.25_wp, 0.35_wp]), film_motion(clearance*[0.05_wp, 0.2_wp])]

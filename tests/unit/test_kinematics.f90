@@ -234,11 +234,11 @@ contains
       call expect_close(norm2(point%load - [1e3_wp - 2000*9.81_wp, -2e3_wp]), 0.0_wp, 1e-10_wp, &
          & 'weight and static load')
       call expect_close(point%unbalance, 0.010_wp, 0.0_wp, 'unbalance')
-      call expect(point%friction .and. point%rupture, 'all effects act')
+      call expect(point%friction .and. point%cavitation, 'all effects act')
       static = point%static()
       call expect_close(static%speed(1.0_wp), point%speed(0.0_wp), 0.0_wp, 'the static point keeps the first speed')
       call expect_close(norm2(static%load - point%load) + static%unbalance, 0.0_wp, 0.0_wp, 'and the load alone')
-      call expect(.not. static%friction .and. static%rupture, 'without friction, with rupture')
+      call expect(.not. static%friction .and. static%cavitation, 'without friction, with cavitation')
    end subroutine points
 
    !> The states hold the motion of the journal; m a = F.

@@ -1,4 +1,4 @@
-!> The film by axial modes, and the solver that chooses: slopes, boundary pressures, tails, rupture.
+!> The film by axial modes, and the solver that chooses: slopes, boundary pressures, tails, cavitation.
 program test_modal_film
    use kinds, only: wp, pi, degree
    use text, only: to_text
@@ -209,7 +209,7 @@ contains
       call expect(r%status == film_ok, 'the film opens again')
    end subroutine closed_film
 
-   !> The solver that chooses gives the modes' answer to a whole film and the cells' to a ruptured one, pad
+   !> The solver that chooses gives the modes' answer to a whole film and the cells' to a cavitated one, pad
    !> by pad.
    subroutine choice()
       type(pad_gap_type) :: films(2)
@@ -232,7 +232,7 @@ contains
       call expect(by_modes(2)%min_pressure < 0 .and. by_modes(2)%max_pressure > 0, 'one film is torn in part')
       ! both solve the same equations; the tolerance is that of over-relaxation
       call expect_close(norm2(r(2)%force - by_cells%force), 0.0_wp, 1e-9_wp*norm2(by_cells%force), &
-         & 'cells for the ruptured one')
+         & 'cells for the cavitated one')
       call expect_close(norm2(r(2)%derivatives - by_cells%derivatives), 0.0_wp, 1e-9_wp*norm2(by_cells%derivatives), &
          & 'with their slopes')
       call expect(auto%counters%volumes == 1 .and. auto%counters%modal == 1, 'each is counted')

@@ -10,15 +10,15 @@ program test_sor_film
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
-   integer, parameter :: kinds_of_rupture(*) = [cavitation_none, cavitation_gumbel, cavitation_reynolds]
+   integer, parameter :: kinds_of_cavitation(*) = [cavitation_none, cavitation_gumbel, cavitation_reynolds]
    character(len=*), parameter :: names(0:2) = [character(len=8) :: 'none', 'gumbel', 'reynolds']
    integer :: i
 
-   do i = 1, size(kinds_of_rupture)
-      if (runs('slopes')) call slopes(kinds_of_rupture(i))
-      if (runs('warm_start')) call warm_start(kinds_of_rupture(i))
-      if (runs('uniform_pressure')) call uniform_pressure(kinds_of_rupture(i))
-      if (runs('shifted_pressures')) call shifted_pressures(kinds_of_rupture(i))
+   do i = 1, size(kinds_of_cavitation)
+      if (runs('slopes')) call slopes(kinds_of_cavitation(i))
+      if (runs('warm_start')) call warm_start(kinds_of_cavitation(i))
+      if (runs('uniform_pressure')) call uniform_pressure(kinds_of_cavitation(i))
+      if (runs('shifted_pressures')) call shifted_pressures(kinds_of_cavitation(i))
    end do
    if (runs('nothing_left')) then
       call nothing_left(cavitation_gumbel)
@@ -60,7 +60,7 @@ contains
    !> clearance times the speed) in the five-point form: error h**4/30 of the fifth derivative, which the
    !> clearance over the minimum film thickness, up to 4, raises to the fifth power: 1e-12 * 1024 * some 10 = 1e-8.
    !> Solutions converged to 1e-12 (residual, amplified by 50 on this grid) give 1e-10/h = 1e-7.
-   !> With rupture the force has a switching point where a cell leaves or joins the film; where the cells of the film
+   !> With cavitation the force has a switching point where a cell leaves or joins the film; where the cells of the film
    !> are not the same at all places of the stencil, the motion is passed over.
    subroutine slopes(cavitation)
       integer, intent(in) :: cavitation
@@ -71,12 +71,12 @@ contains
       type(film_response) :: r, at(4)
       logical, allocatable :: film(:, :), here(:, :)
       real(wp) :: scale(4), expected(2), worst
-      integer :: trial, compared, ruptured, column, k
+      integer :: trial, compared, cavitated, column, k
       logical :: same
       solver = new_sor_film([paper_pad([2e5_wp, 1e5_wp, 0.0_wp])], options(cavitation, 1e-12_wp))
       scale = clearance*[1.0_wp, 1.0_wp, speed, speed]
       compared = 0
-      ruptured = 0
+      cavitated = 0
       worst = 0
       do trial = 1, 40
          motion = random_motion()
@@ -94,14 +94,14 @@ contains
             end do
             if (.not. same) cycle
             compared = compared + 1
-            if (.not. all(film)) ruptured = ruptured + 1
+            if (.not. all(film)) cavitated = cavitated + 1
             expected = [sum(weights*at%force(1)), sum(weights*at%force(2))]
             worst = max(worst, maxval(abs(r%derivatives(:, column)*scale(column) - expected))/norm2(expected))
          end do
       end do
       call expect(compared >= 40, 'slopes compared, '//names(cavitation)//': '//to_text(compared))
-      call expect(ruptured >= 20, 'of them with negative or ruptured cells, '//names(cavitation)//': ' &
-         & //to_text(ruptured))
+      call expect(cavitated >= 20, 'of them with negative or cavitated cells, '//names(cavitation)//': ' &
+         & //to_text(cavitated))
       call expect_close(worst, 0.0_wp, 1e-6_wp, 'slopes by adjoints, '//trim(names(cavitation)))
    end subroutine slopes
 
@@ -162,7 +162,7 @@ contains
       call expect_close(r%min_pressure, p, 1e-10_wp*p, 'lowest pressure')
    end subroutine uniform_pressure
 
-   !> A constant on all pressures, that of rupture included, is a constant on the film: rounding alone.
+   !> A constant on all pressures, that of cavitation included, is a constant on the film: rounding alone.
    subroutine shifted_pressures(cavitation)
       integer, intent(in) :: cavitation
       real(wp), parameter :: shift = 5e5_wp, half = 0.5_wp*69.3_wp*degree, d = 2*half/24
@@ -190,7 +190,7 @@ contains
          & 'slopes of raised pressures')
    end subroutine shifted_pressures
 
-   !> A film that a fast opening ruptures everywhere has neither force nor slope, and costs no more sweeps
+   !> A film that a fast opening cavitates everywhere has neither force nor slope, and costs no more sweeps
    !> than the full film before it.
    subroutine nothing_left(cavitation)
       integer, intent(in) :: cavitation

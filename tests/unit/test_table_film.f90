@@ -32,7 +32,7 @@ program test_table_film
    if (runs('alike')) call alike()
    if (runs('many_pads')) call many_pads()
    if (runs('closed')) call closed()
-   if (runs('set_rupture')) call set_rupture()
+   if (runs('set_cavitation')) call set_cavitation()
    if (runs('pressures')) call pressures()
    call report()
 
@@ -88,7 +88,7 @@ contains
       call expect(.not. abs(found%min_film_thickness - expected%min_film_thickness) > 0, 'thickness, '//what)
    end subroutine expect_same_bits
 
-   !> Whole films of pads with any pivot and any pressures around them, without rupture: the tables meet the modes
+   !> Whole films of pads with any pivot and any pressures around them, without cavitation: the tables meet the modes
    !> within both tolerances.
    subroutine whole_films()
       type(pad_gap_type) :: gaps(4)
@@ -119,7 +119,7 @@ contains
       call expect(worst_slope < 10*tolerance, 'slopes, error '//to_text(worst_slope))
    end subroutine whole_films
 
-   !> Arcs of 5 to 175 degrees, of which those beyond 149 have no table, ruptured and not.
+   !> Arcs of 5 to 175 degrees, of which those beyond 149 have no table, cavitated and not.
    subroutine arcs()
       real(wp), parameter :: angles(7) = [5.0_wp, 20.0_wp, 60.0_wp, 120.0_wp, 148.0_wp, 150.0_wp, 175.0_wp]
       type(table_film_type) :: film
@@ -227,7 +227,7 @@ contains
       end do
    end subroutine mirror
 
-   !> Slopes are those of the force, whole and ruptured, both ways of motion: against differences over 1e-6.
+   !> Slopes are those of the force, whole and cavitated, both ways of motion: against differences over 1e-6.
    subroutine slopes(condition)
       integer, intent(in) :: condition
       type(table_film_type) :: film
@@ -301,7 +301,7 @@ contains
             motion = film_motion(clearance*[0.2_wp, 0.3_wp], clearance*speed*[0.0_wp, 0.01_wp])
             call film%evaluate([motion], [paper_oil], speed, .true., found)
             call exact%evaluate([motion], [paper_oil], speed, .true., expected)
-            call expect_same_bits(found(1), expected(1), 'it ruptures, pressures '//to_text(k))
+            call expect_same_bits(found(1), expected(1), 'it cavitates, pressures '//to_text(k))
             call expect(film%counters%looked_up == 0 .and. film%counters%cells == 0, 'no table')
             call film%take_pressures([motion], [paper_oil], speed, found)
             call expect(.not. abs(found(1)%max_pressure - expected(1)%max_pressure) > 0, 'pressures stay')
@@ -309,9 +309,9 @@ contains
             call film%evaluate([motion], [paper_oil], speed, .true., found)
             call exact%evaluate([motion], [paper_oil], speed, .true., expected)
             call expect_same_bits(found(1), expected(1), 'it is whole, pressures '//to_text(k))
-            call film%set_rupture(.false.)
+            call film%set_cavitation(.false.)
             call film%evaluate([motion], [paper_oil], speed, .true., found)
-            call expect(film%counters%looked_up == 1, 'where it may not rupture it is looked up')
+            call expect(film%counters%looked_up == 1, 'where it may not cavitate it is looked up')
             call expect_close(norm2(found(1)%force - expected(1)%force), 0.0_wp, 2*tolerance*norm2(expected(1)%force), &
                & 'it is whole')
          end do
@@ -330,7 +330,7 @@ contains
       exact = solver(offset_pad([4e5_wp, 4e5_wp, 4e5_wp]), reynolds)
       exact_dry = solver(offset_pad(), reynolds)
       do k = 1, 3
-         ! ruptured, whole, empty
+         ! cavitated, whole, empty
          motion = film_motion(clearance*[0.2_wp, 0.3_wp], clearance*speed*[0.0_wp, 0.01_wp])
          if (k > 1) motion%velocity(2) = merge(1, -1, k == 2)*clearance*speed
          call film%evaluate([motion], [paper_oil], speed, .true., found)
@@ -420,31 +420,31 @@ contains
       end do
    end subroutine closed
 
-   !> Rupture forbidden and allowed again; a solver made without it keeps without it.
-   subroutine set_rupture()
+   !> Cavitation forbidden and allowed again; a solver made without it keeps without it.
+   subroutine set_cavitation()
       type(table_film_type) :: film, whole
       type(film_response) :: first(1), found(1), expected(1)
       type(film_motion) :: motion
       motion = film_motion(clearance*[0.2_wp, 0.3_wp], clearance*speed*[0.0_wp, 0.01_wp])
       film = tables([paper_pad()], reynolds)
       whole = tables([paper_pad()], none)
-      call expect(film%ruptures() .and. .not. whole%ruptures(), 'as they were made')
+      call expect(film%cavitates() .and. .not. whole%cavitates(), 'as they were made')
       call film%evaluate([motion], [paper_oil], speed, .true., first)
       call whole%evaluate([motion], [paper_oil], speed, .true., expected)
-      call film%set_rupture(.false.)
+      call film%set_cavitation(.false.)
       call film%evaluate([motion], [paper_oil], speed, .true., found)
-      call expect(.not. film%ruptures(), 'none ruptures')
-      call expect_same_bits(found(1), expected(1), 'rupture forbidden')
+      call expect(.not. film%cavitates(), 'none cavitates')
+      call expect_same_bits(found(1), expected(1), 'cavitation forbidden')
       call film%take_pressures([motion], [paper_oil], speed, found)
       call expect(found(1)%min_pressure < 0, 'and there is tension')
-      call film%set_rupture(.true.)
+      call film%set_cavitation(.true.)
       call film%evaluate([motion], [paper_oil], speed, .true., found)
-      call expect_same_bits(found(1), first(1), 'rupture allowed again')
-      call whole%set_rupture(.true.)
-      call expect(.not. whole%ruptures(), 'made without rupture')
+      call expect_same_bits(found(1), first(1), 'cavitation allowed again')
+      call whole%set_cavitation(.true.)
+      call expect(.not. whole%cavitates(), 'made without cavitation')
       call whole%evaluate([motion], [paper_oil], speed, .true., found)
-      call expect_same_bits(found(1), expected(1), 'made without rupture')
-   end subroutine set_rupture
+      call expect_same_bits(found(1), expected(1), 'made without cavitation')
+   end subroutine set_cavitation
 
    !> Highest and lowest pressures in the middle plane against fine modes at 400 angles, over the highest of the film
    !> that is squeezed: within what a curve through 12 points along the arc tells.

@@ -75,7 +75,7 @@ contains
          & - b%derivatives(pad)%moment])/max(abs([b%loads(pad)%moment, b%derivatives(pad)%moment]), tiny(difference)))
    end function difference
 
-   !> Heavy pads off their balance on films without rupture, hence smooth, solved closely.
+   !> Heavy pads off their balance on films without cavitation, hence smooth, solved closely.
    type(tilting_pad_bearing_type) function heavy_bearing(motion, friction) result(bearing)
       character(len=*), intent(in) :: motion, friction
       bearing = new_tilting_pad_bearing(heavy_case(motion, friction))
@@ -272,7 +272,7 @@ contains
       type(tilting_pad_bearing_type) :: bearing
       type(journal_motion) :: journal
       type(pad_state) :: pads(2)
-      real(wp) :: ruptured(2), whole(2)
+      real(wp) :: cavitated(2), whole(2)
       character(len=:), allocatable :: refusal
       character(len=6), parameter :: solvers(3) = [character(len=6) :: 'auto', 'sor', 'modal']
       logical :: ok
@@ -283,32 +283,32 @@ contains
          inputs%film%solver = trim(solvers(k))
          if (solvers(k) == 'modal') inputs%film%cavitation = 'gumbel'
          bearing = new_tilting_pad_bearing(inputs)
-         call expect(.not. bearing%smooth() .and. bearing%films_rupture(), 'friction and rupture, '//solvers(k))
-         ! the wedge of the second pad opens: its film ruptures
+         call expect(.not. bearing%smooth() .and. bearing%films_cavitate(), 'friction and cavitation, '//solvers(k))
+         ! the wedge of the second pad opens: its film cavitates
          journal%position = [-3e-5_wp, 0.0_wp]
          pads = [pad_state(2e-4_wp, 0.3_wp, 5e-6_wp), pad_state(-6e-4_wp, 0.3_wp, 5e-6_wp)]
          call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect(ok .and. abs(bearing%loads(1)%friction%force) > 0, 'friction acts, '//solvers(k))
-         ruptured = bearing%loads(2)%journal
+         cavitated = bearing%loads(2)%journal
          bearing%rubs = .false.
-         call bearing%set_rupture(.false.)
-         call expect(bearing%smooth() .and. .not. bearing%films_rupture(), 'neither, '//solvers(k))
+         call bearing%set_cavitation(.false.)
+         call expect(bearing%smooth() .and. .not. bearing%films_cavitate(), 'neither, '//solvers(k))
          call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect_close(bearing%loads(1)%friction%force, 0.0_wp, 0.0_wp, 'no friction, '//solvers(k))
          whole = bearing%loads(2)%journal
-         call expect(norm2(whole - ruptured) > 1e-2_wp*norm2(ruptured), &
+         call expect(norm2(whole - cavitated) > 1e-2_wp*norm2(cavitated), &
             & 'the whole film has another force, '//solvers(k))
          inputs%film%cavitation = 'none'
          bearing%rubs = .true.
-         call bearing%set_rupture(.true.)
+         call bearing%set_cavitation(.true.)
          call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
-         call expect_close(norm2(bearing%loads(2)%journal - ruptured), 0.0_wp, 1e-5_wp*norm2(ruptured), &
+         call expect_close(norm2(bearing%loads(2)%journal - cavitated), 0.0_wp, 1e-5_wp*norm2(cavitated), &
             & 'and back, within the tolerance of sor, '//solvers(k))
          bearing = new_tilting_pad_bearing(inputs)
-         call expect(.not. bearing%films_rupture(), 'no rupture by the input, '//solvers(k))
+         call expect(.not. bearing%films_cavitate(), 'no cavitation by the input, '//solvers(k))
          call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect_close(norm2(bearing%loads(2)%journal - whole), 0.0_wp, 1e-5_wp*norm2(whole), &
-            & 'the whole film is that of the input without rupture, '//solvers(k))
+            & 'the whole film is that of the input without cavitation, '//solvers(k))
       end do
    end subroutine operating_point
 end program test_tilting_pad_bearing

@@ -40,7 +40,7 @@ module film_solver
       !> Pads evaluated by axial modes and on finite volumes; passes over these volumes: sweeps of over-relaxation,
       !> or eliminations.
       integer(i8) :: modal = 0, volumes = 0, passes = 0
-      !> Pads looked up in tables; cells and nodes of ruptured films that were built for them, and the wall time, s.
+      !> Pads looked up in tables; cells and nodes of cavitated films that were built for them, and the wall time, s.
       integer(i8) :: looked_up = 0, cells = 0, nodes = 0
       real(wp) :: building = 0
       !> Wall time, s, where the solver's user takes it; without that of building tables.
@@ -52,8 +52,8 @@ module film_solver
    contains
       procedure(evaluate_film), deferred :: evaluate
       procedure(evaluate_field), deferred :: field
-      procedure(can_rupture), deferred :: ruptures
-      procedure(choose_rupture), deferred :: set_rupture
+      procedure(can_cavitation), deferred :: cavitates
+      procedure(choose_cavitation), deferred :: set_cavitation
       procedure :: forget
       procedure :: take_pressures
    end type film_solver_type
@@ -74,17 +74,17 @@ module film_solver
       end subroutine evaluate_film
 
       !> True where pressures below the cavitation pressure are not kept.
-      pure logical function can_rupture(self)
+      pure logical function can_cavitation(self)
          import :: film_solver_type
          class(film_solver_type), intent(in) :: self
-      end function can_rupture
+      end function can_cavitation
 
-      !> Lets films rupture as the solver was made to, or keeps them whole.
-      pure subroutine choose_rupture(self, allowed)
+      !> Lets films cavitate as the solver was made to, or keeps them whole.
+      pure subroutine choose_cavitation(self, allowed)
          import :: film_solver_type
          class(film_solver_type), intent(inout) :: self
          logical, intent(in) :: allowed
-      end subroutine choose_rupture
+      end subroutine choose_cavitation
 
       !> Pressure of every pad's film, Pa, (axial position, angle, pad), at a motion each that leaves the film open,
       !> and a journal speed, rad/s.

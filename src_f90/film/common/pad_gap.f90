@@ -15,7 +15,7 @@ module pad_gap
       real(wp) :: journal_radius, machined_clearance, axial_length
       !> Angles from the pivot to the leading and trailing edge, theta_1 and theta_2, rad, > 0.
       real(wp) :: leading_angle, trailing_angle
-      !> Pressure at the leading edge, at the other edges, and where the film ruptures, Pa.
+      !> Pressure at the leading edge, at the other edges, and where the film cavitates, Pa.
       real(wp) :: supply_pressure, ambient_pressure, cavitation_pressure
    contains
       procedure :: differs

@@ -40,8 +40,8 @@ module modal_film
       type(modal_pad_type), allocatable :: pads(:, :)
       integer, allocatable :: level(:)
    contains
-      procedure :: ruptures
-      procedure :: set_rupture
+      procedure :: cavitates
+      procedure :: set_cavitation
       procedure :: evaluate => evaluate_all
       procedure :: field => field_all
       procedure :: supply_flows
@@ -78,12 +78,12 @@ contains
       film = new_modal_film([gap], enough_cells([gap]), enough_modes([gap]), gumbel, tolerance)
    end function converged_film
 
-   pure logical function ruptures(self)
+   pure logical function cavitates(self)
       class(modal_film_type), intent(in) :: self
-      ruptures = self%gumbel
-   end function ruptures
+      cavitates = self%gumbel
+   end function cavitates
 
-   pure subroutine set_rupture(self, allowed)
+   pure subroutine set_cavitation(self, allowed)
       class(modal_film_type), intent(inout) :: self
       logical, intent(in) :: allowed
       integer :: i, level
@@ -93,7 +93,7 @@ contains
             if (self%pads(level, i)%n > 0) call set_weights(self%pads(level, i), self%gumbel)
          end do
       end do
-   end subroutine set_rupture
+   end subroutine set_cavitation
 
    subroutine evaluate_all(self, motion, oil, speed, want_derivatives, response, chosen)
       class(modal_film_type), intent(inout) :: self
@@ -147,7 +147,7 @@ contains
       call sum_up(pad, rise, response)
       if (pad%shares_are_stale .and. want_derivatives) call whole_shares(pad)
       if (gumbel .and. response%min_pressure < pad%gap%cavitation_pressure) then
-         call rupture(pad, rise, want_derivatives, response)
+         call cavitation(pad, rise, want_derivatives, response)
       end if
       if (want_derivatives) response%derivatives = force_slopes(pad, rise)
    end subroutine evaluate_pad
@@ -244,7 +244,7 @@ contains
 
    !> Takes what lies below the cavitation pressure out of the force and, if wanted, its share of the width out
    !> of the shares.
-   pure subroutine rupture(pad, rise, want_shares, response)
+   pure subroutine cavitation(pad, rise, want_shares, response)
       type(modal_pad_type), intent(inout) :: pad
       real(wp), intent(in) :: rise
       logical, intent(in) :: want_shares
@@ -289,9 +289,9 @@ contains
             end do
          end do
       end associate
-   end subroutine rupture
+   end subroutine cavitation
 
-   !> The shares of a film without rupture.
+   !> The shares of a film without cavitation.
    pure subroutine whole_shares(pad)
       type(modal_pad_type), intent(inout) :: pad
       integer :: b

@@ -13,9 +13,9 @@ module modal_pad
    public :: gauss, middle, point_weights
 
    !> Points and weights across the half width, over it: Gauss-Legendre's over the root of the distance from the side,
-   !> beside which the pressure of an uneven film falls steeply. Behind them those where rupture is looked for, without
-   !> weight: the middle, and towards the side, where a film that diverges at its trailing edge first falls below the
-   !> pressure of its edges.
+   !> beside which the pressure of an uneven film falls steeply. Behind them those where cavitation is looked for,
+   !> without weight: the middle, and towards the side, where a film that diverges at its trailing edge first falls
+   !> below the pressure of its edges.
    integer, parameter :: gauss = 8, middle = 9, all_points = gauss + looks
    real(wp), parameter :: half_points(4) = [0.183434642495650_wp, 0.525532409916329_wp, &
       & 0.796666477413627_wp, 0.960289856497536_wp]
@@ -36,7 +36,7 @@ module modal_pad
       real(wp) :: d, radius
       !> Weights of the quadrature, in steps.
       real(wp), allocatable :: weight(:)
-      !> b_k cos(lambda_k Z) at (point, slot), at Gauss's points and where rupture is looked for, and in the middle;
+      !> b_k cos(lambda_k Z) at (point, slot), at Gauss's points and where cavitation is looked for, and in the middle;
       !> sums over the modes left out of b_k cos(lambda_k Z)/Lambda_k^2.
       real(wp), allocatable :: across(:, :), look(:, :), at_middle(:)
       real(wp) :: point_tail(all_points)
@@ -47,7 +47,7 @@ module modal_pad
       !> By slot, node and block: a = 1 - d^2 V/12, factors f of the elimination, q.
       real(wp), allocatable :: a(:, :, :), f(:, :, :), q(:, :, :)
       !> What q by (slot, node, block) and -s/H^2 by node count along the width: c and tail(2), less the part of the
-      !> width where the film has ruptured, if it has; and what the cavitation pressure counts there.
+      !> width where the film has cavitated, if it has; and what the cavitation pressure counts there.
       real(wp), allocatable :: share(:, :, :), narrow_share(:), floor_share(:)
       logical :: shares_are_stale = .true.
    end type modal_pad_type

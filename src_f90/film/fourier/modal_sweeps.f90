@@ -10,7 +10,7 @@ module modal_sweeps
    !> Modes solved side by side: the length of a vector register.
    integer, parameter :: simd_width = 8
 
-   !> Points across the width where rupture is looked for.
+   !> Points across the width where cavitation is looked for.
    integer, parameter :: looks = 4
 
 contains
@@ -177,7 +177,7 @@ contains
       sums = sums + [sum(c*sum_along), sum(c*sum_outward)]
    end subroutine sum_modes
 
-   !> Lowest pressure above ambient where rupture is looked for. It lies where s > 0, or at an edge.
+   !> Lowest pressure above ambient where cavitation is looked for. It lies where s > 0, or at an edge.
    pure real(wp) function lowest_pressure(n, blocks, narrow, h, tail, look, q)
       integer, intent(in) :: n, blocks
       !> s/H^2 and H by node; the modes left out; b_k cos(lambda_k Z) by point and slot.

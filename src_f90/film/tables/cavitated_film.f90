@@ -1,10 +1,10 @@
 !> The cavitated film of a dimensionless pad: force = S M v, as if the film were full and driven by v = w + |w_1| d,
 !> with d a function of the film thicknesses at both edges and of T, the part of the arc where the film diverges
-!> (docs/theory/film.md). Here d is solved where it is asked for; rupture_table interpolates it.
+!> (docs/theory/film.md). Here d is solved where it is asked for; cavitation_table interpolates it.
 module cavitated_film
    use kinds, only: wp, i8
    use unit_pad, only: unit_pad_type, thickness_scale
-   use ruptured_drive, only: ruptured_drive_type, drive_type, new_ruptured_drive, least_tolerance
+   use cavitated_drive, only: cavitated_drive_type, drive_type, new_cavitated_drive, least_tolerance
    use cubic_patch, only: simd_width, corner_data
    implicit none (type, external)
    private
@@ -39,7 +39,7 @@ module cavitated_film
       end subroutine look_up_drive
    end interface
 
-   !> Functions: the two factories of d, the highest pressure of the whole film driven by v over that of the ruptured
+   !> Functions: the two factories of d, the highest pressure of the whole film driven by v over that of the cavitated
    !> one, and 0. Their values, and derivatives over both thicknesses and T, (function, value or derivative).
    type :: node_type
       real(wp) :: data(simd_width, corner_data) = 0
@@ -52,7 +52,7 @@ module cavitated_film
    type, extends(cavitated_film_type) :: solved_cavitated_film_type
       private
       type(unit_pad_type) :: pad
-      type(ruptured_drive_type) :: drive
+      type(cavitated_drive_type) :: drive
       !> The films looked up last, one after the other, and where.
       type(node_type), allocatable :: remembered(:)
       real(wp), allocatable :: remembered_at(:, :)
@@ -72,7 +72,7 @@ contains
       real(wp), intent(in) :: tolerance
       type(solved_cavitated_film_type) :: films
       films%pad = pad
-      films%drive = new_ruptured_drive(pad, gumbel, max(tolerance, least_tolerance))
+      films%drive = new_cavitated_drive(pad, gumbel, max(tolerance, least_tolerance))
    end function new_solved_cavitated_film
 
    subroutine look_up(self, edges, t, want_slopes, last, value, slope, good)

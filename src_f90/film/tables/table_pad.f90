@@ -18,7 +18,7 @@ module table_pad
       !> Whether they have a pressure of their own at the leading edge.
       logical :: supplied = .false.
       class(full_film_type), allocatable :: whole
-      class(cavitated_film_type), allocatable :: rupture
+      class(cavitated_film_type), allocatable :: cavitation
    end type shape_tables
 
    !> A pad: its gap, how it differs from its shape, and the cells it was in last.
@@ -30,14 +30,14 @@ module table_pad
       integer :: shape = 0
       !> Whether the last film came from the tables.
       logical :: found = .false.
-      !> Whether all pressures around the pad are equal: then the tables know ruptured films, too.
+      !> Whether all pressures around the pad are equal: then the tables know cavitated films, too.
       logical :: even_pressure
       !> Pressure at the leading edge above the ambient pressure, Pa; R^2, m^2.
       real(wp) :: rise
       real(wp), private :: square
       !> Force of the ambient pressure, N, in the pad frame.
       real(wp), private :: ambient_force(2)
-      integer, private :: whole_cell = 0, rupture_cell = 0
+      integer, private :: whole_cell = 0, cavitation_cell = 0
    contains
       procedure :: look_up
       procedure :: look_up_pressures
@@ -50,7 +50,7 @@ module table_pad
    !> (component, edge), and over w, (component, component of w).
    type :: pad_drive
       real(wp) :: value(2), over_edges(2, 2), over_w(2, 2)
-      !> Highest pressure of the whole film over that of the ruptured one.
+      !> Highest pressure of the whole film over that of the cavitated one.
       real(wp) :: pressure_ratio = 1
    end type pad_drive
 
@@ -76,13 +76,13 @@ contains
    end function new_table_pad
 
    !> Force and its derivatives of an open film; `found` is false where the tables do not have it.
-   subroutine look_up(self, tables, motion, oil, speed, may_rupture, want_derivatives, response)
+   subroutine look_up(self, tables, motion, oil, speed, may_cavitation, want_derivatives, response)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
-      logical, intent(in) :: may_rupture, want_derivatives
+      logical, intent(in) :: may_cavitation, want_derivatives
       type(film_response), intent(inout) :: response
       type(middle_motion) :: seen
       type(middle_force) :: force
@@ -92,10 +92,10 @@ contains
       seen = self%frame%motion(motion, oil, speed)
       room = abs(seen%w(1))*tables%pad%tangent
       ! T > 0
-      diverges = may_rupture .and. seen%w(2) < room
-      ! with different pressures around a film that may rupture, all of it is solved: the force must not jump between
+      diverges = may_cavitation .and. seen%w(2) < room
+      ! with different pressures around a film that may cavitate, all of it is solved: the force must not jump between
       ! two solvers where the film begins to diverge
-      self%found = all(seen%edges > 0) .and. (self%even_pressure .or. .not. may_rupture)
+      self%found = all(seen%edges > 0) .and. (self%even_pressure .or. .not. may_cavitation)
       if (.not. self%found) return
       if (diverges .and. seen%w(2) <= -room) then
          ! T >= 1: nothing of the film is left
@@ -111,7 +111,7 @@ contains
       if (want_derivatives) response%derivatives = self%frame%derivatives(seen, force)
    end subroutine look_up
 
-   !> The drive of a ruptured film, 0 < T < 1, unless `found` becomes false.
+   !> The drive of a cavitated film, 0 < T < 1, unless `found` becomes false.
    subroutine set_drive(self, tables, seen, room, want_derivatives, drive)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
@@ -128,8 +128,8 @@ contains
          trailing = 3 - leading
          along = abs(w(1))
          side = [sign(1.0_wp, w(1)), 1.0_wp]
-         call tables%rupture%look_up(seen%edges([leading, trailing]), 0.5_wp*(1 - w(2)/room), want_derivatives, &
-            & self%rupture_cell, d, slope, self%found)
+         call tables%cavitation%look_up(seen%edges([leading, trailing]), 0.5_wp*(1 - w(2)/room), want_derivatives, &
+            & self%cavitation_cell, d, slope, self%found)
          drive%value = w + (along*side)*d(1:2)
          drive%pressure_ratio = d(3)
          if (.not. want_derivatives) return
@@ -179,13 +179,13 @@ contains
    end subroutine add_supply
 
    !> Minimum and maximum pressure of a film that was found, in the middle plane.
-   subroutine look_up_pressures(self, tables, motion, oil, speed, may_rupture, response)
+   subroutine look_up_pressures(self, tables, motion, oil, speed, may_cavitation, response)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
-      logical, intent(in) :: may_rupture
+      logical, intent(in) :: may_cavitation
       type(film_response), intent(inout) :: response
       type(middle_motion) :: seen
       type(pad_drive) :: drive
@@ -200,11 +200,11 @@ contains
       highest = 0
       lowest = 0
       drive = pad_drive(seen%w, 0, identity)
-      if (.not. may_rupture .or. seen%w(2) > -room) then
-         if (may_rupture .and. seen%w(2) < room) call self%set_drive(tables, seen, room, .false., drive)
+      if (.not. may_cavitation .or. seen%w(2) > -room) then
+         if (may_cavitation .and. seen%w(2) < room) call self%set_drive(tables, seen, room, .false., drive)
          call tables%whole%highest_pressure(seen%edges, drive%value, rise, self%whole_cell, highest, good)
       end if
-      if (.not. may_rupture) call tables%whole%highest_pressure(seen%edges, -seen%w, -rise, self%whole_cell, &
+      if (.not. may_cavitation) call tables%whole%highest_pressure(seen%edges, -seen%w, -rise, self%whole_cell, &
          & lowest, good)
       highest = highest/max(drive%pressure_ratio, least_ratio)
       response%max_pressure = self%gap%ambient_pressure + unit_pressure*highest

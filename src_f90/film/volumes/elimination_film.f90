@@ -1,8 +1,8 @@
 !> Film with the Reynolds condition by elimination: the equations of over-relaxation, solved exactly
 !> (volume_equations).
 !>
-!> Which cells are ruptured is found as an active set: cells below the cavitation pressure leave the film,
-!> ruptured cells that would fill come back; for this kind of matrix that ends, after a few rounds from the
+!> Which cells are cavitated is found as an active set: cells below the cavitation pressure leave the film,
+!> cavitated cells that would fill come back; for this kind of matrix that ends, after a few rounds from the
 !> set of the last motion (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13, 2002, theorem 3.2).
 module elimination_film
    use kinds, only: wp
@@ -11,7 +11,7 @@ module elimination_film
    use film_grid, only: film_grid_type, new_film_grid
    use volume_equations, only: volume_equations_type, new_volume_equations
    use film_rim, only: rim_conductance
-   use slight_rupture, only: force_of_few
+   use slight_cavitation, only: force_of_few
    use simd_padding, only: apply
    use column_sweeps, only: weighted
    implicit none (type, external)
@@ -34,7 +34,7 @@ module elimination_film
    contains
       procedure :: evaluate
       procedure :: drive_anew
-      procedure :: force_of_rupture
+      procedure :: force_of_cavitation
       procedure :: field
       procedure :: cells
       procedure :: start_from
@@ -54,14 +54,14 @@ contains
       allocate (self%pressure(self%basis%m, columns), self%adjoint(self%basis%m, columns, 2), source=0.0_wp)
    end function new_elimination_film
 
-   !> The film at a motion and a journal speed, rad/s, with the Reynolds condition or without rupture.
+   !> The film at a motion and a journal speed, rad/s, with the Reynolds condition or without cavitation.
    !> Counts a pad and the eliminations.
-   subroutine evaluate(self, motion, oil, speed, ruptures, want_derivatives, counters, response)
+   subroutine evaluate(self, motion, oil, speed, cavitates, want_derivatives, counters, response)
       class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
-      logical, intent(in) :: ruptures, want_derivatives
+      logical, intent(in) :: cavitates, want_derivatives
       type(film_counters), intent(inout) :: counters
       type(film_response), intent(out) :: response
       integer :: round
@@ -74,11 +74,11 @@ contains
          end if
          call grid%set_motion(motion, oil, speed)
          do round = 1, max(max_rounds, rounds_a_column*grid%columns)
-            call self%eliminate(ruptures)
+            call self%eliminate(cavitates)
             call self%solve(-grid%source, -grid%edge_source, self%pressure)
             counters%passes = counters%passes + 1
             changed = .false.
-            if (ruptures) call update_film(self, changed)
+            if (cavitates) call update_film(self, changed)
             if (.not. changed) exit
          end do
          if (changed) response%status = film_not_converged
@@ -116,7 +116,7 @@ contains
       last = self%last
       p = 0
       do i = max(1, first - 1), min(self%grid%columns, last + 1)
-         ! the columns beside those that rupture touches become blocks, too
+         ! the columns beside those that cavitate touches become blocks, too
          if (i < first .or. i > last) self%pressure(:, i) = self%in_rows(self%pressure, i)
          p(:, i) = self%pressure(:self%grid%rows, i)/self%basis%root(:self%grid%rows)
       end do
@@ -156,7 +156,7 @@ contains
    end function empty_columns
 
    !> Lets the next film start as a whole one, or from the cells in which that on a grid of half as many columns and
-   !> rows has ruptured.
+   !> rows has cavitated.
    pure subroutine start_from(self, coarse)
       class(elimination_film_type), intent(inout) :: self
       type(elimination_film_type), intent(in), optional :: coarse
@@ -169,13 +169,13 @@ contains
    end subroutine start_from
 
    !> Pressure, Pa, (axial position, angle), at a motion that leaves the film open and a journal speed, rad/s, with the
-   !> Reynolds condition or without rupture.
-   subroutine field(self, motion, oil, speed, ruptures, phi, z, pressure)
+   !> Reynolds condition or without cavitation.
+   subroutine field(self, motion, oil, speed, cavitates, phi, z, pressure)
       class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
-      logical, intent(in) :: ruptures
+      logical, intent(in) :: cavitates
       !> Angles from the pivot, rad, and distances from the middle plane, m, within the pad.
       real(wp), intent(in) :: phi(:), z(:)
       real(wp), intent(out) :: pressure(:, :)
@@ -183,9 +183,9 @@ contains
       type(film_response) :: response
       type(film_grid_type) :: grid
       real(wp), allocatable :: p(:, :), film(:, :)
-      call self%evaluate(motion, oil, speed, ruptures, .false., counters, response)
+      call self%evaluate(motion, oil, speed, cavitates, .false., counters, response)
       call self%cells(grid, p, film)
-      pressure = grid%pressure_at(p, ruptures, phi, z)
+      pressure = grid%pressure_at(p, cavitates, phi, z)
    end subroutine field
 
    !> Grid of the last film, its pressure above that of cavitation, Pa, (row, column), and its cells, the others 0.
@@ -204,9 +204,9 @@ contains
       film = self%film
    end subroutine cells
 
-   !> Force with the Reynolds condition less force without rupture, N, where only a few cells rupture; else
+   !> Force with the Reynolds condition less force without cavitation, N, where only a few cells cavitate; else
    !> `few` is false, and `evaluate` has to be asked.
-   subroutine force_of_rupture(self, motion, oil, speed, counters, force, few)
+   subroutine force_of_cavitation(self, motion, oil, speed, counters, force, few)
       class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil
@@ -217,7 +217,7 @@ contains
       call self%grid%set_motion(motion, oil, speed)
       call force_of_few(self%grid, self%basis, self%film, force, few)
       counters%passes = counters%passes + 1
-   end subroutine force_of_rupture
+   end subroutine force_of_cavitation
 
    !> Force; minimum and maximum pressure in the middle plane and at the edges.
    pure subroutine sum_up(self, response)

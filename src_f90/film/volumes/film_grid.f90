@@ -5,7 +5,7 @@
 !>    d/dphi(h^3 dp/dphi) + R^2 h^3 d2p/dZ2 = R^2 (-6 mu omega R_J/R dh/dphi + 12 mu dh/dt).
 !>
 !> Columns of cells lie along the arc from the trailing to the leading edge, rows from the middle plane to
-!> the side, ever lower, as the film ruptures first and pressure bends most beside the edges. The equation of a
+!> the side, ever lower, as the film cavitates first and pressure bends most beside the edges. The equation of a
 !> cell is that of the mean pressure in it, divided by its height. Pressures are those above the cavitation
 !> pressure. Fields are (row, column).
 module film_grid
@@ -149,7 +149,7 @@ contains
    end function force
 
    !> Derivatives of a force over position and velocity by its adjoint. With L p = -s and F = g . p, let L a = -g,
-   !> a = 0 where the film has ruptured; then dF = a . (ds + dL p), and a . dL p is a sum over faces, with
+   !> a = 0 where the film has cavitated; then dF = a . (ds + dL p), and a . dL p is a sum over faces, with
    !> differences of a and p over each.
    pure function derivatives(self, p, a)
       class(film_grid_type), intent(in) :: self
@@ -199,12 +199,12 @@ contains
    !> Pressure, Pa, (axial position, angle), from that of the cells: along the arc and across the width parabolas that
    !> meet smoothly, one for each cell, whose mean is the cell's pressure. So the integral of the field is the force,
    !> and the parabola across a narrow pad comes out exactly.
-   pure function pressure_at(self, p, ruptures, phi, z) result(pressure)
+   pure function pressure_at(self, p, cavitates, phi, z) result(pressure)
       class(film_grid_type), intent(in) :: self
       !> Mean pressures above the cavitation pressure, (row, column), Pa.
       real(wp), intent(in) :: p(:, :)
       !> Whether none falls below the cavitation pressure.
-      logical, intent(in) :: ruptures
+      logical, intent(in) :: cavitates
       !> Angles from the pivot, rad, and distances from the middle plane, m, within the pad.
       real(wp), intent(in) :: phi(:), z(:)
       real(wp) :: pressure(size(z), size(phi))
@@ -213,20 +213,20 @@ contains
       integer :: i, j, k
       associate (rows => self%rows)
          mean = p(:rows, :self%columns)
-         if (ruptures) mean = max(mean, 0.0_wp)
+         if (cavitates) mean = max(mean, 0.0_wp)
          do k = 1, rows
-            at_face(:, k) = between_means(self%width, mean(k, :), ruptures, self%supply, self%ambient)
+            at_face(:, k) = between_means(self%width, mean(k, :), cavitates, self%supply, self%ambient)
          end do
          do j = 1, size(phi)
             call find(self%width, (phi(j) + self%gap%trailing_angle)/self%d_phi, i, t)
             line = parabola(at_face(i - 1, :), mean(:, i), at_face(i, :), t)
-            ends = between_means(self%height, line, ruptures, self%ambient)
+            ends = between_means(self%height, line, cavitates, self%ambient)
             do k = 1, size(z)
                call find(self%height, abs(z(k))/self%d_z, i, t)
                pressure(k, j) = parabola(ends(i - 1), line(i), ends(i), t)
             end do
          end do
-         if (ruptures) pressure = max(pressure, 0.0_wp)
+         if (cavitates) pressure = max(pressure, 0.0_wp)
          pressure = pressure + self%gap%cavitation_pressure
       end associate
    end function pressure_at
@@ -253,10 +253,10 @@ contains
 
    !> Values at the ends (0:n) of intervals of these widths, so that the parabolas with these means meet smoothly: the
    !> slopes of the cubic spline through the integral. The last one is given; without `first` the first parabola is
-   !> level there. In a film that ruptures they are so limited that no parabola falls below 0.
-   pure function between_means(width, mean, ruptures, last, first) result(values)
+   !> level there. In a film that cavitates they are so limited that no parabola falls below 0.
+   pure function between_means(width, mean, cavitates, last, first) result(values)
       real(wp), intent(in) :: width(:), mean(:)
-      logical, intent(in) :: ruptures
+      logical, intent(in) :: cavitates
       real(wp), intent(in) :: last
       real(wp), intent(in), optional :: first
       real(wp) :: values(0:size(mean)), following(0:size(mean)), pivot
@@ -277,7 +277,7 @@ contains
          do i = n - 1, 0, -1
             values(i) = values(i) - following(i)*values(i + 1)
          end do
-         if (.not. ruptures) return
+         if (.not. cavitates) return
          values(1:n - 1) = max(0.0_wp, min(values(1:n - 1), 3*mean(:n - 1), 3*mean(2:)))
          if (.not. present(first)) values(0) = max(0.0_wp, min(values(0), 3*mean(1)))
       end associate

@@ -1,9 +1,9 @@
-!> Where between the cells of finite volumes a ruptured film ends.
+!> Where between the cells of finite volumes a cavitated film ends.
 !>
-!> What flows from the film into a cell that has ruptured fills a part of it, over what the cell would take up if it
+!> What flows from the film into a cell that has cavitated fills a part of it, over what the cell would take up if it
 !> were whole: there the film ends. The pressure meets this end without a slope, so that its own equations need not
 !> know it. A change of the pressure with the motion does not: it falls to 0 at the end, and if it fell to 0 in the
-!> middle of the ruptured cells, slopes would err by the first order of a cell's size, and leap when a cell ruptures.
+!> middle of the cavitated cells, slopes would err by the first order of a cell's size, and leap when a cell cavitates.
 module film_rim
    use kinds, only: wp
    use film_grid, only: film_grid_type
@@ -14,12 +14,12 @@ module film_rim
 contains
 
    !> What the end of a film adds to the diagonal of a cell's equation for a change of pressure, (row, column): the
-   !> conductance towards a ruptured cell is that up to the end of the film instead of up to the cell's middle.
+   !> conductance towards a cavitated cell is that up to the end of the film instead of up to the cell's middle.
    pure function rim_conductance(grid, film, pressure, first, last) result(more)
       type(film_grid_type), intent(in) :: grid
       !> Cells of the film 1, others 0; pressure above that of cavitation, Pa, 0 in the others; (row, column).
       real(wp), intent(in) :: film(:, :), pressure(:, :)
-      !> The columns that rupture touches; beside these alone the pressure has to be known.
+      !> The columns that cavitate touches; beside these alone the pressure has to be known.
       integer, intent(in) :: first, last
       real(wp) :: more(size(film, 1), grid%columns)
       real(wp), dimension(0:grid%rows + 1, 0:grid%columns + 1) :: filled, p
@@ -51,7 +51,7 @@ contains
       end associate
    end function rim_conductance
 
-   !> The part of a ruptured cell that an inflow fills.
+   !> The part of a cavitated cell that an inflow fills.
    pure real(wp) function share(inflow, source)
       real(wp), intent(in) :: inflow, source
       share = 0

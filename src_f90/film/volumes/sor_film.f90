@@ -15,7 +15,7 @@ module sor_film
    public :: sor_film_type, sor_options, new_sor_film
    public :: cavitation_none, cavitation_gumbel, cavitation_reynolds
 
-   !> Film rupture: none; pressures below p_cav dropped after the solution; projected in the solution.
+   !> Film cavitation: none; pressures below p_cav dropped after the solution; projected in the solution.
    integer, parameter :: cavitation_none = 0, cavitation_gumbel = 1, cavitation_reynolds = 2
 
    !> Pairs in a row are filled up to a multiple of this.
@@ -55,8 +55,8 @@ module sor_film
       integer :: cavitation
       type(sor_pad), allocatable :: pads(:)
    contains
-      procedure :: ruptures
-      procedure :: set_rupture
+      procedure :: cavitates
+      procedure :: set_cavitation
       procedure :: forget
       procedure :: evaluate => evaluate_all
       procedure :: field => field_all
@@ -112,16 +112,16 @@ contains
       best_relaxation = 2/(1 + sqrt(room*(2 - room)))
    end function best_relaxation
 
-   pure logical function ruptures(self)
+   pure logical function cavitates(self)
       class(sor_film_type), intent(in) :: self
-      ruptures = self%cavitation /= cavitation_none
-   end function ruptures
+      cavitates = self%cavitation /= cavitation_none
+   end function cavitates
 
-   pure subroutine set_rupture(self, allowed)
+   pure subroutine set_cavitation(self, allowed)
       class(sor_film_type), intent(inout) :: self
       logical, intent(in) :: allowed
       self%cavitation = merge(self%options%cavitation, cavitation_none, allowed)
-   end subroutine set_rupture
+   end subroutine set_cavitation
 
    pure subroutine forget(self)
       class(sor_film_type), intent(inout) :: self
@@ -161,7 +161,7 @@ contains
       do i = 1, size(motion)
          associate (pad => self%pads(i), grid => self%pads(i)%grid)
             pressure(:, :, i) = grid%pressure_at(natural(pad%pressure(1:grid%columns/2, 1:grid%rows, :)), &
-               & self%ruptures(), phi(:, i), z)
+               & self%cavitates(), phi(:, i), z)
          end associate
       end do
    end subroutine field_all

@@ -1,8 +1,8 @@
-!> The equations of finite volumes of one pad, of which some may have ruptured, by elimination.
+!> The equations of finite volumes of one pad, of which some may have cavitated, by elimination.
 !>
 !> Where a column of cells is whole, the axial part of its equations is the same matrix for every column, up
 !> to a factor; its eigenvectors ("modes" of the grid) turn the columns into independent chains of single
-!> equations. Only between the first and the last column that rupture touches are whole blocks eliminated.
+!> equations. Only between the first and the last column that cavitate touches are whole blocks eliminated.
 module volume_equations
    use kinds, only: wp
    use film_grid, only: film_grid_type
@@ -18,7 +18,7 @@ module volume_equations
       type(grid_modes_type) :: basis
       !> Cells that belong to the film: 1, the others 0 (row, column).
       real(wp), allocatable :: film(:, :)
-      !> Columns that rupture touches: first to last; none: first = columns + 1.
+      !> Columns that cavitate touches: first to last; none: first = columns + 1.
       integer :: first, last
       !> Reciprocal pivots outside them (mode, column); inverse blocks inside (row, row, column).
       real(wp), allocatable, private :: per_pivot(:, :), block(:, :, :)
@@ -45,11 +45,11 @@ contains
    end function new_volume_equations
 
    !> Pivots and blocks: whole columns from both edges of the pad inwards, mode by mode, then the columns
-   !> between, from the first to the last; none of these where the film does not rupture.
-   pure subroutine eliminate(self, ruptures, more)
+   !> between, from the first to the last; none of these where the film does not cavitate.
+   pure subroutine eliminate(self, cavitates, more)
       class(volume_equations_type), intent(inout) :: self
-      logical, intent(in) :: ruptures
-      !> Added to the diagonal beside ruptured cells, (row, column).
+      logical, intent(in) :: cavitates
+      !> Added to the diagonal beside cavitated cells, (row, column).
       real(wp), intent(in), optional :: more(:, :)
       logical :: touched(self%grid%columns)
       integer :: i, j, m
@@ -57,7 +57,7 @@ contains
       associate (grid => self%grid, c => self%grid%along, n => self%grid%columns, rows => self%grid%rows)
          self%first = n + 1
          self%last = n
-         if (ruptures) then
+         if (cavitates) then
             do i = 1, n
                touched(i) = any(self%film(:rows, i) <= 0)
             end do
@@ -98,7 +98,7 @@ contains
       end associate
    end subroutine eliminate
 
-   !> The scaled solution, by rows from the first to the last column that rupture touches, by modes outside, for
+   !> The scaled solution, by rows from the first to the last column that cavitate touches, by modes outside, for
    !> a load per column in every row of the film, and one more in its edge row.
    pure subroutine solve(self, load, edge_load, x)
       class(volume_equations_type), intent(in) :: self

@@ -1,8 +1,8 @@
-!> Flows of a film on finite volumes, and how far its ruptured part is filled.
+!> Flows of a film on finite volumes, and how far its cavitated part is filled.
 !>
 !> Between two cells the oil flows as the equations of the film have it, so that the cells of a whole film lose nothing.
-!> What flows across the edge of the film into its ruptured part runs on along the arc, in streamers that fill the gap's
-!> height and a share of its width.
+!> What flows across the edge of the film into its cavitated part runs on along the arc, in streamers that fill the
+!> gap's height and a share of its width.
 module volume_flows
    use kinds, only: wp
    use film_solver, only: film_oil
@@ -15,11 +15,11 @@ module volume_flows
       !> m^3/s: what pressure drives in at the leading edge, less than 0 where it drives oil out; out at the trailing
       !> edge and at both sides.
       real(wp) :: inlet = 0, outlet = 0, side = 0
-      !> m^3/s that a film takes up downstream of a rupture beyond what the streamers bring.
+      !> m^3/s that a film takes up downstream of a cavitation beyond what the streamers bring.
       real(wp) :: unfed = 0
-      !> Power that shear of sliding lacks in the ruptured part, W.
+      !> Power that shear of sliding lacks in the cavitated part, W.
       real(wp) :: lacking = 0
-      !> Force on the journal in the pad frame, N; integral of (sin phi, cos phi) over the ruptured part, m^2.
+      !> Force on the journal in the pad frame, N; integral of (sin phi, cos phi) over the cavitated part, m^2.
       real(wp) :: force(2) = 0, void(2) = 0
    end type volume_flow_type
 
@@ -104,7 +104,7 @@ contains
       end associate
    end subroutine add_row
 
-   !> What flows into a ruptured cell from the film in the rows beside it, over the conductance of uniform rows.
+   !> What flows into a cavitated cell from the film in the rows beside it, over the conductance of uniform rows.
    pure real(wp) function from_beside(grid, k, p, filled) result(inflow)
       type(film_grid_type), intent(in) :: grid
       integer, intent(in) :: k

@@ -1,5 +1,5 @@
-!> What a ruptured film is worth: the velocity v that would drive the same film, if it were whole, to the same force.
-!> For w = (1, w_2), with F the force of the ruptured film and M w that of the whole one, v = M^(-1) F.
+!> What a cavitated film is worth: the velocity v that would drive the same film, if it were whole, to the same force.
+!> For w = (1, w_2), with F the force of the cavitated film and M w that of the whole one, v = M^(-1) F.
 !>
 !> Both forces come from the same discretisation, so that most of its error is not in v. With the condition of Reynolds
 !> these are finite volumes: half of their columns lie where the film diverges, all of them are narrow where it is
@@ -7,7 +7,7 @@
 !> the film has gone from whole columns at the trailing edge, these are given to what is left of it. With Guembel's
 !> condition they are axial modes. Every film is solved from the same start: the answer does not depend on what came
 !> before.
-module ruptured_drive
+module cavitated_drive
    use kinds, only: wp
    use solve_2x2, only: solved
    use film_solver, only: film_motion, film_response, film_counters, film_ok
@@ -17,7 +17,7 @@ module ruptured_drive
    use modal_film, only: modal_film_type, converged_film
    implicit none (type, external)
    private
-   public :: ruptured_drive_type, drive_type, new_ruptured_drive, least_tolerance
+   public :: cavitated_drive_type, drive_type, new_cavitated_drive, least_tolerance
 
    !> Columns and rows of the finer grid for a tolerance of 4e-5, and of any; the error falls with their squares.
    integer, parameter :: base_columns = 56, base_rows = 8, most_rows = 48
@@ -30,7 +30,7 @@ module ruptured_drive
    integer, parameter :: margin = 3
 
    !> A solver for one pad.
-   type :: ruptured_drive_type
+   type :: cavitated_drive_type
       private
       type(unit_pad_type) :: pad
       logical :: gumbel
@@ -41,7 +41,7 @@ module ruptured_drive
       type(modal_film_type) :: clipped, whole
    contains
       procedure :: at
-   end type ruptured_drive_type
+   end type cavitated_drive_type
 
    !> The answer for one film.
    type :: drive_type
@@ -49,7 +49,7 @@ module ruptured_drive
       real(wp) :: value(2) = 0, slopes(2, 3) = 0
       !> M over the force of the film that is just whole, w_2 = tan(half the arc).
       real(wp) :: weight(2, 2) = 0
-      !> Highest pressure of the whole film that is driven by v over that of the ruptured one.
+      !> Highest pressure of the whole film that is driven by v over that of the cavitated one.
       real(wp) :: pressure_ratio = 1
       logical :: ok = .false.
    end type drive_type
@@ -57,11 +57,11 @@ module ruptured_drive
 contains
 
    !> For films of a pad, to a tolerance over the force of the film that is just whole.
-   function new_ruptured_drive(pad, gumbel, tolerance) result(solver)
+   function new_cavitated_drive(pad, gumbel, tolerance) result(solver)
       type(unit_pad_type), intent(in) :: pad
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: tolerance
-      type(ruptured_drive_type) :: solver
+      type(cavitated_drive_type) :: solver
       real(wp) :: refinement
       solver%pad = pad
       solver%gumbel = gumbel
@@ -72,11 +72,11 @@ contains
          solver%clipped = converged_film(pad%gap(0.0_wp), .true., tolerance)
          solver%whole = converged_film(pad%gap(0.0_wp), .false., tolerance)
       end if
-   end function new_ruptured_drive
+   end function new_cavitated_drive
 
    !> The drive of a film with these thicknesses at its edges and w = (1, w_2); not ok where it is closed.
    type(drive_type) function at(self, edges, w_2) result(drive)
-      class(ruptured_drive_type), intent(inout) :: self
+      class(cavitated_drive_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2), w_2
       type(film_motion) :: motion
       motion = film_motion(self%pad%position(edges), [1.0_wp, w_2])
@@ -94,7 +94,7 @@ contains
    end function at
 
    subroutine make_grids(self)
-      class(ruptured_drive_type), intent(inout) :: self
+      class(cavitated_drive_type), intent(inout) :: self
       integer :: part
       allocate (self%grids(2))
       do part = 1, 2
@@ -105,32 +105,32 @@ contains
 
    !> The drive by finite volumes on two grids, extrapolated; slopes over the position.
    function by_volumes(self, motion) result(drive)
-      type(ruptured_drive_type), intent(in) :: self
+      type(cavitated_drive_type), intent(in) :: self
       type(film_motion), intent(in) :: motion
       type(drive_type) :: drive, coarse_drive
       type(elimination_film_type) :: coarse, fine, coarse_whole, fine_whole
-      type(film_response) :: coarse_ruptured, ruptured
+      type(film_response) :: coarse_cavitated, cavitated
       type(film_counters) :: unused
       real(wp) :: line(0:self%columns/2), rim
       integer :: empty
       line = angles(self%pad, motion, -self%pad%half_arc, self%columns/2, 1)
       call make_grid(self, line, 2, coarse_whole)
       call make_grid(self, angles(self%pad, motion, -self%pad%half_arc, self%columns/2, 2), 1, fine_whole)
-      call coarse_whole%evaluate(motion, unit_oil, 0.0_wp, .true., .true., unused, coarse_ruptured)
+      call coarse_whole%evaluate(motion, unit_oil, 0.0_wp, .true., .true., unused, coarse_cavitated)
       empty = coarse_whole%empty_columns() - margin
       if (empty > 0) then
          rim = line(empty)
          call make_grid(self, angles(self%pad, motion, rim, self%columns/2, 1), 2, coarse)
          call make_grid(self, angles(self%pad, motion, rim, self%columns/2, 2), 1, fine)
-         call coarse%evaluate(motion, unit_oil, 0.0_wp, .true., .true., unused, coarse_ruptured)
+         call coarse%evaluate(motion, unit_oil, 0.0_wp, .true., .true., unused, coarse_cavitated)
          call fine%start_from(coarse)
-         call fine%evaluate(motion, unit_oil, 0.0_wp, .true., .true., unused, ruptured)
+         call fine%evaluate(motion, unit_oil, 0.0_wp, .true., .true., unused, cavitated)
       else
          call fine_whole%start_from(coarse_whole)
-         call fine_whole%evaluate(motion, unit_oil, 0.0_wp, .true., .true., unused, ruptured)
+         call fine_whole%evaluate(motion, unit_oil, 0.0_wp, .true., .true., unused, cavitated)
       end if
-      call compare(self%pad, motion, coarse_ruptured, coarse_whole, coarse_drive)
-      call compare(self%pad, motion, ruptured, fine_whole, drive)
+      call compare(self%pad, motion, coarse_cavitated, coarse_whole, coarse_drive)
+      call compare(self%pad, motion, cavitated, fine_whole, drive)
       drive%ok = drive%ok .and. coarse_drive%ok
       drive%value = drive%value + (drive%value - coarse_drive%value)/3
       drive%slopes = drive%slopes + (drive%slopes - coarse_drive%slopes)/3
@@ -138,7 +138,7 @@ contains
 
    !> The grid with these angles between its columns, and a part of the columns and rows.
    subroutine make_grid(self, line, part, grid)
-      type(ruptured_drive_type), intent(in) :: self
+      type(cavitated_drive_type), intent(in) :: self
       real(wp), intent(in) :: line(0:)
       integer, intent(in) :: part
       type(elimination_film_type), intent(out) :: grid
@@ -146,61 +146,61 @@ contains
       grid%grid = new_film_grid(self%pad%gap(0.0_wp), self%columns/part, self%rows/part, line)
    end subroutine make_grid
 
-   !> The drive of a ruptured film, by volumes on which the film is whole.
-   subroutine compare(pad, motion, ruptured, volumes, drive)
+   !> The drive of a cavitated film, by volumes on which the film is whole.
+   subroutine compare(pad, motion, cavitated, volumes, drive)
       type(unit_pad_type), intent(in) :: pad
       type(film_motion), intent(in) :: motion
-      type(film_response), intent(in) :: ruptured
+      type(film_response), intent(in) :: cavitated
       type(elimination_film_type), intent(inout) :: volumes
       type(drive_type), intent(inout) :: drive
       type(film_response) :: whole
       type(film_counters) :: unused
       call volumes%evaluate(motion, unit_oil, 0.0_wp, .false., .true., unused, whole)
-      call set_drive(pad, ruptured, whole, drive)
+      call set_drive(pad, cavitated, whole, drive)
       if (.not. drive%ok) return
       call volumes%drive_anew(film_motion(motion%position, drive%value), unit_oil, 0.0_wp, whole)
-      call set_slopes(ruptured, whole, drive)
+      call set_slopes(cavitated, whole, drive)
    end subroutine compare
 
    !> The drive by axial modes, with Guembel's condition; slopes over the position.
    function by_modes(self, motion) result(drive)
-      class(ruptured_drive_type), intent(inout) :: self
+      class(cavitated_drive_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
       type(drive_type) :: drive
-      type(film_response), dimension(1) :: ruptured, whole
+      type(film_response), dimension(1) :: cavitated, whole
       call self%whole%evaluate([motion], [unit_oil], 0.0_wp, .true., whole)
-      call self%clipped%evaluate([motion], [unit_oil], 0.0_wp, .true., ruptured)
-      call set_drive(self%pad, ruptured(1), whole(1), drive)
+      call self%clipped%evaluate([motion], [unit_oil], 0.0_wp, .true., cavitated)
+      call set_drive(self%pad, cavitated(1), whole(1), drive)
       if (.not. drive%ok) return
       call self%whole%evaluate([film_motion(motion%position, drive%value)], [unit_oil], 0.0_wp, .true., whole)
-      call set_slopes(ruptured(1), whole(1), drive)
+      call set_slopes(cavitated(1), whole(1), drive)
    end function by_modes
 
    !> v and the weight. The derivatives of the whole film's force over the velocity are M.
-   pure subroutine set_drive(pad, ruptured, whole, drive)
+   pure subroutine set_drive(pad, cavitated, whole, drive)
       type(unit_pad_type), intent(in) :: pad
-      type(film_response), intent(in) :: ruptured, whole
+      type(film_response), intent(in) :: cavitated, whole
       type(drive_type), intent(inout) :: drive
-      drive%ok = ruptured%status == film_ok .and. whole%status == film_ok
+      drive%ok = cavitated%status == film_ok .and. whole%status == film_ok
       if (.not. drive%ok) return
       associate (m => whole%derivatives(:, 3:4))
-         drive%value = solved(m, ruptured%force)
+         drive%value = solved(m, cavitated%force)
          drive%weight = m/norm2(m(:, 1) + pad%tangent*m(:, 2))
       end associate
    end subroutine set_drive
 
    !> Derivatives of v = M^(-1) F: M^(-1) (dF - dM v); `whole` is the film driven by v.
-   pure subroutine set_slopes(ruptured, whole, drive)
-      type(film_response), intent(in) :: ruptured, whole
+   pure subroutine set_slopes(cavitated, whole, drive)
+      type(film_response), intent(in) :: cavitated, whole
       type(drive_type), intent(inout) :: drive
       integer :: i
       associate (m => whole%derivatives(:, 3:4))
          do i = 1, 2
-            drive%slopes(:, i) = solved(m, ruptured%derivatives(:, i) - whole%derivatives(:, i))
+            drive%slopes(:, i) = solved(m, cavitated%derivatives(:, i) - whole%derivatives(:, i))
          end do
-         drive%slopes(:, 3) = solved(m, ruptured%derivatives(:, 4))
+         drive%slopes(:, 3) = solved(m, cavitated%derivatives(:, 4))
       end associate
-      if (ruptured%max_pressure > 0) drive%pressure_ratio = whole%max_pressure/ruptured%max_pressure
+      if (cavitated%max_pressure > 0) drive%pressure_ratio = whole%max_pressure/cavitated%max_pressure
    end subroutine set_slopes
 
    !> Angles between the columns, rad, from the trailing to the leading edge, where the film has gone up to an angle
@@ -221,4 +221,4 @@ contains
          angles(last(i - 1):last(i)) = pad%spread_angles(motion%position, ends(i - 1), ends(i), last(i) - last(i - 1))
       end do
    end function angles
-end module ruptured_drive
+end module cavitated_drive

@@ -1,11 +1,11 @@
-!> What the rupture of a few cells adds to the force, against the same finite volumes relaxed cell by cell.
-program test_slight_rupture
+!> What the cavitation of a few cells adds to the force, against the same finite volumes relaxed cell by cell.
+program test_slight_cavitation
    use kinds, only: wp
    use text, only: to_text
    use film_solver, only: film_motion
    use film_grid, only: film_grid_type, new_film_grid
    use grid_modes, only: grid_modes_type, new_grid_modes
-   use slight_rupture, only: force_of_few
+   use slight_cavitation, only: force_of_few
    use paper_bearing, only: paper_oil, paper_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -21,7 +21,7 @@ program test_slight_rupture
 
 contains
 
-   !> A loaded film of the dry pad, its grid at that motion, and a start without ruptured cells.
+   !> A loaded film of the dry pad, its grid at that motion, and a start without cavitated cells.
    subroutine loaded_film(grid, basis, film)
       type(film_grid_type), intent(out) :: grid
       type(grid_modes_type), intent(out) :: basis
@@ -32,7 +32,7 @@ contains
       call film_at(motion, 0.0_wp, grid, basis, film)
    end subroutine loaded_film
 
-   !> The grid of the pad at a motion, with an ambient pressure above that of rupture, Pa.
+   !> The grid of the pad at a motion, with an ambient pressure above that of cavitation, Pa.
    subroutine film_at(motion, ambient, grid, basis, film)
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: ambient
@@ -46,11 +46,11 @@ contains
       film(:rows, :) = 1
    end subroutine film_at
 
-   !> The pressure of the finite volumes, (row, column), with rupture or without, by over-relaxation of each cell until
-   !> nothing changes.
-   function relaxed(grid, ruptures) result(p)
+   !> The pressure of the finite volumes, (row, column), with cavitation or without, by over-relaxation of each cell
+   !> until nothing changes.
+   function relaxed(grid, cavitates) result(p)
       type(film_grid_type), intent(in) :: grid
-      logical, intent(in) :: ruptures
+      logical, intent(in) :: cavitates
       real(wp) :: p(rows, columns)
       real(wp) :: flow, total, new, change
       integer :: sweep, column, row
@@ -71,7 +71,7 @@ contains
                   total = grid%along(column - 1) + grid%along(column) + inward + outward
                end associate
                new = p(row, column) + 1.5_wp*(flow/total - p(row, column))
-               if (ruptures) new = max(0.0_wp, new)
+               if (cavitates) new = max(0.0_wp, new)
                change = max(change, abs(new - p(row, column)))
                p(row, column) = new
             end do
@@ -80,7 +80,7 @@ contains
       end do
    end function relaxed
 
-   !> Force with rupture less force without, N.
+   !> Force with cavitation less force without, N.
    function expected_force(grid) result(force)
       type(film_grid_type), intent(in) :: grid
       real(wp) :: force(2)
@@ -105,12 +105,12 @@ contains
          all_of_it = norm2(grid%force(matmul(grid%height, p)))
          call expect_close(norm2(force - expected), 0.0_wp, 1e-10_wp*all_of_it, 'force, film '//to_text(trial))
          call expect(norm2(expected) > 1e-7_wp*all_of_it, 'which is no rounding, film '//to_text(trial))
-         call expect(all((film(:rows, :) > 0) .eqv. p > 0), 'the cells that rupture, film '//to_text(trial))
+         call expect(all((film(:rows, :) > 0) .eqv. p > 0), 'the cells that cavitate, film '//to_text(trial))
       end do
-      call expect(compared >= 40, 'most of these films rupture slightly: '//to_text(compared))
+      call expect(compared >= 40, 'most of these films cavitate slightly: '//to_text(compared))
    end subroutine against_relaxation
 
-   !> The answer does not depend on the cells that were ruptured before.
+   !> The answer does not depend on the cells that were cavitated before.
    subroutine any_start()
       type(film_grid_type) :: grid
       type(grid_modes_type) :: basis
@@ -131,10 +131,10 @@ contains
          call expect_close(norm2(again - force), 0.0_wp, 1e-12_wp*norm2(force), 'the same force, film '//to_text(trial))
          call expect(all(nint(other(:rows, :)) == nint(film(:rows, :))), 'the same cells, film '//to_text(trial))
       end do
-      call expect(compared >= 40, 'most of these films rupture slightly: '//to_text(compared))
+      call expect(compared >= 40, 'most of these films cavitate slightly: '//to_text(compared))
    end subroutine any_start
 
-   !> In a flooded pad rupture begins inside, away from the edge: that is left to others, or told right.
+   !> In a flooded pad cavitate begins inside, away from the edge: that is left to others, or told right.
    subroutine flooded()
       type(film_grid_type) :: grid
       type(grid_modes_type) :: basis
@@ -152,10 +152,10 @@ contains
          if (few) call expect_close(norm2(force - expected_force(grid)), 0.0_wp, &
             & 1e-10_wp*norm2(grid%force(matmul(grid%height, p))), 'force, film '//to_text(trial))
       end do
-      call expect(inside >= 20, 'films that rupture inside: '//to_text(inside))
+      call expect(inside >= 20, 'films that cavitate inside: '//to_text(inside))
    end subroutine flooded
 
-   !> Squeezed everywhere, with no wedge: nothing ruptures.
+   !> Squeezed everywhere, with no wedge: nothing cavitates.
    subroutine whole_film()
       type(film_motion), parameter :: squeezed = film_motion(clearance*[-0.3_wp, 0.2_wp], &
          & clearance*speed*[0.0_wp, 0.1_wp])
@@ -165,9 +165,9 @@ contains
       real(wp) :: force(2)
       logical :: few
       call film_at(squeezed, 0.0_wp, grid, basis, film)
-      call expect(minval(relaxed(grid, .false.)) >= 0, 'a film that does not rupture')
+      call expect(minval(relaxed(grid, .false.)) >= 0, 'a film that does not cavitate')
       call force_of_few(grid, basis, film, force, few)
-      call expect(few, 'is slight rupture')
+      call expect(few, 'is slight cavitation')
       call expect_close(norm2(force), 0.0_wp, 0.0_wp, 'without a force')
    end subroutine whole_film
 
@@ -183,9 +183,9 @@ contains
       integer :: k
       do k = 1, size(motions)
          call film_at(motions(k), 0.0_wp, grid, basis, film)
-         call expect(any(relaxed(grid, .true.) <= 0), 'a film that ruptures, '//to_text(k))
+         call expect(any(relaxed(grid, .true.) <= 0), 'a film that cavitates, '//to_text(k))
          call force_of_few(grid, basis, film, force, few)
          call expect(.not. few, 'far or wide, '//to_text(k))
       end do
    end subroutine not_few
-end program test_slight_rupture
+end program test_slight_cavitation

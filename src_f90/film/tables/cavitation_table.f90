@@ -1,22 +1,22 @@
-!> The ruptured film of a pad as a table: force = S M v, as if the film were whole and driven by v = w + |w_1| d, with d
-!> a function of the film thicknesses at both edges and of T, the part of the arc where the film diverges
+!> The cavitated film of a pad as a table: force = S M v, as if the film were whole and driven by v = w + |w_1| d, with
+!> d a function of the film thicknesses at both edges and of T, the part of the arc where the film diverges
 !> (docs/theory/film.md, *The table*).
 !>
 !> Cells are boxes with a node at every corner, which neighbours share. A cell is cut in eight where the film at its
 !> middle differs too much from what its corners say. The film of a node is solved on its own; so a cell is the same,
 !> whatever came before.
-module rupture_table
+module cavitation_table
    use kinds, only: wp
    use clock, only: wall_clock
    use unit_pad, only: unit_pad_type
-   use ruptured_drive, only: least_tolerance
+   use cavitated_drive, only: least_tolerance
    use cavitated_film, only: cavitated_film_type, solved_cavitated_film_type, node_type, new_solved_cavitated_film
    use octaves, only: interval, lower_end
    use cell_index, only: cell_index_type, cell_key
    use cubic_patch, only: simd_width, terms, corner_data, corners, cubic_transform, evaluate_cubic
    implicit none (type, external)
    private
-   public :: rupture_table_type, new_rupture_table
+   public :: cavitation_table_type, new_cavitation_table
 
    !> Cells that are not cut are half an octave long in the thicknesses, and 1/8 in T; they may be cut so often.
    integer, parameter :: octave_level = 1, parts = 8, deepest = 3
@@ -34,7 +34,7 @@ module rupture_table
       real(wp) :: coefficients(simd_width, terms)
    end type cell_type
 
-   type, extends(cavitated_film_type) :: rupture_table_type
+   type, extends(cavitated_film_type) :: cavitation_table_type
       private
       !> What the table is built from.
       type(solved_cavitated_film_type) :: films
@@ -53,29 +53,29 @@ module rupture_table
       procedure, private :: find_cell
       procedure, private :: build
       procedure, private :: find_node
-   end type rupture_table_type
+   end type cavitation_table_type
 
 contains
 
    !> An empty table for a pad, with the condition of Reynolds or Guembel: forces to a tolerance, over that at T = 0.
    !> At least the corners and the middle of a cell must find room in it.
-   function new_rupture_table(pad, gumbel, tolerance, most) result(table)
+   function new_cavitation_table(pad, gumbel, tolerance, most) result(table)
       type(unit_pad_type), intent(in) :: pad
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: tolerance
       integer, intent(in), optional :: most
-      type(rupture_table_type) :: table
+      type(cavitation_table_type) :: table
       ! beyond what the nodes keep to, cells would be cut for nothing
       table%tolerance = max(tolerance, least_tolerance)
       table%films = new_solved_cavitated_film(pad, gumbel, table%tolerance)
       if (present(most)) table%most = max(most, corners + 1)
-   end function new_rupture_table
+   end function new_cavitation_table
 
    !> The functions and, if they are wanted, their derivatives over both thicknesses and T, (function, axis), for an
    !> open film with these thicknesses at its edges and 0 < T < 1. `last` is the caller's memory of the cell, 0 at
    !> first. `good` is false where d is not as close as it should be: next to a film that closes.
    subroutine look_up(self, edges, t, want_slopes, last, value, slope, good)
-      class(rupture_table_type), intent(inout) :: self
+      class(cavitation_table_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2), t
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
@@ -96,7 +96,7 @@ contains
 
    !> True where a cell of this number holds this place and is not cut.
    pure logical function holds(self, number, place)
-      class(rupture_table_type), intent(in) :: self
+      class(cavitation_table_type), intent(in) :: self
       integer, intent(in) :: number
       real(wp), intent(in) :: place(3)
       holds = .false.
@@ -110,7 +110,7 @@ contains
 
    !> The cell that holds this place and is not cut; what is missing on the way to it is built.
    subroutine find_cell(self, place, number)
-      class(rupture_table_type), intent(inout) :: self
+      class(cavitation_table_type), intent(inout) :: self
       real(wp), intent(in) :: place(3)
       integer, intent(out) :: number
       type(cell_type), allocatable :: more(:)
@@ -149,7 +149,7 @@ contains
 
    !> The cell at a place of a level, checked.
    subroutine build(self, level, at, cell)
-      class(rupture_table_type), intent(inout) :: self
+      class(cavitation_table_type), intent(inout) :: self
       integer, intent(in) :: level, at(3)
       type(cell_type), intent(inout) :: cell
       type(node_type) :: node
@@ -193,7 +193,7 @@ contains
 
    !> The node at a corner `at`, counted in cells one level below the smallest.
    subroutine find_node(self, at, node)
-      class(rupture_table_type), intent(inout) :: self
+      class(cavitation_table_type), intent(inout) :: self
       integer, intent(in) :: at(3)
       type(node_type), intent(out) :: node
       type(node_type), allocatable :: more(:)
@@ -218,4 +218,4 @@ contains
       end associate
    end subroutine find_node
 
-end module rupture_table
+end module cavitation_table

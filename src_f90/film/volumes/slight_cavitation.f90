@@ -1,11 +1,11 @@
-!> What the rupture of a few cells at the trailing edge does to the force, by Green's functions of the whole film.
+!> What the cavitation of a few cells at the trailing edge does to the force, by Green's functions of the whole film.
 !>
-!> With rupture the pressure is p + G lambda: p that of the whole film, G the inverse of its operator, lambda >= 0
-!> what holds the ruptured cells at the cavitation pressure. As G >= 0, only cells with p < 0 can rupture. These
+!> With cavitation the pressure is p + G lambda: p that of the whole film, G the inverse of its operator, lambda >= 0
+!> what holds the cavitated cells at the cavitation pressure. As G >= 0, only cells with p < 0 can cavitate. These
 !> are found in the columns next to the trailing edge; their part of G comes from the chains of the grid's modes;
 !> lambda is an active set over these few cells; and as G is symmetric, the force of G lambda is lambda times
 !> G w, with w the weights of the pressure in the force.
-module slight_rupture
+module slight_cavitation
    use kinds, only: wp
    use film_grid, only: film_grid_type
    use grid_modes, only: grid_modes_type
@@ -15,13 +15,13 @@ module slight_rupture
    private
    public :: force_of_few
 
-   !> Most cells that count as few: under tension, ruptured; and columns they may lie in.
-   integer, parameter :: most_cells = 128, most_ruptured = 48, most_columns = 16
+   !> Most cells that count as few: under tension, cavitated; and columns they may lie in.
+   integer, parameter :: most_cells = 128, most_cavitated = 48, most_columns = 16
    integer, parameter :: max_rounds = 30
    !> What the chains carry: the pressure, and the weights of both forces.
    integer, parameter :: loads = 3
 
-   !> A cell that may rupture.
+   !> A cell that may cavitate.
    type :: candidate
       integer :: row, column
       !> Pressure of the whole film, Pa, scaled (grid_modes); G w for both forces.
@@ -30,9 +30,9 @@ module slight_rupture
 
 contains
 
-   !> Force with rupture less force of the whole film, N, at the motion the grid has been set to. `few` is false
-   !> where rupture is not slight enough: then nothing is said. `film` tells which cells are whole (1) or
-   !> ruptured (0): those of the last motion on entry, of this one on return.
+   !> Force with cavitation less force of the whole film, N, at the motion the grid has been set to. `few` is false
+   !> where cavitation is not slight enough: then nothing is said. `film` tells which cells are whole (1) or
+   !> cavitated (0): those of the last motion on entry, of this one on return.
    pure subroutine force_of_few(grid, basis, film, force, few)
       type(film_grid_type), intent(in) :: grid
       type(grid_modes_type), intent(in) :: basis
@@ -44,9 +44,9 @@ contains
       real(wp), dimension(basis%m, last_source(grid)) :: per_pivot
       real(wp), dimension(basis%m, loads, last_source(grid)) :: x
       type(candidate) :: cells(most_cells)
-      real(wp) :: lambda(most_ruptured), after(most_cells)
-      integer :: held(most_ruptured)
-      logical :: ruptured(most_cells), new(most_cells)
+      real(wp) :: lambda(most_cavitated), after(most_cells)
+      integer :: held(most_cavitated)
+      logical :: cavitated(most_cells), new(most_cells)
       integer :: n, k, i, round
       force = 0
       load(1, :) = -grid%source
@@ -56,21 +56,21 @@ contains
       call find_cells(grid, basis, per_pivot, x, cells, n, few)
       if (.not. few .or. n == 0) return
       do i = 1, n
-         ruptured(i) = film(cells(i)%row, cells(i)%column) <= 0
+         cavitated(i) = film(cells(i)%row, cells(i)%column) <= 0
       end do
-      ! the active set: lambda > 0 on the ruptured cells, p + G lambda >= 0 on the others
+      ! the active set: lambda > 0 on the cavitated cells, p + G lambda >= 0 on the others
       do round = 1, max_rounds
-         k = count(ruptured(:n))
-         few = k <= most_ruptured
+         k = count(cavitated(:n))
+         few = k <= most_cavitated
          if (.not. few) return
-         held(:k) = pack([(i, i=1, n)], ruptured(:n))
+         held(:k) = pack([(i, i=1, n)], cavitated(:n))
          call hold(grid, basis, per_pivot, cells(held(:k)), lambda)
-         call pressure_after(grid, basis, per_pivot, cells(held(:k)), lambda, cells(:n), ruptured(:n), after)
+         call pressure_after(grid, basis, per_pivot, cells(held(:k)), lambda, cells(:n), cavitated(:n), after)
          new(:n) = after(:n) < 0
          new(held(:k)) = lambda(:k) > 0
-         few = all(new(:n) .eqv. ruptured(:n))
+         few = all(new(:n) .eqv. cavitated(:n))
          if (few) exit
-         ruptured(:n) = new(:n)
+         cavitated(:n) = new(:n)
       end do
       if (.not. few) return
       film(:grid%rows, :) = 1
@@ -155,12 +155,12 @@ contains
 
    !> p + G lambda at the candidates that are not held, with lambda at the held ones: in along their columns
    !> and out again.
-   pure subroutine pressure_after(grid, basis, per_pivot, held, lambda, cells, ruptured, after)
+   pure subroutine pressure_after(grid, basis, per_pivot, held, lambda, cells, cavitated, after)
       type(film_grid_type), intent(in) :: grid
       type(grid_modes_type), intent(in) :: basis
       real(wp), intent(in) :: per_pivot(:, :), lambda(:)
       type(candidate), intent(in) :: held(:), cells(:)
-      logical, intent(in) :: ruptured(:)
+      logical, intent(in) :: cavitated(:)
       real(wp), intent(inout) :: after(:)
       real(wp) :: y(basis%m, most_columns)
       integer :: i, k, last
@@ -178,7 +178,7 @@ contains
       end do
       do k = 1, size(cells)
          after(k) = 0
-         if (.not. ruptured(k)) after(k) = cells(k)%pressure &
+         if (.not. cavitated(k)) after(k) = cells(k)%pressure &
             & + weighted(basis%m, basis%transposed(:, cells(k)%row), y(:, cells(k)%column))
       end do
    end subroutine pressure_after
@@ -207,4 +207,4 @@ contains
          b(j) = b(j)*a(j, j)
       end do
    end subroutine solve_positive
-end module slight_rupture
+end module slight_cavitation

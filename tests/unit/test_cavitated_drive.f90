@@ -1,5 +1,5 @@
-!> The drive of a ruptured film: against finite volumes on finer even grids, its limits, slopes, and no memory.
-program test_ruptured_drive
+!> The drive of a cavitated film: against finite volumes on finer even grids, its limits, slopes, and no memory.
+program test_cavitated_drive
    use kinds, only: wp, degree
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_counters
@@ -7,7 +7,7 @@ program test_ruptured_drive
    use unit_pad, only: unit_oil, unit_pad_type, new_unit_pad
    use elimination_film, only: elimination_film_type, new_elimination_film
    use modal_film, only: modal_film_type, new_modal_film
-   use ruptured_drive, only: ruptured_drive_type, drive_type, new_ruptured_drive
+   use cavitated_drive, only: cavitated_drive_type, drive_type, new_cavitated_drive
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
@@ -59,7 +59,7 @@ contains
    !> more than they differ from the first two.
    subroutine against_even_grids(edges, t)
       real(wp), intent(in) :: edges(2), t
-      type(ruptured_drive_type) :: solver
+      type(cavitated_drive_type) :: solver
       type(drive_type) :: drive
       type(elimination_film_type) :: grid
       type(film_counters) :: unused
@@ -67,7 +67,7 @@ contains
       real(wp) :: forces(2, 3), best(2), before(2), scale, doubt
       integer, parameter :: columns(3) = [120, 170, 240], rows(3) = [12, 17, 24]
       integer :: k
-      solver = new_ruptured_drive(pad, .false., tolerance)
+      solver = new_cavitated_drive(pad, .false., tolerance)
       drive = solver%at(edges, pad%tangent*(1 - 2*t))
       do k = 1, 3
          grid = new_elimination_film(gap, columns(k), rows(k))
@@ -87,11 +87,11 @@ contains
    !> Guembel's condition, with as many modes.
    subroutine against_clipped_modes(edges, t)
       real(wp), intent(in) :: edges(2), t
-      type(ruptured_drive_type) :: solver
+      type(cavitated_drive_type) :: solver
       type(drive_type) :: drive
       type(modal_film_type) :: film
       type(film_response) :: r(1)
-      solver = new_ruptured_drive(pad, .true., tolerance)
+      solver = new_cavitated_drive(pad, .true., tolerance)
       drive = solver%at(edges, pad%tangent*(1 - 2*t))
       film = new_modal_film([gap], 192, 64, .true., 1e-7_wp)
       call film%evaluate([film_motion(pad%position(edges), w_of(t))], [unit_oil], 0.0_wp, .false., r)
@@ -99,17 +99,17 @@ contains
          & 0.0_wp, tolerance, 'force, T = '//to_text(t))
    end subroutine against_clipped_modes
 
-   !> Slopes against central differences over 0.02: of cells that rupture one by one the differences keep the noise,
+   !> Slopes against central differences over 0.02: of cells that cavitate one by one the differences keep the noise,
    !> some of the tolerance over the step; measured over the force at onset, as in the table.
    subroutine slopes(gumbel, edges, t)
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: edges(2), t
       real(wp), parameter :: step = 0.02_wp
-      type(ruptured_drive_type) :: solver
+      type(cavitated_drive_type) :: solver
       type(drive_type) :: drive, ahead, back, shorter_ahead, shorter_back
       real(wp) :: shift(3), difference(2), shorter(2)
       integer :: k
-      solver = new_ruptured_drive(pad, gumbel, 0.1_wp*tolerance)
+      solver = new_cavitated_drive(pad, gumbel, 0.1_wp*tolerance)
       associate (w_2 => pad%tangent*(1 - 2*t))
          drive = solver%at(edges, w_2)
          do k = 1, 3
@@ -133,12 +133,12 @@ contains
    !> over the force at onset. Without the end of the film between the cells they are up to 5e-3 apart.
    subroutine rim(edges, t)
       real(wp), intent(in) :: edges(2), t
-      type(ruptured_drive_type) :: solver
+      type(cavitated_drive_type) :: solver
       type(drive_type) :: drive, finer
       integer :: k
-      solver = new_ruptured_drive(pad, .false., 1.8e-5_wp)
+      solver = new_cavitated_drive(pad, .false., 1.8e-5_wp)
       drive = solver%at(edges, pad%tangent*(1 - 2*t))
-      solver = new_ruptured_drive(pad, .false., 1.1e-6_wp)
+      solver = new_cavitated_drive(pad, .false., 1.1e-6_wp)
       finer = solver%at(edges, pad%tangent*(1 - 2*t))
       do k = 1, 3
          call expect_close(norm2(matmul(finer%weight, drive%slopes(:, k) - finer%slopes(:, k))) &
@@ -146,17 +146,17 @@ contains
       end do
    end subroutine rim
 
-   !> As T goes to 0 the drive goes to w, and faster than T: rupture begins where the pressure is low.
+   !> As T goes to 0 the drive goes to w, and faster than T: cavitation begins where the pressure is low.
    subroutine onset(edges)
       real(wp), intent(in) :: edges(2)
-      type(ruptured_drive_type) :: solver
+      type(cavitated_drive_type) :: solver
       type(drive_type) :: drive
       real(wp) :: change(2)
       integer :: k
       logical :: gumbel
       gumbel = .false.
       do k = 1, 2
-         solver = new_ruptured_drive(pad, gumbel, tolerance)
+         solver = new_cavitated_drive(pad, gumbel, tolerance)
          drive = solver%at(edges, pad%tangent*(1 - 2*0.02_wp))
          change = drive%value - w_of(0.02_wp)
          call expect(norm2(matmul(drive%weight, change)) < 0.02_wp**2, 'little changes at onset')
@@ -167,13 +167,13 @@ contains
    !> As T goes to 1 nothing is left of the force.
    subroutine end_of_film(edges)
       real(wp), intent(in) :: edges(2)
-      type(ruptured_drive_type) :: solver
+      type(cavitated_drive_type) :: solver
       type(drive_type) :: drive
       integer :: k
       logical :: gumbel
       gumbel = .false.
       do k = 1, 2
-         solver = new_ruptured_drive(pad, gumbel, tolerance)
+         solver = new_cavitated_drive(pad, gumbel, tolerance)
          drive = solver%at(edges, pad%tangent*(1 - 2*0.98_wp))
          call expect(norm2(matmul(drive%weight, drive%value)) < 0.02_wp**2, 'little is left at the end')
          gumbel = .true.
@@ -182,13 +182,13 @@ contains
 
    !> Whatever was solved before, and in which order, no bit changes.
    subroutine no_memory()
-      type(ruptured_drive_type) :: solver
+      type(cavitated_drive_type) :: solver
       type(drive_type) :: forth(size(films, 2)), back
       logical :: gumbel
       integer :: k, pass
       gumbel = .false.
       do pass = 1, 2
-         solver = new_ruptured_drive(pad, gumbel, tolerance)
+         solver = new_cavitated_drive(pad, gumbel, tolerance)
          do k = 1, size(films, 2)
             forth(k) = solver%at(films(:2, k), pad%tangent*(1 - 2*films(3, k)))
          end do
@@ -204,16 +204,16 @@ contains
 
    !> A film that closes between its edges has none.
    subroutine closed()
-      type(ruptured_drive_type) :: solver
+      type(cavitated_drive_type) :: solver
       type(drive_type) :: drive
       logical :: gumbel
       integer :: pass
       gumbel = .false.
       do pass = 1, 2
-         solver = new_ruptured_drive(pad, gumbel, tolerance)
+         solver = new_cavitated_drive(pad, gumbel, tolerance)
          drive = solver%at([0.1_wp, 0.1_wp], 0.0_wp)
          call expect(.not. drive%ok, 'a closed film')
          gumbel = .true.
       end do
    end subroutine closed
-end program test_ruptured_drive
+end program test_cavitated_drive

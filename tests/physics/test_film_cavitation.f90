@@ -1,6 +1,6 @@
-!> Films that rupture: Guembel's condition by modes against over-relaxation, slopes where part of the film is
-!> gone, and the onset of rupture under the solver that chooses.
-program test_film_rupture
+!> Films that cavitate: Guembel's condition by modes against over-relaxation, slopes where part of the film is
+!> gone, and the onset of cavitation under the solver that chooses.
+program test_film_cavitation
    use kinds, only: wp, i8, pi
    use text, only: to_text
    use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_ok
@@ -16,7 +16,7 @@ program test_film_rupture
    integer, parameter :: cells = 24, modes = 8
    !> Error of the modes' force where the film is whole.
    real(wp), parameter :: modal_error = 1e-4_wp
-   !> Ambient pressure, and with it that at the leading edge, where a film is not at the pressure of rupture.
+   !> Ambient pressure, and with it that at the leading edge, where a film is not at the pressure of cavitation.
    real(wp), parameter :: ambient = 1e5_wp, supply = 3e5_wp
 
    !> A journal that presses into the pad and leaves it again, as a function of an angle.
@@ -58,7 +58,7 @@ program test_film_rupture
 
 contains
 
-   !> The paper's pad with its pivot off the middle; dry: every pressure is that of rupture.
+   !> The paper's pad with its pivot off the middle; dry: every pressure is that of cavitation.
    pure type(pad_gap_type) function pad(flooded)
       logical, intent(in) :: flooded
       pad = offset_pad()
@@ -100,7 +100,7 @@ contains
       reference = (4*r_fine(2)%force - r_fine(1)%force)/3
       whole = new_modal_film([film], cells, modes, gumbel=.false.)
       r_whole = answer(whole, motion)
-      call expect(r_whole%min_pressure < film%cavitation_pressure, what//': the film ruptures')
+      call expect(r_whole%min_pressure < film%cavitation_pressure, what//': the film cavitates')
       across = missed_across(film, fine%pressure_field(1))
       do k = 0, 2
          clipped = new_modal_film([film], cells*2**k, modes*2**k, gumbel=.true.)
@@ -216,12 +216,12 @@ contains
             mean = mean + error
          end do
       end do
-      call expect(compared >= 100, 'slopes of ruptured films compared, Guembel: '//to_text(compared))
-      call expect_close(worst, 0.0_wp, 5e-3_wp, 'slopes of ruptured films, Guembel by modes')
-      call expect_close(mean/compared, 0.0_wp, 3e-4_wp, 'slopes of ruptured films, Guembel by modes, in the mean')
+      call expect(compared >= 100, 'slopes of cavitated films compared, Guembel: '//to_text(compared))
+      call expect_close(worst, 0.0_wp, 5e-3_wp, 'slopes of cavitated films, Guembel by modes')
+      call expect_close(mean/compared, 0.0_wp, 3e-4_wp, 'slopes of cavitated films, Guembel by modes, in the mean')
    end subroutine modal_slopes
 
-   !> The solver that chooses: its slopes leave out how the share c of (modes - cells), both without rupture,
+   !> The solver that chooses: its slopes leave out how the share c of (modes - cells), both without cavitation,
    !> changes. c falls from 1 to 0 as the tension grows to the highest pressure, so what is left out is known.
    !> It must also be small beside the slopes: the difference of the two solvers is 2e-3 of the force, and over a
    !> clearance the share changes no more than a few times as much as the force, in parts of it.
@@ -261,8 +261,8 @@ contains
             largest = max(largest, deviation/norm2(expected))
          end do
       end do
-      call expect(compared >= 50, 'slopes of ruptured films compared, auto: '//to_text(compared))
-      call expect(worst <= 1e-6_wp, 'slopes of ruptured films, auto, but for the share: '//to_text(worst))
+      call expect(compared >= 50, 'slopes of cavitated films compared, auto: '//to_text(compared))
+      call expect(worst <= 1e-6_wp, 'slopes of cavitated films, auto, but for the share: '//to_text(worst))
       call expect(largest <= 1e-2_wp, 'what the slopes of auto leave out: '//to_text(largest))
    end subroutine auto_slopes
 
@@ -283,11 +283,11 @@ contains
       place%velocity = path%velocity_cosine*cos(angle)
    end function place
 
-   !> Where the film of auto starts or ceases to rupture along a path its force must not jump. On one side stand
-   !> the modes, on the other the modes and what rupture changes in the cells, which begins with nothing; so
+   !> Where the film of auto starts or ceases to cavitate along a path its force must not jump. On one side stand
+   !> the modes, on the other the modes and what cavitation changes in the cells, which begins with nothing; so
    !> nothing but the error of the cells may lie between them. That is measured: the largest difference of
-   !> cells and modes, both without rupture, along the path. The same for the slope along the path, twice, as
-   !> a few points miss its largest error, where rupture begins at an edge, as it does in a dry pad; but the slope
+   !> cells and modes, both without cavitation, along the path. The same for the slope along the path, twice, as
+   !> a few points miss its largest error, where cavitation begins at an edge, as it does in a dry pad; but the slope
    !> begins with that of the slight tension left out, which cells half the size tell. (A flooded
    !> film may break inside the pad first. A single point held there bends the film for a logarithm's distance
    !> around it: the slope changes by a tenth and more with the first cell, however small.)
@@ -328,10 +328,10 @@ contains
             & 0.0_wp, 2*allowed(2), 'jump of the slope'//what)
          was = .not. was
       end do
-      call expect(switches == 2, 'one onset, one end of rupture: '//to_text(switches))
+      call expect(switches == 2, 'one onset, one end of cavitation: '//to_text(switches))
    end subroutine onset
 
-   !> What rupture adds to the slope of the force at an angle of the path, on cells.
+   !> What cavitation adds to the slope of the force at an angle of the path, on cells.
    function left_out(path, angle, columns, rows)
       type(journal_path), intent(in) :: path
       real(wp), intent(in) :: angle
@@ -339,14 +339,14 @@ contains
       real(wp) :: left_out(2)
       type(elimination_film_type) :: by_cells
       type(film_counters) :: counters
-      type(film_response) :: ruptured, whole
+      type(film_response) :: cavitated, whole
       by_cells = new_elimination_film(pad(path%flooded), columns, rows)
-      call by_cells%evaluate(place(path, angle), paper_oil, speed, .true., .true., counters, ruptured)
+      call by_cells%evaluate(place(path, angle), paper_oil, speed, .true., .true., counters, cavitated)
       call by_cells%evaluate(place(path, angle), paper_oil, speed, .false., .true., counters, whole)
-      left_out = matmul(ruptured%derivatives - whole%derivatives, direction(path, angle))
+      left_out = matmul(cavitated%derivatives - whole%derivatives, direction(path, angle))
    end function left_out
 
-   !> Largest difference of cells and modes, both without rupture, along a path: of the force, of its slope.
+   !> Largest difference of cells and modes, both without cavitation, along a path: of the force, of its slope.
    function error_of_cells(path, columns, rows) result(largest)
       type(journal_path), intent(in) :: path
       integer, intent(in) :: columns, rows
@@ -370,17 +370,17 @@ contains
       end do
    end function error_of_cells
 
-   !> The film at an angle of the path, and whether it counts as ruptured.
-   subroutine look(solver, path, angle, r, ruptured)
+   !> The film at an angle of the path, and whether it counts as cavitated.
+   subroutine look(solver, path, angle, r, cavitated)
       type(direct_film_type), intent(inout) :: solver
       type(journal_path), intent(in) :: path
       real(wp), intent(in) :: angle
       type(film_response), intent(out) :: r
-      logical, intent(out) :: ruptured
+      logical, intent(out) :: cavitated
       integer(i8) :: modal
       modal = solver%counters%modal
       r = answer(solver, place(path, angle))
-      ruptured = solver%counters%modal == modal
+      cavitated = solver%counters%modal == modal
    end subroutine look
 
    !> Change of motion along a path.
@@ -427,4 +427,4 @@ contains
          roughest = maxval(norm2(forces(:, 2:n) - 2*forces(:, 1:n - 1) + forces(:, 0:n - 2), dim=1))
       end associate
    end subroutine walk
-end program test_film_rupture
+end program test_film_cavitation

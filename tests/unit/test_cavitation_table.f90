@@ -1,14 +1,14 @@
-!> The table of ruptured films: against the drive itself, slopes, jumps between cells, both ends of T, closing films,
+!> The table of cavitated films: against the drive itself, slopes, jumps between cells, both ends of T, closing films,
 !> and that neither the order of visits nor a table that was full changes a bit.
-program test_rupture_table
+program test_cavitation_table
    use kinds, only: wp, degree
    use text, only: to_text
    use pad_gap, only: pad_gap_type
    use unit_pad, only: unit_pad_type, new_unit_pad
-   use ruptured_drive, only: ruptured_drive_type, drive_type, new_ruptured_drive
+   use cavitated_drive, only: cavitated_drive_type, drive_type, new_cavitated_drive
    use cubic_patch, only: simd_width
    use octaves, only: interval, lower_end
-   use rupture_table, only: rupture_table_type, new_rupture_table
+   use cavitation_table, only: cavitation_table_type, new_cavitation_table
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
@@ -39,14 +39,14 @@ contains
    !> The tolerance is held at the middle of a cell, for the slopes, too; elsewhere twice that is asked for.
    subroutine against_drive(gumbel)
       logical, intent(in) :: gumbel
-      type(rupture_table_type) :: table
-      type(ruptured_drive_type) :: solver
+      type(cavitation_table_type) :: table
+      type(cavitated_drive_type) :: solver
       type(drive_type) :: drive
       real(wp) :: place(3), value(simd_width), slope(simd_width, 3), w(2), worst
       integer :: trial, last
       logical :: good
-      table = new_rupture_table(pad, gumbel, tolerance)
-      solver = new_ruptured_drive(pad, gumbel, 0.1_wp*tolerance)
+      table = new_cavitation_table(pad, gumbel, tolerance)
+      solver = new_cavitated_drive(pad, gumbel, 0.1_wp*tolerance)
       last = 0
       worst = 0
       do trial = 1, 30
@@ -62,13 +62,13 @@ contains
 
    !> Slopes are those of the cubics: against differences over 1e-5.
    subroutine slopes()
-      type(rupture_table_type) :: table
+      type(cavitation_table_type) :: table
       real(wp) :: place(3), shift(3), error
       real(wp), dimension(simd_width) :: value, ahead, back
       real(wp), dimension(simd_width, 3) :: slope, unused
       integer :: trial, last, axis
       logical :: good
-      table = new_rupture_table(pad, .true., tolerance)
+      table = new_cavitation_table(pad, .true., tolerance)
       last = 0
       error = 0
       do trial = 1, 10
@@ -89,16 +89,16 @@ contains
 
    !> Cells of the same level meet to rounding; where one of them is cut they differ by the error of either.
    subroutine between_cells()
-      type(rupture_table_type) :: table
-      type(ruptured_drive_type) :: solver
+      type(cavitation_table_type) :: table
+      type(cavitated_drive_type) :: solver
       type(drive_type) :: drive
       real(wp) :: place(3), below(3), jump, worst
       real(wp), dimension(simd_width) :: value, value_below
       real(wp) :: slope(simd_width, 3)
       integer :: trial, last, axis, meet
       logical :: good
-      table = new_rupture_table(pad, .true., tolerance)
-      solver = new_ruptured_drive(pad, .true., tolerance)
+      table = new_cavitation_table(pad, .true., tolerance)
+      solver = new_cavitated_drive(pad, .true., tolerance)
       last = 0
       meet = 0
       worst = 0
@@ -123,13 +123,13 @@ contains
 
    !> At T next to 0 the drive is w, next to 1 and at 1 it is nothing.
    subroutine both_ends()
-      type(rupture_table_type) :: table
+      type(cavitation_table_type) :: table
       real(wp) :: value(simd_width), slope(simd_width, 3), t
       integer :: last, k, pass
       logical :: good, gumbel
       gumbel = .false.
       do pass = 1, 2
-         table = new_rupture_table(pad, gumbel, tolerance)
+         table = new_cavitation_table(pad, gumbel, tolerance)
          last = 0
          t = epsilon(t)
          do k = 1, 2
@@ -154,15 +154,15 @@ contains
 
    !> Where the film is closed at a corner of the smallest cell nothing is good; what is good is close.
    subroutine closing_films()
-      type(rupture_table_type) :: table
-      type(ruptured_drive_type) :: solver
+      type(cavitation_table_type) :: table
+      type(cavitated_drive_type) :: solver
       type(drive_type) :: drive
       real(wp) :: edges(2), value(simd_width), slope(simd_width, 3), w(2), worst, h
       integer :: k, last, found, missing
       logical :: good
       real(wp), parameter :: t = 0.3_wp
-      table = new_rupture_table(pad, .true., tolerance)
-      solver = new_ruptured_drive(pad, .true., 0.1_wp*tolerance)
+      table = new_cavitation_table(pad, .true., tolerance)
+      solver = new_cavitated_drive(pad, .true., 0.1_wp*tolerance)
       w = [1.0_wp, pad%tangent*(1 - 2*t)]
       last = 0
       worst = 0
@@ -187,7 +187,7 @@ contains
    subroutine same_bits(full)
       logical, intent(in) :: full
       integer, parameter :: n = 12
-      type(rupture_table_type) :: table, other
+      type(cavitation_table_type) :: table, other
       real(wp) :: places(3, n), value(simd_width, n), slope(simd_width, 3, n), value_there(simd_width), &
          slope_there(simd_width, 3)
       integer :: k, last, different, pass
@@ -195,13 +195,13 @@ contains
       gumbel = .false.
       do pass = 1, 2
          places = reshape([(random_place(), k=1, n)], [3, n])
-         table = new_rupture_table(pad, gumbel, tolerance)
+         table = new_cavitation_table(pad, gumbel, tolerance)
          last = 0
          do k = 1, n
             call table%look_up(places(:2, k), places(3, k), .true., last, value(:, k), slope(:, :, k), good)
          end do
-         other = new_rupture_table(pad, gumbel, tolerance)
-         if (full) other = new_rupture_table(pad, gumbel, tolerance, 20)
+         other = new_cavitation_table(pad, gumbel, tolerance)
+         if (full) other = new_cavitation_table(pad, gumbel, tolerance, 20)
          last = 0
          different = 0
          do k = n, 1, -1
@@ -215,4 +215,4 @@ contains
          gumbel = .true.
       end do
    end subroutine same_bits
-end program test_rupture_table
+end program test_cavitation_table
