@@ -78,7 +78,7 @@ def draw(run: tiltpad.Run) -> None:
         right.plot(edges[:, i, 1], share[:, i], color=f"C{i}")
     right.axhline(0, color="black", linewidth=0.8)
     trailing = "film thickness at the trailing edge / $c_m$"
-    left.set(xlabel="film thickness at the leading edge / $c_m$", ylabel=trailing, title="whole film")
+    left.set(xlabel="film thickness at the leading edge / $c_m$", ylabel=trailing, title="full film")
     right.set(xlabel=trailing, ylabel="T, part of the film that diverges", title="cavitated film, T > 0")
     left.legend(loc="upper left", frameon=True)
 

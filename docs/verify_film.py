@@ -67,7 +67,7 @@ def long_arcs(program, _folder):
 def loss_sums(program, _folder):
     """Rows of the largest errors of losses and flows against sums over finite volumes."""
     for line in lines(program, "test_losses"):
-        if found := re.match(r"whole films, largest error +(\S+)", line):
+        if found := re.match(r"full films, largest error +(\S+)", line):
             yield row("full films", f"{float(found[1]):.1e}")
         elif found := re.match(r"cavitated films, largest errors at rest and squeezed +(\S+) +(\S+)", line):
             yield row("cavitated films without squeeze", f"{float(found[1]):.1e}")

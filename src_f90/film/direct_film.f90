@@ -1,8 +1,8 @@
-!> Axial modes while the film is whole; for what cavitation changes, for a pad at an instant, the equations of
+!> Axial modes while the film is full; for what cavitation changes, for a pad at an instant, the equations of
 !> over-relaxation solved by elimination.
 !>
 !> Where the film cavitates the force is that of the finite volumes with cavitation, plus c times (modal - finite
-!> volumes without cavitation), with c = 1 up to a tension of the whole film of a tenth of its maximum pressure,
+!> volumes without cavitation), with c = 1 up to a tension of the full film of a tenth of its maximum pressure,
 !> and 0 where they are the same. So at the onset the force does not jump by the difference of the two
 !> discretisations, a loaded pad keeps the modes' accuracy, and an empty pad is left to the finite volumes alone.
 module direct_film
@@ -16,7 +16,7 @@ module direct_film
    private
    public :: direct_film_type, new_direct_film, is_cavitated, share_of_modes
 
-   !> How far below the cavitation pressure the whole film may fall, over its maximum pressure, before it
+   !> How far below the cavitation pressure the full film may fall, over its maximum pressure, before it
    !> counts as cavitated: the force left out is of the second order in it, below the discretisation error.
    real(wp), parameter :: slight_tension = 1e-4_wp
 
@@ -218,7 +218,7 @@ contains
       cavitated%max_pressure = cavitated%max_pressure + c*(modal%max_pressure - whole%max_pressure)
    end subroutine change_of_cavitation
 
-   !> True where a pad whose whole film has the response `modal` cavitates at this pressure, Pa.
+   !> True where a pad whose full film has the response `modal` cavitates at this pressure, Pa.
    pure logical function is_cavitated(cavitation_pressure, modal)
       real(wp), intent(in) :: cavitation_pressure
       type(film_response), intent(in) :: modal
@@ -226,7 +226,7 @@ contains
          - cavitation_pressure)
    end function is_cavitated
 
-   !> c of a pad whose whole film has the response `modal`, where it cavitates at this pressure, Pa.
+   !> c of a pad whose full film has the response `modal`, where it cavitates at this pressure, Pa.
    pure real(wp) function share_of_modes(cavitation_pressure, modal) result(c)
       real(wp), intent(in) :: cavitation_pressure
       type(film_response), intent(in) :: modal

@@ -4,7 +4,7 @@
 !> Shear makes mu U^2/h of heat by the sliding of the journal's surface (Couette) and h^3/(12 mu) |grad p|^2 by what
 !> pressure drives. With the velocity w that drives the film (middle_frame) the second integrates to -w . F, F the force
 !> of the pressure above that of cavitation, plus the power of the flows through edges under pressure; this holds for
-!> cavitated films too. Of a whole film the first is Sommerfeld's variable along the arc, and what pressure drives
+!> cavitated films too. Of a full film the first is Sommerfeld's variable along the arc, and what pressure drives
 !> through an edge is, by reciprocity, the force of a unit of pressure there, times w.
 !>
 !> Where a film cavitates, finite volumes that follow it give the force and the flows with and without cavitation, and
@@ -48,7 +48,7 @@ module film_losses
       private
       type(pad_gap_type) :: gap
       type(pad_directions) :: directions
-      !> The whole film; that of a pressure of 1 Pa at the leading and, in a mirror, at the trailing edge.
+      !> The full film; that of a pressure of 1 Pa at the leading and, in a mirror, at the trailing edge.
       type(modal_film_type) :: whole, leading, trailing
       logical :: reynolds, gumbel
       !> Of the volumes of a cavitated film.
@@ -114,7 +114,7 @@ contains
       call self%set_heat(motion, speed, driven, loss)
    end subroutine find
 
-   !> Shear of sliding of the whole film, what pressure drives in at its leading edge, and the other flows.
+   !> Shear of sliding of the full film, what pressure drives in at its leading edge, and the other flows.
    subroutine whole_film(self, motion, oil, speed, driven, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion

@@ -1,6 +1,6 @@
 !> Films as tables, built where the motion goes (docs/theory/film.md, *The table*).
 !>
-!> The whole film comes from one table; where it cavitates, another adds what cavitation changes. Pads of the same shape
+!> The full film comes from one table; where it cavitates, another adds what cavitation changes. Pads of the same shape
 !> share their tables. What no table has, films that nearly close and those that may cavitate with different pressures
 !> around them, is left to the solver whose films are tabulated.
 module table_film
@@ -20,10 +20,10 @@ module table_film
 
    !> Pads with half arcs above this, rad, have no table: their film is not told by its thickness at the edges.
    real(wp), parameter :: largest_half_arc = 1.3_wp
-   !> Error of the whole film over that of what cavitation changes.
+   !> Error of the full film over that of what cavitation changes.
    real(wp), parameter :: share_of_whole = 0.1_wp
 
-   !> Most cells of whole films, and most cells and most nodes of cavitated ones, over all shapes: 0.3 GB.
+   !> Most cells of full films, and most cells and most nodes of cavitated ones, over all shapes: 0.3 GB.
    integer, parameter :: most_whole = 16000, most_cavitated = 100000
 
    type, extends(film_solver_type) :: table_film_type

@@ -87,7 +87,7 @@ RUNS, RUN_MILLISECONDS, COLLECT_SECONDS = 1000, 6, 10
 #: Start of the program, which does nothing else.
 START_MILLISECONDS = 20
 
-#: Some of them without cavitation: whole films alone.
+#: Some of them without cavitation: full films alone.
 FULL_FILM = tuple(
     Case(f"{case.name}_none", f"{case.label}, cavitation 'none'", case.input_file, ("film%cavitation=none",))
     for case in MAIN[:3]

@@ -129,7 +129,7 @@ contains
       slack = 1000*tolerance*max(r_none%max_pressure, -r_none%min_pressure)
       call expect(all(reynolds%pressure_field(1) >= gumbel%pressure_field(1) - slack), 'reynolds above gumbel')
       call expect_close(maxval(abs(gumbel%pressure_field(1) - max(none%pressure_field(1), condition))), 0.0_wp, slack, &
-         & 'gumbel is the whole film, clipped')
+         & 'gumbel is the full film, clipped')
       call expect(-r_reynolds%force(2) >= -r_gumbel%force(2) - slack*7e-3_wp .and. &
          & -r_gumbel%force(2) >= -r_none%force(2) - slack*7e-3_wp, 'loads in order')
       if (r_none%min_pressure < condition - slack) call expect(-r_reynolds%force(2) > -r_gumbel%force(2) .and. &
@@ -147,13 +147,13 @@ contains
       do k = 1, 3
          call solve(0.0_wp, models(k), motion, solver, r(k))
       end do
-      call expect(r(1)%min_pressure > 0, 'a whole film')
+      call expect(r(1)%min_pressure > 0, 'a full film')
       call expect_close(norm2(r(2)%force - r(1)%force), 0.0_wp, 0.0_wp, 'gumbel has nothing to clip')
       call expect_close(norm2(r(3)%force - r(1)%force), 0.0_wp, 1000*tolerance*norm2(r(1)%force), &
          & 'reynolds has nothing to hold')
    end subroutine whole_film
 
-   !> A lower pressure of cavitation lets more tension act: the load falls with it, down to the whole film's.
+   !> A lower pressure of cavitation lets more tension act: the load falls with it, down to the full film's.
    subroutine level_of_cavitation()
       type(sor_film_type) :: solver
       type(film_response) :: r, whole

@@ -143,10 +143,10 @@ contains
    end subroutine cross_stiffness
 
    !> The full matrices against central differences of the forces, to a part of each row's largest element in its
-   !> column's scale: of whole films to 1e-6; of cavitated films, whose slopes leave out how cells leave the film, to 2
+   !> column's scale: of full films to 1e-6; of cavitated films, whose slopes leave out how cells leave the film, to 2
    !> % (pads that carry nothing err most).
    subroutine differences()
-      call against_differences(whole(6500.0_wp), 'whole films', 1e-4_wp, 1e-6_wp)
+      call against_differences(whole(6500.0_wp), 'full films', 1e-4_wp, 1e-6_wp)
       call against_differences(cavitated(), 'cavitated films', 1e-4_wp, 2e-2_wp)
    end subroutine differences
 

@@ -157,7 +157,7 @@ contains
       call compare(state, found(1), expected, errors)
    end subroutine try
 
-   !> `modal`, which is `direct` where films are whole, and tables, against fine modes, whole or clipped (Guembel).
+   !> `modal`, which is `direct` where films are full, and tables, against fine modes, whole or clipped (Guembel).
    subroutine by_modes(clips, supplied)
       logical, intent(in) :: clips, supplied
       type(film_state) :: state

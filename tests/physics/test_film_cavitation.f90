@@ -14,7 +14,7 @@ program test_film_cavitation
    implicit none (type, external)
 
    integer, parameter :: cells = 24, modes = 8
-   !> Error of the modes' force where the film is whole.
+   !> Error of the modes' force where the film is full.
    real(wp), parameter :: modal_error = 1e-4_wp
    !> Ambient pressure, and with it that at the leading edge, where a film is not at the pressure of cavitation.
    real(wp), parameter :: ambient = 1e5_wp, supply = 3e5_wp
@@ -78,7 +78,7 @@ contains
    end function answer
 
    !> The clipped pressure has a switching point where the film ends. Along the arc the modes find it, so that their
-   !> error is that for the whole film, of fourth order. Across, the eight Gauss points on the half width miss a
+   !> error is that for the full film, of fourth order. Across, the eight Gauss points on the half width miss a
    !> switching point by which the slope jumps by J by at most 2.8e-3 J times its square (by trying all places), however
    !> many the cells; J comes from the cells of the reference, so that the bound knows nothing of the modes. The
    !> reference is extrapolated over-relaxation. A factor of its second order changes with the place of the switching
@@ -187,7 +187,7 @@ contains
    !> Guembel's condition by modes: the slopes of what is left of the film. They take the weights of the clipped
    !> quadrature for the slopes of its integral, which they are but for the fourth order of a cell over the
    !> length of the film: a tenth of a thousandth in the mean, and a few thousandths where a few cells are left.
-   !> Where next to nothing is left of a film, the error is over a hundredth of the whole film's slope.
+   !> Where next to nothing is left of a film, the error is over a hundredth of the full film's slope.
    subroutine modal_slopes()
       type(modal_film_type) :: solver, whole
       type(film_motion) :: motion

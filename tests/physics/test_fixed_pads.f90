@@ -277,7 +277,7 @@ contains
 
    !> `direct` and `sor` at their default resolution on arcs of 150 to 360 degrees, which all cavitation, against
    !> volumes that follow the film, extrapolated; `auto` is `direct` on arcs as long as these. Errors are over the force
-   !> that the whole film gives per velocity, times the velocity that drives it. Volumes are of second order: twice as
+   !> that the full film gives per velocity, times the velocity that drives it. Volumes are of second order: twice as
    !> many err a quarter, or half where cells that cavitate one by one make it rough.
    subroutine wide_films()
       character(len=*), parameter :: solvers(3) = [character(len=6) :: 'direct', 'sor', 'auto']

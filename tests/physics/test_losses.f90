@@ -207,7 +207,7 @@ contains
          call expect(error < 2e-4_wp, 'whole: '//shown(state))
          worst = max(worst, error)
       end do
-      print '(a, es9.2)', 'whole films, largest error ', worst
+      print '(a, es9.2)', 'full films, largest error ', worst
    end subroutine whole_by_volumes
 
    !> Volumes that follow the film against four times as many uniform ones: both are of first order where the film
@@ -294,7 +294,7 @@ contains
    end subroutine order
 
    !> What flows in flows out, less what the growing gap holds back; where a film forms again it takes up more than
-   !> arrives. For whole films test whole_by_volumes has it, whose side flow is a sum of its own.
+   !> arrives. For full films test whole_by_volumes has it, whose side flow is a sum of its own.
    subroutine oil_is_kept()
       type(film_state) :: state
       type(film_loss) :: loss

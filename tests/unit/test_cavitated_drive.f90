@@ -44,7 +44,7 @@ contains
       w = [1.0_wp, pad%tangent*(1 - 2*t)]
    end function w_of
 
-   !> Force of the whole film with a drive.
+   !> Force of the full film with a drive.
    function whole_force(edges, drive) result(force)
       real(wp), intent(in) :: edges(2), drive(2)
       real(wp) :: force(2)

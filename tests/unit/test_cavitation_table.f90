@@ -137,7 +137,7 @@ contains
             call expect(good, 'there is a cell')
             call expect_close(norm2(value(:2)), 0.0_wp, 1e-12_wp, 'w at T = 0')
             call expect_close(norm2(slope(:2, :)), 0.0_wp, tolerance, 'and its slopes, to an error''s')
-            call expect_close(value(3), 1.0_wp, 1e-12_wp, 'the pressure is that of the whole film')
+            call expect_close(value(3), 1.0_wp, 1e-12_wp, 'the pressure is that of the full film')
             t = tiny(t)
          end do
          t = nearest(1.0_wp, -1.0_wp)

@@ -1,4 +1,4 @@
-!> Which solver `auto` takes for a pad, and how it joins them: modes where the film is whole, what few cavitated cells
+!> Which solver `auto` takes for a pad, and how it joins them: modes where the film is full, what few cavitated cells
 !> add, finite volumes with a share of the modes, finite volumes alone.
 program test_direct_film
    use kinds, only: wp, degree
@@ -60,7 +60,7 @@ contains
       call solvers(auto, by_modes, by_cells)
       call auto%evaluate([motion], [paper_oil], speed, .true., found)
       call by_modes%evaluate([motion], [paper_oil], speed, .true., expected)
-      call expect_same(found(1), expected(1), 'a whole film')
+      call expect_same(found(1), expected(1), 'a full film')
       call expect_close(norm2(found(1)%force - expected(1)%force), 0.0_wp, 0.0_wp, 'to the last bit')
       call expect(auto%counters%modal == 1 .and. auto%counters%volumes == 0, 'is counted as one')
    end subroutine whole
@@ -173,7 +173,7 @@ contains
       call auto%evaluate([motion], [paper_oil], speed, .true., found)
       call by_modes%evaluate([motion], [paper_oil], speed, .true., of_modes)
       call by_cells%evaluate(motion, paper_oil, speed, .true., .true., counters, expected)
-      call expect(-of_modes(1)%min_pressure > of_modes(1)%max_pressure, 'the whole film draws')
+      call expect(-of_modes(1)%min_pressure > of_modes(1)%max_pressure, 'the full film draws')
       call expect(norm2(expected%force) > 0, 'and a part of it presses')
       call expect_same(found(1), expected, 'an empty pad')
    end subroutine empty

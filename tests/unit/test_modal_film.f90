@@ -185,7 +185,7 @@ contains
       clipped = new_modal_film([offset_pad([1e5_wp, 1e5_wp, 0.0_wp])], 24, 8, gumbel=.true.)
       r = answer(whole, pressed, speed)
       r_clipped = answer(clipped, pressed, speed)
-      call expect(r%min_pressure > 0, 'a pressed film is whole')
+      call expect(r%min_pressure > 0, 'a pressed film is full')
       ! the same but for the quadrature, whose error is 1e-4 in either
       call expect_close(norm2(r%force - r_clipped%force), 0.0_wp, 1e-4_wp*norm2(r%force), 'nothing to clip')
       r = answer(whole, torn, speed)
@@ -209,7 +209,7 @@ contains
       call expect(r%status == film_ok, 'the film opens again')
    end subroutine closed_film
 
-   !> The solver that chooses gives the modes' answer to a whole film and the cells' to a cavitated one, pad
+   !> The solver that chooses gives the modes' answer to a full film and the cells' to a cavitated one, pad
    !> by pad.
    subroutine choice()
       type(pad_gap_type) :: films(2)
@@ -228,7 +228,7 @@ contains
       call auto%evaluate(motion, spread(paper_oil, 1, size(motion)), speed, .true., r)
       call modal%evaluate(motion, spread(paper_oil, 1, size(motion)), speed, .true., by_modes)
       call sor%evaluate_pad(2, motion(2), paper_oil, speed, .true., by_cells)
-      call expect_close(norm2(r(1)%force - by_modes(1)%force), 0.0_wp, 0.0_wp, 'modes for the whole film')
+      call expect_close(norm2(r(1)%force - by_modes(1)%force), 0.0_wp, 0.0_wp, 'modes for the full film')
       call expect(by_modes(2)%min_pressure < 0 .and. by_modes(2)%max_pressure > 0, 'one film is torn in part')
       ! both solve the same equations; the tolerance is that of over-relaxation
       call expect_close(norm2(r(2)%force - by_cells%force), 0.0_wp, 1e-9_wp*norm2(by_cells%force), &

@@ -88,7 +88,7 @@ contains
       call expect(.not. abs(found%min_film_thickness - expected%min_film_thickness) > 0, 'thickness, '//what)
    end subroutine expect_same_bits
 
-   !> Whole films of pads with any pivot and any pressures around them, without cavitation: the tables meet the modes
+   !> Full films of pads with any pivot and any pressures around them, without cavitation: the tables meet the modes
    !> within both tolerances.
    subroutine whole_films()
       type(pad_gap_type) :: gaps(4)

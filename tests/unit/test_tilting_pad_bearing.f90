@@ -297,7 +297,7 @@ contains
          call expect_close(bearing%loads(1)%friction%force, 0.0_wp, 0.0_wp, 'no friction, '//solvers(k))
          whole = bearing%loads(2)%journal
          call expect(norm2(whole - cavitated) > 1e-2_wp*norm2(cavitated), &
-            & 'the whole film has another force, '//solvers(k))
+            & 'the full film has another force, '//solvers(k))
          inputs%film%cavitation = 'none'
          bearing%rubs = .true.
          call bearing%set_cavitation(.true.)
@@ -308,7 +308,7 @@ contains
          call expect(.not. bearing%films_cavitate(), 'no cavitation by the input, '//solvers(k))
          call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect_close(norm2(bearing%loads(2)%journal - whole), 0.0_wp, 1e-5_wp*norm2(whole), &
-            & 'the whole film is that of the input without cavitation, '//solvers(k))
+            & 'the full film is that of the input without cavitation, '//solvers(k))
       end do
    end subroutine operating_point
 end program test_tilting_pad_bearing

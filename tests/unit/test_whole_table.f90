@@ -1,4 +1,4 @@
-!> The table of whole films: against finer modes, slopes, jumps between cells, closing films, and that neither the order
+!> The table of full films: against finer modes, slopes, jumps between cells, closing films, and that neither the order
 !> of visits nor a table that was full changes a bit.
 program test_whole_table
    use kinds, only: wp, degree

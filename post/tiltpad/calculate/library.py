@@ -135,7 +135,7 @@ def losses(run: Run, last: float = 1) -> Losses:
     """Load, power loss and oil flow of every pad over the last revolutions, from the archived states.
 
     The film of each sample is solved anew, whatever solver the run had: some microseconds for a pad with a
-    whole film, a millisecond where it cavitates. A sample whose film is closed has no numbers. Raises
+    full film, a millisecond where it cavitates. A sample whose film is closed has no numbers. Raises
     NotInRunError for a run that was not marched.
     """
     part = signals.last_revolutions(run, last)

@@ -176,7 +176,7 @@ contains
       supply_flows = edge_flows(self%pads(self%level(1), 1), oil)
    end function supply_flows
 
-   !> Force of the whole film, minimum and maximum pressure.
+   !> Force of the full film, minimum and maximum pressure.
    pure subroutine sum_up(pad, rise, response)
       type(modal_pad_type), intent(in) :: pad
       real(wp), intent(in) :: rise

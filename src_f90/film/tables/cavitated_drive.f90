@@ -49,7 +49,7 @@ module cavitated_drive
       real(wp) :: value(2) = 0, slopes(2, 3) = 0
       !> M over the force of the film that is just whole, w_2 = tan(half the arc).
       real(wp) :: weight(2, 2) = 0
-      !> Highest pressure of the whole film that is driven by v over that of the cavitated one.
+      !> Highest pressure of the full film that is driven by v over that of the cavitated one.
       real(wp) :: pressure_ratio = 1
       logical :: ok = .false.
    end type drive_type
@@ -146,7 +146,7 @@ contains
       grid%grid = new_film_grid(self%pad%gap(0.0_wp), self%columns/part, self%rows/part, line)
    end subroutine make_grid
 
-   !> The drive of a cavitated film, by volumes on which the film is whole.
+   !> The drive of a cavitated film, by volumes on which the film is full.
    subroutine compare(pad, motion, cavitated, volumes, drive)
       type(unit_pad_type), intent(in) :: pad
       type(film_motion), intent(in) :: motion
@@ -176,7 +176,7 @@ contains
       call set_slopes(cavitated(1), whole(1), drive)
    end function by_modes
 
-   !> v and the weight. The derivatives of the whole film's force over the velocity are M.
+   !> v and the weight. The derivatives of the full film's force over the velocity are M.
    pure subroutine set_drive(pad, cavitated, whole, drive)
       type(unit_pad_type), intent(in) :: pad
       type(film_response), intent(in) :: cavitated, whole

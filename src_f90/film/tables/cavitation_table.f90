@@ -1,4 +1,4 @@
-!> The cavitated film of a pad as a table: force = S M v, as if the film were whole and driven by v = w + |w_1| d, with
+!> The cavitated film of a pad as a table: force = S M v, as if the film were full and driven by v = w + |w_1| d, with
 !> d a function of the film thicknesses at both edges and of T, the part of the arc where the film diverges
 !> (docs/theory/film.md, *The table*).
 !>

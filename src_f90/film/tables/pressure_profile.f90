@@ -1,4 +1,4 @@
-!> The pressure along the middle plane of a pad's whole film, over a cell of its table: for the highest pressure, which
+!> The pressure along the middle plane of a pad's full film, over a cell of its table: for the highest pressure, which
 !> is sampled, not integrated.
 !>
 !> At points that crowd where the film is thin, pressure times film thickness squared is a polynomial of the film

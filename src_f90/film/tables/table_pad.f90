@@ -50,7 +50,7 @@ module table_pad
    !> (component, edge), and over w, (component, component of w).
    type :: pad_drive
       real(wp) :: value(2), over_edges(2, 2), over_w(2, 2)
-      !> Highest pressure of the whole film over that of the cavitated one.
+      !> Highest pressure of the full film over that of the cavitated one.
       real(wp) :: pressure_ratio = 1
    end type pad_drive
 

@@ -1,4 +1,4 @@
-!> The whole film of a pad as a table: force = S M w, with a symmetric M of three functions of the film thicknesses at
+!> The full film of a pad as a table: force = S M w, with a symmetric M of three functions of the film thicknesses at
 !> both edges (docs/theory/film.md, *The table*), and that of a pressure at the leading edge.
 !>
 !> Both are analytic, so one polynomial stands for them over half an octave of either thickness; where it does not, next

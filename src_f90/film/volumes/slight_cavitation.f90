@@ -1,6 +1,6 @@
-!> What the cavitation of a few cells at the trailing edge does to the force, by Green's functions of the whole film.
+!> What the cavitation of a few cells at the trailing edge does to the force, by Green's functions of the full film.
 !>
-!> With cavitation the pressure is p + G lambda: p that of the whole film, G the inverse of its operator, lambda >= 0
+!> With cavitation the pressure is p + G lambda: p that of the full film, G the inverse of its operator, lambda >= 0
 !> what holds the cavitated cells at the cavitation pressure. As G >= 0, only cells with p < 0 can cavitate. These
 !> are found in the columns next to the trailing edge; their part of G comes from the chains of the grid's modes;
 !> lambda is an active set over these few cells; and as G is symmetric, the force of G lambda is lambda times
@@ -24,13 +24,13 @@ module slight_cavitation
    !> A cell that may cavitate.
    type :: candidate
       integer :: row, column
-      !> Pressure of the whole film, Pa, scaled (grid_modes); G w for both forces.
+      !> Pressure of the full film, Pa, scaled (grid_modes); G w for both forces.
       real(wp) :: pressure, influence(2)
    end type candidate
 
 contains
 
-   !> Force with cavitation less force of the whole film, N, at the motion the grid has been set to. `few` is false
+   !> Force with cavitation less force of the full film, N, at the motion the grid has been set to. `few` is false
    !> where cavitation is not slight enough: then nothing is said. `film` tells which cells are whole (1) or
    !> cavitated (0): those of the last motion on entry, of this one on return.
    pure subroutine force_of_few(grid, basis, film, force, few)

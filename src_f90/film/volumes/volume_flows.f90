@@ -1,6 +1,6 @@
 !> Flows of a film on finite volumes, and how far its cavitated part is filled.
 !>
-!> Between two cells the oil flows as the equations of the film have it, so that the cells of a whole film lose nothing.
+!> Between two cells the oil flows as the equations of the film have it, so that the cells of a full film lose nothing.
 !> What flows across the edge of the film into its cavitated part runs on along the arc, in streamers that fill the
 !> gap's height and a share of its width.
 module volume_flows
