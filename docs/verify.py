@@ -48,7 +48,7 @@ prints these figures, and the test holds those of fewer films below limits.
 |---|---|---|---|---|---|---|---|---|
 {film_errors}
 
-With `none` and `gumbel`, `direct` is `modal`. With a supply pressure, `auto` is `direct` wherever a film may cavitate.
+With `none` and `gumbel`, `direct` is `fourier`. With a supply pressure, `auto` is `direct` wherever a film may cavitate.
 
 On long arcs of 150 to 360 degrees, with eccentricities up to 0.93, the largest errors of the force over that of the
 full film driven as fast are (`tests/physics/test_fixed_pads.f90`):
@@ -215,7 +215,7 @@ REFERENCES = {
 }
 FINE = ("film%circumferential_cells=120", "film%axial_cells=30")
 FILMS = {
-    "modal": ("film%cavitation=none",),
+    "fourier": ("film%cavitation=none",),
     "sor 60 x 15": ("film%cavitation=none", "film%solver=sor"),
     "sor 120 x 30": ("film%cavitation=none", "film%solver=sor", *FINE),
     "default (reynolds)": (),

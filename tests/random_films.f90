@@ -6,9 +6,9 @@ module random_films
    use kinds, only: wp, pi, degree
    use film_solver, only: film_motion, film_response, film_counters
    use pad_gap, only: pad_gap_type
-   use modal_film, only: modal_film_type, converged_film
+   use fourier_film, only: fourier_film_type, converged_film
    use elimination_film, only: elimination_film_type, new_elimination_film
-   use unit_pad, only: unit_pad_type, new_unit_pad
+   use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
    use check, only: between
    use paper_bearing, only: paper_oil
    implicit none (type, external)
@@ -92,7 +92,7 @@ contains
    !> Widens what the errors are measured over by the film as it is.
    subroutine measure(state)
       type(film_state), intent(inout) :: state
-      type(modal_film_type) :: film
+      type(fourier_film_type) :: film
       type(film_response) :: r(1)
       film = converged_film(state%gap, .false., 1e-4_wp)
       call film%evaluate([state%motion], [paper_oil], shaft_speed, .false., r)
@@ -131,7 +131,7 @@ contains
       type(film_state), intent(in) :: state
       integer, intent(in) :: rows
       logical, intent(in) :: cavitates
-      type(unit_pad_type) :: pad
+      type(dimensionless_pad_type) :: pad
       type(elimination_film_type) :: grid
       type(film_counters) :: unused
       type(film_response) :: r
@@ -139,7 +139,7 @@ contains
       integer :: i, half
       half = 4*rows
       associate (gap => state%gap, columns => 8*rows)
-         pad = new_unit_pad(gap)
+         pad = new_dimensionless_pad(gap)
          at = turned(state%motion%position/gap%machined_clearance, -middle(gap))
          associate (w => turned(state%motion%velocity + 0.5_wp*shaft_speed*gap%journal_radius/gap%pad_radius() &
             & *[state%motion%position(2), -state%motion%position(1)], -middle(gap)))
@@ -170,10 +170,10 @@ contains
    pure subroutine field_points(state, phi, arc, z, width)
       type(film_state), intent(in) :: state
       real(wp), intent(out) :: phi(:), arc(:), z(:), width(:)
-      type(unit_pad_type) :: pad
+      type(dimensionless_pad_type) :: pad
       real(wp) :: ends(0:size(phi)), sides(0:size(z))
       integer :: i
-      pad = new_unit_pad(state%gap)
+      pad = new_dimensionless_pad(state%gap)
       associate (n => size(phi), m => size(z), a => middle(state%gap))
          ends = a + 0.5_wp*pad%spread_angles(turned(state%motion%position/state%gap%machined_clearance, -a), &
             & -pad%half_arc, pad%half_arc, n) - 0.5_wp*pad%half_arc*[(cos(i*pi/n), i=0, n)]

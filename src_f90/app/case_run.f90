@@ -76,7 +76,7 @@ contains
          call statistics%put('convergence_failures', counts%convergence_failures, 'Newton iterations that failed')
       end associate
       associate (films => self%model%film_counters())
-         call statistics%put('film_modal', films%modal, 'pads solved by axial modes in the march')
+         call statistics%put('film_fourier', films%fourier, 'pads solved by axial modes in the march')
          call statistics%put('film_volumes', films%volumes, 'pads solved on finite volumes in the march')
          call statistics%put('film_passes', films%passes, &
             & 'passes over the cells of these, sweeps of over-relaxation or eliminations, in the march')

@@ -5,7 +5,7 @@ module factories
    use case_inputs, only: case_type
    use pad_gap, only: pad_gap_type
    use film_solver, only: film_solver_type
-   use modal_film, only: new_modal_film
+   use fourier_film, only: new_fourier_film
    use film_resolution, only: enough_cells, enough_modes, usual_error
    use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: new_table_film, new_converged_film, has_tables
@@ -76,8 +76,8 @@ contains
          select case (f%solver)
          case ('sor')
             film = new_sor_film(gaps, sor_settings(inputs, gaps, accuracy))
-         case ('modal')
-            film = new_modal_film(gaps, cells, modes, gumbel, error)
+         case ('fourier')
+            film = new_fourier_film(gaps, cells, modes, gumbel, error)
          case ('direct')
             film = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
          case default

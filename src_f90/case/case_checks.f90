@@ -41,7 +41,7 @@ contains
          call require(mod(cells, 2) == 0 .and. (cells == 0 .or. cells >= 8), 'film%circumferential_cells = ' &
             & //to_text(cells)//': must be even, and 0 or at least 8', error)
          call require(f%axial_cells /= 1, 'film%axial_cells = 1: must be 2 or more, or 0 for enough', error)
-         call require(f%solver /= 'modal' .or. f%cavitation /= 'reynolds', 'film%solver = ''modal''' &
+         call require(f%solver /= 'fourier' .or. f%cavitation /= 'reynolds', 'film%solver = ''fourier''' &
             & //': needs film%cavitation = ''gumbel'' or ''none''; film%solver = ''auto'' knows ''reynolds''', error)
          ! where films cavitate, elimination keeps a block of (axial cells/2)**2 values a column and pad;
          ! 0 stands for some 100 columns

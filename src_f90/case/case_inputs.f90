@@ -136,7 +136,7 @@ module case_inputs
    end type start_type
 
    type :: film_type
-      !> 'auto', 'direct', 'modal' or 'sor'.
+      !> 'auto', 'direct', 'fourier' or 'sor'.
       character(len=:), allocatable :: solver
       !> Cells along the arc and, on finite volumes, along half the width; modes. 0: the solver's own number.
       integer :: circumferential_cells = 0, axial_cells = 0, axial_modes = 0

@@ -9,9 +9,9 @@ module direct_film
    use kinds, only: wp
    use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_ok
    use pad_gap, only: pad_gap_type
-   use modal_film, only: modal_film_type, new_modal_film
+   use fourier_film, only: fourier_film_type, new_fourier_film
    use elimination_film, only: elimination_film_type, new_elimination_film
-   use following_volumes, only: new_following_film
+   use film_adapted_grid, only: new_following_film
    implicit none (type, external)
    private
    public :: direct_film_type, new_direct_film, is_cavitated, share_of_modes
@@ -34,7 +34,7 @@ module direct_film
       private
       type(pad_gap_type), allocatable :: gaps(:)
       real(wp), allocatable :: cavitation_pressure(:), clearance(:)
-      type(modal_film_type) :: modal
+      type(fourier_film_type) :: fourier
       type(elimination_film_type), allocatable :: volumes(:)
       !> Whether the elimination looks for cavitation: as the solver was made; in force.
       logical :: made_to_project = .true., projects = .true.
@@ -51,7 +51,7 @@ contains
 
    !> Both solvers for the same gaps: cells along the arc and modes of the one; cells along the arc and
    !> along half the width of the other. With the condition of Reynolds or Guembel, or none; only the first needs
-   !> the other solver. The tolerance is that of the modes (new_modal_film).
+   !> the other solver. The tolerance is that of the modes (new_fourier_film).
    function new_direct_film(gaps, cells, modes, columns, rows, reynolds, gumbel, tolerance) result(solver)
       type(pad_gap_type), intent(in) :: gaps(:)
       integer, intent(in) :: cells, modes, columns, rows
@@ -64,7 +64,7 @@ contains
       solver%gaps = gaps
       solver%cavitation_pressure = gaps%cavitation_pressure
       solver%clearance = gaps%machined_clearance
-      solver%modal = new_modal_film(gaps, cells, modes, gumbel, tolerance)
+      solver%fourier = new_fourier_film(gaps, cells, modes, gumbel, tolerance)
       if (.not. reynolds) return
       allocate (solver%volumes(size(gaps)))
       do i = 1, size(gaps)
@@ -74,14 +74,14 @@ contains
 
    pure logical function cavitates(self)
       class(direct_film_type), intent(in) :: self
-      cavitates = self%projects .or. self%modal%cavitates()
+      cavitates = self%projects .or. self%fourier%cavitates()
    end function cavitates
 
    pure subroutine set_cavitation(self, allowed)
       class(direct_film_type), intent(inout) :: self
       logical, intent(in) :: allowed
       self%projects = self%made_to_project .and. allowed
-      call self%modal%set_cavitation(allowed)
+      call self%fourier%set_cavitation(allowed)
    end subroutine set_cavitation
 
    pure subroutine forget(self)
@@ -105,14 +105,14 @@ contains
       real(wp) :: force(2)
       integer :: i
       logical :: few
-      call self%modal%evaluate(motion, oil, speed, want_derivatives, response, chosen)
+      call self%fourier%evaluate(motion, oil, speed, want_derivatives, response, chosen)
       do i = 1, size(motion)
          if (present(chosen)) then
             if (.not. chosen(i)) cycle
          end if
          if (response(i)%status /= film_ok) cycle
          if (.not. (self%projects .and. is_cavitated(self%cavitation_pressure(i), response(i)))) then
-            self%counters%modal = self%counters%modal + 1
+            self%counters%fourier = self%counters%fourier + 1
             cycle
          end if
          self%counters%volumes = self%counters%volumes + 1
@@ -160,15 +160,15 @@ contains
       real(wp), intent(in) :: speed, c
       real(wp) :: derivatives(4), step(4)
       type(film_motion) :: near(size(self%gaps))
-      type(film_response) :: modal(size(self%gaps))
+      type(film_response) :: fourier(size(self%gaps))
       integer :: k, n
       step = steps(self%clearance(i), speed)
       derivatives = 0
       do k = 1, 4
          near = moved(motion, k, step(k))
-         call self%modal%evaluate(near, oil, speed, .false., modal, [(n == i, n=1, size(near))])
-         if (modal(i)%status == film_ok) derivatives(k) = &
-            & (share_of_modes(self%cavitation_pressure(i), modal(i)) - c)/step(k)
+         call self%fourier%evaluate(near, oil, speed, .false., fourier, [(n == i, n=1, size(near))])
+         if (fourier(i)%status == film_ok) derivatives(k) = &
+            & (share_of_modes(self%cavitation_pressure(i), fourier(i)) - c)/step(k)
       end do
    end function derivatives_of_share
 
@@ -190,49 +190,49 @@ contains
    end function moved
 
    !> A pad's cavitated film by elimination, from that of the modes.
-   subroutine change_of_cavitation(self, i, motion, oil, speed, want_derivatives, modal, cavitated)
+   subroutine change_of_cavitation(self, i, motion, oil, speed, want_derivatives, fourier, cavitated)
       class(direct_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
-      type(film_response), intent(in) :: modal
+      type(film_response), intent(in) :: fourier
       type(film_response), intent(out) :: cavitated
       type(film_response) :: whole
       real(wp) :: c, differing(2), slopes(4)
       integer :: k
-      c = share_of_modes(self%cavitation_pressure(i), modal)
+      c = share_of_modes(self%cavitation_pressure(i), fourier)
       call self%volumes(i)%evaluate(motion, oil(i), speed, .true., want_derivatives, self%counters, cavitated)
       if (cavitated%status /= film_ok .or. .not. c > 0) return
       call self%volumes(i)%evaluate(motion, oil(i), speed, .false., want_derivatives, self%counters, whole)
-      differing = modal%force - whole%force
+      differing = fourier%force - whole%force
       cavitated%force = cavitated%force + c*differing
-      if (want_derivatives) cavitated%derivatives = cavitated%derivatives + c*(modal%derivatives - whole%derivatives)
+      if (want_derivatives) cavitated%derivatives = cavitated%derivatives + c*(fourier%derivatives - whole%derivatives)
       if (want_derivatives .and. c < 1 .and. norm2(differing) > coarse*norm2(cavitated%force)) then
          slopes = derivatives_of_share(self, i, motion, oil, speed, c)
          do k = 1, 4
             cavitated%derivatives(:, k) = cavitated%derivatives(:, k) + slopes(k)*differing
          end do
       end if
-      cavitated%max_pressure = cavitated%max_pressure + c*(modal%max_pressure - whole%max_pressure)
+      cavitated%max_pressure = cavitated%max_pressure + c*(fourier%max_pressure - whole%max_pressure)
    end subroutine change_of_cavitation
 
-   !> True where a pad whose full film has the response `modal` cavitates at this pressure, Pa.
-   pure logical function is_cavitated(cavitation_pressure, modal)
+   !> True where a pad whose full film has the response `fourier` cavitates at this pressure, Pa.
+   pure logical function is_cavitated(cavitation_pressure, fourier)
       real(wp), intent(in) :: cavitation_pressure
-      type(film_response), intent(in) :: modal
-      is_cavitated = cavitation_pressure - modal%min_pressure > slight_tension*(modal%max_pressure &
+      type(film_response), intent(in) :: fourier
+      is_cavitated = cavitation_pressure - fourier%min_pressure > slight_tension*(fourier%max_pressure &
          - cavitation_pressure)
    end function is_cavitated
 
-   !> c of a pad whose full film has the response `modal`, where it cavitates at this pressure, Pa.
-   pure real(wp) function share_of_modes(cavitation_pressure, modal) result(c)
+   !> c of a pad whose full film has the response `fourier`, where it cavitates at this pressure, Pa.
+   pure real(wp) function share_of_modes(cavitation_pressure, fourier) result(c)
       real(wp), intent(in) :: cavitation_pressure
-      type(film_response), intent(in) :: modal
+      type(film_response), intent(in) :: fourier
       real(wp) :: tension, height
-      tension = cavitation_pressure - modal%min_pressure
-      height = modal%max_pressure - cavitation_pressure
+      tension = cavitation_pressure - fourier%min_pressure
+      height = fourier%max_pressure - cavitation_pressure
       c = 0
       if (tension < height) c = min(1.0_wp, (1 - tension/height)/(1 - loaded_tension))
    end function share_of_modes
@@ -270,8 +270,8 @@ contains
       real(wp), dimension(size(z), size(phi, 1)) :: cavitated, whole
       real(wp) :: c
       integer :: i
-      call self%modal%evaluate(motion, oil, speed, .false., response)
-      call self%modal%field(motion, oil, speed, phi, z, pressure)
+      call self%fourier%evaluate(motion, oil, speed, .false., response)
+      call self%fourier%field(motion, oil, speed, phi, z, pressure)
       if (.not. self%projects) return
       do i = 1, size(motion)
          associate (lowest => self%cavitation_pressure(i))

@@ -2,9 +2,9 @@
 !> (docs/theory/heat.md).
 !>
 !> Shear makes mu U^2/h of heat by the sliding of the journal's surface (Couette) and h^3/(12 mu) |grad p|^2 by what
-!> pressure drives. With the velocity w that drives the film (middle_frame) the second integrates to -w . F, F the force
-!> of the pressure above that of cavitation, plus the power of the flows through edges under pressure; this holds for
-!> cavitated films too. Of a full film the first is Sommerfeld's variable along the arc, and what pressure drives
+!> pressure drives. With the velocity w that drives the film (mid_arc_frame) the second integrates to -w . F, F the
+!> force of the pressure above that of cavitation, plus the power of the flows through edges under pressure; this holds
+!> for cavitated films too. Of a full film the first is Sommerfeld's variable along the arc, and what pressure drives
 !> through an edge is, by reciprocity, the force of a unit of pressure there, times w.
 !>
 !> Where a film cavitates, finite volumes that follow it give the force and the flows with and without cavitation, and
@@ -16,8 +16,8 @@ module film_losses
    use film_grid, only: film_grid_type
    use elimination_film, only: elimination_film_type
    use direct_film, only: is_cavitated, share_of_modes
-   use following_volumes, only: new_following_film
-   use modal_film, only: modal_film_type, converged_film
+   use film_adapted_grid, only: new_following_film
+   use fourier_film, only: fourier_film_type, converged_film
    use sommerfeld_nodes, only: span
    use volume_flows, only: volume_flow_type, flows_of_volumes, finer
    implicit none (type, external)
@@ -49,13 +49,13 @@ module film_losses
       type(pad_gap_type) :: gap
       type(pad_directions) :: directions
       !> The full film; that of a pressure of 1 Pa at the leading and, in a mirror, at the trailing edge.
-      type(modal_film_type) :: whole, leading, trailing
+      type(fourier_film_type) :: whole, leading, trailing
       logical :: reynolds, gumbel
       !> Of the volumes of a cavitated film.
       integer :: rows
    contains
       procedure :: find
-      procedure, private :: whole_film
+      procedure, private :: full_film
       procedure, private :: add_cavitation
       procedure, private :: set_heat
    end type film_losses_type
@@ -105,7 +105,7 @@ contains
       loss%status = response(1)%status
       if (loss%status /= film_ok) return
       driven%force = response(1)%force
-      call self%whole_film(motion, oil, speed, driven, loss)
+      call self%full_film(motion, oil, speed, driven, loss)
       if (self%reynolds .or. self%gumbel) then
          if (is_cavitated(self%gap%cavitation_pressure, response(1))) call self%add_cavitation(motion, oil, &
             & speed, response(1), driven, loss)
@@ -115,7 +115,7 @@ contains
    end subroutine find
 
    !> Shear of sliding of the full film, what pressure drives in at its leading edge, and the other flows.
-   subroutine whole_film(self, motion, oil, speed, driven, loss)
+   subroutine full_film(self, motion, oil, speed, driven, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil
@@ -146,7 +146,7 @@ contains
          loss%side = surface*thickness(1)*gap%axial_length/2 + driven%inlet - loss%outlet + radius*gap%axial_length &
             & *dot_product(motion%velocity, over_arc(d))
       end associate
-   end subroutine whole_film
+   end subroutine full_film
 
    !> The same motion of the mirrored pad without velocity, and of the pad.
    pure type(film_motion) function mirrored(motion)
@@ -177,13 +177,13 @@ contains
 
    !> Makes the film that of volumes with cavitation and, like direct_film, a share c of (modes - volumes without
    !> cavitation).
-   subroutine add_cavitation(self, motion, oil, speed, modal, driven, loss)
+   subroutine add_cavitation(self, motion, oil, speed, fourier, driven, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       !> That of the modes.
-      type(film_response), intent(in) :: modal
+      type(film_response), intent(in) :: fourier
       type(driven_film), intent(inout) :: driven
       type(film_loss), intent(inout) :: loss
       type(elimination_film_type) :: volumes(2)
@@ -195,7 +195,7 @@ contains
          call by_volumes(self, volumes(:k), motion, oil, speed, whole(k), cavitated(k), status)
          loss%status = max(loss%status, status)
       end do
-      c = share_of_modes(self%gap%cavitation_pressure, modal)
+      c = share_of_modes(self%gap%cavitation_pressure, fourier)
       associate (w => finer(whole(1), whole(2)), r => finer(cavitated(1), cavitated(2)))
          driven%force = r%force + c*(driven%force - w%force)
          driven%inlet = r%inlet + c*(driven%inlet - w%inlet)

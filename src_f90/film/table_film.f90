@@ -8,10 +8,10 @@ module table_film
    use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_counters, film_closed
    use pad_gap, only: pad_gap_type
    use direct_film, only: direct_film_type
-   use unit_pad, only: unit_pad_type, new_unit_pad
+   use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
    use full_film, only: new_solved_full_film
    use cavitated_film, only: new_solved_cavitated_film
-   use whole_table, only: new_whole_table
+   use full_film_table, only: new_full_film_table
    use cavitation_table, only: new_cavitation_table
    use table_pad, only: table_pad_type, shape_tables, new_table_pad
    implicit none (type, external)
@@ -59,7 +59,8 @@ contains
       solver = sorted_by_shape(gaps, single, cavitates)
       do k = 1, size(solver%shapes)
          associate (shape => solver%shapes(k))
-            shape%whole = new_whole_table(shape%pad, shape%supplied, share_of_whole*tolerance, most_whole/size(gaps))
+            shape%whole = new_full_film_table(shape%pad, shape%supplied, share_of_whole*tolerance, &
+               most_whole/size(gaps))
             shape%cavitation = new_cavitation_table(shape%pad, gumbel, tolerance, most_cavitated/size(gaps))
          end associate
       end do
@@ -93,7 +94,7 @@ contains
       type(direct_film_type), intent(in) :: single(:)
       logical, intent(in) :: cavitates
       type(table_film_type) :: solver
-      type(unit_pad_type) :: pads(size(gaps))
+      type(dimensionless_pad_type) :: pads(size(gaps))
       logical :: supplied(size(gaps))
       integer :: i, k, n
       solver%single = single
@@ -102,7 +103,7 @@ contains
       allocate (solver%pads(size(gaps)))
       n = 0
       do i = 1, size(gaps)
-         associate (gap => gaps(i), unit => new_unit_pad(gaps(i)))
+         associate (gap => gaps(i), unit => new_dimensionless_pad(gaps(i)))
             solver%pads(i) = new_table_pad(gap, unit)
             if (.not. has_tables(gap)) cycle
             do k = 1, n
@@ -131,7 +132,7 @@ contains
 
    !> True where two pads have the same shape.
    pure logical function same(a, b)
-      type(unit_pad_type), intent(in) :: a, b
+      type(dimensionless_pad_type), intent(in) :: a, b
       same = .not. (abs(a%half_arc - b%half_arc) > 0 .or. abs(a%length - b%length) > 0)
    end function same
 
@@ -199,7 +200,7 @@ contains
          if (any(.not. self%pads%found)) then
             do i = 1, size(self%pads)
                associate (more => self%single(i)%counters)
-                  counters%modal = counters%modal + more%modal
+                  counters%fourier = counters%fourier + more%fourier
                   counters%volumes = counters%volumes + more%volumes
                   counters%passes = counters%passes + more%passes
                   more = film_counters()

@@ -271,7 +271,7 @@ contains
       type(film_type), intent(inout) :: film
       class(visitor_type), intent(inout) :: v
       call v%group('film', 'Solver of the Reynolds equation')
-      call v%word(film%solver, choice('solver', 'auto direct modal sor', &
+      call v%word(film%solver, choice('solver', 'auto direct fourier sor', &
          & 'auto: tables of converged films, direct where there is none; direct: axial modes, finite volumes where ' &
          & //'a film cavitates; modal: axial modes; sor: over-relaxation'))
       call v%whole(film%circumferential_cells, field('circumferential_cells', 0.0_wp, 2000.0_wp, '1', &

@@ -3,7 +3,7 @@
 !> Every octave of the pivot deflection is cut into `2**bits` equal cells, so the leading bits of the
 !> floating-point number are the cell's index. In each cell the force is the cubic that meets the
 !> law's force and stiffness at both ends: force and stiffness are continuous. The relative error of the force is
-!> the same in all octaves, about (2**-bits)**4/384 times eta**4 F''''/F, below 1e-6 by far: 3e-8.
+!> the same in all logarithmic_grid, about (2**-bits)**4/384 times eta**4 F''''/F, below 1e-6 by far: 3e-8.
 !>
 !> The table costs five hundred evaluations of the law, so where there are few lookups it is left out: the law itself
 !> answers.

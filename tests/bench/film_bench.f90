@@ -11,7 +11,7 @@ program film_bench
    use text, only: to_text
    use film_solver, only: film_solver_type, film_motion, film_response
    use pad_gap, only: pad_gap_type
-   use modal_film, only: modal_film_type, new_modal_film
+   use fourier_film, only: fourier_film_type, new_fourier_film
    use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: table_film_type, new_table_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel, &
@@ -49,7 +49,7 @@ contains
       !> Position in clearances.
       real(wp), intent(in) :: centre(2)
       integer, intent(in) :: cavitation
-      type(modal_film_type) :: modal
+      type(fourier_film_type) :: fourier
       type(direct_film_type) :: direct
       type(table_film_type) :: fine
       type(sor_film_type) :: sor
@@ -63,8 +63,8 @@ contains
          direct = new_direct_film(films, 128, 32, 320, 64, .true., .false.)
          call forces(direct, near, exact)
       else
-         modal = new_modal_film(films, 128, 32, cavitation == cavitation_gumbel)
-         call forces(modal, near, exact)
+         fourier = new_fourier_film(films, 128, 32, cavitation == cavitation_gumbel)
+         call forces(fourier, near, exact)
       end if
       fine = new_table(cavitation, 0.1_wp*default_tolerance)
       call forces(fine, far, exact_far)
@@ -77,8 +77,8 @@ contains
             direct = new_direct_film(films, n, 8, 80*n/24, n/3, .true., .false.)
             call measure('direct '//to_text(n), direct, near, exact, condition, state)
          else
-            modal = new_modal_film(films, n, 8, cavitation == cavitation_gumbel)
-            call measure('modal '//to_text(n), modal, near, exact, condition, state)
+            fourier = new_fourier_film(films, n, 8, cavitation == cavitation_gumbel)
+            call measure('modal '//to_text(n), fourier, near, exact, condition, state)
          end if
          n = 2*n
       end do

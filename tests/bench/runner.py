@@ -145,7 +145,7 @@ def count(row: Row, path: Path) -> None:
             counts = run.statistics
             row.steps, row.rhs = int(counts["steps"]), int(counts["rhs_evaluations"])
             row.jacobians = int(counts["jacobian_evaluations"])
-            row.film_solved = int(counts["film_modal"] + counts["film_volumes"])
+            row.film_solved = int(counts["film_fourier"] + counts["film_volumes"])
             row.film_evaluations = int(counts["film_table"]) + row.film_solved
             row.film_cells, row.film_nodes = int(counts["film_cells"]), int(counts["film_nodes"])
             row.film_seconds = float(counts["film_seconds"])

@@ -220,7 +220,13 @@ def bearing(dice: Random):
 def pressures(dice: Random):
     """Pressures and film."""
     solver, cavitation = dice.choice(
-        (("auto", "reynolds"), ("modal", "gumbel"), ("modal", "none"), ("sor", "none"), ("sor", "reynolds"))
+        (
+            ("auto", "reynolds"),
+            ("fourier", "gumbel"),
+            ("fourier", "none"),
+            ("sor", "none"),
+            ("sor", "reynolds"),
+        )
     )
     low, middle, high = sorted(dice.uniform(-1e9, 1e9) for _ in range(3))
     if dice.random() < 0.3:

@@ -19,7 +19,7 @@ program test_cavitation
       if (runs('complementarity')) call complementarity()
       if (runs('order_of_models')) call order_of_models()
    end do
-   if (runs('whole_film')) call whole_film()
+   if (runs('full_film')) call full_film()
    if (runs('level_of_cavitation')) call level_of_cavitation()
    call report()
 
@@ -137,7 +137,7 @@ contains
    end subroutine order_of_models
 
    !> Where nothing falls below the pressure of cavitation the models agree.
-   subroutine whole_film()
+   subroutine full_film()
       integer, parameter :: models(3) = [cavitation_none, cavitation_gumbel, cavitation_reynolds]
       type(sor_film_type) :: solver
       type(film_response) :: r(3)
@@ -151,7 +151,7 @@ contains
       call expect_close(norm2(r(2)%force - r(1)%force), 0.0_wp, 0.0_wp, 'gumbel has nothing to clip')
       call expect_close(norm2(r(3)%force - r(1)%force), 0.0_wp, 1000*tolerance*norm2(r(1)%force), &
          & 'reynolds has nothing to hold')
-   end subroutine whole_film
+   end subroutine full_film
 
    !> A lower pressure of cavitation lets more tension act: the load falls with it, down to the full film's.
    subroutine level_of_cavitation()

@@ -9,7 +9,7 @@ program test_film_accuracy
    use text, only: to_text
    use film_solver, only: film_solver_type, film_motion, film_response, film_ok
    use film_resolution, only: enough_cells, enough_modes, usual_error
-   use modal_film, only: modal_film_type, new_modal_film, converged_film
+   use fourier_film, only: fourier_film_type, new_fourier_film, converged_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_reynolds
    use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: table_film_type, new_table_film
@@ -99,13 +99,13 @@ contains
       type(film_state), intent(in) :: state
       integer, intent(in) :: part
       logical, intent(in) :: clips
-      type(modal_film_type) :: film
-      film = new_modal_film([state%gap], fine_cells/part, fine_modes/part, clips)
+      type(fourier_film_type) :: film
+      film = new_fourier_film([state%gap], fine_cells/part, fine_modes/part, clips)
    end function fine_film
 
    type(volumes_type) function fine_answer(state)
       type(film_state), intent(in) :: state
-      type(modal_film_type) :: film
+      type(fourier_film_type) :: film
       type(film_response) :: r(1)
       film = fine_film(state, 1, .false.)
       call film%evaluate([state%motion], [paper_oil], shaft_speed, .true., r)
@@ -157,11 +157,11 @@ contains
       call compare(state, found(1), expected, errors)
    end subroutine try
 
-   !> `modal`, which is `direct` where films are full, and tables, against fine modes, whole or clipped (Guembel).
+   !> `fourier`, which is `direct` where films are full, and tables, against fine modes, whole or clipped (Guembel).
    subroutine by_modes(clips, supplied)
       logical, intent(in) :: clips, supplied
       type(film_state) :: state
-      type(modal_film_type) :: film
+      type(fourier_film_type) :: film
       type(table_film_type) :: tables
       type(volumes_type) :: expected
       type(error_type) :: modes, looked_up
@@ -187,7 +187,7 @@ contains
          end do
          limits = reshape([usual_error, 1e-3_wp, 1e-2_wp, usual_error, 1e-3_wp, 2e-2_wp], [3, 2])
          if (clips) limits = spread([merge(supply_limits(range), usual_error, supplied), 2e-2_wp, 5e-3_wp], 2, 2)
-         call judge('modal'//name, range, modes, limits(:, 1))
+         call judge('fourier'//name, range, modes, limits(:, 1))
          call judge('auto'//name, range, looked_up, limits(:, 2))
       end do
    end subroutine by_modes
@@ -218,7 +218,7 @@ contains
    !> from two numbers of points, as the middle rule is of second order.
    type(volumes_type) function clipped(state)
       type(film_state), intent(in) :: state
-      type(modal_film_type) :: film
+      type(fourier_film_type) :: film
       type(volumes_type) :: whole
       whole = fine_answer(state)
       film = fine_film(state, 2, .true.)
@@ -228,7 +228,7 @@ contains
 
    !> From so many points along the arc, a fifth as many across; slopes over the position from what the field changes.
    type(volumes_type) function integral(film, state, n)
-      type(modal_film_type), intent(inout) :: film
+      type(fourier_film_type), intent(inout) :: film
       type(film_state), intent(in) :: state
       integer, intent(in) :: n
       type(film_motion) :: near
@@ -251,7 +251,7 @@ contains
       character(len=*), parameter :: names(6) = [character(len=24) :: 'modal, none', 'modal, gumbel', &
          & 'direct 80 x 8, reynolds', 'sor 60 x 15, reynolds', 'auto, gumbel', 'auto, reynolds']
       type(film_state) :: state
-      type(modal_film_type) :: modes
+      type(fourier_film_type) :: modes
       type(direct_film_type) :: direct
       type(sor_film_type) :: sor
       type(table_film_type) :: tables

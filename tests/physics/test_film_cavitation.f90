@@ -5,7 +5,7 @@ program test_film_cavitation
    use text, only: to_text
    use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_ok
    use pad_gap, only: pad_gap_type
-   use modal_film, only: modal_film_type, new_modal_film
+   use fourier_film, only: fourier_film_type, new_fourier_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel
    use elimination_film, only: elimination_film_type, new_elimination_film
    use direct_film, only: direct_film_type, new_direct_film
@@ -15,7 +15,7 @@ program test_film_cavitation
 
    integer, parameter :: cells = 24, modes = 8
    !> Error of the modes' force where the film is full.
-   real(wp), parameter :: modal_error = 1e-4_wp
+   real(wp), parameter :: fourier_error = 1e-4_wp
    !> Ambient pressure, and with it that at the leading edge, where a film is not at the pressure of cavitation.
    real(wp), parameter :: ambient = 1e5_wp, supply = 3e5_wp
 
@@ -45,7 +45,7 @@ program test_film_cavitation
       call guembel('unloaded', pad(.false.), film_motion([1*um, -30*um], still))
       call guembel('unloaded, flooded', pad(.true.), film_motion([20*um, -30*um], still))
    end if
-   if (runs('modal_slopes')) call modal_slopes()
+   if (runs('fourier_slopes')) call fourier_slopes()
    if (runs('auto_slopes')) call auto_slopes()
    do i = 1, size(paths)
       if (runs('onset')) then
@@ -87,7 +87,7 @@ contains
       character(len=*), intent(in) :: what
       type(pad_gap_type), intent(in) :: film
       type(film_motion), intent(in) :: motion
-      type(modal_film_type) :: clipped, whole
+      type(fourier_film_type) :: clipped, whole
       type(sor_film_type) :: fine
       type(film_response) :: r, r_whole, r_fine(2)
       real(wp) :: reference(2), across, missed
@@ -98,14 +98,14 @@ contains
          r_fine(k) = answer(fine, motion)
       end do
       reference = (4*r_fine(2)%force - r_fine(1)%force)/3
-      whole = new_modal_film([film], cells, modes, gumbel=.false.)
+      whole = new_fourier_film([film], cells, modes, gumbel=.false.)
       r_whole = answer(whole, motion)
       call expect(r_whole%min_pressure < film%cavitation_pressure, what//': the film cavitates')
       across = missed_across(film, fine%pressure_field(1))
       do k = 0, 2
-         clipped = new_modal_film([film], cells*2**k, modes*2**k, gumbel=.true.)
+         clipped = new_fourier_film([film], cells*2**k, modes*2**k, gumbel=.true.)
          r = answer(clipped, motion)
-         missed = across + modal_error/16**k*norm2(r_whole%force) + norm2(r_fine(2)%force - r_fine(1)%force)/4
+         missed = across + fourier_error/16**k*norm2(r_whole%force) + norm2(r_fine(2)%force - r_fine(1)%force)/4
          call expect_close(norm2(r%force - reference), 0.0_wp, missed, 'Guembel, '//what//', cells ' &
             & //to_text(cells*2**k)//', force '//to_text(norm2(reference)))
       end do
@@ -188,8 +188,8 @@ contains
    !> quadrature for the slopes of its integral, which they are but for the fourth order of a cell over the
    !> length of the film: a tenth of a thousandth in the mean, and a few thousandths where a few cells are left.
    !> Where next to nothing is left of a film, the error is over a hundredth of the full film's slope.
-   subroutine modal_slopes()
-      type(modal_film_type) :: solver, whole
+   subroutine fourier_slopes()
+      type(fourier_film_type) :: solver, whole
       type(film_motion) :: motion
       type(film_response) :: r, r_whole
       real(wp) :: expected(2), unit, error, worst, mean
@@ -199,8 +199,8 @@ contains
       mean = 0
       compared = 0
       do trial = 1, 60
-         solver = new_modal_film([pad(mod(trial, 2) == 0)], cells, modes, gumbel=.true.)
-         whole = new_modal_film([pad(mod(trial, 2) == 0)], cells, modes, gumbel=.false.)
+         solver = new_fourier_film([pad(mod(trial, 2) == 0)], cells, modes, gumbel=.true.)
+         whole = new_fourier_film([pad(mod(trial, 2) == 0)], cells, modes, gumbel=.false.)
          motion = opening_motion()
          r = answer(solver, motion)
          r_whole = answer(whole, motion)
@@ -219,7 +219,7 @@ contains
       call expect(compared >= 100, 'slopes of cavitated films compared, Guembel: '//to_text(compared))
       call expect_close(worst, 0.0_wp, 5e-3_wp, 'slopes of cavitated films, Guembel by modes')
       call expect_close(mean/compared, 0.0_wp, 3e-4_wp, 'slopes of cavitated films, Guembel by modes, in the mean')
-   end subroutine modal_slopes
+   end subroutine fourier_slopes
 
    !> The solver that chooses: its slopes leave out how the share c of (modes - cells), both without cavitation,
    !> changes. c falls from 1 to 0 as the tension grows to the highest pressure, so what is left out is known.
@@ -228,7 +228,7 @@ contains
    subroutine auto_slopes()
       integer, parameter :: columns = 60, rows = 15
       type(direct_film_type) :: solver
-      type(modal_film_type) :: by_modes
+      type(fourier_film_type) :: by_modes
       type(sor_film_type) :: by_cells
       type(film_motion) :: motion
       type(film_response) :: r, r_modes, r_cells
@@ -240,7 +240,7 @@ contains
       compared = 0
       do trial = 1, 30
          solver = new_direct_film([pad(mod(trial, 2) == 0)], cells, modes, columns, rows, .true., .false.)
-         by_modes = new_modal_film([pad(mod(trial, 2) == 0)], cells, modes, gumbel=.false.)
+         by_modes = new_fourier_film([pad(mod(trial, 2) == 0)], cells, modes, gumbel=.false.)
          by_cells = new_sor_film([pad(mod(trial, 2) == 0)], sor_options(columns, rows, tolerance=1e-8_wp, &
             & cavitation=cavitation_none))
          motion = opening_motion()
@@ -268,7 +268,7 @@ contains
 
    !> 1 while the tension is below a tenth of the highest pressure, 0 from where it is the highest pressure.
    real(wp) function share(by_modes, motion)
-      type(modal_film_type), intent(inout) :: by_modes
+      type(fourier_film_type), intent(inout) :: by_modes
       type(film_motion), intent(in) :: motion
       type(film_response) :: r
       r = answer(by_modes, motion)
@@ -352,12 +352,12 @@ contains
       integer, intent(in) :: columns, rows
       real(wp) :: largest(2)
       integer, parameter :: n = 48
-      type(modal_film_type) :: by_modes
+      type(fourier_film_type) :: by_modes
       type(sor_film_type) :: by_cells
       type(film_response) :: r_modes, r_cells
       real(wp) :: angle
       integer :: i
-      by_modes = new_modal_film([pad(path%flooded)], cells, modes, gumbel=.false.)
+      by_modes = new_fourier_film([pad(path%flooded)], cells, modes, gumbel=.false.)
       by_cells = new_sor_film([pad(path%flooded)], sor_options(columns, rows, tolerance=1e-7_wp, &
          & cavitation=cavitation_none))
       largest = 0
@@ -377,10 +377,10 @@ contains
       real(wp), intent(in) :: angle
       type(film_response), intent(out) :: r
       logical, intent(out) :: cavitated
-      integer(i8) :: modal
-      modal = solver%counters%modal
+      integer(i8) :: fourier
+      fourier = solver%counters%fourier
       r = answer(solver, place(path, angle))
-      cavitated = solver%counters%modal == modal
+      cavitated = solver%counters%fourier == fourier
    end subroutine look
 
    !> Change of motion along a path.
@@ -405,7 +405,7 @@ contains
       call walk(solver, path, -2*pi/few, back, rough_coarse)
       call walk(solver, path, 2*pi/many, fine, rough_fine)
       largest = maxval(norm2(fine, dim=1))
-      call expect(rough_fine <= 0.1_wp*rough_coarse + modal_error*largest, 'steps of the force ' &
+      call expect(rough_fine <= 0.1_wp*rough_coarse + fourier_error*largest, 'steps of the force ' &
          & //to_text(rough_coarse/largest)//', ten times finer '//to_text(rough_fine/largest))
       call expect_close(maxval(norm2(coarse - back(:, few:0:-1), dim=1)), 0.0_wp, 1e-9_wp*largest, &
          & 'there and back again')

@@ -6,7 +6,7 @@ program test_film_limits
    use pad_gap, only: pad_gap_type
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none
    use paper_bearing, only: paper_oil, offset_pad, speed, clearance, paper_pad
-   use modal_film, only: new_modal_film
+   use fourier_film, only: new_fourier_film
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
    !> Wedge alone; squeeze alone; both, with the journal towards either edge.
@@ -26,7 +26,7 @@ program test_film_limits
    if (runs('reference_is_fine')) call reference_is_fine()
    do i = 1, 3
       if (runs('second_order')) call second_order(lengths(i), ordinary(i))
-      if (runs('modal_order')) call modal_order(lengths(i), ordinary(i))
+      if (runs('fourier_order')) call fourier_order(lengths(i), ordinary(i))
    end do
    call report()
 
@@ -257,21 +257,21 @@ contains
    !> Numerov's scheme along the arc, with all modes that the grid resolves: of the fourth order and more, so
    !> 24 to 48 cells leave a quarter at the very most, down to the reference's own 1e-7. At the default, 24
    !> cells and 8 modes, 1e-4 is far below what over-relaxation has.
-   subroutine modal_order(length, motion)
+   subroutine fourier_order(length, motion)
       real(wp), intent(in) :: length
       type(film_motion), intent(in) :: motion
       class(film_solver_type), allocatable :: solver
       real(wp) :: reference(2), coarse, fine, usual
       reference = reference_force(paper_pad(length=length), motion)
-      solver = new_modal_film([paper_pad(length=length)], 24, 200, gumbel=.false.)
+      solver = new_fourier_film([paper_pad(length=length)], 24, 200, gumbel=.false.)
       coarse = norm2(solver_force(solver, motion) - reference)/norm2(reference)
-      solver = new_modal_film([paper_pad(length=length)], 48, 200, gumbel=.false.)
+      solver = new_fourier_film([paper_pad(length=length)], 48, 200, gumbel=.false.)
       fine = norm2(solver_force(solver, motion) - reference)/norm2(reference)
-      solver = new_modal_film([paper_pad(length=length)], 24, 8, gumbel=.false.)
+      solver = new_fourier_film([paper_pad(length=length)], 24, 8, gumbel=.false.)
       usual = norm2(solver_force(solver, motion) - reference)/norm2(reference)
       call expect(fine < 0.25_wp*coarse + 1e-7_wp, 'modes converge, L = '//to_text(length)//': '//to_text(coarse) &
          & //' '//to_text(fine))
       call expect(fine < 1e-6_wp, 'modes on 48 cells, L = '//to_text(length)//': '//to_text(fine))
       call expect(usual < 1e-4_wp, 'modes by default, L = '//to_text(length)//': '//to_text(usual))
-   end subroutine modal_order
+   end subroutine fourier_order
 end program test_film_limits

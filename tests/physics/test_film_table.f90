@@ -9,7 +9,7 @@ program test_film_table
    use film_solver, only: film_motion, film_response, film_counters, film_ok
    use pad_gap, only: pad_gap_type
    use film_resolution, only: enough_cells, enough_modes
-   use modal_film, only: modal_film_type, new_modal_film
+   use fourier_film, only: fourier_film_type, new_fourier_film
    use elimination_film, only: elimination_film_type, new_elimination_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_reynolds
    use direct_film, only: new_direct_film
@@ -47,7 +47,7 @@ contains
    !> A film that is open and no more uneven than 50; T from below 0 to 1.
    type(film_state) function random_state() result(state)
       real(wp) :: h(2), half, arc
-      type(modal_film_type) :: film
+      type(fourier_film_type) :: film
       type(film_response) :: r(1)
       do
          arc = between(20.0_wp, 120.0_wp)*degree
@@ -60,7 +60,7 @@ contains
          if (state%thinnest > least*clearance) exit
       end do
       state%t = between(-0.3_wp, 1.0_wp)
-      film = new_modal_film([state%gap], enough_cells([state%gap]), enough_modes([state%gap]), .false., 1e-5_wp)
+      film = new_fourier_film([state%gap], enough_cells([state%gap]), enough_modes([state%gap]), .false., 1e-5_wp)
       call film%evaluate([film_motion(state%motion%position, 0.01_wp*[1.0_wp, tan(half)])], [paper_oil], 0.0_wp, &
          & .false., r)
       state%force = norm2(r(1)%force)
@@ -88,14 +88,14 @@ contains
    subroutine against_modes(condition, states)
       integer, intent(in) :: condition, states
       type(film_state) :: state
-      type(modal_film_type) :: film
+      type(fourier_film_type) :: film
       type(film_response) :: expected(1), found
       real(wp) :: errors(states, size(tolerances)), slopes(states, size(tolerances))
       integer :: i, k
       do i = 1, states
          state = random_state()
          associate (gaps => [state%gap])
-            film = new_modal_film(gaps, enough_cells(gaps), enough_modes(gaps), condition == gumbel, 1e-7_wp)
+            film = new_fourier_film(gaps, enough_cells(gaps), enough_modes(gaps), condition == gumbel, 1e-7_wp)
          end associate
          call film%evaluate([state%motion], [paper_oil], 0.0_wp, .true., expected)
          do k = 1, size(tolerances)

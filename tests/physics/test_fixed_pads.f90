@@ -87,7 +87,7 @@ contains
                   & *b%bearing%axial_length**3/b%bearing%assembled_clearance**2 &
                   & *e(i)/(1 - e(i)**2)**2*[e(i), pi/4*sqrt(1 - e(i)**2)]
             end associate
-            off(k) = norm2(forces_of(0.1_wp/2**k, e(i), 'gumbel', 'modal') - exact)/norm2(exact)
+            off(k) = norm2(forces_of(0.1_wp/2**k, e(i), 'gumbel', 'fourier') - exact)/norm2(exact)
          end do
          do k = 1, 2
             ratio = off(k - 1)/off(k)
@@ -116,8 +116,8 @@ contains
                      & *((b%bearing%journal_radius + b%bearing%assembled_clearance)/b%bearing%assembled_clearance)**2 &
                      & *b%bearing%axial_length
                end associate
-               if (whole == 1) forces(:, k) = forces_of(6.0_wp*2**k, e(i), 'none', 'modal')/unit
-               if (whole == 0) forces(:, k) = forces_of(6.0_wp*2**k, e(i), 'gumbel', 'modal')/unit
+               if (whole == 1) forces(:, k) = forces_of(6.0_wp*2**k, e(i), 'none', 'fourier')/unit
+               if (whole == 0) forces(:, k) = forces_of(6.0_wp*2**k, e(i), 'gumbel', 'fourier')/unit
             end do
             exact = e(i)/(2 + e(i)**2)*[0.0_wp, pi/sqrt(1 - e(i)**2)]
             if (whole == 0) exact = e(i)/(2 + e(i)**2)*[e(i)/(1 - e(i)**2), 0.5_wp*pi/sqrt(1 - e(i)**2)]

@@ -76,7 +76,7 @@ contains
       real(wp), intent(in) :: speed_rpm
       inputs = case_type()
       inputs%about%task = 'coefficients'
-      inputs%film%solver = 'modal'
+      inputs%film%solver = 'fourier'
       inputs%film%cavitation = 'none'
       inputs%operation%speed_rpm = speed_rpm
       inputs%operation%final_speed_rpm = speed_rpm

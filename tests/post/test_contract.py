@@ -83,7 +83,7 @@ PERIODIC = {
     "periodic/residual": ((), "1"),
 }
 COUNTS = ["steps", "rhs_evaluations", "jacobian_evaluations", "error_test_failures", "convergence_failures"]
-COUNTS += ["film_modal", "film_volumes", "film_passes"]
+COUNTS += ["film_fourier", "film_volumes", "film_passes"]
 
 RADIAL = {"pivot_deflection", "pivot_deflection_rate", "equilibrium/pivot_deflection"}
 BRISTLE = {"bristle_deflection"}
@@ -166,7 +166,7 @@ def test_statistics(file, case_name):
         assert statistics[name][()] >= 0, name
     marched = case_name != "equilibrium"
     assert (statistics["steps"][()] > 0) == marched
-    films = sum(statistics[name][()] for name in ("film_table", "film_modal", "film_volumes"))
+    films = sum(statistics[name][()] for name in ("film_table", "film_fourier", "film_volumes"))
     assert (films > 0) == marched
     for name in ("wall_seconds", "film_seconds"):
         assert statistics[name].attrs["units"] == "s"

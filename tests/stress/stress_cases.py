@@ -232,7 +232,7 @@ def film(dice: Dice) -> dict:
     if dice.chance(0.15):
         values["solver"] = "sor"
     elif dice.chance(0.15) and values["cavitation"] != "reynolds":
-        values["solver"] = "modal"
+        values["solver"] = "fourier"
     if dice.chance(0.15):
         values["circumferential_cells"] = dice.choice((16, 24, 40, 60))
     if dice.chance(0.15):

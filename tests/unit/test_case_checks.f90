@@ -37,9 +37,9 @@ contains
       call expect_refused('&film circumferential_cells = 41 /', 'film%circumferential_cells = 41: must be even')
       call expect_allowed('&film axial_cells = 2 /')
       call expect_refused('&film axial_cells = 1 /', 'film%axial_cells = 1: must be 2 or more')
-      call expect_refused('&film solver = ''modal'' /', 'needs film%cavitation = ''gumbel'' or ''none''')
-      call expect_allowed('&film solver = ''modal'', cavitation = ''gumbel'' /')
-      call expect_allowed('&film solver = ''modal'', cavitation = ''none'' /')
+      call expect_refused('&film solver = ''fourier'' /', 'needs film%cavitation = ''gumbel'' or ''none''')
+      call expect_allowed('&film solver = ''fourier'', cavitation = ''gumbel'' /')
+      call expect_allowed('&film solver = ''fourier'', cavitation = ''none'' /')
    end subroutine film
 
    !> (axial cells/2)^2 values a column and pad, 5e7 at most; where films cavitate, by `auto` alone.

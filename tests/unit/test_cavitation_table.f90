@@ -4,19 +4,19 @@ program test_cavitation_table
    use kinds, only: wp, degree
    use text, only: to_text
    use pad_gap, only: pad_gap_type
-   use unit_pad, only: unit_pad_type, new_unit_pad
-   use cavitated_drive, only: cavitated_drive_type, drive_type, new_cavitated_drive
+   use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
+   use effective_velocity, only: effective_velocity_type, drive_type, new_effective_velocity
    use cubic_patch, only: simd_width
-   use octaves, only: interval, lower_end
+   use logarithmic_grid, only: interval, lower_end
    use cavitation_table, only: cavitation_table_type, new_cavitation_table
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
    real(wp), parameter :: half_arc = 35*degree, tolerance = 1e-4_wp
-   type(unit_pad_type) :: pad
+   type(dimensionless_pad_type) :: pad
 
    associate (gap => pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 0.0_wp, 0.0_wp, 0.0_wp))
-      pad = new_unit_pad(gap)
+      pad = new_dimensionless_pad(gap)
    end associate
    if (runs('against_drive')) call against_drive(.false.)
    if (runs('against_drive')) call against_drive(.true.)
@@ -40,13 +40,13 @@ contains
    subroutine against_drive(gumbel)
       logical, intent(in) :: gumbel
       type(cavitation_table_type) :: table
-      type(cavitated_drive_type) :: solver
+      type(effective_velocity_type) :: solver
       type(drive_type) :: drive
       real(wp) :: place(3), value(simd_width), slope(simd_width, 3), w(2), worst
       integer :: trial, last
       logical :: good
       table = new_cavitation_table(pad, gumbel, tolerance)
-      solver = new_cavitated_drive(pad, gumbel, 0.1_wp*tolerance)
+      solver = new_effective_velocity(pad, gumbel, 0.1_wp*tolerance)
       last = 0
       worst = 0
       do trial = 1, 30
@@ -90,7 +90,7 @@ contains
    !> Cells of the same level meet to rounding; where one of them is cut they differ by the error of either.
    subroutine between_cells()
       type(cavitation_table_type) :: table
-      type(cavitated_drive_type) :: solver
+      type(effective_velocity_type) :: solver
       type(drive_type) :: drive
       real(wp) :: place(3), below(3), jump, worst
       real(wp), dimension(simd_width) :: value, value_below
@@ -98,7 +98,7 @@ contains
       integer :: trial, last, axis, meet
       logical :: good
       table = new_cavitation_table(pad, .true., tolerance)
-      solver = new_cavitated_drive(pad, .true., tolerance)
+      solver = new_effective_velocity(pad, .true., tolerance)
       last = 0
       meet = 0
       worst = 0
@@ -155,14 +155,14 @@ contains
    !> Where the film is closed at a corner of the smallest cell nothing is good; what is good is close.
    subroutine closing_films()
       type(cavitation_table_type) :: table
-      type(cavitated_drive_type) :: solver
+      type(effective_velocity_type) :: solver
       type(drive_type) :: drive
       real(wp) :: edges(2), value(simd_width), slope(simd_width, 3), w(2), worst, h
       integer :: k, last, found, missing
       logical :: good
       real(wp), parameter :: t = 0.3_wp
       table = new_cavitation_table(pad, .true., tolerance)
-      solver = new_cavitated_drive(pad, .true., 0.1_wp*tolerance)
+      solver = new_effective_velocity(pad, .true., 0.1_wp*tolerance)
       w = [1.0_wp, pad%tangent*(1 - 2*t)]
       last = 0
       worst = 0

@@ -5,7 +5,7 @@ program test_direct_film
    use text, only: to_text
    use film_solver, only: film_oil, film_motion, film_response, film_counters, film_ok, film_closed
    use pad_gap, only: pad_gap_type
-   use modal_film, only: modal_film_type, new_modal_film
+   use fourier_film, only: fourier_film_type, new_fourier_film
    use elimination_film, only: elimination_film_type, new_elimination_film
    use direct_film, only: direct_film_type, new_direct_film
    use paper_bearing, only: paper_oil, paper_pad, offset_pad, speed, clearance
@@ -31,10 +31,10 @@ contains
    !> The solver, and those it is made of, for one dry pad.
    subroutine solvers(auto, by_modes, by_cells)
       type(direct_film_type), intent(out) :: auto
-      type(modal_film_type), intent(out) :: by_modes
+      type(fourier_film_type), intent(out) :: by_modes
       type(elimination_film_type), intent(out) :: by_cells
       auto = new_direct_film([paper_pad()], cells, modes, columns, rows, .true., .false.)
-      by_modes = new_modal_film([paper_pad()], cells, modes, .false.)
+      by_modes = new_fourier_film([paper_pad()], cells, modes, .false.)
       by_cells = new_elimination_film(paper_pad(), columns, rows)
    end subroutine solvers
 
@@ -51,7 +51,7 @@ contains
    !> A film that is squeezed enough not to cavitate is that of the modes, to the last bit.
    subroutine whole()
       type(direct_film_type) :: auto
-      type(modal_film_type) :: by_modes
+      type(fourier_film_type) :: by_modes
       type(elimination_film_type) :: by_cells
       type(film_motion) :: motion
       type(film_response) :: found(1), expected(1)
@@ -62,13 +62,13 @@ contains
       call by_modes%evaluate([motion], [paper_oil], speed, .true., expected)
       call expect_same(found(1), expected(1), 'a full film')
       call expect_close(norm2(found(1)%force - expected(1)%force), 0.0_wp, 0.0_wp, 'to the last bit')
-      call expect(auto%counters%modal == 1 .and. auto%counters%volumes == 0, 'is counted as one')
+      call expect(auto%counters%fourier == 1 .and. auto%counters%volumes == 0, 'is counted as one')
    end subroutine whole
 
    !> A little cavitation adds to the modes what it adds to the finite volumes; the slopes are those of that sum.
    subroutine slight()
       type(direct_film_type) :: auto
-      type(modal_film_type) :: by_modes
+      type(fourier_film_type) :: by_modes
       type(elimination_film_type) :: by_cells
       type(film_counters) :: counters
       type(film_motion) :: motion, forward, back
@@ -88,7 +88,7 @@ contains
       call expect_close(norm2(found(1)%force - of_modes(1)%force - change), 0.0_wp, 1e-9_wp*norm2(of_modes(1)%force), &
          & 'force of slight cavitation')
       call expect_close(found(1)%min_pressure, 0.0_wp, 0.0_wp, 'the minimum is the cavitation pressure')
-      call expect(auto%counters%modal == 0 .and. auto%counters%volumes == 1, 'it is counted as cavitated')
+      call expect(auto%counters%fourier == 0 .and. auto%counters%volumes == 1, 'it is counted as cavitated')
       do k = 1, 4
          step = 1e-5_wp*clearance*merge(1.0_wp, speed, k <= 2)
          shift = 0
@@ -109,7 +109,7 @@ contains
    !> highest pressure, 0 where the two are the same.
    subroutine between_both()
       type(direct_film_type) :: auto
-      type(modal_film_type) :: by_modes
+      type(fourier_film_type) :: by_modes
       type(elimination_film_type) :: by_cells
       type(film_counters) :: counters
       type(film_motion) :: motion
@@ -162,7 +162,7 @@ contains
    !> A pad that draws more than it presses is left to the finite volumes.
    subroutine empty()
       type(direct_film_type) :: auto
-      type(modal_film_type) :: by_modes
+      type(fourier_film_type) :: by_modes
       type(elimination_film_type) :: by_cells
       type(film_counters) :: counters
       type(film_motion) :: motion
@@ -185,7 +185,7 @@ contains
       call auto%evaluate([film_motion([0.0_wp, 1.1_wp*clearance], [0.0_wp, 0.0_wp])], [paper_oil], speed, .true., found)
       call expect(found(1)%status == film_closed, 'a closed film')
       call expect_close(found(1)%min_film_thickness, -0.1_wp*clearance, 1e-18_wp, 'and by how much')
-      call expect(auto%counters%modal == 0 .and. auto%counters%volumes == 0, 'none was solved')
+      call expect(auto%counters%fourier == 0 .and. auto%counters%volumes == 0, 'none was solved')
    end subroutine closed
 
    !> Pads do not disturb each other, whatever film each has.

@@ -4,7 +4,7 @@ program test_film_field
    use text, only: to_text
    use film_solver, only: film_solver_type, film_motion, film_response
    use pad_gap, only: pad_gap_type
-   use modal_film, only: modal_film_type, new_modal_film
+   use fourier_film, only: fourier_film_type, new_fourier_film
    use sor_film, only: sor_film_type, new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
    use direct_film, only: direct_film_type, new_direct_film
    use paper_bearing, only: paper_oil, offset_pad, speed
@@ -73,17 +73,17 @@ contains
    !> A few 1e-6 where no pressure jumps at an edge, 1e-4 where it does, and where the field is clipped: the force
    !> is that of eight places across. Half the cells come less close.
    subroutine force_of_modes()
-      type(modal_film_type) :: solver
+      type(fourier_film_type) :: solver
       real(wp) :: coarse
-      solver = new_modal_film([offset_pad()], 8, 8, gumbel=.false.)
+      solver = new_fourier_film([offset_pad()], 8, 8, gumbel=.false.)
       coarse = missing(solver, whole)
-      solver = new_modal_film([offset_pad()], 24, 8, gumbel=.false.)
+      solver = new_fourier_film([offset_pad()], 24, 8, gumbel=.false.)
       call expect_close(missing(solver, whole), 0.0_wp, 1e-5_wp, 'integral of the modes')
       call expect(missing(solver, whole) < 0.1_wp*coarse, 'integral with a third of the cells')
-      solver = new_modal_film([offset_pad([3e5_wp, 1e5_wp, 0.0_wp])], 24, 16, gumbel=.false.)
+      solver = new_fourier_film([offset_pad([3e5_wp, 1e5_wp, 0.0_wp])], 24, 16, gumbel=.false.)
       call expect_close(missing(solver, whole), 0.0_wp, 1e-4_wp, 'integral of the modes, flooded')
       call expect_close(missing(solver, torn), 0.0_wp, 1e-3_wp, 'integral of the modes, tension')
-      solver = new_modal_film([offset_pad()], 24, 8, gumbel=.true.)
+      solver = new_fourier_film([offset_pad()], 24, 8, gumbel=.true.)
       call expect_close(missing(solver, torn), 0.0_wp, 1e-3_wp, 'integral of the clipped modes')
       call expect(minval(field_of(solver, torn)) >= 0, 'nothing below the pressure of cavitation')
       call expect(any(field_of(solver, torn) <= 0), 'and some at it')
@@ -136,18 +136,18 @@ contains
    !> with a pressure at the leading edge but for a cell of the latter around the corner where the pressure jumps.
    subroutine solvers_agree()
       real(wp), parameter :: tolerances(3) = [2e-3_wp, 1e-2_wp, 3e-2_wp]
-      type(modal_film_type) :: modes
+      type(fourier_film_type) :: modes
       type(sor_film_type) :: volumes
       type(direct_film_type) :: direct
       real(wp), allocatable :: p(:, :), q(:, :)
       type(film_motion) :: motions(3)
       integer :: i
-      modes = new_modal_film([offset_pad()], 24, 8, gumbel=.false.)
+      modes = new_fourier_film([offset_pad()], 24, 8, gumbel=.false.)
       volumes = new_sor_film([offset_pad()], fine(cavitation_none))
       p = field_of(modes, whole)
       q = field_of(volumes, whole)
       call expect_close(maxval(abs(p - q)), 0.0_wp, 1e-3_wp*maxval(q), 'modes against over-relaxation')
-      modes = new_modal_film([offset_pad([4e6_wp, 1e6_wp, 0.0_wp])], 36, 16, .false.)
+      modes = new_fourier_film([offset_pad([4e6_wp, 1e6_wp, 0.0_wp])], 36, 16, .false.)
       volumes = new_sor_film([offset_pad([4e6_wp, 1e6_wp, 0.0_wp])], fine(cavitation_none))
       p = field_of(modes, whole)
       q = field_of(volumes, whole)
@@ -171,10 +171,10 @@ contains
 
    !> At rest in one pressure every solver has that pressure, at the edges too.
    subroutine uniform_pressure()
-      type(modal_film_type) :: modes
+      type(fourier_film_type) :: modes
       type(sor_film_type) :: volumes
       type(direct_film_type) :: direct
-      modes = new_modal_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
+      modes = new_fourier_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
       volumes = new_sor_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], sor_options(24, 8, tolerance=1e-13_wp))
       direct = new_direct_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], 24, 8, 24, 8, .true., .false.)
       call expect_close(unevenness(modes), 0.0_wp, 1e-9_wp, 'uniform pressure, modes')
@@ -194,13 +194,13 @@ contains
    !> with its images in both edges. Some points lie closer to the edge than any node.
    subroutine heated_edge()
       real(wp), parameter :: rise = 3e5_wp, z(3) = [0.0_wp, 0.3_wp*length, 0.499_wp*length]
-      type(modal_film_type) :: solver
+      type(fourier_film_type) :: solver
       real(wp) :: p(3, 4, 1), phi(4, 1), x(4), exact(3), arc
       integer :: i, k
       arc = theta_1 + theta_2
       x = [0.0_wp, 1e-4_wp, 0.01_wp, 0.2_wp]*arc
       phi(:, 1) = theta_1 - x
-      solver = new_modal_film([offset_pad([rise, 0.0_wp, 0.0_wp])], 24, 16, gumbel=.false.)
+      solver = new_fourier_film([offset_pad([rise, 0.0_wp, 0.0_wp])], 24, 16, gumbel=.false.)
       call solver%field([film_motion([0.0_wp, 0.0_wp])], [paper_oil], 0.0_wp, phi, z, p)
       do i = 1, 4
          exact = rise*plate(z, x(i))

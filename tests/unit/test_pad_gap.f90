@@ -5,12 +5,12 @@ program test_pad_gap
    use film_solver, only: film_motion
    use pad_gap, only: pad_gap_type
    use paper_bearing, only: paper_pad, clearance, paper_oil, offset_pad, speed
-   use unit_pad, only: new_unit_pad, thickness_scale
-   use middle_frame, only: middle_frame_type, middle_motion, middle_force, new_middle_frame
+   use dimensionless_pad, only: new_dimensionless_pad, thickness_scale
+   use mid_arc_frame, only: mid_arc_frame_type, middle_motion, middle_force, new_mid_arc_frame
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
    type(pad_gap_type) :: gap
-   type(middle_frame_type) :: frame
+   type(mid_arc_frame_type) :: frame
    integer :: trial
 
    if (runs('sizes')) call sizes()
@@ -23,7 +23,7 @@ program test_pad_gap
       call least_against_scan(170.0_wp, 120.0_wp)
    end if
    gap = offset_pad()
-   frame = new_middle_frame(gap, new_unit_pad(gap))
+   frame = new_mid_arc_frame(gap, new_dimensionless_pad(gap))
    do trial = 1, 5
       if (runs('edges')) call edges()
       if (runs('drive')) call drive()

@@ -6,7 +6,7 @@ program test_table_cells
    use text, only: to_text
    use cell_index, only: cell_index_type, cell_key
    use kinds, only: wp
-   use octaves, only: interval, lower_end
+   use logarithmic_grid, only: interval, lower_end
    use cubic_patch, only: simd_width, terms, corner_data, corners, cubic_transform, evaluate_cubic
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)

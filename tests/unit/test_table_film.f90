@@ -6,7 +6,7 @@ program test_table_film
    use film_solver, only: film_motion, film_response, film_ok, film_closed
    use pad_gap, only: pad_gap_type
    use film_resolution, only: enough_cells, enough_modes
-   use modal_film, only: modal_film_type, new_modal_film
+   use fourier_film, only: fourier_film_type, new_fourier_film
    use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: table_film_type, new_table_film
    use paper_bearing, only: paper_oil, paper_pad, offset_pad, speed, clearance
@@ -18,7 +18,7 @@ program test_table_film
    real(wp), parameter :: tolerance = 1e-4_wp
    integer :: i
 
-   if (runs('whole_films')) call whole_films()
+   if (runs('full_films')) call full_films()
    if (runs('arcs')) call arcs()
    if (runs('no_force_left')) call no_force_left()
    if (runs('straight_squeeze')) call straight_squeeze()
@@ -68,11 +68,11 @@ contains
    real(wp) function squeezed(gap, motion)
       type(pad_gap_type), intent(in) :: gap
       type(film_motion), intent(in) :: motion
-      type(modal_film_type) :: film
+      type(fourier_film_type) :: film
       type(film_response) :: r(1)
       real(wp) :: middle
       middle = 0.5_wp*(gap%leading_angle - gap%trailing_angle)
-      film = new_modal_film([gap], enough_cells([gap]), enough_modes([gap]), .false., tolerance)
+      film = new_fourier_film([gap], enough_cells([gap]), enough_modes([gap]), .false., tolerance)
       call film%evaluate([film_motion(motion%position, 0.25_wp*clearance*speed*[sin(middle), cos(middle)])], &
          & [paper_oil], 0.0_wp, &
          & .false., r)
@@ -90,17 +90,17 @@ contains
 
    !> Full films of pads with any pivot and any pressures around them, without cavitation: the tables meet the modes
    !> within both tolerances.
-   subroutine whole_films()
+   subroutine full_films()
       type(pad_gap_type) :: gaps(4)
       type(table_film_type) :: film
-      type(modal_film_type) :: fine
+      type(fourier_film_type) :: fine
       type(film_motion) :: motion
       type(film_response) :: found(4), expected(4)
       real(wp) :: worst, worst_slope
       integer :: trial, k
       gaps = [paper_pad(), offset_pad(), offset_pad([3e6_wp, 1e5_wp, 0.0_wp]), offset_pad([1e5_wp, 2e5_wp, -1e5_wp])]
       film = tables(gaps, none)
-      fine = new_modal_film(gaps, 96, 32, .false., 1e-6_wp)
+      fine = new_fourier_film(gaps, 96, 32, .false., 1e-6_wp)
       worst = 0
       worst_slope = 0
       do trial = 1, 20
@@ -114,10 +114,10 @@ contains
                & - expected(k)%derivatives(:, 3:))/norm2(expected(k)%derivatives(:, 3:)))
          end do
       end do
-      call expect(film%counters%looked_up == 80 .and. film%counters%modal == 0, 'all are looked up')
+      call expect(film%counters%looked_up == 80 .and. film%counters%fourier == 0, 'all are looked up')
       call expect(worst < tolerance, 'force, error '//to_text(worst))
       call expect(worst_slope < 10*tolerance, 'slopes, error '//to_text(worst_slope))
-   end subroutine whole_films
+   end subroutine full_films
 
    !> Arcs of 5 to 175 degrees, of which those beyond 149 have no table, cavitated and not.
    subroutine arcs()
@@ -451,7 +451,7 @@ contains
    subroutine pressures()
       integer, parameter :: n = 400
       type(table_film_type) :: film
-      type(modal_film_type) :: fine
+      type(fourier_film_type) :: fine
       type(pad_gap_type) :: gap
       type(film_response) :: found(1)
       type(film_motion) :: motion
@@ -462,7 +462,7 @@ contains
          gap = offset_pad([max(0, supply)*1e6_wp, 0.0_wp, 0.0_wp])
          phi(:, 1) = [(-gap%trailing_angle + (k - 0.5_wp)/n*gap%arc(), k=1, n)]
          film = tables([gap], merge(gumbel, none, supply < 0))
-         fine = new_modal_film([gap], 192, 32, .false.)
+         fine = new_fourier_film([gap], 192, 32, .false.)
          worst = 0
          do trial = 1, 20
             motion = film_motion(clearance*[between(-0.4_wp, 0.4_wp), between(-0.2_wp, 0.4_wp)], &

@@ -18,7 +18,7 @@ program test_tilting_pad_bearing
    type(film_oil), parameter :: oil(2) = film_oil(19e-3_wp)
    character(len=*), parameter :: motions(2) = [character(len=14) :: 'tilting_radial', 'tilting_only']
    character(len=*), parameter :: frictions(3) = [character(len=12) :: 'none', 'bengisu_akay', 'lugre']
-   character(len=*), parameter :: solvers(4) = [character(len=6) :: 'modal', 'direct', 'sor', 'auto']
+   character(len=*), parameter :: solvers(4) = [character(len=6) :: 'fourier', 'direct', 'sor', 'auto']
    integer :: i, k
 
    do i = 1, size(motions)
@@ -85,7 +85,7 @@ contains
       character(len=*), intent(in) :: motion, friction
       inputs = case_of('&pads mass = 80, 60, inertia = 0.03, 0.025, centre_tangential = 3e-3, -6e-3, ' &
          & //'pivot_ratio = 0.5, 0.6, motion = '''//trim(motion)//''' / &friction model = '''//trim(friction) &
-         & //''' / &rotor gravity = 300 / &film solver = ''modal'', cavitation = ''none'' /')
+         & //''' / &rotor gravity = 300 / &film solver = ''fourier'', cavitation = ''none'' /')
    end function heavy_case
 
    !> The same bearing with asperities as high as the films are thick, so that differences over steps of its films are
@@ -274,14 +274,14 @@ contains
       type(pad_state) :: pads(2)
       real(wp) :: cavitated(2), whole(2)
       character(len=:), allocatable :: refusal
-      character(len=6), parameter :: solvers(3) = [character(len=6) :: 'auto', 'sor', 'modal']
+      character(len=6), parameter :: solvers(3) = [character(len=6) :: 'auto', 'sor', 'fourier']
       logical :: ok
       integer :: k
       do k = 1, size(solvers)
          inputs = case_type()
          inputs%friction%model = 'bengisu_akay'
          inputs%film%solver = trim(solvers(k))
-         if (solvers(k) == 'modal') inputs%film%cavitation = 'gumbel'
+         if (solvers(k) == 'fourier') inputs%film%cavitation = 'gumbel'
          bearing = new_tilting_pad_bearing(inputs)
          call expect(.not. bearing%smooth() .and. bearing%films_cavitate(), 'friction and cavitation, '//solvers(k))
          ! the wedge of the second pad opens: its film cavitates

@@ -39,7 +39,7 @@ module film_solver
    type :: film_counters
       !> Pads evaluated by axial modes and on finite volumes; passes over these volumes: sweeps of over-relaxation,
       !> or eliminations.
-      integer(i8) :: modal = 0, volumes = 0, passes = 0
+      integer(i8) :: fourier = 0, volumes = 0, passes = 0
       !> Pads looked up in tables; cells and nodes of cavitated films that were built for them, and the wall time, s.
       integer(i8) :: looked_up = 0, cells = 0, nodes = 0
       real(wp) :: building = 0

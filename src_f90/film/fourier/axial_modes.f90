@@ -6,7 +6,7 @@
 module axial_modes
    use kinds, only: wp, pi
    use pad_gap, only: pad_gap_type
-   use modal_sweeps, only: simd_width
+   use fourier_passes, only: simd_width
    implicit none (type, external)
    private
    public :: axial_modes_type, new_axial_modes

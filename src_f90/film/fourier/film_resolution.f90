@@ -1,5 +1,5 @@
-!> How many cells and modes a film takes (modal_film): levels of twice the cells and four times the modes each, so that
-!> ordinary films take the first.
+!> How many cells and modes a film takes (fourier_film): levels of twice the cells and four times the modes each, so
+!> that ordinary films take the first.
 !>
 !> Two numbers of a film tell: the longest cell in lengths of the pad, as the first modes' layers at the sides are as
 !> thick as a third of its length; and the pad's length over the distance in which the thin part of the film changes,
@@ -8,8 +8,8 @@
 module film_resolution
    use kinds, only: wp, pi
    use pad_gap, only: pad_gap_type, pad_directions
-   use modal_pad, only: modal_pad_type, init_pad
-   use modal_sweeps, only: simd_width
+   use fourier_pad, only: fourier_pad_type, init_pad
+   use fourier_passes, only: simd_width
    implicit none (type, external)
    private
    public :: resolution_type, new_resolution, enough_cells, enough_modes, most_levels, usual_error
@@ -124,7 +124,7 @@ contains
       class(resolution_type), intent(in) :: self
       type(pad_gap_type), intent(in) :: gap
       integer, intent(in) :: level
-      type(modal_pad_type), intent(out) :: pad
+      type(fourier_pad_type), intent(out) :: pad
       call init_pad(pad, gap, self%cells*2**(level - 1)*merge(2, 1, self%floods .and. level > 1), &
          & modes_at(self, level), .not. self%follows .or. self%floods)
    end subroutine make_pad

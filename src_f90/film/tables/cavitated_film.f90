@@ -3,8 +3,8 @@
 !> (docs/theory/film.md). Here d is solved where it is asked for; cavitation_table interpolates it.
 module cavitated_film
    use kinds, only: wp, i8
-   use unit_pad, only: unit_pad_type, thickness_scale
-   use cavitated_drive, only: cavitated_drive_type, drive_type, new_cavitated_drive, least_tolerance
+   use dimensionless_pad, only: dimensionless_pad_type, thickness_scale
+   use effective_velocity, only: effective_velocity_type, drive_type, new_effective_velocity, least_tolerance
    use cubic_patch, only: simd_width, corner_data
    implicit none (type, external)
    private
@@ -51,8 +51,8 @@ module cavitated_film
 
    type, extends(cavitated_film_type) :: solved_cavitated_film_type
       private
-      type(unit_pad_type) :: pad
-      type(cavitated_drive_type) :: drive
+      type(dimensionless_pad_type) :: pad
+      type(effective_velocity_type) :: drive
       !> The films looked up last, one after the other, and where.
       type(node_type), allocatable :: remembered(:)
       real(wp), allocatable :: remembered_at(:, :)
@@ -67,12 +67,12 @@ contains
 
    !> The films of a pad, with the condition of Reynolds or Guembel: forces to a tolerance, over that at T = 0.
    function new_solved_cavitated_film(pad, gumbel, tolerance) result(films)
-      type(unit_pad_type), intent(in) :: pad
+      type(dimensionless_pad_type), intent(in) :: pad
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: tolerance
       type(solved_cavitated_film_type) :: films
       films%pad = pad
-      films%drive = new_cavitated_drive(pad, gumbel, max(tolerance, least_tolerance))
+      films%drive = new_effective_velocity(pad, gumbel, max(tolerance, least_tolerance))
    end function new_solved_cavitated_film
 
    subroutine look_up(self, edges, t, want_slopes, last, value, slope, good)

@@ -8,10 +8,10 @@
 module cavitation_table
    use kinds, only: wp
    use clock, only: wall_clock
-   use unit_pad, only: unit_pad_type
-   use cavitated_drive, only: least_tolerance
+   use dimensionless_pad, only: dimensionless_pad_type
+   use effective_velocity, only: least_tolerance
    use cavitated_film, only: cavitated_film_type, solved_cavitated_film_type, node_type, new_solved_cavitated_film
-   use octaves, only: interval, lower_end
+   use logarithmic_grid, only: interval, lower_end
    use cell_index, only: cell_index_type, cell_key
    use cubic_patch, only: simd_width, terms, corner_data, corners, cubic_transform, evaluate_cubic
    implicit none (type, external)
@@ -60,7 +60,7 @@ contains
    !> An empty table for a pad, with the condition of Reynolds or Guembel: forces to a tolerance, over that at T = 0.
    !> At least the corners and the middle of a cell must find room in it.
    function new_cavitation_table(pad, gumbel, tolerance, most) result(table)
-      type(unit_pad_type), intent(in) :: pad
+      type(dimensionless_pad_type), intent(in) :: pad
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: tolerance
       integer, intent(in), optional :: most

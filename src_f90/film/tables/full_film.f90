@@ -1,11 +1,11 @@
 !> The full film of a dimensionless pad: force = S M w, with a symmetric M of three functions of the film thicknesses at
 !> both edges (docs/theory/film.md), and that of a pressure 1 at the leading edge. Here both are solved where
-!> they are asked for, with exact derivatives; whole_table interpolates them.
+!> they are asked for, with exact derivatives; full_film_table interpolates them.
 module full_film
    use kinds, only: wp, i8
    use film_solver, only: film_motion, film_response, film_ok
-   use unit_pad, only: unit_pad_type, unit_oil, thickness_scale
-   use modal_film, only: modal_film_type, converged_film
+   use dimensionless_pad, only: dimensionless_pad_type, unit_oil, thickness_scale
+   use fourier_film, only: fourier_film_type, converged_film
    use square_patch, only: simd_width
    implicit none (type, external)
    private
@@ -61,9 +61,9 @@ module full_film
    end interface
 
    type, extends(full_film_type) :: solved_full_film_type
-      type(unit_pad_type), private :: pad
+      type(dimensionless_pad_type), private :: pad
       !> Without pressure around the pad, and with a pressure 1 at its leading edge.
-      type(modal_film_type) :: film, supplied_film
+      type(fourier_film_type) :: film, supplied_film
    contains
       procedure :: look_up
       procedure :: look_up_supply
@@ -74,7 +74,7 @@ contains
 
    !> The full films of a pad, closer than a tolerance over the norm of M.
    function new_solved_full_film(pad, tolerance) result(films)
-      type(unit_pad_type), intent(in) :: pad
+      type(dimensionless_pad_type), intent(in) :: pad
       real(wp), intent(in) :: tolerance
       type(solved_full_film_type) :: films
       films%pad = pad
@@ -150,7 +150,7 @@ contains
 
    !> Derivatives of a force over the thicknesses at both edges, (component, edge).
    pure function over_edges(pad, film) result(slopes)
-      type(unit_pad_type), intent(in) :: pad
+      type(dimensionless_pad_type), intent(in) :: pad
       type(film_response), intent(in) :: film
       real(wp) :: slopes(2, 2)
       slopes(1, :) = pad%over_edges(film%derivatives(1, :2))

@@ -6,8 +6,8 @@
 module pressure_profile
    use kinds, only: wp
    use film_solver, only: film_motion
-   use unit_pad, only: unit_pad_type, unit_oil
-   use modal_film, only: modal_film_type
+   use dimensionless_pad, only: dimensionless_pad_type, unit_oil
+   use fourier_film, only: fourier_film_type
    use square_patch, only: node_points, fitted, patch_values
    implicit none (type, external)
    private
@@ -18,7 +18,7 @@ module pressure_profile
 
    type :: pressure_profile_type
       private
-      type(unit_pad_type) :: pad
+      type(dimensionless_pad_type) :: pad
       real(wp) :: sines(points), cosines(points)
       !> (point and load, power of the second thickness, power of the first); loads are the factories of w and, where
       !> there is one, a pressure 1 at the leading edge.
@@ -32,8 +32,8 @@ contains
    !> The profile of a pad over thicknesses `middle + s/per_half`, -1 <= s <= 1, from its axial modes without pressure
    !> around it, and with a pressure 1 at the leading edge.
    function new_pressure_profile(pad, film, supplied_film, supplied, middle, per_half) result(profile)
-      type(unit_pad_type), intent(in) :: pad
-      type(modal_film_type), intent(inout) :: film, supplied_film
+      type(dimensionless_pad_type), intent(in) :: pad
+      type(fourier_film_type), intent(inout) :: film, supplied_film
       logical, intent(in) :: supplied
       real(wp), intent(in) :: middle(2), per_half(2)
       type(pressure_profile_type) :: profile

@@ -3,8 +3,8 @@ module table_pad
    use kinds, only: wp
    use film_solver, only: film_motion, film_oil, film_response
    use pad_gap, only: pad_gap_type, pad_directions
-   use unit_pad, only: unit_pad_type
-   use middle_frame, only: middle_frame_type, middle_motion, middle_force, new_middle_frame
+   use dimensionless_pad, only: dimensionless_pad_type
+   use mid_arc_frame, only: mid_arc_frame_type, middle_motion, middle_force, new_mid_arc_frame
    use square_patch, only: simd_width
    use full_film, only: full_film_type
    use cavitated_film, only: cavitated_film_type
@@ -14,7 +14,7 @@ module table_pad
 
    !> The films of pads of one shape, from tables or solved.
    type :: shape_tables
-      type(unit_pad_type) :: pad
+      type(dimensionless_pad_type) :: pad
       !> Whether they have a pressure of their own at the leading edge.
       logical :: supplied = .false.
       class(full_film_type), allocatable :: whole
@@ -25,7 +25,7 @@ module table_pad
    type :: table_pad_type
       type(pad_gap_type) :: gap
       type(pad_directions) :: directions
-      type(middle_frame_type), private :: frame
+      type(mid_arc_frame_type), private :: frame
       !> Which tables are the pad's; 0: none.
       integer :: shape = 0
       !> Whether the last film came from the tables.
@@ -63,10 +63,10 @@ contains
    !> A pad with this gap and this shape.
    pure type(table_pad_type) function new_table_pad(gap, shape) result(pad)
       type(pad_gap_type), intent(in) :: gap
-      type(unit_pad_type), intent(in) :: shape
+      type(dimensionless_pad_type), intent(in) :: shape
       pad%gap = gap
       pad%directions = gap%directions()
-      pad%frame = new_middle_frame(gap, shape)
+      pad%frame = new_mid_arc_frame(gap, shape)
       pad%rise = gap%supply_pressure - gap%ambient_pressure
       pad%even_pressure = .not. (abs(pad%rise) > 0 .or. abs(gap%ambient_pressure - gap%cavitation_pressure) > 0)
       pad%square = gap%pad_radius()**2

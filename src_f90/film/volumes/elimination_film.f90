@@ -10,8 +10,8 @@ module elimination_film
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type, new_film_grid
    use volume_equations, only: volume_equations_type, new_volume_equations
-   use film_rim, only: rim_conductance
-   use slight_cavitation, only: force_of_few
+   use rupture_boundary, only: rim_conductance
+   use local_cavitation, only: force_of_few
    use simd_padding, only: apply
    use column_sweeps, only: weighted
    implicit none (type, external)
@@ -29,7 +29,8 @@ module elimination_film
       !> Pressure, and the adjoints of both forces, (.., column, force): scaled (grid_modes), by rows in blocks and by
       !> modes outside.
       real(wp), allocatable :: pressure(:, :), adjoint(:, :, :)
-      !> Whether slopes are those of a film that ends between cells (film_rim); else those of these cells, exact.
+      !> Whether slopes are those of a film that ends between cells (rupture_boundary); else those of these cells,
+      !> exact.
       logical, public :: ends_between = .false.
    contains
       procedure :: evaluate

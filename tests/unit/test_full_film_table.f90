@@ -1,28 +1,28 @@
 !> The table of full films: against finer modes, slopes, jumps between cells, closing films, and that neither the order
 !> of visits nor a table that was full changes a bit.
-program test_whole_table
+program test_full_film_table
    use kinds, only: wp, degree
    use text, only: to_text
    use film_solver, only: film_motion, film_response
    use pad_gap, only: pad_gap_type
-   use unit_pad, only: unit_oil, unit_pad_type, new_unit_pad, thickness_scale
-   use modal_film, only: modal_film_type, new_modal_film
+   use dimensionless_pad, only: unit_oil, dimensionless_pad_type, new_dimensionless_pad, thickness_scale
+   use fourier_film, only: fourier_film_type, new_fourier_film
    use square_patch, only: simd_width
-   use octaves, only: interval, lower_end
-   use whole_table, only: whole_table_type, new_whole_table
+   use logarithmic_grid, only: interval, lower_end
+   use full_film_table, only: full_film_table_type, new_full_film_table
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
    real(wp), parameter :: half_arc = 35*degree, tolerance = 1e-5_wp
-   type(unit_pad_type) :: pad
-   type(modal_film_type) :: fine, fine_supplied
+   type(dimensionless_pad_type) :: pad
+   type(fourier_film_type) :: fine, fine_supplied
    integer :: i
 
    associate (gap => pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 0.0_wp, 0.0_wp, 0.0_wp))
-      pad = new_unit_pad(gap)
+      pad = new_dimensionless_pad(gap)
    end associate
-   fine = new_modal_film([pad%gap(0.0_wp)], 96, 32, .false., 1e-7_wp)
-   fine_supplied = new_modal_film([pad%gap(1.0_wp)], 96, 32, .false., 1e-7_wp)
+   fine = new_fourier_film([pad%gap(0.0_wp)], 96, 32, .false., 1e-7_wp)
+   fine_supplied = new_fourier_film([pad%gap(1.0_wp)], 96, 32, .false., 1e-7_wp)
    if (runs('against_modes')) call against_modes()
    if (runs('slopes')) call slopes()
    if (runs('between_cells')) call between_cells()
@@ -64,11 +64,11 @@ contains
 
    !> The tolerance holds at a cell's corners and middle; elsewhere the polynomials err by a few times that at most.
    subroutine against_modes()
-      type(whole_table_type) :: table
+      type(full_film_table_type) :: table
       real(wp) :: edges(2), driven(3), supplied(2), value(simd_width), slope(simd_width, 2), worst, worst_supplied
       integer :: trial, last
       logical :: good
-      table = new_whole_table(pad, .true., tolerance)
+      table = new_full_film_table(pad, .true., tolerance)
       last = 0
       worst = 0
       worst_supplied = 0
@@ -88,13 +88,13 @@ contains
 
    !> Slopes are those of the polynomials: against differences over 1e-5 of the thickness.
    subroutine slopes()
-      type(whole_table_type) :: table
+      type(full_film_table_type) :: table
       real(wp) :: edges(2), shift(2), error
       real(wp), dimension(simd_width) :: value, ahead, back
       real(wp), dimension(simd_width, 2) :: slope, slope_of_supply, unused
       integer :: trial, last, axis
       logical :: good
-      table = new_whole_table(pad, .true., tolerance)
+      table = new_full_film_table(pad, .true., tolerance)
       last = 0
       error = 0
       do trial = 1, 10
@@ -120,13 +120,13 @@ contains
    !> On both sides of an end of a cell the values are the same to twice the error. The slope of a polynomial of degree
    !> n is up to n^2 times its values over half a cell, which is an eighth of the thickness or more (Markov).
    subroutine between_cells()
-      type(whole_table_type) :: table
+      type(full_film_table_type) :: table
       real(wp) :: edges(2), below(2), worst, worst_slope
       real(wp), dimension(simd_width) :: value, value_below
       real(wp), dimension(simd_width, 2) :: slope, slope_below
       integer :: trial, last, axis
       logical :: good
-      table = new_whole_table(pad, .false., tolerance)
+      table = new_full_film_table(pad, .false., tolerance)
       last = 0
       worst = 0
       worst_slope = 0
@@ -152,11 +152,11 @@ contains
    !> Towards a film that closes, in the middle or at an edge, down to 1e-4 of the clearance, what is called good errs
    !> by no more than the solver that would stand in, 1e-4.
    subroutine closing_films()
-      type(whole_table_type) :: table
+      type(full_film_table_type) :: table
       real(wp) :: edges(2), driven(3), supplied(2), value(simd_width), slope(simd_width, 2), worst, h
       integer :: k, last, found
       logical :: good
-      table = new_whole_table(pad, .false., tolerance)
+      table = new_full_film_table(pad, .false., tolerance)
       last = 0
       worst = 0
       found = 0
@@ -178,7 +178,7 @@ contains
    subroutine same_bits(full)
       logical, intent(in) :: full
       integer, parameter :: n = 16
-      type(whole_table_type) :: table, other
+      type(full_film_table_type) :: table, other
       real(wp) :: edges(2, n), value(simd_width, n), slope(simd_width, 2, n), pressure(n)
       real(wp) :: value_there(simd_width), slope_there(simd_width, 2), pressure_there, w(2)
       integer :: k, last, different
@@ -186,14 +186,14 @@ contains
       w = [1.0_wp, 0.5_wp]
       edges = reshape([(random_edges(), k=1, n)], [2, n])
       edges(:, n) = [0.05_wp, 0.9_wp]
-      table = new_whole_table(pad, .true., tolerance)
+      table = new_full_film_table(pad, .true., tolerance)
       last = 0
       do k = 1, n
          call table%look_up(edges(:, k), .true., last, value(:, k), slope(:, :, k), good(k))
          call table%highest_pressure(edges(:, k), w, 0.1_wp, last, pressure(k), good(k))
       end do
-      other = new_whole_table(pad, .true., tolerance)
-      if (full) other = new_whole_table(pad, .true., tolerance, 3)
+      other = new_full_film_table(pad, .true., tolerance)
+      if (full) other = new_full_film_table(pad, .true., tolerance, 3)
       last = 0
       different = 0
       do k = n, 1, -1
@@ -213,19 +213,19 @@ contains
    subroutine highest_pressure(supply)
       real(wp), intent(in) :: supply
       integer, parameter :: n = 200
-      type(whole_table_type), save :: tables(2)
-      type(modal_film_type) :: film
+      type(full_film_table_type), save :: tables(2)
+      type(fourier_film_type) :: film
       real(wp) :: edges(2), w(2), phi(n, 1), pressure(1, n, 1), found, onset(1, n, 1)
       integer :: last, k, t
       logical :: good
       t = merge(2, 1, supply > 0)
-      if (tables(t)%built == 0) tables(t) = new_whole_table(pad, supply > 0, tolerance)
+      if (tables(t)%built == 0) tables(t) = new_full_film_table(pad, supply > 0, tolerance)
       edges = random_edges()
       w = [between(-1.0_wp, 1.0_wp), between(-1.0_wp, 1.0_wp)]
       last = 0
       call tables(t)%highest_pressure(edges, w, supply/minval(edges)**2, last, found, good)
       call expect(good, 'a film that is open')
-      film = new_modal_film([pad%gap(supply/minval(edges)**2)], 48, 16, .false., 1e-6_wp)
+      film = new_fourier_film([pad%gap(supply/minval(edges)**2)], 48, 16, .false., 1e-6_wp)
       phi(:, 1) = [((2*k - 1.0_wp - n)/n*half_arc, k=1, n)]
       call film%field([film_motion(pad%position(edges), w)], [unit_oil], 0.0_wp, phi, [0.0_wp], pressure)
       ! over that of the same film squeezed as fast
@@ -234,4 +234,4 @@ contains
       call expect_close(found/maxval(onset), max(0.0_wp, supply/minval(edges)**2, maxval(pressure))/maxval(onset), &
          & 5e-3_wp, 'highest pressure')
    end subroutine highest_pressure
-end program test_whole_table
+end program test_full_film_table

@@ -1,15 +1,16 @@
-!> One pad of the axial modes at one resolution: its nodes, its modes, and the fields of the last solution (modal_film).
-module modal_pad
+!> One pad of the axial modes at one resolution: its nodes, its modes, and the fields of the last solution
+!> (fourier_film).
+module fourier_pad
    use kinds, only: wp
    use film_solver, only: film_motion, film_oil
    use pad_gap, only: pad_gap_type, pad_directions
    use axial_modes, only: axial_modes_type, new_axial_modes
    use clipped_quadrature, only: gregory_weights, clipped_weights
    use sommerfeld_nodes, only: place_nodes
-   use modal_sweeps, only: simd_width, looks
+   use fourier_passes, only: simd_width, looks
    implicit none (type, external)
    private
-   public :: modal_pad_type, init_pad, set_weights, set_motion
+   public :: fourier_pad_type, init_pad, set_weights, set_motion
    public :: gauss, middle, point_weights
 
    !> Points and weights across the half width, over it: Gauss-Legendre's over the root of the distance from the side,
@@ -28,7 +29,7 @@ module modal_pad
    !> One pad. Nodes 0:n run from the trailing to the leading edge at equal steps d of Sommerfeld's variable; film
    !> thickness H, and position e are over the clearance. Modes fill up blocks of ``simd_width``;
    !> idle `simd_width` have c = 0.
-   type :: modal_pad_type
+   type :: fourier_pad_type
       type(pad_gap_type) :: gap
       type(pad_directions) :: directions
       type(axial_modes_type) :: axial
@@ -50,13 +51,13 @@ module modal_pad
       !> width where the film has cavitated, if it has; and what the cavitation pressure counts there.
       real(wp), allocatable :: share(:, :, :), narrow_share(:), floor_share(:)
       logical :: shares_are_stale = .true.
-   end type modal_pad_type
+   end type fourier_pad_type
 
 contains
 
    !> A pad with n cells, n even, and a number of modes: all of them solved, or as many as suffice.
    pure subroutine init_pad(pad, gap, n, modes, all_solved)
-      type(modal_pad_type), intent(out) :: pad
+      type(fourier_pad_type), intent(out) :: pad
       type(pad_gap_type), intent(in) :: gap
       integer, intent(in) :: n, modes
       logical, intent(in) :: all_solved
@@ -85,7 +86,7 @@ contains
 
    !> The quadrature's weights at the nodes, for a film that is clipped or not.
    pure subroutine set_weights(pad, clipped)
-      type(modal_pad_type), intent(inout) :: pad
+      type(fourier_pad_type), intent(inout) :: pad
       logical, intent(in) :: clipped
       if (clipped .or. pad%n < 6) then
          ! the weights of what may be clipped
@@ -98,7 +99,7 @@ contains
 
    !> Nodes and source at a motion that leaves the film open, with an oil, and a journal speed, rad/s.
    pure subroutine set_motion(pad, motion, oil, speed, along)
-      type(modal_pad_type), intent(inout) :: pad
+      type(fourier_pad_type), intent(inout) :: pad
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil
       !> The arc's span (sommerfeld_nodes).
@@ -140,4 +141,4 @@ contains
          load(i) = unit*(s(i - 1) + 10*s(i) + s(i + 1))
       end do
    end subroutine set_nodes
-end module modal_pad
+end module fourier_pad

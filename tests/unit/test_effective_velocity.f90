@@ -1,13 +1,13 @@
 !> The drive of a cavitated film: against finite volumes on finer even grids, its limits, slopes, and no memory.
-program test_cavitated_drive
+program test_effective_velocity
    use kinds, only: wp, degree
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_counters
    use pad_gap, only: pad_gap_type
-   use unit_pad, only: unit_oil, unit_pad_type, new_unit_pad
+   use dimensionless_pad, only: unit_oil, dimensionless_pad_type, new_dimensionless_pad
    use elimination_film, only: elimination_film_type, new_elimination_film
-   use modal_film, only: modal_film_type, new_modal_film
-   use cavitated_drive, only: cavitated_drive_type, drive_type, new_cavitated_drive
+   use fourier_film, only: fourier_film_type, new_fourier_film
+   use effective_velocity, only: effective_velocity_type, drive_type, new_effective_velocity
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
@@ -16,12 +16,12 @@ program test_cavitated_drive
    !> Thicknesses at the edges, and T.
    real(wp), parameter :: films(3, 4) = reshape([0.8_wp, 0.4_wp, 0.15_wp, 0.5_wp, 0.9_wp, 0.4_wp, &
       & 0.3_wp, 0.3_wp, 0.7_wp, 1.5_wp, 0.2_wp, 0.3_wp], [3, 4])
-   type(unit_pad_type) :: pad
+   type(dimensionless_pad_type) :: pad
    type(pad_gap_type) :: gap
    integer :: i
 
    gap = pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 0.0_wp, 0.0_wp, 0.0_wp)
-   pad = new_unit_pad(gap)
+   pad = new_dimensionless_pad(gap)
    do i = 1, size(films, 2)
       if (runs('against_even_grids')) call against_even_grids(films(:2, i), films(3, i))
       if (runs('against_clipped_modes')) call against_clipped_modes(films(:2, i), films(3, i))
@@ -48,9 +48,9 @@ contains
    function whole_force(edges, drive) result(force)
       real(wp), intent(in) :: edges(2), drive(2)
       real(wp) :: force(2)
-      type(modal_film_type) :: film
+      type(fourier_film_type) :: film
       type(film_response) :: r(1)
-      film = new_modal_film([gap], 96, 32, .false., 1e-7_wp)
+      film = new_fourier_film([gap], 96, 32, .false., 1e-7_wp)
       call film%evaluate([film_motion(pad%position(edges), drive)], [unit_oil], 0.0_wp, .false., r)
       force = r(1)%force
    end function whole_force
@@ -59,7 +59,7 @@ contains
    !> more than they differ from the first two.
    subroutine against_even_grids(edges, t)
       real(wp), intent(in) :: edges(2), t
-      type(cavitated_drive_type) :: solver
+      type(effective_velocity_type) :: solver
       type(drive_type) :: drive
       type(elimination_film_type) :: grid
       type(film_counters) :: unused
@@ -67,7 +67,7 @@ contains
       real(wp) :: forces(2, 3), best(2), before(2), scale, doubt
       integer, parameter :: columns(3) = [120, 170, 240], rows(3) = [12, 17, 24]
       integer :: k
-      solver = new_cavitated_drive(pad, .false., tolerance)
+      solver = new_effective_velocity(pad, .false., tolerance)
       drive = solver%at(edges, pad%tangent*(1 - 2*t))
       do k = 1, 3
          grid = new_elimination_film(gap, columns(k), rows(k))
@@ -87,13 +87,13 @@ contains
    !> Guembel's condition, with as many modes.
    subroutine against_clipped_modes(edges, t)
       real(wp), intent(in) :: edges(2), t
-      type(cavitated_drive_type) :: solver
+      type(effective_velocity_type) :: solver
       type(drive_type) :: drive
-      type(modal_film_type) :: film
+      type(fourier_film_type) :: film
       type(film_response) :: r(1)
-      solver = new_cavitated_drive(pad, .true., tolerance)
+      solver = new_effective_velocity(pad, .true., tolerance)
       drive = solver%at(edges, pad%tangent*(1 - 2*t))
-      film = new_modal_film([gap], 192, 64, .true., 1e-7_wp)
+      film = new_fourier_film([gap], 192, 64, .true., 1e-7_wp)
       call film%evaluate([film_motion(pad%position(edges), w_of(t))], [unit_oil], 0.0_wp, .false., r)
       call expect_close(norm2(whole_force(edges, drive%value) - r(1)%force)/norm2(whole_force(edges, w_of(0.0_wp))), &
          & 0.0_wp, tolerance, 'force, T = '//to_text(t))
@@ -105,11 +105,11 @@ contains
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: edges(2), t
       real(wp), parameter :: step = 0.02_wp
-      type(cavitated_drive_type) :: solver
+      type(effective_velocity_type) :: solver
       type(drive_type) :: drive, ahead, back, shorter_ahead, shorter_back
       real(wp) :: shift(3), difference(2), shorter(2)
       integer :: k
-      solver = new_cavitated_drive(pad, gumbel, 0.1_wp*tolerance)
+      solver = new_effective_velocity(pad, gumbel, 0.1_wp*tolerance)
       associate (w_2 => pad%tangent*(1 - 2*t))
          drive = solver%at(edges, w_2)
          do k = 1, 3
@@ -133,12 +133,12 @@ contains
    !> over the force at onset. Without the end of the film between the cells they are up to 5e-3 apart.
    subroutine rim(edges, t)
       real(wp), intent(in) :: edges(2), t
-      type(cavitated_drive_type) :: solver
+      type(effective_velocity_type) :: solver
       type(drive_type) :: drive, finer
       integer :: k
-      solver = new_cavitated_drive(pad, .false., 1.8e-5_wp)
+      solver = new_effective_velocity(pad, .false., 1.8e-5_wp)
       drive = solver%at(edges, pad%tangent*(1 - 2*t))
-      solver = new_cavitated_drive(pad, .false., 1.1e-6_wp)
+      solver = new_effective_velocity(pad, .false., 1.1e-6_wp)
       finer = solver%at(edges, pad%tangent*(1 - 2*t))
       do k = 1, 3
          call expect_close(norm2(matmul(finer%weight, drive%slopes(:, k) - finer%slopes(:, k))) &
@@ -149,14 +149,14 @@ contains
    !> As T goes to 0 the drive goes to w, and faster than T: cavitation begins where the pressure is low.
    subroutine onset(edges)
       real(wp), intent(in) :: edges(2)
-      type(cavitated_drive_type) :: solver
+      type(effective_velocity_type) :: solver
       type(drive_type) :: drive
       real(wp) :: change(2)
       integer :: k
       logical :: gumbel
       gumbel = .false.
       do k = 1, 2
-         solver = new_cavitated_drive(pad, gumbel, tolerance)
+         solver = new_effective_velocity(pad, gumbel, tolerance)
          drive = solver%at(edges, pad%tangent*(1 - 2*0.02_wp))
          change = drive%value - w_of(0.02_wp)
          call expect(norm2(matmul(drive%weight, change)) < 0.02_wp**2, 'little changes at onset')
@@ -167,13 +167,13 @@ contains
    !> As T goes to 1 nothing is left of the force.
    subroutine end_of_film(edges)
       real(wp), intent(in) :: edges(2)
-      type(cavitated_drive_type) :: solver
+      type(effective_velocity_type) :: solver
       type(drive_type) :: drive
       integer :: k
       logical :: gumbel
       gumbel = .false.
       do k = 1, 2
-         solver = new_cavitated_drive(pad, gumbel, tolerance)
+         solver = new_effective_velocity(pad, gumbel, tolerance)
          drive = solver%at(edges, pad%tangent*(1 - 2*0.98_wp))
          call expect(norm2(matmul(drive%weight, drive%value)) < 0.02_wp**2, 'little is left at the end')
          gumbel = .true.
@@ -182,13 +182,13 @@ contains
 
    !> Whatever was solved before, and in which order, no bit changes.
    subroutine no_memory()
-      type(cavitated_drive_type) :: solver
+      type(effective_velocity_type) :: solver
       type(drive_type) :: forth(size(films, 2)), back
       logical :: gumbel
       integer :: k, pass
       gumbel = .false.
       do pass = 1, 2
-         solver = new_cavitated_drive(pad, gumbel, tolerance)
+         solver = new_effective_velocity(pad, gumbel, tolerance)
          do k = 1, size(films, 2)
             forth(k) = solver%at(films(:2, k), pad%tangent*(1 - 2*films(3, k)))
          end do
@@ -204,16 +204,16 @@ contains
 
    !> A film that closes between its edges has none.
    subroutine closed()
-      type(cavitated_drive_type) :: solver
+      type(effective_velocity_type) :: solver
       type(drive_type) :: drive
       logical :: gumbel
       integer :: pass
       gumbel = .false.
       do pass = 1, 2
-         solver = new_cavitated_drive(pad, gumbel, tolerance)
+         solver = new_effective_velocity(pad, gumbel, tolerance)
          drive = solver%at([0.1_wp, 0.1_wp], 0.0_wp)
          call expect(.not. drive%ok, 'a closed film')
          gumbel = .true.
       end do
    end subroutine closed
-end program test_cavitated_drive
+end program test_effective_velocity

@@ -1,15 +1,15 @@
-!> What a pressure at the leading edge drives through the edges of a film, from its axial modes (modal_film).
+!> What a pressure at the leading edge drives through the edges of a film, from its axial modes (fourier_film).
 !>
 !> In the corners of leading edge and side the pressure leaps, and the flow of the Reynolds equation, 2/pi over the
 !> distance, has no finite sum. The equation holds for distances that are long against the film, so the corners are
 !> left out up to a film thickness. Of the modes a strip of even thickness has sum_k c_k Lambda_k, which is then
 !>    R 4/pi ln(cot(pi h/(2 L)));
 !> what the thickness_ratio of the film and the length of the arc change is a sum that converges.
-module modal_edges
+module fourier_edges
    use kinds, only: wp, pi
    use film_solver, only: film_oil
-   use modal_pad, only: modal_pad_type
-   use modal_sweeps, only: simd_width
+   use fourier_pad, only: fourier_pad_type
+   use fourier_passes, only: simd_width
    implicit none (type, external)
    private
    public :: edge_flows
@@ -19,7 +19,7 @@ contains
    !> Flows in at the leading and out at the trailing edge, m^3/s, of the pad's last solution, with this oil, which a
    !> pressure of 1 Pa at the leading edge alone has driven.
    pure function edge_flows(pad, oil) result(flows)
-      type(modal_pad_type), intent(in) :: pad
+      type(fourier_pad_type), intent(in) :: pad
       type(film_oil), intent(in) :: oil
       real(wp) :: flows(2)
       real(wp) :: falling, leading(simd_width), trailing(simd_width)
@@ -53,4 +53,4 @@ contains
          slope = (q_0 - q_1 + (7*(1 - a_0)*q_0 + 6*(1 - a_1)*q_1 - (1 - a_2)*q_2)/2)/pad%d
       end function slope
    end function edge_flows
-end module modal_edges
+end module fourier_edges

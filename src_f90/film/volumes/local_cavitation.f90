@@ -5,7 +5,7 @@
 !> are found in the columns next to the trailing edge; their part of G comes from the chains of the grid's modes;
 !> lambda is an active set over these few cells; and as G is symmetric, the force of G lambda is lambda times
 !> G w, with w the weights of the pressure in the force.
-module slight_cavitation
+module local_cavitation
    use kinds, only: wp
    use film_grid, only: film_grid_type
    use grid_modes, only: grid_modes_type
@@ -207,4 +207,4 @@ contains
          b(j) = b(j)*a(j, j)
       end do
    end subroutine solve_positive
-end module slight_cavitation
+end module local_cavitation

@@ -1,10 +1,10 @@
 !> The film by axial modes, and the solver that chooses: slopes, boundary pressures, tails, cavitation.
-program test_modal_film
+program test_fourier_film
    use kinds, only: wp, pi, degree
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_ok, film_closed
    use pad_gap, only: pad_gap_type
-   use modal_film, only: modal_film_type, new_modal_film
+   use fourier_film, only: fourier_film_type, new_fourier_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_gumbel, &
       & cavitation_reynolds
    use direct_film, only: direct_film_type, new_direct_film
@@ -36,7 +36,7 @@ contains
 
    !> One pad's answer.
    type(film_response) function answer(solver, motion, at_speed)
-      type(modal_film_type), intent(inout) :: solver
+      type(fourier_film_type), intent(inout) :: solver
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: at_speed
       type(film_response) :: all(1)
@@ -49,12 +49,12 @@ contains
    subroutine slopes()
       real(wp), parameter :: h = 1e-3_wp, offsets(4) = [-2*h, -h, h, 2*h]
       real(wp), parameter :: weights(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/(12*h)
-      type(modal_film_type) :: solver
+      type(fourier_film_type) :: solver
       type(film_motion) :: motion, moved
       type(film_response) :: r, at(4)
       real(wp) :: scale(4), expected(2), worst
       integer :: trial, column, k
-      solver = new_modal_film([offset_pad([2e5_wp, 1e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
+      solver = new_fourier_film([offset_pad([2e5_wp, 1e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
       scale = clearance*[1.0_wp, 1.0_wp, speed, speed]
       worst = 0
       do trial = 1, 20
@@ -93,7 +93,7 @@ contains
    subroutine heated_edge(modes)
       integer, intent(in) :: modes
       real(wp), parameter :: rise = 3e5_wp, length = 0.1_wp, radius = 50e-3_wp
-      type(modal_film_type) :: solver
+      type(fourier_film_type) :: solver
       type(film_response) :: r
       real(wp) :: exact(2), lambda, decay
       integer :: k
@@ -105,7 +105,7 @@ contains
             & *(integral(lambda, theta_1) - decay*integral(lambda, -theta_2) &
             & - decay**2*integral(-lambda, theta_1) + decay*integral(-lambda, -theta_2))
       end do
-      solver = new_modal_film([offset_pad([rise, 0.0_wp, 0.0_wp])], 96, modes, gumbel=.false.)
+      solver = new_fourier_film([offset_pad([rise, 0.0_wp, 0.0_wp])], 96, modes, gumbel=.false.)
       r = answer(solver, film_motion([0.0_wp, 0.0_wp]), 0.0_wp)
       call expect_close(norm2(r%force - exact), 0.0_wp, 0.02_wp/modes**3*norm2(exact), 'pressure at the edge, modes ' &
          & //to_text(modes))
@@ -123,15 +123,15 @@ contains
    !> c_m/Lambda_m**2, that is m**-6: 1e-2 for all but the first, 1e-3 and 1e-4 for all but two and four, and room for
    !> another once.
    subroutine few_modes()
-      type(modal_film_type) :: solver
+      type(fourier_film_type) :: solver
       type(film_response) :: most, few
       type(film_motion) :: motion
       integer :: k
       motion = film_motion([-2e-5_wp, 4e-5_wp], [1e-3_wp, -2e-3_wp])
-      solver = new_modal_film([offset_pad()], 96, 12, gumbel=.false.)
+      solver = new_fourier_film([offset_pad()], 96, 12, gumbel=.false.)
       most = answer(solver, motion, speed)
       do k = 0, 2
-         solver = new_modal_film([offset_pad()], 96, 2**k, gumbel=.false.)
+         solver = new_fourier_film([offset_pad()], 96, 2**k, gumbel=.false.)
          few = answer(solver, motion, speed)
          call expect_close(norm2(few%force - most%force), 0.0_wp, 2*0.1_wp**(k + 2)*norm2(most%force), &
             & 'tail of modes beyond '//to_text(2**k))
@@ -141,10 +141,10 @@ contains
    !> At rest in one pressure: the force of that pressure, by Simpson's rule to (d/2)**4/180 = 1e-9.
    subroutine uniform_pressure()
       real(wp), parameter :: p = 3e5_wp
-      type(modal_film_type) :: solver
+      type(fourier_film_type) :: solver
       type(film_response) :: r
       real(wp) :: exact(2)
-      solver = new_modal_film([offset_pad([p, p, 0.0_wp])], 24, 8, gumbel=.false.)
+      solver = new_fourier_film([offset_pad([p, p, 0.0_wp])], 24, 8, gumbel=.false.)
       r = answer(solver, film_motion([-2e-5_wp, 4e-5_wp]), 0.0_wp)
       exact = -p*0.1_wp*50e-3_wp*[cos(theta_2) - cos(theta_1), sin(theta_1) + sin(theta_2)]
       call expect_close(norm2(r%force - exact), 0.0_wp, 1e-7_wp*norm2(exact), 'force of a uniform pressure')
@@ -155,13 +155,13 @@ contains
    !> A constant on all pressures is a constant on the film.
    subroutine shifted_pressures()
       real(wp), parameter :: shift = 5e5_wp
-      type(modal_film_type) :: solver
+      type(fourier_film_type) :: solver
       type(film_response) :: low, high
       real(wp) :: force(2)
       type(film_motion), parameter :: motion = film_motion([-1e-5_wp, 5e-5_wp], [1e-3_wp, -2e-3_wp])
-      solver = new_modal_film([offset_pad([2e5_wp, 1e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
+      solver = new_fourier_film([offset_pad([2e5_wp, 1e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
       low = answer(solver, motion, speed)
-      solver = new_modal_film([offset_pad([2e5_wp + shift, 1e5_wp + shift, shift])], 24, 8, gumbel=.false.)
+      solver = new_fourier_film([offset_pad([2e5_wp + shift, 1e5_wp + shift, shift])], 24, 8, gumbel=.false.)
       high = answer(solver, motion, speed)
       force = -shift*0.1_wp*50e-3_wp*[cos(theta_2) - cos(theta_1), sin(theta_1) + sin(theta_2)]
       call expect_close(norm2(high%force - low%force - force), 0.0_wp, 1e-7_wp*norm2(force), &
@@ -176,13 +176,13 @@ contains
    !> over-relaxation takes where there is, within the cells that the edge of the film falls into: 1 % of the
    !> force at most.
    subroutine gumbel_clips()
-      type(modal_film_type) :: whole, clipped
+      type(fourier_film_type) :: whole, clipped
       type(sor_film_type) :: fine
       type(film_response) :: r, r_clipped, r_fine
       type(film_motion), parameter :: pressed = film_motion([-3e-5_wp, 5e-5_wp], [0.0_wp, 2e-3_wp])
       type(film_motion), parameter :: torn = film_motion([1e-5_wp, 5e-5_wp], [0.0_wp, 0.0_wp])
-      whole = new_modal_film([offset_pad([1e5_wp, 1e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
-      clipped = new_modal_film([offset_pad([1e5_wp, 1e5_wp, 0.0_wp])], 24, 8, gumbel=.true.)
+      whole = new_fourier_film([offset_pad([1e5_wp, 1e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
+      clipped = new_fourier_film([offset_pad([1e5_wp, 1e5_wp, 0.0_wp])], 24, 8, gumbel=.true.)
       r = answer(whole, pressed, speed)
       r_clipped = answer(clipped, pressed, speed)
       call expect(r%min_pressure > 0, 'a pressed film is full')
@@ -199,9 +199,9 @@ contains
    end subroutine gumbel_clips
 
    subroutine closed_film()
-      type(modal_film_type) :: solver
+      type(fourier_film_type) :: solver
       type(film_response) :: r
-      solver = new_modal_film([offset_pad()], 24, 8, gumbel=.false.)
+      solver = new_fourier_film([offset_pad()], 24, 8, gumbel=.false.)
       r = answer(solver, film_motion([0.0_wp, 1.1_wp*clearance]), speed)
       call expect(r%status == film_closed, 'a journal in the pad closes the film')
       call expect_close(r%min_film_thickness, -0.1_wp*clearance, 1e-18_wp, 'by how much')
@@ -214,7 +214,7 @@ contains
    subroutine choice()
       type(pad_gap_type) :: films(2)
       type(direct_film_type) :: auto
-      type(modal_film_type) :: modal
+      type(fourier_film_type) :: fourier
       type(sor_film_type) :: sor
       type(sor_options) :: options
       type(film_response) :: r(2), by_modes(2), by_cells
@@ -222,11 +222,11 @@ contains
       films = offset_pad()
       options = sor_options(24, 6, tolerance=1e-12_wp, cavitation=cavitation_reynolds)
       auto = new_direct_film(films, 24, 8, options%circumferential_cells, options%axial_cells, .true., .false.)
-      modal = new_modal_film(films, 24, 8, gumbel=.false.)
+      fourier = new_fourier_film(films, 24, 8, gumbel=.false.)
       sor = new_sor_film(films, options)
       motion = [film_motion([-3e-5_wp, 5e-5_wp], [0.0_wp, 2e-3_wp]), film_motion([5e-6_wp, 5e-5_wp])]
       call auto%evaluate(motion, spread(paper_oil, 1, size(motion)), speed, .true., r)
-      call modal%evaluate(motion, spread(paper_oil, 1, size(motion)), speed, .true., by_modes)
+      call fourier%evaluate(motion, spread(paper_oil, 1, size(motion)), speed, .true., by_modes)
       call sor%evaluate_pad(2, motion(2), paper_oil, speed, .true., by_cells)
       call expect_close(norm2(r(1)%force - by_modes(1)%force), 0.0_wp, 0.0_wp, 'modes for the full film')
       call expect(by_modes(2)%min_pressure < 0 .and. by_modes(2)%max_pressure > 0, 'one film is torn in part')
@@ -235,7 +235,7 @@ contains
          & 'cells for the cavitated one')
       call expect_close(norm2(r(2)%derivatives - by_cells%derivatives), 0.0_wp, 1e-9_wp*norm2(by_cells%derivatives), &
          & 'with their slopes')
-      call expect(auto%counters%volumes == 1 .and. auto%counters%modal == 1, 'each is counted')
+      call expect(auto%counters%volumes == 1 .and. auto%counters%fourier == 1, 'each is counted')
       call expect(auto%counters%passes > 0, 'and so are the eliminations')
    end subroutine choice
-end program test_modal_film
+end program test_fourier_film

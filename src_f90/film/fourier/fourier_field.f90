@@ -1,4 +1,4 @@
-!> The pressure field of a film from its axial modes (modal_film), at any point of the pad.
+!> The pressure field of a film from its axial modes (fourier_film), at any point of the pad.
 !>
 !> What the modes left out add is known in closed form: the narrow-pad limit and, where the pressure at the leading
 !> edge is another than at the sides, its layer there. Summed over all modes this layer is that of a strip of even
@@ -6,10 +6,10 @@
 !>    W = sum_k b_k cos(lambda_k Z) exp(-Lambda_k x) = 2/pi arctan(cos(pi Z/L)/sinh(pi R x/L)),
 !> x the angle from the edge. It is steeper than any grid beside the edge; so it is taken out at the nodes, where
 !> the rest is smooth, and put back at the point.
-module modal_field
+module fourier_field
    use kinds, only: wp, pi
-   use modal_pad, only: modal_pad_type
-   use modal_sweeps, only: simd_width
+   use fourier_pad, only: fourier_pad_type
+   use fourier_passes, only: simd_width
    use sommerfeld_nodes, only: span
    implicit none (type, external)
    private
@@ -23,7 +23,7 @@ contains
    !> Pressure, Pa, (axial position, angle), of the pad's last solution, with tension where there is any: the cubic
    !> through four nodes along the arc, the modes across.
    pure function field_of_modes(pad, phi, z) result(pressure)
-      type(modal_pad_type), intent(in) :: pad
+      type(fourier_pad_type), intent(in) :: pad
       !> Angles from the pivot, rad, and distances from the middle plane, m, within the pad.
       real(wp), intent(in) :: phi(:), z(:)
       real(wp) :: pressure(size(z), size(phi))
@@ -65,14 +65,14 @@ contains
 
    !> What of the layer's amplitude is left at a node: it falls as h^(-3/2).
    pure real(wp) function even_layer(pad, i)
-      type(modal_pad_type), intent(in) :: pad
+      type(fourier_pad_type), intent(in) :: pad
       integer, intent(in) :: i
       even_layer = (pad%h(pad%n)/pad%h(i))**1.5_wp
    end function even_layer
 
    !> Where an angle lies between the nodes, in steps from the trailing edge.
    pure real(wp) function node_position(pad, phi)
-      type(modal_pad_type), intent(in) :: pad
+      type(fourier_pad_type), intent(in) :: pad
       real(wp), intent(in) :: phi
       real(wp) :: from_edge, middle
       from_edge = phi + pad%gap%trailing_angle
@@ -94,4 +94,4 @@ contains
       real(wp) :: weights(4)
       weights = [(1 - t)*(t - 2)*(t - 3)/6, t*(t - 2)*(t - 3)/2, t*(1 - t)*(t - 3)/2, t*(t - 1)*(t - 2)/6]
    end function cubic_weights
-end module modal_field
+end module fourier_field

@@ -7,17 +7,17 @@
 !> the film has gone from whole columns at the trailing edge, these are given to what is left of it. With Guembel's
 !> condition they are axial modes. Every film is solved from the same start: the answer does not depend on what came
 !> before.
-module cavitated_drive
+module effective_velocity
    use kinds, only: wp
    use solve_2x2, only: solved
    use film_solver, only: film_motion, film_response, film_counters, film_ok
-   use unit_pad, only: unit_pad_type, unit_oil
+   use dimensionless_pad, only: dimensionless_pad_type, unit_oil
    use film_grid, only: new_film_grid
    use elimination_film, only: elimination_film_type, new_elimination_film
-   use modal_film, only: modal_film_type, converged_film
+   use fourier_film, only: fourier_film_type, converged_film
    implicit none (type, external)
    private
-   public :: cavitated_drive_type, drive_type, new_cavitated_drive, least_tolerance
+   public :: effective_velocity_type, drive_type, new_effective_velocity, least_tolerance
 
    !> Columns and rows of the finer grid for a tolerance of 4e-5, and of any; the error falls with their squares.
    integer, parameter :: base_columns = 56, base_rows = 8, most_rows = 48
@@ -30,18 +30,18 @@ module cavitated_drive
    integer, parameter :: margin = 3
 
    !> A solver for one pad.
-   type :: cavitated_drive_type
+   type :: effective_velocity_type
       private
-      type(unit_pad_type) :: pad
+      type(dimensionless_pad_type) :: pad
       logical :: gumbel
       integer :: columns, rows
       !> The finer and the coarser grid, once they are needed: what the grids of all films have in common.
       type(elimination_film_type), allocatable :: grids(:)
       !> Guembel's: clipped and whole.
-      type(modal_film_type) :: clipped, whole
+      type(fourier_film_type) :: clipped, whole
    contains
       procedure :: at
-   end type cavitated_drive_type
+   end type effective_velocity_type
 
    !> The answer for one film.
    type :: drive_type
@@ -57,11 +57,11 @@ module cavitated_drive
 contains
 
    !> For films of a pad, to a tolerance over the force of the film that is just whole.
-   function new_cavitated_drive(pad, gumbel, tolerance) result(solver)
-      type(unit_pad_type), intent(in) :: pad
+   function new_effective_velocity(pad, gumbel, tolerance) result(solver)
+      type(dimensionless_pad_type), intent(in) :: pad
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: tolerance
-      type(cavitated_drive_type) :: solver
+      type(effective_velocity_type) :: solver
       real(wp) :: refinement
       solver%pad = pad
       solver%gumbel = gumbel
@@ -72,11 +72,11 @@ contains
          solver%clipped = converged_film(pad%gap(0.0_wp), .true., tolerance)
          solver%whole = converged_film(pad%gap(0.0_wp), .false., tolerance)
       end if
-   end function new_cavitated_drive
+   end function new_effective_velocity
 
    !> The drive of a film with these thicknesses at its edges and w = (1, w_2); not ok where it is closed.
    type(drive_type) function at(self, edges, w_2) result(drive)
-      class(cavitated_drive_type), intent(inout) :: self
+      class(effective_velocity_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2), w_2
       type(film_motion) :: motion
       motion = film_motion(self%pad%position(edges), [1.0_wp, w_2])
@@ -94,7 +94,7 @@ contains
    end function at
 
    subroutine make_grids(self)
-      class(cavitated_drive_type), intent(inout) :: self
+      class(effective_velocity_type), intent(inout) :: self
       integer :: part
       allocate (self%grids(2))
       do part = 1, 2
@@ -105,7 +105,7 @@ contains
 
    !> The drive by finite volumes on two grids, extrapolated; slopes over the position.
    function by_volumes(self, motion) result(drive)
-      type(cavitated_drive_type), intent(in) :: self
+      type(effective_velocity_type), intent(in) :: self
       type(film_motion), intent(in) :: motion
       type(drive_type) :: drive, coarse_drive
       type(elimination_film_type) :: coarse, fine, coarse_whole, fine_whole
@@ -138,7 +138,7 @@ contains
 
    !> The grid with these angles between its columns, and a part of the columns and rows.
    subroutine make_grid(self, line, part, grid)
-      type(cavitated_drive_type), intent(in) :: self
+      type(effective_velocity_type), intent(in) :: self
       real(wp), intent(in) :: line(0:)
       integer, intent(in) :: part
       type(elimination_film_type), intent(out) :: grid
@@ -148,7 +148,7 @@ contains
 
    !> The drive of a cavitated film, by volumes on which the film is full.
    subroutine compare(pad, motion, cavitated, volumes, drive)
-      type(unit_pad_type), intent(in) :: pad
+      type(dimensionless_pad_type), intent(in) :: pad
       type(film_motion), intent(in) :: motion
       type(film_response), intent(in) :: cavitated
       type(elimination_film_type), intent(inout) :: volumes
@@ -164,7 +164,7 @@ contains
 
    !> The drive by axial modes, with Guembel's condition; slopes over the position.
    function by_modes(self, motion) result(drive)
-      class(cavitated_drive_type), intent(inout) :: self
+      class(effective_velocity_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
       type(drive_type) :: drive
       type(film_response), dimension(1) :: cavitated, whole
@@ -178,7 +178,7 @@ contains
 
    !> v and the weight. The derivatives of the full film's force over the velocity are M.
    pure subroutine set_drive(pad, cavitated, whole, drive)
-      type(unit_pad_type), intent(in) :: pad
+      type(dimensionless_pad_type), intent(in) :: pad
       type(film_response), intent(in) :: cavitated, whole
       type(drive_type), intent(inout) :: drive
       drive%ok = cavitated%status == film_ok .and. whole%status == film_ok
@@ -206,7 +206,7 @@ contains
    !> Angles between the columns, rad, from the trailing to the leading edge, where the film has gone up to an angle
    !> `rim`; so many columns, each cut into so many parts.
    pure function angles(pad, motion, rim, columns, parts)
-      type(unit_pad_type), intent(in) :: pad
+      type(dimensionless_pad_type), intent(in) :: pad
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: rim
       integer, intent(in) :: columns, parts
@@ -221,4 +221,4 @@ contains
          angles(last(i - 1):last(i)) = pad%spread_angles(motion%position, ends(i - 1), ends(i), last(i) - last(i - 1))
       end do
    end function angles
-end module cavitated_drive
+end module effective_velocity

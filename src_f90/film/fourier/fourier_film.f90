@@ -5,31 +5,31 @@
 !>    (h^3 u')' - Lambda_k^2 h^3 u = r,   Lambda_k = R lambda_k,   u = p_sup - p_amb at the leading edge, 0
 !> at the trailing one. Over Sommerfeld's variable xi, dphi = H dxi with H = h/c_m, and with q = H u it becomes
 !>    q'' = (Lambda_k^2 H^2 + v) q + s,   v = |e|^2 - 1 + 3 H - 2 H^2,   s = r/c_m^3,   e the eccentricity over c_m,
-!> smooth for a film of any thickness_ratio, and Numerov's scheme solves it to fourth order (modal_sweeps). The modes
+!> smooth for a film of any thickness_ratio, and Numerov's scheme solves it to fourth order (fourier_passes). The modes
 !> left out are summed in closed form: the narrow-pad limit u = -r/(h^3 Lambda^2) and its edge layers.
 !>
 !> Guembel's condition needs the field: it is rebuilt at Gauss points across the half width, and what lies
 !> below the cavitation pressure is taken out of the force.
-module modal_film
+module fourier_film
    use kinds, only: wp
    use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_closed
    use pad_gap, only: pad_gap_type, pad_directions
    use clipped_quadrature, only: clipped_weights
    use film_resolution, only: resolution_type, new_resolution, most_levels, enough_cells, enough_modes
-   use modal_edges, only: edge_flows
-   use modal_field, only: field_of_modes
-   use modal_pad, only: modal_pad_type, set_weights, set_motion, gauss, middle, point_weights
-   use modal_slopes, only: force_slopes
-   use modal_sweeps, only: simd_width, weigh_nodes, solve_modes, sum_modes, lowest_pressure
+   use fourier_edges, only: edge_flows
+   use fourier_field, only: field_of_modes
+   use fourier_pad, only: fourier_pad_type, set_weights, set_motion, gauss, middle, point_weights
+   use fourier_slopes, only: force_slopes
+   use fourier_passes, only: simd_width, weigh_nodes, solve_modes, sum_modes, lowest_pressure
    use sommerfeld_nodes, only: span
    implicit none (type, external)
    private
-   public :: modal_film_type, new_modal_film, converged_film
+   public :: fourier_film_type, new_fourier_film, converged_film
 
    !> Films thinner than this, over the clearance, count as closed: rounding would decide, far below an atom's size.
    real(wp), parameter :: thinnest = 1e-9_wp
 
-   type, extends(film_solver_type) :: modal_film_type
+   type, extends(film_solver_type) :: fourier_film_type
       private
       !> Guembel's condition: as the solver was made; in force.
       logical :: made_gumbel = .false., gumbel = .false.
@@ -37,7 +37,7 @@ module modal_film
       type(pad_directions), allocatable :: directions(:)
       type(resolution_type), allocatable :: resolutions(:)
       !> Every pad at every resolution that a film has asked for, (level, pad); the level of the last film.
-      type(modal_pad_type), allocatable :: pads(:, :)
+      type(fourier_pad_type), allocatable :: pads(:, :)
       integer, allocatable :: level(:)
    contains
       procedure :: cavitates
@@ -45,19 +45,19 @@ module modal_film
       procedure :: evaluate => evaluate_all
       procedure :: field => field_all
       procedure :: supply_flows
-   end type modal_film_type
+   end type fourier_film_type
 
 contains
 
    !> A solver for the films of a bearing's pads with an even number of cells along the arc and at most this number of
    !> modes, with Guembel's condition or none. With a tolerance of the force (over itself, or over a tenth of the
    !> highest pressure on the whole pad) these serve ordinary films, and others get as many as they need.
-   pure function new_modal_film(gaps, cells, modes, gumbel, tolerance) result(solver)
+   pure function new_fourier_film(gaps, cells, modes, gumbel, tolerance) result(solver)
       type(pad_gap_type), intent(in) :: gaps(:)
       integer, intent(in) :: cells, modes
       logical, intent(in) :: gumbel
       real(wp), intent(in), optional :: tolerance
-      type(modal_film_type) :: solver
+      type(fourier_film_type) :: solver
       integer :: i
       solver%made_gumbel = gumbel
       solver%gumbel = gumbel
@@ -68,23 +68,23 @@ contains
          solver%directions(i) = gaps(i)%directions()
          solver%resolutions(i) = new_resolution(gaps(i), cells, modes, tolerance)
       end do
-   end function new_modal_film
+   end function new_fourier_film
 
    !> A solver for one pad's films, with Guembel's condition or none, to a tolerance as above.
-   pure type(modal_film_type) function converged_film(gap, gumbel, tolerance) result(film)
+   pure type(fourier_film_type) function converged_film(gap, gumbel, tolerance) result(film)
       type(pad_gap_type), intent(in) :: gap
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: tolerance
-      film = new_modal_film([gap], enough_cells([gap]), enough_modes([gap]), gumbel, tolerance)
+      film = new_fourier_film([gap], enough_cells([gap]), enough_modes([gap]), gumbel, tolerance)
    end function converged_film
 
    pure logical function cavitates(self)
-      class(modal_film_type), intent(in) :: self
+      class(fourier_film_type), intent(in) :: self
       cavitates = self%gumbel
    end function cavitates
 
    pure subroutine set_cavitation(self, allowed)
-      class(modal_film_type), intent(inout) :: self
+      class(fourier_film_type), intent(inout) :: self
       logical, intent(in) :: allowed
       integer :: i, level
       self%gumbel = self%made_gumbel .and. allowed
@@ -96,7 +96,7 @@ contains
    end subroutine set_cavitation
 
    subroutine evaluate_all(self, motion, oil, speed, want_derivatives, response, chosen)
-      class(modal_film_type), intent(inout) :: self
+      class(fourier_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
       type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed
@@ -116,7 +116,7 @@ contains
                response(i)%status = film_closed
                cycle
             end if
-            self%counters%modal = self%counters%modal + 1
+            self%counters%fourier = self%counters%fourier + 1
             associate (e => motion(i)%position/gap%machined_clearance)
                along = span(e, self%directions(i)%middle, self%directions(i)%half)
                level = self%resolutions(i)%level(gap, self%directions(i), e, along)
@@ -133,7 +133,7 @@ contains
 
    !> The film of a pad that has been set to a motion.
    pure subroutine evaluate_pad(pad, gumbel, want_derivatives, response)
-      type(modal_pad_type), intent(inout) :: pad
+      type(fourier_pad_type), intent(inout) :: pad
       logical, intent(in) :: gumbel, want_derivatives
       type(film_response), intent(inout) :: response
       real(wp) :: rise
@@ -153,7 +153,7 @@ contains
    end subroutine evaluate_pad
 
    subroutine field_all(self, motion, oil, speed, phi, z, pressure)
-      class(modal_film_type), intent(inout) :: self
+      class(fourier_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
       type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed, phi(:, :), z(:)
@@ -170,7 +170,7 @@ contains
    !> Flows in at the leading and out at the trailing edge of the first pad, m^3/s, in its last film, with this oil,
    !> which a pressure of 1 Pa at the leading edge alone has driven.
    pure function supply_flows(self, oil)
-      class(modal_film_type), intent(in) :: self
+      class(fourier_film_type), intent(in) :: self
       type(film_oil), intent(in) :: oil
       real(wp) :: supply_flows(2)
       supply_flows = edge_flows(self%pads(self%level(1), 1), oil)
@@ -178,7 +178,7 @@ contains
 
    !> Force of the full film, minimum and maximum pressure.
    pure subroutine sum_up(pad, rise, response)
-      type(modal_pad_type), intent(in) :: pad
+      type(fourier_pad_type), intent(in) :: pad
       real(wp), intent(in) :: rise
       type(film_response), intent(inout) :: response
       real(wp), dimension(0:pad%n) :: along, outward, p_middle
@@ -245,7 +245,7 @@ contains
    !> Takes what lies below the cavitation pressure out of the force and, if wanted, its share of the width out
    !> of the shares.
    pure subroutine cavitation(pad, rise, want_shares, response)
-      type(modal_pad_type), intent(inout) :: pad
+      type(fourier_pad_type), intent(inout) :: pad
       real(wp), intent(in) :: rise
       logical, intent(in) :: want_shares
       type(film_response), intent(inout) :: response
@@ -293,7 +293,7 @@ contains
 
    !> The shares of a film without cavitation.
    pure subroutine whole_shares(pad)
-      type(modal_pad_type), intent(inout) :: pad
+      type(fourier_pad_type), intent(inout) :: pad
       integer :: b
       do b = 1, pad%axial%blocks
          pad%share(:, :, b) = spread(pad%axial%c(simd_width*b - simd_width + 1:simd_width*b), 2, pad%n + 1)
@@ -302,4 +302,4 @@ contains
       pad%floor_share = 0
       pad%shares_are_stale = .false.
    end subroutine whole_shares
-end module modal_film
+end module fourier_film

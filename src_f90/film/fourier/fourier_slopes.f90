@@ -1,9 +1,9 @@
-!> Derivatives of a film's force by axial modes over position and velocity (modal_film): exactly those of the sums over
-!> the nodes, which move with the position.
-module modal_slopes
+!> Derivatives of a film's force by axial modes over position and velocity (fourier_film): exactly those of the sums
+!> over the nodes, which move with the position.
+module fourier_slopes
    use kinds, only: wp
-   use modal_pad, only: modal_pad_type
-   use modal_sweeps, only: simd_width, solve_adjoints, sum_adjoint
+   use fourier_pad, only: fourier_pad_type
+   use fourier_passes, only: simd_width, solve_adjoints, sum_adjoint
    use sommerfeld_nodes, only: node_shifts
    implicit none (type, external)
    private
@@ -15,7 +15,7 @@ contains
    !> component. For a weight psi let B m = -share psi weight with the matrix B of the scheme; the force changes by
    !> m . (dS - dB q) and by what changes in the sums themselves.
    pure function force_slopes(pad, rise) result(derivatives)
-      type(modal_pad_type), intent(in) :: pad
+      type(fourier_pad_type), intent(in) :: pad
       !> Pressure at the leading edge above ambient, Pa.
       real(wp), intent(in) :: rise
       real(wp) :: derivatives(2, 4)
@@ -57,7 +57,7 @@ contains
    pure function from_nodes(pad, n, m, rise, h, s, narrow, narrow_share, floor_share, solved, along, across, over_s, &
       & over_v, over_h2, boundary, shift, stretch) result(derivatives)
       ! long: every term of the force once
-      type(modal_pad_type), intent(in) :: pad
+      type(fourier_pad_type), intent(in) :: pad
       integer, intent(in) :: n, m
       real(wp), intent(in) :: rise
       !> Of the pad; the modes' sums at the nodes; derivatives as in force_slopes, `across` of the other component.
@@ -112,4 +112,4 @@ contains
       derivatives(:2) = derivatives(:2)/pad%gap%machined_clearance
       derivatives(3:) = derivatives(3:)*pad%squeeze
    end function from_nodes
-end module modal_slopes
+end module fourier_slopes

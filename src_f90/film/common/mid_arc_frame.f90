@@ -1,16 +1,16 @@
 !> Between a pad's frame and the frame of its middle, in which films are tabulated: the motion there, the forces and
 !> their derivatives back.
-module middle_frame
+module mid_arc_frame
    use kinds, only: wp
    use film_solver, only: film_motion, film_oil
    use pad_gap, only: pad_gap_type, pad_directions
-   use unit_pad, only: unit_pad_type, thickness_scale
+   use dimensionless_pad, only: dimensionless_pad_type, thickness_scale
    implicit none (type, external)
    private
-   public :: middle_frame_type, middle_motion, middle_force, new_middle_frame
+   public :: mid_arc_frame_type, middle_motion, middle_force, new_mid_arc_frame
 
    !> What turns and scales.
-   type :: middle_frame_type
+   type :: mid_arc_frame_type
       private
       !> Sine and cosine of the angle from pivot to middle; of half the arc, over the clearance.
       real(wp) :: sine, cosine, edge_sine, edge_cosine
@@ -20,7 +20,7 @@ module middle_frame
       procedure :: motion
       procedure :: force
       procedure :: derivatives
-   end type middle_frame_type
+   end type mid_arc_frame_type
 
    !> A motion in the frame of the middle: film thicknesses at the leading and trailing edge over the clearance; the
    !> velocity w that drives the film, m/s; its turn with the journal, 1/s; S, N s/m,
@@ -37,9 +37,9 @@ module middle_frame
 
 contains
 
-   pure type(middle_frame_type) function new_middle_frame(gap, pad) result(frame)
+   pure type(mid_arc_frame_type) function new_mid_arc_frame(gap, pad) result(frame)
       type(pad_gap_type), intent(in) :: gap
-      type(unit_pad_type), intent(in) :: pad
+      type(dimensionless_pad_type), intent(in) :: pad
       type(pad_directions) :: directions
       directions = gap%directions()
       frame%sine = directions%middle(1)
@@ -49,11 +49,11 @@ contains
       frame%half_speed = gap%journal_radius/(2*gap%pad_radius())
       frame%radius_4 = gap%pad_radius()**4
       frame%clearance_3 = gap%machined_clearance**3
-   end function new_middle_frame
+   end function new_mid_arc_frame
 
    !> The motion of the journal, seen from the middle, with an oil, at a journal speed, rad/s.
    pure type(middle_motion) function motion(self, seen, oil, speed)
-      class(middle_frame_type), intent(in) :: self
+      class(mid_arc_frame_type), intent(in) :: self
       type(film_motion), intent(in) :: seen
       type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
@@ -69,7 +69,7 @@ contains
 
    !> A force in the pad's frame, N.
    pure function force(self, seen)
-      class(middle_frame_type), intent(in) :: self
+      class(mid_arc_frame_type), intent(in) :: self
       type(middle_force), intent(in) :: seen
       real(wp) :: force(2)
       associate (s => self%sine, c => self%cosine, f => seen%value)
@@ -79,7 +79,7 @@ contains
 
    !> Derivatives of the force in the pad's frame over position and velocity there.
    pure function derivatives(self, motion, force)
-      class(middle_frame_type), intent(in) :: self
+      class(mid_arc_frame_type), intent(in) :: self
       type(middle_motion), intent(in) :: motion
       type(middle_force), intent(in) :: force
       real(wp) :: derivatives(2, 4), over(2, 4)
@@ -100,4 +100,4 @@ contains
          end do
       end associate
    end function derivatives
-end module middle_frame
+end module mid_arc_frame

@@ -1,11 +1,11 @@
 !> What the cavitation of a few cells adds to the force, against the same finite volumes relaxed cell by cell.
-program test_slight_cavitation
+program test_local_cavitation
    use kinds, only: wp
    use text, only: to_text
    use film_solver, only: film_motion
    use film_grid, only: film_grid_type, new_film_grid
    use grid_modes, only: grid_modes_type, new_grid_modes
-   use slight_cavitation, only: force_of_few
+   use local_cavitation, only: force_of_few
    use paper_bearing, only: paper_oil, paper_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -15,7 +15,7 @@ program test_slight_cavitation
    if (runs('against_relaxation')) call against_relaxation()
    if (runs('any_start')) call any_start()
    if (runs('flooded')) call flooded()
-   if (runs('whole_film')) call whole_film()
+   if (runs('full_film')) call full_film()
    if (runs('not_few')) call not_few()
    call report()
 
@@ -156,7 +156,7 @@ contains
    end subroutine flooded
 
    !> Squeezed everywhere, with no wedge: nothing cavitates.
-   subroutine whole_film()
+   subroutine full_film()
       type(film_motion), parameter :: squeezed = film_motion(clearance*[-0.3_wp, 0.2_wp], &
          & clearance*speed*[0.0_wp, 0.1_wp])
       type(film_grid_type) :: grid
@@ -169,7 +169,7 @@ contains
       call force_of_few(grid, basis, film, force, few)
       call expect(few, 'is slight cavitation')
       call expect_close(norm2(force), 0.0_wp, 0.0_wp, 'without a force')
-   end subroutine whole_film
+   end subroutine full_film
 
    !> A film that opens over much of the pad, at the leading edge, or all over.
    subroutine not_few()
@@ -188,4 +188,4 @@ contains
          call expect(.not. few, 'far or wide, '//to_text(k))
       end do
    end subroutine not_few
-end program test_slight_cavitation
+end program test_local_cavitation

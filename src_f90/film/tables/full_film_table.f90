@@ -4,19 +4,19 @@
 !> Both are analytic, so one polynomial stands for them over half an octave of either thickness; where it does not, next
 !> to a film that closes, a cell is cut in four. A cell is built when a motion first enters it, from the axial modes
 !> alone: what is in it does not depend on what came before.
-module whole_table
+module full_film_table
    use kinds, only: wp
    use clock, only: wall_clock
-   use unit_pad, only: unit_pad_type
+   use dimensionless_pad, only: dimensionless_pad_type
    use film_resolution, only: usual_error
    use full_film, only: full_film_type, solved_full_film_type, new_solved_full_film
    use square_patch, only: nodes, simd_width, node_points, fitted, evaluate_patch
    use pressure_profile, only: pressure_profile_type, new_pressure_profile
-   use octaves, only: interval, lower_end
+   use logarithmic_grid, only: interval, lower_end
    use cell_index, only: cell_index_type, cell_key
    implicit none (type, external)
    private
-   public :: whole_table_type, new_whole_table
+   public :: full_film_table_type, new_full_film_table
 
    !> Levels of cells that are not cut and of the smallest.
    integer, parameter :: first_level = 1, last_level = 6
@@ -36,9 +36,9 @@ module whole_table
       type(pressure_profile_type), allocatable :: profile
    end type cell_type
 
-   type, extends(full_film_type) :: whole_table_type
+   type, extends(full_film_type) :: full_film_table_type
       private
-      type(unit_pad_type) :: pad
+      type(dimensionless_pad_type) :: pad
       !> What the table is built from.
       type(solved_full_film_type) :: films
       !> Error of M over its norm; whether there is a pressure at the leading edge.
@@ -55,29 +55,29 @@ module whole_table
       procedure, private :: find_cell
       procedure, private :: new_cell
       procedure, private :: build
-   end type whole_table_type
+   end type full_film_table_type
 
 contains
 
    !> An empty table for a pad, with a pressure at its leading edge or without: M to a tolerance, over its norm.
-   function new_whole_table(pad, supplied, tolerance, most) result(table)
-      type(unit_pad_type), intent(in) :: pad
+   function new_full_film_table(pad, supplied, tolerance, most) result(table)
+      type(dimensionless_pad_type), intent(in) :: pad
       logical, intent(in) :: supplied
       real(wp), intent(in) :: tolerance
       integer, intent(in), optional :: most
-      type(whole_table_type) :: table
+      type(full_film_table_type) :: table
       table%pad = pad
       table%supplied = supplied
       table%tolerance = tolerance
       if (present(most)) table%most = most
       table%films = new_solved_full_film(pad, tolerance)
-   end function new_whole_table
+   end function new_full_film_table
 
    !> M_11, M_12, M_22, 0 and, if they are wanted, their derivatives over both thicknesses, (function, edge), of an open
    !> film with these thicknesses at its edges. `last` is the caller's memory of the cell, 0 at first. `good` is false
    !> where the functions are not as close as they should be: next to a film that closes.
    subroutine look_up(self, edges, want_slopes, last, value, slope, good)
-      class(whole_table_type), intent(inout) :: self
+      class(full_film_table_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2)
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
@@ -90,7 +90,7 @@ contains
 
    !> The same for the force, (along, outward, 0, 0), of a pressure 1 at the leading edge.
    subroutine look_up_supply(self, edges, want_slopes, last, value, slope)
-      class(whole_table_type), intent(inout) :: self
+      class(full_film_table_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2)
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
@@ -113,7 +113,7 @@ contains
    !> The highest pressure in the middle plane of the unit pad, or 0, where its film is open and has these thicknesses
    !> at its edges, for w and a pressure at the leading edge. `last` and `good` as in `look_up`.
    subroutine highest_pressure(self, edges, w, supply, last, pressure, good)
-      class(whole_table_type), intent(inout) :: self
+      class(full_film_table_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2), w(2), supply
       integer, intent(inout) :: last
       real(wp), intent(out) :: pressure
@@ -131,7 +131,7 @@ contains
 
    !> True where a cell of this number holds these thicknesses and is not cut.
    pure logical function holds(self, number, edges)
-      class(whole_table_type), intent(in) :: self
+      class(full_film_table_type), intent(in) :: self
       integer, intent(in) :: number
       real(wp), intent(in) :: edges(2)
       holds = .false.
@@ -144,7 +144,7 @@ contains
 
    !> The cell that holds these thicknesses and is not cut; what is missing on the way to it is built.
    subroutine find_cell(self, edges, number)
-      class(whole_table_type), intent(inout) :: self
+      class(full_film_table_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2)
       integer, intent(out) :: number
       real(wp) :: started
@@ -167,7 +167,7 @@ contains
 
    !> Room for one more cell.
    subroutine new_cell(self, number)
-      class(whole_table_type), intent(inout) :: self
+      class(full_film_table_type), intent(inout) :: self
       integer, intent(out) :: number
       type(cell_type), allocatable :: more(:)
       if (.not. allocated(self%cells)) then
@@ -187,7 +187,7 @@ contains
 
    !> The cell at a place of a level, checked.
    subroutine build(self, level, place, cell)
-      class(whole_table_type), intent(inout) :: self
+      class(full_film_table_type), intent(inout) :: self
       integer, intent(in) :: level, place(2)
       type(cell_type), intent(inout) :: cell
       real(wp), dimension(simd_width, nodes, nodes) :: driven, supplied
@@ -229,4 +229,4 @@ contains
       cell%cut = .false.
    end subroutine build
 
-end module whole_table
+end module full_film_table

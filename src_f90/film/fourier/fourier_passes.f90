@@ -1,6 +1,6 @@
-!> The inner loops of the modal film: along the arc from both edges to the middle and back, so that two
+!> The inner loops of the Fourier film: along the arc from both edges to the middle and back, so that two
 !> chains of divisions run at a time; side by side over the modes of a block.
-module modal_sweeps
+module fourier_passes
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -227,4 +227,4 @@ contains
          over_h2(i) = over_h2(i) + times_square
       end do
    end subroutine sum_adjoint
-end module modal_sweeps
+end module fourier_passes

@@ -3,7 +3,7 @@
 !> An octave, from one power of 2 to the next, is cut into 2^level equal intervals, and these are numbered through over
 !> all octaves. The bits of a number give its interval; within one, everything is linear in the number itself, so that
 !> neither logarithm nor power is ever needed.
-module octaves
+module logarithmic_grid
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -25,4 +25,4 @@ contains
       pieces = 2**level
       lower_end = scale(1 + modulo(interval, pieces)/real(pieces, wp), floor(interval/real(pieces, wp)) - 1)
    end function lower_end
-end module octaves
+end module logarithmic_grid

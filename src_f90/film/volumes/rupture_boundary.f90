@@ -4,7 +4,7 @@
 !> were whole: there the film ends. The pressure meets this end without a slope, so that its own equations need not
 !> know it. A change of the pressure with the motion does not: it falls to 0 at the end, and if it fell to 0 in the
 !> middle of the cavitated cells, slopes would err by the first order of a cell's size, and leap when a cell cavitates.
-module film_rim
+module rupture_boundary
    use kinds, only: wp
    use film_grid, only: film_grid_type
    implicit none (type, external)
@@ -66,4 +66,4 @@ contains
       nearer = 0
       if (filled < 1) nearer = (own + other)/(own + 2*filled*other) - 1
    end function nearer
-end module film_rim
+end module rupture_boundary
