@@ -69,7 +69,7 @@ contains
       type(case_run_type), intent(inout) :: run
       if (run%inputs%about%task == 'branch') return
       if (has_warm_oil(run%model)) call put_viscosity(run%file, run%model%oil%viscosity)
-      if (run%model%oil_course%runs()) call put_viscosity_history(run%file, run%model%oil_course)
+      if (run%model%oil_history%runs()) call put_viscosity_history(run%file, run%model%oil_history)
    end subroutine note_oil
 
    !> Gives warm oil the viscosities of the equilibrium, which it keeps in a march that starts elsewhere or goes on from
@@ -105,11 +105,11 @@ contains
       type(case_run_type), intent(inout) :: run
       real(wp), intent(in) :: y(:)
       type(error_type), allocatable, intent(inout) :: error
-      type(viscosity_history_type) :: course
+      type(viscosity_history_type) :: history
       if (run%inputs%thermal%march /= 'groove' .or. .not. abs(run%model%point%acceleration) > 0) return
-      call find_groove_transient(run%model, y, run%inputs%operation%duration, course, error, stop_requested)
+      call find_groove_transient(run%model, y, run%inputs%operation%duration, history, error, stop_requested)
       if (allocated(error)) return
-      run%model%oil_course = course
+      run%model%oil_history = history
    end subroutine let_grooves_warm
 
    !> State and time, s, of the checkpoint in the file.

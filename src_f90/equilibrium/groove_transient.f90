@@ -23,12 +23,12 @@ module groove_transient
 
 contains
 
-   !> The course of the viscosities in a march of a model from its equilibrium y, whose viscosities it has, over a
+   !> The history of the viscosities in a march of a model from its equilibrium y, whose viscosities it has, over a
    !> duration, s. An error where a speed has no equilibrium.
-   subroutine find_groove_transient(model, y, duration, course, error, give_up)
+   subroutine find_groove_transient(model, y, duration, history, error, give_up)
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: y(:), duration
-      type(viscosity_history_type), intent(out) :: course
+      type(viscosity_history_type), intent(out) :: history
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       type(bearing_model) :: static
@@ -63,7 +63,7 @@ contains
          rate = 0
          if (k > 0) rate = (entering - before)/(time(k) - time(k - 1))
       end do
-      course = new_viscosity_history(time, viscosity)
+      history = new_viscosity_history(time, viscosity)
    end subroutine find_groove_transient
 
    !> Times, s, between which the speed changes by equal factors; near standstill nothing is followed.

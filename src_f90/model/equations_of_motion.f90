@@ -36,7 +36,7 @@ module equations_of_motion
       type(tilting_pad_bearing_type) :: bearing
       !> The oil of each pad, and its course where it warms or cools in a motion.
       type(film_oil), allocatable :: oil(:)
-      type(viscosity_history_type) :: oil_course
+      type(viscosity_history_type) :: oil_history
       !> Characteristic scale of each state.
       real(wp), allocatable :: scale(:)
       type(newton_system_type), private :: newton
@@ -158,7 +158,7 @@ contains
       logical, intent(in) :: want_derivatives
       logical, intent(out) :: ok
       logical, intent(in), optional :: chosen(:)
-      if (self%oil_course%runs()) call self%oil_course%at(t, self%oil%viscosity)
+      if (self%oil_history%runs()) call self%oil_history%at(t, self%oil%viscosity)
       call self%bearing%evaluate(self%rotor%journal(y(:self%rotor%states)), self%layout%pad_states(y), self%oil, &
          & self%point%speed(t), want_derivatives, self%refusal, ok, chosen)
    end subroutine evaluate

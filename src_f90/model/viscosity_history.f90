@@ -1,4 +1,4 @@
-!> Viscosities of the oil on every pad as a course over time: cubics between nodes, smooth across them.
+!> Viscosities of the oil on every pad over time: cubics between nodes, smooth across them.
 module viscosity_history
    use kinds, only: wp
    implicit none (type, external)
@@ -18,25 +18,25 @@ module viscosity_history
 
 contains
 
-   !> The course through viscosities, Pa s, (pad, 0:n), at n + 1 >= 3 times, s.
-   pure type(viscosity_history_type) function new_viscosity_history(time, viscosity) result(course)
+   !> The history through viscosities, Pa s, (pad, 0:n), at n + 1 >= 3 times, s.
+   pure type(viscosity_history_type) function new_viscosity_history(time, viscosity) result(history)
       real(wp), intent(in) :: time(0:), viscosity(:, 0:)
       real(wp) :: steep(size(viscosity, 1), size(time) - 1), step(size(time) - 1)
       integer :: k, n
       n = size(time) - 1
-      allocate (course%time(0:n), course%value(size(viscosity, 1), 0:n), course%slope(size(viscosity, 1), 0:n))
-      course%time(:) = time
-      course%value(:, :) = log(viscosity)
+      allocate (history%time(0:n), history%value(size(viscosity, 1), 0:n), history%slope(size(viscosity, 1), 0:n))
+      history%time(:) = time
+      history%value(:, :) = log(viscosity)
       step = time(1:) - time(:n - 1)
       do k = 1, n
-         steep(:, k) = (course%value(:, k) - course%value(:, k - 1))/step(k)
+         steep(:, k) = (history%value(:, k) - history%value(:, k - 1))/step(k)
       end do
       ! those of parabolas through three nodes
       do k = 1, n - 1
-         course%slope(:, k) = (step(k + 1)*steep(:, k) + step(k)*steep(:, k + 1))/(step(k) + step(k + 1))
+         history%slope(:, k) = (step(k + 1)*steep(:, k) + step(k)*steep(:, k + 1))/(step(k) + step(k + 1))
       end do
-      course%slope(:, 0) = 2*steep(:, 1) - course%slope(:, 1)
-      course%slope(:, n) = 2*steep(:, n) - course%slope(:, n - 1)
+      history%slope(:, 0) = 2*steep(:, 1) - history%slope(:, 1)
+      history%slope(:, n) = 2*steep(:, n) - history%slope(:, n - 1)
    end function new_viscosity_history
 
    !> False where there is no course: then viscosities stay.
@@ -50,7 +50,7 @@ contains
       pads = size(self%value, 1)
    end function pads
 
-   !> The viscosities at a time, s; before and behind the course those at its ends.
+   !> The viscosities at a time, s; before and behind the history those at its ends.
    pure subroutine at(self, time, viscosity)
       class(viscosity_history_type), intent(in) :: self
       real(wp), intent(in) :: time

@@ -87,17 +87,17 @@ contains
       call file%file%put_list('viscosity', viscosity, 'Pa s', 'viscosity of the oil on each pad in the march', 'pad')
    end subroutine put_viscosity
 
-   !> Writes the course of these viscosities in a run-up.
-   subroutine put_viscosity_history(file, course)
+   !> Writes the history of these viscosities in a run-up.
+   subroutine put_viscosity_history(file, history)
       type(run_file_type), intent(inout) :: file
-      type(viscosity_history_type), intent(in) :: course
+      type(viscosity_history_type), intent(in) :: history
       real(wp), allocatable :: time(:), viscosity(:, :)
       integer :: k
       ! counted from 1, in brackets
-      time = [course%time]
-      allocate (viscosity(course%pads(), size(time)))
+      time = [history%time]
+      allocate (viscosity(history%pads(), size(time)))
       do k = 1, size(time)
-         call course%at(time(k), viscosity(:, k))
+         call history%at(time(k), viscosity(:, k))
       end do
       call file%file%make_group('oil')
       call file%file%put_list('oil/time', time, 's', 'time', 'oil/time')

@@ -216,7 +216,7 @@ contains
       type(equilibrium_type) :: static
       type(static_figures_type) :: figures
       type(bearing_model) :: model
-      type(viscosity_history_type) :: course
+      type(viscosity_history_type) :: history
       type(error_type), allocatable :: error
       inputs = case_of('&operation speed_rpm = 3000, final_speed_rpm = 4000/ &film cavitation = ''none''/'//vg46)
       inputs%oil%shaft_temperature = 55
@@ -224,9 +224,9 @@ contains
       inputs%operation%duration = duration
       call solve(inputs, static, figures, model)
       call find_groove_transient(model, model%at_rest(static%journal, static%tilt, static%pivot_deflection), duration, &
-         & course, error)
+         & history, error)
       call expect_no_error(error, 'course')
-      if (.not. allocated(error)) call course%at(duration, viscosities)
+      if (.not. allocated(error)) call history%at(duration, viscosities)
    end function after_run_up
 
    !> A slow run-up ends at the equilibrium of the last speed, a quick one lags behind it in the groove's time, and oil

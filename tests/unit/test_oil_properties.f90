@@ -182,12 +182,12 @@ contains
    end function logarithm
 
    subroutine parabola()
-      type(viscosity_history_type) :: course
+      type(viscosity_history_type) :: history
       real(wp) :: found(2)
       integer :: k
-      course = new_viscosity_history(time, exp(reshape([(logarithm(time(k)), 2*logarithm(time(k)), k=0, 4)], [2, 5])))
+      history = new_viscosity_history(time, exp(reshape([(logarithm(time(k)), 2*logarithm(time(k)), k=0, 4)], [2, 5])))
       do k = 0, 40
-         call course%at(k*0.05_wp, found)
+         call history%at(k*0.05_wp, found)
          call expect_close(log(found(1)), logarithm(k*0.05_wp), 1e-13_wp, 'first pad')
          call expect_close(log(found(2)), 2*logarithm(k*0.05_wp), 1e-13_wp, 'second pad')
       end do
@@ -195,30 +195,30 @@ contains
 
    !> No leap of value or slope at a node.
    subroutine smooth()
-      type(viscosity_history_type) :: course
+      type(viscosity_history_type) :: history
       real(wp), dimension(1) :: far_before, before, after, far_after
       real(wp), parameter :: step = 1e-5_wp
       integer :: k
-      course = new_viscosity_history(time, reshape([3.0_wp, 2.0_wp, 5.0_wp, 4.0_wp, 1.0_wp], [1, 5]))
+      history = new_viscosity_history(time, reshape([3.0_wp, 2.0_wp, 5.0_wp, 4.0_wp, 1.0_wp], [1, 5]))
       do k = 1, 3
-         call course%at(time(k) - 2*step, far_before)
-         call course%at(time(k) - step, before)
-         call course%at(time(k) + step, after)
-         call course%at(time(k) + 2*step, far_after)
+         call history%at(time(k) - 2*step, far_before)
+         call history%at(time(k) - step, before)
+         call history%at(time(k) + step, after)
+         call history%at(time(k) + 2*step, far_after)
          call expect_close((far_after(1) - after(1))/step, (before(1) - far_before(1))/step, 5e-3_wp, 'slope')
          call expect_close(after(1), before(1), 1e-3_wp, 'value')
       end do
    end subroutine smooth
 
    subroutine ends()
-      type(viscosity_history_type) :: course
+      type(viscosity_history_type) :: history
       real(wp) :: found(1)
-      call expect(.not. course%runs(), 'none before it is made')
-      course = new_viscosity_history(time, reshape([3.0_wp, 2.0_wp, 5.0_wp, 4.0_wp, 1.0_wp], [1, 5]))
-      call expect(course%runs(), 'made')
-      call course%at(-1.0_wp, found)
+      call expect(.not. history%runs(), 'none before it is made')
+      history = new_viscosity_history(time, reshape([3.0_wp, 2.0_wp, 5.0_wp, 4.0_wp, 1.0_wp], [1, 5]))
+      call expect(history%runs(), 'made')
+      call history%at(-1.0_wp, found)
       call expect_close(found(1), 3.0_wp, 1e-14_wp, 'before')
-      call course%at(9.0_wp, found)
+      call history%at(9.0_wp, found)
       call expect_close(found(1), 1.0_wp, 1e-14_wp, 'behind')
    end subroutine ends
 end program test_oil_properties
