@@ -78,7 +78,7 @@ def from_file(result):
     return f'start%file="{result.path}"'
 
 
-def special_point(program, folder, point, first, last, *overrides):
+def bifurcation_point(program, folder, point, first, last, *overrides):
     """The bifurcation point of the branch from one speed to another, rpm."""
     way = (f"branch%of={point.of}", f"branch%last={last:.17g}", f"branch%step={(last - first) / 4:.17g}")
     task = ("case%task=branch", 'branch%parameter="operation%speed_rpm"')
@@ -143,7 +143,7 @@ def compared(program, folder, point, orbit, words, expected):
 def both_sides(program, folder):
     """Rows of marches against multipliers, before and behind bifurcation points, and on both sides of a fold."""
     for point in POINTS:
-        special = special_point(program, folder, point, *point.sides)
+        special = bifurcation_point(program, folder, point, *point.sides)
         words = f"{point.words}: {branches.KINDS[special.kind][1]} at {special.parameter:.2f} rpm"
         for speed in point.sides:
             with run(program, point.case, folder, *point.overrides, *FILMS, *ORBIT, at(speed)) as orbit:
@@ -158,7 +158,7 @@ def fold_rows(program, folder):
     for speed in FOLD_SPEEDS:
         start = ("start%from=file", from_file(orbits[-1])) if orbits else ()
         orbits.append(run(program, FOUR, folder, *inputs, at(speed), *start))
-    fold = special_point(program, folder, FOLD, speed, 6100, "start%from=file", from_file(orbits[-1]))
+    fold = bifurcation_point(program, folder, FOLD, speed, 6100, "start%from=file", from_file(orbits[-1]))
     words = f"{FOLD.words}: fold at {fold.parameter:.2f} rpm"
     values = multipliers(orbits[-1])
     real = values[(values.imag == 0)][0]

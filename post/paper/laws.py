@@ -12,10 +12,10 @@ from tiltpad.files.units import SHOWN
 from paper.measures import stribeck_curve
 from paper.runs import Runs
 
-PENETRATION, FORCE = SHOWN["pivot_deflection"], SHOWN["pivot_load"]
+DEFLECTION, FORCE = SHOWN["pivot_deflection"], SHOWN["pivot_load"]
 #: The example of Figs. 3 and 4: socket radius, m, load of Fig. 3, N, radius differences, um, and pivot deflections
 #: up to, m, of Fig. 4. The paper prints the first of them only.
-FANG_PIVOT, FANG_LOAD, FANG_DIFFERENCES, FANG_PENETRATION = 0.1, 1e4, (0, 15, 30, 60), 20e-6
+FANG_PIVOT, FANG_LOAD, FANG_DIFFERENCES, FANG_DEFLECTION = 0.1, 1e4, (0, 15, 30, 60), 20e-6
 #: Contact laws beside the paper's, by their overrides.
 LAWS = {
     "Fang, factor 4": (),
@@ -40,7 +40,7 @@ def quoted(word: str) -> str:
 
 def fang_force(difference: float) -> tuple[np.ndarray, np.ndarray]:
     """Pivot deflection, m, and force, N, of the paper's example of Fig. 4."""
-    pivot_deflection = np.linspace(0, FANG_PENETRATION, 201)
+    pivot_deflection = np.linspace(0, FANG_DEFLECTION, 201)
     return pivot_deflection, tiltpad.pivot_load(pivot_deflection, pivot(difference, socket_radius=FANG_PIVOT))
 
 
@@ -75,11 +75,11 @@ def figure_4(runs: Runs) -> Figure:
     for difference in FANG_DIFFERENCES:
         pivot_deflection, force = fang_force(difference)
         ax.plot(
-            PENETRATION.factor * pivot_deflection,
+            DEFLECTION.factor * pivot_deflection,
             FORCE.factor * force,
             label=f"$\\Delta R$ = {difference} µm",
         )
-    ax.set(xlabel=PENETRATION.label, ylabel=FORCE.label, xlim=(0, None), ylim=(0, None))
+    ax.set(xlabel=DEFLECTION.label, ylabel=FORCE.label, xlim=(0, None), ylim=(0, None))
     ax.legend()
     return fig
 
@@ -125,8 +125,8 @@ def laws4(runs: Runs) -> Figure:
             force = tiltpad.pivot_load(pivot_deflection, pivot(difference, *overrides))
             look = {"color": f"C{color}", "linestyle": dash}
             label = f"{law_text(law)}, $\\Delta R$ = {difference} µm"
-            ax.plot(PENETRATION.factor * pivot_deflection, FORCE.factor * force, label=label, **look)
-    ax.set(xlabel=PENETRATION.label, ylabel=FORCE.label, xlim=(0, 15), ylim=(0, 40))
+            ax.plot(DEFLECTION.factor * pivot_deflection, FORCE.factor * force, label=label, **look)
+    ax.set(xlabel=DEFLECTION.label, ylabel=FORCE.label, xlim=(0, 15), ylim=(0, 40))
     fig.legend(loc="outside upper center", ncols=3)
     return fig
 

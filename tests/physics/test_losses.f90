@@ -224,7 +224,7 @@ contains
          if (mod(i, 2) == 0) state%motion%velocity = 0
          loss = found(state%gap, state%motion, shaft_speed, .true., .false.)
          fine = by_volumes(state%gap, state%motion, shaft_speed, 192, 24, .true.)
-         ! a film that forms again takes up more than arrives: the plain sums do not follow it
+         ! a film that reforms takes up more than arrives: the plain sums do not follow it
          if (abs(loss%unfed) > 1e-3_wp*loss%inlet) cycle
          if (mod(i, 2) == 1) fine%outlet = loss%outlet
          error = difference(state%gap, state%motion, shaft_speed, loss, fine)
@@ -293,7 +293,7 @@ contains
       call expect(all(error(2:) < 0.3_wp*error(:2)) .and. error(3) < 1e-3_wp, 'second order')
    end subroutine order
 
-   !> What flows in flows out, less what the growing gap holds back; where a film forms again it takes up more than
+   !> What flows in flows out, less what the growing gap holds back; where a film reforms it takes up more than
    !> arrives. For full films test whole_by_volumes has it, whose side flow is a sum of its own.
    subroutine oil_is_kept()
       type(film_state) :: state
@@ -308,7 +308,7 @@ contains
             & //shown(state))
          if (abs(loss%unfed) > 1e-3_wp*loss%inlet) again = again + 1
       end do
-      call expect(again < 30, 'most films do not form again')
+      call expect(again < 30, 'most films do not reform')
    end subroutine oil_is_kept
 
    !> The journal's rotation, its motion and the pumps bring what becomes heat.

@@ -230,7 +230,7 @@ def campbell(
             mark | {"marker": "o", "markerfacecolor": "none", "markeredgecolor": "C1", "markersize": 8},
         ),
         ("shaft speed", {"color": "0.3"}),
-        ("half of it", {"color": "0.3", "linestyle": "--"}),
+        ("0.5x", {"color": "0.3", "linestyle": "--"}),
     ]
     heading(
         fig,

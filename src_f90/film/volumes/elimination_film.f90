@@ -10,7 +10,7 @@ module elimination_film
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type, new_film_grid
    use volume_equations, only: volume_equations_type, new_volume_equations
-   use rupture_boundary, only: rim_conductance
+   use rupture_boundary, only: boundary_conductance
    use local_cavitation, only: force_of_few
    use simd_padding, only: apply
    use column_sweeps, only: weighted
@@ -18,7 +18,7 @@ module elimination_film
    private
    public :: elimination_film_type, new_elimination_film
 
-   !> Rounds at most, and those for each column: a film that forms again may grow by one column a round.
+   !> Rounds at most, and those for each column: a film that reforms may grow by one column a round.
    integer, parameter :: max_rounds = 100, rounds_a_column = 2
    !> Pressure over the maximum below which a cell counts as empty: rounding must not decide.
    real(wp), parameter :: rounding = 1e-12_wp
@@ -121,7 +121,7 @@ contains
          if (i < first .or. i > last) self%pressure(:, i) = self%in_rows(self%pressure, i)
          p(:, i) = self%pressure(:self%grid%rows, i)/self%basis%root(:self%grid%rows)
       end do
-      call self%eliminate(.true., rim_conductance(self%grid, self%film, p, first, last))
+      call self%eliminate(.true., boundary_conductance(self%grid, self%film, p, first, last))
    end subroutine end_between
 
    !> The adjoints of both forces.

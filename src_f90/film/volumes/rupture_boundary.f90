@@ -9,13 +9,13 @@ module rupture_boundary
    use film_grid, only: film_grid_type
    implicit none (type, external)
    private
-   public :: rim_conductance
+   public :: boundary_conductance
 
 contains
 
    !> What the end of a film adds to the diagonal of a cell's equation for a change of pressure, (row, column): the
    !> conductance towards a cavitated cell is that up to the end of the film instead of up to the cell's middle.
-   pure function rim_conductance(grid, film, pressure, first, last) result(more)
+   pure function boundary_conductance(grid, film, pressure, first, last) result(more)
       type(film_grid_type), intent(in) :: grid
       !> Cells of the film 1, others 0; pressure above that of cavitation, Pa, 0 in the others; (row, column).
       real(wp), intent(in) :: film(:, :), pressure(:, :)
@@ -49,7 +49,7 @@ contains
             end do
          end do
       end associate
-   end function rim_conductance
+   end function boundary_conductance
 
    !> The part of a cavitated cell that an inflow fills.
    pure real(wp) function share(inflow, source)

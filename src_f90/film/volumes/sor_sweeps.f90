@@ -43,7 +43,7 @@ contains
    end subroutine relax
 
    !> Root sum of squares over the cells of what one Jacobi step (projected) would change, over that of
-   !> the source over the diagonal. Cavitated cells count only where the film wants to form again.
+   !> the source over the diagonal. Cavitated cells count only where the film wants to reform.
    pure function relative_residual(nk, nz, floor, before, after, beside, inward, outward, per_diagonal, source, &
       & whole, p) result(residual)
       integer, intent(in) :: nk, nz
