@@ -192,7 +192,7 @@ run: build python
 test: build python build/deps-test $(if $(filter no,$(ROSS)),,$(ross)/ready) $(B)/stress/global_search
 	@$(MAKE) --no-print-directory MODE=debug test-programs build/debug/fuzz/fuzz_input
 	@TILTPAD=$(abspath $(B)/bin/tiltpad) ONLY='$(ONLY)' tests/run_all $(VENV)/bin/python \
-	   $(patsubst %.f90,build/debug/tests/%,$(notdir $(tests)))
+	   $(addprefix build/debug/tests/,$(test_names))
 
 # starts munged, slurmctld and slurmd in a temporary folder, and stops them
 test-slurm: build python build/deps-slurm

@@ -12,7 +12,7 @@ from verify_runs import row
 #: How many times as many random films as in a test.
 TIMES = 12
 LINE = re.compile(
-    r"(?P<solver>[^,]+), (?P<condition>\w+)(?P<supply>, supply pressure)?, thickness_ratio [\d to]+:"
+    r"(?P<solver>[^,]+), (?P<condition>\w+)(?P<supply>, supply pressure)?, film thickness ratio [\d to]+:"
     r" *(?P<films>\d+) films; force, slopes, highest pressure +(?P<errors>.+)"
 )
 FIELD = re.compile(r"field of (?P<solver>[^,]+), (?P<condition>\w+) *: integral less force +(?P<error>\S+)")

@@ -39,7 +39,7 @@ module random_films
 
 contains
 
-   !> A film with an thickness_ratio of this range; one that may cavitate has T from -0.3 to 1, others drive it from
+   !> A film with a film thickness ratio of this range; one that may cavitate has T from -0.3 to 1, others drive it from
    !> anywhere. A supply pressure is up to the highest pressure without it.
    type(film_state) function random_film(least, most, cavitates, supplied) result(state)
       real(wp), intent(in) :: least, most
@@ -192,7 +192,7 @@ contains
       associate (gap => state%gap)
          write (line, '(3(f0.2, a), es9.2, 3(a, f0.2))') gap%arc()/degree, ' degrees, pivot ', gap%trailing_angle &
             & /gap%arc(), ', L/D ', 0.5_wp*gap%axial_length/gap%journal_radius, ', clearance ', &
-            & gap%machined_clearance, ', thickness_ratio ', state%thickness_ratio, ', T ', state%t, ', supply ', &
+            & gap%machined_clearance, ', film thickness ratio ', state%thickness_ratio, ', T ', state%t, ', supply ', &
                state%supply
       end associate
       text = trim(line)

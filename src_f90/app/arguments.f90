@@ -4,6 +4,7 @@ module arguments
    use variable_names, only: meant_variable
    use errors, only: error_type, raise, input_error
    use similar_words, only: did_you_mean
+   use former_names, only: new_name
    implicit none (type, external)
    private
    public :: arguments_type, read_arguments, print_help
@@ -147,6 +148,8 @@ contains
       character(len=:), allocatable :: text
       integer :: equals
       equals = index(word, '=')
+      text = new_name(word)
+      if (text /= '') return
       text = did_you_mean(word, options)
       if (equals == 0) return
       if (index(' '//options//' ', ' '//word(:equals - 1)//' ') > 0) then

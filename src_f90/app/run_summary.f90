@@ -160,7 +160,7 @@ contains
       print '(a)', 'cost: '//number('steps')//' steps, '//number('rhs_evaluations')//' right-hand sides, ' &
          & //number('jacobian_evaluations')//' Jacobians, films '//number('film_table')//' from tables (' &
          & //number('film_cells')//' cells, '//number('film_nodes')//' cavitated nodes), '//number('film_fourier') &
-         & //' modal and '//number('film_volumes')//' on finite volumes ('//number('film_passes') &
+         & //' by axial Fourier expansion and '//number('film_volumes')//' on finite volumes ('//number('film_passes') &
          & //' passes over their cells)'
       print '(a)', '  wall time '//duration('wall_seconds')//' s, of which film '//duration('film_seconds') &
          & //' s and samples '//duration('output_seconds')//' s'

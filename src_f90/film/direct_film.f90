@@ -1,7 +1,7 @@
 !> Axial modes while the film is full; for what cavitation changes, for a pad at an instant, the equations of
 !> over-relaxation solved by elimination.
 !>
-!> Where the film cavitates the force is that of the finite volumes with cavitation, plus c times (modal - finite
+!> Where the film cavitates the force is that of the finite volumes with cavitation, plus c times (Fourier - finite
 !> volumes without cavitation), with c = 1 up to a tension of the full film of a tenth of its maximum pressure,
 !> and 0 where they are the same. So at the onset the force does not jump by the difference of the two
 !> discretisations, a loaded pad keeps the modes' accuracy, and an empty pad is left to the finite volumes alone.

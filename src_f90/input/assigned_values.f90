@@ -6,6 +6,7 @@ module assigned_values
    use text, only: to_text, lower_case, shortened, is_utf8
    use errors, only: error_type, raise, input_error
    use similar_words, only: did_you_mean
+   use former_names, only: new_name
    use number_syntax, only: is_special, read_number
    use assignments, only: assignment_type, token_type, assignment_text, study_group
    use field_visitor, only: field_type
@@ -33,7 +34,7 @@ contains
          call refuse_values(a, 'takes one text'//several_runs(a), error)
       else if (field%choices /= '' .and. .not. is_choice(word, field%choices)) then
          call refuse_values(a, 'must be one of '''//quoted_list(field%choices)//'''' &
-            & //did_you_mean(word, field%choices), error)
+            & //meant_word(a, word, field%choices), error)
       else if (field%choices == '' .and. .not. (a%values(1)%quoted .or. a%overrides)) then
          call refuse_values(a, 'text must stand in quotes', error)
       else if (len(word) > longest_text) then
@@ -121,6 +122,15 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       call raise(error, input_error, a%origin//': '//assignment_text(a)//': '//reason)
    end subroutine refuse_values
+
+   !> What a wrong word may stand for: today's name of a former one, or a word that it is like.
+   pure function meant_word(a, word, choices) result(text)
+      type(assignment_type), intent(in) :: a
+      character(len=*), intent(in) :: word, choices
+      character(len=:), allocatable :: text
+      text = new_name(a%group//'%'//a%name//'='//word)
+      if (text == '') text = did_you_mean(word, choices)
+   end function meant_word
 
    !> True for one of the words that `choices` lists, separated by blanks.
    pure logical function is_choice(word, choices)

@@ -273,14 +273,14 @@ contains
       call v%group('film', 'Solver of the Reynolds equation')
       call v%word(film%solver, choice('solver', 'auto direct fourier sor', &
          & 'auto: tables of converged films, direct where there is none; direct: axial modes, finite volumes where ' &
-         & //'a film cavitates; modal: axial modes; sor: over-relaxation'))
+         & //'a film cavitates; fourier: axial Fourier expansion; sor: over-relaxation'))
       call v%whole(film%circumferential_cells, field('circumferential_cells', 0.0_wp, 2000.0_wp, '1', &
-         & 'direct, modal, sor: cells along the arc, an even number; 0: as many as axial modes need, 80 where a film ' &
-         & //'cavitates, 60 for sor, twice or three times as many from 180 or 300 degrees on'))
+         & 'direct, fourier, sor: cells along the arc, an even number; 0: as many as axial modes need, 80 where a ' &
+         & //'film cavitates, 60 for sor, twice or three times as many from 180 or 300 degrees on'))
       call v%whole(film%axial_cells, field('axial_cells', 0.0_wp, 1000.0_wp, '1', &
          & 'direct, sor: cells along half the width, at least 2; 0: 8, or 15 for sor'))
       call v%whole(film%axial_modes, field('axial_modes', 0.0_wp, 200.0_wp, '1', &
-         & 'direct, modal: maximum number of axial modes; the closed form takes those that are too stiff for the ' &
+         & 'direct, fourier: maximum number of axial modes; the closed form takes those that are too stiff for the ' &
          & //'cells; 0: automatic'))
       call v%number(film%relaxation, field('relaxation', 0.0_wp, 1.999_wp, '1', &
          & 'sor: relaxation factor; 0: the optimum for the grid'))

@@ -2,6 +2,7 @@
 module variable_names
    use kinds, only: wp
    use similar_words, only: find_similar, did_you_mean
+   use former_names, only: new_name
    use case_inputs, only: case_type
    use field_visitor, only: visitor_type, field_type
    use case_fields, only: visit_case
@@ -49,13 +50,15 @@ contains
    end function names_in
 
    !> " (did you mean rotor%mass?)" for a variable that its group does not have; the group may be empty or unknown.
+   !> For the former name of a variable its new one.
    function meant_variable(group, name) result(text)
       character(len=*), intent(in) :: group, name
       character(len=:), allocatable :: text, own, other
       integer :: own_score, other_score
       call find_similar(name, names_in(group), own, own_score)
       call find_similar(name, all_variables(), other, other_score)
-      text = ''
+      text = new_name(group//'%'//name)
+      if (text /= '') return
       if (own /= '' .and. own_score <= other_score) then
          text = did_you_mean(name, names_in(group))
       else if (other /= '') then
@@ -67,7 +70,7 @@ contains
    function meant_group(group) result(text)
       character(len=*), intent(in) :: group
       character(len=:), allocatable :: text
-      text = did_you_mean(group, group_names()//' study')
+      text = did_you_mean(group, group_names()//' sweep')
    end function meant_group
 
    function all_variables() result(names)

@@ -78,7 +78,7 @@ contains
             call measure('direct '//to_text(n), direct, near, exact, condition, state)
          else
             fourier = new_fourier_film(films, n, 8, cavitation == cavitation_gumbel)
-            call measure('modal '//to_text(n), fourier, near, exact, condition, state)
+            call measure('fourier '//to_text(n), fourier, near, exact, condition, state)
          end if
          n = 2*n
       end do

@@ -45,9 +45,9 @@ def variables(markdown: str) -> dict[str, Variable]:
 
 
 def _variable(group: str, name: str, default: str, allowed: str, meaning: str) -> Variable:
-    if default.startswith("'"):
+    if default.startswith(("'", ".")):
         choices = () if allowed == "any text" else tuple(allowed.split())
-        return Variable(group, name, (default[1:-1].encode(),), choices)
+        return Variable(group, name, (default.strip("'").encode(),), choices)
     numbers = tuple(None if word.strip() == "-" else float(word) for word in default.split(","))
     longest = re.search(r"1 to (\d+) of them", meaning)
     low, _, high = allowed.removeprefix("whole, ").partition(" to ")

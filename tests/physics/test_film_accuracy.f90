@@ -1,6 +1,6 @@
 !> Force, slopes and highest pressure of every solver at its default resolution, on random films (random_films) in three
-!> ranges of thickness_ratio. Prints the largest errors, which are those of docs/verification.md. With a number as an
-!> argument the program takes that many times as many films.
+!> ranges of the film thickness ratio. Prints the largest errors, which are those of docs/verification.md. With a number
+!> as an argument the program takes that many times as many films.
 !>
 !> Errors of force and highest pressure are over those of the film in the same position that is just whole; of slopes
 !> over the position likewise, times the thinnest film.
@@ -19,7 +19,7 @@ program test_film_accuracy
    use check, only: runs, expect, report
    implicit none (type, external)
 
-   !> Ranges of thickness_ratio.
+   !> Ranges of the film thickness ratio.
    real(wp), parameter :: ranges(4) = [1.0_wp, 5.0_wp, 20.0_wp, 50.0_wp]
    character(len=*), parameter :: range_names(3) = [character(len=8) :: '1 to 5', '5 to 20', '20 to 50']
    !> Cells and modes of the reference, far beyond what any film asks for.
@@ -86,9 +86,9 @@ contains
       type(error_type), intent(in) :: errors
       real(wp), intent(in) :: limits(3)
       character(len=:), allocatable :: what
-      print '(4a, i4, a, 3es9.1)', name, ', thickness_ratio ', range_names(range), ':', errors%films, &
+      print '(4a, i4, a, 3es9.1)', name, ', film thickness ratio ', range_names(range), ':', errors%films, &
          & ' films; force, slopes, highest pressure', errors%force, errors%slopes, errors%pressure
-      what = name//', thickness_ratio '//trim(range_names(range))//', '
+      what = name//', film thickness ratio '//trim(range_names(range))//', '
       call expect(errors%force < limits(1), what//'force '//to_text(errors%force)//': '//shown(errors%worst))
       call expect(errors%slopes < limits(2), what//'slopes '//to_text(errors%slopes))
       call expect(errors%pressure < limits(3), what//'highest pressure '//to_text(errors%pressure))
@@ -248,7 +248,7 @@ contains
 
    !> The rebuilt pressure fields: their integral is the force that the solver has answered.
    subroutine fields()
-      character(len=*), parameter :: names(6) = [character(len=24) :: 'modal, none', 'modal, gumbel', &
+      character(len=*), parameter :: names(6) = [character(len=24) :: 'fourier, none', 'fourier, gumbel', &
          & 'direct 80 x 8, reynolds', 'sor 60 x 15, reynolds', 'auto, gumbel', 'auto, reynolds']
       type(film_state) :: state
       type(fourier_film_type) :: modes

@@ -162,6 +162,9 @@ def made(result, opened, tmp_path):
             own = {"time": time, "shaft_angle": angle, "speed": first + acceleration * time} | signals
             for name in ("equilibrium", "summary"):
                 source.copy(name, file)
+                for each in file[name].values():
+                    # the scales are not those of this file
+                    each.attrs.pop("DIMENSION_LIST", None)
             datasets = {name: each for name, each in source.items() if isinstance(each, h5py.Dataset)}
             for name, dataset in datasets.items():
                 if len(dataset) != len(source["time"]):

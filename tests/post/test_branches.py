@@ -27,7 +27,8 @@ def turned(changed, opened):
         for name, value in (("point", 5), ("branch", 1), ("parameter", file["parameter"][4])):
             own[name] = np.array([value], float)
         own["value_real"], own["value_imag"] = np.array([-1.0]), np.array([0.0])
-        own["kind"] = np.array([b"period doubling          "])
+        own["kind"] = np.array([b"period_doubling"])
+        own["kind"].make_scale()
 
     return opened(changed("branch", edit))
 

@@ -72,7 +72,7 @@ def test_a_closed_file_can_be_overwritten(run):
         ("runup", "spectrum/journal_y", "no spectrum in this run: the speed changes"),
         ("equilibrium", "journal_y", "no journal_y in this run: its task is 'equilibrium'"),
         ("lugre", "journal_x", "no journal_x in this run: there are asperity_force, "),
-        ("lugre", "contact_forces", "time (did you mean pivot_load?)"),
+        ("lugre", "pivot_loads", "time (did you mean pivot_load?)"),
     ],
 )
 def test_a_dataset_that_the_case_lacks(run, result, case_name, name, reason):

@@ -43,8 +43,8 @@ CAUSES = {
 }
 PREFIX = "tiltpad: error: "
 NO_MESSAGE = ("At line", "runtime", "Backtrace", "HDF5-DIAG", "CVODE ERROR", "NaN", "Infinity", "with code")
-#: What is no number where no oil flows.
-NO_FLOW = re.compile("equilibrium/temperature_rise")
+#: What is no number where no oil flows or nothing moves.
+NO_NUMBER = re.compile(r"equilibrium/temperature_rise|summary/(whirl|pad)_order$")
 STATES = ("journal_y", "journal_z", "pad_tilt", "pivot_deflection")
 
 
@@ -213,7 +213,7 @@ def not_finite(file: h5py.File) -> list[str]:
     faults = []
 
     def visit(name, item):
-        numbers = isinstance(item, h5py.Dataset) and item.dtype.kind == "f" and not NO_FLOW.match(name)
+        numbers = isinstance(item, h5py.Dataset) and item.dtype.kind == "f" and not NO_NUMBER.match(name)
         if numbers and not np.all(np.isfinite(item[()])):
             faults.append(f"{name} is not finite")
 

@@ -12,7 +12,7 @@ program test_film_viscosity
 
    !> Of the first and of the second pad, from the start, and from then on.
    type(film_oil), parameter :: before(2) = film_oil(19e-3_wp), after(2) = [film_oil(31e-3_wp), film_oil(7e-3_wp)]
-   character(len=*), parameter :: solvers(*) = [character(len=6) :: 'auto', 'direct', 'fourier', 'sor', 'fine']
+   character(len=*), parameter :: solvers(*) = [character(len=7) :: 'auto', 'direct', 'fourier', 'sor', 'fine']
    character(len=*), parameter :: conditions(*) = [character(len=8) :: 'none', 'gumbel', 'reynolds']
    integer :: i, k
 

@@ -18,7 +18,7 @@ program test_tilting_pad_bearing
    type(film_oil), parameter :: oil(2) = film_oil(19e-3_wp)
    character(len=*), parameter :: motions(2) = [character(len=14) :: 'tilting_radial', 'tilting_only']
    character(len=*), parameter :: frictions(3) = [character(len=12) :: 'none', 'bengisu_akay', 'lugre']
-   character(len=*), parameter :: solvers(4) = [character(len=6) :: 'fourier', 'direct', 'sor', 'auto']
+   character(len=*), parameter :: solvers(4) = [character(len=7) :: 'fourier', 'direct', 'sor', 'auto']
    integer :: i, k
 
    do i = 1, size(motions)
@@ -274,7 +274,7 @@ contains
       type(pad_state) :: pads(2)
       real(wp) :: cavitated(2), whole(2)
       character(len=:), allocatable :: refusal
-      character(len=6), parameter :: solvers(3) = [character(len=6) :: 'auto', 'sor', 'fourier']
+      character(len=7), parameter :: solvers(3) = [character(len=7) :: 'auto', 'sor', 'fourier']
       logical :: ok
       integer :: k
       do k = 1, size(solvers)

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tiltpad.calculate import signals
-from tiltpad.files.archive import NotInRunError
+from tiltpad.files.archive import NotInRunError, reading
 from tiltpad.files.read import Run
 
 try:
@@ -183,7 +183,8 @@ def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple
     k = min(near, key=lambda i: abs(run.values("time", i) - time))
 
     def sample(*names: str) -> np.ndarray:
-        return np.array([run.values(name, k) for name in names])
+        with reading(run.path, " and ".join(names)):
+            return np.array([run.values(name, k) for name in names])
 
     journal = sample("journal_y", "journal_z", "journal_vy", "journal_vz")
 

@@ -69,6 +69,8 @@ def remarks(run: Run) -> str:
 
 def peaks(run: Run) -> str:
     """The peaks of the first order in a run-up, in words."""
+    if "speed" not in run:
+        return ""
     try:
         found = response(run).peaks
     except NotInRunError:

@@ -4,6 +4,15 @@ A row is a path; of what is in a group that has another name today, with today's
 """
 
 FORMER_NAMES = {
+    # of runs
+    "pad_penetration": "pivot_deflection",
+    "pad_penetration_rate": "pivot_deflection_rate",
+    "contact_force": "pivot_load",
+    "equilibrium/pad_penetration": "equilibrium/pivot_deflection",
+    "equilibrium/contact_force": "equilibrium/pivot_load",
+    "equilibrium/pressure_loss": "equilibrium/poiseuille_loss",
+    "special_points": "bifurcations",
+    "statistics/film_modal": "statistics/film_fourier",
     # of studies
     "equilibrium_y": "equilibrium_journal_y",
     "equilibrium_z": "equilibrium_journal_z",

@@ -1,5 +1,5 @@
 !> Nodes along the arc at equal steps of Sommerfeld's variable xi = integral of dphi/H, H = h/c_m: close where the
-!> film is thin, so that few serve a film of any thickness_ratio.
+!> film is thin, so that few serve a film of any film thickness ratio.
 !>
 !> H = 1 - e_1 sin(phi) - e_2 cos(phi), e in clearances. Along xi the vector n = (1, cos(phi), sin(phi))/H obeys
 !> dn/dxi = A n with a constant matrix A, A^3 = k A, k = e_1^2 + e_2^2 - 1. Hence n(xi) = n(0) + S A n(0) + C A^2 n(0),

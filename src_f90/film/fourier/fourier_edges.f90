@@ -4,7 +4,7 @@
 !> distance, has no finite sum. The equation holds for distances that are long against the film, so the corners are
 !> left out up to a film thickness. Of the modes a strip of even thickness has sum_k c_k Lambda_k, which is then
 !>    R 4/pi ln(cot(pi h/(2 L)));
-!> what the thickness_ratio of the film and the length of the arc change is a sum that converges.
+!> what the film thickness ratio and the length of the arc change is a sum that converges.
 module fourier_edges
    use kinds, only: wp, pi
    use film_solver, only: film_oil

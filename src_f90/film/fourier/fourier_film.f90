@@ -5,8 +5,8 @@
 !>    (h^3 u')' - Lambda_k^2 h^3 u = r,   Lambda_k = R lambda_k,   u = p_sup - p_amb at the leading edge, 0
 !> at the trailing one. Over Sommerfeld's variable xi, dphi = H dxi with H = h/c_m, and with q = H u it becomes
 !>    q'' = (Lambda_k^2 H^2 + v) q + s,   v = |e|^2 - 1 + 3 H - 2 H^2,   s = r/c_m^3,   e the eccentricity over c_m,
-!> smooth for a film of any thickness_ratio, and Numerov's scheme solves it to fourth order (fourier_passes). The modes
-!> left out are summed in closed form: the narrow-pad limit u = -r/(h^3 Lambda^2) and its edge layers.
+!> smooth for a film of any film thickness ratio, and Numerov's scheme solves it to fourth order (fourier_passes). The
+!> modes left out are summed in closed form: the narrow-pad limit u = -r/(h^3 Lambda^2) and its edge layers.
 !>
 !> Guembel's condition needs the field: it is rebuilt at Gauss points across the half width, and what lies
 !> below the cavitation pressure is taken out of the force.
