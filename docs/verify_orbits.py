@@ -141,7 +141,8 @@ def compared(program, folder, point, orbit, words, expected):
 
 
 def both_sides(program, folder):
-    """Rows of marches against multipliers, before and behind bifurcation points, and on both sides of a fold."""
+    """Rows of marches against multipliers, before and behind bifurcation points, and on both sides of a
+    fold."""
     for point in POINTS:
         special = bifurcation_point(program, folder, point, *point.sides)
         words = f"{point.words}: {branches.KINDS[special.kind][1]} at {special.parameter:.2f} rpm"

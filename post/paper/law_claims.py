@@ -17,7 +17,8 @@ CLAIMS = Claims()
 # ---- contact and friction laws ---------------------------------------------------------------------------
 @CLAIMS.add("Fig. 4", "The snug fit is the stiffest option: the larger dR, the smaller the force")
 def snug_fit_stiffest(runs: Runs) -> Verdict:
-    """Maximum ratio of the force to that of the next smaller dR at the same pivot deflection, R_2 = 100 mm."""
+    """Maximum ratio of the force to that of the next smaller dR at the same pivot deflection, R_2 = 100
+    mm."""
     forces = [fang_force(difference)[1][1:] for difference in FANG_DIFFERENCES]
     return smaller(max(float((b / a).max()) for a, b in pairwise(forces)))
 

@@ -98,16 +98,16 @@ vibration does not move a pivot with friction, however. Its bristles carry the m
 the pad follows the journal no more than a fixed one would, and the bearing has the cross-coupled stiffness
 of a fixed bearing: at {told} rpm {cross} MN/m beside a direct stiffness of {direct} MN/m. The left picture
 shows the damping ratio of the least damped mode on pads that stick (the task `coefficients`; {runs} runs),
-with the threshold speeds of stability for pivots that stick and that are locked; those of pivots that slide lie
-to the right of it. The right picture shows how the threshold speed of the paper's rotor falls to that of locked
-pads as the bristles become stiffer.
+with the threshold speeds of stability for pivots that stick and that are locked; those of pivots that slide
+lie to the right of it. The right picture shows how the threshold speed of the paper's rotor falls to that of
+locked pads as the bristles become stiffer.
 
 ![Damping ratio over speed and mass; threshold speed over bristle stiffness](stability.png)
 
 {threshold speeds}
 
-Marches with LuGre friction, without unbalance, from a displacement of 0.2 um confirm the threshold speed on both
-sides:
+Marches with LuGre friction, without unbalance, from a displacement of 0.2 um confirm the threshold speed on
+both sides:
 
 ![Journal below and above the threshold speed](whirl.png)
 
@@ -127,9 +127,9 @@ right pictures are the speeds at which the orbit is unstable.
 
 {lost}
 
-{lost_words} A small unbalance leaves the pads sticking, and the orbit is lost near the threshold speed of stability
-of pads that stick (above). A larger one makes them slide in each revolution, and may keep its orbit up to
-higher speeds.
+{lost_words} A small unbalance leaves the pads sticking, and the orbit is lost near the threshold speed of
+stability of pads that stick (above). A larger one makes them slide in each revolution, and may keep its
+orbit up to higher speeds.
 
 ## The four-pad bearing: orbits of two revolutions
 

@@ -74,7 +74,7 @@ def thresholds(runs: Runs, kind: str, words: tuple) -> dict[str, np.ndarray]:
 
 
 def stability_figure(runs: Runs) -> Figure:
-    """Least damping ratio on pads that stick, with the threshold speeds; threshold speeds over the bristles."""
+    """Least damping ratio on pads that stick, and threshold speeds; these also over the bristles."""
     fig, axes = plt.subplots(1, 2, figsize=(PAGE, 3.0))
     draw_ratios(axes[0], runs)
     over_mass = thresholds(runs, "mass", STICK_MASSES)
@@ -163,7 +163,8 @@ def whirl_words(runs: Runs) -> str:
     modes = [digits(first_growth(runs[stick_name(ROTOR_MASS, speed)])) for speed in WHIRL_SPEEDS]
     end = envelope(above)[1][-1]
     return (
-        f"For the rotor of the paper, {ROTOR_MASS} kg, the threshold speed on pads that stick is {stuck:.0f} rpm. "
+        f"For the rotor of the paper, {ROTOR_MASS} kg, the threshold speed on pads that stick "
+        f"is {stuck:.0f} rpm. "
         f"At {WHIRL_SPEEDS[0]} rpm the motion grows by {digits(growth(below, 0.1, 0.4))} 1/s (first mode: "
         f"{modes[0]}), which means that it dies away, at {WHIRL_SPEEDS[1]} rpm by "
         f"{digits(growth(above, 0.1, 0.2))} 1/s (first mode: {modes[1]}). The growth ends where the friction "

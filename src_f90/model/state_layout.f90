@@ -14,7 +14,7 @@ module state_layout
 
    !> Names of a pad's displacements; length of such a name with the number of a pad.
    character(len=*), parameter :: of_pad(2) = [character(len=16) :: 'tilt', 'pivot_deflection']
-   integer, parameter :: longest_name = 14
+   integer, parameter :: longest_name = 19
 
    type :: state_layout_type
       !> States of the rotor, pads, states of a pad (its motion and its bristles), all states.

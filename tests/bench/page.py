@@ -21,8 +21,8 @@ Wall times are those of the whole process, including the result file, on one cor
 nothing else. For runs below 2 s the page gives the minimum of two or three runs. Memory is the maximum of
 the process. The **error** of a run is the maximum deviation of journal y, journal z, pad tilt and friction
 moment in the last revolution from a converged run of the same case. Each deviation is over the
-peak-to-peak of its signal, or over 5 % of the signal's characteristic scale (bearing clearance; clearance over
-pad radius) if the peak-to-peak is smaller. The error must stay below {allowed:g}.
+peak-to-peak of its signal, or over 5 % of the signal's characteristic scale (bearing clearance; clearance
+over pad radius) if the peak-to-peak is smaller. The error must stay below {allowed:g}.
 
 A signal that jumps is compared by two numbers, by one rule for all cases. Where the converged signal
 changes by more than {jump:.0%} of its peak-to-peak from one sample to the next, a deviation tells when the
@@ -216,8 +216,8 @@ them, rigid pivots, pads nearly without mass, oil of one viscosity, laminar. ROS
 code is compiled and has solved one speed; it does more than is asked here for (it has a thermal model, for
 instance, that is switched off). ROSS finds the equilibrium anew for each frequency. "K" and "K and C"
 are the largest differences of an element from tiltpad's, over the largest element; they contain the grid of
-ROSS, and both programs treat the cavitation of the film in their own way. ROSS 3.1 asks for Python 3.13; where
-that is not at hand it runs on an older one, which its code allows.
+ROSS, and both programs treat the cavitation of the film in their own way. ROSS 3.1 asks for Python 3.13;
+where that is not at hand it runs on an older one, which its code allows.
 
 {maps}
 

@@ -29,7 +29,8 @@ def compliance(pivot: dict) -> float:
 
 
 def contact_table(pivot: dict, cells: int = 4000) -> tuple[float, np.ndarray]:
-    """Fang's law (11)-(18): spacing of the pivot deflections, and the force at each; forces up to some 100 kN."""
+    """Fang's law (11)-(18): spacing of the pivot deflections, and the force at each; forces up to some 100
+    kN."""
     outer = pivot["socket_radius"]
     inner = outer - pivot["radius_difference"]
     k = compliance(pivot)

@@ -14,7 +14,8 @@ pytestmark = pytest.mark.usefixtures("quick_pictures")
 
 @pytest.fixture
 def turned(changed, opened):
-    """A branch of nine points whose fifth is a period doubling, and a second branch that is unstable but for its end."""
+    """A branch of nine points whose fifth is a period doubling, and a second branch that is unstable but
+    for its end."""
 
     def edit(file):
         count = len(file["point"])

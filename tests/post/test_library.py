@@ -41,8 +41,8 @@ def test_rebuilt_forces_are_those_archived(run, case_name):
     march, 1e-5 of the scales of the states at the default tolerance; squeeze makes it several times that of
     the range of the force. The samples come from tables of converged films, the rebuilt ones from `direct`,
     whose finite volumes err by 2e-4 of it where the film cavitates. The maximum pressure is that at the
-    points of the solver. It has switching points where it passes from one point to the next, of 1e-3 of the range,
-    which no polynomial follows. The minimum film thickness in the file is calculated from the states.
+    points of the solver. It has switching points where it passes from one point to the next, of 1e-3 of the
+    range, which no polynomial follows. The minimum film thickness in the file is calculated from the states.
     """
     case = run(case_name)
     force = np.stack([case.film_force_tangential, case.film_force_radial], axis=2)

@@ -143,7 +143,8 @@ def cause_of(message: str) -> str:
 
 
 def searched(search: Path, case: Path) -> tuple[str, list[str]]:
-    """What the global search finds ('stable', 'oscillatory instability', 'static instability' or 'none'), and its own faults."""
+    """What the global search finds ('stable', 'oscillatory instability', 'static instability' or 'none'),
+    and its own faults."""
     done = limited([search, case.name], case.parent, SEARCHED)
     if done.hung:
         return "not ended", []
@@ -416,7 +417,8 @@ def difference(path: Path, other: Path, case: Case) -> tuple[float, float, float
 
 
 def state_scales(case: Case, file: h5py.File) -> dict[str, np.ndarray | float]:
-    """Characteristic scale of the positions, as the absolute tolerances have it; of the pivot deflection its largest."""
+    """Characteristic scale of the positions, as the absolute tolerances have it; of the pivot deflection
+    its largest."""
     bearing, clearance = case["bearing"], case["bearing"]["assembled_clearance"]
     radius = bearing["journal_radius"] + bearing["machined_clearance"]
     length = radius * np.radians(case["pads"]["arc_deg"])

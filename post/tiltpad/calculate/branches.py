@@ -1,4 +1,5 @@
-"""Branches of equilibria or periodic orbits over a parameter: stable and unstable parts, bifurcation points."""
+"""Branches of equilibria or periodic orbits over a parameter: stable and unstable parts, bifurcation
+points."""
 
 from typing import NamedTuple
 

@@ -24,8 +24,8 @@ def characteristic_scale(run: Run, name: str) -> float:
 
 def deviation(values: np.ndarray, true: np.ndarray, scale: float = 0.0) -> float | None:
     """Largest deviation of a signal, (time,) or (time, pad), from the true one, over the peak-to-peak of the
-    latter (of the pad that moves most), or over 5 % of its characteristic scale where it moves less; None where
-    there is neither.
+    latter (of the pad that moves most), or over 5 % of its characteristic scale where it moves less; None
+    where there is neither.
     """
     span = max(float(np.ptp(true, axis=0).max()), RESTING * scale)
     return float(np.abs(values - true).max()) / span if span > 0 else None

@@ -36,12 +36,12 @@ def to_ross(
 ) -> dict[str, Any]:
     """Keywords for ROSS's bearing: `ross.BearingElement(n=2, **tiltpad.to_ross(study))`.
 
-    The tables are `over` the speed (synchronously reduced coefficients, for unbalance response), over the whirl
-    `frequency` at one speed, or over both (for modes, Campbell diagrams and stability). By default those of a
-    run are over the frequency, those of a study over both where its runs have several frequency ratios, and
-    otherwise over the speed. The pads are condensed at each `frequency` (rad/s) without interpolation; by
-    default these are the run's own, or 25 over the range of the study. `pivot` and `where` choose as in
-    `coefficients`. Runs of a study without equilibrium are left out.
+    The tables are `over` the speed (synchronously reduced coefficients, for unbalance response), over the
+    whirl `frequency` at one speed, or over both (for modes, Campbell diagrams and stability). By default
+    those of a run are over the frequency, those of a study over both where its runs have several frequency
+    ratios, and otherwise over the speed. The pads are condensed at each `frequency` (rad/s) without
+    interpolation; by default these are the run's own, or 25 over the range of the study. `pivot` and
+    `where` choose as in `coefficients`. Runs of a study without equilibrium are left out.
 
     With `path` (.toml) a file is written, too, for `ross.BearingElement.load(path)`, for the node `node`.
     """

@@ -236,7 +236,8 @@ def revolution_mean(angle: np.ndarray, values: np.ndarray) -> np.ndarray:
 
 
 def spans_of(run: Run, spans: int) -> Iterator[slice]:
-    """Samples of at most this number of spans, which turn the shaft by equal angles of at least a revolution."""
+    """Samples of at most this number of spans, which turn the shaft by equal angles of at least a
+    revolution."""
     last_revolutions(run)
     first, final = ends(run, "shaft_angle")
     count = max(1, min(spans, int((final - first) / (2 * np.pi) + 1e-9)))

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tiltpad.collect.runs import DONE, UNENDED, StudyRun, planned, run
+from tiltpad.collect.runs import DONE, UNENDED, StudyRun, one_run, planned
 from tiltpad.collect.study_file import ranges, write
 from tiltpad.files.archive import RunError, opened, plain
 from tiltpad.files.read import IncompleteRunWarning
@@ -100,7 +100,7 @@ def gathered(files: Sequence[Path]) -> list[StudyRun]:
 def silent_run(path: Path) -> StudyRun:
     """The run of a file, without the warning for an incomplete run, which its status shows."""
     with warnings.catch_warnings(action="ignore", category=IncompleteRunWarning):
-        return run(path)
+        return one_run(path)
 
 
 def default_output(given: Sequence[Path]) -> Path:

@@ -29,7 +29,8 @@ NUMBERS = ("format_version", "complete", "exit_status", "resumes", "run", "runs"
 UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f\ud800-\udfff]")
 #: The library's own filters; it would look for others on the machine.
 FILTERS = (h5z.FILTER_DEFLATE, h5z.FILTER_SHUFFLE, h5z.FILTER_FLETCHER32, h5z.FILTER_LZF)
-#: A compressed array may be this many times as large as the whole file, or have this number of bytes. Deflated zeros
+#: A compressed array may be this many times as large as the whole file, or have this number of bytes.
+#: Deflated zeros
 #: reach a ratio of 1000, results hardly 2.
 COMPRESSION, SMALL = 20, 1 << 24
 #: Longest attribute in the list of attributes itself, bytes; texts of variable length stand elsewhere.

@@ -164,7 +164,8 @@ RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def numbers(shown: Shown, values: Sequence[float] | np.ndarray, count: int = 4) -> list[str]:
-    """Values in a unit, with this number of digits; those that are nothing beside the largest with its decimals."""
+    """Values in a unit, with this number of digits; those that are nothing beside the largest with its
+    decimals."""
     own = [shown.factor * float(each) for each in values]
     largest = max((abs(each) for each in own if np.isfinite(each)), default=0.0)
     places = len(digits(largest, count).partition(".")[2])
