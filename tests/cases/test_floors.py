@@ -51,7 +51,7 @@ def test_uses_that_may_be(house):
         "   use hdf5, only: x\n   ! use cvode\n   use, intrinsic :: iso_c_binding\n   use text, only: y\n"
     )
     root = house(
-        {"base/kinds.f90": beside, "base/text.F90": "", "film/fourier/a.f90": "use b\n", "film/b.f90": ""}
+        {"base/kinds.f90": beside, "base/text.F90": "", "film/inner/a.f90": "use b\n", "film/b.f90": ""}
     )
     assert not list(floors.fortran_floors(root))
 

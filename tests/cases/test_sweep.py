@@ -218,7 +218,7 @@ def test_two_sweeps_are_not_mixed(tiltpad, case):
         ("rotor%mass=1900", f"0001.h5: {other}; rotor%mass = 2000 there, 1900 here{WAY_OUT}"),
         (
             "sweep%operation%speed_rpm=3000,4000",
-            "0003.h5: is no run of this sweep, which has 2; remove it, or name another folder with --output",
+            "0003.h5: is no run of this study, which has 2; remove it, or name another folder with --output",
         ),
     ):
         before = {path: path.read_bytes() for path in (folder / "case").iterdir()}
@@ -235,7 +235,7 @@ def test_a_single_member_looks_at_its_neighbours(tiltpad, case):
     result(tiltpad("case.nml", cwd=folder))
     other = ("--set", "sweep%operation%speed_rpm=3000:7000:500")
     _, errors = result(tiltpad("case.nml", "--run", 4, *other, cwd=folder), status=3)
-    assert errors == ["case/0003.h5: is of another sweep than run 4" + WAY_OUT]
+    assert errors == ["case/0003.h5: is of another study than run 4" + WAY_OUT]
     assert len(files(folder / "case")) == 3
     grown = ("--set", "sweep%operation%speed_rpm=3000:7000:1000")
     result(tiltpad("case.nml", "--run", 4, *grown, cwd=folder))
@@ -243,7 +243,7 @@ def test_a_single_member_looks_at_its_neighbours(tiltpad, case):
     (folder / "one.nml").write_text(QUICK)
     options = ("--set", "operation%speed_rpm=3000", "--output", "case/0001.h5")
     _, errors = result(tiltpad("one.nml", *options, cwd=folder), status=3)
-    assert errors == ["case/0001.h5: is run 1 of a sweep" + WAY_OUT]
+    assert errors == ["case/0001.h5: is run 1 of a study" + WAY_OUT]
 
 
 def test_a_sweep_may_grow(tiltpad, case):
@@ -262,13 +262,13 @@ def test_the_same_case_in_another_place_is_refused(tiltpad, case):
     result(tiltpad("case.nml", cwd=folder))
     _, errors = result(tiltpad("case.nml", "--set", "sweep%rotor%gravity=9.81", cwd=folder), status=3)
     assert errors[0].endswith(
-        "case/0001.h5: is run 1 of another sweep; operation%speed_rpm = 6500 there, "
+        "case/0001.h5: is run 1 of another study; operation%speed_rpm = 6500 there, "
         "operation%speed_rpm = 6500, rotor%gravity = 9.81 here" + WAY_OUT
     )
     (folder / "one.nml").write_text(QUICK)
     result(tiltpad("one.nml", "--output", "case/0001.h5", "--overwrite", cwd=folder))
     _, errors = result(tiltpad("case.nml", cwd=folder), status=3)
-    assert errors == ["case/0001.h5: is the result of the same case, but no run of a sweep" + WAY_OUT]
+    assert errors == ["case/0001.h5: is the result of the same case, but no run of a study" + WAY_OUT]
 
 
 def test_file_names_have_the_digits_of_the_last_member(tiltpad, case):

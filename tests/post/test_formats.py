@@ -26,6 +26,9 @@ def former(result, tmp_path):
     shutil.copy(result("lugre"), path)
     with h5py.File(path, "r+") as file:
         file.attrs["format_version"] = 2
+        for name, today in former_names.FORMER_NAMES.items():
+            if today in file:
+                file.move(today, name)
         del file["summary"]
         del file.attrs["diagnosis"]
     return path
@@ -69,6 +72,9 @@ def test_a_former_study(sweep, tmp_path, capsys):
     shutil.copy(tmp_path / "study.h5", tmp_path / "former.h5")
     with h5py.File(tmp_path / "former.h5", "r+") as file:
         file.attrs["format_version"] = 2
+        for name, today in former_names.FORMER_NAMES.items():
+            if today in file:
+                file.move(today, name)
         for name, today in former_names.FORMER_NAMES.items():
             if today in file:
                 file.move(today, name)

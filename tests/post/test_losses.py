@@ -38,7 +38,7 @@ def test_totals(run):
     rest = run("four")["equilibrium"]
     for name in ("power_loss", *FLOWS):
         assert rest[f"total_{name}"] == pytest.approx(rest[name].sum(), rel=1e-12)
-    parts = sum(rest[f"{name}_loss"] for name in ("couette", "pressure", "boundary"))
+    parts = sum(rest[f"{name}_loss"] for name in ("couette", "poiseuille", "boundary"))
     np.testing.assert_allclose(rest["power_loss"], parts, rtol=1e-12)
     # at rest the shaft brings all heat
     drag = rest["journal_drag"] * 6500 * np.pi / 30

@@ -90,7 +90,7 @@ def figures(folder):
         yield "from {:.1f} to {:.1f} um in the vertical".format(*sizes)
     with result("plain.h5") as run:
         yield f"whirls at {run['summary/whirl_order']:.2f} of the shaft speed"
-    with result("threshold speed.h5") as run:
+    with result("threshold.h5") as run:
         yield f"from which speed on: {run['modes/threshold_rpm'][-1]:.0f} rpm"
     with result("warm.h5") as run:
         e = run.equilibrium

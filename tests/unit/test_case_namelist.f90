@@ -294,7 +294,7 @@ contains
 
    subroutine refused_values()
       call expect_refused('&roter /', 'unknown group &roter')
-      call expect_refused('&rotor /'//newline//'&sweep rotor%mass = 1, 2/', 'line 2: a sweep, where one case')
+      call expect_refused('&rotor /'//newline//'&sweep rotor%mass = 1, 2/', 'line 2: a study, where one case')
       call expect_refused('&rotor'//newline//'m#ss = 1/', 'line 2')
       call expect_refused('&rotor mas = 1/', 'unknown variable rotor%mas (did you mean mass?); known: mass')
       call expect_refused('&rotor mass = heavy/', 'rotor%mass = heavy: must be a number')

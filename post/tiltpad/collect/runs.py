@@ -131,7 +131,7 @@ def place(attributes: dict[str, Any]) -> tuple[int | None, int | None, dict[str,
     sweep = swept(attributes.get("sweep", ""))
     if strange := [name for name in sweep if not VARIABLE.fullmatch(name)]:
         raise ValueError(f"{strange[0]!r} is no variable")
-    marks = tuple(f"{attributes.get('sweep_marks', '')}".split())
+    marks = tuple(f"{attributes.get('study_marks', '')}".split())
     return number, runs, sweep, marks if len(marks) == len(("before", "own", "all")) else None
 
 
