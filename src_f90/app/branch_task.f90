@@ -12,7 +12,7 @@ module branch_task
    use newton_method, only: branch_point_type
    use bifurcations, only: bifurcation_type
    use branch_progress, only: branch_progress_type
-   use orbit_figures, only: orbit_figures_type, find_orbit_figures, figures_at_rest
+   use orbit_figures, only: orbit_figures_type, find_orbit_figures, figures_of_equilibrium
    use heat_balance, only: oil_temperatures_type
    use heat_balance_equations, only: has_warm_oil
    use branch_results, only: branch_orbit_type, noted_point_type, begin_branches, add_point, put_bifurcations, noted
@@ -104,9 +104,10 @@ contains
       type(branch_progress_type), intent(inout), target :: b
       type(error_type), allocatable, intent(out) :: error
       type(periodic_orbit_type) :: found
-      real(wp), allocatable :: y(:), at_rest(:)
-      call make_start(run, y, error, at_rest)
-      if (.not. allocated(error) .and. has_warm_oil(run%model)) call rest_oil(run, b, at_rest, error)
+      real(wp), allocatable :: y(:), equilibrium_state(:)
+      call make_start(run, y, error, equilibrium_state)
+      if (.not. allocated(error) .and. has_warm_oil(run%model)) call oil_of_equilibrium(run, b, equilibrium_state, &
+         error)
       if (allocated(error)) return
       call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier%count('steps')), y, found, &
          & error, stop_requested)
@@ -115,22 +116,22 @@ contains
    end subroutine first_orbit
 
    !> Gives the oil of the first orbit the viscosities of the equilibrium, from which those of the others follow.
-   subroutine rest_oil(run, b, at_rest, error)
+   subroutine oil_of_equilibrium(run, b, equilibrium_state, error)
       type(case_run_type), intent(inout) :: run
       type(branch_progress_type), intent(inout), target :: b
       !> Where the start is from it, the model has its viscosities already.
-      real(wp), allocatable, intent(inout) :: at_rest(:)
+      real(wp), allocatable, intent(inout) :: equilibrium_state(:)
       type(error_type), allocatable, intent(out) :: error
       type(equilibrium_type) :: static
-      if (.not. allocated(at_rest)) then
+      if (.not. allocated(equilibrium_state)) then
          call find_equilibrium(run%model, static, error, stop_requested)
          call add_context(error, 'the oil takes the temperatures of the equilibrium')
          if (allocated(error)) return
          run%model%oil%viscosity = static%viscosity
-         at_rest = run%model%at_rest(static%journal, static%tilt, static%pivot_deflection)
+         equilibrium_state = run%model%static_state(static%journal, static%tilt, static%pivot_deflection)
       end if
-      call b%begin_oil(run%model, at_rest)
-   end subroutine rest_oil
+      call b%begin_oil(run%model, equilibrium_state)
+   end subroutine oil_of_equilibrium
 
    !> The equilibrium of the case, with converged films.
    subroutine first_equilibrium(run, b, error)
@@ -256,7 +257,7 @@ contains
             call add_point(run%file, b%branch, b%parameter, point, figures, tilting, error, oil, viscosity, &
                & branch_orbit_type(b%orbits%period_multiple, orbit%intervals(), b%orbits%period()))
          else
-            call figures_at_rest(b%static, b%equilibria%state(), figures)
+            call figures_of_equilibrium(b%static, b%equilibria%state(), figures)
             viscosity = b%equilibria%viscosity
             if (allocated(oil)) call b%equilibria%temperatures(oil)
             call add_point(run%file, b%branch, b%parameter, point, figures, tilting, error, oil, viscosity)

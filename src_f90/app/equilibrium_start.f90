@@ -35,7 +35,7 @@ contains
       call seek_equilibrium(run, static, error)
       if (allocated(error)) return
       call note_equilibrium(run, static)
-      y = run%model%at_rest(static%journal, static%tilt, static%pivot_deflection)
+      y = run%model%static_state(static%journal, static%tilt, static%pivot_deflection)
    end subroutine start_at_equilibrium
 
    !> Creates the file and finds the equilibrium.

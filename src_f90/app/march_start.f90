@@ -23,12 +23,12 @@ module march_start
 contains
 
    !> Creates the file and finds the state y to start from.
-   subroutine make_start(run, y, error, at_rest)
+   subroutine make_start(run, y, error, equilibrium_state)
       type(case_run_type), intent(inout) :: run
       real(wp), allocatable, intent(out) :: y(:)
       type(error_type), allocatable, intent(out) :: error
       !> The equilibrium, if it was sought.
-      real(wp), allocatable, intent(out), optional :: at_rest(:)
+      real(wp), allocatable, intent(out), optional :: equilibrium_state(:)
       type(journal_motion) :: journal
       type(pad_state), allocatable :: pads(:)
       logical :: ok
@@ -37,14 +37,14 @@ contains
             call start_at_equilibrium(run, y, error)
             if (.not. allocated(error)) call let_grooves_warm(run, y, error)
             if (.not. allocated(error)) call note_oil(run)
-            if (present(at_rest) .and. .not. allocated(error)) at_rest = y
+            if (present(equilibrium_state) .and. .not. allocated(error)) equilibrium_state = y
             if (allocated(error) .or. .not. is_disturbed(run)) return
             journal = model%rotor%journal(y(:model%rotor%states))
             pads = model%layout%pad_states(y)
          else
             allocate (pads(model%layout%pads))
             if (from == 'file') call start_from_file(run, journal, pads, error)
-            if (from /= 'partial' .and. .not. allocated(error)) call take_oil(run, error, at_rest)
+            if (from /= 'partial' .and. .not. allocated(error)) call take_oil(run, error, equilibrium_state)
             if (from == 'partial') call start_partially(run, journal, pads, error)
             if (.not. allocated(error)) call create_file(run, error)
             if (allocated(error)) return
@@ -74,11 +74,11 @@ contains
 
    !> Gives warm oil the viscosities of the equilibrium, which it keeps in a march that starts elsewhere or goes on from
    !> a checkpoint.
-   subroutine take_oil(run, error, at_rest)
+   subroutine take_oil(run, error, equilibrium_state)
       type(case_run_type), intent(inout) :: run
       type(error_type), allocatable, intent(inout) :: error
       !> The equilibrium, if it was sought.
-      real(wp), allocatable, intent(out), optional :: at_rest(:)
+      real(wp), allocatable, intent(out), optional :: equilibrium_state(:)
       type(equilibrium_type) :: static
       real(wp), allocatable :: y(:)
       logical, allocatable :: held(:)
@@ -90,9 +90,9 @@ contains
       end if
       if (.not. allocated(error)) then
          run%model%oil%viscosity = static%viscosity
-         y = run%model%at_rest(static%journal, static%tilt, static%pivot_deflection)
+         y = run%model%static_state(static%journal, static%tilt, static%pivot_deflection)
          call let_grooves_warm(run, y, error)
-         if (present(at_rest)) at_rest = y
+         if (present(equilibrium_state)) equilibrium_state = y
       else if (error%status == stopped) then
          error%message = stop_reason()//' while the temperatures of the oil were sought'
       else
@@ -144,7 +144,7 @@ contains
       end associate
    end subroutine start_from_file
 
-   !> Journal and loaded pads in equilibrium, and pads without rest position held at zero tilt on their pivots.
+   !> Journal and loaded pads in equilibrium, and pads without equilibrium held at zero tilt on their pivots.
    subroutine start_partially(run, journal, pads, error)
       type(case_run_type), intent(inout) :: run
       type(journal_motion), intent(inout) :: journal
@@ -163,7 +163,7 @@ contains
       pads%pivot_deflection = static%pivot_deflection
       run%model%oil%viscosity = static%viscosity
       do i = 1, size(held)
-         if (held(i) .and. .not. run%quiet) print '(a)', 'pad '//to_text(i)//' has no rest position: it starts ' &
+         if (held(i) .and. .not. run%quiet) print '(a)', 'pad '//to_text(i)//' has no equilibrium: it starts ' &
             & //'without tilt on its pivot'
       end do
    end subroutine start_partially

@@ -75,7 +75,8 @@ contains
          end if
          allocate (none(pads), source=0.0_wp)
          do i = 1, n
-            call self%orbit%add(self%run%model%positions(self%run%model%at_rest([y(1, i), z(1, i)], tilt(:, i), none)))
+            call self%orbit%add(self%run%model%positions(self%run%model%static_state([y(1, i), z(1, i)], tilt(:, i), &
+               none)))
          end do
       end associate
    end subroutine follow_orbit

@@ -1,4 +1,5 @@
-!> Rows of numbers that are filled up to whole SIMD vectors of the processor, so that loops over them have no rest.
+!> Rows of numbers that are filled up to whole SIMD vectors of the processor, so that loops over them have no
+!> equilibrium.
 module simd_padding
    use kinds, only: wp
    implicit none (type, external)

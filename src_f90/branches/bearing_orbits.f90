@@ -1,5 +1,5 @@
 !> The periodic orbits of a bearing as those of an ODE with a parameter. Warm oil keeps the viscosities of the bearing
-!> at rest, as in a march.
+!> in equilibrium, as in a march.
 module bearing_orbits
    use kinds, only: wp, pi
    use errors, only: error_type

@@ -35,7 +35,7 @@ module branch_progress
       type(orbit_problem_type) :: orbits
       type(equilibrium_problem_type) :: equilibria
       type(bearing_orbits_type) :: ode
-      !> At rest: of equilibria, with converged films; of orbits with warm oil, for its viscosities.
+      !> In equilibrium: of equilibria, with converged films; of orbits with warm oil, for its viscosities.
       type(bearing_model) :: static
       !> Number of the branch that is followed, and of its points; the length of the next step.
       integer :: branch = 1, points = 0
@@ -115,12 +115,12 @@ contains
 
    !> Gives orbits the viscosities of warm oil from the equilibrium, whose state this is and whose viscosities the model
    !> has.
-   subroutine begin_oil(self, model, at_rest)
+   subroutine begin_oil(self, model, equilibrium_state)
       class(branch_progress_type), intent(inout), target :: self
       type(bearing_model), intent(in) :: model
-      real(wp), intent(in) :: at_rest(:)
+      real(wp), intent(in) :: equilibrium_state(:)
       call make_static(model, model%point%cavitation, self%static)
-      self%ode%oil = new_frozen_viscosity(varied_bearing_type(self%static, self%parameter), at_rest)
+      self%ode%oil = new_frozen_viscosity(varied_bearing_type(self%static, self%parameter), equilibrium_state)
    end subroutine begin_oil
 
    subroutine begin_with_orbit(self, orbit, period_multiple)
@@ -251,19 +251,19 @@ contains
       end do
    end subroutine note_flips
 
-   !> A branch of orbits that is lost where the rest turns back from which its oil takes its viscosities has ended: near
-   !> such a rest nothing is smooth over the parameter.
+   !> A branch of orbits that is lost where the equilibrium turns back from which its oil takes its viscosities has
+   !> ended: near such an equilibrium nothing is smooth over the parameter.
    subroutine blame_oil(branches, ended, error)
       type(branch_progress_type), intent(inout) :: branches
       logical, intent(inout) :: ended
       type(error_type), allocatable, intent(inout) :: error
-      type(error_type), allocatable :: without_rest
+      type(error_type), allocatable :: lost
       if (error%status == stopped .or. .not. allocated(branches%ode%oil)) return
       associate (here => branches%here, step => branches%options%first_step*branches%orbits%unit)
-         call branches%ode%set(here%parameter + sign(near*step, here%tangent(size(here%tangent))), without_rest)
+         call branches%ode%set(here%parameter + sign(near*step, here%tangent(size(here%tangent))), lost)
       end associate
-      ended = allocated(without_rest)
-      if (ended) call move_alloc(without_rest, error)
+      ended = allocated(lost)
+      if (ended) call move_alloc(lost, error)
    end subroutine blame_oil
 
    !> Lets the problem stand at a point that was found.

@@ -8,7 +8,7 @@ module equilibrium_branch
    use eigenvalues, only: largest_first
    use newton_method, only: branch_problem_type, place_part_type
    use force_balance, only: forces, force_derivatives
-   use damped_newton, only: clearances, reference_force
+   use pseudo_transient, only: clearances, reference_force
    use linear_bearing, only: linear_bearing_of, pivot_name
    use vibration_modes, only: rotor_eigenvalues
    use heat_balance, only: oil_temperatures_type
@@ -86,7 +86,7 @@ contains
       problem%unit = unit
    end subroutine begin_equilibria
 
-   !> The state at rest at the present positions.
+   !> The state in equilibrium at the present positions.
    pure function state(self) result(y)
       class(equilibrium_problem_type), intent(in) :: self
       real(wp) :: y(self%bearing%model%n)

@@ -1,29 +1,29 @@
-!> The viscosities of warm oil for orbits over a parameter: those of the bearing at rest at a value of it, which a
-!> motion keeps. All searches around a point of a branch begin at the same rest, so that what they find is smooth over
-!> the parameter, and the same again where a branch is taken up.
+!> The viscosities of warm oil for orbits over a parameter: those of the bearing in equilibrium at a value of it, which
+!> a motion keeps. All searches around a point of a branch begin at the same equilibrium, so that what they find is
+!> smooth over the parameter, and the same again where a branch is taken up.
 module frozen_viscosity
    use kinds, only: wp
    use errors, only: error_type, add_context
    use heat_balance, only: oil_temperatures_type
-   use thermal_equilibrium, only: come_to_warm_rest
+   use thermal_equilibrium, only: solve_thermal_equilibrium
    use heat_balance_equations, only: state_balance_type, find_temperatures
    use varied_bearing, only: varied_bearing_type
    implicit none (type, external)
    private
    public :: frozen_viscosity_type, new_frozen_viscosity
 
-   !> A state at rest and the viscosities there, Pa s, at a value of the parameter.
-   type :: rest_type
+   !> A state in equilibrium and the viscosities there, Pa s, at a value of the parameter.
+   type :: static_state_type
       real(wp) :: value = -huge(1.0_wp)
       real(wp), allocatable :: y(:), viscosity(:)
-   end type rest_type
+   end type static_state_type
 
    type :: frozen_viscosity_type
       private
       !> With a static model.
       type(varied_bearing_type) :: bearing
       !> Where searches begin; what they have found, the last first.
-      type(rest_type) :: start, found, before
+      type(static_state_type) :: start, found, before
       type(state_balance_type) :: balance
    contains
       procedure :: find
@@ -35,7 +35,7 @@ module frozen_viscosity
 
 contains
 
-   !> The oil of a bearing whose model, a static one, is at rest in y with the viscosities of this rest.
+   !> The oil of a bearing whose model, a static one, is in equilibrium in y with the viscosities of this equilibrium.
    type(frozen_viscosity_type) function new_frozen_viscosity(bearing, y) result(self)
       type(varied_bearing_type), intent(in) :: bearing
       real(wp), intent(in) :: y(:)
@@ -54,26 +54,26 @@ contains
       real(wp), intent(out) :: viscosity(:)
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: ignored
-      type(rest_type) :: rest
+      type(static_state_type) :: here
       real(wp) :: residual
       if (abs(self%before%value - value) <= 0) then
-         rest = self%before
+         here = self%before
          self%before = self%found
-         self%found = rest
+         self%found = here
       else if (abs(self%found%value - value) > 0) then
          ! who asks knows of himself whether the value is allowed
          call self%bearing%set_value(value, ignored)
-         rest = self%start
+         here = self%start
          associate (model => self%bearing%model)
-            model%oil%viscosity = rest%viscosity
-            call come_to_warm_rest(model, rest%y, residual, error)
+            model%oil%viscosity = here%viscosity
+            call solve_thermal_equilibrium(model, here%y, residual, error)
             call add_context(error, 'the oil takes the temperatures of the equilibrium')
-            rest%viscosity = model%oil%viscosity
+            here%viscosity = model%oil%viscosity
          end associate
          if (.not. allocated(error)) then
-            rest%value = value
+            here%value = value
             self%before = self%found
-            self%found = rest
+            self%found = here
          end if
       end if
       viscosity = self%found%viscosity

@@ -5,7 +5,7 @@ module orbit_figures
    use orbit_polynomials, only: orbit_type
    implicit none (type, external)
    private
-   public :: orbit_figures_type, find_orbit_figures, figures_at_rest
+   public :: orbit_figures_type, find_orbit_figures, figures_of_equilibrium
 
    type :: orbit_figures_type
       !> Of the journal along y and z, m: highest and lowest, amplitude of the vibration with the shaft, and the angle
@@ -43,13 +43,13 @@ contains
       figures%phase = atan2(synchronous%im, synchronous%re)
    end subroutine find_orbit_figures
 
-   !> The figures of a state at rest.
-   subroutine figures_at_rest(model, y, figures)
+   !> The figures of a state in equilibrium.
+   subroutine figures_of_equilibrium(model, y, figures)
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(orbit_figures_type), intent(out) :: figures
       call widen(model, 0.0_wp, y, figures)
-   end subroutine figures_at_rest
+   end subroutine figures_of_equilibrium
 
    !> Takes a state at time t, s, into the figures.
    subroutine widen(model, t, y, figures)

@@ -23,8 +23,8 @@ module stability_threshold
 contains
 
    !> For each linearised bearing the lowest speed, rpm, from that of the model up to that of its case at which an
-   !> eigenvalue crosses the imaginary axis; no number where none does. The model, a static one, is at rest in y. An
-   !> error only of status `stopped`, where `give_up` says so.
+   !> eigenvalue crosses the imaginary axis; no number where none does. The model, a static one, is in equilibrium in y.
+   !> An error only of status `stopped`, where `give_up` says so.
    subroutine find_thresholds(model, y, found, error, give_up)
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: y(:)

@@ -1,6 +1,6 @@
 !> Static equilibrium of journal and pads at constant speed: no unbalance, no friction.
 !>
-!> The first search is pseudo-transient continuation (damped_newton) from the best of some positions along the load;
+!> The first search is pseudo-transient continuation (pseudo_transient) from the best of some positions along the load;
 !> where it fails, from the equilibrium with full films. Where these fail, or find an equilibrium that no motion dwells
 !> in, a wider one follows from all these positions: by small problems of the pads, by Newton's method, damped, and by
 !> small problems of the pads whose equilibria are sought over all their tilts. docs/stability.md counts what each
@@ -10,13 +10,13 @@ module equilibrium
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error, stopped, asked_to_stop, asked
    use equations_of_motion, only: bearing_model
-   use damped_newton, only: follow_motion, unbalanced, newtons, residual_limit
+   use pseudo_transient, only: follow_motion, unbalanced, newtons, residual_limit
    use small_vibrations, only: stability_at
    use pad_elimination, only: eliminate_pads
-   use pad_rest, only: find_rests
-   use static_model, only: equilibrium_type, describe, make_static, make_quick, come_to_rest, start, starts
+   use pad_equilibrium, only: find_pad_equilibria
+   use static_model, only: equilibrium_type, describe, make_static, make_quick, solve_equilibrium, start, starts
    use heat_balance_equations, only: has_warm_oil
-   use thermal_equilibrium, only: guess_oil, guesses, come_to_warm_rest
+   use thermal_equilibrium, only: guess_oil, guesses, solve_thermal_equilibrium
    use equilibrium_refusal, only: search_traces, refusal
    implicit none (type, external)
    private
@@ -55,8 +55,8 @@ contains
          call find_isothermal(warm, found, error, give_up)
          if (.not. allocated(error)) then
             call make_static(warm, warm%point%cavitation, static)
-            y = static%at_rest(found%journal, found%tilt, found%pivot_deflection)
-            call come_to_warm_rest(static, y, found%residual, error, give_up)
+            y = static%static_state(found%journal, found%tilt, found%pivot_deflection)
+            call solve_thermal_equilibrium(static, y, found%residual, error, give_up)
          end if
          if (allocated(error)) then
             if (error%status == stopped) return
@@ -182,10 +182,10 @@ contains
             y = start(quick, k)
             call approach(quick, methods(method), y, traces, ok, give_up)
             if (.not. ok) cycle
-            ! loose films leap by their error: where they do nothing comes to rest
+            ! loose films leap by their error: where they do nothing comes to equilibrium
             call follow_motion(quick, y, candidate%residual, error, give_up, first_step=newtons)
             if (candidate%residual > near) cycle
-            call come_to_rest(static, y, candidate%residual, error, give_up, most=few)
+            call solve_equilibrium(static, y, candidate%residual, error, give_up, most=few)
             if (allocated(error)) cycle
             if (.not. is_usable(static, y, candidate, traces)) cycle
             if (.not. is_better(candidate, found)) cycle
@@ -218,21 +218,21 @@ contains
       logical, intent(out) :: ok
       procedure(asked_to_stop), optional :: give_up
       type(error_type), allocatable :: error
-      logical :: at_rest(model%layout%pads)
+      logical :: in_equilibrium(model%layout%pads)
       real(wp) :: residual, y_of_pads(size(y))
       select case (method)
       case ('pads')
-         ! where a pad finds no rest Newton's method on the whole may still find one, with the journal elsewhere
-         call eliminate_pads(model, y, at_rest, ok, give_up)
+         ! where a pad finds no equilibrium Newton's method on the whole may still find one, with the journal elsewhere
+         call eliminate_pads(model, y, in_equilibrium, ok, give_up)
       case ('pad equilibria')
-         call eliminate_pads(model, y, at_rest, ok, give_up)
-         if (ok) ok = .not. all(at_rest)
+         call eliminate_pads(model, y, in_equilibrium, ok, give_up)
+         if (ok) ok = .not. all(in_equilibrium)
          if (.not. ok) return
-         call find_rests(model, y, at_rest)
-         if (.not. all(at_rest)) traces%restless = .not. at_rest
+         call find_pad_equilibria(model, y, in_equilibrium)
+         if (.not. all(in_equilibrium)) traces%without_equilibrium = .not. in_equilibrium
          y_of_pads = y
-         call eliminate_pads(model, y_of_pads, at_rest, ok, give_up)
-         if (ok .and. all(at_rest)) y = y_of_pads
+         call eliminate_pads(model, y_of_pads, in_equilibrium, ok, give_up)
+         if (ok .and. all(in_equilibrium)) y = y_of_pads
          ok = .true.
       case default
          call follow_motion(model, y, residual, error, give_up)
@@ -254,8 +254,8 @@ contains
    end function is_usable
 
    !> The partial equilibrium of a model under its load at its initial speed, and which pads are held; none where all
-   !> find their rest. An error where the journal finds none, or, of status `stopped`, where `give_up`, asked between
-   !> evaluations of the films, says so. The record has no stability.
+   !> find their equilibrium. An error where the journal finds none, or, of status `stopped`, where `give_up`, asked
+   !> between evaluations of the films, says so. The record has no stability.
    subroutine find_partial_equilibrium(model, found, held, error, give_up)
       type(bearing_model), intent(in) :: model
       type(equilibrium_type), intent(out) :: found
@@ -264,21 +264,21 @@ contains
       procedure(asked_to_stop), optional :: give_up
       type(bearing_model) :: static, quick
       real(wp) :: y(model%n)
-      logical :: at_rest(model%layout%pads), ok
+      logical :: in_equilibrium(model%layout%pads), ok
       integer :: k
       call make_static(model, model%point%cavitation, static)
       if (has_warm_oil(model)) call guess_oil(static, 1)
       call make_quick(model%inputs, static%oil%viscosity, model%point%cavitation, quick)
       do k = 1, starts
          y = start(quick, k)
-         call eliminate_pads(quick, y, at_rest, ok, give_up)
+         call eliminate_pads(quick, y, in_equilibrium, ok, give_up)
          if (asked(give_up)) then
             call raise(error, stopped, 'stopped while the equilibrium was sought')
             return
          end if
          if (.not. ok) cycle
-         held = .not. at_rest
-         call come_to_warm_rest(static, y, found%residual, error, give_up, held)
+         held = .not. in_equilibrium
+         call solve_thermal_equilibrium(static, y, found%residual, error, give_up, held)
          if (.not. allocated(error)) then
             call describe(static, y, found)
             return
@@ -286,6 +286,6 @@ contains
          if (error%status == stopped) return
       end do
       call raise(error, numerics_error, 'no partial equilibrium found at '//to_text(model%point%speed_rpm) &
-         & //' rpm: the journal finds no rest on pads that do')
+         & //' rpm: the journal finds no equilibrium on pads that do')
    end subroutine find_partial_equilibrium
 end module equilibrium

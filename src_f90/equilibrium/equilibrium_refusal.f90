@@ -11,8 +11,8 @@ module equilibrium_refusal
    type :: search_traces
       !> What the first search said at its end.
       character(len=:), allocatable :: last_words
-      !> Pads that found no rest where the journal and the others did.
-      logical, allocatable :: restless(:)
+      !> Pads that found no equilibrium where the journal and the others did.
+      logical, allocatable :: without_equilibrium(:)
       !> Growth, 1/s, of the last statically unstable equilibrium; 0: none was found.
       real(wp) :: divergence = 0
       !> Whether the first search ended at a film that did not converge: no other search would help.
@@ -64,13 +64,13 @@ contains
       else if (.not. load_on_pads(model)) then
          cause = 'the load points to '//to_text(load_angle(model))//' deg, where no pad is; turn the load ' &
             & //'(rotor%static_load) or add a pad there (pads%pivot_angle_deg)'
-      else if (allocated(traces%restless)) then
-         cause = listed(traces%restless)//' no rest position (unloaded); try start%from = ''partial'''
+      else if (allocated(traces%without_equilibrium)) then
+         cause = listed(traces%without_equilibrium)//' no equilibrium (unloaded); try start%from = ''partial'''
       else if (count == 2) then
          cause = 'two pads that push the journal away; try another angle between them (pads%pivot_angle_deg) ' &
             & //'or another pads%pivot_ratio'
       else if (traces%divergence > 0) then
-         cause = 'the journal leaves every rest that was found; try more preload or another load'
+         cause = 'the journal leaves every equilibrium that was found; try more preload or another load'
       else
          cause = 'the search did not end; try another load or clearance'
       end if

@@ -1,6 +1,6 @@
 !> The oil of a run-up: while the speed changes, the oil in the groove before each pad is renewed in its own time by
-!> what enters it, and the films take the temperatures to which it leads, in the bearing at rest. The shaft keeps its
-!> own.
+!> what enters it, and the films take the temperatures to which it leads, in the bearing in equilibrium. The shaft keeps
+!> its own.
 module groove_transient
    use kinds, only: wp, rpm
    use text, only: to_text
@@ -10,7 +10,7 @@ module groove_transient
    use equations_of_motion, only: bearing_model
    use static_model, only: make_static
    use heat_balance_equations, only: state_balance_type, find_temperatures
-   use thermal_equilibrium, only: come_to_warm_rest
+   use thermal_equilibrium, only: solve_thermal_equilibrium
    implicit none (type, external)
    private
    public :: find_groove_transient
@@ -47,7 +47,7 @@ contains
          static%point%speed_rpm = model%point%speed(time(k))/rpm
          if (k > 0) then
             call renew(oil%inlet, entering, rate, time_constant, time(k) - time(k - 1))
-            call come_to_warm_rest(static, state, residual, error, give_up, kept=oil)
+            call solve_thermal_equilibrium(static, state, residual, error, give_up, kept=oil)
             call add_context(error, 'oil of the run-up at '//to_text(static%point%speed_rpm)//' rpm')
             if (allocated(error)) return
          end if

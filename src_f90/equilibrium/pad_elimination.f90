@@ -1,5 +1,6 @@
-!> Brings a model to rest by small problems: for a position of the journal every pad finds its own rest, alone and with
-!> a time step of its own; then the journal moves under what the pads answer. A light pad that hunts holds up no other.
+!> Brings a model to equilibrium by small problems: for a position of the journal every pad finds its own equilibrium,
+!> alone and with a time step of its own; then the journal moves under what the pads answer. A light pad that hunts
+!> holds up no other.
 module pad_elimination
    use kinds, only: wp
    use errors, only: asked_to_stop, asked
@@ -8,28 +9,29 @@ module pad_elimination
    use kinematics, only: pad_state
    use equations_of_motion, only: bearing_model
    use force_balance, only: forces, pad_derivatives
-   use damped_newton, only: reference_force, next_time_step, longest_move, shortest_move, trace
+   use pseudo_transient, only: reference_force, next_time_step, longest_move, shortest_move, trace
    implicit none (type, external)
    private
    public :: eliminate_pads, pad_balance, hold_second, unbalanced_forces, film_of, pad_limit
 
-   !> Unbalanced forces over the reference force at which a pad and the journal rest: near enough for Newton's method
-   !> on the whole.
+   !> Unbalanced forces over the reference force at which a pad and the journal are in equilibrium: near enough for
+   !> Newton's method on the whole.
    real(wp), parameter :: pad_limit = 1e-9_wp, journal_limit = 1e-6_wp
-   !> Of what comes to rest in the 1400 bearings of docs/stability.md, *Searches of an equilibrium*, 99.5 % of 72000
-   !> pads do so within 31 iterations and 99.5 % of 1475 journals within 53.
+   !> Of what comes to equilibrium in the 1400 bearings of docs/stability.md, *Searches of an equilibrium*, 99.5 % of
+   !> 72000 pads do so within 31 iterations and 99.5 % of 1475 journals within 53.
    integer, parameter :: pad_iterations = 40, journal_iterations = 60
    !> Least part of a film that a move leaves.
    real(wp), parameter :: least_film = 0.3_wp
 
 contains
 
-   !> Moves journal and pads from y to rest, nearly. Pads that find no rest stand at zero tilt on their pivots.
-   subroutine eliminate_pads(model, y, at_rest, ok, give_up)
+   !> Moves journal and pads from y to equilibrium, nearly. Pads that find no equilibrium stand at zero tilt on their
+   !> pivots.
+   subroutine eliminate_pads(model, y, in_equilibrium, ok, give_up)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
-      !> Which pads rest; whether the journal does.
-      logical, intent(out) :: at_rest(:), ok
+      !> Which pads are in equilibrium; whether the journal is.
+      logical, intent(out) :: in_equilibrium(:), ok
       procedure(asked_to_stop), optional :: give_up
       type(journal_motion) :: journal
       type(pad_state) :: pads(model%layout%pads)
@@ -42,15 +44,15 @@ contains
       last = 0
       do iteration = 1, journal_iterations
          ok = .not. asked(give_up)
-         if (ok) call settle_pads(model, journal, pads, at_rest, ok)
-         if (ok .and. .not. all(at_rest)) call put_down(model, journal, pads, at_rest, ok)
+         if (ok) call settle_pads(model, journal, pads, in_equilibrium, ok)
+         if (ok .and. .not. all(in_equilibrium)) call put_down(model, journal, pads, in_equilibrium, ok)
          if (.not. ok) exit
          force = resultant(model)
          unbalanced = norm2(force)
          if (unbalanced <= journal_limit*reference_force(model)) exit
          if (iteration > 1) time_step = next_time_step(time_step, last, unbalanced)
          last = unbalanced
-         call reduce(model, at_rest, stiffness, damping, follow)
+         call reduce(model, in_equilibrium, stiffness, damping, follow)
          call find_step(stiffness, damping, force, model%rotor%mass*model%point%speed(0.0_wp), &
             & model%inputs%bearing%assembled_clearance, time_step, step)
          call move_journal(model, follow, journal, pads, time_step, step)
@@ -59,26 +61,26 @@ contains
       y = model%state(journal, pads)
    end subroutine eliminate_pads
 
-   !> Every pad to its own rest with the journal where it is; which of them found it.
-   subroutine settle_pads(model, journal, pads, at_rest, ok)
+   !> Every pad to its own equilibrium with the journal where it is; which of them found it.
+   subroutine settle_pads(model, journal, pads, in_equilibrium, ok)
       type(bearing_model), intent(inout) :: model
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(inout) :: pads(:)
-      logical, intent(out) :: at_rest(:), ok
+      logical, intent(out) :: in_equilibrium(:), ok
       real(wp), dimension(size(pads)) :: time_step, unbalanced, last
       integer :: iteration, i
       time_step = 1/model%point%speed(0.0_wp)
-      at_rest = .false.
+      in_equilibrium = .false.
       do iteration = 0, pad_iterations
-         call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok, .not. at_rest)
+         call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok, .not. in_equilibrium)
          if (.not. ok) return
          unbalanced = unbalanced_forces(model)
-         at_rest = unbalanced <= pad_limit*reference_force(model)
-         if (all(at_rest) .or. iteration == pad_iterations) exit
+         in_equilibrium = unbalanced <= pad_limit*reference_force(model)
+         if (all(in_equilibrium) .or. iteration == pad_iterations) exit
          if (iteration > 0) time_step = next_time_step(time_step, last, unbalanced)
          last = unbalanced
          do i = 1, size(pads)
-            if (.not. at_rest(i)) call move_pad(model, i, journal, pads(i), time_step(i))
+            if (.not. in_equilibrium(i)) call move_pad(model, i, journal, pads(i), time_step(i))
          end do
       end do
    end subroutine settle_pads
@@ -141,19 +143,20 @@ contains
       damping(2, :) = 0
    end subroutine hold_second
 
-   !> Puts the pads that do not rest at zero tilt on their pivots, where their films are open there, and evaluates.
-   subroutine put_down(model, journal, pads, at_rest, ok)
+   !> Puts the pads that are not in equilibrium at zero tilt on their pivots, where their films are open there, and
+   !> evaluates.
+   subroutine put_down(model, journal, pads, in_equilibrium, ok)
       type(bearing_model), intent(inout) :: model
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(inout) :: pads(:)
-      logical, intent(in) :: at_rest(:)
+      logical, intent(in) :: in_equilibrium(:)
       logical, intent(out) :: ok
       integer :: i
       do i = 1, size(pads)
-         if (at_rest(i)) cycle
+         if (in_equilibrium(i)) cycle
          if (film_of(model, i, journal, pad_state()) > 0) pads(i) = pad_state()
       end do
-      call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok, .not. at_rest)
+      call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok, .not. in_equilibrium)
    end subroutine put_down
 
    !> Force on the journal, N.
@@ -164,22 +167,22 @@ contains
       force = all_forces(:2)
    end function resultant
 
-   !> Derivatives of the force on the journal over its position, with pads that follow to their own rest, and over its
-   !> velocity; and the moves of each pad over those of the journal.
-   pure subroutine reduce(model, at_rest, stiffness, damping, follow)
+   !> Derivatives of the force on the journal over its position, with pads that follow to their own equilibrium, and
+   !> over its velocity; and the moves of each pad over those of the journal.
+   pure subroutine reduce(model, in_equilibrium, stiffness, damping, follow)
       type(bearing_model), intent(in) :: model
-      logical, intent(in) :: at_rest(:)
+      logical, intent(in) :: in_equilibrium(:)
       real(wp), intent(out) :: stiffness(2, 2), damping(2, 2), follow(:, :, :)
       real(wp) :: force(2), of_pad(2, 2), ignored(2, 2), over_positions(4, 4), over_rates(4, 4)
       integer :: i, k
       stiffness = 0
       damping = 0
       follow = 0
-      do i = 1, size(at_rest)
+      do i = 1, size(in_equilibrium)
          call pad_derivatives(model, i, over_positions, over_rates)
          stiffness = stiffness + over_positions(1:2, 1:2)
          damping = damping + over_rates(1:2, 1:2)
-         if (.not. at_rest(i) .or. .not. model%layout%tilting) cycle
+         if (.not. in_equilibrium(i) .or. .not. model%layout%tilting) cycle
          call pad_balance(model, i, force, of_pad, ignored)
          if (.not. model%layout%radial) then
             call hold_second(force, of_pad, ignored)

@@ -1,4 +1,5 @@
-!> Small vibrations about a state at rest: the eigenvalues of the motion linearised there, and what they say of it.
+!> Small vibrations about a state in equilibrium: the eigenvalues of the motion linearised there, and what they say of
+!> it.
 module small_vibrations
    use kinds, only: wp
    use eigenvalues, only: find_eigenvalues
@@ -9,7 +10,7 @@ module small_vibrations
    private
    public :: stability_type, stability_at, stability_of, find_vibrations
 
-   !> How a state at rest answers a small disturbance.
+   !> How a state in equilibrium answers a small disturbance.
    type :: stability_type
       !> The eigenvalue of largest real part, 1/s; of a pair the one with positive imaginary part.
       complex(wp) :: eigenvalue = 0
@@ -23,7 +24,7 @@ module small_vibrations
 
 contains
 
-   !> The stability of a model at rest in the state y.
+   !> The stability of a model in equilibrium in the state y.
    subroutine stability_at(model, y, stability, ok)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)

@@ -40,7 +40,7 @@ contains
       logical :: balanced
       figures%eccentricity_ratio = eccentricity_ratio(model%inputs, static%journal)
       figures%attitude_angle = attitude_angle(model%inputs, static%journal)
-      call find_losses(model, model%at_rest(static%journal, static%tilt, static%pivot_deflection), balance)
+      call find_losses(model, model%static_state(static%journal, static%tilt, static%pivot_deflection), balance)
       figures%pads = balance%losses
       associate (pads => figures%pads, heat => model%inputs%oil%density*model%inputs%oil%specific_heat)
          ! oil that leaves at the sides is warmed half of the way

@@ -10,11 +10,11 @@ module static_model
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
    use errors, only: error_type, stopped, asked_to_stop
-   use damped_newton, only: follow_motion, newtons
+   use pseudo_transient, only: follow_motion, newtons
    use small_vibrations, only: stability_type
    implicit none (type, external)
    private
-   public :: equilibrium_type, describe, make_static, make_quick, make_fine, come_to_rest, start, starts
+   public :: equilibrium_type, describe, make_static, make_quick, make_fine, solve_equilibrium, start, starts
 
    type :: equilibrium_type
       !> Journal, m; per pad tilt, rad, pivot deflection, m (0 tilting-only), pivot load, N.
@@ -24,7 +24,7 @@ module static_model
       real(wp), allocatable :: min_film_thickness(:), max_pressure(:)
       !> Of the oil on every pad, Pa s.
       real(wp), allocatable :: viscosity(:)
-      !> Largest unbalanced force over the reference force (damped_newton).
+      !> Largest unbalanced force over the reference force (pseudo_transient).
       real(wp) :: residual = huge(1.0_wp)
       type(stability_type) :: stability
       !> Which search found it.
@@ -79,9 +79,9 @@ contains
       call stand_still(fine, model%point%cavitation)
    end subroutine make_fine
 
-   !> Brings a state that is nearly at rest to rest by Newton's method. Volumes of cavitated films make their force leap
-   !> by less than its error; where the rest lies in a leap, y ends beside it.
-   subroutine come_to_rest(model, y, residual, error, give_up, held, most)
+   !> Brings a state that is near equilibrium to equilibrium by Newton's method. Volumes of cavitated films make their
+   !> force leap by less than its error; where the equilibrium lies in a leap, y ends beside it.
+   subroutine solve_equilibrium(model, y, residual, error, give_up, held, most)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       real(wp), intent(out) :: residual
@@ -97,7 +97,7 @@ contains
       if (error%status == stopped) return
       call model%evaluate(0.0_wp, y, .false., ok)
       if (ok) deallocate (error)
-   end subroutine come_to_rest
+   end subroutine solve_equilibrium
 
    !> Start k: the journal at its fraction of the clearance down the load (among fixed pads from the middle of their
    !> bores), pivots carrying a share of it, and pads that tilt tilted so that every film converges.

@@ -1,5 +1,5 @@
-!> Thermal equilibrium: the bearing comes to rest with some viscosities, a heat balance of its losses and flows there
-!> gives others, until they agree. Broyden's method finds them: Newton's with the differences of
+!> Thermal equilibrium: the bearing comes to equilibrium with some viscosities, a heat balance of its losses and flows
+!> there gives others, until they agree. Broyden's method finds them: Newton's with the differences of
 !> heat_balance_equations takes 1.3 times the time on input/examples/warm_five_pads.nml, and 1.8 times on
 !> warm_paper.nml.
 module thermal_equilibrium
@@ -10,10 +10,10 @@ module thermal_equilibrium
    use oil_properties, only: viscosity
    use equations_of_motion, only: bearing_model
    use heat_balance_equations, only: state_balance_type, has_warm_oil, find_losses, find_lack, check_heat
-   use static_model, only: come_to_rest, start
+   use static_model, only: solve_equilibrium, start
    implicit none (type, external)
    private
-   public :: guess_oil, guesses, come_to_warm_rest
+   public :: guess_oil, guesses, solve_thermal_equilibrium
 
    !> Difference of the logarithms of viscosities and of those that the balance wants, at the end; what leaps of
    !> cavitated films may leave.
@@ -48,9 +48,9 @@ contains
       model%oil%viscosity = wanted
    end subroutine guess_oil
 
-   !> Brings a state that is nearly at rest to rest, as come_to_rest does, and the oil, where it is warm, to the
-   !> temperatures of this rest: the model then has its viscosities.
-   subroutine come_to_warm_rest(model, y, residual, error, give_up, held, kept)
+   !> Brings a state that is near equilibrium to equilibrium, as solve_equilibrium does, and the oil, where it is warm,
+   !> to the temperatures of this equilibrium: the model then has its viscosities.
+   subroutine solve_thermal_equilibrium(model, y, residual, error, give_up, held, kept)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       real(wp), intent(out) :: residual
@@ -65,7 +65,7 @@ contains
       real(wp) :: inverse(size(step), size(step))
       integer :: round
       if (.not. has_warm_oil(model)) then
-         call come_to_rest(model, y, residual, error, give_up, held)
+         call solve_equilibrium(model, y, residual, error, give_up, held)
          return
       end if
       step = 0
@@ -88,10 +88,10 @@ contains
             & //'settle: after '//to_text(most_rounds)//' rounds its viscosity still changes by ' &
             & //to_text(100*lack)//' %')
       end associate
-   end subroutine come_to_warm_rest
+   end subroutine solve_thermal_equilibrium
 
-   !> Brings a state at rest to rest again after a step of the logarithms of the viscosities, or after the longest part
-   !> of it that Newton's method can follow.
+   !> Brings a state in equilibrium to equilibrium again after a step of the logarithms of the viscosities, or after the
+   !> longest part of it that Newton's method can follow.
    subroutine follow(model, y, step, residual, error, give_up, held)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:), step(:)
@@ -104,7 +104,7 @@ contains
       model%oil%viscosity = before*exp(step)
       do
          trial = y
-         call come_to_rest(model, trial, residual, error, give_up, held)
+         call solve_equilibrium(model, trial, residual, error, give_up, held)
          if (.not. allocated(error)) exit
          if (asked(give_up) .or. .not. maxval(abs(step)) > shortest_step) return
          step = step/4

@@ -131,7 +131,7 @@ contains
          w = motion%velocity + wedge_velocity(self, motion, speed)
          call self%trailing%evaluate([mirrored(motion)], [oil], 0.0_wp, .false., response)
          out = -dot_product(w, [-response(1)%force(1), response(1)%force(2)])
-         call self%leading%evaluate([at_rest(motion)], [oil], 0.0_wp, .false., response)
+         call self%leading%evaluate([without_velocity(motion)], [oil], 0.0_wp, .false., response)
          driven%inlet = dot_product(w, response(1)%force)
          associate (rise => gap%supply_pressure - gap%ambient_pressure)
             if (abs(rise) > 0) then
@@ -154,10 +154,10 @@ contains
       mirrored%position = [-motion%position(1), motion%position(2)]
    end function mirrored
 
-   pure type(film_motion) function at_rest(motion)
+   pure type(film_motion) function without_velocity(motion)
       type(film_motion), intent(in) :: motion
-      at_rest%position = motion%position
-   end function at_rest
+      without_velocity%position = motion%position
+   end function static_state
 
    !> Integrals of sine and cosine over the arc.
    pure function over_arc(directions)

@@ -251,7 +251,7 @@ contains
       call v%group('start', 'Where a march starts; the values of journal and pads are added, as a disturbance; a ' &
          & //'resumed run does not start again')
       call v%word(start%from, choice('from', 'equilibrium partial centred given file', &
-         & 'equilibrium: of the initial speed, at rest; partial: the same, but pads without rest position stand on ' &
+         & 'equilibrium: of the initial speed, at rest; partial: the same, but pads without equilibrium stand on ' &
          & //'their pivots without tilt; centred: journal in the middle, pads at rest on their pivots without tilt; ' &
          & //'given: only the values of journal and pads below; file: the end of another result'))
       call v%word(start%file, choice('file', '', 'file: the result file, with the same pads; its last whole turn of ' &

@@ -5,7 +5,7 @@ module bearing_coefficients
    use equations_of_motion, only: bearing_model
    use small_vibrations, only: stability_at
    use static_model, only: equilibrium_type, describe
-   use thermal_equilibrium, only: come_to_warm_rest
+   use thermal_equilibrium, only: solve_thermal_equilibrium
    use linear_bearing, only: linear_bearing_type, linearize
    use vibration_modes, only: vibration_modes_type, find_modes
    implicit none (type, external)
@@ -34,16 +34,16 @@ contains
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       logical :: ok
-      y = model%at_rest(found%journal, found%tilt, found%pivot_deflection)
+      y = model%static_state(found%journal, found%tilt, found%pivot_deflection)
       model%oil%viscosity = found%viscosity
-      call come_to_warm_rest(model, y, found%residual, error, give_up)
+      call solve_thermal_equilibrium(model, y, found%residual, error, give_up)
       if (allocated(error)) return
       call describe(model, y, found)
       call stability_at(model, y, found%stability, ok)
       if (.not. ok) call raise(error, numerics_error, 'the eigenvalues of the equilibrium are not found')
    end subroutine settle
 
-   !> The coefficients that the case asks for, of a model without friction at rest in y.
+   !> The coefficients that the case asks for, of a model without friction in equilibrium in y.
    subroutine find_coefficients(model, y, found, error)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)

@@ -1,5 +1,5 @@
-!> A bearing linearised where it is at rest: masses, stiffness and damping of all positions, for each way that its
-!> pivots may behave; and what a journal meets of it that whirls at one frequency.
+!> A bearing linearised where it is in equilibrium: masses, stiffness and damping of all positions, for each way that
+!> its pivots may behave; and what a journal meets of it that whirls at one frequency.
 module linear_bearing
    use kinds, only: wp
    use lapack, only: zgesv
@@ -14,8 +14,8 @@ module linear_bearing
 
    !> In the order of layout%positions(), the first two of which are the journal's.
    type :: linear_bearing_type
-      !> 'free': the pivots slide without friction; 'stuck': as their law of friction has it at rest; 'locked': no pad
-      !> tilts.
+      !> 'free': the pivots slide without friction; 'stuck': as their law of friction has it in equilibrium; 'locked':
+      !> no pad tilts.
       character(len=pivot_name) :: pivot = ''
       !> Of the pads alone: kg, kg m, kg m^2; -dF/dx and -dF/dv of the forces and moments F.
       real(wp), allocatable :: mass(:, :), stiffness(:, :), damping(:, :)
@@ -32,8 +32,8 @@ module linear_bearing
 
 contains
 
-   !> The bearing of a model without friction at rest in the state y, for each way that the pivots of its case may
-   !> behave. `ok` is false where the films have no derivatives.
+   !> The bearing of a model without friction in equilibrium in the state y, for each way that the pivots of its case
+   !> may behave. `ok` is false where the films have no derivatives.
    subroutine linearize(model, y, bearings, ok)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)

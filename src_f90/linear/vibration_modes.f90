@@ -1,4 +1,5 @@
-!> The vibrations of rotor and pads on a bearing that is linearised at rest, in an order, and what is said of each.
+!> The vibrations of rotor and pads on a bearing that is linearised in equilibrium, in an order, and what is said of
+!> each.
 module vibration_modes
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi

@@ -55,7 +55,7 @@ module equations_of_motion
       procedure :: set_point
       procedure :: adopt
       procedure :: state
-      procedure :: at_rest
+      procedure :: static_state
       procedure :: positions
       procedure :: take_sample
       procedure :: sampled
@@ -118,13 +118,13 @@ contains
 
    !> The state with journal and pads at rest at given positions, m, tilts, rad, and pivot deflections, m (what a pad
    !> lacks does not matter), bristles undeflected.
-   pure function at_rest(self, journal, tilt, pivot_deflection) result(y)
+   pure function static_state(self, journal, tilt, pivot_deflection) result(y)
       class(bearing_model), intent(in) :: self
       real(wp), intent(in) :: journal(2), tilt(:), pivot_deflection(:)
       real(wp) :: y(self%n)
       integer :: i
       y = self%state(journal_motion(journal), [(pad_state(tilt(i), 0.0_wp, pivot_deflection(i)), i=1, size(tilt))])
-   end function at_rest
+   end function static_state
 
    !> The state with this motion of the journal and these states of the pads.
    pure function state(self, journal, pads) result(y)

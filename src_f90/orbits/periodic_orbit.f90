@@ -47,9 +47,9 @@ module periodic_orbit
 
 contains
 
-   !> The periodic orbit that the motion from state y leads to; from a state at rest, that to which the motion near the
-   !> answer of the linearised equations to the unbalance leads. A numerics error where the march ends or Newton's
-   !> method finds none, or one of status `stopped`, where `give_up` says so.
+   !> The periodic orbit that the motion from state y leads to; from a state in equilibrium, that to which the motion
+   !> near the answer of the linearised equations to the unbalance leads. A numerics error where the march ends or
+   !> Newton's method finds none, or one of status `stopped`, where `give_up` says so.
    subroutine find_periodic_orbit(model, march, y, found, error, give_up)
       type(bearing_model), intent(inout), target :: model
       !> Tolerances of a march; they choose the mesh.

@@ -1,5 +1,5 @@
-!> The steady motion of a bearing whose equations are linearised at rest, under its unbalance and without friction: near
-!> the periodic orbit, and free of a march.
+!> The steady motion of a bearing whose equations are linearised in equilibrium, under its unbalance and without
+!> friction: near the periodic orbit, and free of a march.
 module unbalance_response
    use kinds, only: wp, pi
    use lapack, only: zgesv
@@ -9,14 +9,14 @@ module unbalance_response
    private
    public :: go_to_response
 
-   !> A state that its mean rates move by less than this, over the scales, is at rest.
-   real(wp), parameter :: rest = 1e-3_wp
+   !> A state that its mean rates move by less than this, over the scales, is in equilibrium.
+   real(wp), parameter :: still = 1e-3_wp
    !> Largest amplitude of a displacement, over its scale: of a longer response only a part is taken.
    real(wp), parameter :: largest = 0.3_wp
 
 contains
 
-   !> Puts a state at rest into this motion, at t = 0; others stay.
+   !> Puts a state in equilibrium into this motion, at t = 0; others stay.
    subroutine go_to_response(model, y)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
@@ -46,7 +46,7 @@ contains
       end do
       call zgesv(model%n, 2, matrix, model%n, pivots, response, model%n, info)
       if (info /= 0 .or. .not. all(abs(response) <= huge(speed))) return
-      if (maxval(abs(response(:, 1))) > rest) return
+      if (maxval(abs(response(:, 1))) > still) return
       longest = maxval(abs(response(model%layout%positions(), 2)))
       y = y + model%scale*response(:, 2)%re*largest/max(largest, longest)
    end subroutine go_to_response

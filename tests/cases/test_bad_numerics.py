@@ -119,9 +119,7 @@ ASTRAY = {
 
 
 # what stands where nothing carries the load, and what may help
-CAUSE = (
-    "where no pad is|past the only pad|one pad: |push.* away|no rest position|leaves every rest|did not end"
-)
+CAUSE = "where no pad is|past the only pad|one pad: |push.* away|no equilibrium|leaves every equilibrium|did not end"
 
 
 @pytest.mark.parametrize("key", ASTRAY)

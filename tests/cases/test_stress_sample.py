@@ -29,7 +29,7 @@ HARD = {
 }
 # CPU time, s
 LIMIT = 60
-# one pad (13, 27); every rest is statically unstable (divergence) (209)
+# one pad (13, 27); every equilibrium is statically unstable (divergence) (209)
 REFUSED = (13, 27, 209)
 # fixed pads: a part of the arc, all around, four lobes, two grooves, three lobes
 FIXED = (9, 24, 40, 43, 59)

@@ -26,9 +26,9 @@ program test_fixed_pads
 
    !> A state of rest in numbers without dimension: Sommerfeld number, eccentricity ratio, attitude angle, deg, and
    !> K c/W and C c omega/W along the load (x) and across it (y), xx xy yx yy.
-   type :: rest_type
+   type :: static_state_type
       real(wp) :: sommerfeld = 0, eccentricity = 0, attitude = 0, stiffness(4) = 0, damping(4) = 0
-   end type rest_type
+   end type static_state_type
 
    if (runs('short_bearing')) call short_bearing()
    if (runs('long_bearing')) call long_bearing()
@@ -65,7 +65,8 @@ contains
       inputs%film%cavitation = cavitation
       inputs%film%solver = solver
       model = new_bearing_model(inputs)
-      call model%evaluate(0.0_wp, model%at_rest([-eccentricity*inputs%bearing%assembled_clearance, 0.0_wp], [0.0_wp], &
+      call model%evaluate(0.0_wp, model%static_state([-eccentricity*inputs%bearing%assembled_clearance, 0.0_wp], &
+         [0.0_wp], &
          & [0.0_wp]), .false., ok)
       call expect(ok, 'a film at '//to_text(eccentricity))
       force = model%bearing%loads(1)%journal*[1, -1]
@@ -141,7 +142,7 @@ contains
    subroutine rest_at(inputs, sommerfeld, rest, model)
       type(case_type), intent(inout) :: inputs
       real(wp), intent(in) :: sommerfeld
-      type(rest_type), intent(out) :: rest
+      type(static_state_type), intent(out) :: rest
       type(bearing_model), intent(out) :: model
       type(equilibrium_type) :: found
       type(error_type), allocatable :: error
@@ -159,7 +160,7 @@ contains
       rest%sommerfeld = sommerfeld
       rest%eccentricity = norm2(found%journal)/inputs%bearing%assembled_clearance
       rest%attitude = atan2(-found%journal(2), -found%journal(1))/degree
-      call model%evaluate(0.0_wp, model%at_rest(found%journal, found%tilt, found%pivot_deflection), .true., ok)
+      call model%evaluate(0.0_wp, model%static_state(found%journal, found%tilt, found%pivot_deflection), .true., ok)
       call expect(ok, 'derivatives at S = '//to_text(sommerfeld))
       call force_derivatives(model, k, c)
       ! along the load is -y, across it, in the sense of the rotation, -z: both turn the signs of no coefficient
@@ -173,19 +174,19 @@ contains
    !> (1980) use them. Their numbers come from a grid of finite differences and are rounded; this program's own grid
    !> errs by 1 % of a coefficient at most. So 3 % of each number, and half a unit of its last digit.
    subroutine lund_thomsen()
-      call compare_with(0.5_wp, rest_type(1.656_wp, 0.244_wp, 65.85_wp, [1.69_wp, 5.06_wp, -2.20_wp, 1.95_wp], &
+      call compare_with(0.5_wp, static_state_type(1.656_wp, 0.244_wp, 65.85_wp, [1.69_wp, 5.06_wp, -2.20_wp, 1.95_wp], &
          & [9.93_wp, 2.15_wp, 2.15_wp, 4.80_wp]))
-      call compare_with(0.5_wp, rest_type(0.244_wp, 0.655_wp, 40.25_wp, [4.21_wp, 3.74_wp, -0.13_wp, 1.64_wp], &
+      call compare_with(0.5_wp, static_state_type(0.244_wp, 0.655_wp, 40.25_wp, [4.21_wp, 3.74_wp, -0.13_wp, 1.64_wp], &
          & [6.87_wp, 1.82_wp, 1.82_wp, 1.54_wp]))
-      call compare_with(1.0_wp, rest_type(0.235_wp, 0.460_wp, 49.27_wp, [2.19_wp, 3.57_wp, -0.80_wp, 1.55_wp], &
+      call compare_with(1.0_wp, static_state_type(0.235_wp, 0.460_wp, 49.27_wp, [2.19_wp, 3.57_wp, -0.80_wp, 1.55_wp], &
          & [7.36_wp, 1.89_wp, 1.89_wp, 2.19_wp]))
    end subroutine lund_thomsen
 
    subroutine compare_with(length_ratio, table)
       real(wp), intent(in) :: length_ratio
-      type(rest_type), intent(in) :: table
+      type(static_state_type), intent(in) :: table
       type(case_type) :: inputs
-      type(rest_type) :: rest
+      type(static_state_type) :: rest
       type(bearing_model) :: model
       integer :: k
       character(len=:), allocatable :: what
@@ -209,7 +210,7 @@ contains
    subroutine lobes()
       type(case_type) :: inputs
       type(bearing_model) :: model
-      type(rest_type) :: rest, elsewhere
+      type(static_state_type) :: rest, elsewhere
       type(film_motion) :: motion
       type(pad_state) :: still
       real(wp) :: journal(2), middle(2), phi, direction(2), found, expected
@@ -265,7 +266,8 @@ contains
          if (i == 2) model = new_bearing_model(other)
          call find_equilibrium(model, rest(i), error)
          call expect_no_error(error, 'an equilibrium')
-         call model%evaluate(0.0_wp, model%at_rest(rest(i)%journal, rest(i)%tilt, rest(i)%pivot_deflection), .true., ok)
+         call model%evaluate(0.0_wp, model%static_state(rest(i)%journal, rest(i)%tilt, rest(i)%pivot_deflection), &
+            .true., ok)
          call force_derivatives(model, k(:, :, i), c(:, :, i))
       end do
       call expect_close(norm2(rest(2)%journal - matmul(turn, rest(1)%journal)), 0.0_wp, 1e-12_wp, 'the place')
@@ -341,7 +343,7 @@ contains
    !> The bearing of Lund and Thomsen with L/D = 1 at S = 0.235 and a rigid rotor, at omega sqrt(c/g).
    subroutine rotor_at(speed, rest, model, found)
       real(wp), intent(in) :: speed
-      type(rest_type), intent(out) :: rest
+      type(static_state_type), intent(out) :: rest
       type(bearing_model), intent(out) :: model
       type(equilibrium_type), intent(out) :: found
       type(case_type) :: inputs
@@ -358,7 +360,7 @@ contains
    !> digit; by the coefficients' own criterion (Lund's), and by the eigenvalues, which cross the axis there at the same
    !> frequency, half the shaft speed.
    subroutine threshold()
-      type(rest_type) :: rest
+      type(static_state_type) :: rest
       type(bearing_model) :: model
       type(equilibrium_type) :: found
       real(wp) :: critical, stiffness, ratio
@@ -388,7 +390,7 @@ contains
    subroutine whirl()
       real(wp), parameter :: beside = 1e-3_wp
       integer, parameter :: revolutions = 150, last = 40
-      type(rest_type) :: rest
+      type(static_state_type) :: rest
       type(bearing_model) :: model
       type(equilibrium_type) :: found
       real(wp), allocatable :: places(:, :), size_of(:)
@@ -442,7 +444,7 @@ contains
       integer, intent(in) :: revolutions
       real(wp), allocatable, intent(out) :: places(:, :)
       real(wp), allocatable :: y(:)
-      y = model%at_rest(found%journal + [beside*model%inputs%bearing%assembled_clearance, 0.0_wp], found%tilt, &
+      y = model%static_state(found%journal + [beside*model%inputs%bearing%assembled_clearance, 0.0_wp], found%tilt, &
          & found%pivot_deflection)
       allocate (places(2, samples*revolutions))
       call march_samples(model, model%scale, [1e-7_wp, 1e-7_wp], y, 0.0_wp, &

@@ -35,7 +35,7 @@ contains
       type(bearing_model), intent(in) :: model
       real(wp), allocatable :: y(:)
       integer :: pad
-      y = model%at_rest([between(-50e-6_wp, 0.0_wp), between(-10e-6_wp, 10e-6_wp)], &
+      y = model%static_state([between(-50e-6_wp, 0.0_wp), between(-10e-6_wp, 10e-6_wp)], &
          & [between(-3e-4_wp, 7e-4_wp), between(-3e-4_wp, 7e-4_wp)], [between(-2e-6_wp, 9e-6_wp), between(1e-6_wp, &
          & 9e-6_wp)])
       y(3:4) = [between(-0.02_wp, 0.02_wp), between(-0.02_wp, 0.02_wp)]
@@ -165,7 +165,7 @@ contains
       do pad = 1, 2
          associate (p => model%inputs%pads)
             do k = 1, 2
-               y = model%at_rest([-3e-5_wp, 0.0_wp], [2e-4_wp, 5e-4_wp], merge(9e-6_wp, 1e-7_wp, k == 1)*[1.0_wp, &
+               y = model%static_state([-3e-5_wp, 0.0_wp], [2e-4_wp, 5e-4_wp], merge(9e-6_wp, 1e-7_wp, k == 1)*[1.0_wp, &
                   & 1.0_wp])
                y(model%layout%tilt_rate(pad)) = merge(0.0_wp, 3.0_wp, k == 1)
                call model%rhs(0.0_wp, y, f, ok)

@@ -62,7 +62,7 @@ contains
       if (.not. allocated(error)) then
          options%relative_tolerance = tolerance
          options%absolute_tolerance = tolerance*model%scale
-         call find_periodic_orbit(model, options, model%at_rest(static%journal, static%tilt, &
+         call find_periodic_orbit(model, options, model%static_state(static%journal, static%tilt, &
             & static%pivot_deflection), found, error)
       end if
       call expect_no_error(error, 'the orbit is found')

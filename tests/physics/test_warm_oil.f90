@@ -223,7 +223,8 @@ contains
       inputs%oil%groove_volume = volume
       inputs%operation%duration = duration
       call solve(inputs, static, figures, model)
-      call find_groove_transient(model, model%at_rest(static%journal, static%tilt, static%pivot_deflection), duration, &
+      call find_groove_transient(model, model%static_state(static%journal, static%tilt, static%pivot_deflection), &
+         duration, &
          & history, error)
       call expect_no_error(error, 'course')
       if (.not. allocated(error)) call history%at(duration, viscosities)

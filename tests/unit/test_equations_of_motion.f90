@@ -58,7 +58,7 @@ contains
       call expect(model%layout%per_pad == own, 'states of a pad, '//motion//' '//friction)
       call expect(model%n == 4 + 2*own .and. size(model%scale) == model%n, 'states, '//motion//' '//friction)
       call expect(all(model%scale > 0), 'every state has a scale')
-      y = model%at_rest([1.0_wp, 2.0_wp], [3.0_wp, 4.0_wp], [5.0_wp, 6.0_wp])
+      y = model%static_state([1.0_wp, 2.0_wp], [3.0_wp, 4.0_wp], [5.0_wp, 6.0_wp])
       call expect(size(y) == model%n, 'size of a state at rest')
       call expect_close(norm2(y(1:4) - [1.0_wp, 2.0_wp, 0.0_wp, 0.0_wp]), 0.0_wp, 0.0_wp, 'journal of a state at rest')
       do pad = 1, 2
@@ -165,7 +165,7 @@ contains
       type(bearing_model), intent(in) :: model
       real(wp), allocatable :: y(:)
       integer :: pad
-      y = model%at_rest([between(-40e-6_wp, -20e-6_wp), between(-5e-6_wp, 5e-6_wp)], &
+      y = model%static_state([between(-40e-6_wp, -20e-6_wp), between(-5e-6_wp, 5e-6_wp)], &
          & [between(-1e-4_wp, 1e-4_wp), between(6e-4_wp, 8e-4_wp)], [between(4e-6_wp, 8e-6_wp), between(4e-6_wp, &
          & 8e-6_wp)])
       y(3:4) = [between(-5e-3_wp, 5e-3_wp), between(-5e-3_wp, 5e-3_wp)]
@@ -240,7 +240,7 @@ contains
          with = new_bearing_model(inputs)
          inputs%rotor%unbalance = 0
          without = new_bearing_model(inputs)
-         y = with%at_rest([-4e-5_wp, 0.0_wp], [-2e-4_wp, 1e-3_wp], [7e-6_wp, 7e-6_wp])
+         y = with%static_state([-4e-5_wp, 0.0_wp], [-2e-4_wp, 1e-3_wp], [7e-6_wp, 7e-6_wp])
          allocate (f(with%n), f0(with%n))
          t = 0.013_wp*k
          call with%rhs(t, y, f, ok)
@@ -275,7 +275,7 @@ contains
       logical :: ok
       integer :: pad
       model = new_bearing_model(paper_case('tilting_radial', 'lugre'))
-      y = model%at_rest([-2e-5_wp, 0.0_wp], [-2e-4_wp, 1e-3_wp], [-1e-6_wp, 5e-6_wp])
+      y = model%static_state([-2e-5_wp, 0.0_wp], [-2e-4_wp, 1e-3_wp], [-1e-6_wp, 5e-6_wp])
       y(model%layout%bristle(1)) = 1e-7_wp
       y(model%layout%bristle(2)) = 1e-7_wp
       allocate (f(model%n))
@@ -313,7 +313,7 @@ contains
       inputs = heavy_case('tilting_only', 'bengisu_akay', 0.0_wp)
       inputs%pads%pivot_angle_deg = [45.0_wp, 135.0_wp]
       model = new_bearing_model(inputs)
-      y = model%at_rest([0.0_wp, 0.0_wp], [3e-4_wp, 3e-4_wp], [0.0_wp, 0.0_wp])
+      y = model%static_state([0.0_wp, 0.0_wp], [3e-4_wp, 3e-4_wp], [0.0_wp, 0.0_wp])
       y(model%layout%tilt_rate([1, 2])) = 0.3_wp
       allocate (f(model%n))
       call model%rhs(0.0_wp, y, f, ok)
@@ -331,12 +331,12 @@ contains
       logical :: ok
       model = new_bearing_model(paper_case('tilting_radial', 'none'))
       allocate (f(model%n))
-      y = model%at_rest([-4e-5_wp, 200e-6_wp], [-2e-4_wp, 1e-3_wp], [7e-6_wp, 7e-6_wp])
+      y = model%static_state([-4e-5_wp, 200e-6_wp], [-2e-4_wp, 1e-3_wp], [7e-6_wp, 7e-6_wp])
       call model%rhs(0.0_wp, y, f, ok)
       call expect(.not. ok, 'a closed film is refused')
       if (.not. ok) call expect(index(model%refusal, 'pad 1') > 0 .and. index(model%refusal, 'closed') > 0, &
          & 'and says which: '//model%refusal)
-      y = model%at_rest([0.0_wp, 0.0_wp], [0.0_wp, 0.7_wp], [0.0_wp, 0.0_wp])
+      y = model%static_state([0.0_wp, 0.0_wp], [0.0_wp, 0.7_wp], [0.0_wp, 0.0_wp])
       call model%rhs(0.0_wp, y, f, ok)
       call expect(.not. ok, 'a pad turned over is refused')
       if (.not. ok) call expect(index(model%refusal, 'pad 2 turned over') > 0, 'and says so: '//model%refusal)

@@ -44,12 +44,12 @@ contains
       call says(inputs, traces, 'the search did not end')
       call says(inputs, traces, '(after 400 iterations)')
       traces%divergence = 12.5_wp
-      call says(inputs, traces, 'leaves every rest')
+      call says(inputs, traces, 'leaves every equilibrium')
       call says(inputs, traces, 'grows by 12.5 1/s')
-      traces%restless = [.false., .true., .true., .false., .false.]
-      call says(inputs, traces, 'pads 2, 3 have no rest position (unloaded); try start%from = ''partial''')
-      traces%restless = [.false., .false., .true., .false., .false.]
-      call says(inputs, traces, 'pad 3 has no rest position (unloaded)')
+      traces%without_equilibrium = [.false., .true., .true., .false., .false.]
+      call says(inputs, traces, 'pads 2, 3 have no equilibrium (unloaded); try start%from = ''partial''')
+      traces%without_equilibrium = [.false., .false., .true., .false., .false.]
+      call says(inputs, traces, 'pad 3 has no equilibrium (unloaded)')
       traces%last_words = 'the film of pad 1 did not converge'
       traces%films_fail = .true.
       call says(inputs, traces, 'rpm: the film of pad 1 did not converge')

@@ -53,7 +53,7 @@ contains
       call expect_close(found%tilt(3), 0.0_wp, 0.0_wp, 'at zero tilt')
       call expect_close(found%pivot_deflection(3), 0.0_wp, 0.0_wp, 'on its pivot')
       call model%set_point(model%point%static())
-      call model%evaluate(0.0_wp, model%at_rest(found%journal, found%tilt, found%pivot_deflection), .false., ok)
+      call model%evaluate(0.0_wp, model%static_state(found%journal, found%tilt, found%pivot_deflection), .false., ok)
       force = forces(model, 0.0_wp)
       call expect_close(maxval(abs(force(:2))), 0.0_wp, 1e-3_wp, 'the journal is in balance')
       call expect_close(maxval(abs(force([4, 6]))), 0.0_wp, 1e-3_wp, 'so are the loaded pads along their radius')

@@ -79,7 +79,7 @@ contains
       if (allocated(error)) return
       call expect(found%stability%name == expected, expected//', not '//found%stability%name)
       call make_static(model, .true., static)
-      rest = static%at_rest(found%journal, found%tilt, found%pivot_deflection)
+      rest = static%static_state(found%journal, found%tilt, found%pivot_deflection)
       y = rest
       y(1:2) = y(1:2) + 1e-5_wp*static%scale(1:2)
       tilts = static%layout%tilt([(k, k=1, static%layout%pads)])

@@ -1,7 +1,7 @@
-!> Brings a model to rest by Newton's method, damped by the film's own squeeze damping: each iteration is one linearly
-!> implicit Euler step of the motion without inertia, f(x, dx/dt) = 0, with a time step that grows as the residual
-!> falls, so that it starts as a stable motion and ends as Newton's method.
-module damped_newton
+!> Brings a model to equilibrium by Newton's method, damped by the film's own squeeze damping: each iteration is one
+!> linearly implicit Euler step of the motion without inertia, f(x, dx/dt) = 0, with a time step that grows as the
+!> residual falls, so that it starts as a stable motion and ends as Newton's method.
+module pseudo_transient
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use text, only: to_text
@@ -14,7 +14,7 @@ module damped_newton
    public :: follow_motion, unbalanced, reference_force, clearances, next_time_step, residual_limit, &
       & newtons, longest_move, shortest_move, trace
 
-   !> Unbalanced force over the reference force at rest.
+   !> Unbalanced force over the reference force in equilibrium.
    real(wp), parameter :: residual_limit = 1e-8_wp
    !> Least load over the largest force of a film: preloaded films leave 1e-11 of their forces unbalanced, as a film is
    !> the small difference of large radii.
@@ -33,8 +33,8 @@ module damped_newton
 
 contains
 
-   !> Follows the motion without inertia from y to rest, where y is then. An error says why it did not come to rest, or,
-   !> of status `stopped`, that `give_up`, asked between evaluations of the films, said so.
+   !> Follows the motion without inertia from y to equilibrium, where y is then. An error says why it did not come to
+   !> equilibrium, or, of status `stopped`, that `give_up`, asked between evaluations of the films, said so.
    subroutine follow_motion(model, y, residual, error, give_up, held, first_step, most)
       type(bearing_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
@@ -248,4 +248,4 @@ contains
             & least_load*maxval(hypot(loads%journal(1), loads%journal(2))))
       end associate
    end function reference_force
-end module damped_newton
+end module pseudo_transient

@@ -1,6 +1,6 @@
-!> The rest of one pad for a given journal, wherever there is one: at every tilt the pivot deflection is sought at which
-!> the radial forces balance, and, along the tilts with these, where the moment changes its sign.
-module pad_rest
+!> The equilibrium of one pad for a given journal, wherever there is one: at every tilt the pivot deflection is sought
+!> at which the radial forces balance, and, along the tilts with these, where the moment changes its sign.
+module pad_equilibrium
    use kinds, only: wp, pi
    use roots, only: root_bracket
    use case_inputs, only: case_type
@@ -8,12 +8,12 @@ module pad_rest
    use kinematics, only: pad_state, pad_frame
    use equations_of_motion, only: bearing_model
    use solve_2x2, only: solved
-   use damped_newton, only: reference_force, longest_move
+   use pseudo_transient, only: reference_force, longest_move
    use pad_elimination, only: pad_balance, hold_second, unbalanced_forces, film_of, pad_limit
    use static_model, only: make_quick
    implicit none (type, external)
    private
-   public :: find_rests
+   public :: find_pad_equilibria
 
    !> Tilts looked at, closest where the pad faces the journal, by a hyperbolic sine up to this number, and at the ends.
    integer, parameter :: tilts = 61
@@ -40,24 +40,25 @@ module pad_rest
 
 contains
 
-   !> Moves the pads that do not rest to where they would, and says which do then. The journal stays.
-   subroutine find_rests(model, y, at_rest)
+   !> Moves the pads that are not in equilibrium to where they would, and says which are in equilibrium then. The
+   !> journal stays.
+   subroutine find_pad_equilibria(model, y, in_equilibrium)
       type(bearing_model), intent(in) :: model
       real(wp), intent(inout) :: y(:)
-      logical, intent(inout) :: at_rest(:)
+      logical, intent(inout) :: in_equilibrium(:)
       type(bearing_model) :: alone
-      type(pad_state) :: pads(size(at_rest))
+      type(pad_state) :: pads(size(in_equilibrium))
       type(journal_motion) :: journal
       integer :: i
       journal = model%rotor%journal(y(:model%rotor%states))
       pads = model%layout%pad_states(y)
-      do i = 1, size(at_rest)
-         if (at_rest(i)) cycle
+      do i = 1, size(in_equilibrium)
+         if (in_equilibrium(i)) cycle
          call make_quick(case_of_pad(model%inputs, i), model%oil(i:i)%viscosity, model%point%cavitation, alone)
-         call find_rest(alone, journal, pads(i), at_rest(i))
+         call find_pad_equilibrium(alone, journal, pads(i), in_equilibrium(i))
       end do
       y = model%state(journal, pads)
-   end subroutine find_rests
+   end subroutine find_pad_equilibria
 
    !> The case with one pad alone.
    pure type(case_type) function case_of_pad(inputs, i) result(alone)
@@ -76,9 +77,9 @@ contains
       end associate
    end function case_of_pad
 
-   !> The rest of the only pad of a model: of those to which the pad comes back, or else of the others, that with the
-   !> thinnest film, on which it is held best.
-   subroutine find_rest(alone, journal, pad, found)
+   !> The equilibrium of the only pad of a model: of those to which the pad comes back, or else of the others, that with
+   !> the thinnest film, on which it is held best.
+   subroutine find_pad_equilibrium(alone, journal, pad, found)
       type(bearing_model), intent(inout) :: alone
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(inout) :: pad
@@ -87,9 +88,9 @@ contains
       real(wp), allocatable :: pivot_deflections(:)
       real(wp) :: thinnest
       type(place_type) :: sides(2)
-      type(pad_state) :: rest
+      type(pad_state) :: candidate
       integer :: k, turn
-      logical :: rests
+      logical :: balanced
       found = .false.
       pivot_deflections = deflections_of(alone, journal)
       places = tilted(alone, journal, pivot_deflections)
@@ -100,16 +101,16 @@ contains
             if (places(k)%moment < 0 .neqv. turn == 1) cycle
             sides = places(k - 1:k)
             call close_in(alone, journal, pivot_deflections, sides)
-            call settle_between(alone, journal, sides%pad, rest, rests)
-            if (.not. rests) cycle
-            if (found .and. film_of(alone, 1, journal, rest) > thinnest) cycle
-            thinnest = film_of(alone, 1, journal, rest)
-            pad = rest
+            call settle_between(alone, journal, sides%pad, candidate, balanced)
+            if (.not. balanced) cycle
+            if (found .and. film_of(alone, 1, journal, candidate) > thinnest) cycle
+            thinnest = film_of(alone, 1, journal, candidate)
+            pad = candidate
             found = .true.
          end do
          if (found) return
       end do
-   end subroutine find_rest
+   end subroutine find_pad_equilibrium
 
    !> Pivot deflections to look at: of a pad that floats, then of one on its pivot.
    function deflections_of(alone, journal) result(pivot_deflections)
@@ -252,44 +253,45 @@ contains
       end do
    end function last_open
 
-   !> Newton's method from places between two, which lie apart where pivot deflections leap; whether one leads to rest.
-   subroutine settle_between(alone, journal, sides, rest, rests)
+   !> Newton's method from places between two, which lie apart where pivot deflections leap; whether one leads to
+   !> equilibrium.
+   subroutine settle_between(alone, journal, sides, candidate, balanced)
       type(bearing_model), intent(inout) :: alone
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: sides(2)
-      type(pad_state), intent(out) :: rest
-      logical, intent(out) :: rests
+      type(pad_state), intent(out) :: candidate
+      logical, intent(out) :: balanced
       real(wp) :: share
       integer :: k
       do k = 0, guesses
          share = real(k, wp)/guesses
-         rest%tilt = (1 - share)*sides(1)%tilt + share*sides(2)%tilt
-         rest%pivot_deflection = (1 - share)*sides(1)%pivot_deflection + share*sides(2)%pivot_deflection
-         call settle(alone, journal, rest, rests)
-         if (rests) return
+         candidate%tilt = (1 - share)*sides(1)%tilt + share*sides(2)%tilt
+         candidate%pivot_deflection = (1 - share)*sides(1)%pivot_deflection + share*sides(2)%pivot_deflection
+         call settle(alone, journal, candidate, balanced)
+         if (balanced) return
       end do
    end subroutine settle_between
 
    !> Newton's method on the pad, its steps shortened where they go too far or make nothing better; whether it comes to
    !> rest.
-   subroutine settle(alone, journal, pad, rests)
+   subroutine settle(alone, journal, pad, balanced)
       type(bearing_model), intent(inout) :: alone
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(inout) :: pad
-      logical, intent(out) :: rests
+      logical, intent(out) :: balanced
       type(pad_state) :: trial
       real(wp) :: force(2), stiffness(2, 2), damping(2, 2), step(2), last(1), arc, longest
       integer :: iteration, halving
       logical :: ok
       arc = alone%bearing%pads(1)%gap%arc()*alone%bearing%pads(1)%gap%pad_radius()
       longest = longest_move*alone%inputs%bearing%assembled_clearance
-      rests = .false.
+      balanced = .false.
       do iteration = 0, steps
          call alone%evaluate(0.0_wp, alone%state(journal, [pad]), .true., ok)
          if (.not. ok) return
          last = unbalanced_forces(alone)
-         rests = last(1) <= pad_limit*reference_force(alone)
-         if (rests) return
+         balanced = last(1) <= pad_limit*reference_force(alone)
+         if (balanced) return
          call pad_balance(alone, 1, force, stiffness, damping)
          if (.not. alone%layout%radial) call hold_second(force, stiffness, damping)
          step = solved(stiffness, -force)
@@ -305,4 +307,4 @@ contains
          pad = trial
       end do
    end subroutine settle
-end module pad_rest
+end module pad_equilibrium
