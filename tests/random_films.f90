@@ -193,7 +193,7 @@ contains
          write (line, '(3(f0.2, a), es9.2, 3(a, f0.2))') gap%arc()/degree, ' degrees, pivot ', gap%trailing_angle &
             & /gap%arc(), ', L/D ', 0.5_wp*gap%axial_length/gap%journal_radius, ', clearance ', &
             & gap%machined_clearance, ', film thickness ratio ', state%thickness_ratio, ', T ', state%t, ', supply ', &
-               state%supply
+               & state%supply
       end associate
       text = trim(line)
    end function shown

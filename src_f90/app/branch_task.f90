@@ -107,7 +107,7 @@ contains
       real(wp), allocatable :: y(:), equilibrium_state(:)
       call make_start(run, y, error, equilibrium_state)
       if (.not. allocated(error) .and. has_warm_oil(run%model)) call oil_of_equilibrium(run, b, equilibrium_state, &
-         error)
+         & error)
       if (allocated(error)) return
       call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier%count('steps')), y, found, &
          & error, stop_requested)
@@ -252,7 +252,7 @@ contains
       associate (tilting => run%inputs%tilting(), orbit => b%orbits%orbit)
          if (b%of_orbits) then
             call find_orbit_figures(run%model, orbit, b%orbits%period_multiple, &
-               run%inputs%output%samples_per_revolution, figures)
+               & run%inputs%output%samples_per_revolution, figures)
             if (allocated(oil)) call b%ode%oil%get_found(oil, viscosity)
             call add_point(run%file, b%branch, b%parameter, point, figures, tilting, error, oil, viscosity, &
                & branch_orbit_type(b%orbits%period_multiple, orbit%intervals(), b%orbits%period()))

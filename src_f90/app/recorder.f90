@@ -76,7 +76,7 @@ contains
          allocate (none(pads), source=0.0_wp)
          do i = 1, n
             call self%orbit%add(self%run%model%positions(self%run%model%static_state([y(1, i), z(1, i)], tilt(:, i), &
-               none)))
+               & none)))
          end do
       end associate
    end subroutine follow_orbit

@@ -244,7 +244,7 @@ contains
       pads%gap = new_gaps(inputs)
       do i = 1, size(pads)
          associate (b => inputs%bearing, p => inputs%pads, v => inputs%pivot, pad => pads(i), &
-            position => pads(i)%position)
+            & position => pads(i)%position)
             position%angle = p%pivot_angle_deg(i)*degree
             position%sin_angle = sin(position%angle)
             position%cos_angle = cos(position%angle)

@@ -13,8 +13,7 @@ module bifurcations
    !> Length of the names of kinds, and all names.
    integer, parameter :: kind_length = 15
    character(len=kind_length), parameter :: kinds_of_points(*) = [character(len=kind_length) :: 'fold', &
-      'period_doubling', &
-      & 'neimark_sacker', 'hopf', 'branch_point', 'divergence']
+      & 'period_doubling', 'neimark_sacker', 'hopf', 'branch_point', 'divergence']
 
    type :: bifurcation_type
       character(len=kind_length) :: kind = ''

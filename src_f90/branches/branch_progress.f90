@@ -178,7 +178,7 @@ contains
       integer :: k
       problem => followed(self)
       ok = can_be_of(problem, self%here) .and. all([(can_be_of(problem, self%period_doublings(k)), k=1, &
-         size(self%period_doublings))])
+         & size(self%period_doublings))])
       if (.not. ok) return
       call return_to(problem, self%here, refusal)
       ok = .not. allocated(refusal)
@@ -247,7 +247,7 @@ contains
       if (.not. branches%given%switch .or. branches%orbits%period_multiple >= branches%longest_turns) return
       do k = 1, size(special)
          if (special(k)%kind == 'period_doubling') branches%period_doublings = [branches%period_doublings, &
-            special(k)%point]
+            & special(k)%point]
       end do
    end subroutine note_flips
 

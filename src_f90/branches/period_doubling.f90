@@ -74,7 +74,7 @@ contains
       integer :: k
       step = abs(next%parameter - here%parameter)
       period_doublings = pack(period_doublings, [(abs(period_doublings(k)%parameter - next%parameter) > 2*step &
-         .or. 2*period_multiple_at(period_doublings(k)) /= period_multiple, &
+         & .or. 2*period_multiple_at(period_doublings(k)) /= period_multiple, &
          & k=1, size(period_doublings))])
    end subroutine forget_flips
 end module period_doubling

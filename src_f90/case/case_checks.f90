@@ -152,7 +152,7 @@ contains
          call require(inputs%tilting_radial() .or. all(abs([s%pivot_deflection, s%pivot_deflection_rate]) <= 0), &
             & 'start%pivot_deflection = '//to_text(s%pivot_deflection(1))//', pivot_deflection_rate = ' &
             & //to_text(s%pivot_deflection_rate(1))//': must be 0 for pads%motion = '''//inputs%pads%motion//'''', &
-               error)
+               & error)
       end associate
    end subroutine check_start
 

@@ -134,8 +134,7 @@ contains
       end associate
       force = max(norm2(alone%point%load), alone%bearing%pads(1)%weight, 1.0_wp)
       pivot_deflections = [pivot_deflections, (alone%bearing%pivot_deflection(force*least_contact**(1 - real(k, &
-         wp)/contacts)), k=0, &
-         & contacts)]
+         & wp)/contacts)), k=0, contacts)]
    end function deflections_of
 
    !> The pad at tilts that leave the film open at the largest pivot deflection, where its radial forces balance.
@@ -298,7 +297,7 @@ contains
          step = step*longest/max(longest, abs(step(1))*arc, abs(step(2)))
          do halving = 0, patience
             trial = pad_state(tilt=pad%tilt + step(1)/2**halving, pivot_deflection=pad%pivot_deflection &
-               + step(2)/2**halving)
+               & + step(2)/2**halving)
             call alone%evaluate(0.0_wp, alone%state(journal, [trial]), .false., ok)
             if (.not. ok) cycle
             if (all(unbalanced_forces(alone) < last)) exit

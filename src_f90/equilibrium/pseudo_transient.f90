@@ -244,8 +244,7 @@ contains
       associate (gap => model%bearing%pads%gap, loads => model%bearing%loads)
          reference_force = max(norm2(model%point%load), maxval(model%bearing%pads%weight), &
             & maxval(model%oil%viscosity*model%point%speed(0.0_wp)*gap%journal_radius**2*gap%arc()*gap%axial_length &
-            & /gap%machined_clearance), &
-            & least_load*maxval(hypot(loads%journal(1), loads%journal(2))))
+            & /gap%machined_clearance), least_load*maxval(hypot(loads%journal(1), loads%journal(2))))
       end associate
    end function reference_force
 end module pseudo_transient

@@ -223,7 +223,7 @@ contains
       real(wp), intent(in) :: cavitation_pressure
       type(film_response), intent(in) :: fourier
       is_cavitated = cavitation_pressure - fourier%min_pressure > slight_tension*(fourier%max_pressure &
-         - cavitation_pressure)
+         & - cavitation_pressure)
    end function is_cavitated
 
    !> c of a pad whose full film has the response `fourier`, where it cavitates at this pressure, Pa.

@@ -157,7 +157,7 @@ contains
    pure type(film_motion) function without_velocity(motion)
       type(film_motion), intent(in) :: motion
       without_velocity%position = motion%position
-   end function static_state
+   end function without_velocity
 
    !> Integrals of sine and cosine over the arc.
    pure function over_arc(directions)

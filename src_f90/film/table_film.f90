@@ -60,7 +60,7 @@ contains
       do k = 1, size(solver%shapes)
          associate (shape => solver%shapes(k))
             shape%whole = new_full_film_table(shape%pad, shape%supplied, share_of_whole*tolerance, &
-               most_whole/size(gaps))
+               & most_whole/size(gaps))
             shape%cavitation = new_cavitation_table(shape%pad, gumbel, tolerance, most_cavitated/size(gaps))
          end associate
       end do

@@ -274,8 +274,7 @@ contains
       call fill_case(parsed, inputs, error)
       if (allocated(error)) return
       text = namelist_of(inputs)//'&'//study_group//newline//'  order = '''//trim(merge('zip    ', 'product', &
-         self%zip)) &
-         & //''''//newline
+         & self%zip))//''''//newline
       do i = 1, size(self%variables)
          associate (v => self%variables(i))
             text = text//'  '//target_text(v%target)//' = '//v%values%text()//newline

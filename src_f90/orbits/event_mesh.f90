@@ -74,7 +74,7 @@ contains
                   if (above < 0 .eqv. last < 0) call mesh%drop_end(orbit%time(k - 1))
                else if (above < 0 .neqv. last < 0) then
                   call mesh%put_end(passage(orbit, state, value, root_bracket([before, now], [last, above])), &
-                     switching_point)
+                     & switching_point)
                end if
                at_end = .false.
                last = above

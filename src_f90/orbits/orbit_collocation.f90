@@ -93,8 +93,7 @@ contains
          call equations%maps%follow(k, points, start, at)
          start(:, :n) = at(:, :, points)
          if (k == to .and. k < orbit%intervals()) call put_at_switching_point(model, orbit, k, start(:columns + 1, &
-            :n), &
-            & equations%shift(:, k))
+            & :n), equations%shift(:, k))
       end do
       equations%at_end = start(:columns, :n)
       if (.not. (all(abs(equations%at_end) <= huge(1.0_wp)) .and. all(abs(equations%shift) <= huge(1.0_wp)))) then
@@ -239,10 +238,10 @@ contains
          to = next_switching_point(orbit, from + 1)
          associate (length => orbit%time(to) - orbit%time(from))
             kept = length + shift(to) - shift(from) >= shortest*length .or. max(orbit%switching_point(from), &
-               orbit%switching_point(to)) <= 0
+               & orbit%switching_point(to)) <= 0
          end associate
          if (.not. kept) orbit%switching_point(merge(from, to, abs(shift(from)) > abs(shift(to)) &
-            .or. orbit%switching_point(to) <= 0)) = -1
+            & .or. orbit%switching_point(to) <= 0)) = -1
          from = to
       end do
    end subroutine keep_order

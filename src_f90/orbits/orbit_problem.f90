@@ -246,8 +246,7 @@ contains
       call self%ode%get_start(sought)
       associate (orbit => self%orbit)
          place = [real(self%period_multiple, wp), self%parameter, self%first_defect, real(orbit%intervals(), wp), &
-            orbit%time, &
-            & real(orbit%switching_point, wp), orbit%start, orbit%at, sought]
+            & orbit%time, real(orbit%switching_point, wp), orbit%start, orbit%at, sought]
       end associate
    end subroutine get_place
 

@@ -63,7 +63,7 @@ contains
          call list('power_loss', pads%power(), 'W', 'power loss')
          call list('couette_loss', pads%couette, 'W', 'Couette loss: power loss by the shear of sliding')
          call list('poiseuille_loss', pads%pressure, 'W', &
-            'Poiseuille loss: power loss by the shear of the flow that pressure drives')
+            & 'Poiseuille loss: power loss by the shear of the flow that pressure drives')
          if (inputs%asperity%model /= 'none') call list('boundary_loss', pads%boundary, 'W', &
             & 'power loss by boundary friction of asperities')
          call list('journal_drag', pads%journal_drag, 'N m', &

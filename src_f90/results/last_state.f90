@@ -78,7 +78,7 @@ contains
       type(hdf5_type), intent(inout) :: file
       integer, intent(in) :: samples_per_revolution
       type(hdf5_series_type) :: series
-      real(wp), allocatable :: angle(:, :), period_multiple(:), beside(:)
+      real(wp), allocatable :: angle(:, :), revolutions(:), beside(:)
       integer :: n
       at = 0
       call series%open(file, 'shaft_angle')
@@ -90,8 +90,8 @@ contains
          call file%check_read(-1, 'read shaft_angle')
          return
       end if
-      period_multiple = angle(1, :)/(2*pi)
-      beside = abs(period_multiple - anint(period_multiple))
+      revolutions = angle(1, :)/(2*pi)
+      beside = abs(revolutions - anint(revolutions))
       at = series%length - n + findloc(beside <= minval(beside) + same_angle, .true., dim=1, back=.true.) - 1
    end function last_whole_turn
 

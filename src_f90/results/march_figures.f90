@@ -192,10 +192,10 @@ contains
    end subroutine put_harmonics
 
    !> What friction in the pivots does in the last samples, at these times, s, in so many revolutions.
-   subroutine put_friction(file, inputs, time, period_multiple)
+   subroutine put_friction(file, inputs, time, revolutions)
       type(run_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
-      real(wp), intent(in) :: time(:), period_multiple
+      real(wp), intent(in) :: time(:), revolutions
       real(wp), allocatable :: tilt(:, :), rate(:, :), moment(:, :)
       real(wp), dimension(inputs%pad_count()) :: work, stuck
       real(wp) :: slow
@@ -216,9 +216,9 @@ contains
             stuck(i) = slow_share(time, (pivot%socket_radius - pivot%radius_difference)*rate(i, :), slow)
          end do
       end associate
-      call put_figure(file%file, 'friction_work', sum(work)/period_multiple, 'J', &
-         'friction work a revolution, all pads')
-      call put_figure(file%file, 'pad_friction_work', work/period_multiple, 'J', 'friction work a revolution')
+      call put_figure(file%file, 'friction_work', sum(work)/revolutions, 'J', &
+         & 'friction work a revolution, all pads')
+      call put_figure(file%file, 'pad_friction_work', work/revolutions, 'J', 'friction work a revolution')
       call put_figure(file%file, 'pad_friction_power', work/(time(n) - time(1)), 'W', 'mean friction power')
       call put_figure(file%file, 'pad_friction_moment', maxval(abs(moment), dim=2), 'N m', 'maximum friction moment')
       call put_figure(file%file, 'stick_velocity', slow, 'm/s', 'sliding velocity below which a pivot sticks')
@@ -236,14 +236,14 @@ contains
       integer, intent(in) :: whole
       type(pad_behaviour_type) :: found(inputs%pad_count())
       real(wp), allocatable, dimension(:, :) :: angle, contact, tilt, asperity, y, z
-      real(wp) :: period_multiple, order, amplitude
+      real(wp) :: revolutions, order, amplitude
       character(len=:), allocatable :: said
       logical :: whirls, steady
       integer :: n
       n = last_revolutions(file, max(1, min(inputs%output%spectrum_revolutions, whole)))
       steady = .not. abs(inputs%operation%final_speed_rpm - inputs%operation%speed_rpm) > 0
       call file%last_samples('shaft_angle', n, angle)
-      period_multiple = (angle(1, n) - angle(1, 1))/(2*pi)
+      revolutions = (angle(1, n) - angle(1, 1))/(2*pi)
       said = ''
       if (file%file%has('asperity_force')) then
          call file%last_samples('asperity_force', n, asperity)
@@ -254,16 +254,16 @@ contains
          call file%last_samples('pivot_load', n, contact)
          call take('pad_tilt', tilt)
          associate (b => inputs%bearing)
-            call behaviour_of(found, contact, tilt, period_multiple, &
-               b%assembled_clearance/(0.5_wp*inputs%pads%arc_deg*degree &
+            call behaviour_of(found, contact, tilt, revolutions, &
+               & b%assembled_clearance/(0.5_wp*inputs%pads%arc_deg*degree &
                & *b%journal_radius))
          end associate
          call put_behaviour(file, found)
       end if
       call take('journal_y', y)
       call take('journal_z', z)
-      call whirl_of(y(1, :), z(1, :), period_multiple, inputs%bearing%assembled_clearance, order, amplitude, whirls)
-      call put_figure(file%file, 'last_revolutions', period_multiple, '1', &
+      call whirl_of(y(1, :), z(1, :), revolutions, inputs%bearing%assembled_clearance, order, amplitude, whirls)
+      call put_figure(file%file, 'last_revolutions', revolutions, '1', &
          & 'revolutions over which lift-off, orders and shares are')
       call put_figure(file%file, 'whirl_order', known(order), '1', &
          & 'order of the largest journal motion that is no multiple of 1x')

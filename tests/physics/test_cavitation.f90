@@ -108,8 +108,7 @@ contains
       call expect(minval(p) >= condition, 'no pressure below that of cavitation')
       call expect_close(maxval(abs(change), mask=p > condition), 0.0_wp, 10*scale, 'balance in the full film')
       if (cavitated > 0) call expect(maxval(change, mask=p <= condition) <= 10*scale, &
-         & 'cavitated cells would fall further: ' &
-         & //to_text(maxval(change, mask=p <= condition)))
+         & 'cavitated cells would fall further: '//to_text(maxval(change, mask=p <= condition)))
       call expect_close(r%min_pressure, minval(p), 1e-9_wp*r%max_pressure, 'lowest pressure')
    end subroutine complementarity
 

@@ -60,8 +60,7 @@ contains
       consistent = paper_law('fang', 15e-6_wp, 2*pi)
       do e = -3, 6
          call expect_close(printed%pivot_deflection(10.0_wp**e)/consistent%pivot_deflection(10.0_wp**e), 2/pi, &
-            1e-13_wp, &
-            & 'printed over consistent factor at 1e'//to_text(e)//' N')
+            & 1e-13_wp, 'printed over consistent factor at 1e'//to_text(e)//' N')
       end do
    end subroutine printed_factor
 

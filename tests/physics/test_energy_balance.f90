@@ -276,8 +276,7 @@ contains
       call find_equilibrium(bearing, static, error)
       call expect_no_error(error, 'the equilibrium is found')
       call closes(inputs, bearing%static_state(static%journal + [10e-6_wp, 5e-6_wp], static%tilt + [1e-4_wp, &
-         -5e-5_wp], &
-         & static%pivot_deflection*[1.02_wp, 0.97_wp]), what, rubbed, touched)
+         & -5e-5_wp], static%pivot_deflection*[1.02_wp, 0.97_wp]), what, rubbed, touched)
       call expect(.not. touched, 'nothing touches, '//what)
       if (friction == 'none') then
          call expect(abs(rubbed) <= 0, 'nothing rubs, '//what)
@@ -303,7 +302,7 @@ contains
          & //exact_text(coefficient)//' /')
       bearing = new_bearing_model(inputs)
       start = bearing%static_state([-55e-6_wp, 0.0_wp], [-0.2e-3_wp, 1.03e-3_wp, -3.4e-3_wp], [7e-6_wp, 7e-6_wp, &
-         1e-6_wp])
+         & 1e-6_wp])
       start(bearing%layout%tilt_rate(3)) = -1
       call closes(inputs, start, what, rubbed, touched)
       call expect(touched, 'the edge strikes, '//what)

@@ -157,8 +157,7 @@ contains
             centre = pivot - (b%journal_radius + b%machined_clearance + p%pivot_distance(pad))*outward
             e = found%journal - centre
             call solver%evaluate_pad(pad, film_motion([dot_product(e, along), dot_product(e, outward)]), &
-               & film_oil(b%viscosity), &
-               & inputs%highest_speed(), .false., r)
+               & film_oil(b%viscosity), inputs%highest_speed(), .false., r)
             total = total + r%force(1)*along + r%force(2)*outward
             weight = p%mass(pad)*9.81_wp
             ! moments about the pivot over its distance; forces along the pad's radius

@@ -66,8 +66,7 @@ contains
       inputs%film%solver = solver
       model = new_bearing_model(inputs)
       call model%evaluate(0.0_wp, model%static_state([-eccentricity*inputs%bearing%assembled_clearance, 0.0_wp], &
-         [0.0_wp], &
-         & [0.0_wp]), .false., ok)
+         & [0.0_wp], [0.0_wp]), .false., ok)
       call expect(ok, 'a film at '//to_text(eccentricity))
       force = model%bearing%loads(1)%journal*[1, -1]
    end function forces_of
@@ -267,7 +266,7 @@ contains
          call find_equilibrium(model, rest(i), error)
          call expect_no_error(error, 'an equilibrium')
          call model%evaluate(0.0_wp, model%static_state(rest(i)%journal, rest(i)%tilt, rest(i)%pivot_deflection), &
-            .true., ok)
+            & .true., ok)
          call force_derivatives(model, k(:, :, i), c(:, :, i))
       end do
       call expect_close(norm2(rest(2)%journal - matmul(turn, rest(1)%journal)), 0.0_wp, 1e-12_wp, 'the place')

@@ -224,8 +224,7 @@ contains
       inputs%operation%duration = duration
       call solve(inputs, static, figures, model)
       call find_groove_transient(model, model%static_state(static%journal, static%tilt, static%pivot_deflection), &
-         duration, &
-         & history, error)
+         & duration, history, error)
       call expect_no_error(error, 'course')
       if (.not. allocated(error)) call history%at(duration, viscosities)
    end function after_run_up

@@ -450,7 +450,7 @@ contains
       do i = 1, size(at)
          associate (piece => curves(i)%pieces(at(i)), position => model%bearing%pads(i)%position)
             pivot_deflection(i) = piece%pivot_deflection(1) + t(i)*(piece%pivot_deflection(2) &
-               - piece%pivot_deflection(1))
+               & - piece%pivot_deflection(1))
             out = [position%sin_angle, position%cos_angle]
             r = place - (position%pivot_radius + pivot_deflection(i))*out
             tilt(i) = atan2(dot_product(r, [out(2), -out(1)]), -dot_product(r, out)) &

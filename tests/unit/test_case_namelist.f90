@@ -194,8 +194,7 @@ contains
          & //newline//'&film circumferential_cells = 40 solver='' sor ''/')
       call expect(s%friction%model == 'lugre' .and. s%film%solver == 'sor', 'words in capitals and with blanks')
       call expect_list([s%friction%decay, s%rotor%static_load, s%rotor%mass], [1000.0_wp, 0.0_wp, 1500.0_wp, &
-         & 1000.0_wp], &
-         & 'numbers in several forms')
+         & 1000.0_wp], 'numbers in several forms')
       call expect(s%film%circumferential_cells == 40, 'a whole number')
       s = case_of('&operation speed_rpm = 1500, final_speed_rpm = 6500, duration = 10/ &rotor balance_grade = 6.3/')
       call expect_list([s%operation%final_speed_rpm], [6500.0_wp], 'a run-up')

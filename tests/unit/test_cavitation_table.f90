@@ -189,7 +189,7 @@ contains
       integer, parameter :: n = 12
       type(cavitation_table_type) :: table, other
       real(wp) :: places(3, n), value(simd_width, n), slope(simd_width, 3, n), value_there(simd_width), &
-         slope_there(simd_width, 3)
+         & slope_there(simd_width, 3)
       integer :: k, last, different, pass
       logical :: good, gumbel
       gumbel = .false.

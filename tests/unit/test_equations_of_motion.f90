@@ -65,8 +65,7 @@ contains
          call expect(model%layout%first(pad) == 5 + (pad - 1)*own, 'first state of a pad')
          call expect_close(y(model%layout%tilt(pad)), 2.0_wp + pad, 0.0_wp, 'tilt of a state at rest')
          if (motion == 'tilting_radial') call expect_close(y(model%layout%pivot_deflection(pad)), 4.0_wp + pad, &
-            0.0_wp, &
-            & 'pivot deflection of a state at rest')
+            & 0.0_wp, 'pivot deflection of a state at rest')
          if (friction == 'lugre') call expect(model%layout%bristle(pad) == 4 + pad*own, 'bristle of a pad')
       end do
       call expect_close(sum(y), merge(21.0_wp, 10.0_wp, motion == 'tilting_radial'), 0.0_wp, 'nothing else at rest')

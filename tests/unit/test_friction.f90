@@ -88,8 +88,7 @@ contains
          ! step 1e-4 of v: error (1e-4 v chi)**2/6 < 1e-8 of the slope, rounding 1e-16 f/(1e-4 v) < 1e-10 f/v
          h = 1e-4_wp*abs(velocities(k))
          call expect_close(r%force_velocity, (force_of(law, velocities(k) + h) - force_of(law, velocities(k) &
-            & - h))/(2*h), &
-            & 1e-8_wp*abs(r%force_velocity) + 1e-10_wp*abs(r%force/velocities(k)), &
+            & - h))/(2*h), 1e-8_wp*abs(r%force_velocity) + 1e-10_wp*abs(r%force/velocities(k)), &
             & 'Bengisu-Akay slope at '//to_text(velocities(k)))
          call expect_close(r%force_normal, r%force/load, rounding*fs, 'Bengisu-Akay slope over the normal force')
       end do

@@ -109,7 +109,7 @@ contains
          point = pivot - place%centre_distance*outward + (journal_radius + c_m)*(sin(phi)*along + cos(phi)*outward)
          gap = norm2(point - journal) - journal_radius
          allowed = (norm2(journal) + abs(tilt)*place%centre_distance + abs(pivot_deflection) &
-            + c_m)**2/(2*journal_radius)
+            & + c_m)**2/(2*journal_radius)
          worst = max(worst, abs(gap - thickness(place, journal, tilt, pivot_deflection, phi))/(allowed + rounding()))
       end do
       call expect(worst < 1.01_wp, 'thickness against plane geometry, in units of e**2/(2 R_J): '//to_text(worst))
@@ -152,7 +152,7 @@ contains
       pivot_deflection = 1e-3_wp*cos(0.9_wp*t)
       pivot_deflection_rate = -0.9e-3_wp*sin(0.9_wp*t)
       on_path = motion_of(place, frame_of(place, journal, tilt, pivot_deflection), velocity, tilt_rate, &
-         pivot_deflection_rate)
+         & pivot_deflection_rate)
    end function on_path
 
    !> Slopes against central differences, each in the unit of its state: the relations are at most

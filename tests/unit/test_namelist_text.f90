@@ -175,8 +175,7 @@ contains
    subroutine separators()
       call expect_read('! head / & ''quote'//newline//'&ROTOR'//return//newline//tab//'Mass=1,'//return//newline &
          & //'static_LOAD = 1.0,'//tab//'2D0 ! a comment, with / and &end and = '//return//newline//'/' &
-         & //return//newline, &
-         & 'rotor%mass=1; rotor%static_load=1.0|2D0')
+         & //return//newline, 'rotor%mass=1; rotor%static_load=1.0|2D0')
       call expect_read('&a x=1,y=2,/', 'a%x=1; a%y=2')
       call expect_read('&a x = 1 '//newline//' 2'//newline//',3'//newline//'y = 4/ &b z=5/', &
          & 'a%x=1|2|3; a%y=4; b%z=5')

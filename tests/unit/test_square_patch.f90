@@ -79,7 +79,7 @@ contains
    !> The error of exp(a s1 + b s2) over half the square is 2^-nodes of that over the whole; its slopes lose one order.
    subroutine order()
       real(wp) :: errors(2, 0:1), points(nodes), values(simd_width, nodes, nodes), found(simd_width), &
-         slope(simd_width, 2), s(2), size
+         & slope(simd_width, 2), s(2), size
       real(wp) :: coefficients(simd_width, nodes, nodes), ratio
       integer :: halving, i, k
       points = node_points(nodes)

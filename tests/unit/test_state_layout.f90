@@ -126,8 +126,7 @@ contains
       if (.not. layout%bristles) states%deflection = 0
       call expect_close(maxval(abs(back%pivot_deflection - states%pivot_deflection) &
          & + abs(back%pivot_deflection_rate - states%pivot_deflection_rate) + abs(back%deflection &
-            - states%deflection)), &
-         & 0.0_wp, 0.0_wp, 'what a pad has comes back, the rest is 0'//what(layout))
+            & - states%deflection)), 0.0_wp, 0.0_wp, 'what a pad has comes back, the rest is 0'//what(layout))
       do i = 1, pads
          call expect_close(y(layout%tilt_rate(i)), 20.0_wp + i, 0.0_wp, 'tilt rate by its index'//what(layout))
          if (layout%radial) call expect_close(y(layout%pivot_deflection(i)), 30.0_wp + i, 0.0_wp, &

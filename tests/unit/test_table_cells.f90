@@ -193,7 +193,7 @@ contains
    !> Whatever values and derivatives the corners have, the functions have them there.
    subroutine corner_values()
       real(wp) :: data(simd_width, corner_data, 0:corners - 1), value(simd_width), slope(simd_width, 3), &
-         c(simd_width, terms)
+         & c(simd_width, terms)
       integer :: corner
       call random_number(data)
       c = terms_of(data)
@@ -208,7 +208,7 @@ contains
    subroutine slopes()
       real(wp), parameter :: step = 1e-5_wp
       real(wp) :: c(simd_width, terms), value(simd_width), slope(simd_width, 3), unused(simd_width, 3), &
-         back(simd_width), shift(3), s(3)
+         & back(simd_width), shift(3), s(3)
       integer :: trial, axis
       do trial = 1, 10
          call random_number(c)
@@ -227,7 +227,7 @@ contains
    !> Every product of powers of a total degree up to three is met.
    subroutine cubics()
       real(wp) :: data(simd_width, corner_data, 0:corners - 1), value(simd_width), slope(simd_width, 3), &
-         c(simd_width, terms), s(3)
+         & c(simd_width, terms), s(3)
       integer :: i, j, k, corner
       do k = 0, 3
          do j = 0, 3 - k
@@ -293,7 +293,7 @@ contains
    subroutine order()
       real(wp), parameter :: rate(3) = [1.0_wp, -0.7_wp, 0.5_wp]
       real(wp) :: data(simd_width, corner_data, 0:corners - 1), value(simd_width), slope(simd_width, 3), &
-         c(simd_width, terms), s(3)
+         & c(simd_width, terms), s(3)
       real(wp) :: errors(2, 0:1), size, found
       integer :: halving, corner, trial
       errors = 0

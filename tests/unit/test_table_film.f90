@@ -74,8 +74,7 @@ contains
       middle = 0.5_wp*(gap%leading_angle - gap%trailing_angle)
       film = new_fourier_film([gap], enough_cells([gap]), enough_modes([gap]), .false., tolerance)
       call film%evaluate([film_motion(motion%position, 0.25_wp*clearance*speed*[sin(middle), cos(middle)])], &
-         & [paper_oil], 0.0_wp, &
-         & .false., r)
+         & [paper_oil], 0.0_wp, .false., r)
       squeezed = norm2(r(1)%force)
    end function squeezed
 
@@ -245,12 +244,10 @@ contains
             shift = 0
             shift(k) = step
             call film%evaluate([film_motion(motion%position + shift(:2), motion%velocity + shift(3:))], [paper_oil], &
-               & speed, &
-               & .false., moved)
+               & speed, .false., moved)
             difference = moved(1)%force
             call film%evaluate([film_motion(motion%position - shift(:2), motion%velocity - shift(3:))], [paper_oil], &
-               & speed, &
-               & .false., moved)
+               & speed, .false., moved)
             difference = (difference - moved(1)%force)/(2*step)
             ! T bends its slopes within the step
             call expect_close(norm2(difference - found(1)%derivatives(:, k)), 0.0_wp, 1e-5_wp*squeezed(offset_pad(), &
@@ -471,8 +468,7 @@ contains
             call film%take_pressures([motion], [paper_oil], speed, found)
             call fine%field([motion], [paper_oil], speed, phi, [0.0_wp], along)
             call fine%field([film_motion(motion%position, clearance*speed*[0.0_wp, 0.25_wp])], [paper_oil], 0.0_wp, &
-               & phi, [0.0_wp], &
-               & squeezed_film)
+               & phi, [0.0_wp], squeezed_film)
             if (supply < 0) along = max(0.0_wp, along)
             associate (highest => max(gap%supply_pressure, maxval(along)), lowest => min(0.0_wp, minval(along)), &
                & scale => maxval(squeezed_film))

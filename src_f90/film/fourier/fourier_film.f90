@@ -141,8 +141,7 @@ contains
       rise = pad%gap%supply_pressure - pad%gap%ambient_pressure
       do b = 1, pad%axial%blocks
          call solve_modes(pad%n, pad%axial%square(simd_width*b - simd_width + 1:simd_width*b), pad%base, pad%rate, &
-            pad%load, &
-            & rise*pad%h(pad%n), pad%a(:, :, b), pad%f(:, :, b), pad%q(:, :, b))
+            & pad%load, rise*pad%h(pad%n), pad%a(:, :, b), pad%f(:, :, b), pad%q(:, :, b))
       end do
       call sum_up(pad, rise, response)
       if (pad%shares_are_stale .and. want_derivatives) call whole_shares(pad)

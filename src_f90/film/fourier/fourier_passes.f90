@@ -182,7 +182,7 @@ contains
       integer, intent(in) :: n, blocks
       !> s/H^2 and H by node; the modes left out; b_k cos(lambda_k Z) by point and slot.
       real(wp), intent(in) :: narrow(0:n), h(0:n), tail(looks), look(looks, simd_width, blocks), q(simd_width, 0:n, &
-         blocks)
+         & blocks)
       real(wp) :: even(looks), odd(looks)
       integer :: i, b, k, l
       lowest_pressure = 0

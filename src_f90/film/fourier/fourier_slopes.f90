@@ -35,8 +35,7 @@ contains
             call solve_adjoints(n, pad%a(:, :, b), pad%f(:, :, b), pad%share(:, :, b), along, adjoint)
             do m = 1, 2
                call sum_adjoint(n, adjoint(:, :, m), pad%q(:, :, b), pad%axial%square(simd_width*b - simd_width &
-                  + 1:simd_width*b), &
-                  & over_s(:, m), over_v(:, m), over_h2(:, m))
+                  & + 1:simd_width*b), over_s(:, m), over_v(:, m), over_h2(:, m))
                ! q = rise H at the leading edge stands in the last equation as a q
                boundary(m) = boundary(m) - dot_product(adjoint(:, n - 1, m), pad%a(:, n, b))*rise
             end do

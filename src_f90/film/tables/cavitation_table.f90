@@ -154,7 +154,7 @@ contains
       type(cell_type), intent(inout) :: cell
       type(node_type) :: node
       real(wp) :: data(simd_width, corner_data, 0:corners - 1), value(simd_width), slope(simd_width, 3), size_of(3), &
-         error
+         & error
       integer :: corner, i, finer
       cell%lower = [lower_end(at(:2), octave_level + level), at(3)/real(parts*2**level, wp)]
       cell%upper = [lower_end(at(:2) + 1, octave_level + level), (at(3) + 1)/real(parts*2**level, wp)]

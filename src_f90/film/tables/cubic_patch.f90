@@ -17,7 +17,7 @@ contains
    !> the corners in Fortran's order of 0 and 1 along the three axes.
    function cubic_transform() result(transform)
       real(wp) :: transform(terms, terms), matrix(terms, terms), unit(simd_width, terms), value(simd_width), &
-         slope(simd_width, 3)
+         & slope(simd_width, 3)
       integer :: corner, term, pivots(terms), info
       transform = 0
       do term = 1, terms
