@@ -14,14 +14,14 @@ module resting_orbit
 contains
 
    !> An orbit at rest on n equal intervals of a period.
-   type(orbit_type) function static_state(states, n, period) result(orbit)
+   type(orbit_type) function at_rest(states, n, period) result(orbit)
       integer, intent(in) :: states, n
       real(wp), intent(in) :: period
       integer :: k
       allocate (orbit%start(states), source=0.0_wp)
       allocate (orbit%scale(states), source=1.0_wp)
       call orbit%set_mesh([(period*k/n, k=0, n)], reshape([real(wp) ::], [states, points, n], pad=[0.0_wp]))
-   end function static_state
+   end function at_rest
 
    !> One round on the orbit of a model; the multipliers before it.
    subroutine newton_round(model, orbit, error, multipliers)

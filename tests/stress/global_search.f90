@@ -457,7 +457,7 @@ contains
                & - (piece%b(1) + t(i)*(piece%b(2) - piece%b(1)))
          end associate
       end do
-      y = model%at_rest(place, tilt, pivot_deflection)
+      y = model%static_state(place, tilt, pivot_deflection)
    end function state_on_curves
 
    !> Newton's method on journal and pads, with steps cut where the films close or nothing improves.
