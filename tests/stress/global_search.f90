@@ -25,7 +25,7 @@ program global_search
    use operating_point, only: operating_point_type
    use equations_of_motion, only: bearing_model, new_bearing_model
    use force_balance, only: forces, force_derivatives
-   use damped_newton, only: unbalanced, reference_force, residual_limit
+   use pseudo_transient, only: unbalanced, reference_force, residual_limit
    use small_vibrations, only: stability_at, stability_type
    implicit none (type, external)
 
