@@ -35,7 +35,7 @@ CAUSES = {
     "past the only pad": "the load points past the only pad",
     "one pad: the journal": "one pad: the journal rolls off",
     "the journal away": "pads that push the journal away",
-    "no equilibrium": "unloaded pads have no equilibrium",
+    "no equilibrium (unloaded)": "unloaded pads have no equilibrium",
     "leaves every equilibrium": "the journal leaves every equilibrium that was found",
     "did not converge": "a film did not converge",
     "do not hold the journal": "fixed pads that do not hold the journal",
