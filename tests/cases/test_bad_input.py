@@ -502,6 +502,12 @@ LINES = {
         ["takes one value", "sweep%rotor%mass = 1, 2"],
     ),
     "word like another": (["case.nml", "--set", "friction%model=lugree"], ["(did you mean lugre?)"]),
+    "former variable": (
+        ["case.nml", "--set", "pivot%penetration_factor=4"],
+        ["(is called pivot%deflection_factor now)"],
+    ),
+    "former word": (["case.nml", "--set", "film%solver=modal"], ["(is called fourier now)"]),
+    "former option": (["case.nml", "--member", "3"], ["(is called --run now)"]),
     "group like another": (["case.nml", "--set", "rotors%mass=1"], ["(did you mean rotor?)"]),
 }
 
