@@ -152,7 +152,8 @@ def test_an_orbit_that_the_march_has_left_for_the_doubled_one(run, tmp_path):
     with h5py.File(tmp_path / "case.h5") as file:
         assert file["periodic/multiplier_imag"][0] == 0
         assert file["periodic/multiplier_real"][0] < -2
-        assert file["periodic/residual"][()] < 1e-6
+        # that before the last correction c, which leaves some c**2 <= 1e-8
+        assert file["periodic/residual"][()] < 1e-4
 
 
 def test_fixed_pads(run, tmp_path):
