@@ -24,8 +24,8 @@ contains
       call file%put_real('equilibrium/journal_z', found%journal(2), 'm', 'journal displacement, horizontal')
       if (tilting) call file%put_list('equilibrium/pad_tilt', found%tilt, 'rad', 'pad tilt', 'pad')
       if (radial) call file%put_list('equilibrium/pivot_deflection', found%pivot_deflection, 'm', &
-         & 'pivot pivot deflection', 'pad')
-      if (tilting) call file%put_list('equilibrium/pivot_load', found%pivot_load, 'N', 'pivot pivot load', &
+         & 'pivot deflection', 'pad')
+      if (tilting) call file%put_list('equilibrium/pivot_load', found%pivot_load, 'N', 'pivot load', &
          & 'pad')
       call file%put_list('equilibrium/min_film_thickness', found%min_film_thickness, 'm', &
          & 'minimum film thickness', 'pad')

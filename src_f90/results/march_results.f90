@@ -39,7 +39,7 @@ contains
          k = 0
          associate (state => sample%states(i), pad => sample%loads(i))
             if (sample%tilting) then
-               call each('pivot_load', pad%pivot_load, 'N', 'pivot pivot load')
+               call each('pivot_load', pad%pivot_load, 'N', 'pivot load')
                call each('friction_moment', pad%friction_moment, 'N m', 'pivot friction moment')
             end if
             call each('film_force_tangential', pad%film_force(1), 'N', 'film force on the journal along the pad (y'')')
@@ -51,8 +51,8 @@ contains
                call each('pad_tilt_rate', state%tilt_rate, 'rad/s', 'pad tilt rate')
             end if
             if (sample%radial) then
-               call each('pivot_deflection', state%pivot_deflection, 'm', 'pivot pivot deflection')
-               call each('pivot_deflection_rate', state%pivot_deflection_rate, 'm/s', 'pivot pivot deflection rate')
+               call each('pivot_deflection', state%pivot_deflection, 'm', 'pivot deflection')
+               call each('pivot_deflection_rate', state%pivot_deflection_rate, 'm/s', 'pivot deflection rate')
             end if
             if (sample%bristles) call each('bristle_deflection', state%deflection, 'm', 'bristle deflection')
             if (sample%asperities) call each('asperity_force', pad%asperity_force, 'N', &

@@ -92,16 +92,16 @@ def test_marches_on_both_sides_of_a_doubling(run, tmp_path, speed, kind):
     leaves it by this. The second multiplier of 9560 rpm, -0.90, is left of the motion, too; the third is
     0.67, so that 20 periods leave 3e-4 of it. Both runs have the same tables of films.
     """
-    case_name = (
+    settings = (
         "friction%static_coefficient=0.15",
         "friction%dynamic_coefficient=0.075",
         "film%table_tolerance=1e-5",
     )
-    case_name = (*case_name, f"operation%speed_rpm={speed}", "output%samples_per_revolution=3")
-    assert kind in run("&friction model='lugre' /\n", PERIODIC, *case_name).stdout
+    settings = (*settings, f"operation%speed_rpm={speed}", "output%samples_per_revolution=3")
+    assert kind in run("&friction model='lugre' /\n", PERIODIC, *settings).stdout
     start = ("start%from='file'", "start%file='case.h5'", "start%journal=1e-7,0")
     march = ("integration%relative_tolerance=1e-8", f"operation%duration={40.01 * 60 / speed}")
-    run("&friction model='lugre' /\n", *case_name, *start, *march, name="march")
+    run("&friction model='lugre' /\n", *settings, *start, *march, name="march")
     with h5py.File(tmp_path / "case.h5") as orbit, h5py.File(tmp_path / "march.h5") as march:
         leading = leading_multiplier(orbit)
         changes = np.diff([march[name][60::3] for name in ("journal_y", "journal_z")])

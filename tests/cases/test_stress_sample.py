@@ -36,9 +36,9 @@ FIXED = (9, 24, 40, 43, 59)
 
 
 def at_rest(program, folder, number, seed=1):
-    case_name = draw(seed, number)
-    case_name["case"]["task"] = "equilibrium"
-    (folder / "case.nml").write_text(text(case_name))
+    drawn = draw(seed, number)
+    drawn["case"]["task"] = "equilibrium"
+    (folder / "case.nml").write_text(text(drawn))
     return limited([program, "case.nml", "--quiet"], folder, LIMIT)
 
 
