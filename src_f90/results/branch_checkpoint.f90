@@ -91,8 +91,9 @@ contains
       call get_special(file, special, ok)
       ok = ok .and. branches%branch > 0 .and. branches%points >= 0 .and. ieee_is_finite(branches%length)
       if (ok) call get_point(file, 'checkpoint/point', branches, branches%here, ok)
-      do while (ok .and. file%has(flip_name(size(branches%period_doublings) + 1)))
-         call get_point(file, flip_name(size(branches%period_doublings) + 1), branches, period_doubling, ok)
+      do while (file%has(flip_name(size(branches%period_doublings) + 1)))
+         if (ok) call get_point(file, flip_name(size(branches%period_doublings) + 1), branches, period_doubling, ok)
+         if (.not. ok) exit
          branches%period_doublings = [branches%period_doublings, period_doubling]
       end do
    end subroutine get_branches

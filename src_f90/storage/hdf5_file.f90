@@ -39,6 +39,7 @@ module hdf5_file
       procedure :: expect_type
       procedure :: describe
       procedure, private :: open_or_create
+      procedure, private :: open_expected
       procedure, private :: write_all
       procedure, private :: read_all
       procedure, private :: write_reals
@@ -173,7 +174,8 @@ contains
       if (status == dimensions) bytes = product(real(chunk(:dimensions), wp))*letter
    end function chunk_bytes
 
-   !> Opens a dataset, or creates it.
+   !> Opens a dataset, or creates it. One that is there must be what would be created: HDF5 would write numbers of any
+   !> size that a damaged type claims.
    subroutine open_or_create(self, path, kind, dims, units, long_name, scales, dataset)
       class(hdf5_type), intent(inout) :: self
       character(len=*), intent(in) :: path, units, long_name, scales
@@ -183,7 +185,7 @@ contains
       integer(hid_t) :: space
       integer :: status
       if (self%has(path)) then
-         call self%open_dataset(path, dataset, status)
+         call self%open_expected(path, kind, product(dims), dataset)
          return
       end if
       if (size(dims) == 0) then
@@ -266,23 +268,40 @@ contains
       integer(hid_t), intent(in) :: kind
       integer, intent(in) :: n
       type(c_ptr), value :: buffer
-      integer(hid_t) :: dataset, space
-      integer(hsize_t) :: points
+      integer(hid_t) :: dataset
       integer :: status
       if (allocated(self%failure)) return
       if (.not. self%has(path)) call self%check_read(-1, 'find '//path)
+      call self%open_expected(path, kind, int(n, hsize_t), dataset)
+      if (dataset < 0) return
+      status = 0
+      if (.not. allocated(self%failure)) call h5dread_f(dataset, kind, buffer, status)
+      call self%check_read(status, 'read '//path)
+      call h5dclose_f(dataset, status)
+   end subroutine read_all
+
+   !> Opens a dataset of n values of a kind; a failure where it has others, and a negative number where it is not open.
+   subroutine open_expected(self, path, kind, n, dataset)
+      class(hdf5_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      integer(hid_t), intent(in) :: kind
+      integer(hsize_t), intent(in) :: n
+      integer(hid_t), intent(out) :: dataset
+      integer(hid_t) :: space
+      integer(hsize_t) :: points
+      integer :: status
+      dataset = -1
       if (allocated(self%failure)) return
       call self%open_dataset(path, dataset, status)
+      if (status < 0) dataset = -1
       if (status < 0) return
       call self%expect_type(dataset, kind, path)
       call h5dget_space_f(dataset, space, status)
       call h5sget_simple_extent_npoints_f(space, points, status)
       if (status >= 0 .and. points /= n) status = -1
-      if (status >= 0 .and. .not. allocated(self%failure)) call h5dread_f(dataset, kind, buffer, status)
-      call self%check_read(status, 'read '//path)
+      call self%check_read(status, 'find the right size of '//path)
       call h5sclose_f(space, status)
-      call h5dclose_f(dataset, status)
-   end subroutine read_all
+   end subroutine open_expected
 
    !> Refuses numbers that are not stored as in memory: HDF5 would convert the rubbish in a damaged file.
    subroutine expect_type(self, dataset, kind, path)

@@ -533,16 +533,22 @@ def test_a_checkpoint_that_does_not_fit_its_samples(tiltpad, stopped):
     path = stopped / "case.h5"
     good = path.read_bytes()
 
-    def other_state(file):
-        del file["checkpoint/state"]
-        file["checkpoint/state"] = [1.0]
+    def other(name, values):
+        def edit(file):
+            del file[name]
+            file[name] = values
+
+        return edit
 
     edits = [
         lambda file: file["checkpoint/time"].__setitem__((), 0.4999),
         lambda file: file["checkpoint/time"].__setitem__((), -1),
         lambda file: file.attrs.__delitem__("history"),
         lambda file: file.__delitem__("statistics/steps"),
-        other_state,
+        other("checkpoint/state", [1.0]),
+        # they are written over when the run ends
+        other("summary/orbit_y", np.float32(1)),
+        other("summary/pad_load", np.zeros(10_000)),
         lambda file: file["checkpoint/state"].__setitem__(0, np.nan),
         lambda file: file["journal_y"].resize(len(file["time"]) - 1, axis=0),
         lambda file: file.__delitem__("pad_tilt"),
