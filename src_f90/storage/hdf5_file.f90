@@ -347,5 +347,4 @@ contains
          call h5dclose_f(scale, status)
       end do
    end subroutine describe
-
 end module hdf5_file
