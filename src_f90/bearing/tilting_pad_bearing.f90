@@ -98,15 +98,15 @@ contains
    end function new_tilting_pad_bearing
 
    !> Makes the bearing that of another case, with the same pads but for numbers. Films and contact, which take time to
-   !> make, stay where they are the same; what was solved last is forgotten.
-   subroutine adopt(self, inputs, pivots_differ)
+   !> make, stay where they are the same; `anew`, what was solved last is forgotten.
+   subroutine adopt(self, inputs, pivots_differ, anew)
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(case_type), intent(in) :: inputs
-      logical, intent(in) :: pivots_differ
+      logical, intent(in) :: pivots_differ, anew
       type(tilting_pad_type) :: before(size(self%pads))
       before = self%pads
       call self%set_parts(inputs)
-      call self%film%forget()
+      if (anew) call self%film%forget()
       if (any(before%gap%differs(self%pads%gap))) call make_films_anew(self, inputs)
       if (pivots_differ) call make_contact(inputs, self%contact)
    end subroutine adopt

@@ -35,7 +35,7 @@ contains
       real(wp), intent(in) :: parameter
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: oil_error
-      call self%bearing%set_value(parameter, error)
+      call self%bearing%set_value(parameter, .true., error)
       ! a revolution of the shaft
       self%period = 2*pi/self%bearing%model%point%speed(0.0_wp)
       if (.not. allocated(self%oil)) return

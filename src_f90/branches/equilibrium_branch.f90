@@ -28,6 +28,9 @@ module equilibrium_branch
       character(len=pivot_name) :: pivot = 'free'
       real(wp) :: cross_stiffness = 0
       type(varied_bearing_type), private :: bearing
+      !> Whether films start anew where the equations are linearised next: once for each point, so that it does not depend
+      !> on the way to it.
+      logical, private :: anew = .true.
       !> Characteristic scales of unknowns, and of what is out of balance.
       real(wp), allocatable, private :: scale(:), force(:)
       !> Derivatives of the forces where they were taken last.
@@ -37,6 +40,7 @@ module equilibrium_branch
    contains
       procedure :: linearize
       procedure :: move
+      procedure :: predict
       procedure :: spectrum
       procedure :: kind => kind_of
       procedure :: get_place
@@ -107,9 +111,10 @@ contains
       n = size(self%positions)
       change = difference*max(self%unit, abs(self%parameter))
       ! a value that is not allowed serves as well: what is wrong with it shows at the value itself
-      call self%bearing%set_value(self%parameter + change, ignored)
+      call self%bearing%set_value(self%parameter + change, self%anew, ignored)
       call self%find_imbalance(.false., later, unbalanced)
-      call self%bearing%set_value(self%parameter, error)
+      call self%bearing%set_value(self%parameter, .false., error)
+      self%anew = .false.
       if (.not. allocated(error)) call self%find_imbalance(.true., now, error)
       self%refused = allocated(error)
       if (self%refused) return
@@ -173,6 +178,14 @@ contains
       correction = maxval(abs(change))
    end subroutine move
 
+   subroutine predict(self, change)
+      class(equilibrium_problem_type), intent(inout) :: self
+      real(wp), intent(in) :: change(:)
+      real(wp) :: ignored
+      self%anew = .true.
+      call self%move(change, .false., ignored)
+   end subroutine predict
+
    !> The eigenvalues, 1/s, that of largest real part first; growths are per radian of the shaft.
    subroutine spectrum(self, values, growth, ok)
       class(equilibrium_problem_type), intent(inout) :: self
@@ -222,6 +235,7 @@ contains
       self%parameter = place(1)
       self%positions = place(2:size(self%positions) + 1)
       self%viscosity = place(size(self%positions) + 2:)
+      self%anew = .true.
    end subroutine go_to
 
    !> Of warm oil.

@@ -62,7 +62,7 @@ contains
          self%found = here
       else if (abs(self%found%value - value) > 0) then
          ! who asks knows of himself whether the value is allowed
-         call self%bearing%set_value(value, ignored)
+         call self%bearing%set_value(value, .true., ignored)
          here = self%start
          associate (model => self%bearing%model)
             model%oil%viscosity = here%viscosity
@@ -111,7 +111,7 @@ contains
       type(oil_temperatures_type), intent(out) :: oil
       real(wp), allocatable, intent(out) :: viscosity(:)
       type(error_type), allocatable :: ignored
-      call self%bearing%set_value(self%found%value, ignored)
+      call self%bearing%set_value(self%found%value, .true., ignored)
       self%bearing%model%oil%viscosity = self%found%viscosity
       call find_temperatures(self%bearing%model, self%found%y, self%balance, oil)
       viscosity = self%found%viscosity

@@ -1,11 +1,12 @@
-!> The speed at which rotor and pads lose their stability: equilibria are followed over the speed of the shaft, for each
-!> way that the pivots may behave, until an eigenvalue crosses the imaginary axis.
+!> The speed at which rotor and pads lose their stability: equilibria are followed over the speed of the shaft until, for
+!> each way that the pivots may behave, an eigenvalue has crossed the imaginary axis.
 module stability_threshold
-   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_is_nan, ieee_quiet_nan
    use kinds, only: wp
    use errors, only: error_type, asked_to_stop, stopped
    use equations_of_motion, only: bearing_model
    use case_parameter, only: case_parameter_type, find_parameter
+   use linear_bearing, only: pivot_name
    use bearing_coefficients, only: bearing_coefficients_type
    use newton_method, only: branch_point_type
    use continuation, only: branch_options, start_branch, advance, return_to
@@ -17,8 +18,10 @@ module stability_threshold
    public :: find_thresholds
 
    !> Longest and shortest step, over the speed at the start. Between them a step is halved while a growth next to zero
-   !> changes by more than this part of itself: so what comes near zero is looked at closely.
+   !> changes by more than this part of itself, as it may have been there and back, or have leaped over it.
    real(wp), parameter :: longest = 0.05_wp, shortest = 1e-3_wp, largest_change = 0.5_wp
+   !> Damping ratio of a vibration that has come to zero: it did not leap, and the step need not be halved.
+   real(wp), parameter :: no_damping = 1e-4_wp
 
 contains
 
@@ -34,69 +37,96 @@ contains
       type(bearing_model), target :: moving
       type(case_parameter_type) :: speed
       type(equilibrium_problem_type) :: problem
-      type(branch_options) :: options
-      real(wp) :: reached
-      integer :: i
-      call find_parameter(model%inputs, 'operation%speed_rpm', speed, error)
+      moving = model
+      ! at other speeds this would not be allowed
+      moving%inputs%coefficients%threshold_up_to_rpm = 0
+      call find_parameter(moving%inputs, 'operation%speed_rpm', speed, error)
       associate (first => model%point%speed_rpm, given => model%inputs%coefficients)
-         options = branch_options(first_step=longest, max_step=longest, high=given%threshold_up_to_rpm)
+         call begin_equilibria(problem, varied_bearing_type(moving, speed), y, first, first)
+         problem%cross_stiffness = given%cross_stiffness
          allocate (found%thresholds(size(found%bearings)), source=ieee_value(first, ieee_quiet_nan))
-         found%sought_up_to = first
-         do i = 1, size(found%bearings)
-            moving = model
-            ! at other speeds this would not be allowed
-            moving%inputs%coefficients%threshold_up_to_rpm = 0
-            call begin_equilibria(problem, varied_bearing_type(moving, speed), y, first, first)
-            problem%pivot = found%bearings(i)%pivot
-            problem%cross_stiffness = given%cross_stiffness
-            call follow(problem, options, found%thresholds(i), reached, error, give_up)
-            if (allocated(error)) return
-            found%sought_up_to = max(found%sought_up_to, reached)
-         end do
+         call follow(problem, found%bearings%pivot, given%threshold_up_to_rpm, found%thresholds, found%sought_up_to, &
+            & error, give_up)
       end associate
+      if (.not. allocated(error)) return
+      if (error%status /= stopped) deallocate (error)
    end subroutine find_thresholds
 
-   !> Follows equilibria to their first crossing, if they have one, up to the bound of the speed or to where they turn
-   !> back or end.
-   subroutine follow(problem, options, threshold, reached, error, give_up)
+   !> Follows equilibria to the first crossing of each of these ways of the pivots, if it has one, up to a bound of the
+   !> speed, rpm, or to where they turn back or end, which may be an error. All ways have the same equilibria.
+   subroutine follow(problem, pivots, bound, thresholds, reached, error, give_up)
       type(equilibrium_problem_type), intent(inout) :: problem
-      type(branch_options), intent(in) :: options
-      !> Stays what it is where there is none.
-      real(wp), intent(inout) :: threshold
+      character(len=pivot_name), intent(in) :: pivots(:)
+      real(wp), intent(in) :: bound
+      !> Stay what they are where there are none.
+      real(wp), intent(inout) :: thresholds(:)
       !> Speed up to which they were followed, rpm.
       real(wp), intent(out) :: reached
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      type(branch_point_type) :: here, next
+      type(branch_options) :: options
+      type(branch_point_type) :: here(size(pivots)), next(size(pivots))
       type(bifurcation_type), allocatable :: special(:)
       real(wp) :: length
-      logical :: ends
+      integer :: i
+      logical :: ends, again, is_short
       reached = problem%parameter
-      call start_branch(problem, options, .true., here, error, give_up)
+      options = branch_options(first_step=longest, max_step=longest, high=bound)
+      problem%pivot = pivots(1)
+      call start_branch(problem, options, .true., here(1), error, give_up)
+      if (allocated(error)) return
+      call take_spectra(problem, pivots, here)
       length = options%first_step
       ends = .false.
-      do while (.not. (allocated(error) .or. ends))
-         call advance(problem, options, here, length, next, ends, error, give_up)
-         if (allocated(error)) exit
-         if (next%parameter < here%parameter) exit
-         if (next%along > shortest .and. is_steep(here, next)) then
-            call return_to(problem, here)
-            length = 0.5_wp*next%along
+      do while (any(ieee_is_nan(thresholds)) .and. .not. ends)
+         call advance(problem, options, here(1), length, next(1), ends, error, give_up)
+         if (allocated(error)) return
+         if (next(1)%parameter < here(1)%parameter) return
+         call take_spectra(problem, pivots, next)
+         is_short = next(1)%along <= shortest
+         again = .false.
+         do i = size(pivots), 1, -1
+            problem%pivot = pivots(i)
+            if (.not. ieee_is_nan(thresholds(i))) cycle
+            call find_bifurcations(problem, options, here(i), next(i), special, error, give_up)
+            if (allocated(error)) return
+            if (is_short .and. size(special) > 0 .or. is_smooth(special)) then
+               thresholds(i) = special(1)%point%parameter
+            else
+               again = again .or. is_steep(here(i), next(i))
+            end if
+         end do
+         if (again .and. .not. is_short) then
+            call return_to(problem, here(1))
+            length = 0.5_wp*next(1)%along
             ends = .false.
             cycle
          end if
-         call find_bifurcations(problem, options, here, next, special, error, give_up)
-         if (allocated(error)) exit
-         reached = next%parameter
-         if (size(special) > 0) then
-            threshold = special(1)%point%parameter
-            exit
-         end if
+         reached = next(1)%parameter
          here = next
       end do
-      if (.not. allocated(error)) return
-      if (error%status /= stopped) deallocate (error)
    end subroutine follow
+
+   !> The point where the problem stands, found with the first of these ways of the pivots, with the eigenvalues of each.
+   subroutine take_spectra(problem, pivots, points)
+      type(equilibrium_problem_type), intent(inout) :: problem
+      character(len=pivot_name), intent(in) :: pivots(:)
+      type(branch_point_type), intent(inout) :: points(:)
+      integer :: i
+      logical :: ok
+      points(2:) = points(1)
+      do i = size(pivots), 1, -1
+         problem%pivot = pivots(i)
+         if (i > 1) call problem%spectrum(points(i)%values, points(i)%growth, ok)
+      end do
+   end subroutine take_spectra
+
+   !> True where a vibration has no damping at the first of some points, if there are any.
+   pure logical function is_smooth(special)
+      type(bifurcation_type), intent(in) :: special(:)
+      is_smooth = size(special) > 0
+      if (is_smooth) is_smooth = abs(special(1)%value%re) <= no_damping*abs(special(1)%value)
+   end function is_smooth
 
    !> True where a growth next to zero changes much.
    pure logical function is_steep(here, next)

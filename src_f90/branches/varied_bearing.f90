@@ -19,14 +19,15 @@ module varied_bearing
 contains
 
    !> Gives the model another value; an error, with which the model is of this value all the same, where no valid case
-   !> has it. Its films start anew, so that what it answers does not depend on what it was asked before.
-   subroutine set_value(self, value, error)
+   !> has it. `anew`, its films start so that what it answers does not depend on what it was asked before.
+   subroutine set_value(self, value, anew, error)
       class(varied_bearing_type), intent(in) :: self
       real(wp), intent(in) :: value
+      logical, intent(in) :: anew
       type(error_type), allocatable, intent(out) :: error
       type(case_type) :: inputs
       inputs = self%model%inputs
       call self%parameter%set(value, inputs, error)
-      call self%model%adopt(inputs)
+      call self%model%adopt(inputs, anew)
    end subroutine set_value
 end module varied_bearing

@@ -97,15 +97,17 @@ contains
    end subroutine set_point
 
    !> Makes the model that of another case, which differs in numbers alone and not in that of the pads. Tables, films
-   !> and characteristic scales stay where they can; so do the effects that do not act.
-   subroutine adopt(self, inputs)
+   !> and characteristic scales stay where they can; so do the effects that do not act. `anew`, its films start as if
+   !> nothing had been solved before.
+   subroutine adopt(self, inputs, anew)
       class(bearing_model), intent(inout) :: self
       type(case_type), intent(in) :: inputs
+      logical, intent(in) :: anew
       type(operating_point_type) :: point
       associate (a => self%inputs%pivot, b => inputs%pivot)
          call self%bearing%adopt(inputs, any(abs([a%socket_radius - b%socket_radius, &
             & a%radius_difference - b%radius_difference, a%deflection_factor - b%deflection_factor, &
-            & a%young_modulus - b%young_modulus, a%poisson_ratio - b%poisson_ratio]) > 0))
+            & a%young_modulus - b%young_modulus, a%poisson_ratio - b%poisson_ratio]) > 0), anew)
       end associate
       self%inputs = inputs
       self%oil = film_oil(reference_viscosity(inputs))
