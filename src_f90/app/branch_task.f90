@@ -10,6 +10,7 @@ module branch_task
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
    use march_settings, only: march_settings_of
    use newton_method, only: branch_point_type
+   use continuation, only: return_to
    use bifurcations, only: bifurcation_type
    use branch_progress, only: branch_progress_type
    use orbit_figures, only: orbit_figures_type, find_orbit_figures, figures_of_equilibrium
@@ -229,13 +230,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: k
       do k = 1, size(special)
-         call b%stand_at(special(k)%point)
+         call return_to(b%problem, special(k)%point)
          call record(run, b, special(k)%point, error)
          if (allocated(error)) return
          notes%special = [notes%special, noted(run%file, b%branch, special(k))]
          if (.not. run%quiet) call print_bifurcation(special(k), b%given%parameter, has_warm_oil(run%model))
       end do
-      if (size(special) > 0) call b%stand_at(b%here)
+      if (size(special) > 0) call return_to(b%problem, b%here)
       call record(run, b, b%here, error)
    end subroutine record_step
 
@@ -253,7 +254,7 @@ contains
          if (b%of_orbits) then
             call find_orbit_figures(run%model, orbit, b%orbits%period_multiple, &
                & run%inputs%output%samples_per_revolution, figures)
-            if (allocated(oil)) call b%ode%oil%get_found(oil, viscosity)
+            if (allocated(oil)) call b%ode%oil%temperatures(oil, viscosity)
             call add_point(run%file, b%branch, b%parameter, point, figures, tilting, error, oil, viscosity, &
                & branch_orbit_type(b%orbits%period_multiple, orbit%intervals(), b%orbits%period()))
          else

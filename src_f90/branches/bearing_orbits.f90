@@ -7,9 +7,8 @@ module bearing_orbits
    use cvode_integrator, only: integrator_type
    use orbit_polynomials, only: orbit_type
    use orbit_march, only: march_period, mesh_options
-   use parametric_ode, only: parametric_ode_type
-   use varied_bearing, only: varied_bearing_type
-   use frozen_viscosity, only: frozen_viscosity_type
+   use orbit_problem, only: parametric_ode_type
+   use varied_bearing, only: varied_bearing_type, frozen_viscosity_type
    implicit none (type, external)
    private
    public :: bearing_orbits_type
@@ -23,9 +22,6 @@ module bearing_orbits
    contains
       procedure :: set
       procedure :: new_mesh
-      procedure :: begin_here
-      procedure :: get_start
-      procedure :: set_start
    end type bearing_orbits_type
 
 contains
@@ -35,11 +31,14 @@ contains
       real(wp), intent(in) :: parameter
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: oil_error
-      call self%bearing%set_value(parameter, .true., error)
-      ! a revolution of the shaft
-      self%period = 2*pi/self%bearing%model%point%speed(0.0_wp)
-      if (.not. allocated(self%oil)) return
-      call self%oil%find(parameter, self%bearing%model%oil%viscosity, oil_error)
+      associate (model => self%bearing%model)
+         call self%bearing%set_value(parameter, .true., error)
+         ! a revolution of the shaft
+         self%period = 2*pi/model%point%speed(0.0_wp)
+         if (.not. allocated(self%oil)) return
+         call self%oil%find(parameter, self%start, self%found, oil_error)
+         model%oil%viscosity = self%found(model%n + 1:)
+      end associate
       if (.not. allocated(error)) call move_alloc(oil_error, error)
    end subroutine set
 
@@ -57,30 +56,10 @@ contains
       length = orbit%time(orbit%intervals())
       options = mesh_options(self%march, self%period)
       marched%start = orbit%start
-      associate (model => self%bearing%model)
-         call integrator%start(model, options, 0.0_wp, orbit%start, 2*length, error)
-         do k = 0, 1
-            if (.not. allocated(error)) call march_period(integrator, options, k, length, marched, error)
-         end do
-      end associate
+      call integrator%start(self%model, options, 0.0_wp, orbit%start, 2*length, error)
+      do k = 0, 1
+         if (.not. allocated(error)) call march_period(integrator, options, k, length, marched, error)
+      end do
       if (.not. allocated(error)) mesh = marched%time/length
    end subroutine new_mesh
-
-   pure subroutine begin_here(self)
-      class(bearing_orbits_type), intent(inout) :: self
-      if (allocated(self%oil)) call self%oil%begin_here()
-   end subroutine begin_here
-
-   pure subroutine get_start(self, numbers)
-      class(bearing_orbits_type), intent(in) :: self
-      real(wp), allocatable, intent(out) :: numbers(:)
-      numbers = [real(wp) ::]
-      if (allocated(self%oil)) call self%oil%get_start(numbers)
-   end subroutine get_start
-
-   pure subroutine set_start(self, numbers)
-      class(bearing_orbits_type), intent(inout) :: self
-      real(wp), intent(in) :: numbers(:)
-      if (allocated(self%oil)) call self%oil%set_start(numbers)
-   end subroutine set_start
 end module bearing_orbits

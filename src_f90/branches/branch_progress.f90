@@ -10,14 +10,13 @@ module branch_progress
    use march_settings, only: march_settings_of
    use orbit_polynomials, only: orbit_type, points
    use orbit_problem, only: orbit_problem_type, begin_orbits
-   use newton_method, only: branch_problem_type, place_part_type, branch_point_type, can_be_of
+   use newton_method, only: branch_problem_type, branch_point_type, can_be_of
    use continuation, only: branch_options, start_branch, advance, return_to
    use bifurcations, only: bifurcation_type, find_bifurcations
    use period_doubling, only: double_period, half_apart, forget_flips
    use varied_bearing, only: varied_bearing_type
    use bearing_orbits, only: bearing_orbits_type
    use heat_balance_equations, only: has_warm_oil
-   use frozen_viscosity, only: new_frozen_viscosity
    use equilibrium_branch, only: equilibrium_problem_type, begin_equilibria
    implicit none (type, external)
    private
@@ -30,8 +29,9 @@ module branch_progress
       type(branch_options) :: options
       !> Value of the case, and the size of the way from there.
       real(wp) :: first = 0, way = 0
-      !> Either is followed.
+      !> Either is followed; it is the problem.
       logical :: of_orbits = .true.
+      class(branch_problem_type), pointer :: problem => null()
       type(orbit_problem_type) :: orbits
       type(equilibrium_problem_type) :: equilibria
       type(bearing_orbits_type) :: ode
@@ -54,9 +54,6 @@ module branch_progress
       procedure :: first_point
       procedure :: go_on
       procedure :: take_step
-      procedure :: stand_at
-      procedure :: place
-      procedure :: parts
       procedure :: begin_double
    end type branch_progress_type
 
@@ -73,7 +70,7 @@ contains
 
    !> What follows from the case of a model; marches have taken so many steps already.
    subroutine prepare(self, model, steps, error)
-      class(branch_progress_type), intent(inout) :: self
+      class(branch_progress_type), intent(inout), target :: self
       type(bearing_model), intent(in), target :: model
       integer(i8), intent(in) :: steps
       type(error_type), allocatable, intent(out) :: error
@@ -94,24 +91,17 @@ contains
       self%length = self%options%first_step
       allocate (self%period_doublings(0))
       if (self%of_orbits) then
+         self%problem => self%orbits
          self%options%tolerance = model%inputs%periodic%tolerance
-         self%ode%bearing%model => model
-         self%ode%bearing%parameter = self%parameter
+         self%ode%bearing = varied_bearing_type(model, self%parameter)
          self%ode%model => model
          ! for meshes alone, wherever the branch leads
          self%ode%march = march_settings_of(model, steps)
       else
+         self%problem => self%equilibria
          call make_fine(model, self%static)
       end if
    end subroutine prepare
-
-   !> The problem that is followed.
-   function followed(branches) result(problem)
-      type(branch_progress_type), intent(in), target :: branches
-      class(branch_problem_type), pointer :: problem
-      problem => branches%equilibria
-      if (branches%of_orbits) problem => branches%orbits
-   end function followed
 
    !> Gives orbits the viscosities of warm oil from the equilibrium, whose state this is and whose viscosities the model
    !> has.
@@ -120,7 +110,9 @@ contains
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: equilibrium_state(:)
       call make_static(model, model%point%cavitation, self%static)
-      self%ode%oil = new_frozen_viscosity(varied_bearing_type(self%static, self%parameter), equilibrium_state)
+      allocate (self%ode%oil)
+      self%ode%oil%bearing = varied_bearing_type(self%static, self%parameter)
+      self%ode%start = [equilibrium_state, model%oil%viscosity]
    end subroutine begin_oil
 
    subroutine begin_with_orbit(self, orbit, period_multiple)
@@ -158,31 +150,27 @@ contains
 
    !> Goes to the first point of the first branch.
    subroutine first_point(self, error)
-      class(branch_progress_type), intent(inout), target :: self
+      class(branch_progress_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
-      class(branch_problem_type), pointer :: problem
-      problem => followed(self)
-      call start_branch(problem, self%options, self%options%high > self%first, self%here, error)
+      call start_branch(self%problem, self%options, self%options%high > self%first, self%here, error)
       call add_context(error, 'the first point of the branch')
       self%points = 1
    end subroutine first_point
 
    !> Takes the problem to where its branch had come; `ok` is false where there is no such point.
    subroutine go_on(self, ok)
-      class(branch_progress_type), intent(inout), target :: self
+      class(branch_progress_type), intent(inout) :: self
       logical, intent(out) :: ok
-      class(branch_problem_type), pointer :: problem
       type(error_type), allocatable :: refusal
       complex(wp), allocatable :: values(:)
       real(wp), allocatable :: growth(:)
       integer :: k
-      problem => followed(self)
-      ok = can_be_of(problem, self%here) .and. all([(can_be_of(problem, self%period_doublings(k)), k=1, &
+      ok = can_be_of(self%problem, self%here) .and. all([(can_be_of(self%problem, self%period_doublings(k)), k=1, &
          & size(self%period_doublings))])
       if (.not. ok) return
-      call return_to(problem, self%here, refusal)
+      call return_to(self%problem, self%here, refusal)
       ok = .not. allocated(refusal)
-      if (ok) call problem%spectrum(values, growth, ok)
+      if (ok) call self%problem%spectrum(values, growth, ok)
       if (ok) ok = size(growth) == size(self%here%growth)
    end subroutine go_on
 
@@ -190,30 +178,28 @@ contains
    !> then. Where the branch has ended `at_end` says why, else it is empty; `found` is false where it has ended without
    !> another point. An error of status `stopped` leaves all as it was.
    subroutine take_step(self, special, found, at_end, error, give_up)
-      class(branch_progress_type), intent(inout), target :: self
+      class(branch_progress_type), intent(inout) :: self
       type(bifurcation_type), allocatable, intent(out) :: special(:)
       logical, intent(out) :: found
       character(len=:), allocatable, intent(out) :: at_end
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      class(branch_problem_type), pointer :: problem
       type(branch_point_type) :: next
       real(wp), allocatable :: split(:)
       real(wp) :: length
       logical :: ends
-      problem => followed(self)
       allocate (special(0))
       found = .false.
       at_end = ''
       split = half_apart(self%orbits)
       length = self%length
-      call advance(problem, self%options, self%here, length, next, ends, error, give_up)
+      call advance(self%problem, self%options, self%here, length, next, ends, error, give_up)
       if (allocated(error)) then
-         if (.not. problem%refused) call blame_oil(self, problem%refused, error)
-         if (error%status == numerics_error .and. .not. problem%refused) call add_context(error, 'branch ' &
+         call blame_oil(self, error)
+         if (error%status == numerics_error .and. .not. self%problem%refused) call add_context(error, 'branch ' &
             & //to_text(self%branch)//' was lost behind '//self%given%parameter//' = ' &
             & //to_text(self%here%parameter)//', its point '//to_text(self%points))
-         if (error%status == stopped .or. .not. problem%refused) return
+         if (error%status == stopped .or. .not. self%problem%refused) return
          at_end = 'there is nothing beyond: '//error%message
          deallocate (error)
          return
@@ -226,7 +212,8 @@ contains
          end if
       end if
       ! where a branch of double period begins a multiplier is 1
-      if (self%points > 0) call find_bifurcations(problem, self%options, self%here, next, special, error, give_up)
+      if (self%points > 0) call find_bifurcations(self%problem, self%options, self%here, next, special, &
+         & error, give_up)
       if (allocated(error)) return
       call note_flips(self, special)
       found = .true.
@@ -253,45 +240,17 @@ contains
 
    !> A branch of orbits that is lost where the equilibrium turns back from which its oil takes its viscosities has
    !> ended: near such an equilibrium nothing is smooth over the parameter.
-   subroutine blame_oil(branches, ended, error)
+   subroutine blame_oil(branches, error)
       type(branch_progress_type), intent(inout) :: branches
-      logical, intent(inout) :: ended
       type(error_type), allocatable, intent(inout) :: error
       type(error_type), allocatable :: lost
-      if (error%status == stopped .or. .not. allocated(branches%ode%oil)) return
+      if (branches%problem%refused .or. error%status == stopped .or. .not. allocated(branches%ode%oil)) return
       associate (here => branches%here, step => branches%options%first_step*branches%orbits%unit)
          call branches%ode%set(here%parameter + sign(near*step, here%tangent(size(here%tangent))), lost)
       end associate
-      ended = allocated(lost)
-      if (ended) call move_alloc(lost, error)
+      branches%problem%refused = allocated(lost)
+      if (allocated(lost)) call move_alloc(lost, error)
    end subroutine blame_oil
-
-   !> Lets the problem stand at a point that was found.
-   subroutine stand_at(self, point)
-      class(branch_progress_type), intent(inout), target :: self
-      type(branch_point_type), intent(in) :: point
-      class(branch_problem_type), pointer :: problem
-      problem => followed(self)
-      call return_to(problem, point)
-   end subroutine stand_at
-
-   !> Where the problem stands, as numbers; and what these are.
-   function place(self)
-      class(branch_progress_type), intent(in), target :: self
-      real(wp), allocatable :: place(:)
-      class(branch_problem_type), pointer :: problem
-      problem => followed(self)
-      call problem%get_place(place)
-   end function place
-
-   function parts(self, place)
-      class(branch_progress_type), intent(in), target :: self
-      real(wp), intent(in) :: place(:)
-      type(place_part_type), allocatable :: parts(:)
-      class(branch_problem_type), pointer :: problem
-      problem => followed(self)
-      parts = problem%parts(place)
-   end function parts
 
    !> Goes to the start of the next branch of double period, if there are `more`.
    subroutine begin_double(self, more)

@@ -43,8 +43,7 @@ module equilibrium_branch
       procedure :: predict
       procedure :: spectrum
       procedure :: kind => kind_of
-      procedure :: get_place
-      procedure :: parts => parts_of
+      procedure :: place => place_of
       procedure :: go_to
       procedure :: state
       procedure :: temperatures
@@ -212,29 +211,20 @@ contains
       end if
    end function kind_of
 
-   pure subroutine get_place(self, place)
+   pure function place_of(self) result(place)
       class(equilibrium_problem_type), intent(in) :: self
-      real(wp), allocatable, intent(out) :: place(:)
-      place = [self%parameter, self%positions, self%viscosity]
-   end subroutine get_place
-
-   pure function parts_of(self, place) result(parts)
-      class(equilibrium_problem_type), intent(in) :: self
-      real(wp), intent(in) :: place(:)
-      type(place_part_type), allocatable :: parts(:)
-      integer :: n
-      n = size(self%positions)
-      parts = [place_part_type('parameter', 1, '', 'parameter where the equations were linearised'), &
-         & place_part_type('positions', n, '1', 'displacements of journal and pads, m, and tilts, rad'), &
-         & place_part_type('viscosity', size(place) - 1 - n, 'Pa s', 'viscosity of the film')]
-   end function parts_of
+      type(place_part_type), allocatable :: place(:)
+      place = [place_part_type('parameter', [self%parameter], '', 'parameter where the equations were linearised'), &
+         & place_part_type('positions', self%positions, '1', 'displacements of journal and pads, m, and tilts, rad'), &
+         & place_part_type('viscosity', self%viscosity, 'Pa s', 'viscosity of the film')]
+   end function place_of
 
    subroutine go_to(self, place)
       class(equilibrium_problem_type), intent(inout) :: self
-      real(wp), intent(in) :: place(:)
-      self%parameter = place(1)
-      self%positions = place(2:size(self%positions) + 1)
-      self%viscosity = place(size(self%positions) + 2:)
+      type(place_part_type), intent(in) :: place(:)
+      self%parameter = place(1)%values(1)
+      self%positions = place(2)%values
+      self%viscosity = place(3)%values
       self%anew = .true.
    end subroutine go_to
 

@@ -9,10 +9,10 @@ module newton_method
    private
    public :: branch_problem_type, place_part_type, branch_point_type, newton_options, correct, can_be_of
 
-   !> A stretch of the numbers of a place, as a file names it.
+   !> Numbers of a place, as a file names them.
    type :: place_part_type
       character(len=20) :: name = ''
-      integer :: size = 0
+      real(wp), allocatable :: values(:)
       character(len=4) :: units = '1'
       character(len=64) :: long_name = ''
    end type place_part_type
@@ -33,8 +33,7 @@ module newton_method
       procedure, non_overridable :: dot
       procedure(find_spectrum), deferred :: spectrum
       procedure(name_kind), deferred :: kind
-      procedure(take_place), deferred :: get_place
-      procedure(name_parts), deferred :: parts
+      procedure(take_place), deferred :: place
       procedure(put_place), deferred :: go_to
       procedure :: fits
    end type branch_problem_type
@@ -78,25 +77,17 @@ module newton_method
          character(len=:), allocatable :: kind
       end function name_kind
 
-      !> All that a problem needs to stand where it stands, as numbers.
-      pure subroutine take_place(self, place)
-         import :: branch_problem_type, wp
+      !> All that a problem needs to stand where it stands.
+      pure function take_place(self) result(place)
+         import :: branch_problem_type, place_part_type
          class(branch_problem_type), intent(in) :: self
-         real(wp), allocatable, intent(out) :: place(:)
-      end subroutine take_place
-
-      !> What the numbers of a place are, in their order.
-      pure function name_parts(self, place) result(parts)
-         import :: branch_problem_type, place_part_type, wp
-         class(branch_problem_type), intent(in) :: self
-         real(wp), intent(in) :: place(:)
-         type(place_part_type), allocatable :: parts(:)
-      end function name_parts
+         type(place_part_type), allocatable :: place(:)
+      end function take_place
 
       subroutine put_place(self, place)
-         import :: branch_problem_type, wp
+         import :: branch_problem_type, place_part_type
          class(branch_problem_type), intent(inout) :: self
-         real(wp), intent(in) :: place(:)
+         type(place_part_type), intent(in) :: place(:)
       end subroutine put_place
    end interface
 
@@ -106,7 +97,8 @@ module newton_method
       real(wp) :: arc_length = 0, along = 0
       !> Where the equations were linearised last, and the correction from there: so a point is found again to the last
       !> bit. Unit tangent.
-      real(wp), allocatable :: place(:), change(:), tangent(:)
+      type(place_part_type), allocatable :: place(:)
+      real(wp), allocatable :: change(:), tangent(:)
       complex(wp), allocatable :: values(:)
       real(wp), allocatable :: growth(:)
       !> Rounds of Newton's method; the last correction.
@@ -125,13 +117,14 @@ module newton_method
 
 contains
 
-   !> Whether numbers that come from elsewhere can be a place: as many as those where the problem stands.
+   !> Whether a place that comes from elsewhere can be one of a problem: it has as many numbers as where this stands.
    pure logical function fits(self, place)
       class(branch_problem_type), intent(in) :: self
-      real(wp), intent(in) :: place(:)
-      real(wp), allocatable :: here(:)
-      call self%get_place(here)
-      fits = size(place) == size(here)
+      type(place_part_type), intent(in) :: place(:)
+      type(place_part_type), allocatable :: here(:)
+      integer :: k
+      here = self%place()
+      fits = all([(size(place(k)%values) == size(here(k)%values), k=1, size(here))])
    end function fits
 
    !> Whether a point that comes from elsewhere can be one of a problem's branches.
@@ -188,7 +181,7 @@ contains
          end if
          if (allocated(error)) return
          point%iterations = point%iterations + 1
-         call problem%get_place(point%place)
+         point%place = problem%place()
          b = 0
          call problem%linearize(matrix(:n, :), b(:n, 1), error)
          if (present(normal)) then

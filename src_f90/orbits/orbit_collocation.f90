@@ -45,7 +45,7 @@ module orbit_collocation
 contains
 
    !> Linearises the equations on an orbit and eliminates the points inside of the intervals: sets the orbit's monodromy
-   !> matrix and residual. A numerics error where the model refuses a state or an interval's equations have no solution.
+   !> matrix. A numerics error where the model refuses a state or an interval's equations have no solution.
    !> Ends of intervals at a switching point go where the orbit passes it; between them the mesh is stretched.
    subroutine condense(model, orbit, equations, error, shift)
       class(ode_model_type), intent(inout) :: model
@@ -56,7 +56,7 @@ contains
       type(parameter_shift_type), intent(in), optional :: shift
       real(wp) :: jacobian(model%n, model%n, points)
       real(wp), allocatable :: gap(:, :, :), start(:, :), at(:, :, :)
-      integer :: k, i, n, columns, constants, from, to
+      integer :: k, i, n, columns, constants
       logical :: ok
       n = model%n
       columns = n + merge(2, 1, present(shift))
@@ -67,20 +67,14 @@ contains
          allocate (gap(n, constants, points), start(rows, n + constants), at(rows, n, points))
       end associate
       allocate (equations%shift(columns + 1, 0:orbit%intervals()), source=0.0_wp)
+      where (orbit%switching_point(1:orbit%intervals() - 1) > 0) equations%shift(columns + 1, 1:orbit%intervals() - 1) = 1
       equations%maps = new_interval_maps(model, orbit%scale, orbit%intervals(), constants)
       start = 0
       do i = 1, columns
          start(i, i) = 1
       end do
-      orbit%residual = 0
       orbit%refused = .false.
-      to = 0
       do k = 1, orbit%intervals()
-         if (k > to) then
-            from = to
-            to = next_switching_point(orbit, k)
-            if (to < orbit%intervals()) equations%shift(columns + 1, to) = 1
-         end if
          call linearize(model, orbit, k, jacobian, gap, error, shift)
          if (allocated(error)) return
          call equations%maps%eliminate(k, orbit%time(k) - orbit%time(k - 1), jacobian, gap, ok)
@@ -89,11 +83,11 @@ contains
                & //to_text(orbit%time(k))//' s')
             return
          end if
-         if (constants > columns - n) start(:columns + 1, columns + 1:) = stretched(orbit, equations%shift, from, to, k)
+         if (constants > columns - n) start(:columns + 1, columns + 1:) = stretched(orbit, equations%shift, k)
          call equations%maps%follow(k, points, start, at)
          start(:, :n) = at(:, :, points)
-         if (k == to .and. k < orbit%intervals()) call put_at_switching_point(model, orbit, k, start(:columns + 1, &
-            & :n), equations%shift(:, k))
+         if (equations%shift(columns + 1, k) > 0) call put_at_switching_point(model, orbit, k, start(:columns + 1, :n), &
+            & equations%shift(:, k))
       end do
       equations%at_end = start(:columns, :n)
       if (.not. (all(abs(equations%at_end) <= huge(1.0_wp)) .and. all(abs(equations%shift) <= huge(1.0_wp)))) then
@@ -101,7 +95,6 @@ contains
          return
       end if
       orbit%monodromy = transpose(equations%at_end(:n, :))
-      orbit%residual = max(orbit%residual, maxval(abs(gap_of(orbit))))
    end subroutine condense
 
    !> The end at a switching point, or of the period, that comes next at or behind the end of interval k.
@@ -115,12 +108,14 @@ contains
    end function next_switching_point
 
    !> By how much both ends of interval k go, s, (column, end), where the mesh is stretched between two ends.
-   pure function stretched(orbit, shift, from, to, k)
+   pure function stretched(orbit, shift, k)
       type(orbit_type), intent(in) :: orbit
       real(wp), intent(in) :: shift(:, 0:)
-      integer, intent(in) :: from, to, k
+      integer, intent(in) :: k
       real(wp) :: stretched(size(shift, 1), 2), part
-      integer :: i
+      integer :: i, from, to
+      from = findloc(orbit%switching_point(1:k - 1) > 0, .true., dim=1, back=.true.)
+      to = next_switching_point(orbit, k)
       do i = 1, 2
          part = (orbit%time(k + i - 2) - orbit%time(from))/(orbit%time(to) - orbit%time(from))
          stretched(:, i) = (1 - part)*shift(:, from) + part*shift(:, to)
@@ -153,13 +148,6 @@ contains
       states(columns + 1, :) = 0
    end subroutine put_at_switching_point
 
-   !> By how much the end misses the start, over the scales.
-   pure function gap_of(orbit) result(gap)
-      type(orbit_type), intent(in) :: orbit
-      real(wp) :: gap(size(orbit%start))
-      gap = (orbit%at(:, points, orbit%intervals()) - orbit%start)/orbit%scale
-   end function gap_of
-
    !> matrix x = b for the change x of the start, and (a matrix of n + 1 columns) of the parameter, that closes the
    !> orbit: (1 - M) x = gap.
    subroutine closing_equations(orbit, equations, matrix, b)
@@ -173,7 +161,7 @@ contains
          matrix(i, i) = matrix(i, i) + 1
       end do
       if (size(matrix, 2) > n) matrix(:, n + 1) = -equations%at_end(n + 2, :)
-      b = equations%at_end(n + 1, :) + gap_of(orbit)
+      b = equations%at_end(n + 1, :) + orbit%gap()
    end subroutine closing_equations
 
    !> Moves an orbit by a change of its start and (an element more) of the parameter, over the scales; where it
@@ -187,7 +175,7 @@ contains
       real(wp), allocatable :: corrections(:, :, :, :)
       real(wp) :: columns(size(equations%at_end, 1)), start(1, size(equations%at_end, 1) + 2), share
       real(wp) :: shift(1, 0:orbit%intervals())
-      integer :: k, i, n, from, to
+      integer :: k, i, n
       logical :: kept
       n = size(orbit%start)
       allocate (corrections(1, n, points, orbit%intervals()))
@@ -198,13 +186,8 @@ contains
       shift(1, :) = matmul(columns, equations%shift(:size(columns), :))
       start(1, :size(columns)) = columns
       do
-         to = 0
          do k = 1, orbit%intervals()
-            if (k > to) then
-               from = to
-               to = next_switching_point(orbit, k)
-            end if
-            start(:, size(columns) + 1:) = stretched(orbit, shift, from, to, k)
+            start(:, size(columns) + 1:) = stretched(orbit, shift, k)
             shift(:, k) = start(:, size(columns) + 2)
             call equations%maps%follow(k, 1, start(:, :n + equations%constants), corrections(:, :, :, k))
             start(1, :n) = corrections(1, :, points, k)
@@ -287,7 +270,6 @@ contains
          gap(:, constants + 1, i) = matmul(h*df_dt*spread(1 - place, 1, model%n) - rate, weight(i, :))/orbit%scale
          gap(:, constants + 2, i) = matmul(h*df_dt*spread(place, 1, model%n) + rate, weight(i, :))/orbit%scale
       end do
-      orbit%residual = max(orbit%residual, maxval(abs(gap(:, 1, :))))
    end subroutine linearize
 
    !> The state at which the equations of a point of interval k are taken.

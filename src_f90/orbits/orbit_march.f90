@@ -11,12 +11,6 @@ module orbit_march
    private
    public :: march_period, mesh_options
 
-   !> A step of the march: its end, s, and the states at the points of Radau in it.
-   type :: step_type
-      real(wp) :: end = 0
-      real(wp), allocatable :: at(:, :)
-   end type step_type
-
    !> Tolerance of the march over what is asked for: on its steps the collocation is that much more accurate.
    !> Not so where the march would become too coarse to start from.
    real(wp), parameter :: looser = 10, loosest = 1e-4_wp
@@ -52,26 +46,24 @@ contains
       type(orbit_type), intent(inout) :: orbit
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      type(step_type), allocatable :: steps(:), longer(:)
+      real(wp), allocatable :: ends(:), at(:, :, :)
       real(wp) :: t, before
       integer :: n, i
       call integrator%interpolate(period*length, orbit%start)
-      allocate (steps(64))
+      allocate (ends(64), at(size(orbit%start), points, 64))
       n = 0
       before = 0
       do
          t = min(length, integrator%time() - period*length)
          if (t > before) then
-            if (n == size(steps)) then
-               allocate (longer(2*n))
-               longer(:n) = steps
-               call move_alloc(longer, steps)
+            if (n == size(ends)) then
+               ends = [ends, ends]
+               at = reshape(at, [size(at, 1), points, 2*n], pad=at)
             end if
             n = n + 1
-            steps(n)%end = t
-            allocate (steps(n)%at(size(orbit%start), points))
+            ends(n) = t
             do i = 1, points
-               call integrator%interpolate(period*length + before + place(i)*(t - before), steps(n)%at(:, i))
+               call integrator%interpolate(period*length + before + place(i)*(t - before), at(:, i, n))
             end do
             before = t
          end if
@@ -79,7 +71,7 @@ contains
          call do_step(integrator, options, error, give_up)
          if (allocated(error)) return
       end do
-      call make_orbit(steps(:n), orbit)
+      call orbit%set_mesh([0.0_wp, ends(:n)], at(:, :, :n))
    end subroutine march_period
 
    !> A step, unless there were too many or `give_up` says so.
@@ -104,16 +96,4 @@ contains
             & //' s, after '//to_text(counts%steps)//' steps')
       end associate
    end subroutine do_step
-
-   !> The motion of these steps on a mesh of their ends.
-   pure subroutine make_orbit(steps, orbit)
-      type(step_type), intent(in) :: steps(:)
-      type(orbit_type), intent(inout) :: orbit
-      real(wp) :: at(size(orbit%start), points, size(steps))
-      integer :: k
-      do k = 1, size(steps)
-         at(:, :, k) = steps(k)%at
-      end do
-      call orbit%set_mesh([0.0_wp, steps%end], at)
-   end subroutine make_orbit
 end module orbit_march

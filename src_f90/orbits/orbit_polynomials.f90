@@ -26,12 +26,13 @@ module orbit_polynomials
       !> What the state at the start's change does to the state a period later, over the scales: it has the multipliers
       !> as eigenvalues.
       real(wp), allocatable :: monodromy(:, :)
-      !> Newton's last correction, over the scales, and how far the equations were from being satisfied before it.
-      real(wp) :: correction = huge(1.0_wp), residual = huge(1.0_wp)
+      !> Newton's last correction, over the scales.
+      real(wp) :: correction = huge(1.0_wp)
       !> Whether the model refused a state of the orbit.
       logical :: refused = .false.
    contains
       procedure :: intervals
+      procedure :: gap
       procedure :: state_at
       procedure :: change_mesh
       procedure :: set_mesh
@@ -43,6 +44,13 @@ contains
       class(orbit_type), intent(in) :: self
       intervals = size(self%at, 3)
    end function intervals
+
+   !> By how much the end misses the start, over the scales.
+   pure function gap(self)
+      class(orbit_type), intent(in) :: self
+      real(wp) :: gap(size(self%start))
+      gap = (self%at(:, points, self%intervals()) - self%start)/self%scale
+   end function gap
 
    !> The state y at a time of the period, s, and its rate along the polynomial there.
    pure subroutine state_at(self, t, y, rate)

@@ -3,16 +3,29 @@
 module orbit_problem
    use kinds, only: wp, i8
    use errors, only: error_type
+   use ode_model, only: ode_model_type
    use newton_method, only: branch_problem_type, place_part_type, branch_point_type
    use orbit_polynomials, only: orbit_type, points, place
    use event_mesh, only: follow_switching_points
    use orbit_collocation, only: orbit_equations_type, parameter_shift_type, condense, closing_equations, move_orbit, &
       & collocated_state
-   use parametric_ode, only: parametric_ode_type
    use eigenvalues, only: find_eigenvalues, largest_first
    implicit none (type, external)
    private
-   public :: orbit_problem_type, begin_orbits, period_multiple_at
+   public :: parametric_ode_type, orbit_problem_type, begin_orbits, period_multiple_at
+
+   !> What an orbit needs to know of an ODE beside its rates. As it is, of a model without a parameter.
+   type :: parametric_ode_type
+      class(ode_model_type), pointer :: model => null()
+      !> Period of what drives the model as it is set, s.
+      real(wp) :: period = 0
+      !> Where the model at a value of the parameter is sought, not only set: where searches begin, and what the last one
+      !> found, as numbers. Searches around a point of a branch begin at the same, so that what they find is smooth.
+      real(wp), allocatable :: start(:), found(:)
+   contains
+      procedure :: set
+      procedure :: new_mesh
+   end type parametric_ode_type
 
    type, extends(branch_problem_type) :: orbit_problem_type
       type(orbit_type) :: orbit
@@ -33,11 +46,11 @@ module orbit_problem
       procedure :: predict
       procedure :: spectrum
       procedure :: kind => kind_of
-      procedure :: get_place
-      procedure :: parts => parts_of
+      procedure :: place => place_of
       procedure :: go_to
       procedure :: fits
       procedure :: period
+      procedure :: residual
       procedure, private :: set_shift
       procedure, private :: defect
    end type orbit_problem_type
@@ -49,14 +62,28 @@ module orbit_problem
    !> A mesh is left for a new one where the defect has grown by this.
    real(wp), parameter :: largest_growth = 4
    !> Where in an interval the defect is looked at: far from its points.
-   real(wp), parameter :: between = 0.4_wp
+   real(wp), parameter :: between(1) = 0.4_wp
 
 contains
+
+   !> Makes model and period those of a value of the parameter; an error says why there can be none.
+   subroutine set(self, parameter, error)
+      class(parametric_ode_type), intent(inout) :: self
+      real(wp), intent(in) :: parameter
+      type(error_type), allocatable, intent(out) :: error
+   end subroutine set
+
+   !> A mesh for an orbit near this one, as parts of its period, 0 to 1; not allocated where there is no better one.
+   subroutine new_mesh(self, orbit, mesh)
+      class(parametric_ode_type), intent(inout) :: self
+      type(orbit_type), intent(in) :: orbit
+      real(wp), allocatable, intent(out) :: mesh(:)
+   end subroutine new_mesh
 
    !> A problem that stands at an orbit over a number of periods of its forcing, of an ODE at a value of the parameter.
    subroutine begin_orbits(problem, ode, orbit, period_multiple, parameter, unit)
       type(orbit_problem_type), intent(out) :: problem
-      class(parametric_ode_type), intent(in), target :: ode
+      class(parametric_ode_type), intent(inout), target :: ode
       type(orbit_type), intent(in) :: orbit
       integer, intent(in) :: period_multiple
       !> Its natural change. Both are left out where the parameter stays.
@@ -69,6 +96,8 @@ contains
       call ode%model%pairs(x, v)
       if (size(x) == 0) x = [(i, i=1, problem%n)]
       problem%weight(x) = 1.0_wp/size(x)
+      if (.not. allocated(ode%start)) allocate (ode%start(0))
+      ode%found = ode%start
       problem%ode => ode
       problem%orbit = orbit
       problem%period_multiple = period_multiple
@@ -164,8 +193,8 @@ contains
       real(wp), intent(in) :: change(:)
       real(wp), allocatable :: mesh(:), before(:)
       real(wp) :: ignored, now
-      call self%ode%begin_here()
-      now = self%defect()
+      self%ode%start = self%ode%found
+      now = self%defect(between)
       if (self%first_defect < 0) self%first_defect = now
       if (now > largest_growth*self%first_defect) then
          call self%ode%new_mesh(self%orbit, mesh)
@@ -190,24 +219,33 @@ contains
       end do
    end function moved
 
-   !> The largest defect of the rates between the points of an interval, times its length, over the scales.
-   real(wp) function defect(self)
+   !> By how much the orbit is no solution, over the scales: the defect at the points, and the gap of the period.
+   real(wp) function residual(self)
       class(orbit_problem_type), intent(inout) :: self
+      residual = max(self%defect(place), maxval(abs(self%orbit%gap())))
+   end function residual
+
+   !> The largest defect of the rates at these places in an interval, 0 to 1, times its length, over the scales.
+   real(wp) function defect(self, places)
+      class(orbit_problem_type), intent(inout) :: self
+      real(wp), intent(in) :: places(:)
       real(wp), dimension(self%n) :: y, rates, slope
       real(wp) :: t
-      integer :: k
+      integer :: k, i
       logical :: ok
       defect = 0
       associate (orbit => self%orbit)
          do k = 1, orbit%intervals()
             associate (h => orbit%time(k) - orbit%time(k - 1))
-               t = orbit%time(k - 1) + between*h
-               call orbit%state_at(t, y, slope)
-               call self%ode%model%rhs(t, y, rates, ok)
-               if (ok) defect = max(defect, maxval(abs(h*(slope - rates)/orbit%scale)))
+               do i = 1, size(places)
+                  t = orbit%time(k - 1) + places(i)*h
+                  call orbit%state_at(t, y, slope)
+                  call self%ode%model%rhs(t, y, rates, ok)
+                  if (ok) defect = max(defect, maxval(abs(h*(slope - rates)/orbit%scale)))
+               end do
             end associate
          end do
-         self%evaluations = self%evaluations + orbit%intervals()
+         self%evaluations = self%evaluations + size(places)*orbit%intervals()
       end associate
    end function defect
 
@@ -237,82 +275,62 @@ contains
       end if
    end function kind_of
 
-   !> Period multiple, parameter, first defect, intervals, and their ends, the switching points there, start and points;
-   !> where the model is sought.
-   pure subroutine get_place(self, place)
+   pure function place_of(self) result(place)
       class(orbit_problem_type), intent(in) :: self
-      real(wp), allocatable, intent(out) :: place(:)
-      real(wp), allocatable :: sought(:)
-      call self%ode%get_start(sought)
+      type(place_part_type), allocatable :: place(:)
       associate (orbit => self%orbit)
-         place = [real(self%period_multiple, wp), self%parameter, self%first_defect, real(orbit%intervals(), wp), &
-            & orbit%time, real(orbit%switching_point, wp), orbit%start, orbit%at, sought]
-      end associate
-   end subroutine get_place
-
-   pure function parts_of(self, place) result(parts)
-      class(orbit_problem_type), intent(in) :: self
-      real(wp), intent(in) :: place(:)
-      type(place_part_type), allocatable :: parts(:)
-      integer :: ends, inside
-      ends = nint(place(4)) + 1
-      inside = self%n*points*(ends - 1)
-      parts = [place_part_type('periods', 1, '1', 'periods of the forcing in that of the orbit'), &
-         & place_part_type('parameter', 1, '', 'parameter where the equations were linearised'), &
-         & place_part_type('first_defect', 1, '1', 'defect of the first orbit on the mesh; below 0: not known yet'), &
-         & place_part_type('intervals', 1, '1', 'intervals of the mesh'), &
-         & place_part_type('interval_ends', ends, 's', 'ends of the intervals'), &
-         & place_part_type('switching_points', ends, '1', &
+         place = [place_part_type('periods', [real(self%period_multiple, wp)], '1', &
+            & 'periods of the forcing in that of the orbit'), &
+            & place_part_type('parameter', [self%parameter], '', 'parameter where the equations were linearised'), &
+            & place_part_type('first_defect', [self%first_defect], '1', &
+            & 'defect of the first orbit on the mesh; below 0: not known yet'), &
+            & place_part_type('interval_ends', [orbit%time], 's', 'ends of the intervals'), &
+            & place_part_type('switching_points', [real(orbit%switching_point, wp)], '1', &
             & 'switching point at each end; 0: none, -1: none any longer'), &
-         & place_part_type('start', self%n, '1', 'state at the start of the period'), &
-         & place_part_type('states', inside, '1', 'states at the points of the intervals, one after the other'), &
-         & place_part_type('equilibrium', size(place) - 4 - 2*ends - self%n - inside, '1', &
-         & 'state and viscosities from which equilibria are sought')]
-   end function parts_of
+            & place_part_type('start', orbit%start, '1', 'state at the start of the period'), &
+            & place_part_type('states', [orbit%at], '1', 'states at the points of the intervals, one after the other'), &
+            & place_part_type('equilibrium', self%ode%start, '1', &
+            & 'state and viscosities from which equilibria are sought')]
+      end associate
+   end function place_of
 
    !> The mesh grows, every turn has an interval, and switching points are among those of the model.
    pure logical function fits(self, place)
       class(orbit_problem_type), intent(in) :: self
-      real(wp), intent(in) :: place(:)
-      real(wp), allocatable :: sought(:), value(:)
+      type(place_part_type), intent(in) :: place(:)
+      real(wp), allocatable :: value(:)
       integer, allocatable :: state(:)
-      integer :: ends, o
-      o = 4
-      fits = size(place) > o
-      if (fits) fits = all(place([1, 4]) >= 1) .and. place(1) <= place(4) .and. place(4) < size(place)
-      if (.not. fits) return
-      call self%ode%get_start(sought)
-      ends = nint(place(4)) + 1
-      fits = size(place) == o + 2*ends + self%n*(1 + points*(ends - 1)) + size(sought)
-      if (.not. fits) return
-      call self%ode%model%switching_points(state, value)
-      associate (time => place(o + 1:o + ends), switching_point => place(o + ends + 1:o + 2*ends))
-         fits = all(time(2:) > time(:ends - 1)) .and. all(switching_point >= -1 .and. switching_point <= size(state))
+      integer :: k
+      associate (lengths => [(size(place(k)%values), k=1, size(place))], n => size(place(4)%values) - 1)
+         fits = n > 0 .and. all(lengths == [1, 1, 1, n + 1, n + 1, self%n, self%n*points*n, size(self%ode%start)])
+         if (.not. fits) return
+         call self%ode%model%switching_points(state, value)
+         associate (periods => place(1)%values(1), time => place(4)%values, switching_point => place(5)%values)
+            fits = periods >= 1 .and. periods <= n .and. all(time(2:) > time(:n)) &
+               & .and. all(switching_point >= -1 .and. switching_point <= size(state))
+         end associate
       end associate
    end function fits
 
    subroutine go_to(self, place)
       class(orbit_problem_type), intent(inout) :: self
-      real(wp), intent(in) :: place(:)
-      integer :: ends, o
-      self%period_multiple = nint(place(1))
-      self%parameter = place(2)
-      self%first_defect = place(3)
-      ends = nint(place(4)) + 1
-      o = 4 + 2*ends
-      associate (orbit => self%orbit, time => place(5:4 + ends), switching_point => place(5 + ends:o))
-         orbit%start = place(o + 1:o + self%n)
-         o = o + self%n
-         call orbit%set_mesh(time, reshape(place(o + 1:), [self%n, points, ends - 1]), nint(switching_point))
-         o = o + size(orbit%at)
+      type(place_part_type), intent(in) :: place(:)
+      self%period_multiple = nint(place(1)%values(1))
+      self%parameter = place(2)%values(1)
+      self%first_defect = place(3)%values(1)
+      self%orbit%start = place(6)%values
+      associate (time => place(4)%values)
+         call self%orbit%set_mesh(time, reshape(place(7)%values, [self%n, points, size(time) - 1]), &
+            & nint(place(5)%values))
       end associate
-      call self%ode%set_start(place(o + 1:))
+      self%ode%start = place(8)%values
+      self%ode%found = self%ode%start
    end subroutine go_to
 
    !> Periods of what drives the model in that of the orbit at a point.
    pure integer function period_multiple_at(point)
       type(branch_point_type), intent(in) :: point
-      period_multiple_at = nint(point%place(1))
+      period_multiple_at = nint(point%place(1)%values(1))
    end function period_multiple_at
 
 end module orbit_problem

@@ -4,16 +4,16 @@ module periodic_orbit
    use kinds, only: wp, i8, pi
    use text, only: to_text
    use errors, only: error_type, add_context, numerics_error, asked_to_stop
+   use lapack, only: zgesv
+   use operating_point, only: operating_point_type
    use marching, only: march_options
    use integrator_counts, only: integrator_counts_type
    use cvode_integrator, only: integrator_type
    use equations_of_motion, only: bearing_model
-   use orbit_polynomials, only: orbit_type, points, place
+   use orbit_polynomials, only: orbit_type
    use newton_method, only: newton_options, branch_point_type, correct
-   use parametric_ode, only: parametric_ode_type
-   use orbit_problem, only: orbit_problem_type, begin_orbits
+   use orbit_problem, only: parametric_ode_type, orbit_problem_type, begin_orbits
    use orbit_march, only: march_period, mesh_options
-   use unbalance_response, only: go_to_response
    implicit none (type, external)
    private
    public :: periodic_orbit_type, find_periodic_orbit, are_stable, loss_of_stability
@@ -22,6 +22,8 @@ module periodic_orbit
       type(orbit_type) :: orbit
       !> Period, s.
       real(wp) :: period = 0
+      !> How far the equations are from being satisfied, over the scales.
+      real(wp) :: residual = huge(1.0_wp)
       !> Eigenvalues of the monodromy matrix, that of largest modulus first.
       complex(wp), allocatable :: multipliers(:)
       !> Periods marched, and what this cost.
@@ -44,6 +46,10 @@ module periodic_orbit
    integer, parameter :: fewest_periods = 2, early_rounds = 12
    !> Largest correction that is made, over the scales.
    real(wp), parameter :: longest = 0.5_wp
+   !> A state that its mean rates move by less than this, over the scales, is in equilibrium.
+   real(wp), parameter :: still = 1e-3_wp
+   !> Largest amplitude of a displacement, over its scale: of a longer response only a part is taken.
+   real(wp), parameter :: largest = 0.3_wp
 
 contains
 
@@ -79,15 +85,51 @@ contains
          if (allocated(error)) exit
          found%marched = found%marched + 1
          if (found%marched < next_try .and. (found%evaluations > 0 .or. found%marched < fewest_periods &
-            & .or. change_in_period(found%orbit) > close_by)) cycle
+            & .or. maxval(abs(found%orbit%gap())) > close_by)) cycle
          next_try = 2*found%marched
-         if (change_in_period(found%orbit) > close_by) call average(found%orbit, before)
+         if (maxval(abs(found%orbit%gap())) > close_by) call average(found%orbit, before)
          call close_orbit(model, found, error, give_up)
          if (.not. allocated(error)) return
          if (error%status == numerics_error .and. next_try <= last_try) deallocate (error)
       end do
       call add_context(error, 'no periodic orbit was found: after '//to_text(found%marched)//' periods')
    end subroutine find_periodic_orbit
+
+   !> Puts a state in equilibrium into the steady motion of the linearised equations under the unbalance, without
+   !> friction, at t = 0: it is near the periodic orbit, and free of a march. Other states stay.
+   subroutine go_to_response(model, y)
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(inout) :: y(:)
+      type(operating_point_type) :: point, free
+      complex(wp) :: matrix(model%n, model%n), response(model%n, 2)
+      real(wp) :: rates(model%n, 0:2), jacobian(model%n, model%n), speed, amplitude
+      integer :: pivots(model%n), info, i
+      logical :: ok
+      point = model%point
+      speed = point%speed(0.0_wp)
+      free = point
+      free%friction = .false.
+      call model%set_point(free)
+      do i = 2, 0, -1
+         call model%rhs_and_jacobian(i*pi/(2*speed), y, rates(:, i), jacobian, ok)
+         if (.not. ok) exit
+         rates(:, i) = rates(:, i)/(speed*model%scale)
+      end do
+      call model%set_point(point)
+      if (.not. ok) return
+      ! the rates are mean + Re(swing exp(i angle))
+      response(:, 1) = 0.5_wp*(rates(:, 0) + rates(:, 2))
+      response(:, 2) = cmplx(rates(:, 0), -rates(:, 1), wp) - (1.0_wp, -1.0_wp)*response(:, 1)
+      do i = 1, model%n
+         matrix(:, i) = -jacobian(:, i)*model%scale(i)/(speed*model%scale)
+         matrix(i, i) = matrix(i, i) + (0.0_wp, 1.0_wp)
+      end do
+      call zgesv(model%n, 2, matrix, model%n, pivots, response, model%n, info)
+      if (info /= 0 .or. .not. all(abs(response) <= huge(speed))) return
+      if (maxval(abs(response(:, 1))) > still) return
+      amplitude = maxval(abs(response(model%layout%positions(), 2)))
+      y = y + model%scale*response(:, 2)%re*largest/max(largest, amplitude)
+   end subroutine go_to_response
 
    !> What the march and Newton's method cost together.
    pure type(integrator_counts_type) function counts(self)
@@ -97,25 +139,13 @@ contains
       counts%jacobian_evaluations = counts%jacobian_evaluations + self%evaluations
    end function counts
 
-   !> By how much the state changes over the period, over the scales.
-   pure real(wp) function change_in_period(orbit) result(change)
-      type(orbit_type), intent(in) :: orbit
-      change = maxval(abs(orbit%at(:, points, orbit%intervals()) - orbit%start)/orbit%scale)
-   end function change_in_period
-
    !> Puts an orbit half way to that of the period before: a motion that alternates between two does so about an
    !> unstable orbit of one period.
    pure subroutine average(orbit, before)
       type(orbit_type), intent(inout) :: orbit
-      type(orbit_type), intent(in) :: before
-      real(wp) :: y(size(orbit%start))
-      integer :: k, i
-      do k = 1, orbit%intervals()
-         do i = 1, points
-            call before%state_at(orbit%time(k - 1) + place(i)*(orbit%time(k) - orbit%time(k - 1)), y)
-            orbit%at(:, i, k) = 0.5_wp*(orbit%at(:, i, k) + y)
-         end do
-      end do
+      type(orbit_type), intent(inout) :: before
+      call before%change_mesh(orbit%time)
+      orbit%at = 0.5_wp*(orbit%at + before%at)
       orbit%start = 0.5_wp*(orbit%start + before%start)
    end subroutine average
 
@@ -147,6 +177,7 @@ contains
          end if
       else
          call move_alloc(closed%values, found%multipliers)
+         found%residual = problem%residual()
       end if
    end subroutine close_orbit
 

@@ -4,7 +4,7 @@ module branch_checkpoint
    use kinds, only: wp, i8
    use text, only: to_text
    use errors, only: error_type, raise, system_error
-   use newton_method, only: branch_point_type, place_part_type
+   use newton_method, only: branch_point_type
    use bifurcations, only: kinds_of_points
    use branch_progress, only: branch_progress_type
    use branch_results, only: noted_point_type
@@ -44,8 +44,7 @@ contains
       character(len=*), intent(in) :: group
       type(branch_progress_type), intent(in) :: branches
       type(branch_point_type), intent(in) :: point
-      type(place_part_type), allocatable :: parts(:)
-      integer :: k, o
+      integer :: k
       call file%make_group(group)
       call file%put_real(group//'/value', point%parameter, branches%parameter%unit, branches%parameter%meaning)
       call file%put_real(group//'/arc_length', point%arc_length, '1', 'length of the branch up to the point')
@@ -53,13 +52,13 @@ contains
       call put('change', point%change, '1', 'correction from where the equations were linearised')
       call put('tangent', point%tangent, '1', 'unit tangent of the branch')
       call put('growth', point%growth, '1', 'how far each eigenvalue or multiplier is on the unstable side')
-      parts = branches%parts(point%place)
-      o = 0
-      do k = 1, size(parts)
-         associate (part => parts(k))
-            if (part%units == '') part%units = branches%parameter%unit
-            call put(trim(part%name), point%place(o + 1:o + part%size), trim(part%units), trim(part%long_name))
-            o = o + part%size
+      do k = 1, size(point%place)
+         associate (part => point%place(k))
+            if (part%units == '') then
+               call put(trim(part%name), part%values, branches%parameter%unit, trim(part%long_name))
+            else
+               call put(trim(part%name), part%values, trim(part%units), trim(part%long_name))
+            end if
          end associate
       end do
    contains
@@ -125,8 +124,6 @@ contains
       type(branch_progress_type), intent(in) :: branches
       type(branch_point_type), intent(out) :: point
       logical, intent(out) :: ok
-      type(place_part_type), allocatable :: parts(:)
-      real(wp), allocatable :: here(:)
       integer :: k
       point%parameter = file%get_real(group//'/value')
       point%arc_length = file%get_real(group//'/arc_length')
@@ -134,14 +131,13 @@ contains
       point%change = list(file, group//'/change')
       point%tangent = list(file, group//'/tangent')
       point%growth = list(file, group//'/growth')
-      here = branches%place()
-      parts = branches%parts(here)
-      point%place = [real(wp) ::]
-      do k = 1, size(parts)
-         point%place = [point%place, list(file, group//'/'//trim(parts(k)%name))]
-      end do
+      point%place = branches%problem%place()
       ok = all(ieee_is_finite([point%parameter, point%arc_length, point%along, point%change, point%tangent, &
-         & point%growth, point%place]))
+         & point%growth]))
+      do k = 1, size(point%place)
+         point%place(k)%values = list(file, group//'/'//trim(point%place(k)%name))
+         ok = ok .and. all(ieee_is_finite(point%place(k)%values))
+      end do
    end subroutine get_point
 
    !> A list of a file; empty where it has none of this name, as lists of no numbers are not written.

@@ -20,8 +20,8 @@ contains
          call file%make_group('periodic')
          call file%put_real('periodic/period', found%period, 's', 'period of the orbit')
          call file%put_count('periodic/revolutions', int(revolutions, i8), 'revolutions of the shaft in a period')
-         call file%put_real('periodic/residual', found%orbit%residual, '1', &
-            & 'largest residual of the equations before Newton''s last correction, over the size of the states')
+         call file%put_real('periodic/residual', found%residual, '1', &
+            & 'largest residual of the equations, over the size of the states')
          call file%put_count('periodic/iterations', int(found%iterations, i8), 'iterations of Newton''s method')
          call file%put_count('periodic/intervals', int(found%orbit%intervals(), i8), 'intervals of the collocation')
          call file%put_count('periodic/evaluations', found%evaluations, &

@@ -111,7 +111,7 @@ def stopped(start, tmp_path):
 
 
 #: Lists of a checkpoint, each with the place of a number that others depend on.
-OF_ORBITS = {"periods": 0, "intervals": 0, "interval_ends": 1, "switching_points": 1}
+OF_ORBITS = {"periods": 0, "interval_ends": 1, "switching_points": 1}
 
 
 @pytest.mark.parametrize("case", [EQUILIBRIA, LUGRE], ids=["equilibria", "lugre"])

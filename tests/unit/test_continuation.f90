@@ -5,7 +5,7 @@ module branch_problems
    use errors, only: error_type, raise, input_error
    use small_ode, only: small_ode_type
    use newton_method, only: branch_problem_type, place_part_type
-   use parametric_ode, only: parametric_ode_type
+   use orbit_problem, only: parametric_ode_type
    implicit none (type, external)
    private
    public :: parabola, turning_frame, duffing, oscillator_orbits
@@ -18,8 +18,7 @@ module branch_problems
       procedure :: move => move_parabola
       procedure :: spectrum => parabola_spectrum
       procedure :: kind => parabola_kind
-      procedure :: get_place => parabola_place
-      procedure :: parts => parabola_parts
+      procedure :: place => parabola_place
       procedure :: go_to => put_parabola
    end type parabola
 
@@ -94,24 +93,17 @@ contains
       kind = 'fold'
    end function parabola_kind
 
-   pure subroutine parabola_place(self, place)
+   pure function parabola_place(self) result(place)
       class(parabola), intent(in) :: self
-      real(wp), allocatable, intent(out) :: place(:)
-      place = [self%parameter, self%x]
-   end subroutine parabola_place
-
-   pure function parabola_parts(self, place) result(parts)
-      class(parabola), intent(in) :: self
-      real(wp), intent(in) :: place(:)
-      type(place_part_type), allocatable :: parts(:)
-      parts = [place_part_type('parameter', 1), place_part_type('x', size(place) - 1)]
-   end function parabola_parts
+      type(place_part_type), allocatable :: place(:)
+      place = [place_part_type('parameter', [self%parameter]), place_part_type('x', [self%x])]
+   end function parabola_place
 
    subroutine put_parabola(self, place)
       class(parabola), intent(inout) :: self
-      real(wp), intent(in) :: place(:)
-      self%parameter = place(1)
-      self%x = place(2)
+      type(place_part_type), intent(in) :: place(:)
+      self%parameter = place(1)%values(1)
+      self%x = place(2)%values(1)
    end subroutine put_parabola
 
    !> Columns of the frame.
@@ -305,6 +297,7 @@ contains
       type(error_type), allocatable :: error
       type(branch_options) :: options
       real(wp) :: length
+      integer :: k
       logical :: ends
       call begin_frame(model, ode, .true., problem, options)
       call start_branch(problem, options, .true., here, error)
@@ -316,7 +309,9 @@ contains
       length = options%first_step
       call advance(problem, options, here, length, second, ends, error)
       call expect_no_error(error, 'steps')
-      call expect(.not. any(abs(first%place - second%place) > 0), 'the same place')
+      do k = 1, size(first%place)
+         call expect(.not. any(abs(first%place(k)%values - second%place(k)%values) > 0), 'the same place')
+      end do
       call expect(.not. any(abs(first%tangent - second%tangent) > 0), 'the same tangent')
    end subroutine return
 
