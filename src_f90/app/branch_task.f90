@@ -13,10 +13,10 @@ module branch_task
    use continuation, only: return_to
    use bifurcations, only: bifurcation_type
    use branch_progress, only: branch_progress_type
-   use orbit_figures, only: orbit_figures_type, find_orbit_figures, figures_of_equilibrium
+   use orbit_figures, only: orbit_figures_type, find_orbit_figures
    use heat_balance, only: oil_temperatures_type
    use heat_balance_equations, only: has_warm_oil
-   use branch_results, only: branch_orbit_type, noted_point_type, begin_branches, add_point, put_bifurcations, noted
+   use branch_results, only: noted_point_type, begin_branches, add_point, put_bifurcations, noted
    use branch_checkpoint, only: put_branches, get_branches
    use provenance, only: running
    use stop_signals, only: stop_requested, stop_reason
@@ -250,20 +250,15 @@ contains
       type(oil_temperatures_type), allocatable :: oil
       real(wp), allocatable :: viscosity(:)
       if (has_warm_oil(run%model)) allocate (oil)
-      associate (tilting => run%inputs%tilting(), orbit => b%orbits%orbit)
-         if (b%of_orbits) then
-            call find_orbit_figures(run%model, orbit, b%orbits%period_multiple, &
-               & run%inputs%output%samples_per_revolution, figures)
-            if (allocated(oil)) call b%ode%oil%temperatures(oil, viscosity)
-            call add_point(run%file, b%branch, b%parameter, point, figures, tilting, error, oil, viscosity, &
-               & branch_orbit_type(b%orbits%period_multiple, orbit%intervals(), b%orbits%period()))
-         else
-            call figures_of_equilibrium(b%static, b%equilibria%state(), figures)
-            viscosity = b%equilibria%viscosity
-            if (allocated(oil)) call b%equilibria%temperatures(oil)
-            call add_point(run%file, b%branch, b%parameter, point, figures, tilting, error, oil, viscosity)
-         end if
-      end associate
+      if (b%of_orbits) then
+         call find_orbit_figures(run%model, b%orbits, run%inputs%output%samples_per_revolution, figures)
+         if (allocated(oil)) call b%ode%oil%temperatures(oil, viscosity)
+      else
+         call figures%add_state(b%static, 0.0_wp, b%equilibria%state())
+         viscosity = b%equilibria%viscosity
+         if (allocated(oil)) call b%equilibria%temperatures(oil)
+      end if
+      call add_point(run%file, b%branch, b%parameter, point, figures, run%inputs%tilting(), error, oil, viscosity)
       call run%file%beat(int(wall_clock() - run%started))
    end subroutine record
 

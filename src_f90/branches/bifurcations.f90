@@ -75,19 +75,12 @@ contains
    end subroutine find_bifurcations
 
    !> Adds a point where it belongs along the branch.
-   subroutine put(one, found)
+   pure subroutine put(one, found)
       type(bifurcation_type), intent(in) :: one
       type(bifurcation_type), allocatable, intent(inout) :: found(:)
-      type(bifurcation_type), allocatable :: longer(:)
       integer :: before, k
       before = count([(found(k)%point%along <= one%point%along, k=1, size(found))])
-      allocate (longer(size(found) + 1))
-      do k = 1, size(longer)
-         if (k <= before) longer(k) = found(k)
-         if (k == before + 1) longer(k) = one
-         if (k > before + 1) longer(k) = found(k - 1)
-      end do
-      call move_alloc(longer, found)
+      found = [found(:before), one, found(before + 1:)]
    end subroutine put
 
    pure integer function unstable(point)
@@ -113,7 +106,7 @@ contains
       procedure(asked_to_stop), optional :: give_up
       type(root_bracket) :: bracket
       type(branch_point_type) :: point
-      real(wp) :: ignored, along, value
+      real(wp) :: along, value
       integer :: cut
       bracket = root_bracket([0.0_wp, next%along], [watched(here, k), watched(next, k)])
       call return_to(problem, next)
@@ -121,7 +114,7 @@ contains
       do cut = 1, most_cuts
          along = bracket%estimate()
          associate (tangent => point%tangent/problem%dot(here%tangent, point%tangent))
-            call problem%move((along - point%along)*tangent, .false., ignored)
+            call problem%move((along - point%along)*tangent, .false.)
          end associate
          call correct(problem, options, point, error, give_up, here%tangent)
          ok = .not. allocated(error)

@@ -51,11 +51,11 @@ contains
       class(branch_problem_type), intent(inout) :: problem
       type(branch_point_type), intent(in) :: point
       type(error_type), allocatable, intent(out), optional :: refusal
-      real(wp) :: matrix(problem%n, problem%n + 1), b(problem%n), ignored
+      real(wp) :: matrix(problem%n, problem%n + 1), b(problem%n)
       type(error_type), allocatable :: error
       call problem%go_to(point%place)
       call problem%linearize(matrix, b, error)
-      if (.not. allocated(error)) call problem%move(point%change, .true., ignored)
+      if (.not. allocated(error)) call problem%move(point%change, .true.)
       problem%parameter = point%parameter
       if (present(refusal)) call move_alloc(error, refusal)
    end subroutine return_to

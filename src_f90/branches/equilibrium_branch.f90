@@ -164,25 +164,23 @@ contains
       end associate
    end subroutine add_oil
 
-   subroutine move(self, change, closes, correction)
+   subroutine move(self, change, closes)
       class(equilibrium_problem_type), intent(inout) :: self
       real(wp), intent(in) :: change(:)
       logical, intent(in) :: closes
-      real(wp), intent(out) :: correction
       associate (n => size(self%positions))
          self%positions = self%positions + self%scale(:n)*change(:n)
          self%viscosity = self%viscosity*exp(change(n + 1:self%n))
       end associate
       self%parameter = self%parameter + self%unit*change(self%n + 1)
-      correction = maxval(abs(change))
+      self%correction = maxval(abs(change))
    end subroutine move
 
    subroutine predict(self, change)
       class(equilibrium_problem_type), intent(inout) :: self
       real(wp), intent(in) :: change(:)
-      real(wp) :: ignored
       self%anew = .true.
-      call self%move(change, .false., ignored)
+      call self%move(change, .false.)
    end subroutine predict
 
    !> The eigenvalues, 1/s, that of largest real part first; growths are per radian of the shaft.
@@ -214,9 +212,12 @@ contains
    pure function place_of(self) result(place)
       class(equilibrium_problem_type), intent(in) :: self
       type(place_part_type), allocatable :: place(:)
-      place = [place_part_type('parameter', [self%parameter], '', 'parameter where the equations were linearised'), &
-         & place_part_type('positions', self%positions, '1', 'displacements of journal and pads, m, and tilts, rad'), &
-         & place_part_type('viscosity', self%viscosity, 'Pa s', 'viscosity of the film')]
+      place = [place_part_type('parameter', '', 'parameter where the equations were linearised'), &
+         & place_part_type('positions', '1', 'displacements of journal and pads, m, and tilts, rad'), &
+         & place_part_type('viscosity', 'Pa s', 'viscosity of the film')]
+      place(1)%values = [self%parameter]
+      place(2)%values = self%positions
+      place(3)%values = self%viscosity
    end function place_of
 
    subroutine go_to(self, place)

@@ -2,10 +2,10 @@
 module orbit_figures
    use kinds, only: wp, i8, pi
    use equations_of_motion, only: bearing_model, model_sample
-   use orbit_polynomials, only: orbit_type
+   use orbit_problem, only: orbit_problem_type
    implicit none (type, external)
    private
-   public :: orbit_figures_type, find_orbit_figures, figures_of_equilibrium
+   public :: orbit_figures_type, find_orbit_figures
 
    type :: orbit_figures_type
       !> Of the journal along y and z, m: highest and lowest, amplitude of the vibration with the shaft, and the angle
@@ -13,25 +13,33 @@ module orbit_figures
       real(wp) :: highest(2) = 0, lowest(2) = 0, amplitude(2) = 0, phase(2) = 0
       !> Of each pad: highest and lowest tilt, rad; minimum film thickness, m.
       real(wp), allocatable :: highest_tilt(:), lowest_tilt(:), film(:)
+      !> Of an orbit: revolutions of the shaft in it, intervals of its collocation, and its period, s.
+      integer :: revolutions = 0, intervals = 0
+      real(wp) :: period = 0
+   contains
+      procedure :: add_state
    end type orbit_figures_type
 
 contains
 
-   !> The figures of an orbit over a number of revolutions, from a number of samples in each.
-   subroutine find_orbit_figures(model, orbit, revolutions, samples, figures)
+   !> The figures of an orbit, from a number of samples in each revolution.
+   subroutine find_orbit_figures(model, problem, samples, figures)
       type(bearing_model), intent(in) :: model
-      type(orbit_type), intent(in) :: orbit
-      integer, intent(in) :: revolutions, samples
+      type(orbit_problem_type), intent(in) :: problem
+      integer, intent(in) :: samples
       type(orbit_figures_type), intent(out) :: figures
       real(wp) :: y(model%n), t
       complex(wp) :: synchronous(2)
       integer(i8) :: k, n
-      n = int(revolutions, i8)*samples
+      figures%revolutions = problem%period_multiple
+      figures%intervals = problem%orbit%intervals()
+      figures%period = problem%period()
+      n = int(figures%revolutions, i8)*samples
       synchronous = 0
       do k = 0, n - 1
-         t = orbit%time(orbit%intervals())*k/n
-         call orbit%state_at(t, y)
-         call widen(model, t, y, figures)
+         t = problem%orbit%time(figures%intervals)*k/n
+         call problem%orbit%state_at(t, y)
+         call figures%add_state(model, t, y)
          associate (journal => model%rotor%journal(y(:model%rotor%states)), angle => 2*pi*k/samples)
             synchronous = synchronous + journal%position*cmplx(cos(angle), sin(angle), wp)
          end associate
@@ -43,19 +51,11 @@ contains
       figures%phase = atan2(synchronous%im, synchronous%re)
    end subroutine find_orbit_figures
 
-   !> The figures of a state in equilibrium.
-   subroutine figures_of_equilibrium(model, y, figures)
-      type(bearing_model), intent(in) :: model
-      real(wp), intent(in) :: y(:)
-      type(orbit_figures_type), intent(out) :: figures
-      call widen(model, 0.0_wp, y, figures)
-   end subroutine figures_of_equilibrium
-
-   !> Takes a state at time t, s, into the figures.
-   subroutine widen(model, t, y, figures)
+   !> Takes a state at time t, s, into the figures: of an equilibrium the only one.
+   subroutine add_state(figures, model, t, y)
+      class(orbit_figures_type), intent(inout) :: figures
       type(bearing_model), intent(in) :: model
       real(wp), intent(in) :: t, y(:)
-      type(orbit_figures_type), intent(inout) :: figures
       type(model_sample) :: sample
       real(wp) :: none(model%outputs)
       none = 0
@@ -75,5 +75,5 @@ contains
          figures%lowest_tilt = min(figures%lowest_tilt, tilt)
          figures%film = min(figures%film, film)
       end associate
-   end subroutine widen
+   end subroutine add_state
 end module orbit_figures

@@ -73,7 +73,9 @@ contains
             call add_context(error, 'the oil takes the temperatures of the equilibrium')
             if (allocated(error)) return
             self%known(2) = self%known(1)
-            self%known(1) = static_state_type(value, start, [y, model%oil%viscosity])
+            self%known(1)%value = value
+            self%known(1)%start = start
+            self%known(1)%found = [y, model%oil%viscosity]
          end associate
       end if
       found = self%known(1)%found

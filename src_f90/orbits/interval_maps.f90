@@ -93,7 +93,9 @@ contains
       logical, intent(out) :: ok
       real(wp) :: rows(padded(points*size(self%border%u) + self%n + self%constants), points*size(self%border%u))
       real(wp) :: across(points*size(self%block%u), points*size(self%border%u))
-      integer :: i, l, from
+      real(wp) :: sum(size(self%of_block, 1))
+      integer, allocatable :: columns(:)
+      integer :: i, l, r, from
       self%length(k) = length
       do i = 1, points
          self%gap(:, :, i, k) = transpose(gap(self%x, :, i))
@@ -110,11 +112,12 @@ contains
             across = 0
             call couple(self, k, b%u, jacobian, p, from, across, rows(u + from + 1:u + from + p%n, :), &
                & rows(u + n + 1:all, :))
-            call insert(self%of_block(:, :, l, k), across, [u + b%n, p%n, self%constants], [0, u + from, u + n], rows)
-         end do
-         rows(:u, :) = -rows(:u, :)
-         do i = 1, u
-            rows(i, i) = rows(i, i) + 1
+            ! where what the block's unknowns follow from stands in the rows
+            columns = [(i, i=1, u + b%n), (i, i=u + from + 1, u + from + p%n), (i, i=u + n + 1, all)]
+            do r = 1, u
+               sum = apply(size(sum), size(across, 1), self%of_block(:, :, l, k), across(:, r))
+               rows(columns, r) = rows(columns, r) + sum(:size(columns))
+            end do
          end do
          call reduce(size(rows, 1), u, rows, ok)
          self%of_border(:, :, k) = 0
@@ -129,7 +132,7 @@ contains
       real(wp), intent(in) :: jacobian(:, :, :), gap(:, :, :)
       logical, intent(out) :: ok
       real(wp) :: rows(padded(points*size(self%block%u) + size(self%of_block, 1)), points*size(self%block%u))
-      integer :: i, own, other, starts, constants, all, from
+      integer :: own, other, starts, constants, all, from
       associate (b => self%border, p => self%block)
          from = b%n + (l - 1)*p%n
          own = points*size(p%u)
@@ -140,10 +143,6 @@ contains
          rows = 0
          call couple(self, k, from + p%u, jacobian, p, from, rows(:own, :), rows(starts + 1:constants, :), &
             & rows(constants + 1:all, :))
-         rows(:own, :) = -rows(:own, :)
-         do i = 1, own
-            rows(i, i) = rows(i, i) + 1
-         end do
          call couple(self, k, from + p%u, jacobian, b, 0, rows(own + 1:other, :), rows(other + 1:starts, :), &
             & rows(constants + 1:all, :))
          call add_own(p, from + p%u, gap, rows(starts + 1:constants, :), rows(constants + 1:all, :))
@@ -211,28 +210,8 @@ contains
       end do
    end subroutine add_own
 
-   !> Puts a block's unknowns, as they follow, into the rows of the border, which have them `across`. What they follow
-   !> from are so many numbers each of the border, the block and the constants; these stand behind others in the rows.
-   pure subroutine insert(of_block, across, numbers, behind, rows)
-      real(wp), intent(in), contiguous :: of_block(:, :), across(:, :)
-      integer, intent(in) :: numbers(3), behind(3)
-      real(wp), intent(inout), contiguous :: rows(:, :)
-      real(wp) :: sum(size(of_block, 1))
-      integer :: r, i, first
-      do r = 1, size(rows, 2)
-         sum = apply(size(of_block, 1), size(across, 1), of_block, across(:, r))
-         first = 0
-         do i = 1, 3
-            associate (part => rows(behind(i) + 1:behind(i) + numbers(i), r))
-               part = part + sum(first + 1:first + numbers(i))
-            end associate
-            first = first + numbers(i)
-         end do
-      end do
-   end subroutine insert
-
-   !> Gauss-Jordan elimination of the first n columns of n rows held side by side, each row with the largest pivot. For
-   !> a pad n is 9 or so: LAPACK is slower on systems this small.
+   !> Of n rows held side by side, of unknowns x = A x + B, A in their first n columns: the same of x = B. Gauss-Jordan
+   !> elimination, each row with the largest pivot: for a pad n is 9 or so, and LAPACK is slower on systems this small.
    pure subroutine reduce(width, n, rows, ok)
       integer, intent(in) :: width, n
       real(wp), intent(inout) :: rows(width, n)
@@ -240,6 +219,10 @@ contains
       real(wp) :: swapped(width), factor
       integer :: i, j, k, l, first, best
       ok = .false.
+      do i = 1, n
+         rows(:n, i) = -rows(:n, i)
+         rows(i, i) = rows(i, i) + 1
+      end do
       do i = 1, n
          best = i
          do j = i + 1, n

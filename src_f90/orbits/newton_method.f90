@@ -12,9 +12,9 @@ module newton_method
    !> Numbers of a place, as a file names them.
    type :: place_part_type
       character(len=20) :: name = ''
-      real(wp), allocatable :: values(:)
       character(len=4) :: units = '1'
       character(len=64) :: long_name = ''
+      real(wp), allocatable :: values(:)
    end type place_part_type
 
    !> n unknowns and a parameter. All changes are over the characteristic scales of what changes.
@@ -24,6 +24,8 @@ module newton_method
       real(wp) :: parameter = 0, unit = 1
       !> How much each unknown counts in the length of a branch, where the parameter counts 1.
       real(wp), allocatable :: weight(:)
+      !> The largest change of all that moved last.
+      real(wp) :: correction = 0
       !> Whether the last error of `linearize` says that there can be no solution here: no Newton's method would help.
       logical :: refused = .false.
    contains
@@ -50,13 +52,11 @@ module newton_method
 
       !> Moves the problem, which was linearised, by a change of unknowns and, if there is one more, the parameter. One
       !> that `closes` solves these equations; the tangent and its multiples do not.
-      subroutine move_problem(self, change, closes, correction)
+      subroutine move_problem(self, change, closes)
          import :: branch_problem_type, wp
          class(branch_problem_type), intent(inout) :: self
          real(wp), intent(in) :: change(:)
          logical, intent(in) :: closes
-         !> The largest change of all that moved.
-         real(wp), intent(out) :: correction
       end subroutine move_problem
 
       !> What tells stability at a solution, as it was linearised last, and how far each value is on the unstable side;
@@ -139,8 +139,7 @@ contains
    subroutine predict(self, change)
       class(branch_problem_type), intent(inout) :: self
       real(wp), intent(in) :: change(:)
-      real(wp) :: ignored
-      call self%move(change, .false., ignored)
+      call self%move(change, .false.)
    end subroutine predict
 
    !> The product of two directions.
@@ -198,7 +197,8 @@ contains
             & //' of Newton''s method')
          if (allocated(error)) return
          point%change = b(:, 1)
-         call problem%move(point%change, .true., point%correction)
+         call problem%move(point%change, .true.)
+         point%correction = problem%correction
          left = point%correction
          ! by as much as this correction is shorter than the last, the next is shorter still
          if (before > 0 .and. .not. present(normal)) left = left*min(1.0_wp, left/before)

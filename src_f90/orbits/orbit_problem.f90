@@ -174,16 +174,15 @@ contains
       call self%ode%set(self%parameter, error)
    end subroutine set_shift
 
-   subroutine move(self, change, closes, correction)
+   subroutine move(self, change, closes)
       class(orbit_problem_type), intent(inout) :: self
       real(wp), intent(in) :: change(:)
       logical, intent(in) :: closes
-      real(wp), intent(out) :: correction
       call move_orbit(self%orbit, self%equations, change, closes, self%longest)
-      correction = self%orbit%correction
+      self%correction = self%orbit%correction
       if (size(change) == self%n) return
       self%parameter = self%parameter + self%unit*change(self%n + 1)
-      correction = max(correction, abs(change(self%n + 1)))
+      self%correction = max(self%correction, abs(change(self%n + 1)))
    end subroutine move
 
    !> The mesh goes along, and with it the switching points; where the orbit has changed so much that it fits its mesh
@@ -192,7 +191,7 @@ contains
       class(orbit_problem_type), intent(inout) :: self
       real(wp), intent(in) :: change(:)
       real(wp), allocatable :: mesh(:), before(:)
-      real(wp) :: ignored, now
+      real(wp) :: now
       self%ode%start = self%ode%found
       now = self%defect(between)
       if (self%first_defect < 0) self%first_defect = now
@@ -201,7 +200,7 @@ contains
          self%first_defect = -1
       end if
       before = [self%orbit%time]
-      call self%move(change, .false., ignored)
+      call self%move(change, .false.)
       if (allocated(mesh)) call self%orbit%change_mesh(moved(mesh*self%period(), before, [self%orbit%time]))
    end subroutine predict
 
@@ -278,20 +277,23 @@ contains
    pure function place_of(self) result(place)
       class(orbit_problem_type), intent(in) :: self
       type(place_part_type), allocatable :: place(:)
-      associate (orbit => self%orbit)
-         place = [place_part_type('periods', [real(self%period_multiple, wp)], '1', &
-            & 'periods of the forcing in that of the orbit'), &
-            & place_part_type('parameter', [self%parameter], '', 'parameter where the equations were linearised'), &
-            & place_part_type('first_defect', [self%first_defect], '1', &
-            & 'defect of the first orbit on the mesh; below 0: not known yet'), &
-            & place_part_type('interval_ends', [orbit%time], 's', 'ends of the intervals'), &
-            & place_part_type('switching_points', [real(orbit%switching_point, wp)], '1', &
-            & 'switching point at each end; 0: none, -1: none any longer'), &
-            & place_part_type('start', orbit%start, '1', 'state at the start of the period'), &
-            & place_part_type('states', [orbit%at], '1', 'states at the points of the intervals, one after the other'), &
-            & place_part_type('equilibrium', self%ode%start, '1', &
-            & 'state and viscosities from which equilibria are sought')]
-      end associate
+      ! values in a constructor would never be freed (gfortran 12)
+      place = [place_part_type('periods', '1', 'periods of the forcing in that of the orbit'), &
+         & place_part_type('parameter', '', 'parameter where the equations were linearised'), &
+         & place_part_type('first_defect', '1', 'defect of the first orbit on the mesh; below 0: not known yet'), &
+         & place_part_type('interval_ends', 's', 'ends of the intervals'), &
+         & place_part_type('switching_points', '1', 'switching point at each end; 0: none, -1: none any longer'), &
+         & place_part_type('start', '1', 'state at the start of the period'), &
+         & place_part_type('states', '1', 'states at the points of the intervals, one after the other'), &
+         & place_part_type('equilibrium', '1', 'state and viscosities from which equilibria are sought')]
+      place(1)%values = [real(self%period_multiple, wp)]
+      place(2)%values = [self%parameter]
+      place(3)%values = [self%first_defect]
+      place(4)%values = [self%orbit%time]
+      place(5)%values = [real(self%orbit%switching_point, wp)]
+      place(6)%values = self%orbit%start
+      place(7)%values = [self%orbit%at]
+      place(8)%values = self%ode%start
    end function place_of
 
    !> The mesh grows, every turn has an interval, and switching points are among those of the model.

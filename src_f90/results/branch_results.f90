@@ -11,7 +11,7 @@ module branch_results
    use run_file, only: run_file_type
    implicit none (type, external)
    private
-   public :: noted_point_type, branch_orbit_type, begin_branches, add_point, put_bifurcations, noted
+   public :: noted_point_type, begin_branches, add_point, put_bifurcations, noted
 
    !> A bifurcation point as the file has it: its number among all points and among the kinds, and where it is.
    type :: noted_point_type
@@ -19,12 +19,6 @@ module branch_results
       real(wp) :: parameter = 0
       complex(wp) :: value = 0
    end type noted_point_type
-
-   !> What an orbit has beside its figures: revolutions of the shaft, period, s, and intervals of its collocation.
-   type :: branch_orbit_type
-      integer :: revolutions = 1, intervals = 0
-      real(wp) :: period = 0
-   end type branch_orbit_type
 
    !> Points of a usual file.
    integer(i8), parameter :: usual_points = 100
@@ -42,8 +36,8 @@ contains
       call file%begin_series('point', usual_points)
    end subroutine begin_branches
 
-   !> Adds a point of a branch; of an equilibrium without `orbit`, of oil that has no temperatures without `oil`.
-   subroutine add_point(file, branch, parameter, point, figures, tilting, error, oil, viscosity, orbit)
+   !> Adds a point of a branch; of oil that has no temperatures without `oil`.
+   subroutine add_point(file, branch, parameter, point, figures, tilting, error, oil, viscosity)
       type(run_file_type), intent(inout) :: file
       integer, intent(in) :: branch
       type(case_parameter_type), intent(in) :: parameter
@@ -54,7 +48,6 @@ contains
       type(oil_temperatures_type), intent(in), optional :: oil
       !> Of warm oil on every pad, Pa s.
       real(wp), intent(in), optional :: viscosity(:)
-      type(branch_orbit_type), intent(in), optional :: orbit
       character(len=:), allocatable :: frozen
       real(wp), allocatable :: values(:)
       logical :: first
@@ -79,7 +72,7 @@ contains
       end if
       call each('min_film_thickness', figures%film, 'm', 'minimum film thickness', 'pad')
       if (present(oil)) call put_oil()
-      if (present(orbit)) then
+      if (figures%revolutions > 0) then
          call put_orbit()
       else
          call each('eigenvalue_real', real(point%values, wp), '1/s', 'eigenvalue, real part'//frozen, 'mode')
@@ -105,9 +98,9 @@ contains
          call one('journal_z_amplitude', figures%amplitude(2), 'm', &
             & 'horizontal journal vibration with the shaft, amplitude')
          call one('journal_z_phase', figures%phase(2), 'rad', 'angle by which it comes after the unbalance')
-         call one('period', orbit%period, 's', 'period of the orbit')
-         call one('revolutions', real(orbit%revolutions, wp), '1', 'revolutions of the shaft in a period')
-         call one('intervals', real(orbit%intervals, wp), '1', 'intervals of the collocation')
+         call one('period', figures%period, 's', 'period of the orbit')
+         call one('revolutions', real(figures%revolutions, wp), '1', 'revolutions of the shaft in a period')
+         call one('intervals', real(figures%intervals, wp), '1', 'intervals of the collocation')
          call each('multiplier_real', real(point%values, wp), '1', 'multiplier, real part'//frozen, 'mode')
          call each('multiplier_imag', aimag(point%values), '1', 'multiplier, imaginary part'//frozen, 'mode')
       end subroutine put_orbit

@@ -66,14 +66,13 @@ contains
       if (self%refused) call raise(error, input_error, 'too small')
    end subroutine parabola_equations
 
-   subroutine move_parabola(self, change, closes, correction)
+   subroutine move_parabola(self, change, closes)
       class(parabola), intent(inout) :: self
       real(wp), intent(in) :: change(:)
       logical, intent(in) :: closes
-      real(wp), intent(out) :: correction
       self%x = self%x + change(1)
       self%parameter = self%parameter + self%unit*change(2)
-      correction = maxval(abs(change))
+      self%correction = maxval(abs(change))
    end subroutine move_parabola
 
    subroutine parabola_spectrum(self, values, growth, ok)
@@ -96,7 +95,9 @@ contains
    pure function parabola_place(self) result(place)
       class(parabola), intent(in) :: self
       type(place_part_type), allocatable :: place(:)
-      place = [place_part_type('parameter', [self%parameter]), place_part_type('x', [self%x])]
+      place = [place_part_type('parameter'), place_part_type('x')]
+      place(1)%values = [self%parameter]
+      place(2)%values = [self%x]
    end function parabola_place
 
    subroutine put_parabola(self, place)
