@@ -43,35 +43,32 @@ contains
       procedure(asked_to_stop), optional :: give_up
       type(bifurcation_type) :: one
       integer :: first, last, k
-      logical :: ok, period_multiple, moved
+      logical :: ok, turns_back
       allocate (found(0))
-      period_multiple = parameter_part(here)*parameter_part(next) < 0
+      turns_back = parameter_part(here)*parameter_part(next) < 0
       first = unstable(here)
       last = unstable(next)
-      moved = .false.
       ! each value that crosses is one of the order of growths
       k = first
       do while (k /= last .and. size(found) < most_points)
          call locate(problem, options, here, next, max(k, k + sign(1, last - first)), one, ok, error, give_up)
-         moved = .true.
          if (allocated(error)) return
          if (ok) then
             one%destabilises = last > first
             one%kind = problem%kind(one%value)
-            if (one%kind == 'fold' .and. .not. period_multiple) one%kind = 'branch_point'
+            if (one%kind == 'fold' .and. .not. turns_back) one%kind = 'branch_point'
             call put(one, found)
          end if
          k = k + sign(merge(2, 1, abs(one%value%im) > 0 .and. ok), last - first)
          if ((last - first)*(last - k) < 0) exit
       end do
-      if (period_multiple .and. .not. any(found%kind == 'fold')) then
+      if (turns_back .and. .not. any(found%kind == 'fold')) then
          call locate(problem, options, here, next, 0, one, ok, error, give_up)
-         moved = .true.
          if (allocated(error)) return
          one%kind = 'fold'
          if (ok) call put(one, found)
       end if
-      if (moved) call return_to(problem, next)
+      if (first /= last .or. turns_back) call return_to(problem, next)
    end subroutine find_bifurcations
 
    !> Adds a point where it belongs along the branch.

@@ -28,8 +28,8 @@ module equilibrium_branch
       character(len=pivot_name) :: pivot = 'free'
       real(wp) :: cross_stiffness = 0
       type(varied_bearing_type), private :: bearing
-      !> Whether films start anew where the equations are linearised next: once for each point, so that it does not depend
-      !> on the way to it.
+      !> Whether films start anew where the equations are linearised next: once for each point, so that it does not
+      !> depend on the way to it.
       logical, private :: anew = .true.
       !> Characteristic scales of unknowns, and of what is out of balance.
       real(wp), allocatable, private :: scale(:), force(:)
@@ -43,12 +43,11 @@ module equilibrium_branch
       procedure :: predict
       procedure :: spectrum
       procedure :: kind => kind_of
-      procedure :: place => place_of
+      procedure :: get_place
       procedure :: go_to
       procedure :: state
       procedure :: temperatures
       procedure, private :: find_imbalance
-      procedure, private :: add_oil
    end type equilibrium_problem_type
 
    !> The difference of the parameter for a derivative over it, over its size; as good as that of orbits.
@@ -120,9 +119,15 @@ contains
       if (allocated(unbalanced)) later(n + 1:) = now(n + 1:)
       call force_derivatives(self%bearing%model, self%stiffness, self%damping)
       do k = 1, n
-         matrix(:n, k) = self%stiffness(:, k)*self%scale(k)/self%force(:n)
+         matrix(:n, k) = self%stiffness(:, k)*self%scale(k)
       end do
-      if (size(self%viscosity) > 0) call self%add_oil(matrix)
+      if (size(self%viscosity) > 0) then
+         associate (model => self%bearing%model, y => self%state())
+            call find_lack_slopes(model, y, self%balance, self%scale(:n), matrix(n + 1:, :self%n))
+            call find_force_slopes(model, y, matrix(:n, n + 1:self%n))
+         end associate
+      end if
+      matrix(:n, :self%n) = matrix(:n, :self%n)/spread(self%force(:n), 2, self%n)
       matrix(:, self%n + 1) = (later - now)/self%force*(self%unit/change)
       b = -now/self%force
    end subroutine linearize
@@ -149,20 +154,6 @@ contains
          end if
       end associate
    end subroutine find_imbalance
-
-   !> The equations of warm oil and what its viscosities do to the forces.
-   subroutine add_oil(self, matrix)
-      class(equilibrium_problem_type), intent(inout) :: self
-      real(wp), intent(inout) :: matrix(:, :)
-      integer :: k
-      associate (model => self%bearing%model, n => size(self%positions))
-         call find_lack_slopes(model, self%state(), self%balance, self%scale(:n), matrix(n + 1:, :self%n))
-         call find_force_slopes(model, self%state(), matrix(:n, n + 1:self%n))
-         do k = n + 1, self%n
-            matrix(:n, k) = matrix(:n, k)/self%force(:n)
-         end do
-      end associate
-   end subroutine add_oil
 
    subroutine move(self, change, closes)
       class(equilibrium_problem_type), intent(inout) :: self
@@ -209,16 +200,16 @@ contains
       end if
    end function kind_of
 
-   pure function place_of(self) result(place)
+   pure subroutine get_place(self, place)
       class(equilibrium_problem_type), intent(in) :: self
-      type(place_part_type), allocatable :: place(:)
+      type(place_part_type), allocatable, intent(out) :: place(:)
       place = [place_part_type('parameter', '', 'parameter where the equations were linearised'), &
          & place_part_type('positions', '1', 'displacements of journal and pads, m, and tilts, rad'), &
          & place_part_type('viscosity', 'Pa s', 'viscosity of the film')]
       place(1)%values = [self%parameter]
       place(2)%values = self%positions
       place(3)%values = self%viscosity
-   end function place_of
+   end subroutine get_place
 
    subroutine go_to(self, place)
       class(equilibrium_problem_type), intent(inout) :: self

@@ -42,7 +42,7 @@ contains
       end associate
       problem%orbit = twice
       problem%period_multiple = 2*problem%period_multiple
-      point%place = problem%place()
+      call problem%get_place(point%place)
       allocate (point%change(problem%n + 1), source=0.0_wp)
       point%tangent = [direction, 0.0_wp]
       point%parameter = period_doubling%parameter

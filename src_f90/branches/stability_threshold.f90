@@ -1,5 +1,5 @@
-!> The speed at which rotor and pads lose their stability: equilibria are followed over the speed of the shaft until, for
-!> each way that the pivots may behave, an eigenvalue has crossed the imaginary axis.
+!> The speed at which rotor and pads lose their stability: equilibria are followed over the speed of the shaft until,
+!> for each way that the pivots may behave, an eigenvalue has crossed the imaginary axis.
 module stability_threshold
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_is_nan, ieee_quiet_nan
    use kinds, only: wp
@@ -107,7 +107,7 @@ contains
       end do
    end subroutine follow
 
-   !> The point where the problem stands, found with the first of these ways of the pivots, with the eigenvalues of each.
+   !> Gives the point where the problem stands, found with the first of these ways of the pivots, the values of each.
    subroutine take_spectra(problem, pivots, points)
       type(equilibrium_problem_type), intent(inout) :: problem
       character(len=pivot_name), intent(in) :: pivots(:)

@@ -94,7 +94,7 @@ contains
       real(wp) :: rows(padded(points*size(self%border%u) + self%n + self%constants), points*size(self%border%u))
       real(wp) :: across(points*size(self%block%u), points*size(self%border%u))
       real(wp) :: sum(size(self%of_block, 1))
-      integer, allocatable :: columns(:)
+      integer :: columns(points*size(self%border%u) + self%border%n + self%block%n + self%constants)
       integer :: i, l, r, from
       self%length(k) = length
       do i = 1, points
@@ -116,7 +116,9 @@ contains
             columns = [(i, i=1, u + b%n), (i, i=u + from + 1, u + from + p%n), (i, i=u + n + 1, all)]
             do r = 1, u
                sum = apply(size(sum), size(across, 1), self%of_block(:, :, l, k), across(:, r))
-               rows(columns, r) = rows(columns, r) + sum(:size(columns))
+               do i = 1, size(columns)
+                  rows(columns(i), r) = rows(columns(i), r) + sum(i)
+               end do
             end do
          end do
          call reduce(size(rows, 1), u, rows, ok)

@@ -35,7 +35,7 @@ module newton_method
       procedure, non_overridable :: dot
       procedure(find_spectrum), deferred :: spectrum
       procedure(name_kind), deferred :: kind
-      procedure(take_place), deferred :: place
+      procedure(take_place), deferred :: get_place
       procedure(put_place), deferred :: go_to
       procedure :: fits
    end type branch_problem_type
@@ -78,11 +78,11 @@ module newton_method
       end function name_kind
 
       !> All that a problem needs to stand where it stands.
-      pure function take_place(self) result(place)
+      pure subroutine take_place(self, place)
          import :: branch_problem_type, place_part_type
          class(branch_problem_type), intent(in) :: self
-         type(place_part_type), allocatable :: place(:)
-      end function take_place
+         type(place_part_type), allocatable, intent(out) :: place(:)
+      end subroutine take_place
 
       subroutine put_place(self, place)
          import :: branch_problem_type, place_part_type
@@ -123,7 +123,7 @@ contains
       type(place_part_type), intent(in) :: place(:)
       type(place_part_type), allocatable :: here(:)
       integer :: k
-      here = self%place()
+      call self%get_place(here)
       fits = all([(size(place(k)%values) == size(here(k)%values), k=1, size(here))])
    end function fits
 
@@ -180,7 +180,7 @@ contains
          end if
          if (allocated(error)) return
          point%iterations = point%iterations + 1
-         point%place = problem%place()
+         call problem%get_place(point%place)
          b = 0
          call problem%linearize(matrix(:n, :), b(:n, 1), error)
          if (present(normal)) then

@@ -47,15 +47,18 @@ contains
    !> Linearises the equations on an orbit and eliminates the points inside of the intervals: sets the orbit's monodromy
    !> matrix. A numerics error where the model refuses a state or an interval's equations have no solution.
    !> Ends of intervals at a switching point go where the orbit passes it; between them the mesh is stretched.
-   subroutine condense(model, orbit, equations, error, shift)
+   subroutine condense(model, orbit, equations, refused, error, shift)
       class(ode_model_type), intent(inout) :: model
       type(orbit_type), intent(inout) :: orbit
       type(orbit_equations_type), intent(out) :: equations
+      !> Whether the model refused a state.
+      logical, intent(out) :: refused
       type(error_type), allocatable, intent(out) :: error
       !> Where the derivatives over the parameter are wanted.
       type(parameter_shift_type), intent(in), optional :: shift
       real(wp) :: jacobian(model%n, model%n, points)
       real(wp), allocatable :: gap(:, :, :), start(:, :), at(:, :, :)
+      integer, allocatable :: ends(:)
       integer :: k, i, n, columns, constants
       logical :: ok
       n = model%n
@@ -67,27 +70,28 @@ contains
          allocate (gap(n, constants, points), start(rows, n + constants), at(rows, n, points))
       end associate
       allocate (equations%shift(columns + 1, 0:orbit%intervals()), source=0.0_wp)
-      where (orbit%switching_point(1:orbit%intervals() - 1) > 0) equations%shift(columns + 1, 1:orbit%intervals() - 1) = 1
+      ends = switching_ends(orbit)
+      equations%shift(columns + 1, ends(2:size(ends) - 1)) = 1
       equations%maps = new_interval_maps(model, orbit%scale, orbit%intervals(), constants)
       start = 0
       do i = 1, columns
          start(i, i) = 1
       end do
-      orbit%refused = .false.
       do k = 1, orbit%intervals()
          call linearize(model, orbit, k, jacobian, gap, error, shift)
-         if (allocated(error)) return
+         refused = allocated(error)
+         if (refused) return
          call equations%maps%eliminate(k, orbit%time(k) - orbit%time(k - 1), jacobian, gap, ok)
          if (.not. ok) then
             call raise(error, numerics_error, 'Newton''s equations have no solution at t = ' &
                & //to_text(orbit%time(k))//' s')
             return
          end if
-         if (constants > columns - n) start(:columns + 1, columns + 1:) = stretched(orbit, equations%shift, k)
+         if (constants > columns - n) start(:columns + 1, columns + 1:) = stretched(orbit, ends, equations%shift, k)
          call equations%maps%follow(k, points, start, at)
          start(:, :n) = at(:, :, points)
-         if (equations%shift(columns + 1, k) > 0) call put_at_switching_point(model, orbit, k, start(:columns + 1, :n), &
-            & equations%shift(:, k))
+         if (equations%shift(columns + 1, k) > 0) call put_at_switching_point(model, orbit, k, &
+            & start(:columns + 1, :n), equations%shift(:, k))
       end do
       equations%at_end = start(:columns, :n)
       if (.not. (all(abs(equations%at_end) <= huge(1.0_wp)) .and. all(abs(equations%shift) <= huge(1.0_wp)))) then
@@ -97,29 +101,30 @@ contains
       orbit%monodromy = transpose(equations%at_end(:n, :))
    end subroutine condense
 
-   !> The end at a switching point, or of the period, that comes next at or behind the end of interval k.
-   pure integer function next_switching_point(orbit, k) result(end)
+   !> The ends of intervals at switching points, and those of the period.
+   pure function switching_ends(orbit) result(ends)
       type(orbit_type), intent(in) :: orbit
-      integer, intent(in) :: k
-      end = k
-      do while (end < orbit%intervals() .and. orbit%switching_point(end) <= 0)
-         end = end + 1
-      end do
-   end function next_switching_point
+      integer, allocatable :: ends(:)
+      integer :: k
+      associate (n => orbit%intervals())
+         ends = [0, pack([(k, k=1, n - 1)], orbit%switching_point(1:n - 1) > 0), n]
+      end associate
+   end function switching_ends
 
    !> By how much both ends of interval k go, s, (column, end), where the mesh is stretched between two ends.
-   pure function stretched(orbit, shift, k)
+   pure function stretched(orbit, ends, shift, k)
       type(orbit_type), intent(in) :: orbit
+      integer, intent(in) :: ends(:), k
       real(wp), intent(in) :: shift(:, 0:)
-      integer, intent(in) :: k
       real(wp) :: stretched(size(shift, 1), 2), part
-      integer :: i, from, to
-      from = findloc(orbit%switching_point(1:k - 1) > 0, .true., dim=1, back=.true.)
-      to = next_switching_point(orbit, k)
-      do i = 1, 2
-         part = (orbit%time(k + i - 2) - orbit%time(from))/(orbit%time(to) - orbit%time(from))
-         stretched(:, i) = (1 - part)*shift(:, from) + part*shift(:, to)
-      end do
+      integer :: i, before
+      before = count(ends < k)
+      associate (from => ends(before), to => ends(before + 1))
+         do i = 1, 2
+            part = (orbit%time(k + i - 2) - orbit%time(from))/(orbit%time(to) - orbit%time(from))
+            stretched(:, i) = (1 - part)*shift(:, from) + part*shift(:, to)
+         end do
+      end associate
    end function stretched
 
    !> Lets end k go so far that the state is at the switching point there, which puts this into how all states follow.
@@ -175,6 +180,7 @@ contains
       real(wp), allocatable :: corrections(:, :, :, :)
       real(wp) :: columns(size(equations%at_end, 1)), start(1, size(equations%at_end, 1) + 2), share
       real(wp) :: shift(1, 0:orbit%intervals())
+      integer, allocatable :: ends(:)
       integer :: k, i, n
       logical :: kept
       n = size(orbit%start)
@@ -186,8 +192,9 @@ contains
       shift(1, :) = matmul(columns, equations%shift(:size(columns), :))
       start(1, :size(columns)) = columns
       do
+         ends = switching_ends(orbit)
          do k = 1, orbit%intervals()
-            start(:, size(columns) + 1:) = stretched(orbit, shift, k)
+            start(:, size(columns) + 1:) = stretched(orbit, ends, shift, k)
             shift(:, k) = start(:, size(columns) + 2)
             call equations%maps%follow(k, 1, start(:, :n + equations%constants), corrections(:, :, :, k))
             start(1, :n) = corrections(1, :, points, k)
@@ -195,7 +202,7 @@ contains
          start(1, :n) = change(:n)
          orbit%correction = max(maxval(abs(change(:n))), maxval(abs(corrections)))
          share = longest/max(longest, orbit%correction)
-         call keep_order(orbit, share*shift(1, :), kept)
+         call keep_order(orbit, ends, share*shift(1, :), kept)
          if (kept) exit
       end do
       orbit%start = orbit%start + share*orbit%scale*change(:n)
@@ -209,23 +216,21 @@ contains
 
    !> Where two ends at switching points would come together, or change their order, the one that goes further lies
    !> there no more.
-   pure subroutine keep_order(orbit, shift, kept)
+   pure subroutine keep_order(orbit, ends, shift, kept)
       type(orbit_type), intent(inout) :: orbit
+      integer, intent(in) :: ends(:)
       real(wp), intent(in) :: shift(0:)
       !> Whether there are no such ends.
       logical, intent(out) :: kept
-      integer :: from, to
-      kept = .true.
-      from = 0
-      do while (kept .and. from < orbit%intervals())
-         to = next_switching_point(orbit, from + 1)
-         associate (length => orbit%time(to) - orbit%time(from))
-            kept = length + shift(to) - shift(from) >= shortest*length .or. max(orbit%switching_point(from), &
-               & orbit%switching_point(to)) <= 0
+      integer :: i
+      do i = 2, size(ends)
+         associate (from => ends(i - 1), to => ends(i), point => orbit%switching_point)
+            associate (length => orbit%time(to) - orbit%time(from))
+               kept = length + shift(to) - shift(from) >= shortest*length .or. max(point(from), point(to)) <= 0
+            end associate
+            if (.not. kept) point(merge(from, to, abs(shift(from)) > abs(shift(to)) .or. point(to) <= 0)) = -1
+            if (.not. kept) return
          end associate
-         if (.not. kept) orbit%switching_point(merge(from, to, abs(shift(from)) > abs(shift(to)) &
-            & .or. orbit%switching_point(to) <= 0)) = -1
-         from = to
       end do
    end subroutine keep_order
 
@@ -234,7 +239,7 @@ contains
    !> the last two, if there are more, a shift of the interval's start and end by 1 s.
    subroutine linearize(model, orbit, k, jacobian, gap, error, shift)
       class(ode_model_type), intent(inout) :: model
-      type(orbit_type), intent(inout) :: orbit
+      type(orbit_type), intent(in) :: orbit
       integer, intent(in) :: k
       real(wp), intent(out) :: jacobian(:, :, :), gap(:, :, :)
       type(error_type), allocatable, intent(out) :: error
@@ -251,7 +256,6 @@ contains
          inside = collocated_state(orbit, k, i)
          call model%rhs_and_jacobian(orbit%time(k - 1) + place(i)*h, inside, rate(:, i), jacobian(:, :, i), ok)
          if (.not. ok) then
-            orbit%refused = .true.
             call raise(error, numerics_error, 'at t = '//to_text(orbit%time(k - 1) + place(i)*h)//' s of the period: ' &
                & //model%refusal)
             return

@@ -28,8 +28,6 @@ module orbit_polynomials
       real(wp), allocatable :: monodromy(:, :)
       !> Newton's last correction, over the scales.
       real(wp) :: correction = huge(1.0_wp)
-      !> Whether the model refused a state of the orbit.
-      logical :: refused = .false.
    contains
       procedure :: intervals
       procedure :: gap

@@ -19,8 +19,8 @@ module orbit_problem
       class(ode_model_type), pointer :: model => null()
       !> Period of what drives the model as it is set, s.
       real(wp) :: period = 0
-      !> Where the model at a value of the parameter is sought, not only set: where searches begin, and what the last one
-      !> found, as numbers. Searches around a point of a branch begin at the same, so that what they find is smooth.
+      !> Where the model at a value of the parameter is sought, not only set: where searches begin, and what the last
+      !> one found, as numbers. Searches around a point of a branch begin at the same, so that what they find is smooth.
       real(wp), allocatable :: start(:), found(:)
    contains
       procedure :: set
@@ -46,7 +46,7 @@ module orbit_problem
       procedure :: predict
       procedure :: spectrum
       procedure :: kind => kind_of
-      procedure :: place => place_of
+      procedure :: get_place
       procedure :: go_to
       procedure :: fits
       procedure :: period
@@ -129,9 +129,8 @@ contains
          self%refused = allocated(error)
          if (self%refused) return
       end if
-      call condense(self%ode%model, self%orbit, self%equations, error, shift)
+      call condense(self%ode%model, self%orbit, self%equations, self%refused, error, shift)
       self%tangents = self%tangents + points*self%orbit%intervals()
-      self%refused = self%orbit%refused
       if (.not. allocated(error)) call closing_equations(self%orbit, self%equations, matrix, b)
    end subroutine linearize
 
@@ -274,9 +273,9 @@ contains
       end if
    end function kind_of
 
-   pure function place_of(self) result(place)
+   pure subroutine get_place(self, place)
       class(orbit_problem_type), intent(in) :: self
-      type(place_part_type), allocatable :: place(:)
+      type(place_part_type), allocatable, intent(out) :: place(:)
       ! values in a constructor would never be freed (gfortran 12)
       place = [place_part_type('periods', '1', 'periods of the forcing in that of the orbit'), &
          & place_part_type('parameter', '', 'parameter where the equations were linearised'), &
@@ -294,7 +293,7 @@ contains
       place(6)%values = self%orbit%start
       place(7)%values = [self%orbit%at]
       place(8)%values = self%ode%start
-   end function place_of
+   end subroutine get_place
 
    !> The mesh grows, every turn has an interval, and switching points are among those of the model.
    pure logical function fits(self, place)

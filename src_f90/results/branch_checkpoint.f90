@@ -44,6 +44,7 @@ contains
       character(len=*), intent(in) :: group
       type(branch_progress_type), intent(in) :: branches
       type(branch_point_type), intent(in) :: point
+      character(len=:), allocatable :: units
       integer :: k
       call file%make_group(group)
       call file%put_real(group//'/value', point%parameter, branches%parameter%unit, branches%parameter%meaning)
@@ -54,11 +55,9 @@ contains
       call put('growth', point%growth, '1', 'how far each eigenvalue or multiplier is on the unstable side')
       do k = 1, size(point%place)
          associate (part => point%place(k))
-            if (part%units == '') then
-               call put(trim(part%name), part%values, branches%parameter%unit, trim(part%long_name))
-            else
-               call put(trim(part%name), part%values, trim(part%units), trim(part%long_name))
-            end if
+            units = trim(part%units)
+            if (units == '') units = branches%parameter%unit
+            call put(trim(part%name), part%values, units, trim(part%long_name))
          end associate
       end do
    contains
@@ -131,7 +130,7 @@ contains
       point%change = list(file, group//'/change')
       point%tangent = list(file, group//'/tangent')
       point%growth = list(file, group//'/growth')
-      point%place = branches%problem%place()
+      call branches%problem%get_place(point%place)
       ok = all(ieee_is_finite([point%parameter, point%arc_length, point%along, point%change, point%tangent, &
          & point%growth]))
       do k = 1, size(point%place)

@@ -3,7 +3,6 @@
 import h5py
 import numpy as np
 import pytest
-from conftest import EVERY_STEP, one_error, wait_for_checkpoint
 
 #: Its journal loses its stability at the threshold that the task coefficients finds.
 LIGHT = "&rotor mass=200 /\n&operation speed_rpm=14000 /\n"
@@ -63,20 +62,6 @@ def test_the_last_orbit_is_that_of_its_speed(run, tmp_path, text, last, step):
         assert branch["multiplier_real"][-1, 0] == pytest.approx(
             orbit["periodic/multiplier_real"][0], abs=1e-3
         )
-
-
-@pytest.mark.parametrize(("text", "last"), [(LUGRE, 4500), (BENGISU_AKAY, 8000)])
-def test_a_stopped_branch_goes_on_with_the_same_bits(start, tiltpad, run, tmp_path, text, last):
-    more = (*SPEED, f"branch%last={last}", "branch%step=10", "branch%max_step=10")
-    run(text, *more, name="whole")
-    process = start(tmp_path, "whole.nml", "-q", "-o", "part.h5", *EVERY_STEP, overrides=more)
-    wait_for_checkpoint(tmp_path / "part.h5", process)
-    process.terminate()
-    one_error(process, 4)
-    tiltpad("--resume", "part.h5", "-q", cwd=tmp_path, status=0)
-    with h5py.File(tmp_path / "whole.h5") as whole, h5py.File(tmp_path / "part.h5") as part:
-        for name in ("parameter", "arc_length", "journal_y_max", "multiplier_real"):
-            np.testing.assert_array_equal(part[name][:], whole[name][:], err_msg=name)
 
 
 def test_the_end_of_what_is_allowed_is_the_end_of_the_branch(run, tmp_path):

@@ -1,9 +1,8 @@
-"""Branches with warm oil: temperatures, thresholds, agreement with single runs, runaway heat, going on."""
+"""Branches with warm oil: temperatures, thresholds, agreement with single runs, runaway heat."""
 
 import h5py
 import numpy as np
 import pytest
-from conftest import publication, wait_for
 
 WARM = "&film cavitation='none' /\n&oil grade=46 /\n&thermal model='pad' /\n"
 LIGHT = "&rotor mass=200 /\n&operation speed_rpm=13500 /\n" + WARM
@@ -100,30 +99,3 @@ def test_heat_that_runs_away_turns_the_branch_back(run, tmp_path):
     run(THIN, "case%task='equilibrium'", f"rotor%mass={0.998 * fold}", name="before")
     done = run(THIN, "case%task='equilibrium'", f"rotor%mass={1.002 * fold}", name="beyond", status=2)
     assert "where mineral oil boils" in done.stderr
-
-
-@pytest.mark.parametrize(
-    ("case", "overrides"),
-    [
-        (LIGHT, (*EQUILIBRIA, "branch%step=15", "branch%max_step=15")),
-        (HEAVY, (*ORBITS, "branch%step=0.1", "branch%max_step=0.1")),
-    ],
-)
-def test_a_stopped_branch_goes_on_with_the_same_bits(start, tiltpad, run, tmp_path, case, overrides):
-    """Stopped after its first checkpoint, and again after the next, unless it ends before."""
-    run(case, *overrides, name="whole")
-    part = tmp_path / "part.h5"
-    often = (*overrides, "output%checkpoint_seconds=1e-3")
-    ends = []
-    for words, changes in ((("whole.nml", "-o", "part.h5"), often), (("--resume", "part.h5"), ())):
-        before = publication(part)
-        process = start(tmp_path, *words, "-q", overrides=changes)
-        wait_for(lambda: process.poll() is not None or publication(part) not in (None, before))  # noqa: B023
-        process.terminate()
-        process.communicate()
-        ends.append(process.returncode)
-    tiltpad("--resume", "part.h5", "-q", cwd=tmp_path, status=0)
-    assert 4 in ends
-    with h5py.File(tmp_path / "whole.h5") as whole, h5py.File(part) as other:
-        for name in ("parameter", "arc_length", "journal_y_max", "viscosity", "maximum_temperature"):
-            np.testing.assert_array_equal(other[name][:], whole[name][:], err_msg=name)

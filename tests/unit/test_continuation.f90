@@ -18,7 +18,7 @@ module branch_problems
       procedure :: move => move_parabola
       procedure :: spectrum => parabola_spectrum
       procedure :: kind => parabola_kind
-      procedure :: place => parabola_place
+      procedure :: get_place => parabola_place
       procedure :: go_to => put_parabola
    end type parabola
 
@@ -26,7 +26,7 @@ module branch_problems
    !> and w_2' = -w_2 (half a turn), or w_1 + i w_2 = z with z' = (p + i/sqrt(5)) z - |z|**2 z (none).
    type, extends(small_ode_type) :: turning_frame
       real(wp) :: p = 0
-      logical :: period_multiple = .true.
+      logical :: half_turn = .true.
    contains
       procedure :: rates => frame_rates
       procedure :: jacobian => frame_jacobian
@@ -43,10 +43,8 @@ module branch_problems
       procedure :: pairs => duffing_pairs
    end type duffing
 
-   !> Either of them.
+   !> Either of them as the model.
    type, extends(parametric_ode_type) :: oscillator_orbits
-      type(turning_frame), pointer :: frame => null()
-      type(duffing), pointer :: oscillator => null()
    contains
       procedure :: set
    end type oscillator_orbits
@@ -92,13 +90,13 @@ contains
       kind = 'fold'
    end function parabola_kind
 
-   pure function parabola_place(self) result(place)
+   pure subroutine parabola_place(self, place)
       class(parabola), intent(in) :: self
-      type(place_part_type), allocatable :: place(:)
+      type(place_part_type), allocatable, intent(out) :: place(:)
       place = [place_part_type('parameter'), place_part_type('x')]
       place(1)%values = [self%parameter]
       place(2)%values = [self%x]
-   end function parabola_place
+   end subroutine parabola_place
 
    subroutine put_parabola(self, place)
       class(parabola), intent(inout) :: self
@@ -113,7 +111,7 @@ contains
       real(wp), intent(in) :: t
       real(wp) :: turn(2, 2)
       turn = reshape([1, 0, 0, 1], [2, 2])
-      if (self%period_multiple) turn = reshape([cos(t/2), sin(t/2), -sin(t/2), cos(t/2)], [2, 2])
+      if (self%half_turn) turn = reshape([cos(t/2), sin(t/2), -sin(t/2), cos(t/2)], [2, 2])
    end function frame_at
 
    !> Rates in the frame, turned back.
@@ -121,7 +119,7 @@ contains
       class(turning_frame), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
       real(wp) :: rates(size(y))
-      if (self%period_multiple) then
+      if (self%half_turn) then
          associate (w => matmul(transpose(self%frame(t)), y))
             rates = matmul(self%frame(t), [self%p*w(1) - w(1)**3, -w(2)]) + matmul(half_spin, y)
          end associate
@@ -136,7 +134,7 @@ contains
       class(turning_frame), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
       real(wp) :: matrix(size(y), size(y))
-      if (self%period_multiple) then
+      if (self%half_turn) then
          associate (turn => self%frame(t), w => matmul(transpose(self%frame(t)), y))
             matrix = reshape([self%p - 3*w(1)**2, 0.0_wp, 0.0_wp, -1.0_wp], [2, 2])
             matrix = matmul(turn, matmul(matrix, transpose(turn))) + half_spin
@@ -176,14 +174,17 @@ contains
       real(wp), intent(in) :: parameter
       type(error_type), allocatable, intent(out) :: error
       self%period = 2*pi
-      if (associated(self%frame)) self%frame%p = parameter
-      if (.not. associated(self%oscillator)) return
-      if (self%oscillator%varies_force) then
-         self%oscillator%force = parameter
-      else
-         self%oscillator%frequency = parameter
-      end if
-      self%period = 2*pi/self%oscillator%frequency
+      select type (model => self%model)
+      type is (turning_frame)
+         model%p = parameter
+      type is (duffing)
+         if (model%varies_force) then
+            model%force = parameter
+         else
+            model%frequency = parameter
+         end if
+         self%period = 2*pi/model%frequency
+      end select
    end subroutine set
 end module branch_problems
 
@@ -317,16 +318,15 @@ contains
    end subroutine return
 
    !> Orbits at rest of the model with a frame, from p = -0.5 to 0.5.
-   subroutine begin_frame(model, ode, period_multiple, problem, options)
+   subroutine begin_frame(model, ode, half_turn, problem, options)
       type(turning_frame), intent(inout), target :: model
       type(oscillator_orbits), intent(inout), target :: ode
-      logical, intent(in) :: period_multiple
+      logical, intent(in) :: half_turn
       type(orbit_problem_type), intent(out) :: problem
       type(branch_options), intent(out) :: options
       model%n = 2
-      model%period_multiple = period_multiple
+      model%half_turn = half_turn
       ode%model => model
-      ode%frame => model
       call begin_orbits(problem, ode, at_rest(2, 20, 2*pi), 1, -0.5_wp, 1.0_wp)
       options = branch_options(first_step=0.05_wp, max_step=0.1_wp, low=-0.5_wp, high=0.5_wp)
    end subroutine begin_frame
@@ -395,7 +395,6 @@ contains
       real(wp), parameter :: upper = 1.52244802_wp, lower = 1.252014959_wp
       model%n = 2
       ode%model => model
-      ode%oscillator => model
       call begin_orbits(problem, ode, at_rest(2, 80, 2*pi/0.6_wp), 1, 0.6_wp, 1.9_wp)
       options = branch_options(first_step=0.02_wp, max_step=0.05_wp, low=0.6_wp, high=2.5_wp)
       call start_branch(problem, options, .true., here, error)
@@ -427,7 +426,6 @@ contains
       logical :: ok
       model = duffing(n=2, damping=0.3_wp, spring=-1.0_wp, frequency=1.2_wp, varies_force=.true.)
       ode%model => model
-      ode%oscillator => model
       well = at_rest(2, 60, 2*pi/1.2_wp)
       well%start(1) = 1
       well%at(1, :, :) = 1
