@@ -12,7 +12,7 @@ module orbit_collocation
    use interval_maps, only: interval_maps_type, new_interval_maps, weight
    implicit none (type, external)
    private
-   public :: orbit_equations_type, parameter_shift_type, condense, closing_equations, move_orbit, collocated_state
+   public :: orbit_equations_type, parameter_shift_type, condense, move_orbit, collocated_state
 
    !> The derivatives at the end of an interval are taken this part of the way to the point before: at a switching
    !> point, on the interval's side of it. To the same order the rates are still those at the end.
@@ -24,10 +24,9 @@ module orbit_collocation
       type(interval_maps_type) :: maps
       !> How many constants the equations of an interval have there.
       integer :: constants = 0
-      !> How the end of the period follows, (column, state): columns 1 to n from a change of the state at its start,
-      !> n + 1 from what the equations lack, n + 2 (where it is asked for) from a change of the parameter by 1.
-      real(wp), allocatable :: at_end(:, :)
-      !> How the ends of intervals go with these columns where they lie at a switching point, s, (column, 0:intervals).
+      !> How the ends of intervals go where they lie at a switching point, s, (column, 0:intervals): columns 1 to n from
+      !> a change of the state at the start of the period, n + 1 from what the equations lack, n + 2 (where it is asked
+      !> for) from a change of the parameter by 1; the last from how far the next such end goes.
       real(wp), allocatable :: shift(:, :)
    end type orbit_equations_type
 
@@ -45,12 +44,14 @@ module orbit_collocation
 contains
 
    !> Linearises the equations on an orbit and eliminates the points inside of the intervals: sets the orbit's monodromy
-   !> matrix. A numerics error where the model refuses a state or an interval's equations have no solution.
+   !> matrix M, and matrix x = b for the change x of the start, and (a matrix of n + 1 columns) of the parameter, that
+   !> closes the orbit: (1 - M) x = gap. A numerics error where the model refuses a state or equations have no solution.
    !> Ends of intervals at a switching point go where the orbit passes it; between them the mesh is stretched.
-   subroutine condense(model, orbit, equations, refused, error, shift)
+   subroutine condense(model, orbit, equations, matrix, b, refused, error, shift)
       class(ode_model_type), intent(inout) :: model
       type(orbit_type), intent(inout) :: orbit
       type(orbit_equations_type), intent(out) :: equations
+      real(wp), intent(inout) :: matrix(:, :), b(:)
       !> Whether the model refused a state.
       logical, intent(out) :: refused
       type(error_type), allocatable, intent(out) :: error
@@ -93,12 +94,17 @@ contains
          if (equations%shift(columns + 1, k) > 0) call put_at_switching_point(model, orbit, k, &
             & start(:columns + 1, :n), equations%shift(:, k))
       end do
-      equations%at_end = start(:columns, :n)
-      if (.not. (all(abs(equations%at_end) <= huge(1.0_wp)) .and. all(abs(equations%shift) <= huge(1.0_wp)))) then
+      if (.not. (all(abs(start(:columns, :n)) <= huge(1.0_wp)) .and. all(abs(equations%shift) <= huge(1.0_wp)))) then
          call raise(error, numerics_error, 'Newton''s equations have no solution')
          return
       end if
-      orbit%monodromy = transpose(equations%at_end(:n, :))
+      orbit%monodromy = transpose(start(:n, :n))
+      matrix(:, :n) = -orbit%monodromy
+      do i = 1, n
+         matrix(i, i) = matrix(i, i) + 1
+      end do
+      if (present(shift)) matrix(:, n + 1) = -start(n + 2, :n)
+      b = start(n + 1, :n) + orbit%gap()
    end subroutine condense
 
    !> The ends of intervals at switching points, and those of the period.
@@ -153,22 +159,6 @@ contains
       states(columns + 1, :) = 0
    end subroutine put_at_switching_point
 
-   !> matrix x = b for the change x of the start, and (a matrix of n + 1 columns) of the parameter, that closes the
-   !> orbit: (1 - M) x = gap.
-   subroutine closing_equations(orbit, equations, matrix, b)
-      type(orbit_type), intent(in) :: orbit
-      type(orbit_equations_type), intent(in) :: equations
-      real(wp), intent(out) :: matrix(:, :), b(:)
-      integer :: i, n
-      n = size(b)
-      matrix(:, :n) = -transpose(equations%at_end(:n, :))
-      do i = 1, n
-         matrix(i, i) = matrix(i, i) + 1
-      end do
-      if (size(matrix, 2) > n) matrix(:, n + 1) = -equations%at_end(n + 2, :)
-      b = equations%at_end(n + 1, :) + orbit%gap()
-   end subroutine closing_equations
-
    !> Moves an orbit by a change of its start and (an element more) of the parameter, over the scales; where it
    !> `closes`, also by what the equations lack. Of a correction longer than `longest` only a part is made.
    subroutine move_orbit(orbit, equations, change, closes, longest)
@@ -178,7 +168,7 @@ contains
       logical, intent(in) :: closes
       real(wp), intent(in) :: longest
       real(wp), allocatable :: corrections(:, :, :, :)
-      real(wp) :: columns(size(equations%at_end, 1)), start(1, size(equations%at_end, 1) + 2), share
+      real(wp) :: columns(size(equations%shift, 1) - 1), start(1, size(equations%shift, 1) + 1), share
       real(wp) :: shift(1, 0:orbit%intervals())
       integer, allocatable :: ends(:)
       integer :: k, i, n

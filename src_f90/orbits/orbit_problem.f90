@@ -7,8 +7,7 @@ module orbit_problem
    use newton_method, only: branch_problem_type, place_part_type, branch_point_type
    use orbit_polynomials, only: orbit_type, points, place
    use event_mesh, only: follow_switching_points
-   use orbit_collocation, only: orbit_equations_type, parameter_shift_type, condense, closing_equations, move_orbit, &
-      & collocated_state
+   use orbit_collocation, only: orbit_equations_type, parameter_shift_type, condense, move_orbit, collocated_state
    use eigenvalues, only: find_eigenvalues, largest_first
    implicit none (type, external)
    private
@@ -129,9 +128,8 @@ contains
          self%refused = allocated(error)
          if (self%refused) return
       end if
-      call condense(self%ode%model, self%orbit, self%equations, self%refused, error, shift)
+      call condense(self%ode%model, self%orbit, self%equations, matrix, b, self%refused, error, shift)
       self%tangents = self%tangents + points*self%orbit%intervals()
-      if (.not. allocated(error)) call closing_equations(self%orbit, self%equations, matrix, b)
    end subroutine linearize
 
    !> The same phases at another period, s.

@@ -1,22 +1,25 @@
-!> Collocation of periodic orbits on problems with known orbits and multipliers: a forced linear oscillator with a stiff
-!> state beside it, Van der Pol's oscillator, forced at its own period, oscillators that know one another by one, and
+!> Collocation of periodic orbits on problems with known orbits and multipliers: linear ones (an oscillator with a stiff
+!> state beside it; oscillators that know one another by one), Van der Pol's oscillator, forced at its own period, and
 !> one with a spring that is stiffer on one side.
 module orbit_problems
    use kinds, only: wp
    use small_ode, only: small_ode_type
    implicit none (type, external)
    private
-   public :: linear_problem, van_der_pol, coupled_problem, bent_problem
+   public :: linear_problem, van_der_pol, bent_problem
 
-   !> x'' + 2 d x' + x = cos t, and z' = -k (z - x).
+   !> y' = joined y + force cos t.
    type, extends(small_ode_type) :: linear_problem
-      real(wp) :: damping = 0.1_wp, stiffness = 1e4_wp
-      !> Whether x and x' are said to be a displacement and its rate.
-      logical :: paired = .true.
+      real(wp), allocatable :: joined(:, :), force(:)
+      !> Which states it says are displacements, and which are their rates.
+      integer, allocatable :: x(:), v(:)
+      !> How many blocks it says that there are, and their size.
+      integer :: in_blocks = 0, of_block = 0
    contains
       procedure :: rates => linear_rates
       procedure :: jacobian => linear_jacobian
       procedure :: pairs => linear_pairs
+      procedure :: blocks => linear_blocks
    end type linear_problem
 
    !> x'' - mu (1 - x^2) x' + x = 0.
@@ -26,18 +29,6 @@ module orbit_problems
       procedure :: rates => van_der_pol_rates
       procedure :: jacobian => van_der_pol_jacobian
    end type van_der_pol
-
-   !> y' = joined y + cos t, 1 for each state, of one oscillator x, v and two of x, v, z that it alone joins.
-   type, extends(small_ode_type) :: coupled_problem
-      real(wp) :: joined(8, 8) = 0
-      !> Whether it says that they are blocks.
-      logical :: in_blocks = .true.
-   contains
-      procedure :: rates => coupled_rates
-      procedure :: jacobian => coupled_jacobian
-      procedure :: pairs => coupled_pairs
-      procedure :: blocks => coupled_blocks
-   end type coupled_problem
 
    !> x'' + 2 d x' + x + a max(x - b, 0) = cos t.
    type, extends(small_ode_type) :: bent_problem
@@ -55,24 +46,29 @@ contains
       class(linear_problem), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
       real(wp) :: rates(size(y))
-      rates = [y(2), cos(t) - y(1) - 2*self%damping*y(2), -self%stiffness*(y(3) - y(1))]
+      rates = matmul(self%joined, y) + self%force*cos(t)
    end function linear_rates
 
    pure function linear_jacobian(self, t, y) result(matrix)
       class(linear_problem), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
       real(wp) :: matrix(size(y), size(y))
-      matrix(1, :) = [0.0_wp, 1.0_wp, 0.0_wp]
-      matrix(2, :) = [-1.0_wp, -2*self%damping, 0.0_wp]
-      matrix(3, :) = [self%stiffness, 0.0_wp, -self%stiffness]
+      matrix = self%joined
    end function linear_jacobian
 
    pure subroutine linear_pairs(self, x, v)
       class(linear_problem), intent(in) :: self
       integer, allocatable, intent(out) :: x(:), v(:)
-      x = pack([1], self%paired)
-      v = pack([2], self%paired)
+      x = self%x
+      v = self%v
    end subroutine linear_pairs
+
+   pure subroutine linear_blocks(self, number, states)
+      class(linear_problem), intent(in) :: self
+      integer, intent(out) :: number, states
+      number = self%in_blocks
+      states = self%of_block
+   end subroutine linear_blocks
 
    pure function van_der_pol_rates(self, t, y) result(rates)
       class(van_der_pol), intent(in) :: self
@@ -88,35 +84,6 @@ contains
       matrix(1, :) = [0.0_wp, 1.0_wp]
       matrix(2, :) = [-2*self%mu*y(1)*y(2) - 1, self%mu*(1 - y(1)**2)]
    end function van_der_pol_jacobian
-
-   pure function coupled_rates(self, t, y) result(rates)
-      class(coupled_problem), intent(in) :: self
-      real(wp), intent(in) :: t, y(:)
-      real(wp) :: rates(size(y))
-      rates = matmul(self%joined, y)
-      rates([2, 4, 5, 7, 8]) = rates([2, 4, 5, 7, 8]) + cos(t)
-   end function coupled_rates
-
-   pure function coupled_jacobian(self, t, y) result(matrix)
-      class(coupled_problem), intent(in) :: self
-      real(wp), intent(in) :: t, y(:)
-      real(wp) :: matrix(size(y), size(y))
-      matrix = self%joined
-   end function coupled_jacobian
-
-   pure subroutine coupled_pairs(self, x, v)
-      class(coupled_problem), intent(in) :: self
-      integer, allocatable, intent(out) :: x(:), v(:)
-      x = [1, 3, 6]
-      v = [2, 4, 7]
-   end subroutine coupled_pairs
-
-   pure subroutine coupled_blocks(self, number, states)
-      class(coupled_problem), intent(in) :: self
-      integer, intent(out) :: number, states
-      number = merge(2, 0, self%in_blocks)
-      states = 3
-   end subroutine coupled_blocks
 
    pure function bent_rates(self, t, y) result(rates)
       class(bent_problem), intent(in) :: self
@@ -155,9 +122,12 @@ program test_orbit_collocation
    use resting_orbit, only: at_rest, newton_round
    use errors, only: error_type
    use text, only: to_text
-   use orbit_problems, only: linear_problem, van_der_pol, coupled_problem, bent_problem
+   use orbit_problems, only: linear_problem, van_der_pol, bent_problem
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
+
+   !> Of the linear oscillator.
+   real(wp), parameter :: damping = 0.1_wp, stiffness = 1e4_wp
 
    if (runs('linear')) then
       call linear(.false.)
@@ -172,6 +142,18 @@ program test_orbit_collocation
 
 contains
 
+   !> x'' + 2 d x' + x = cos t, and z' = -k (z - x).
+   type(linear_problem) function oscillator(paired) result(problem)
+      !> Whether x and x' are said to be a displacement and its rate.
+      logical, intent(in) :: paired
+      problem%n = 3
+      problem%joined = transpose(reshape([0.0_wp, 1.0_wp, 0.0_wp, -1.0_wp, -2*damping, 0.0_wp, stiffness, 0.0_wp, &
+         & -stiffness], [3, 3]))
+      problem%force = [0.0_wp, 1.0_wp, 0.0_wp]
+      problem%x = pack([1], paired)
+      problem%v = pack([2], paired)
+   end function oscillator
+
    !> x = sin(t)/(2 d) and z = x - x'/k + ..., for d = 0.1. One round solves what is linear. Of the multipliers,
    !> exp(2 pi (-d +- i sqrt(1 - d^2))) and exp(-2 pi k) = 0, the largest have the modulus exp(-0.2 pi). Radau's error
    !> with 40 intervals is of (2 pi/40)^5/7200 = 1e-8. It is the same whether the displacement follows from its rate.
@@ -183,18 +165,17 @@ contains
       complex(wp), allocatable :: values(:)
       real(wp) :: residual
       complex(wp) :: expected
-      problem%n = 3
-      problem%paired = paired
+      problem = oscillator(paired)
       orbit = at_rest(3, 40, 2*pi)
       call newton_round(problem, orbit, error)
       call expect_no_error(error, 'a round')
       call expect_close(orbit%start(1), 0.0_wp, 1e-6_wp, 'x at the start')
       call expect_close(orbit%start(2), 5.0_wp, 1e-6_wp, 'its velocity')
-      call expect_close(orbit%start(3), -5/problem%stiffness, 1e-6_wp, 'the stiff state')
+      call expect_close(orbit%start(3), -5/stiffness, 1e-6_wp, 'the stiff state')
       call newton_round(problem, orbit, error, values, residual)
       call expect_close(orbit%correction, 0.0_wp, 1e-9_wp, 'the second round has nothing to correct')
       call expect_close(residual, 0.0_wp, 1e-9_wp, 'and its equations are satisfied')
-      expected = exp(2*pi*cmplx(-problem%damping, sqrt(1 - problem%damping**2), wp))
+      expected = exp(2*pi*cmplx(-damping, sqrt(1 - damping**2), wp))
       call expect_close(values(1)%re, expected%re, 1e-6_wp, 'multiplier, real part')
       call expect_close(abs(values(1)%im), abs(expected%im), 1e-6_wp, 'multiplier, imaginary part')
       call expect_close(abs(values(3)), 0.0_wp, 1e-12_wp, 'the stiff state forgets its start')
@@ -218,7 +199,7 @@ contains
       type(orbit_type) :: orbit
       type(error_type), allocatable :: error
       complex(wp), allocatable :: values(:)
-      problem%n = 3
+      problem = oscillator(.true.)
       orbit = at_rest(3, n, 2*pi)
       call newton_round(problem, orbit, error, values)
       modulus = abs(values(1))
@@ -283,12 +264,17 @@ contains
 
    !> Eliminated block by block, and all at once: the same orbit and the same monodromy matrix but for rounding.
    subroutine blocks()
-      type(coupled_problem), target :: problem
+      type(linear_problem), target :: problem
       type(orbit_type) :: orbit(2)
       type(error_type), allocatable :: error
       real(wp) :: residual
       integer :: i
       problem%n = 8
+      allocate (problem%joined(8, 8), source=0.0_wp)
+      problem%force = [0, 1, 0, 1, 1, 0, 1, 1]
+      problem%x = [1, 3, 6]
+      problem%v = [2, 4, 7]
+      problem%of_block = 3
       problem%joined(1, 2) = 1
       problem%joined(2, :) = [-1.0_wp, -0.3_wp, 0.2_wp, 0.1_wp, 0.4_wp, -0.3_wp, 0.2_wp, 0.1_wp]
       problem%joined(3, 4) = 1
@@ -298,7 +284,7 @@ contains
       problem%joined(7, :) = [0.2_wp, -0.1_wp, 0.0_wp, 0.0_wp, 0.0_wp, -3.0_wp, -0.5_wp, 0.3_wp]
       problem%joined(8, :) = [0.0_wp, 0.4_wp, 0.0_wp, 0.0_wp, 0.0_wp, -0.8_wp, 0.2_wp, -4.0_wp]
       do i = 1, 2
-         problem%in_blocks = i == 1
+         problem%in_blocks = merge(2, 0, i == 1)
          orbit(i) = at_rest(8, 30, 2*pi)
          call newton_round(problem, orbit(i), error)
          call expect_no_error(error, 'a round')
