@@ -13,7 +13,7 @@ module branch_progress
    use newton_method, only: branch_problem_type, branch_point_type, can_be_of
    use continuation, only: branch_options, start_branch, advance, return_to
    use bifurcations, only: bifurcation_type, find_bifurcations
-   use period_doubling, only: double_period, half_apart, forget_flips
+   use period_doubling, only: double_period, half_apart, forget_doublings
    use varied_bearing, only: varied_bearing_type
    use bearing_orbits, only: bearing_orbits_type
    use heat_balance_equations, only: has_warm_oil
@@ -207,7 +207,7 @@ contains
       if (self%branch > 1 .and. self%points > 0) then
          if (dot_product(split, half_apart(self%orbits)) < 0) then
             at_end = 'it comes back to the branch that it left'
-            call forget_flips(self%period_doublings, self%here, next, self%orbits%period_multiple)
+            call forget_doublings(self%period_doublings, self%here, next, self%orbits%period_multiple)
             return
          end if
       end if
@@ -215,7 +215,7 @@ contains
       if (self%points > 0) call find_bifurcations(self%problem, self%options, self%here, next, special, &
          & error, give_up)
       if (allocated(error)) return
-      call note_flips(self, special)
+      call note_doublings(self, special)
       found = .true.
       self%here = next
       self%points = self%points + 1
@@ -227,7 +227,7 @@ contains
    end subroutine take_step
 
    !> Keeps the period doublings among bifurcation points from which a branch is to be followed.
-   pure subroutine note_flips(branches, special)
+   pure subroutine note_doublings(branches, special)
       type(branch_progress_type), intent(inout) :: branches
       type(bifurcation_type), intent(in) :: special(:)
       integer :: k
@@ -236,7 +236,7 @@ contains
          if (special(k)%kind == 'period_doubling') branches%period_doublings = [branches%period_doublings, &
             & special(k)%point]
       end do
-   end subroutine note_flips
+   end subroutine note_doublings
 
    !> A branch of orbits that is lost where the equilibrium turns back from which its oil takes its viscosities has
    !> ended: near such an equilibrium nothing is smooth over the parameter.

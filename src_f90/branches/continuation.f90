@@ -98,7 +98,8 @@ contains
             if (error%status == stopped .or. length <= shortest*options%first_step) return
          end if
          call return_to(problem, here)
-         length = 0.5_wp*min(length, abs(next_length()))
+         if (ends) length = min(length, abs(to_bound(problem, options, here)))
+         length = 0.5_wp*length
       end do
       next%arc_length = here%arc_length + next%along
       if (next%iterations <= quick) length = longer*length
@@ -110,12 +111,6 @@ contains
          real(wp), intent(in) :: parameter
          beyond = parameter >= options%high .or. parameter <= options%low
       end function beyond
-
-      !> The length of the step that was tried.
-      pure real(wp) function next_length()
-         next_length = length
-         if (ends) next_length = to_bound(problem, options, here)
-      end function next_length
    end subroutine advance
 
    !> Length along the tangent of a point to the bound that it leads to.

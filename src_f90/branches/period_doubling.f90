@@ -8,7 +8,7 @@ module period_doubling
    use orbit_problem, only: orbit_problem_type, period_multiple_at
    implicit none (type, external)
    private
-   public :: double_period, half_apart, forget_flips
+   public :: double_period, half_apart, forget_doublings
 
 contains
 
@@ -66,7 +66,7 @@ contains
 
    !> A branch of double period, of orbits of so many turns, that ends at another period doubling between two points
    !> need not be followed from there again.
-   pure subroutine forget_flips(period_doublings, here, next, period_multiple)
+   pure subroutine forget_doublings(period_doublings, here, next, period_multiple)
       type(branch_point_type), allocatable, intent(inout) :: period_doublings(:)
       type(branch_point_type), intent(in) :: here, next
       integer, intent(in) :: period_multiple
@@ -76,5 +76,5 @@ contains
       period_doublings = pack(period_doublings, [(abs(period_doublings(k)%parameter - next%parameter) > 2*step &
          & .or. 2*period_multiple_at(period_doublings(k)) /= period_multiple, &
          & k=1, size(period_doublings))])
-   end subroutine forget_flips
+   end subroutine forget_doublings
 end module period_doubling

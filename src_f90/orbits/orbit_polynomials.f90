@@ -58,7 +58,7 @@ contains
       real(wp), intent(out), optional :: rate(:)
       real(wp) :: x, factor(0:points), slope(0:points)
       integer :: k
-      k = interval_of(self%time, t)
+      k = max(1, count(self%time(:self%intervals() - 1) < t))
       associate (h => self%time(k) - self%time(k - 1))
          x = (t - self%time(k - 1))/h
          call factors(x, factor, slope)
@@ -100,22 +100,6 @@ contains
          end do
       end do
    end subroutine factors
-
-   !> Number of the interval with the time t.
-   pure integer function interval_of(time, t) result(k)
-      real(wp), intent(in) :: time(0:), t
-      integer :: above, middle
-      k = 1
-      above = ubound(time, 1) + 1
-      do while (above - k > 1)
-         middle = (k + above)/2
-         if (time(middle - 1) < t) then
-            k = middle
-         else
-            above = middle
-         end if
-      end do
-   end function interval_of
 
    !> Puts the same motion on intervals that end at other times, s; the first and the last stay. Switching points at
    !> them, as in the component; none if they are not given.

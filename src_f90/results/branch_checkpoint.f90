@@ -28,16 +28,16 @@ contains
          & 'kind of each bifurcation point: number in the list of all kinds', '')
       call put_point(file, 'checkpoint/point', branches, branches%here)
       do k = 1, size(branches%period_doublings)
-         call put_point(file, flip_name(k), branches, branches%period_doublings(k))
+         call put_point(file, doubling_name(k), branches, branches%period_doublings(k))
       end do
    end subroutine put_branches
 
    !> The group of a period doubling from which a branch is still to be followed.
-   function flip_name(k) result(name)
+   function doubling_name(k) result(name)
       integer, intent(in) :: k
       character(len=:), allocatable :: name
       name = 'checkpoint/flip_'//to_text(k)
-   end function flip_name
+   end function doubling_name
 
    subroutine put_point(file, group, branches, point)
       type(hdf5_type), intent(inout) :: file
@@ -89,8 +89,8 @@ contains
       call get_special(file, special, ok)
       ok = ok .and. branches%branch > 0 .and. branches%points >= 0 .and. ieee_is_finite(branches%length)
       if (ok) call get_point(file, 'checkpoint/point', branches, branches%here, ok)
-      do while (file%has(flip_name(size(branches%period_doublings) + 1)))
-         if (ok) call get_point(file, flip_name(size(branches%period_doublings) + 1), branches, period_doubling, ok)
+      do while (file%has(doubling_name(size(branches%period_doublings) + 1)))
+         if (ok) call get_point(file, doubling_name(size(branches%period_doublings) + 1), branches, period_doubling, ok)
          if (.not. ok) exit
          branches%period_doublings = [branches%period_doublings, period_doubling]
       end do
