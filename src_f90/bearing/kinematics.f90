@@ -5,7 +5,7 @@ module kinematics
    implicit none (type, external)
    private
    public :: pad_state, pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global
-   public :: columns, journal_columns, tilt_column, tilt_rate_column, deflection_column, deflection_rate_column
+   public :: columns, journal_columns, tilt_column, tilt_rate_column, deflection_column
    public :: position_columns, rate_columns
 
    !> A pad's derivatives stand in these columns: over y, z of the journal and their rates, and over its own tilt,

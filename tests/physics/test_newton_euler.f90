@@ -19,7 +19,6 @@ program test_newton_euler
       if (runs('pad_tilting_only')) call pad_tilting_only()
       if (runs('journal')) call journal()
    end do
-   if (runs('mass_matrix')) call mass_matrix()
    call report()
 
 contains
@@ -150,42 +149,4 @@ contains
       end do
       call expect_close(norm2(2000*f(3:4) - total), 0.0_wp, rounding*sizes, 'Newton, journal')
    end subroutine journal
-
-   !> Accelerations over (moment, force) of two states give the inverse mass matrix of a pad: that of
-   !> [[I_P, m C_xi], [m C_xi, m]], symmetric and positive definite. The loads of the states are far from
-   !> parallel, so solving for it loses two digits or three.
-   subroutine mass_matrix()
-      type(bearing_model) :: model
-      real(wp), allocatable :: y(:), f(:)
-      real(wp) :: loads(2, 2), rates(2, 2), inverse(2, 2), expected(2, 2), det, scale(2)
-      integer :: pad, k
-      logical :: ok
-      model = new_bearing_model(offset_case('tilting_radial'))
-      allocate (f(model%n))
-      do pad = 1, 2
-         associate (p => model%inputs%pads)
-            do k = 1, 2
-               y = model%static_state([-3e-5_wp, 0.0_wp], [2e-4_wp, 5e-4_wp], merge(9e-6_wp, 1e-7_wp, k == 1)*[1.0_wp, &
-                  & 1.0_wp])
-               y(model%layout%tilt_rate(pad)) = merge(0.0_wp, 3.0_wp, k == 1)
-               call model%rhs(0.0_wp, y, f, ok)
-               loads(:, k) = [model%bearing%loads(pad)%moment, model%bearing%loads(pad)%radial]
-               rates(:, k) = f([model%layout%tilt_rate(pad), model%layout%pivot_deflection_rate(pad)])
-            end do
-            det = loads(1, 1)*loads(2, 2) - loads(1, 2)*loads(2, 1)
-            inverse = matmul(rates, reshape([loads(2, 2), -loads(2, 1), -loads(1, 2), loads(1, 1)], [2, 2]))/det
-            det = p%inertia(pad)*p%mass(pad) - (p%mass(pad)*p%centre_tangential(pad))**2
-            expected = reshape([p%mass(pad), -p%mass(pad)*p%centre_tangential(pad), &
-               & -p%mass(pad)*p%centre_tangential(pad), p%inertia(pad)], [2, 2])/det
-            ! each entry against the geometric mean of its diagonals
-            scale = sqrt([expected(1, 1), expected(2, 2)])
-            do k = 1, 2
-               call expect_close(maxval(abs(inverse(:, k) - expected(:, k))/(scale*scale(k))), 0.0_wp, 1e-10_wp, &
-                  & 'inverse mass matrix, column '//to_text(k))
-            end do
-            call expect_close((inverse(1, 2) - inverse(2, 1))/product(scale), 0.0_wp, 1e-10_wp, 'symmetric')
-            call expect(inverse(1, 1) > 0 .and. inverse(1, 1)*inverse(2, 2) > inverse(1, 2)*inverse(2, 1), 'positive')
-         end associate
-      end do
-   end subroutine mass_matrix
 end program test_newton_euler

@@ -1,10 +1,9 @@
-!> Equilibria with warm oil: the values of an independent program, the isothermal limit, sums, symmetry, and refusals.
+!> Thermal equilibria: the values of an independent program, the isothermal limit, thresholds, run-ups, and refusals.
 program test_warm_oil
-   use kinds, only: wp, degree
+   use kinds, only: wp
    use errors, only: error_type, numerics_error
    use case_inputs, only: case_type
    use input_cases, only: case_of
-   use oil_properties, only: viscosity
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use static_model, only: make_fine
@@ -29,10 +28,8 @@ program test_warm_oil
 
    if (runs('published')) call published()
    if (runs('cross_stiffness')) call cross_stiffness()
-   if (runs('balance')) call balance()
    if (runs('isothermal')) call isothermal()
    if (runs('capacity')) call capacity()
-   if (runs('rotation')) call rotation()
    if (runs('threshold')) call threshold()
    if (runs('boiling')) call boiling()
    if (runs('run_up')) call run_up()
@@ -105,30 +102,6 @@ contains
       call expect_close(found%stiffness(2, 1, 1, 1), 61e6_wp, 1e6_wp, 'K_zy')
    end subroutine cross_stiffness
 
-   !> The oil's viscosities are those of its temperatures; all heat leaves with it.
-   subroutine balance()
-      type(case_type) :: inputs
-      type(equilibrium_type) :: static
-      type(static_figures_type) :: figures
-      type(bearing_model) :: model
-      real(wp) :: fresh
-      integer :: i
-      integer, parameter :: upstream(4) = [3, 1, 4, 2]
-      inputs = case_of('&operation speed_rpm = 3000/ &pads pivot_angle_deg = -45, 225, 45, 135/'//vg46)
-      call solve(inputs, static, figures, model)
-      call expect(all(abs(viscosity(inputs%oil, figures%oil%mean)/static%viscosity - 1) < 1e-7_wp), 'viscosities')
-      fresh = 0
-      do i = 1, 4
-         associate (pads => figures%pads)
-            fresh = fresh + max(0.0_wp, pads(i)%inlet - 0.8_wp*pads(upstream(i))%outlet)
-         end associate
-      end do
-      associate (heat => sum(figures%pads%power()))
-         call expect_close(inputs%oil%density*inputs%oil%specific_heat*fresh*(figures%oil%drain &
-            & - inputs%oil%supply_temperature), heat, 1e-8_wp*heat, 'heat')
-      end associate
-   end subroutine balance
-
    !> Oil whose viscosity does not fall: bit for bit the equilibrium without temperatures.
    subroutine isothermal()
       type(case_type) :: inputs
@@ -162,23 +135,6 @@ contains
       call solve(inputs, other, figures, model)
       call expect(all(abs(figures%oil%maximum - inputs%oil%supply_temperature) < 1e-4_wp), 'cold')
    end subroutine capacity
-
-   !> A bearing that is turned with its load has the same temperatures.
-   subroutine rotation()
-      type(case_type) :: inputs
-      type(equilibrium_type) :: static, turned
-      type(static_figures_type) :: figures, others
-      type(bearing_model) :: model
-      inputs = case_of('&rotor gravity = 0/ &film cavitation = ''none''/'//vg46)
-      inputs%rotor%static_load = [-20e3_wp, 0.0_wp]
-      call solve(inputs, static, figures, model)
-      ! by 50 degrees from +z towards +y
-      inputs%pads%pivot_angle_deg = inputs%pads%pivot_angle_deg + 50
-      inputs%rotor%static_load = 20e3_wp*[-cos(50*degree), sin(50*degree)]
-      call solve(inputs, turned, others, model)
-      call expect(all(abs(others%oil%outlet - figures%oil%outlet) < 1e-6_wp), 'outlets')
-      call expect(all(abs(turned%tilt - static%tilt) < 1e-10_wp), 'tilts')
-   end subroutine rotation
 
    !> The speed at which a light rotor loses its stability is one at which its own equilibrium has no growth.
    subroutine threshold()

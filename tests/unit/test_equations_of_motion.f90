@@ -1,4 +1,4 @@
-!> The equations of motion: layout of the state, Jacobian, unbalance and run-up, what is refused.
+!> The equations of motion: Jacobian, unbalance and run-up, what is refused.
 program test_equations_of_motion
    use kinds, only: wp
    use text, only: to_text
@@ -18,7 +18,6 @@ program test_equations_of_motion
 
    do m = 1, size(motions)
       do f = 1, size(frictions)
-         if (runs('layout')) call layout(motions(m), frictions(f))
          if (runs('jacobian_by_differences')) then
             call jacobian_by_differences(motions(m), frictions(f), 0.0_wp)
             call jacobian_by_differences(motions(m), frictions(f), 0.003_wp)
@@ -45,31 +44,6 @@ contains
       inputs%pads%motion = trim(motion)
       inputs%friction%model = trim(friction)
    end function paper_case
-
-   subroutine layout(motion, friction)
-      character(len=*), intent(in) :: motion, friction
-      type(bearing_model) :: model
-      real(wp), allocatable :: y(:)
-      integer :: own, pad
-      model = new_bearing_model(paper_case(motion, friction))
-      own = 2
-      if (motion == 'tilting_radial') own = 4
-      if (friction == 'lugre') own = own + 1
-      call expect(model%layout%per_pad == own, 'states of a pad, '//motion//' '//friction)
-      call expect(model%n == 4 + 2*own .and. size(model%scale) == model%n, 'states, '//motion//' '//friction)
-      call expect(all(model%scale > 0), 'every state has a scale')
-      y = model%static_state([1.0_wp, 2.0_wp], [3.0_wp, 4.0_wp], [5.0_wp, 6.0_wp])
-      call expect(size(y) == model%n, 'size of a state at rest')
-      call expect_close(norm2(y(1:4) - [1.0_wp, 2.0_wp, 0.0_wp, 0.0_wp]), 0.0_wp, 0.0_wp, 'journal of a state at rest')
-      do pad = 1, 2
-         call expect(model%layout%first(pad) == 5 + (pad - 1)*own, 'first state of a pad')
-         call expect_close(y(model%layout%tilt(pad)), 2.0_wp + pad, 0.0_wp, 'tilt of a state at rest')
-         if (motion == 'tilting_radial') call expect_close(y(model%layout%pivot_deflection(pad)), 4.0_wp + pad, &
-            & 0.0_wp, 'pivot deflection of a state at rest')
-         if (friction == 'lugre') call expect(model%layout%bristle(pad) == 4 + pad*own, 'bristle of a pad')
-      end do
-      call expect_close(sum(y), merge(21.0_wp, 10.0_wp, motion == 'tilting_radial'), 0.0_wp, 'nothing else at rest')
-   end subroutine layout
 
    !> A case in which every term counts: pads as heavy as the load, their centres off the pivots' radius,
    !> different from each other, and a film without cavitation, hence smooth.

@@ -1,13 +1,9 @@
-!> The film by axial modes, and the solver that chooses: slopes, boundary pressures, tails, cavitation.
+!> The film by axial modes: slopes, boundary pressures, tails.
 program test_fourier_film
    use kinds, only: wp, pi, degree
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_ok, film_closed
-   use pad_gap, only: pad_gap_type
    use fourier_film, only: fourier_film_type, new_fourier_film
-   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_gumbel, &
-      & cavitation_reynolds
-   use direct_film, only: direct_film_type, new_direct_film
    use paper_bearing, only: paper_oil, offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -20,11 +16,8 @@ program test_fourier_film
       if (runs('heated_edge')) call heated_edge(2**i)
    end do
    if (runs('few_modes')) call few_modes()
-   if (runs('uniform_pressure')) call uniform_pressure()
    if (runs('shifted_pressures')) call shifted_pressures()
-   if (runs('gumbel_clips')) call gumbel_clips()
    if (runs('closed_film')) call closed_film()
-   if (runs('choice')) call choice()
    call report()
 
 contains
@@ -138,20 +131,6 @@ contains
       end do
    end subroutine few_modes
 
-   !> At rest in one pressure: the force of that pressure, by Simpson's rule to (d/2)**4/180 = 1e-9.
-   subroutine uniform_pressure()
-      real(wp), parameter :: p = 3e5_wp
-      type(fourier_film_type) :: solver
-      type(film_response) :: r
-      real(wp) :: exact(2)
-      solver = new_fourier_film([offset_pad([p, p, 0.0_wp])], 24, 8, gumbel=.false.)
-      r = answer(solver, film_motion([-2e-5_wp, 4e-5_wp]), 0.0_wp)
-      exact = -p*0.1_wp*50e-3_wp*[cos(theta_2) - cos(theta_1), sin(theta_1) + sin(theta_2)]
-      call expect_close(norm2(r%force - exact), 0.0_wp, 1e-7_wp*norm2(exact), 'force of a uniform pressure')
-      call expect_close(r%max_pressure, p, 1e-12_wp*p, 'highest pressure')
-      call expect_close(r%min_pressure, p, 1e-12_wp*p, 'lowest pressure')
-   end subroutine uniform_pressure
-
    !> A constant on all pressures is a constant on the film.
    subroutine shifted_pressures()
       real(wp), parameter :: shift = 5e5_wp
@@ -172,32 +151,6 @@ contains
          & 'slopes of raised pressures')
    end subroutine shifted_pressures
 
-   !> Guembel's condition takes the tension away: nothing where there is none, and what a fine clipped
-   !> over-relaxation takes where there is, within the cells that the edge of the film falls into: 1 % of the
-   !> force at most.
-   subroutine gumbel_clips()
-      type(fourier_film_type) :: whole, clipped
-      type(sor_film_type) :: fine
-      type(film_response) :: r, r_clipped, r_fine
-      type(film_motion), parameter :: pressed = film_motion([-3e-5_wp, 5e-5_wp], [0.0_wp, 2e-3_wp])
-      type(film_motion), parameter :: torn = film_motion([1e-5_wp, 5e-5_wp], [0.0_wp, 0.0_wp])
-      whole = new_fourier_film([offset_pad([1e5_wp, 1e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
-      clipped = new_fourier_film([offset_pad([1e5_wp, 1e5_wp, 0.0_wp])], 24, 8, gumbel=.true.)
-      r = answer(whole, pressed, speed)
-      r_clipped = answer(clipped, pressed, speed)
-      call expect(r%min_pressure > 0, 'a pressed film is full')
-      ! the same but for the quadrature, whose error is 1e-4 in either
-      call expect_close(norm2(r%force - r_clipped%force), 0.0_wp, 1e-4_wp*norm2(r%force), 'nothing to clip')
-      r = answer(whole, torn, speed)
-      r_clipped = answer(clipped, torn, speed)
-      fine = new_sor_film([offset_pad([1e5_wp, 1e5_wp, 0.0_wp])], sor_options(120, 30, tolerance=1e-8_wp, &
-         & cavitation=cavitation_gumbel))
-      call fine%evaluate_pad(1, torn, paper_oil, speed, .false., r_fine)
-      call expect(-r_clipped%force(2) > -r%force(2), 'clipping takes tension away')
-      call expect_close(norm2(r_clipped%force - r_fine%force), 0.0_wp, 1e-2_wp*norm2(r_fine%force), &
-         & 'clipped modes against clipped cells')
-   end subroutine gumbel_clips
-
    subroutine closed_film()
       type(fourier_film_type) :: solver
       type(film_response) :: r
@@ -208,34 +161,4 @@ contains
       r = answer(solver, film_motion([0.0_wp, 0.5_wp*clearance]), speed)
       call expect(r%status == film_ok, 'the film opens again')
    end subroutine closed_film
-
-   !> The solver that chooses gives the modes' answer to a full film and the cells' to a cavitated one, pad
-   !> by pad.
-   subroutine choice()
-      type(pad_gap_type) :: films(2)
-      type(direct_film_type) :: auto
-      type(fourier_film_type) :: fourier
-      type(sor_film_type) :: sor
-      type(sor_options) :: options
-      type(film_response) :: r(2), by_modes(2), by_cells
-      type(film_motion) :: motion(2)
-      films = offset_pad()
-      options = sor_options(24, 6, tolerance=1e-12_wp, cavitation=cavitation_reynolds)
-      auto = new_direct_film(films, 24, 8, options%circumferential_cells, options%axial_cells, .true., .false.)
-      fourier = new_fourier_film(films, 24, 8, gumbel=.false.)
-      sor = new_sor_film(films, options)
-      motion = [film_motion([-3e-5_wp, 5e-5_wp], [0.0_wp, 2e-3_wp]), film_motion([5e-6_wp, 5e-5_wp])]
-      call auto%evaluate(motion, spread(paper_oil, 1, size(motion)), speed, .true., r)
-      call fourier%evaluate(motion, spread(paper_oil, 1, size(motion)), speed, .true., by_modes)
-      call sor%evaluate_pad(2, motion(2), paper_oil, speed, .true., by_cells)
-      call expect_close(norm2(r(1)%force - by_modes(1)%force), 0.0_wp, 0.0_wp, 'modes for the full film')
-      call expect(by_modes(2)%min_pressure < 0 .and. by_modes(2)%max_pressure > 0, 'one film is torn in part')
-      ! both solve the same equations; the tolerance is that of over-relaxation
-      call expect_close(norm2(r(2)%force - by_cells%force), 0.0_wp, 1e-9_wp*norm2(by_cells%force), &
-         & 'cells for the cavitated one')
-      call expect_close(norm2(r(2)%derivatives - by_cells%derivatives), 0.0_wp, 1e-9_wp*norm2(by_cells%derivatives), &
-         & 'with their slopes')
-      call expect(auto%counters%volumes == 1 .and. auto%counters%fourier == 1, 'each is counted')
-      call expect(auto%counters%passes > 0, 'and so are the eliminations')
-   end subroutine choice
 end program test_fourier_film

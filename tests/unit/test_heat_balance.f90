@@ -12,12 +12,9 @@ program test_heat_balance
    !> rad/s; Pa s.
    real(wp), parameter :: speed = 500, films(4) = [0.03_wp, 0.02_wp, 0.025_wp, 0.015_wp]
 
-   if (runs('no_heat')) call no_heat()
    if (runs('along_a_film')) call along_a_film()
    if (runs('adiabatic')) call adiabatic()
    if (runs('energy')) call energy()
-   if (runs('no_net_heat')) call no_net_heat()
-   if (runs('capacity')) call capacity()
    if (runs('carry_over')) call carry_over()
    if (runs('order_of_pads')) call order_of_pads()
    if (runs('viscosities')) call viscosities()
@@ -72,21 +69,6 @@ contains
       conductance = inputs%oil%shaft_nusselt*inputs%oil%conductivity*loss%couette &
          & /(film*(speed*inputs%bearing%journal_radius)**2)
    end function conductance
-
-   !> Films that make next to no heat warm nothing.
-   subroutine no_heat()
-      type(case_type) :: inputs
-      type(pad_loss) :: losses(4)
-      type(oil_temperatures_type) :: oil
-      inputs = four_pads()
-      losses = some_losses()
-      losses%couette = 1e-9_wp*losses%couette
-      losses%pressure = 0
-      losses%boundary = 0
-      oil = balanced(inputs, losses)
-      call expect(all(abs([oil%inlet, oil%mean, oil%outlet, oil%maximum, oil%shaft, oil%drain] &
-         & - inputs%oil%supply_temperature) < 1e-6_wp), 'supply temperature everywhere')
-   end subroutine no_heat
 
    !> One pad of fresh oil beside a shaft of known temperature: dT/ds = Phi/m - N (T - T_J), by Runge and Kutta.
    subroutine along_a_film()
@@ -173,33 +155,6 @@ contains
             & - inputs%oil%supply_temperature), heat, 1e-10_wp*sum(losses%power()), 'drain')
       end do
    end subroutine energy
-
-   !> The shaft takes from warm films what it gives to cold ones.
-   subroutine no_net_heat()
-      type(case_type) :: inputs
-      type(pad_loss) :: losses(4)
-      type(oil_temperatures_type) :: oil
-      inputs = four_pads()
-      losses = some_losses()
-      oil = balanced(inputs, losses)
-      associate (heat => conductance(inputs, losses, films)*(oil%mean - oil%shaft))
-         call expect_close(sum(heat), 0.0_wp, 1e-10_wp*sum(abs(heat)), 'sum')
-      end associate
-   end subroutine no_net_heat
-
-   !> Density and specific heat count as their product.
-   subroutine capacity()
-      type(case_type) :: inputs
-      type(pad_loss) :: losses(4)
-      type(oil_temperatures_type) :: oil, other
-      inputs = four_pads()
-      losses = some_losses()
-      oil = balanced(inputs, losses)
-      inputs%oil%density = 2*inputs%oil%density
-      inputs%oil%specific_heat = inputs%oil%specific_heat/2
-      other = balanced(inputs, losses)
-      call expect(all(abs(oil%outlet - other%outlet) < 1e-10_wp), 'temperatures')
-   end subroutine capacity
 
    !> Oil crosses gaps of 20 degrees, from the pad at the next larger angle.
    subroutine carry_over()

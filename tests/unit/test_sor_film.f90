@@ -17,7 +17,6 @@ program test_sor_film
    do i = 1, size(kinds_of_cavitation)
       if (runs('slopes')) call slopes(kinds_of_cavitation(i))
       if (runs('warm_start')) call warm_start(kinds_of_cavitation(i))
-      if (runs('uniform_pressure')) call uniform_pressure(kinds_of_cavitation(i))
       if (runs('shifted_pressures')) call shifted_pressures(kinds_of_cavitation(i))
    end do
    if (runs('nothing_left')) then
@@ -142,25 +141,6 @@ contains
       end do
       call expect_close(worst, 0.0_wp, 200*tolerance, 'warm and cold starts meet, '//trim(names(cavitation)))
    end subroutine warm_start
-
-   !> At rest with one pressure on all edges the film has that pressure, and its force is exact but for the
-   !> midpoint rule, whose factor (d/2)/sin(d/2) is known.
-   subroutine uniform_pressure(cavitation)
-      integer, intent(in) :: cavitation
-      real(wp), parameter :: p = 3e5_wp, half = 0.5_wp*69.3_wp*degree, d = 2*half/24
-      type(sor_film_type) :: solver
-      type(film_response) :: r
-      real(wp) :: exact
-      solver = new_sor_film([paper_pad([p, p, 0.0_wp])], options(cavitation, 1e-12_wp))
-      call solver%evaluate_pad(1, film_motion([-2e-5_wp, 4e-5_wp]), paper_oil, 0.0_wp, .false., r)
-      exact = -p*0.1_wp*50e-3_wp*2*sin(half)
-      call expect_close(maxval(abs(solver%pressure_field(1)/p - 1)), 0.0_wp, 1e-10_wp, 'uniform pressure, ' &
-         & //trim(names(cavitation)))
-      call expect_close(r%force(2), exact*(0.5_wp*d)/sin(0.5_wp*d), 1e-10_wp*abs(exact), 'force of a uniform pressure')
-      call expect_close(r%force(1), 0.0_wp, 1e-10_wp*abs(exact), 'no tangential force on a centrally pivoted pad')
-      call expect_close(r%max_pressure, p, 1e-10_wp*p, 'highest pressure')
-      call expect_close(r%min_pressure, p, 1e-10_wp*p, 'lowest pressure')
-   end subroutine uniform_pressure
 
    !> A constant on all pressures, that of cavitation included, is a constant on the film: rounding alone.
    subroutine shifted_pressures(cavitation)

@@ -17,18 +17,12 @@ program test_spectra
    real(wp), parameter :: turns = revolutions
 
    do i = 1, size(lengths)
-      if (runs('constant')) call constant(lengths(i))
       if (runs('against_direct_transform')) call against_direct_transform(lengths(i))
       if (runs('against_direct_full_transform')) call against_direct_full_transform(lengths(i))
-      if (runs('parseval')) call parseval(lengths(i))
    end do
    if (runs('sines')) then
       call sines(64)
       call sines(99)
-   end if
-   if (runs('whirl')) then
-      call whirl(64)
-      call whirl(99)
    end if
    if (runs('square')) call square()
    if (runs('ellipse')) call ellipse()
@@ -50,14 +44,6 @@ program test_spectra
 
 contains
 
-   subroutine constant(n)
-      integer, intent(in) :: n
-      real(wp) :: amplitude(0:n/2)
-      amplitude = one_sided_amplitude(spread(-2.5_wp, 1, n))
-      call expect_close(amplitude(0), 2.5_wp, rounding, 'a constant, n = '//to_text(n))
-      call expect(all(amplitude(1:) < rounding), 'a constant has nothing but its mean, n = '//to_text(n))
-   end subroutine constant
-
    !> A sine of amplitude a, of any phase, gives a at its frequency and nothing elsewhere.
    subroutine sines(n)
       integer, intent(in) :: n
@@ -75,24 +61,6 @@ contains
          call expect_close(amplitude(n/2), 3.0_wp, rounding, 'the highest frequency of '//to_text(n)//' samples')
       end if
    end subroutine sines
-
-   !> From y towards z is forward: exp(+i phi) at +k, exp(-i phi) at -k.
-   subroutine whirl(n)
-      integer, intent(in) :: n
-      real(wp), allocatable :: amplitude(:)
-      real(wp) :: angle(n)
-      integer :: j, zero
-      angle = [(2*pi*j/n, j=0, n - 1)]
-      amplitude = full_amplitude(cmplx(0.5_wp + 2*cos(3*angle) + 0.7_wp*cos(5*angle), &
-         & 2*sin(3*angle) - 0.7_wp*sin(5*angle), wp))
-      call expect(size(amplitude) == n, 'as many lines as samples')
-      zero = 1 + (n - 1)/2
-      call expect_close(amplitude(zero), 0.5_wp, rounding, 'centre of the whirl, n = '//to_text(n))
-      call expect_close(amplitude(zero + 3), 2.0_wp, rounding, 'forward whirl, n = '//to_text(n))
-      call expect_close(amplitude(zero - 5), 0.7_wp, rounding, 'backward whirl, n = '//to_text(n))
-      amplitude([zero, zero + 3, zero - 5]) = 0
-      call expect(all(amplitude < rounding), 'whirls leak, n = '//to_text(n))
-   end subroutine whirl
 
    subroutine against_direct_transform(n)
       integer, intent(in) :: n
@@ -124,16 +92,6 @@ contains
       end do
       call expect_close(worst, 0.0_wp, rounding, 'full spectrum of '//to_text(n)//' random numbers')
    end subroutine against_direct_full_transform
-
-   !> Parseval: the mean square of the signal is the sum of squares of the full spectrum.
-   subroutine parseval(n)
-      integer, intent(in) :: n
-      real(wp) :: re(n), im(n)
-      call random_number(re)
-      call random_number(im)
-      call expect_close(sum(full_amplitude(cmplx(re, im, wp))**2), sum(re**2 + im**2)/n, rounding, &
-         & 'Parseval, n = '//to_text(n))
-   end subroutine parseval
 
    !> One line by its definition, over n.
    pure complex(wp) function direct_line(signal, k)

@@ -3,8 +3,7 @@ program test_state_layout
    use kinds, only: wp
    use text, only: to_text
    use rigid_journal, only: journal_motion
-   use kinematics, only: pad_state, columns, tilt_column, tilt_rate_column, deflection_column, &
-      & deflection_rate_column
+   use kinematics, only: pad_state, columns, tilt_column
    use state_layout, only: state_layout_type, new_state_layout
    use case_inputs, only: case_type
    use equations_of_motion, only: bearing_model, new_bearing_model
@@ -25,7 +24,6 @@ program test_state_layout
             associate (layout => new_state_layout(rotors(i), pads, .true., choices(k), choices(l)))
                if (runs('indices')) call indices(layout)
                if (runs('states_of_pads')) call states_of_pads(layout)
-               if (runs('changes')) call changes(layout)
             end associate
             if (runs('fixed_pads')) call fixed_pads(new_state_layout(rotors(i), pads, .false., choices(k), choices(l)))
          end do
@@ -135,28 +133,6 @@ contains
             & 'bristles by their index'//what(layout))
       end do
    end subroutine states_of_pads
-
-   !> The journal's change in every pad's first columns, its own in the others; bristles have no column.
-   subroutine changes(layout)
-      type(state_layout_type), intent(in) :: layout
-      real(wp), parameter :: journal(4) = [1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp]
-      real(wp) :: y(layout%n), change(columns, pads), expected(columns)
-      integer :: i
-      y = [(100.0_wp + i, i=1, layout%n)]
-      change = layout%over_columns(journal, y)
-      do i = 1, pads
-         expected = 0
-         expected(:4) = journal
-         expected(tilt_column) = y(layout%tilt(i))
-         expected(tilt_rate_column) = y(layout%tilt_rate(i))
-         if (layout%radial) then
-            expected(deflection_column) = y(layout%pivot_deflection(i))
-            expected(deflection_rate_column) = y(layout%pivot_deflection_rate(i))
-         end if
-         call expect_close(maxval(abs(change(:, i) - expected)), 0.0_wp, 0.0_wp, &
-            & 'columns of pad '//to_text(i)//what(layout))
-      end do
-   end subroutine changes
 
    !> Sums of some ten numbers, and a pad's masses, whose inverse loses a digit or two: 1e-12 of each row's largest
    !> entry.

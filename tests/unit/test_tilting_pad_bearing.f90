@@ -26,7 +26,6 @@ program test_tilting_pad_bearing
          if (runs('derivatives')) call derivatives(motions(i), frictions(k), .false.)
          if (runs('derivatives_in_contact')) call derivatives(motions(i), frictions(k), .true.)
       end do
-      if (runs('mass_matrix')) call mass_matrix(motions(i))
       if (runs('samples')) call samples(motions(i), .false.)
       if (runs('samples_in_contact')) call samples(motions(i), .true.)
    end do
@@ -196,28 +195,6 @@ contains
       end do
       call expect(all_ok, 'all states are admitted, '//what)
    end subroutine derivatives
-
-   !> Masses times their inverse.
-   subroutine mass_matrix(motion)
-      character(len=*), intent(in) :: motion
-      type(tilting_pad_bearing_type) :: bearing
-      real(wp) :: unit(2, 2), masses(2, 2)
-      integer :: i
-      bearing = heavy_bearing(motion, 'none')
-      do i = 1, 2
-         associate (pad => bearing%pads(i))
-            masses = reshape([pad%inertia, pad%mass*pad%centre_tangential, pad%mass*pad%centre_tangential, pad%mass], &
-               & [2, 2])
-            unit = matmul(pad%inverse_masses(), masses)
-         end associate
-         if (motion == 'tilting_radial') then
-            call expect_close(norm2(unit - reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])), 0.0_wp, 1e-12_wp, &
-               & 'inverse of the masses of pad '//to_text(i))
-         else
-            call expect_close(unit(1, 1), 1.0_wp, 1e-15_wp, 'inverse of the inertia of pad '//to_text(i))
-         end if
-      end do
-   end subroutine mass_matrix
 
    !> In the state of an evaluation its outputs give its samples; pressures are those at the edges at least.
    subroutine samples(motion, rough)
