@@ -337,7 +337,7 @@ contains
 
    pure integer function rank_of(name)
       character(len=*), intent(in) :: name
-      rank_of = findloc([character(len=10) :: 'static instability', 'oscillatory instability', 'stable'], name, dim=1)
+      rank_of = findloc([character(len=23) :: 'static instability', 'oscillatory instability', 'stable'], name, dim=1)
    end function rank_of
 
    !> Whether a state is, within a part of the clearance, one of a list.

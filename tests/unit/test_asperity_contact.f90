@@ -2,7 +2,7 @@
 program test_asperity_contact
    use kinds, only: wp, pi
    use text, only: to_text
-   use clipped_quadrature, only: clipped_weights
+   use clipped_quadrature, only: gregory_weights, clipped_weights
    use film_solver, only: film_motion
    use pad_gap, only: pad_gap_type, pad_directions
    use asperity_contact, only: asperity_contact_type, asperity_load, new_asperity_contact, no_asperities
@@ -13,6 +13,7 @@ program test_asperity_contact
    integer :: repeat
 
    if (runs('order')) call order()
+   if (runs('gregory')) call gregory()
    if (runs('no_jumps')) call no_jumps()
    do repeat = 1, 3
       if (runs('loads_by_quadrature')) call loads_by_quadrature()
@@ -53,6 +54,17 @@ contains
          end associate
       end do
    end subroutine order
+
+   !> Exact for powers up to the sixth, on lines as short as the formula.
+   subroutine gregory()
+      integer :: i, n, k
+      do n = 6, 30, 4
+         do k = 0, 6
+            call expect_close(sum(gregory_weights(n)*[((real(i, wp)/n)**k, i=0, n)])/n, 1.0_wp/(k + 1), 1e-14_wp, &
+               & 'power '//to_text(k)//' on '//to_text(n)//' cells')
+         end do
+      end do
+   end subroutine gregory
 
    !> As the level moves through the nodes by 1e-4 the integral falls by at most 1e-4 times the length.
    subroutine no_jumps()

@@ -184,6 +184,9 @@ contains
       inputs%pads%inertia = unset
       fixed = new_bearing_model(inputs)
       call expect(fixed%n == 4 .and. size(fixed%scale) == 4, 'the states of the journal')
+      associate (w => fixed%point%speed(0.0_wp))
+         call expect_close(maxval(abs(fixed%scale/[1.0_wp, 1.0_wp, w, w] - 80e-6_wp)), 0.0_wp, 1e-18_wp, 'their scales')
+      end associate
       y = fixed%state(journal_motion([-3e-5_wp, 4e-6_wp], [2e-3_wp, -1e-3_wp]), spread(pad_state(), 1, 2))
       allocate (f(fixed%n), f_tilting(tilting%n))
       call fixed%rhs(1e-3_wp, y, f, ok)
