@@ -4,16 +4,14 @@ program test_coefficients
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, pi, degree
    use text, only: to_text
-   use errors, only: error_type
    use case_inputs, only: case_type
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: bearing_model
    use force_balance, only: forces
    use input_cases, only: case_of
-   use equilibrium, only: equilibrium_type, find_equilibrium
-   use static_model, only: make_fine
-   use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
-   use stability_threshold, only: find_thresholds
-   use check, only: runs, expect, expect_close, expect_no_error, report
+   use linear_analysis, only: analyse
+   use equilibrium, only: equilibrium_type
+   use bearing_coefficients, only: bearing_coefficients_type
+   use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
    if (runs('published')) call published()
@@ -28,34 +26,6 @@ program test_coefficients
    call report()
 
 contains
-
-   !> The coefficients of a case, and the model at whose rest y they are.
-   subroutine analyse(inputs, what, found, static, fine, y)
-      type(case_type), intent(in) :: inputs
-      character(len=*), intent(in) :: what
-      type(bearing_coefficients_type), intent(out) :: found
-      type(equilibrium_type), intent(out), optional :: static
-      type(bearing_model), intent(out), optional :: fine
-      real(wp), allocatable, intent(out), optional :: y(:)
-      type(bearing_model) :: model, converged
-      type(equilibrium_type) :: rest
-      type(error_type), allocatable :: error
-      real(wp), allocatable :: state(:)
-      model = new_bearing_model(inputs)
-      call find_equilibrium(model, rest, error)
-      if (.not. allocated(error)) then
-         call make_fine(model, converged)
-         call settle(converged, rest, state, error)
-      end if
-      if (.not. allocated(error)) call find_coefficients(converged, state, found, error)
-      if (.not. allocated(error) .and. inputs%coefficients%threshold_up_to_rpm > 0) then
-         call find_thresholds(converged, state, found, error)
-      end if
-      call expect_no_error(error, what)
-      if (present(static)) static = rest
-      if (present(fine)) fine = converged
-      if (present(y)) y = state
-   end subroutine analyse
 
    !> The paper's bearing with films that do not cavitate.
    type(case_type) function whole(speed_rpm) result(inputs)

@@ -30,18 +30,15 @@ end module forced_motion
 program test_linear_motion
    use kinds, only: wp, pi
    use text, only: to_text
-   use errors, only: error_type
    use case_inputs, only: case_type
    use operating_point, only: operating_point_type
    use sampled_march, only: march_samples
-   use equations_of_motion, only: bearing_model, new_bearing_model
-   use equilibrium, only: equilibrium_type, find_equilibrium
-   use static_model, only: make_fine
-   use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
-   use stability_threshold, only: find_thresholds
+   use linear_analysis, only: analyse
+   use equations_of_motion, only: bearing_model
+   use bearing_coefficients, only: bearing_coefficients_type
    use vibration_modes, only: vibration_modes_type
    use forced_motion, only: forced_model
-   use check, only: runs, expect, expect_close, expect_no_error, report
+   use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
    if (runs('response')) call response()
@@ -50,26 +47,6 @@ program test_linear_motion
    call report()
 
 contains
-
-   !> The coefficients of a case; the model that is linearised, at rest in y.
-   subroutine analyse(inputs, found, model, y)
-      type(case_type), intent(in) :: inputs
-      type(bearing_coefficients_type), intent(out) :: found
-      type(bearing_model), intent(out) :: model
-      real(wp), allocatable, intent(out) :: y(:)
-      type(bearing_model) :: whole
-      type(equilibrium_type) :: static
-      type(error_type), allocatable :: error
-      whole = new_bearing_model(inputs)
-      call find_equilibrium(whole, static, error)
-      call make_fine(whole, model)
-      if (.not. allocated(error)) call settle(model, static, y, error)
-      if (.not. allocated(error)) call find_coefficients(model, y, found, error)
-      if (.not. allocated(error) .and. inputs%coefficients%threshold_up_to_rpm > 0) then
-         call find_thresholds(model, y, found, error)
-      end if
-      call expect_no_error(error, 'analysis')
-   end subroutine analyse
 
    !> Films that are smooth, so that a small motion is.
    type(case_type) function smooth_case(speed_rpm) result(inputs)
@@ -95,7 +72,7 @@ contains
       integer :: k, i
       inputs = smooth_case(6500.0_wp)
       inputs%coefficients%frequency_ratio = [0.4_wp, 1.0_wp, 1.7_wp]
-      call analyse(inputs, found, model, y)
+      call analyse(inputs, 'analysis', found, fine=model, y=y)
       do k = 1, 3
          frequency = inputs%coefficients%frequency_ratio(k)*model%point%speed(0.0_wp)
          z = measured(model, y, frequency)
@@ -161,7 +138,7 @@ contains
       inputs%rotor%mass = 200
       if (pivot == 'stuck') inputs%friction%model = 'lugre'
       inputs%coefficients%threshold_up_to_rpm = 20000
-      call analyse(inputs, found, model, y)
+      call analyse(inputs, 'analysis', found, fine=model, y=y)
       i = merge(1, 2, pivot == 'free')
       threshold = found%thresholds(i)
       call expect_close(threshold, near, 0.05_wp*near, 'threshold')
@@ -169,7 +146,7 @@ contains
       do side = -1, 1, 2
          inputs%operation%speed_rpm = (1 + 0.02_wp*side)*threshold
          inputs%operation%final_speed_rpm = inputs%operation%speed_rpm
-         call analyse(inputs, found, model, y)
+         call analyse(inputs, 'analysis', found, fine=model, y=y)
          associate (value => found%modes(i)%eigenvalue(1))
             call expect(side*value%re > 0, 'stable below, unstable above')
             call expect_close(growth(model, y, found%modes(i)), value%re, 1e-3_wp*abs(value%re), 'growth of '//pivot &

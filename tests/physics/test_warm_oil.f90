@@ -4,12 +4,11 @@ program test_warm_oil
    use errors, only: error_type, numerics_error
    use case_inputs, only: case_type
    use input_cases, only: case_of
+   use linear_analysis, only: analyse
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
-   use static_model, only: make_fine
    use static_figures, only: static_figures_type, find_static_figures
-   use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
-   use stability_threshold, only: find_thresholds
+   use bearing_coefficients, only: bearing_coefficients_type
    use viscosity_history, only: viscosity_history_type
    use groove_transient, only: find_groove_transient
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
@@ -41,33 +40,18 @@ contains
    subroutine solve(inputs, static, figures, model)
       type(case_type), intent(in) :: inputs
       type(equilibrium_type), intent(out) :: static
-      type(static_figures_type), intent(out) :: figures
-      type(bearing_model), intent(out) :: model
+      type(static_figures_type), intent(out), optional :: figures
+      type(bearing_model), intent(out), optional :: model
+      type(bearing_model) :: own
       type(error_type), allocatable :: error
-      model = new_bearing_model(inputs)
-      call find_equilibrium(model, static, error)
+      own = new_bearing_model(inputs)
+      call find_equilibrium(own, static, error)
       call expect_no_error(error, 'equilibrium')
       if (allocated(error)) return
-      model%oil%viscosity = static%viscosity
-      call find_static_figures(model, static, figures)
+      own%oil%viscosity = static%viscosity
+      if (present(figures)) call find_static_figures(own, static, figures)
+      if (present(model)) model = own
    end subroutine solve
-
-   !> Its coefficients at the synchronous frequency.
-   subroutine coefficients(model, static, found)
-      type(bearing_model), intent(in) :: model
-      type(equilibrium_type), intent(inout) :: static
-      type(bearing_coefficients_type), intent(out) :: found
-      type(bearing_model) :: fine
-      type(error_type), allocatable :: error
-      real(wp), allocatable :: y(:)
-      call make_fine(model, fine)
-      call settle(fine, static, y, error)
-      if (.not. allocated(error)) call find_coefficients(fine, y, found, error)
-      if (.not. allocated(error) .and. model%inputs%coefficients%threshold_up_to_rpm > 0) then
-         call find_thresholds(fine, y, found, error)
-      end if
-      call expect_no_error(error, 'coefficients')
-   end subroutine coefficients
 
    !> An independent program's values at 4000 rpm (finite volumes of 240 x 48 and 480 x 96, extrapolated), of pads
    !> without weight: those of the bearing are not published. Its damping moves by single volumes that cavitate.
@@ -81,7 +65,7 @@ contains
       call expect(all(abs(figures%oil%outlet - outlet) < 0.004_wp), 'outlets')
       call expect_close(figures%oil%shaft, 57.276_wp, 0.003_wp, 'shaft')
       call expect_close(maxval(figures%oil%maximum), 69.6_wp, 0.06_wp, 'maximum')
-      call coefficients(model, static, found)
+      call analyse(model%inputs, 'coefficients', found, static)
       call expect_close(static%journal(1), -55.7045e-6_wp, 0.003e-6_wp, 'y, of converged films')
       call expect_close(found%stiffness(1, 1, 1, 1), 351.43e6_wp, 0.05e6_wp, 'K_yy')
       call expect_close(found%damping(1, 1, 1, 1), 0.6163e6_wp, 0.0004e6_wp, 'C_yy')
@@ -97,7 +81,7 @@ contains
          & model)
       call expect(all(abs(static%viscosity - [23e-3_wp, 13.4e-3_wp]) < [0.5e-3_wp, 0.05e-3_wp]), 'viscosities')
       call expect_close(static%journal(2), -7e-6_wp, 0.5e-6_wp, 'z')
-      call coefficients(model, static, found)
+      call analyse(model%inputs, 'coefficients', found, static)
       call expect_close(found%stiffness(1, 2, 1, 1), 61e6_wp, 1e6_wp, 'K_yz')
       call expect_close(found%stiffness(2, 1, 1, 1), 61e6_wp, 1e6_wp, 'K_zy')
    end subroutine cross_stiffness
@@ -107,12 +91,11 @@ contains
       type(case_type) :: inputs
       type(equilibrium_type) :: warm, cold
       type(static_figures_type) :: figures, of_cold
-      type(bearing_model) :: model
       inputs = case_of('&pads pivot_angle_deg = -45, 225, 45, 135/ &oil reference_viscosity = 0.0277,' &
          & //' temperature_exponent = 0/ &thermal model = ''pad''/')
-      call solve(inputs, warm, figures, model)
+      call solve(inputs, warm, figures)
       inputs%thermal%model = 'none'
-      call solve(inputs, cold, of_cold, model)
+      call solve(inputs, cold, of_cold)
       call expect(.not. any(abs([warm%journal - cold%journal, warm%tilt - cold%tilt, &
          & warm%pivot_deflection - cold%pivot_deflection, warm%viscosity - cold%viscosity]) > 0), 'state')
       call expect(.not. any(abs(figures%pads%power() - of_cold%pads%power()) > 0), 'losses')
@@ -124,15 +107,14 @@ contains
       type(case_type) :: inputs
       type(equilibrium_type) :: static, other
       type(static_figures_type) :: figures
-      type(bearing_model) :: model
       inputs = case_of('&film cavitation = ''none''/'//vg46)
-      call solve(inputs, static, figures, model)
+      call solve(inputs, static, figures)
       inputs%oil%density = inputs%oil%density/4
       inputs%oil%specific_heat = inputs%oil%specific_heat*4
-      call solve(inputs, other, figures, model)
+      call solve(inputs, other, figures)
       call expect(all(abs(other%journal - static%journal) < 1e-12_wp), 'journal')
       inputs%oil%specific_heat = 1e12_wp
-      call solve(inputs, other, figures, model)
+      call solve(inputs, other, figures)
       call expect(all(abs(figures%oil%maximum - inputs%oil%supply_temperature) < 1e-4_wp), 'cold')
    end subroutine capacity
 
@@ -140,16 +122,13 @@ contains
    subroutine threshold()
       type(case_type) :: inputs
       type(equilibrium_type) :: static
-      type(static_figures_type) :: figures
-      type(bearing_model) :: model
       type(bearing_coefficients_type) :: found
       inputs = case_of('&case task = ''coefficients''/ &rotor mass = 200/ &operation speed_rpm = 13000/' &
          & //'&film cavitation = ''none''/ &coefficients threshold_up_to_rpm = 20000/'//vg46)
-      call solve(inputs, static, figures, model)
-      call coefficients(model, static, found)
+      call analyse(inputs, 'threshold', found)
       inputs%operation%speed_rpm = found%thresholds(1)
       inputs%operation%final_speed_rpm = found%thresholds(1)
-      call solve(inputs, static, figures, model)
+      call solve(inputs, static)
       call expect_close(static%stability%eigenvalue%re, 0.0_wp, 1e-4_wp*abs(static%stability%eigenvalue), 'growth')
    end subroutine threshold
 
@@ -170,7 +149,6 @@ contains
       real(wp) :: viscosities(2)
       type(case_type) :: inputs
       type(equilibrium_type) :: static
-      type(static_figures_type) :: figures
       type(bearing_model) :: model
       type(viscosity_history_type) :: history
       type(error_type), allocatable :: error
@@ -178,7 +156,7 @@ contains
       inputs%oil%shaft_temperature = 55
       inputs%oil%groove_volume = volume
       inputs%operation%duration = duration
-      call solve(inputs, static, figures, model)
+      call solve(inputs, static, model=model)
       call find_groove_transient(model, model%static_state(static%journal, static%tilt, static%pivot_deflection), &
          & duration, history, error)
       call expect_no_error(error, 'course')
@@ -190,12 +168,10 @@ contains
    subroutine run_up()
       type(case_type) :: inputs
       type(equilibrium_type) :: static
-      type(static_figures_type) :: figures
-      type(bearing_model) :: model
       real(wp) :: slow(2), lag(2), longer(2), never(2)
       inputs = case_of('&operation speed_rpm = 4000/ &film cavitation = ''none''/'//vg46)
       inputs%oil%shaft_temperature = 55
-      call solve(inputs, static, figures, model)
+      call solve(inputs, static)
       slow = after_run_up(1e-5_wp, 1e4_wp)
       call expect(all(abs(slow/static%viscosity - 1) < 1e-4_wp), 'slow')
       ! behind the other pad; the first draws fresh oil alone

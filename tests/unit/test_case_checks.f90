@@ -159,6 +159,8 @@ contains
       call expect_allowed(pads//'-45, 16 /')
       call expect_refused(pads//'-45, 14 /', 'pads%pivot_angle_deg = -45, 14: pads 1 and 2 overlap')
       call expect_refused(pads//'14, -45 /', 'overlap')
+      call expect_refused(pads//'0, 360 /', 'overlap')
+      call expect_refused('&pads arc_deg = 200 /', 'overlap')
       call expect_allowed(pads//'-45, 254 /')
       call expect_refused(pads//'-45, 256 /', 'overlap')
       ! the first pad reaches 42 degrees on from its pivot, the second 18 degrees back from its own

@@ -161,6 +161,7 @@ contains
       call expect_refused('&bearing preload = 0.3, machined_clearance = 1e-4 /', &
          & 'bearing%preload = 0.3: bearing%machined_clearance = 1e-4 is given too; give one of them')
       call expect_refused('&bearing preload = 1 /', 'bearing%preload = 1: must be -1 to 0.999')
+      call expect_refused('&bearing preload = 0.999, assembled_clearance = 2e-4 /', 'bearing%machined_clearance = 0.2')
       call expect_refused('&pads mass = 1, density = 7850 /', 'pads%density = 7850: pads%mass = 1 is given too')
       call expect_refused('&pads mass(2) = 1, density = 7850 /', '(pad 2)')
       call expect_refused('&pads mass = 1, inertia = 1, centre_tangential = 0, centre_radial = 0, thickness = 0.1 /', &

@@ -1,4 +1,5 @@
-!> Datasets of an HDF5 file: numbers to the last bit, dimension scales, and what is refused.
+!> An HDF5 file: its attributes and groups, datasets to the last bit, dimension scales, statistics of a run; what fails,
+!> and that nothing is done after a failure.
 program test_hdf5_file
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_positive_inf
    use hdf5, only: hid_t, hsize_t, h5dopen_f, h5dclose_f, h5dcreate_f, h5pcreate_f, h5pset_chunk_f, h5pclose_f, &
@@ -6,13 +7,21 @@ program test_hdf5_file
    use h5ds, only: h5dsis_scale_f, h5dsis_attached_f
    use kinds, only: wp, i8
    use hdf5_file, only: hdf5_type
+   use run_statistics, only: run_statistics_type
    use files, only: delete_file
-   use scratch, only: scratch_path
+   use scratch, only: scratch_path, file_there, write_bytes
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
    character(len=:), allocatable :: path
 
    path = scratch_path('file.h5')
+   if (runs('attributes')) call attributes()
+   if (runs('replaced')) call replaced()
+   if (runs('groups')) call groups()
+   if (runs('other_kinds')) call other_kinds()
+   if (runs('no_hdf5')) call no_hdf5()
+   if (runs('no_folder')) call no_folder()
+   if (runs('read_only')) call read_only()
    if (runs('numbers')) call numbers()
    if (runs('tables')) call tables()
    if (runs('overwritten')) call overwritten()
@@ -23,6 +32,8 @@ program test_hdf5_file
    if (runs('wrong_kind')) call wrong_kind()
    if (runs('large_chunks')) call large_chunks()
    if (runs('nothing_after_a_failure')) call nothing_after_a_failure()
+   if (runs('adding_statistics')) call adding_statistics()
+   if (runs('statistics')) call statistics()
    call delete_file(path)
    call report()
 
@@ -43,6 +54,141 @@ contains
       if (allocated(file%failure)) call expect(index(file%failure, words) > 0, words//' in '//file%failure)
       call file%close()
    end subroutine expect_damaged
+
+   !> The file has failed, in reading or in writing, with these words.
+   subroutine expect_failure(file, damaged, words, what)
+      type(hdf5_type), intent(in) :: file
+      logical, intent(in) :: damaged
+      character(len=*), intent(in) :: words, what
+      call expect(allocated(file%failure), what//' is a failure')
+      if (.not. allocated(file%failure)) return
+      call expect(index(file%failure, words) > 0, what//': "'//words//'" in "'//file%failure//'"')
+      call expect(file%damaged .eqv. damaged, what//': damaged or not')
+   end subroutine expect_failure
+
+   subroutine expect_text(file, name, expected)
+      type(hdf5_type), intent(inout) :: file
+      character(len=*), intent(in) :: name, expected
+      character(len=:), allocatable :: text
+      call file%get_text(name, text)
+      call expect(text == expected .and. len(text) == len(expected), name//' comes back')
+   end subroutine expect_text
+
+   subroutine expect_flag(file, name, expected)
+      type(hdf5_type), intent(inout) :: file
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: expected
+      integer :: value
+      call file%get_flag(name, value)
+      call expect(value == expected, name//' comes back')
+   end subroutine expect_flag
+
+   !> Texts of any length and characters, and whole numbers, after the file was closed and opened.
+   subroutine attributes()
+      type(hdf5_type) :: file
+      character(len=*), parameter :: utf8 = char(195)//char(188)//' '//char(226)//char(130)//char(172)
+      call file%create(path)
+      call file%put_text('plain', 'a text  ')
+      call file%put_text('empty', '')
+      call file%put_text('lines', 'a'//achar(10)//'b')
+      call file%put_text('beyond ascii', utf8)
+      call file%put_text('long', repeat('0123456789', 10000))
+      call file%put_flag('one', 1)
+      call file%put_flag('low', -huge(1) - 1)
+      call file%close()
+      call expect_well(file, 'a file is written')
+      call expect(file%id < 0, 'and closed')
+      call file%open(path, writing=.false.)
+      call expect(file%has_attribute('plain'), 'what is there')
+      call expect(.not. file%has_attribute('other'), 'what is there')
+      call expect_text(file, 'plain', 'a text  ')
+      call expect_text(file, 'empty', '')
+      call expect_text(file, 'lines', 'a'//achar(10)//'b')
+      call expect_text(file, 'beyond ascii', utf8)
+      call expect_text(file, 'long', repeat('0123456789', 10000))
+      call expect_flag(file, 'one', 1)
+      call expect_flag(file, 'low', -huge(1) - 1)
+      call file%close()
+      call expect_well(file, 'a file is read')
+   end subroutine attributes
+
+   subroutine replaced()
+      type(hdf5_type) :: file
+      call file%create(path)
+      call file%put_text('text', 'first')
+      call file%put_flag('flag', 1)
+      call file%close()
+      call file%open(path, writing=.true.)
+      call file%put_text('text', 'the second one')
+      call file%put_flag('flag', 2)
+      call expect_text(file, 'text', 'the second one')
+      call expect_flag(file, 'flag', 2)
+      call file%close()
+      call file%create(path)
+      call expect(.not. file%has_attribute('text'), 'a new file of the name is empty')
+      call file%close()
+      call expect_well(file, 'attributes and files are replaced')
+   end subroutine replaced
+
+   subroutine groups()
+      type(hdf5_type) :: file
+      call file%create(path)
+      call file%make_group('inner')
+      call expect(file%has('inner'), 'a group')
+      call expect(.not. file%has('other'), 'a group')
+      call expect(.not. file%has('inner/value'), 'and nothing in it, or in none')
+      call expect(.not. file%has('other/value'), 'and nothing in it, or in none')
+      call file%delete('inner')
+      call file%delete('other')
+      call expect(.not. file%has('inner'), 'a group is deleted')
+      call file%close()
+      call expect_well(file, 'and to delete what is not there does nothing')
+   end subroutine groups
+
+   subroutine other_kinds()
+      type(hdf5_type) :: file
+      call file%create(path)
+      call file%put_flag('flag', 1)
+      call expect_text(file, 'flag', '')
+      call expect_damaged(file, 'read attribute flag')
+      call file%create(path)
+      call file%put_text('text', '1')
+      call expect_flag(file, 'text', 0)
+      call expect_damaged(file, 'read attribute text')
+   end subroutine other_kinds
+
+   subroutine no_hdf5()
+      type(hdf5_type) :: file
+      call write_bytes(path, 'this is text')
+      call file%open(path, writing=.false.)
+      call expect(file%id < 0, 'a text is not open')
+      call expect_failure(file, .false., 'open the file', 'a text')
+      call file%close()
+      call write_bytes(path, '')
+      call file%open(path, writing=.false.)
+      call expect(file%id < 0, 'nor is an empty file')
+      call delete_file(path)
+      call file%open(path, writing=.false.)
+      call expect(file%id < 0, 'nor is none')
+      call expect(.not. file_there(path), 'nor is none')
+   end subroutine no_hdf5
+
+   subroutine no_folder()
+      type(hdf5_type) :: file
+      call file%create('no/such/folder.h5')
+      call expect_failure(file, .false., 'create the file: no such file', 'a file in no folder')
+      call file%close()
+   end subroutine no_folder
+
+   subroutine read_only()
+      type(hdf5_type) :: file
+      call file%create(path)
+      call file%close()
+      call file%open(path, writing=.false.)
+      call file%put_flag('flag', 1)
+      call expect_failure(file, .false., 'attribute flag', 'writing what is open for reading')
+      call file%close()
+   end subroutine read_only
 
    !> Every bit of a number, also of those that are none.
    subroutine numbers()
@@ -174,6 +320,13 @@ contains
       call file%get_list('list', list)
       call expect_close(maxval(abs(list)), 0.0_wp, 0.0_wp, 'a missing list')
       call expect_damaged(file, 'find list')
+      call file%open(path, writing=.false.)
+      call expect_well(file, 'a file that is opened anew forgets the failure')
+      call expect_text(file, 'text', '')
+      call expect_damaged(file, 'HDF5 could not find attribute text')
+      call file%open(path, writing=.false.)
+      call expect_flag(file, 'flag', 0)
+      call expect_damaged(file, 'find attribute flag')
    end subroutine missing
 
    subroutine wrong_size()
@@ -228,23 +381,83 @@ contains
       end do
    end subroutine large_chunks
 
+   !> The first failure is kept, and nothing is written, found or read any more.
    subroutine nothing_after_a_failure()
       type(hdf5_type) :: file
       real(wp) :: list(1)
+      integer :: i
+      character(len=*), parameter :: attributes(*) = [character(len=4) :: 'flag', 'text'], &
+         & objects(*) = [character(len=5) :: 'group', 'real', 'count', 'list', 'table']
       call file%create(path)
+      call file%put_flag('before', 1)
       call file%put_real('before', 1.0_wp, 'm', 'a number')
       call expect_close(file%get_real('missing'), 0.0_wp, 0.0_wp, 'a failure')
-      call file%put_real('behind', 1.0_wp, 'm', 'a number')
-      call file%put_count('behind', 1_i8, 'a count')
-      call file%put_list('behind', [1.0_wp], 'm', 'a list', '')
-      call file%put_table('behind', reshape([1.0_wp], [1, 1]), 'm', 'a table', '')
+      call file%put_flag('flag', 1)
+      call file%put_text('text', 'behind')
+      call file%make_group('group')
+      call file%put_real('real', 1.0_wp, 'm', 'a number')
+      call file%put_count('count', 1_i8, 'a count')
+      call file%put_list('list', [1.0_wp], 'm', 'a list', '')
+      call file%put_table('table', reshape([1.0_wp], [1, 1]), 'm', 'a table', '')
+      call expect_flag(file, 'before', 0)
+      call expect(.not. file%has_attribute('before'), 'no attribute is found')
+      call expect(.not. file%has('before'), 'nor a dataset')
       call file%get_list('before', list)
       call expect_close(list(1), 0.0_wp, 0.0_wp, 'nothing is read')
+      call file%check(-1, 'do another thing')
       call expect_damaged(file, 'find missing')
       call file%open(path, writing=.false.)
-      call expect(file%has('before'), 'nothing is written')
-      call expect(.not. file%has('behind'), 'nothing is written')
+      call expect(file%has_attribute('before'), 'an attribute that was written before')
+      call expect(file%has('before'), 'and a dataset')
+      do i = 1, size(attributes)
+         call expect(.not. file%has_attribute(trim(attributes(i))), 'is all: no '//attributes(i))
+      end do
+      do i = 1, size(objects)
+         call expect(.not. file%has(trim(objects(i))), 'is all: no '//objects(i))
+      end do
       call file%close()
       call expect_well(file, 'the file is whole')
    end subroutine nothing_after_a_failure
+
+   type(run_statistics_type) function figures(steps, films, seconds) result(list)
+      integer(i8), intent(in) :: steps, films
+      real(wp), intent(in) :: seconds
+      call list%put('steps', steps, 'time steps')
+      call list%put('film_volumes', films, 'films on finite volumes')
+      call list%put('wall_seconds', seconds, 'wall time')
+   end function figures
+
+   subroutine adding_statistics()
+      type(run_statistics_type) :: total, other, empty
+      total = figures(10_i8, 2_i8, 1.5_wp)
+      call total%add(empty)
+      call total%add(figures(100_i8, 20_i8, 0.25_wp))
+      call other%put('steps', 1_i8, 'time steps')
+      call other%put('unknown', 7_i8, 'of nobody')
+      call total%add(other)
+      call expect(total%count('steps') == 111 .and. total%count('film_volumes') == 22, 'counts are added by name')
+      call expect_close(total%seconds('wall_seconds'), 1.75_wp, 0.0_wp, 'seconds are')
+      call expect(total%count('unknown') == 0 .and. empty%count('steps') == 0, 'what is not on the list counts 0')
+   end subroutine adding_statistics
+
+   subroutine statistics()
+      type(run_statistics_type) :: list
+      type(hdf5_type) :: file
+      call file%create(path)
+      list = figures(1_i8, 2_i8, 3.0_wp)
+      call list%write(file)
+      list = figures(2_i8**40, 0_i8, 0.1_wp)
+      call list%write(file)
+      call file%close()
+      call file%open(path, writing=.false.)
+      list = figures(0_i8, 5_i8, 0.0_wp)
+      call list%read(file)
+      call expect(list%count('steps') == 2_i8**40 .and. list%count('film_volumes') == 0, 'counts are those in the file')
+      call expect_close(list%seconds('wall_seconds'), 0.1_wp, 0.0_wp, 'seconds are')
+      call list%put('missing', 0_i8, 'not in the file')
+      call list%read(file)
+      call expect(file%damaged, 'a figure that the file lacks is a failure')
+      call file%close()
+      call expect(allocated(file%failure), 'which is kept')
+   end subroutine statistics
 end program test_hdf5_file

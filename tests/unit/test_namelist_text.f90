@@ -259,28 +259,28 @@ contains
       if (allocated(error)) call expect(index(error%message, 'case.nml') == 1, 'names the file: '//error%message)
    end subroutine expect_refused
 
+   subroutine refuse_each(texts, words)
+      character(len=*), intent(in) :: texts(:), words
+      integer :: i
+      do i = 1, size(texts)
+         call expect_refused(trim(texts(i)), words)
+      end do
+   end subroutine refuse_each
+
    subroutine refused()
-      call expect_refused('', 'no namelist group')
-      call expect_refused('! nothing'//newline, 'no namelist group')
+      call refuse_each([character(len=14) :: '', '! nothing'//newline, ' '//newline//tab], 'no namelist group')
       call expect_refused('x = 1', 'outside a group')
       call expect_refused('&a x = 1', 'not closed by /')
       call expect_refused('&a'//newline//'x = 1'//newline//'&b y = 2 /', 'line 1: group &a is not closed')
       call expect_refused('&a /'//newline//'&A /', 'line 2: group &a is given twice, first at case.nml line 1')
       call expect_refused('&a x=1'//newline//'X=2/', 'line 2: a%x is given twice, first at case.nml line 1')
       call expect_refused('&a x(1)=1 x(01)=2/', 'given twice')
-      call expect_refused('&a x=/', 'a value is missing')
-      call expect_refused('&a x= y=1/', 'a value is missing')
-      call expect_refused('&a x=,1/', 'a value is missing')
-      call expect_refused('&a x=1,,2/', 'a value is missing')
-      call expect_refused('&a x/', 'expected name = value')
-      call expect_refused('&a =1/', 'expected name = value')
-      call expect_refused('&a x()=1/', 'expected name = value')
-      call expect_refused('&a x(0)=1/', 'expected name = value')
-      call expect_refused('&a x(-1)=1/', 'expected name = value')
-      call expect_refused('&a x(1:2)=1/', 'expected name = value')
-      call expect_refused('&a x(1=1/', 'expected name = value')
-      call expect_refused('&a x(99999)=1/', 'expected name = value')
-      call expect_refused('&a b%c=1/', 'expected name = value')
+      call refuse_each([character(len=14) :: '&a x=/', '&a x= y=1/', '&a x=,1/', '&a x=1,,2/'], 'a value is missing')
+      call refuse_each([character(len=14) :: '&a x/', '&a =1/', '&a x: 1/', '&a x()=1/', '&a x(0)=1/', '&a x(-1)=1/', &
+         & '&a x(1:2)=1/', '&a x(a)=1/', '&a x(1=1/', '&a x(99999)=1/', '&a b%c=1/'], 'expected name = value')
+      call refuse_each([character(len=12) :: 'x=1 &a /', '&a / x=1', '{"a": {}}'], 'outside a group')
+      call expect_refused('& x=1 /', 'group')
+      call expect_refused('&a x == 1 /', 'a%x')
       call expect_refused('&a x=''open/', 'quote is not closed')
       call expect_refused('&a'//newline//'x=''open'//newline//'''/', 'line 2: a%x: the quote is not closed')
       call expect_refused('&a x=1'//achar(0)//'/', 'control character')
@@ -306,7 +306,7 @@ contains
 
    subroutine refused_overrides()
       character(len=*), parameter :: wrong(*) = [character(len=12) :: 'x=1', '%x=1', 'a%x', 'a%=1', 'a%x=', &
-         & 'a%x=1 y=2', 'a%x=1/ 2', '=a%x', 'a%x=''b']
+         & 'a%x=1 y=2', 'a%x=1, y=2', 'a%x=1/ 2', 'a%x=1/ y=2', 'a%x=1/', '=a%x', 'a=b%c=3', 'a%x=''b']
       type(namelist_type) :: found
       type(error_type), allocatable :: error
       integer :: i
