@@ -336,10 +336,10 @@ contains
       call file%put_list('list', [1.0_wp, 2.0_wp, 3.0_wp], 'm', 'a list', '')
       call file%get_list('list', list)
       call expect_close(maxval(abs(list)), 0.0_wp, 0.0_wp, 'a list of another size')
-      call expect_damaged(file, 'read list')
+      call expect_damaged(file, 'find the right size of list')
       call file%open(path, writing=.false.)
       call expect_close(file%get_real('list'), 0.0_wp, 0.0_wp, 'a list as a number')
-      call expect_damaged(file, 'read list')
+      call expect_damaged(file, 'find the right size of list')
    end subroutine wrong_size
 
    subroutine wrong_kind()
