@@ -15,7 +15,7 @@ contains
       character(len=200) :: folder
       call get_environment_variable('TMPDIR', folder)
       if (folder == '') folder = '/tmp'
-      path = trim(folder)//'/tiltpad_test_'//to_text(int(process_id()))//'_'//name
+      path = trim(folder)//'/tiltpad_test_'//to_text(process_id())//'_'//name
    end function scratch_path
 
    logical function file_there(path)

@@ -5,7 +5,7 @@ module progress
    use kinds, only: wp, i8
    use clock, only: wall_clock
    use text, only: to_text
-   use standard_output, only: is_terminal
+   use processes, only: is_terminal
    implicit none (type, external)
    private
    public :: progress_type, new_progress

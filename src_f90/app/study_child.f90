@@ -96,10 +96,8 @@ contains
       integer, intent(in) :: k, pipe
       procedure(study_runner) :: perform_run
       integer :: parent, process
-      logical :: ok
-      call open_pipe(child%orders, ok)
-      if (.not. ok) return
-      parent = int(process_id())
+      if (.not. open_pipe(child%orders)) return
+      parent = process_id()
       ! what is buffered here would else be written by both
       flush (output_unit)
       flush (error_unit)
@@ -140,7 +138,7 @@ contains
       integer, intent(in) :: orders
       integer, intent(out) :: k
       character(len=record_length) :: record
-      logical :: stop_now, ok
+      logical :: stop_now
       k = 0
       do
          ! what was ordered before a signal waits by the time that this is seen
@@ -148,8 +146,7 @@ contains
          if (wait_for_record(orders, merge(0, pause, stop_now))) exit
          if (stop_now) return
       end do
-      call receive_record(orders, record, ok)
-      if (ok) read (record, '(i12)') k
+      if (receive_record(orders, record)) read (record, '(i12)') k
    end subroutine receive_order
 
    !> Performs a run and sends its report, with whether the child stays for another.
@@ -179,7 +176,7 @@ contains
       type(report_type), intent(out) :: report
       logical, intent(out) :: ok
       character(len=record_length) :: record
-      call receive_record(pipe, record, ok)
+      ok = receive_record(pipe, record)
       if (.not. ok) return
       read (record(:head), head_format) report%run, report%error%status, report%stays
       report%error%message = trim(record(head + 1:))

@@ -4,8 +4,8 @@ module study_folder
    use errors, only: error_type, raise, system_error, stopped
    use case_inputs, only: case_type
    use parameter_study, only: study_type, run_tag
-   use files, only: is_regular
-   use processes, only: process_id, make_folder, remove_folder, other_number
+   use files, only: is_regular, make_folder, remove_folder, other_number
+   use processes, only: process_id
    use restart, only: restart_type, read_result, refuse_other_case
    use run_case, only: way_out
    use stop_signals, only: stop_requested, stop_reason
@@ -36,7 +36,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: refusal, trial
       logical :: made
-      trial = folder//'/.part'//to_text(int(process_id()))
+      trial = folder//'/.part'//to_text(process_id())
       call make_folder(folder, refusal)
       if (refusal == '') then
          call make_folder(trial, refusal, made)

@@ -54,11 +54,10 @@ contains
       type(progress_type) :: progress
       real(wp) :: started
       integer :: pipe(2), next, i
-      logical :: ok, stopping, children_know
+      logical :: stopping, children_know
 
       allocate (failures(0), tally%errors(study%runs))
-      call open_pipe(pipe, ok)
-      if (.not. ok) then
+      if (.not. open_pipe(pipe)) then
          call raise(error, system_error, 'the system has no pipe for the runs of the study')
          return
       end if

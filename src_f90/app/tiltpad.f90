@@ -10,8 +10,7 @@ program tiltpad
    use namelist_writer, only: namelist_of
    use input_reference, only: reference_text
    use files, only: real_path
-   use standard_output, only: write_output
-   use processes, only: processors
+   use processes, only: processors, write_output
    use build_info, only: program_version, program_commit
    use restart, only: restart_type, read_restart
    use stop_signals, only: catch_signals, ignore_file_limit

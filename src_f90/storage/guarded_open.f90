@@ -6,7 +6,7 @@ module guarded_open
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: hdf5_series_type
    use processes, only: new_process, end_child, limit_child, ended
-   use system_errors, only: system_reason
+   use system_texts, only: system_reason
    implicit none (type, external)
    private
    public :: try_reading

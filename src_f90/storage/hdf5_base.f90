@@ -8,9 +8,9 @@ module hdf5_base
       & h5tget_size_f, h5t_string, h5t_cset_utf8_f, h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, &
       & h5aget_type_f, h5adelete_f, h5aexists_f, h5aget_space_f, h5sget_simple_extent_npoints_f, h5lexists_f, &
       & h5ldelete_f, h5t_native_integer
-   use c_strings, only: fortran_text
+   use system_texts, only: fortran_text
    use processes, only: set_environment
-   use system_errors, only: write_refusal, forget_missing
+   use system_texts, only: write_refusal, forget_missing
    implicit none (type, external)
    private
    public :: hdf5_base_type, start_hdf5

@@ -13,7 +13,7 @@ module working_file
    use errors, only: error_type, raise, system_error
    use files, only: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync, &
       & real_path, is_regular, file_identity
-   use system_errors, only: system_reason
+   use system_texts, only: system_reason
    use file_lock, only: file_lock_type
    implicit none (type, external)
    private

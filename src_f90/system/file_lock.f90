@@ -8,13 +8,13 @@
 !> Only a lock file is opened for writing or deleted: an ordinary file with one name that says the above, or nothing,
 !> as the fall of a machine can leave it.
 module file_lock
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
+   use, intrinsic :: iso_c_binding, only: c_bool, c_char, c_int
    use text, only: to_text
    use errors, only: error_type, raise, system_error, stopped
    use stop_signals, only: stop_requested, stop_reason
    use files, only: delete_file
    use processes, only: host_name, pause_seconds, process_alive, process_id
-   use system_errors, only: system_reason
+   use system_texts, only: system_reason
    implicit none (type, external)
    private
    public :: file_lock_type
@@ -55,34 +55,37 @@ module file_lock
    end type file_lock_type
 
    interface
-      integer(c_int) function c_open_lock(path) bind(c, name='tiltpad_open_lock')
+      !> -1 where it cannot be opened or made, -2 where the name is another thing's.
+      integer(c_int) function open_lock(path) bind(c, name='tiltpad_open_lock')
          import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-      end function c_open_lock
+         character(kind=c_char, len=*), intent(in) :: path
+      end function open_lock
 
       !> One of `free`, `held`, `unknown`.
-      integer(c_int) function c_try_lock(descriptor) bind(c, name='tiltpad_try_lock')
+      integer(c_int) function try_lock(descriptor) bind(c, name='tiltpad_try_lock')
          import :: c_int
          integer(c_int), value :: descriptor
-      end function c_try_lock
+      end function try_lock
 
-      integer(c_int) function c_has_name(descriptor, path) bind(c, name='tiltpad_has_name')
+      logical(c_bool) function has_name(descriptor, path) bind(c, name='tiltpad_has_name')
+         import :: c_bool, c_char, c_int
+         integer(c_int), value :: descriptor
+         character(kind=c_char, len=*), intent(in) :: path
+      end function has_name
+
+      !> Characters read of a text as long as there is room; negative after a failure.
+      integer(c_int) function read_start(descriptor, text) bind(c, name='tiltpad_read_start')
          import :: c_char, c_int
          integer(c_int), value :: descriptor
-         character(kind=c_char), intent(in) :: path(*)
-      end function c_has_name
+         ! allow(C072)
+         character(kind=c_char, len=*), intent(inout) :: text
+      end function read_start
 
-      integer(c_int) function c_read_start(descriptor, buffer, length) bind(c, name='tiltpad_read_start')
-         import :: c_char, c_int
-         integer(c_int), value :: descriptor, length
-         character(kind=c_char), intent(inout) :: buffer(length)
-      end function c_read_start
-
-      integer(c_int) function c_write_start(descriptor, bytes, length) bind(c, name='tiltpad_write_start')
-         import :: c_char, c_int
-         integer(c_int), value :: descriptor, length
-         character(kind=c_char), intent(in) :: bytes(*)
-      end function c_write_start
+      logical(c_bool) function write_start(descriptor, text) bind(c, name='tiltpad_write_start')
+         import :: c_bool, c_char, c_int
+         integer(c_int), value :: descriptor
+         character(kind=c_char, len=*), intent(in) :: text
+      end function write_start
 
       integer(c_int) function c_close(descriptor) bind(c, name='close')
          import :: c_int
@@ -180,10 +183,10 @@ contains
       logical :: is_lock
       holder = ''
       do
-         self%descriptor = c_open_lock(self%path//c_null_char)
+         self%descriptor = open_lock(self%path)
          found = merge(failed, foreign, self%descriptor == -1)
          if (self%descriptor < 0) return
-         found = int(c_try_lock(self%descriptor))
+         found = try_lock(self%descriptor)
          ! its holder may have deleted it after we opened it
          if (is_there(self)) exit
          call close_lock(self)
@@ -197,7 +200,7 @@ contains
    !> False where the open lock file has been deleted, renamed or replaced.
    logical function is_there(self)
       class(file_lock_type), intent(in) :: self
-      is_there = c_has_name(self%descriptor, self%path//c_null_char) == 1
+      is_there = has_name(self%descriptor, self%path)
    end function is_there
 
    !> The line in the open lock file, and whether it is what a lock file says: one line or nothing.
@@ -205,11 +208,10 @@ contains
       class(file_lock_type), intent(in) :: self
       character(len=:), allocatable, intent(out) :: line
       logical, intent(out) :: is_lock
-      character(kind=c_char) :: buffer(longest + 1)
       character(len=longest + 1) :: content
       integer :: length
-      length = max(0, int(c_read_start(self%descriptor, buffer, size(buffer, kind=c_int))))
-      content = transfer(buffer, content)
+      content = ''
+      length = max(0, read_start(self%descriptor, content))
       line = ''
       ! nothing, or zeros in its place
       is_lock = length <= longest .and. verify(content(:length), achar(0)//achar(10)) == 0
@@ -256,7 +258,7 @@ contains
    !> "host process ".
    function identity()
       character(len=:), allocatable :: identity
-      identity = host_name()//' '//to_text(int(process_id()))//' '
+      identity = host_name()//' '//to_text(process_id())//' '
    end function identity
 
    !> Cheap: writes only every ten seconds. `now` is a clock, s.
@@ -283,11 +285,11 @@ contains
    !> True if it could be written.
    logical function write_beat(self) result(ok)
       class(file_lock_type), intent(in) :: self
-      character(kind=c_char, len=longest) :: line
+      character(len=longest) :: line
       ! of one length, so that it replaces what is there and needs no room on the disk
       line = trim(self%identity()//to_text(self%beats)//' '//self%files)
       line(longest:) = achar(10)
-      ok = c_write_start(self%descriptor, line, len(line, c_int)) == 1
+      ok = write_start(self%descriptor, line)
    end function write_beat
 
    !> Deletes the lock file, if it is ours, and frees the lock.

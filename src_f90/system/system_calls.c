@@ -1,14 +1,16 @@
 /* System calls that need the system's headers: numbers of errors, signals and options, layouts of structures. The
-   modules of this folder bind them. Functions that answer a question return 1 for yes, others 1 where they succeeded;
-   errno says why not. */
+   modules of this folder bind them and say what they do. Logical functions are true for yes, or where they succeeded;
+   errno says why not. Texts that they return last until the next call. */
 #define _GNU_SOURCE
 #define _FILE_OFFSET_BITS 64
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <poll.h>
 #include <sched.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,6 +21,18 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+/* A text as Fortran gives it: CFI_cdesc_t, of which Fortran 2018 prescribes these members, the first two. */
+typedef struct {
+   char *start;
+   size_t length;
+} text_t;
+
+/* Declares `name`, the text that ends with C's null character. */
+#define C_STRING(name, text)                   \
+   char name[(text)->length + 1];              \
+   memcpy(name, (text)->start, (text)->length); \
+   name[(text)->length] = 0
+
 /* ---- errors ------------------------------------------------------------------------------------ */
 
 /* The system's words for what went wrong last. */
@@ -28,13 +42,13 @@ const char *tiltpad_reason(void)
 }
 
 /* Whether that is a reason for which files cannot be written. */
-int tiltpad_writing_refused(void)
+bool tiltpad_writing_refused(void)
 {
    switch (errno) {
    case ENOENT: case EIO: case EACCES: case EFBIG: case ENOSPC: case EROFS: case EDQUOT:
-      return 1;
+      return true;
    default:
-      return 0;
+      return false;
    }
 }
 
@@ -46,60 +60,86 @@ void tiltpad_forget_missing(void)
 
 /* ---- files ------------------------------------------------------------------------------------- */
 
-int tiltpad_is_regular(const char *path)
+bool tiltpad_rename(const text_t *old_path, const text_t *new_path)
 {
-   struct stat status;
-   return stat(path, &status) == 0 && S_ISREG(status.st_mode);
+   C_STRING(from, old_path);
+   C_STRING(to, new_path);
+   return rename(from, to) == 0;
 }
 
-/* Writes the path without links, at most `size` characters with the last null character; 0 where nothing is there. */
-int tiltpad_real_path(const char *path, char *resolved, size_t size)
+void tiltpad_delete(const text_t *path)
 {
-   char *found = realpath(path, NULL);
-   int fits = found && strlen(found) < size;
-   if (fits) strcpy(resolved, found);
-   free(found);
-   return fits;
+   C_STRING(name, path);
+   unlink(name);
+}
+
+bool tiltpad_is_regular(const text_t *path)
+{
+   struct stat status;
+   C_STRING(name, path);
+   return stat(name, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+/* The path without links; where nothing is there, that at which the links end, at most 40 of them. */
+const char *tiltpad_real_path(const text_t *path)
+{
+   static char found[2 * PATH_MAX];
+   char next[PATH_MAX], resolved[PATH_MAX];
+   snprintf(found, sizeof found, "%.*s", (int)path->length, path->start);
+   for (int links = 0; links < 40; links++) {
+      ssize_t length;
+      char *name = strrchr(found, '/');
+      if (realpath(found, resolved)) return strcpy(found, resolved);
+      if ((length = readlink(found, next, sizeof next - 1)) < 1) break;
+      next[length] = 0;
+      /* a relative link begins in the folder that it is in */
+      strcpy(*next == '/' || !name ? found : name + 1, next);
+      if (strlen(found) >= PATH_MAX) break;
+   }
+   return found;
 }
 
 /* Tells one file from every other of its folder, also from one that gets its inode later: "inode:birth". Empty where
    nothing has the name, "-" for what is no ordinary file; a link is not followed. */
-void tiltpad_identity(const char *path, char *identity, size_t size)
+const char *tiltpad_identity(const text_t *path)
 {
+   static char identity[60];
    struct statx found;
-   *identity = 0;
-   if (statx(AT_FDCWD, path, AT_SYMLINK_NOFOLLOW, STATX_TYPE | STATX_INO | STATX_BTIME, &found) != 0) {
-      if (errno != ENOENT && errno != ENOTDIR) snprintf(identity, size, "-");
-      return;
+   C_STRING(name, path);
+   strcpy(identity, "-");
+   if (statx(AT_FDCWD, name, AT_SYMLINK_NOFOLLOW, STATX_TYPE | STATX_INO | STATX_BTIME, &found) != 0) {
+      if (errno == ENOENT || errno == ENOTDIR) *identity = 0;
+   } else if (S_ISREG(found.stx_mode)) {
+      if (!(found.stx_mask & STATX_BTIME)) memset(&found.stx_btime, 0, sizeof found.stx_btime);
+      snprintf(identity, sizeof identity, "%llu:%lld.%u", (unsigned long long)found.stx_ino,
+               (long long)found.stx_btime.tv_sec, (unsigned)found.stx_btime.tv_nsec);
    }
-   if (!(found.stx_mask & STATX_BTIME)) memset(&found.stx_btime, 0, sizeof found.stx_btime);
-   if (S_ISREG(found.stx_mode))
-      snprintf(identity, size, "%llu:%lld.%u", (unsigned long long)found.stx_ino, (long long)found.stx_btime.tv_sec,
-               (unsigned)found.stx_btime.tv_nsec);
-   else
-      snprintf(identity, size, "-");
+   return identity;
 }
 
-/* Exchanges the names of two files at once, where the file system can. */
-int tiltpad_exchange(const char *one, const char *other)
+bool tiltpad_exchange(const text_t *one_path, const text_t *other_path)
 {
+   C_STRING(one, one_path);
+   C_STRING(other, other_path);
    return renameat2(AT_FDCWD, one, AT_FDCWD, other, RENAME_EXCHANGE) == 0;
 }
 
-/* Makes an empty file; nothing may have its name. */
-int tiltpad_create(const char *path)
+bool tiltpad_create(const text_t *path)
 {
-   int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+   C_STRING(name, path);
+   int file = open(name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
    return file >= 0 && close(file) == 0;
 }
 
 /* Copies within the kernel into a file that is there, in place of what it contains. */
-int tiltpad_copy(const char *old_path, const char *new_path)
+bool tiltpad_copy(const text_t *old_path, const text_t *new_path)
 {
    ssize_t copied = -1;
-   int from = open(old_path, O_RDONLY | O_CLOEXEC), to;
-   if (from < 0) return 0;
-   to = open(new_path, O_WRONLY | O_TRUNC | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+   C_STRING(old_name, old_path);
+   C_STRING(new_name, new_path);
+   int from = open(old_name, O_RDONLY | O_CLOEXEC), to;
+   if (from < 0) return false;
+   to = open(new_name, O_WRONLY | O_TRUNC | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
    if (to >= 0) {
       do copied = sendfile(to, from, NULL, 1 << 30);
       while (copied > 0);
@@ -109,23 +149,58 @@ int tiltpad_copy(const char *old_path, const char *new_path)
    return copied == 0;
 }
 
-/* Writes a file (or folder: the names in it) to the disk itself. */
-int tiltpad_sync(const char *path)
+static int open_to_sync(const text_t *path)
 {
-   int file = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC), result;
-   if (file < 0) return 0;
+   C_STRING(name, path);
+   return open(name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+}
+
+bool tiltpad_sync(const text_t *path)
+{
+   int file = open_to_sync(path), result;
+   if (file < 0) return false;
    result = fsync(file);
    close(file);
    return result == 0;
 }
 
-/* Has the system begin to do so, without waiting for the end. */
-void tiltpad_begin_sync(const char *path)
+void tiltpad_begin_sync(const text_t *path)
 {
-   int file = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+   int file = open_to_sync(path);
    if (file < 0) return;
    sync_file_range(file, 0, 0, SYNC_FILE_RANGE_WRITE);
    close(file);
+}
+
+/* Makes a folder; 2 where something of its name is there, 0 where it cannot be made. */
+int tiltpad_make_folder(const text_t *path)
+{
+   C_STRING(name, path);
+   if (mkdir(name, 0777) == 0) return 1;
+   return errno == EEXIST ? 2 : 0;
+}
+
+void tiltpad_remove_folder(const text_t *path)
+{
+   C_STRING(name, path);
+   rmdir(name);
+}
+
+const char *tiltpad_other_number(const text_t *folder, int digits, long last)
+{
+   static char found[NAME_MAX + 1];
+   C_STRING(folder_name, folder);
+   DIR *names = opendir(folder_name);
+   struct dirent *entry;
+   *found = 0;
+   while (names && (entry = readdir(names)) && !*found) {
+      size_t length = strspn(entry->d_name, "0123456789");
+      long number = strtol(entry->d_name, NULL, 10);
+      if (length == 0 || strcmp(entry->d_name + length, ".h5") != 0) continue;
+      if (length != (size_t)digits || number < 1 || number > last) strcpy(found, entry->d_name);
+   }
+   if (names) closedir(names);
+   return found;
 }
 
 /* ---- locks ------------------------------------------------------------------------------------- */
@@ -137,13 +212,14 @@ static int can_be_lock(const struct stat *status)
 }
 
 /* Opens a lock file, or makes it; -1 where that is not possible, -2 where the name is another thing's. */
-int tiltpad_open_lock(const char *path)
+int tiltpad_open_lock(const text_t *path)
 {
    struct stat status;
    int file;
+   C_STRING(name, path);
    /* looked at first, as opening a device can do something */
-   if (lstat(path, &status) == 0 && !can_be_lock(&status)) return -2;
-   file = open(path, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+   if (lstat(name, &status) == 0 && !can_be_lock(&status)) return -2;
+   file = open(name, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
    if (file < 0) return errno == ELOOP ? -2 : -1;
    if (fstat(file, &status) == 0 && can_be_lock(&status)) return file;
    close(file);
@@ -158,28 +234,48 @@ int tiltpad_try_lock(int file)
 }
 
 /* Whether the open file is the one of this name. */
-int tiltpad_has_name(int file, const char *path)
+bool tiltpad_has_name(int file, const text_t *path)
 {
    struct stat open_one, named;
-   return fstat(file, &open_one) == 0 && lstat(path, &named) == 0 && open_one.st_ino == named.st_ino &&
+   C_STRING(name, path);
+   return fstat(file, &open_one) == 0 && lstat(name, &named) == 0 && open_one.st_ino == named.st_ino &&
           open_one.st_dev == named.st_dev;
 }
 
-/* Reads up to `size` bytes from the beginning of the file, and returns their number; negative after a failure. */
-int tiltpad_read_start(int file, char *bytes, int size)
+/* Reads the beginning of the file, at most as much as the text has room for, and returns how much; negative after a
+   failure. */
+int tiltpad_read_start(int file, text_t *text)
 {
-   return pread(file, bytes, size, 0);
+   return pread(file, text->start, text->length, 0);
 }
 
-/* Writes bytes over the beginning of the file. */
-int tiltpad_write_start(int file, const char *bytes, int size)
+/* Writes the text over the beginning of the file. */
+bool tiltpad_write_start(int file, const text_t *text)
 {
-   return pwrite(file, bytes, size, 0) == size;
+   return pwrite(file, text->start, text->length, 0) == (ssize_t)text->length;
 }
 
 /* ---- processes --------------------------------------------------------------------------------- */
 
-/* Processors that this process may use. */
+const char *tiltpad_host_name(void)
+{
+   static char name[HOST_NAME_MAX + 1];
+   if (gethostname(name, sizeof name) != 0) strcpy(name, "unknown");
+   return name;
+}
+
+void tiltpad_pause(int seconds)
+{
+   sleep(seconds);
+}
+
+void tiltpad_set_environment(const text_t *name, const text_t *value)
+{
+   C_STRING(variable, name);
+   C_STRING(its_value, value);
+   setenv(variable, its_value, 0);
+}
+
 int tiltpad_processors(void)
 {
    cpu_set_t set[64];
@@ -188,44 +284,55 @@ int tiltpad_processors(void)
    return CPU_COUNT_S(sizeof set, set);
 }
 
-/* Whether a process of this number runs on this machine. */
-int tiltpad_is_alive(int process)
+bool tiltpad_is_alive(int process)
 {
    return kill(process, 0) == 0 || errno != ESRCH;
 }
 
-/* Makes a folder; 2 where something of its name is there. */
-int tiltpad_make_folder(const char *path)
+bool tiltpad_is_terminal(void)
 {
-   if (mkdir(path, 0777) == 0) return 1;
-   return errno == EEXIST ? 2 : 0;
+   return isatty(STDOUT_FILENO);
 }
 
-/* A name in a folder that is a number with .h5, but not one from 1 to `last` with this number of digits; empty where there is
-   none. */
-void tiltpad_other_number(const char *folder, int digits, long last, char *name, size_t size)
+bool tiltpad_write_output(const text_t *text)
 {
-   DIR *names = opendir(folder);
-   struct dirent *entry;
-   *name = 0;
-   while (names && (entry = readdir(names)) && !*name) {
-      size_t length = strspn(entry->d_name, "0123456789");
-      long number = strtol(entry->d_name, NULL, 10);
-      if (length == 0 || strcmp(entry->d_name + length, ".h5") != 0) continue;
-      if (length != (size_t)digits || number < 1 || number > last) snprintf(name, size, "%s", entry->d_name);
+   size_t done = 0;
+   while (done < text->length) {
+      ssize_t now = write(STDOUT_FILENO, text->start + done, text->length - done);
+      if (now <= 0) return false;
+      done += now;
    }
-   if (names) closedir(names);
+   return true;
 }
 
-/* SIGTERM will come to this process when its parent ends; 0 where it is an orphan already. */
-int tiltpad_end_with_parent(int parent)
+void tiltpad_end_with_parent(int parent)
 {
    prctl(PR_SET_PDEATHSIG, SIGTERM);
-   return getppid() == parent;
+   if (getppid() != parent) _exit(1);
 }
 
-/* Whether there is something to read from a pipe, after at most this number of milliseconds. */
-int tiltpad_can_read(int pipe, int milliseconds)
+bool tiltpad_open_pipe(int *ends)
+{
+   return pipe(ends) == 0;
+}
+
+void tiltpad_close_pipe(const int *ends)
+{
+   close(ends[0]);
+   close(ends[1]);
+}
+
+void tiltpad_send(int pipe, const text_t *record)
+{
+   if (write(pipe, record->start, record->length) < 0) return;
+}
+
+bool tiltpad_receive(int pipe, text_t *record)
+{
+   return read(pipe, record->start, record->length) == (ssize_t)record->length;
+}
+
+bool tiltpad_can_read(int pipe, int milliseconds)
 {
    struct pollfd list = {pipe, POLLIN, 0};
    return poll(&list, 1, milliseconds) == 1;
@@ -247,8 +354,6 @@ void tiltpad_stop(int process)
    kill(process, SIGTERM);
 }
 
-/* From now on this process prints nothing, and ends after this number of seconds of time, or of the processor's; it gets this
-   number of megabytes of memory more than it has. */
 void tiltpad_limit_child(int seconds, int work, int room)
 {
    struct rlimit time = {work, work}, memory, core = {0, 0};
@@ -279,8 +384,6 @@ static void note(int number)
    received = number;
 }
 
-/* Signals that ask the program to stop are noted from now on and end nothing by themselves; nor does a reader of what
-   is printed end it by going away. */
 void tiltpad_catch_signals(void)
 {
    signal(SIGINT, note);
@@ -292,13 +395,11 @@ void tiltpad_catch_signals(void)
    signal(SIGCHLD, SIG_DFL);
 }
 
-/* A file that grows past the limit of the shell then fails in writing, instead of ending the program. */
 void tiltpad_ignore_file_limit(void)
 {
    signal(SIGXFSZ, SIG_IGN);
 }
 
-/* The signal that came last; 0 for none. */
 int tiltpad_received_signal(void)
 {
    return received;

@@ -14,7 +14,7 @@ program fuzz_input
    use parameter_study, only: study_type, study_from_text
    use namelist_writer, only: namelist_of
    use input_reference, only: reference_text
-   use standard_output, only: write_output
+   use processes, only: write_output
    implicit none (type, external)
 
    interface

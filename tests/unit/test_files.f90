@@ -1,11 +1,11 @@
 !> What the system does with files and processes: names, copies, links, kinds; how children end, what they send.
 program test_files
    use files, only: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync, &
-      & real_path, is_regular, file_identity
-   use processes, only: make_folder, remove_folder, process_id, process_alive, host_name, processors, new_process, &
-      & end_child, limit_child, end_with_parent, ended, stop_process, record_length, open_pipe, close_pipe, &
-      & send_record, receive_record, wait_for_record, pause_seconds
-   use system_errors, only: system_reason
+      & real_path, is_regular, file_identity, make_folder, remove_folder
+   use processes, only: process_id, process_alive, host_name, processors, new_process, end_child, limit_child, &
+      & end_with_parent, ended, stop_process, record_length, open_pipe, close_pipe, send_record, receive_record, &
+      & wait_for_record, pause_seconds
+   use system_texts, only: system_reason
    use scratch, only: scratch_path, file_there, write_bytes, bytes_of
    use text, only: to_text
    use stop_signals, only: catch_signals, stop_requested, stop_reason
@@ -36,18 +36,18 @@ contains
    subroutine names()
       call write_bytes(path, 'first')
       call write_bytes(other, 'second')
-      call expect(rename_file(path, other), 'a name that another file has')
+      call expect(logical(rename_file(path, other)), 'a name that another file has')
       call expect(.not. file_there(path), 'the old name is gone')
       call expect(bytes_of(other) == 'first', 'the new one has the content')
-      call expect(.not. rename_file(path, other), 'what is not there cannot be renamed')
+      call expect(logical(.not. rename_file(path, other)), 'what is not there cannot be renamed')
       call expect(system_reason() == 'no such file or directory', 'and the system says why: '//system_reason())
       call write_bytes(path, 'second')
-      call expect(exchange_files(path, other), 'two names exchanged')
+      call expect(logical(exchange_files(path, other)), 'two names exchanged')
       call expect(bytes_of(path) == 'first', 'the first has the other''s content')
       call expect(bytes_of(other) == 'second', 'the other has the first''s')
       call delete_file(other)
       call delete_file(other)
-      call expect(.not. exchange_files(path, other), 'there is nothing to exchange with')
+      call expect(logical(.not. exchange_files(path, other)), 'there is nothing to exchange with')
       call expect(bytes_of(path) == 'first', 'and nothing changes')
    end subroutine names
 
@@ -63,7 +63,7 @@ contains
       call expect(file_identity(path(:index(path, '/', back=.true.))) == '-', 'nor of a folder')
       ok = rename_file(path, other)
       call expect(file_identity(other) == first, 'a new name')
-      call expect(create_file(path), 'another file')
+      call expect(logical(create_file(path)), 'another file')
       ok = copy_file(other, path)
       call expect(file_identity(path) /= first, 'a copy')
       call delete_file(other)
@@ -78,17 +78,17 @@ contains
    subroutine copies()
       call write_bytes(path, repeat('0123456789', 100000))
       call write_bytes(other, repeat('x', 2000000))
-      call expect(.not. create_file(other), 'what is there is not made')
-      call expect(copy_file(path, other), 'a copy over a longer file')
+      call expect(logical(.not. create_file(other)), 'what is there is not made')
+      call expect(logical(copy_file(path, other)), 'a copy over a longer file')
       call expect(bytes_of(other) == repeat('0123456789', 100000), 'has all bytes and no others')
       call write_bytes(path, '')
-      call expect(copy_file(path, other), 'of nothing')
+      call expect(logical(copy_file(path, other)), 'of nothing')
       call expect(bytes_of(other) == '', 'is nothing')
-      call expect(.not. copy_file(scratch_path('none'), other), 'what is not there cannot be copied')
+      call expect(logical(.not. copy_file(scratch_path('none'), other)), 'what is not there cannot be copied')
       call delete_file(other)
-      call expect(.not. copy_file(path, other), 'nor into one that is not there')
+      call expect(logical(.not. copy_file(path, other)), 'nor into one that is not there')
       call execute_command_line('ln -s '//scratch_path('none')//' '//other)
-      call expect(.not. create_file(other), 'a link to nothing is not followed')
+      call expect(logical(.not. create_file(other)), 'a link to nothing is not followed')
       call expect(.not. file_there(scratch_path('none')), 'and nothing is made')
    end subroutine copies
 
@@ -102,10 +102,10 @@ contains
       call expect(refusal == '', 'one that is there is none to be made')
       call make_folder(folder//'/none/deep', refusal)
       call expect(refusal == 'no such file or directory', 'why none can be made: '//refusal)
-      call expect(is_regular(path), 'a file')
-      call expect(.not. is_regular(folder), 'a folder')
-      call expect(.not. is_regular('/dev/null'), 'a device')
-      call expect(.not. is_regular(scratch_path('none')), 'nothing')
+      call expect(logical(is_regular(path)), 'a file')
+      call expect(logical(.not. is_regular(folder)), 'a folder')
+      call expect(logical(.not. is_regular('/dev/null')), 'a device')
+      call expect(logical(.not. is_regular(scratch_path('none'))), 'nothing')
       call remove_folder(folder)
       call make_folder(path//'/x', refusal)
       call expect(refusal == 'not a directory', 'a file holds no folder: '//refusal)
@@ -133,9 +133,9 @@ contains
       call write_bytes(path, 'x')
       call begin_sync(path)
       call begin_sync(scratch_path('none'))
-      call expect(sync_file(path), 'a file')
-      call expect(sync_file(path(:index(path, '/', back=.true.))//'.'), 'a folder')
-      call expect(.not. sync_file(scratch_path('none')), 'nothing')
+      call expect(logical(sync_file(path)), 'a file')
+      call expect(logical(sync_file(path(:index(path, '/', back=.true.))//'.')), 'a folder')
+      call expect(logical(.not. sync_file(scratch_path('none'))), 'nothing')
       call expect(bytes_of(path) == 'x', 'and leaves it as it is')
    end subroutine to_disk
 
@@ -156,7 +156,7 @@ contains
          if (child == 0) call end_child(status)
          call expect_end(child, 'ended with status '//to_text(status)//' ')
       end do
-      call expect(.not. process_alive(child), 'it is no more')
+      call expect(logical(.not. process_alive(child)), 'it is no more')
       child = process_id()
       call expect(.not. was_mine(child), 'who is no child has not ended')
    end subroutine statuses
@@ -175,12 +175,12 @@ contains
       logical :: ok
       child = new_process()
       if (child == 0) call wait_for_ever()
-      call expect(process_alive(child), 'a child that waits')
+      call expect(logical(process_alive(child)), 'a child that waits')
       ok = ended(child, .false., how)
       call expect(.not. ok, 'has not ended')
       call stop_process(child)
       call expect_end(child, 'ended by signal 15')
-      call open_pipe(ends, ok)
+      ok = open_pipe(ends)
       child = new_process()
       if (child == 0) then
          call catch_signals()
@@ -193,10 +193,10 @@ contains
          call send_record(ends(2), record)
          call end_child(7)
       end if
-      call receive_record(ends(1), record, ok)
+      ok = receive_record(ends(1), record)
       call expect(record == 'ready', 'no signal yet')
       call stop_process(child)
-      call receive_record(ends(1), record, ok)
+      ok = receive_record(ends(1), record)
       call expect(record == 'stopped by signal 15', 'noted: '//trim(record))
       call expect_end(child, 'ended with status 7 ')
       call close_pipe(ends)
@@ -225,8 +225,7 @@ contains
       integer :: ends(2), child, k
       character(len=record_length) :: record
       logical :: ok, waits
-      call open_pipe(ends, ok)
-      call expect(ok, 'a pipe')
+      call expect(logical(open_pipe(ends)), 'a pipe')
       waits = wait_for_record(ends(1), 10)
       call expect(.not. waits, 'an empty one')
       child = new_process()
@@ -240,7 +239,7 @@ contains
       end if
       do k = 1, 100
          waits = wait_for_record(ends(1), 60000)
-         call receive_record(ends(1), record, ok)
+         ok = receive_record(ends(1), record)
          call expect(waits .and. ok .and. record(:len(to_text(k)) + 1) == to_text(k) .and. &
             & record(record_length:) == 'x', 'record '//to_text(k))
       end do
@@ -248,7 +247,7 @@ contains
       call expect(.not. waits, 'and no more')
       call expect_end(child, 'ended with status 0 ')
       call close_pipe(ends)
-      call receive_record(ends(1), record, ok)
+      ok = receive_record(ends(1), record)
       call expect(.not. ok, 'none from a closed pipe')
    end subroutine records
 
@@ -263,7 +262,7 @@ contains
       call expect_end(child, 'ended with status 1 ')
       child = new_process()
       if (child == 0) then
-         call end_with_parent(int(process_id()))
+         call end_with_parent(process_id())
          call end_child(0)
       end if
       call expect_end(child, 'ended with status 1 ')
@@ -271,7 +270,7 @@ contains
 
    subroutine this_process()
       character(len=:), allocatable :: name
-      call expect(process_alive(int(process_id())), 'it runs')
+      call expect(logical(process_alive(process_id())), 'it runs')
       call expect(processors() >= 1, 'on a processor')
       name = host_name()
       call expect(len(name) > 0 .and. index(name, ' ') == 0, 'of a machine with a name: '//name)

@@ -26,7 +26,7 @@ program test_working_file
    if (runs('behind_a_link')) call behind_a_link()
    if (runs('no_place')) call no_place()
    call clear()
-   place = 'test_file_lock_'//to_text(int(process_id()))//'.h5'
+   place = 'test_file_lock_'//to_text(process_id())//'.h5'
    lock_file = place//'.lock'
    if (runs('free_place')) call free_place()
    if (runs('dead_holder')) call dead_holder()
@@ -297,7 +297,7 @@ contains
       character(len=*), intent(in) :: beats, what
       character(len=:), allocatable :: found
       found = bytes_of(lock_file)
-      call expect(trim(found(:len(found) - 1)) == host_name()//' '//to_text(int(process_id()))//' '//beats, what)
+      call expect(trim(found(:len(found) - 1)) == host_name()//' '//to_text(process_id())//' '//beats, what)
    end subroutine expect_ours
 
    subroutine free_place()
