@@ -58,6 +58,7 @@ contains
          end if
       end if
       if (allocated(error)) return
+      b%options%give_up => stop_requested
       more = .true.
       do while (more)
          call follow(run, b, notes, error)
@@ -211,7 +212,7 @@ contains
       character(len=:), allocatable :: at_end
       logical :: found
       do
-         call b%take_step(special, found, at_end, error, stop_requested)
+         call b%take_step(special, found, at_end, error)
          if (.not. allocated(error) .and. found) call record_step(run, b, special, notes, error)
          if (.not. allocated(error) .and. at_end == '') call mind_checkpoint(run, b, notes, error)
          if (allocated(error)) return

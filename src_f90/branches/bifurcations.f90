@@ -2,7 +2,7 @@
 !> parameter is known closely.
 module bifurcations
    use kinds, only: wp
-   use errors, only: error_type, stopped, asked_to_stop
+   use errors, only: error_type, stopped
    use roots, only: root_bracket
    use newton_method, only: branch_problem_type, branch_point_type, correct
    use continuation, only: branch_options, return_to
@@ -33,14 +33,13 @@ module bifurcations
 contains
 
    !> The bifurcation points between a point and the next, at which the problem stands before and after, in their order.
-   !> What cannot be located is left out; an error only of status `stopped`, where `give_up` says so.
-   subroutine find_bifurcations(problem, options, here, next, found, error, give_up)
+   !> What cannot be located is left out; an error only of status `stopped`.
+   subroutine find_bifurcations(problem, options, here, next, found, error)
       class(branch_problem_type), intent(inout) :: problem
       type(branch_options), intent(in) :: options
       type(branch_point_type), intent(in) :: here, next
       type(bifurcation_type), allocatable, intent(out) :: found(:)
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       type(bifurcation_type) :: one
       integer :: first, last, k
       logical :: ok, turns_back
@@ -51,7 +50,7 @@ contains
       ! each value that crosses is one of the order of growths
       k = first
       do while (k /= last .and. size(found) < most_points)
-         call locate(problem, options, here, next, max(k, k + sign(1, last - first)), one, ok, error, give_up)
+         call locate(problem, options, here, next, max(k, k + sign(1, last - first)), one, ok, error)
          if (allocated(error)) return
          if (ok) then
             one%destabilises = last > first
@@ -63,7 +62,7 @@ contains
          if ((last - first)*(last - k) < 0) exit
       end do
       if (turns_back .and. .not. any(found%kind == 'fold')) then
-         call locate(problem, options, here, next, 0, one, ok, error, give_up)
+         call locate(problem, options, here, next, 0, one, ok, error)
          if (allocated(error)) return
          one%kind = 'fold'
          if (ok) call put(one, found)
@@ -92,7 +91,7 @@ contains
 
    !> Where, along the tangent of the first of two points, the k-th growth (0: the tangent's component along the
    !> parameter) is zero. `ok` is false where Newton's method fails on the way.
-   subroutine locate(problem, options, here, next, k, found, ok, error, give_up)
+   subroutine locate(problem, options, here, next, k, found, ok, error)
       class(branch_problem_type), intent(inout) :: problem
       type(branch_options), intent(in) :: options
       type(branch_point_type), intent(in) :: here, next
@@ -100,7 +99,6 @@ contains
       type(bifurcation_type), intent(out) :: found
       logical, intent(out) :: ok
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       type(root_bracket) :: bracket
       type(branch_point_type) :: point
       real(wp) :: along, value
@@ -113,7 +111,7 @@ contains
          associate (tangent => point%tangent/problem%dot(here%tangent, point%tangent))
             call problem%move((along - point%along)*tangent, .false.)
          end associate
-         call correct(problem, options, point, error, give_up, here%tangent)
+         call correct(problem, options, point, error, here%tangent)
          ok = .not. allocated(error)
          if (.not. ok) then
             if (error%status /= stopped) deallocate (error)

@@ -2,7 +2,7 @@
 module branch_progress
    use kinds, only: wp, i8
    use text, only: to_text
-   use errors, only: error_type, asked_to_stop, add_context, numerics_error, stopped
+   use errors, only: error_type, add_context, numerics_error, stopped
    use case_inputs, only: branch_type
    use case_parameter, only: case_parameter_type, find_parameter
    use equations_of_motion, only: bearing_model
@@ -177,13 +177,12 @@ contains
    !> Goes from `here` to the next point, with the bifurcation points before it, at none of which the problem need stand
    !> then. Where the branch has ended `at_end` says why, else it is empty; `found` is false where it has ended without
    !> another point. An error of status `stopped` leaves all as it was.
-   subroutine take_step(self, special, found, at_end, error, give_up)
+   subroutine take_step(self, special, found, at_end, error)
       class(branch_progress_type), intent(inout) :: self
       type(bifurcation_type), allocatable, intent(out) :: special(:)
       logical, intent(out) :: found
       character(len=:), allocatable, intent(out) :: at_end
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       type(branch_point_type) :: next
       real(wp), allocatable :: split(:)
       real(wp) :: length
@@ -193,7 +192,7 @@ contains
       at_end = ''
       split = half_apart(self%orbits)
       length = self%length
-      call advance(self%problem, self%options, self%here, length, next, ends, error, give_up)
+      call advance(self%problem, self%options, self%here, length, next, ends, error)
       if (allocated(error)) then
          call blame_oil(self, error)
          if (error%status == numerics_error .and. .not. self%problem%refused) call add_context(error, 'branch ' &
@@ -213,7 +212,7 @@ contains
       end if
       ! where a branch of double period begins a multiplier is 1
       if (self%points > 0) call find_bifurcations(self%problem, self%options, self%here, next, special, &
-         & error, give_up)
+         & error)
       if (allocated(error)) return
       call note_doublings(self, special)
       found = .true.

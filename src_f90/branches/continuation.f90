@@ -2,7 +2,7 @@
 !> the branch in the plane across it by Newton's method, so that a branch is followed where it turns back (a fold).
 module continuation
    use kinds, only: wp
-   use errors, only: error_type, stopped, asked_to_stop
+   use errors, only: error_type, stopped
    use newton_method, only: branch_problem_type, branch_point_type, newton_options, correct
    implicit none (type, external)
    private
@@ -26,14 +26,13 @@ contains
 
    !> The first point of a branch, next to where a problem stands and at the same value of the parameter; its tangent
    !> leads to larger or smaller values.
-   subroutine start_branch(problem, options, upwards, point, error, give_up)
+   subroutine start_branch(problem, options, upwards, point, error)
       class(branch_problem_type), intent(inout) :: problem
       type(branch_options), intent(in) :: options
       logical, intent(in) :: upwards
       type(branch_point_type), intent(out) :: point
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
-      call correct(problem, options, point, error, give_up, across_parameter(problem, upwards))
+      call correct(problem, options, point, error, across_parameter(problem, upwards))
    end subroutine start_branch
 
    !> The direction of the parameter alone.
@@ -62,8 +61,8 @@ contains
 
    !> From a point, at which the problem stands, to the next, where it stands then; `length` is that of the step, and
    !> becomes that for the next one. `ends` where the parameter has come to one of its bounds. An error where no next
-   !> point was found: at the shortest step, or, of status `stopped`, because `give_up` said so.
-   subroutine advance(problem, options, here, length, next, ends, error, give_up)
+   !> point was found: at the shortest step, or, of status `stopped`, as the options say.
+   subroutine advance(problem, options, here, length, next, ends, error)
       class(branch_problem_type), intent(inout) :: problem
       type(branch_options), intent(in) :: options
       type(branch_point_type), intent(in) :: here
@@ -71,7 +70,6 @@ contains
       type(branch_point_type), intent(out) :: next
       logical, intent(out) :: ends
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       real(wp) :: predicted
       logical :: again
       do
@@ -79,15 +77,15 @@ contains
          predicted = here%parameter + problem%unit*length*here%tangent(problem%n + 1)
          ends = beyond(predicted)
          if (ends) then
-            call reach(problem, options, here, next, error, give_up)
+            call reach(problem, options, here, next, error)
          else
             call problem%predict(length*here%tangent)
-            call correct(problem, options, next, error, give_up, here%tangent)
+            call correct(problem, options, next, error, here%tangent)
             next%along = length
             if (.not. allocated(error)) ends = beyond(next%parameter)
             if (ends) then
                call return_to(problem, here)
-               call reach(problem, options, here, next, error, give_up)
+               call reach(problem, options, here, next, error)
             end if
          end if
          again = allocated(error)
@@ -124,20 +122,19 @@ contains
    end function to_bound
 
    !> From a point to that of its branch at the bound of the parameter to which it leads.
-   subroutine reach(problem, options, here, next, error, give_up)
+   subroutine reach(problem, options, here, next, error)
       class(branch_problem_type), intent(inout) :: problem
       type(branch_options), intent(in) :: options
       type(branch_point_type), intent(in) :: here
       type(branch_point_type), intent(out) :: next
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       real(wp) :: length
       logical :: upwards
       upwards = here%tangent(problem%n + 1) > 0
       length = to_bound(problem, options, here)
       call problem%predict(length*here%tangent)
       problem%parameter = merge(options%high, options%low, upwards)
-      call correct(problem, options, next, error, give_up, across_parameter(problem, upwards))
+      call correct(problem, options, next, error, across_parameter(problem, upwards))
       next%along = length
    end subroutine reach
 end module continuation

@@ -37,6 +37,7 @@ contains
       type(bearing_model), target :: moving
       type(case_parameter_type) :: speed
       type(equilibrium_problem_type) :: problem
+      type(branch_options) :: options
       moving = model
       ! at other speeds this would not be allowed
       moving%inputs%coefficients%threshold_up_to_rpm = 0
@@ -45,41 +46,39 @@ contains
          call begin_equilibria(problem, varied_bearing_type(moving, speed), y, first, first)
          problem%cross_stiffness = given%cross_stiffness
          allocate (found%thresholds(size(found%bearings)), source=ieee_value(first, ieee_quiet_nan))
-         call follow(problem, found%bearings%pivot, given%threshold_up_to_rpm, found%thresholds, found%sought_up_to, &
-            & error, give_up)
+         options = branch_options(first_step=longest, max_step=longest, high=given%threshold_up_to_rpm)
+         if (present(give_up)) options%give_up => give_up
+         call follow(problem, options, found%bearings%pivot, found%thresholds, found%sought_up_to, error)
       end associate
       if (.not. allocated(error)) return
       if (error%status /= stopped) deallocate (error)
    end subroutine find_thresholds
 
-   !> Follows equilibria to the first crossing of each of these ways of the pivots, if it has one, up to a bound of the
-   !> speed, rpm, or to where they turn back or end, which may be an error. All ways have the same equilibria.
-   subroutine follow(problem, pivots, bound, thresholds, reached, error, give_up)
+   !> Follows equilibria to the first crossing of each of these ways of the pivots, if it has one, up to the bound
+   !> of the speed or to where they turn back or end, which may be an error. All ways have the same equilibria.
+   subroutine follow(problem, options, pivots, thresholds, reached, error)
       type(equilibrium_problem_type), intent(inout) :: problem
+      type(branch_options), intent(in) :: options
       character(len=pivot_name), intent(in) :: pivots(:)
-      real(wp), intent(in) :: bound
       !> Stay what they are where there are none.
       real(wp), intent(inout) :: thresholds(:)
       !> Speed up to which they were followed, rpm.
       real(wp), intent(out) :: reached
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
-      type(branch_options) :: options
       type(branch_point_type) :: here(size(pivots)), next(size(pivots))
       type(bifurcation_type), allocatable :: special(:)
       real(wp) :: length
       integer :: i
       logical :: ends, again, is_short
       reached = problem%parameter
-      options = branch_options(first_step=longest, max_step=longest, high=bound)
       problem%pivot = pivots(1)
-      call start_branch(problem, options, .true., here(1), error, give_up)
+      call start_branch(problem, options, .true., here(1), error)
       if (allocated(error)) return
       call take_spectra(problem, pivots, here)
       length = options%first_step
       ends = .false.
       do while (any(ieee_is_nan(thresholds)) .and. .not. ends)
-         call advance(problem, options, here(1), length, next(1), ends, error, give_up)
+         call advance(problem, options, here(1), length, next(1), ends, error)
          if (allocated(error)) return
          if (next(1)%parameter < here(1)%parameter) return
          call take_spectra(problem, pivots, next)
@@ -88,7 +87,7 @@ contains
          do i = size(pivots), 1, -1
             problem%pivot = pivots(i)
             if (.not. ieee_is_nan(thresholds(i))) cycle
-            call find_bifurcations(problem, options, here(i), next(i), special, error, give_up)
+            call find_bifurcations(problem, options, here(i), next(i), special, error)
             if (allocated(error)) return
             if (is_short .and. size(special) > 0 .or. is_smooth(special)) then
                thresholds(i) = special(1)%point%parameter

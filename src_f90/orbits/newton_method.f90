@@ -3,7 +3,7 @@
 module newton_method
    use kinds, only: wp
    use text, only: to_text
-   use errors, only: error_type, raise, add_context, numerics_error, stopped, asked_to_stop, asked
+   use errors, only: error_type, raise, add_context, numerics_error, stopped, asked_to_stop
    use lapack, only: dgesv
    implicit none (type, external)
    private
@@ -110,6 +110,8 @@ module newton_method
       !> What Newton's method may leave, over the characteristic scales; most rounds.
       real(wp) :: tolerance = 1e-8_wp
       integer :: max_iterations = 20
+      !> Asked before each round, where it is set.
+      procedure(asked_to_stop), pointer, nopass :: give_up => null()
    end type newton_options
 
    !> Longest correction that is made in a plane: what is further away is sought by a shorter step.
@@ -154,12 +156,11 @@ contains
    !> Newton's method at the value of the parameter where the problem stands, or in the plane through this place across
    !> `normal`. The plane belongs to a step along a branch: far corrections are refused, as a shorter step is better,
    !> and the last correction must be small itself, as the tangent is that of the place before it.
-   subroutine correct(problem, options, point, error, give_up, normal)
+   subroutine correct(problem, options, point, error, normal)
       class(branch_problem_type), intent(inout) :: problem
       class(newton_options), intent(in) :: options
       type(branch_point_type), intent(out) :: point
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       real(wp), intent(in), optional :: normal(:)
       real(wp), allocatable :: matrix(:, :), b(:, :)
       real(wp) :: before, left
@@ -170,7 +171,8 @@ contains
       allocate (matrix(unknowns, unknowns), b(unknowns, 1 + unknowns - n))
       before = 0
       do
-         stops = asked(give_up)
+         stops = associated(options%give_up)
+         if (stops) stops = options%give_up()
          if (stops) then
             call raise(error, stopped, 'asked to stop')
          else if (point%iterations == options%max_iterations) then

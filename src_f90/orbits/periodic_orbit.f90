@@ -161,13 +161,14 @@ contains
       type(branch_point_type) :: closed
       associate (given => model%inputs%periodic)
          newton = newton_options(given%tolerance, given%max_iterations)
+         if (present(give_up)) newton%give_up => give_up
          if (found%marched < first_try) newton%max_iterations = min(newton%max_iterations, early_rounds)
          ode%model => model
          ode%period = found%period/given%revolutions
          call begin_orbits(problem, ode, found%orbit, given%revolutions)
       end associate
       problem%longest = longest
-      call correct(problem, newton, closed, error, give_up)
+      call correct(problem, newton, closed, error)
       found%orbit = problem%orbit
       found%iterations = closed%iterations
       found%evaluations = found%evaluations + problem%tangents
