@@ -76,13 +76,13 @@ contains
                phi(:, i) = (along - 1 + inputs%pads%pivot_ratio(i))*arc(i)
             end do
          end associate
-         samples = model%sampled()
+         samples = model%bearing%sampled()
          force(1, :) = samples%film_force(1)
          force(2, :) = samples%film_force(2)
          max_pressure = samples%max_pressure
          min_film_thickness = samples%min_film_thickness
          z = 0.5_c_double*inputs%bearing%axial_length*across
-         call model%pressure_field(phi, z, pressure)
+         call model%bearing%pressure_field(phi, z, pressure)
       end if
       call tell(error, status, message)
    end subroutine film_pressure

@@ -75,7 +75,7 @@ contains
          call statistics%put('error_test_failures', counts%error_test_failures, 'steps refused by the error test')
          call statistics%put('convergence_failures', counts%convergence_failures, 'Newton iterations that failed')
       end associate
-      associate (films => self%model%film_counters())
+      associate (films => self%model%bearing%film%counters)
          call statistics%put('film_fourier', films%fourier, 'pads solved by axial modes in the march')
          call statistics%put('film_volumes', films%volumes, 'pads solved on finite volumes in the march')
          call statistics%put('film_passes', films%passes, &

@@ -7,7 +7,7 @@ module bearing_losses
    use film_losses, only: film_losses_type, film_loss
    use asperity_contact, only: asperity_load
    use rigid_journal, only: journal_motion
-   use kinematics, only: pad_state
+   use kinematics, only: pad_state, frame_of, motion_of
    use tilting_pad, only: tilting_pad_type
    use tilting_pad_bearing, only: tilting_pad_bearing_type
    use factories, only: new_losses
@@ -68,7 +68,7 @@ contains
       integer :: i
       do i = 1, size(pads)
          associate (pad => bearing%pads(i))
-            motion = pad%motion(pad%frame(journal, pads(i)), journal, pads(i))
+            motion = motion_of(pad%position, frame_of(pad%position, journal, pads(i)), journal, pads(i))
             call bearing%asperities%evaluate(pad%gap, pad%directions, motion, speed, asperity)
             if (asperity%touches) motion%position = asperity%film_position
             call self%films(i)%find(motion, oil(i), speed, film)

@@ -13,8 +13,8 @@ module factories
    use sor_film, only: new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
    use contact_law, only: contact_law_type, make_contact_law
    use contact_table, only: contact_table_type, new_contact_table, new_untabulated_contact
-   use friction, only: friction_law, no_friction, bengisu_akay_friction, lugre_friction, &
-      & default_bristle_damping
+   use friction, only: friction_law, bengisu_akay_friction, lugre_friction, default_bristle_damping, &
+      & never_sticks
    use asperity_contact, only: asperity_contact_type, new_asperity_contact, no_asperities
    use tilting_pad, only: tilting_pad_type
    implicit none (type, external)
@@ -215,10 +215,10 @@ contains
          case ('lugre')
             damping = f%bristle_damping
             if (damping < 0) damping = default_bristle_damping(f%bristle_stiffness, f%characteristic_load)
-            law = lugre_friction(.true., f%static_coefficient, f%dynamic_coefficient, &
+            law = lugre_friction(.true., f%static_coefficient, f%dynamic_coefficient, never_sticks, &
                & f%stribeck_velocity, f%stribeck_exponent, f%bristle_stiffness, damping, f%viscous_coefficient)
          case default
-            law = no_friction()
+            law = friction_law()
          end select
       end associate
    end subroutine make_friction

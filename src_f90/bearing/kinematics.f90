@@ -2,6 +2,7 @@
 module kinematics
    use kinds, only: wp
    use film_solver, only: film_motion
+   use rigid_journal, only: journal_motion
    implicit none (type, external)
    private
    public :: pad_state, pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global
@@ -42,30 +43,30 @@ module kinematics
 
 contains
 
-   !> The frame of a pad with tilt, rad, and pivot deflection, m; journal at (y, z), m.
-   pure function frame_of(position, journal, tilt, pivot_deflection) result(frame)
+   !> The frame of a pad in a state.
+   pure type(pad_frame) function frame_of(position, journal, pad) result(frame)
       type(pad_position), intent(in) :: position
-      real(wp), intent(in) :: journal(2), tilt, pivot_deflection
-      type(pad_frame) :: frame
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(in) :: pad
       real(wp) :: r(2)
-      r = journal - (position%pivot_radius + pivot_deflection)*[position%sin_angle, position%cos_angle]
-      frame%s = sin(position%angle - tilt)
-      frame%c = cos(position%angle - tilt)
+      r = journal%position - (position%pivot_radius + pad%pivot_deflection)*[position%sin_angle, position%cos_angle]
+      frame%s = sin(position%angle - pad%tilt)
+      frame%c = cos(position%angle - pad%tilt)
       frame%along = r(1)*frame%c - r(2)*frame%s
       frame%outward = r(1)*frame%s + r(2)*frame%c
    end function frame_of
 
-   !> Relative position and velocity, with journal velocity, m/s, tilt rate, rad/s, pivot deflection rate, m/s.
-   pure function motion_of(position, frame, velocity, tilt_rate, pivot_deflection_rate) result(motion)
+   !> The motion of the journal seen from the pad.
+   pure type(film_motion) function motion_of(position, frame, journal, pad) result(motion)
       type(pad_position), intent(in) :: position
       type(pad_frame), intent(in) :: frame
-      real(wp), intent(in) :: velocity(2), tilt_rate, pivot_deflection_rate
-      type(film_motion) :: motion
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(in) :: pad
       real(wp) :: w(2)
-      w = velocity - pivot_deflection_rate*[position%sin_angle, position%cos_angle]
+      w = journal%velocity - pad%pivot_deflection_rate*[position%sin_angle, position%cos_angle]
       motion%position = [frame%along, frame%outward + position%centre_distance]
-      motion%velocity = [w(1)*frame%c - w(2)*frame%s + tilt_rate*frame%outward, &
-         & w(1)*frame%s + w(2)*frame%c - tilt_rate*frame%along]
+      motion%velocity = [w(1)*frame%c - w(2)*frame%s + pad%tilt_rate*frame%outward, &
+         & w(1)*frame%s + w(2)*frame%c - pad%tilt_rate*frame%along]
    end function motion_of
 
    !> Derivatives of (e_y', e_z', their rates) over the columns.

@@ -1,15 +1,16 @@
 !> One pad: loads on it and on the journal in a state, and their derivatives, which are not divided by masses. A fixed
 !> pad stays without tilt; only its load on the journal counts.
 module tilting_pad
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use film_solver, only: film_motion, film_response
+   use text, only: to_text
+   use film_solver, only: film_motion, film_response, film_ok, film_closed, film_not_converged
    use pad_gap, only: pad_gap_type, pad_directions
    use asperity_contact, only: asperity_load
    use contact_table, only: contact_table_type
    use friction, only: friction_law, friction_response
-   use rigid_journal, only: journal_motion
-   use kinematics, only: pad_state, pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global, &
-      & columns, tilt_column, tilt_rate_column, deflection_column, position_columns, rate_columns
+   use kinematics, only: pad_state, pad_position, pad_frame, motion_derivatives, to_global, columns, &
+      & tilt_column, tilt_rate_column, deflection_column, position_columns, rate_columns
    implicit none (type, external)
    private
    public :: tilting_pad_type, pad_loads, pad_derivatives
@@ -29,8 +30,8 @@ module tilting_pad
       !> reaction.
       logical :: tilts, radial
    contains
-      procedure :: frame
-      procedure :: motion
+      procedure :: admitted
+      procedure :: why_not
       procedure :: loads
       procedure :: derivatives
       procedure :: add_friction
@@ -61,23 +62,36 @@ module tilting_pad
 
 contains
 
-   !> The pad's frame in a state.
-   pure type(pad_frame) function frame(self, journal, state)
+   !> True where a pad stands and its film has a force.
+   pure logical function admitted(self, state, film)
       class(tilting_pad_type), intent(in) :: self
-      type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: state
-      frame = frame_of(self%position, journal%position, state%tilt, state%pivot_deflection)
-   end function frame
+      type(film_response), intent(in) :: film
+      admitted = abs(state%tilt) < self%largest_tilt .and. film%status == film_ok .and. all(ieee_is_finite(film%force))
+   end function admitted
 
-   !> The motion of the journal seen from the pad.
-   pure type(film_motion) function motion(self, frame, journal, state)
+   !> Why a pad's state is not admitted.
+   function why_not(self, number, state, film) result(reason)
       class(tilting_pad_type), intent(in) :: self
-      type(pad_frame), intent(in) :: frame
-      type(journal_motion), intent(in) :: journal
+      integer, intent(in) :: number
       type(pad_state), intent(in) :: state
-      motion = motion_of(self%position, frame, journal%velocity, state%tilt_rate, state%pivot_deflection_rate)
-   end function motion
-
+      type(film_response), intent(in) :: film
+      character(len=:), allocatable :: reason, thickness
+      thickness = ': thickness '//to_text(film%min_film_thickness)//' m'
+      if (.not. abs(state%tilt) < self%largest_tilt) then
+         reason = 'pad '//to_text(number)//' turned over: tilt '//to_text(state%tilt)//' rad'
+      else if (film%status == film_closed) then
+         reason = 'the film of pad '//to_text(number)//' closed'//thickness
+      else if (film%status == film_not_converged .and. .not. film%residual > 0) then
+         reason = 'the film of pad '//to_text(number)//' did not converge: where it cavitates does not settle; try ' &
+            & //'other volumes (film%circumferential_cells, film%axial_cells)'
+      else if (film%status == film_not_converged) then
+         reason = 'the film of pad '//to_text(number)//' did not converge: residual '//to_text(film%residual) &
+            & //' after film%max_sweeps = '//to_text(film%max_sweeps)
+      else
+         reason = 'the film force of pad '//to_text(number)//' is not finite'//thickness
+      end if
+   end function why_not
    !> The loads in a state with a film force in the pad frame, N.
    pure subroutine loads(self, frame, state, film_force, asperities, contact, friction, answer)
       class(tilting_pad_type), intent(in) :: self

@@ -5,17 +5,14 @@ module tilting_pad_bearing
    use clock, only: wall_clock
    use text, only: to_text
    use case_inputs, only: case_type
-   use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_counters, &
-      & film_not_converged
-   use asperity_contact, only: asperity_load
+   use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_not_converged
+   use asperity_contact, only: asperity_contact_type, asperity_load
    use contact_table, only: contact_table_type
-   use friction, only: no_friction
+   use friction, only: friction_law
    use rigid_journal, only: journal_motion
-   use kinematics, only: pad_state, pad_frame, columns
+   use kinematics, only: pad_state, pad_frame, frame_of, motion_of, columns
    use tilting_pad, only: tilting_pad_type, pad_loads, pad_derivatives
-   use film_validity, only: admitted, why_not
-   use factories, only: make_film, make_contact, march_films, static_films
-   use bearing_construction, only: bearing_parts_type
+   use factories, only: make_film, make_contact, make_friction, new_asperities, new_pads, march_films, static_films
    implicit none (type, external)
    private
    public :: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
@@ -33,7 +30,14 @@ module tilting_pad_bearing
       real(wp) :: asperity_force = 0
    end type pad_sample
 
-   type, extends(bearing_parts_type) :: tilting_pad_bearing_type
+   type :: tilting_pad_bearing_type
+      type(tilting_pad_type), allocatable :: pads(:)
+      !> Of each pad rates of tilt rate and pivot deflection rate per moment and force, (2, 2, pad).
+      real(wp), allocatable :: per_mass(:, :, :)
+      class(friction_law), allocatable :: friction
+      type(asperity_contact_type) :: asperities
+      class(film_solver_type), allocatable :: film
+      type(contact_table_type) :: contact
       !> The loads of each pad in the state evaluated last; their derivatives where they were taken last.
       type(pad_loads), allocatable :: loads(:)
       type(pad_derivatives), allocatable :: derivatives(:)
@@ -41,10 +45,10 @@ module tilting_pad_bearing
       type(asperity_load), allocatable :: asperity(:)
       !> False: the pivots slide freely, whatever the law.
       logical :: rubs = .true.
-      class(film_solver_type), allocatable, private :: film
+      !> Bearing clearance, m.
+      real(wp), private :: clearance = 0
       !> What its films are for (factories).
       integer, private :: accuracy = march_films
-      type(contact_table_type), private :: contact
       !> Of the state evaluated last: speed, rad/s, and oil of the pads; frames and motions.
       real(wp), private :: speed = 0
       type(film_oil), allocatable, private :: oil(:)
@@ -63,13 +67,9 @@ module tilting_pad_bearing
       procedure :: pressure_field
       procedure :: warning
       procedure :: smooth
-      procedure :: pivot_deflection
-      procedure :: pivot_load
-      procedure :: counters
-      procedure :: films_cavitate
       procedure :: films_converge
-      procedure :: set_cavitation
       procedure :: use_in_statics
+      procedure, private :: set_parts
       procedure, private :: evaluate_films
       procedure, private :: set_loads
    end type tilting_pad_bearing_type
@@ -78,7 +78,7 @@ module tilting_pad_bearing
    integer(i8), parameter :: timing_stride = 16
    !> Film thickness over bearing clearance below which a failed march is put down to it.
    real(wp), parameter :: nearly_closed = 1e-2_wp
-   type(no_friction), parameter :: no_rubbing = no_friction()
+   type(friction_law), parameter :: no_friction = friction_law()
 
 contains
 
@@ -96,6 +96,18 @@ contains
             & bearing%asperity(n), bearing%film_motion(n), bearing%oil(n), bearing%response(n))
       end associate
    end function new_tilting_pad_bearing
+
+   !> Makes the parts that take no time to make those of a case.
+   subroutine set_parts(self, inputs)
+      class(tilting_pad_bearing_type), intent(inout) :: self
+      type(case_type), intent(in) :: inputs
+      integer :: i
+      self%pads = new_pads(inputs)
+      self%per_mass = reshape([(self%pads(i)%inverse_masses(), i=1, size(self%pads))], [2, 2, size(self%pads)])
+      self%clearance = inputs%bearing%assembled_clearance
+      call make_friction(inputs, self%friction)
+      self%asperities = new_asperities(inputs)
+   end subroutine set_parts
 
    !> Makes the bearing that of another case, with the same pads but for numbers. Films and contact, which take time to
    !> make, stay where they are the same; `anew`, what was solved last is forgotten.
@@ -151,8 +163,8 @@ contains
       if (present(chosen)) skipped = .not. chosen
       do i = 1, size(self%pads)
          if (skipped(i)) cycle
-         self%frame(i) = self%pads(i)%frame(journal, pads(i))
-         self%motion(i) = self%pads(i)%motion(self%frame(i), journal, pads(i))
+         self%frame(i) = frame_of(self%pads(i)%position, journal, pads(i))
+         self%motion(i) = motion_of(self%pads(i)%position, self%frame(i), journal, pads(i))
          call self%asperities%evaluate(self%pads(i)%gap, self%pads(i)%directions, self%motion(i), speed, &
             & self%asperity(i))
          self%film_motion(i) = self%motion(i)
@@ -161,9 +173,9 @@ contains
       call self%evaluate_films(oil, speed, want_derivatives, chosen)
       do i = 1, size(self%pads)
          if (skipped(i)) cycle
-         ok = admitted(self%pads(i), pads(i), self%response(i))
+         ok = self%pads(i)%admitted(pads(i), self%response(i))
          if (ok) cycle
-         refusal = why_not(self%pads(i), i, pads(i), self%response(i))
+         refusal = self%pads(i)%why_not(i, pads(i), self%response(i))
          return
       end do
       do i = 1, size(self%pads)
@@ -217,7 +229,7 @@ contains
       if (self%rubs) then
          call self%pads(pad)%loads(frame, state, film_force, asperity, self%contact, self%friction, loads)
       else
-         call self%pads(pad)%loads(frame, state, film_force, asperity, self%contact, no_rubbing, loads)
+         call self%pads(pad)%loads(frame, state, film_force, asperity, self%contact, no_friction, loads)
       end if
    end subroutine set_loads
 
@@ -255,9 +267,10 @@ contains
       type(pad_loads) :: loads
       integer :: i
       do i = 1, size(pads)
-         frame = self%pads(i)%frame(journal, pads(i))
+         frame = frame_of(self%pads(i)%position, journal, pads(i))
          associate (film => output(pad_outputs*(i - 1) + 1:pad_outputs*i), pad => self%pads(i), gap => self%pads(i)%gap)
-            call self%asperities%evaluate(gap, pad%directions, pad%motion(frame, journal, pads(i)), speed, asperity)
+            call self%asperities%evaluate(gap, pad%directions, motion_of(pad%position, frame, journal, pads(i)), &
+               & speed, asperity)
             call self%set_loads(i, frame, pads(i), film(1:2), asperity, loads)
             ! between steps at which it leaps a polynomial may undershoot
             samples(i) = pad_sample(loads%contact, pad%ball_radius*loads%friction%force, film(1:2), &
@@ -305,46 +318,12 @@ contains
    !> True where no friction puts switching points into the motion.
    pure logical function smooth(self)
       class(tilting_pad_bearing_type), intent(in) :: self
-      smooth = .not. self%rubs .or. same_type_as(self%friction, no_rubbing)
+      smooth = .not. self%rubs .or. same_type_as(self%friction, no_friction)
    end function smooth
-
-   !> Pivot deflection of a pivot, m, that carries a force > 0, N.
-   pure real(wp) function pivot_deflection(self, force)
-      class(tilting_pad_bearing_type), intent(in) :: self
-      real(wp), intent(in) :: force
-      pivot_deflection = self%contact%pivot_deflection(force)
-   end function pivot_deflection
-
-   !> Pivot load of a pivot, N, at a pivot deflection, m.
-   pure real(wp) function pivot_load(self, pivot_deflection)
-      class(tilting_pad_bearing_type), intent(in) :: self
-      real(wp), intent(in) :: pivot_deflection
-      real(wp) :: stiffness
-      call self%contact%lookup(pivot_deflection, pivot_load, stiffness)
-   end function pivot_load
-
-   !> What the films have cost so far.
-   pure type(film_counters) function counters(self)
-      class(tilting_pad_bearing_type), intent(in) :: self
-      counters = self%film%counters
-   end function counters
-
-   !> True where the films cavitate.
-   pure logical function films_cavitate(self)
-      class(tilting_pad_bearing_type), intent(in) :: self
-      films_cavitate = self%film%cavitates()
-   end function films_cavitate
 
    !> False where a film of the state evaluated last, solved by iteration, did not converge.
    pure logical function films_converge(self)
       class(tilting_pad_bearing_type), intent(in) :: self
       films_converge = all(self%response%status /= film_not_converged)
    end function films_converge
-
-   !> Lets the films cavitate by their condition, or keeps them whole.
-   subroutine set_cavitation(self, allowed)
-      class(tilting_pad_bearing_type), intent(inout) :: self
-      logical, intent(in) :: allowed
-      call self%film%set_cavitation(allowed)
-   end subroutine set_cavitation
 end module tilting_pad_bearing

@@ -2,9 +2,8 @@
 !>
 !> The first search is pseudo-transient continuation (pseudo_transient) from the best of some positions along the load;
 !> where it fails, from the equilibrium with full films. Where these fail, or find an equilibrium that no motion dwells
-!> in, a wider one follows from all these positions: by small problems of the pads, by Newton's method, damped, and by
-!> small problems of the pads whose equilibria are sought over all their tilts. docs/stability.md counts what each
-!> finds.
+!> in, a wider one follows from all these positions: by small problems of the pads, by the same with pads sought from
+!> many tilts, and by pseudo-transient continuation. docs/stability.md counts what each finds.
 module equilibrium
    use kinds, only: wp
    use text, only: to_text
@@ -12,8 +11,7 @@ module equilibrium
    use equations_of_motion, only: bearing_model
    use pseudo_transient, only: follow_motion, unbalanced, newtons, residual_limit
    use small_vibrations, only: stability_at
-   use pad_elimination, only: eliminate_pads
-   use pad_equilibrium, only: find_pad_equilibria
+   use pad_elimination, only: eliminate_pads, search_pads
    use static_model, only: equilibrium_type, describe, make_static, make_quick, solve_equilibrium, start, starts
    use heat_balance_equations, only: has_warm_oil
    use thermal_equilibrium, only: guess_oil, guesses, solve_thermal_equilibrium
@@ -23,7 +21,7 @@ module equilibrium
    public :: equilibrium_type, find_equilibrium, find_partial_equilibrium
 
    !> The methods of the wider search, in their order.
-   character(len=*), parameter :: methods(*) = [character(len=14) :: 'pads', 'newton', 'pad equilibria']
+   character(len=*), parameter :: methods(*) = [character(len=14) :: 'pads', 'pad equilibria', 'newton']
    !> Iterations from an equilibrium of quick films to that of the model's own: the 535 of docs/stability.md that
    !> succeed take 35 at most. Iterations of the first search from a start along the load, after which full films lead
    !> to the equilibrium of most unloaded pads: of 813 searches that succeed 90 % end within 42.
@@ -117,10 +115,10 @@ contains
       real(wp), allocatable :: y_whole(:)
       y = best_start(static, give_up)
       call follow_motion(static, y, residual, error, give_up, &
-         & most=merge(patience, huge(patience), static%bearing%films_cavitate()))
+         & most=merge(patience, huge(patience), static%bearing%film%cavitates()))
       films_fail = .not. static%bearing%films_converge()
       by_full_films = .false.
-      if (.not. allocated(error) .or. .not. static%bearing%films_cavitate()) return
+      if (.not. allocated(error) .or. .not. static%bearing%film%cavitates()) return
       if (error%status == stopped) return
       call make_static(model, .false., whole)
       y_whole = best_start(whole, give_up)
@@ -228,7 +226,7 @@ contains
          call eliminate_pads(model, y, in_equilibrium, ok, give_up)
          if (ok) ok = .not. all(in_equilibrium)
          if (.not. ok) return
-         call find_pad_equilibria(model, y, in_equilibrium)
+         call search_pads(model, y, in_equilibrium)
          if (.not. all(in_equilibrium)) traces%without_equilibrium = .not. in_equilibrium
          y_of_pads = y
          call eliminate_pads(model, y_of_pads, in_equilibrium, ok, give_up)

@@ -6,7 +6,7 @@ module static_model
    use operating_point, only: operating_point_type
    use factories, only: converged_films, quick_films
    use rigid_journal, only: journal_motion
-   use kinematics, only: pad_frame, pad_state
+   use kinematics, only: pad_frame, pad_state, frame_of
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
    use errors, only: error_type, stopped, asked_to_stop
@@ -112,11 +112,12 @@ contains
       associate (load => model%point%load, bearing => model%inputs%bearing)
          if (norm2(load) > 0) then
             journal%position = fractions(k)*bearing%assembled_clearance*load/norm2(load)
-            if (model%layout%radial) pads%pivot_deflection = model%bearing%pivot_deflection(norm2(load)/size(pads))
+            if (model%layout%radial) pads%pivot_deflection = &
+               & model%bearing%contact%law%pivot_deflection(norm2(load)/size(pads))
          end if
          if (.not. model%layout%tilting) journal%position = journal%position + middle_of_bores(model)
          do i = 1, size(pads)
-            frame = model%bearing%pads(i)%frame(journal, pads(i))
+            frame = frame_of(model%bearing%pads(i)%position, journal, pads(i))
             pads(i)%tilt = (frame%along + bearing%machined_clearance/3)/model%bearing%pads(i)%position%centre_distance
          end do
       end associate
@@ -143,7 +144,7 @@ contains
       type(pad_sample) :: samples(model%layout%pads)
       journal = model%rotor%journal(y(:model%rotor%states))
       pads = model%layout%pad_states(y)
-      samples = model%sampled()
+      samples = model%bearing%sampled()
       found%journal = journal%position
       found%tilt = pads%tilt
       found%pivot_deflection = pads%pivot_deflection

@@ -34,10 +34,10 @@ contains
          options%short_step = 2*pi/(model%inputs%highest_speed()*many_steps)
       end associate
       associate (tolerance => options%absolute_tolerance)
-         if (model%smooth()) options%derivatives_age = smooth_derivatives_age
+         if (model%bearing%smooth()) options%derivatives_age = smooth_derivatives_age
          if (.not. model%layout%radial) then
             tolerance = rigid_tolerance*tolerance
-         else if (.not. model%smooth()) then
+         else if (.not. model%bearing%smooth()) then
             tolerance = friction_tolerance*tolerance
          end if
       end associate

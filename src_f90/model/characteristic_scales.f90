@@ -35,12 +35,13 @@ contains
          do i = 1, size(pads)
             pads(i)%tilt = b%assembled_clearance/((b%journal_radius + b%machined_clearance) &
                & *inputs%pads%arc_deg(i)*degree)
-            pads(i)%tilt_rate = min(pads(i)%tilt*speed, sticking_scale*friction%sticking_velocity() &
+            pads(i)%tilt_rate = min(pads(i)%tilt*speed, sticking_scale*friction%sticking_velocity &
                & /bearing%pads(i)%ball_radius)
             if (layout%radial) then
                force = norm2(point%load) + point%unbalance*speed**2
                pads(i)%pivot_deflection = 1e-3_wp*b%assembled_clearance
-               if (force > 0) pads(i)%pivot_deflection = max(pads(i)%pivot_deflection, bearing%pivot_deflection(force))
+               if (force > 0) pads(i)%pivot_deflection = max(pads(i)%pivot_deflection, &
+                  & bearing%contact%law%pivot_deflection(force))
                pads(i)%pivot_deflection_rate = pads(i)%pivot_deflection*speed
             end if
             if (layout%bristles) pads(i)%deflection = friction%static_coefficient &

@@ -4,7 +4,7 @@ module equations_of_motion
    use case_inputs, only: case_type
    use operating_point, only: operating_point_type
    use oil_properties, only: reference_viscosity
-   use film_solver, only: film_oil, film_counters
+   use film_solver, only: film_oil
    use kinematics, only: pad_state
    use tilting_pad_bearing, only: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
    use rigid_journal, only: rigid_journal_type, journal_motion
@@ -58,10 +58,6 @@ module equations_of_motion
       procedure :: static_state
       procedure :: positions
       procedure :: take_sample
-      procedure :: sampled
-      procedure :: smooth
-      procedure :: pressure_field
-      procedure :: film_counters => counters_of_films
    end type bearing_model
 
 contains
@@ -91,7 +87,7 @@ contains
    subroutine set_point(self, point)
       class(bearing_model), intent(inout) :: self
       type(operating_point_type), intent(in) :: point
-      if (point%cavitation .neqv. self%point%cavitation) call self%bearing%set_cavitation(point%cavitation)
+      if (point%cavitation .neqv. self%point%cavitation) call self%bearing%film%set_cavitation(point%cavitation)
       self%bearing%rubs = point%friction
       self%point = point
    end subroutine set_point
@@ -304,32 +300,4 @@ contains
       sample%states(:) = self%layout%pad_states(y)
       call self%bearing%take_samples(sample%journal, sample%states, sample%speed, output, sample%loads)
    end subroutine take_sample
-
-   !> What is sampled of the pads where the model was evaluated last.
-   function sampled(self)
-      class(bearing_model), intent(inout) :: self
-      type(pad_sample) :: sampled(self%layout%pads)
-      sampled = self%bearing%sampled()
-   end function sampled
-
-   !> True where no friction puts switching points into the motion.
-   pure logical function smooth(self)
-      class(bearing_model), intent(in) :: self
-      smooth = self%bearing%smooth()
-   end function smooth
-
-   !> Pressure of every film where the model was evaluated last, Pa, (axial position, angle, pad), at angles from the
-   !> pivot, rad, (angle, pad), and distances from the middle plane, m.
-   subroutine pressure_field(self, phi, z, pressure)
-      class(bearing_model), intent(inout) :: self
-      real(wp), intent(in) :: phi(:, :), z(:)
-      real(wp), intent(out) :: pressure(:, :, :)
-      call self%bearing%pressure_field(phi, z, pressure)
-   end subroutine pressure_field
-
-   !> What the films have cost so far.
-   pure type(film_counters) function counters_of_films(self)
-      class(bearing_model), intent(in) :: self
-      counters_of_films = self%bearing%counters()
-   end function counters_of_films
 end module equations_of_motion

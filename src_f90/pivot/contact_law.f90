@@ -41,20 +41,13 @@ module contact_law
       end function at_deflection
    end interface
 
-   !> Fang's conformal law for dR > 0.
+   !> Fang's conformal law; in its limit dR = 0 contact is over the whole socket, a linear spring.
    type, extends(contact_law_type) :: fang_law
       !> 4 in eq (13); 2 pi agrees with Hertz's approach.
       real(wp) :: deflection_factor
    contains
       procedure :: at => fang_at
    end type fang_law
-
-   !> Its limit dR = 0: contact over the whole socket, a linear spring.
-   type, extends(contact_law_type) :: snug_law
-      real(wp) :: deflection_factor
-   contains
-      procedure :: at => snug_at
-   end type snug_law
 
    !> Hertz: F = 4/3 E* sqrt(R1 R2 / dR) eta^(3/2).
    type, extends(contact_law_type) :: hertz_law
@@ -87,10 +80,8 @@ contains
       compliance = sum((1 - poisson_ratio**2)/(pi*young_modulus))
       if (name == 'hertz') then
          law = hertz_law(socket_radius, radius_difference, compliance)
-      else if (radius_difference > snug_ratio*socket_radius) then
-         law = fang_law(socket_radius, radius_difference, compliance, deflection_factor)
       else
-         law = snug_law(socket_radius, radius_difference, compliance, deflection_factor)
+         law = fang_law(socket_radius, radius_difference, compliance, deflection_factor)
       end if
    end subroutine make_contact_law
 
@@ -107,15 +98,6 @@ contains
       point%peak_pressure = 1.5_wp*point%force/(pi*point%radius**2)
    end function hertz_at
 
-   pure function snug_at(self, pivot_deflection) result(point)
-      class(snug_law), intent(in) :: self
-      real(wp), intent(in) :: pivot_deflection
-      type(contact_point) :: point
-      point = force_over_radius(self%socket_radius, self%socket_radius, self%compliance, &
-         & self%deflection_factor, pivot_deflection)
-      point%stiffness = point%force/pivot_deflection
-   end function snug_at
-
    !> Finds the contact radius of a pivot deflection by safeguarded Newton steps on ln(eta), which is monotone and
    !> nearly straight over ln(a), then takes the force from eq (13), which is well conditioned.
    pure function fang_at(self, pivot_deflection) result(point)
@@ -124,6 +106,11 @@ contains
       type(contact_point) :: point
       real(wp) :: a, change, low, high, log_eta, d_log_eta, d_log_force
       integer :: i
+      if (self%radius_difference <= snug_ratio*self%socket_radius) then
+         point = force_over_radius(self, self%socket_radius, pivot_deflection)
+         point%stiffness = point%force/pivot_deflection
+         return
+      end if
       low = 0
       high = self%socket_radius
       ! Hertz's, of whom this is the limit for a light contact
@@ -142,8 +129,7 @@ contains
          if (abs(change) <= small_step) exit
       end do
       call radius_curve(self, a, log_eta, d_log_eta, d_log_force)
-      point = force_over_radius(a, self%socket_radius, self%compliance, self%deflection_factor, &
-         & pivot_deflection)
+      point = force_over_radius(self, a, pivot_deflection)
       point%stiffness = point%force/pivot_deflection*d_log_force/d_log_eta
    end function fang_at
 
@@ -158,12 +144,13 @@ contains
    end subroutine newton_step
 
    !> Eqs (12), (13), (15), (16) solved for the force at a contact radius and a pivot deflection.
-   pure function force_over_radius(a, socket_radius, compliance, factor, pivot_deflection) result(point)
-      real(wp), intent(in) :: a, socket_radius, compliance, factor, pivot_deflection
+   pure function force_over_radius(self, a, pivot_deflection) result(point)
+      class(fang_law), intent(in) :: self
+      real(wp), intent(in) :: a, pivot_deflection
       type(contact_point) :: point
       point%radius = a
-      point%exponent = pressure_exponent(a/socket_radius)
-      point%peak_pressure = pivot_deflection/(factor*compliance*exp(log_b(point%exponent))*a)
+      point%exponent = pressure_exponent(a/self%socket_radius)
+      point%peak_pressure = pivot_deflection/(self%deflection_factor*self%compliance*exp(log_b(point%exponent))*a)
       point%force = point%peak_pressure*pi*a**2/(point%exponent + 1)
    end function force_over_radius
 

@@ -25,20 +25,17 @@ module contact_table
 
    !> Force and stiffness of one pivot over the pivot deflection.
    type :: contact_table_type
-      private
       class(contact_law_type), allocatable :: law
       !> Cubic coefficients (4) of each cell over its width; not allocated where the law itself answers.
-      real(wp), allocatable :: cubic(:, :)
+      real(wp), allocatable, private :: cubic(:, :)
       !> Lower end and one over the width of each cell, m and 1/m.
-      real(wp), allocatable :: start(:), per_width(:)
+      real(wp), allocatable, private :: start(:), per_width(:)
       !> Local power law below the lowest cell; straight line above the highest.
-      real(wp) :: low_exponent = 1
-      type(contact_point) :: low_end, high_end
+      real(wp), private :: low_exponent = 1
+      type(contact_point), private :: low_end, high_end
    contains
       !> Force, N, and stiffness, N/m, at a pivot deflection, m; both zero where it is not positive.
       procedure :: lookup
-      !> Pivot deflection, m, that carries a force > 0, N, by the law itself.
-      procedure :: pivot_deflection
    end type contact_table_type
 
 contains
@@ -106,12 +103,6 @@ contains
          end associate
       end if
    end subroutine lookup
-
-   pure real(wp) function pivot_deflection(self, force)
-      class(contact_table_type), intent(in) :: self
-      real(wp), intent(in) :: force
-      pivot_deflection = self%law%pivot_deflection(force)
-   end function pivot_deflection
 
    !> Lower end of cell k, m: the real whose leading bits are the index.
    elemental function cell_start(k) result(x)

@@ -4,8 +4,8 @@ module friction
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: friction_law, friction_response, no_friction, bengisu_akay_friction, lugre_friction
-   public :: default_bristle_damping
+   public :: friction_law, friction_response, bengisu_akay_friction, lugre_friction
+   public :: default_bristle_damping, never_sticks
 
    !> What a law answers.
    type :: friction_response
@@ -19,44 +19,28 @@ module friction
       real(wp) :: rate_velocity = 0, rate_deflection = 0
    end type friction_response
 
-   type, abstract :: friction_law
+   !> A sticking velocity, m/s, far above all others.
+   real(wp), parameter :: never_sticks = 1e30_wp
+
+   !> A pivot without friction, and what the laws have in common.
+   type :: friction_law
       !> True where the law has a bristle state.
       logical :: has_bristle = .false.
       !> Static and dynamic coefficient, f_s and f_d.
       real(wp) :: static_coefficient = 0, dynamic_coefficient = 0
+      !> Velocity over which the force changes from one direction to the other, m/s.
+      real(wp) :: sticking_velocity = never_sticks
    contains
-      procedure(evaluate_law), deferred :: evaluate
-      !> Velocity over which the force changes from one direction to the other, m/s; far above all others
-      !> where there is no such velocity.
-      procedure :: sticking_velocity
-      !> Velocities at which the force has a switching point, m/s.
+      procedure :: evaluate
       procedure :: switching_points
    end type friction_law
 
-   abstract interface
-      !> The response to a sliding velocity, m/s, bristle deflection, m, and normal force >= 0, N.
-      pure subroutine evaluate_law(self, velocity, deflection, normal, response)
-         import :: friction_law, friction_response, wp
-         class(friction_law), intent(in) :: self
-         real(wp), intent(in) :: velocity, deflection, normal
-         type(friction_response), intent(out) :: response
-      end subroutine evaluate_law
-   end interface
-
-   !> A pivot without friction.
-   type, extends(friction_law) :: no_friction
-   contains
-      procedure :: evaluate => evaluate_none
-   end type no_friction
-
-   !> Bengisu-Akay's static law, eq (22).
+   !> Bengisu-Akay's static law, eq (22); v_c is the sticking velocity.
    type, extends(friction_law) :: bengisu_akay_friction
-      !> v_c, m/s; chi, s/m.
-      real(wp) :: critical_velocity, decay
+      !> chi, s/m.
+      real(wp) :: decay
    contains
       procedure :: evaluate => evaluate_bengisu_akay
-      procedure :: sticking_velocity => critical_velocity
-      procedure :: switching_points => switching_points_of_bengisu_akay
    end type bengisu_akay_friction
 
    !> LuGre amended for a varying normal force, eqs (23)-(25).
@@ -67,7 +51,6 @@ module friction
       real(wp) :: bristle_stiffness, bristle_damping, viscous_coefficient
    contains
       procedure :: evaluate => evaluate_lugre
-      procedure :: switching_points => switching_points_of_lugre
    end type lugre_friction
 
 contains
@@ -79,39 +62,21 @@ contains
       damping = sqrt(bristle_stiffness/characteristic_load)
    end function default_bristle_damping
 
-   pure real(wp) function sticking_velocity(self)
-      class(friction_law), intent(in) :: self
-      sticking_velocity = 1e30_wp
-   end function sticking_velocity
-
+   !> Velocities at which the force has a switching point, m/s.
    pure function switching_points(self)
       class(friction_law), intent(in) :: self
       real(wp), allocatable :: switching_points(:)
-      allocate (switching_points(0))
+      associate (v => self%sticking_velocity, sticks => self%sticking_velocity < never_sticks)
+         switching_points = pack([-v, 0.0_wp, v], [sticks, sticks .or. self%has_bristle, sticks])
+      end associate
    end function switching_points
 
-   pure function switching_points_of_bengisu_akay(self) result(switching_points)
-      class(bengisu_akay_friction), intent(in) :: self
-      real(wp), allocatable :: switching_points(:)
-      switching_points = [-self%critical_velocity, 0.0_wp, self%critical_velocity]
-   end function switching_points_of_bengisu_akay
-
-   pure function switching_points_of_lugre(self) result(switching_points)
-      class(lugre_friction), intent(in) :: self
-      real(wp), allocatable :: switching_points(:)
-      switching_points = [0.0_wp]
-   end function switching_points_of_lugre
-
-   pure real(wp) function critical_velocity(self)
-      class(bengisu_akay_friction), intent(in) :: self
-      critical_velocity = self%critical_velocity
-   end function critical_velocity
-
-   pure subroutine evaluate_none(self, velocity, deflection, normal, response)
-      class(no_friction), intent(in) :: self
+   !> The response to a sliding velocity, m/s, bristle deflection, m, and normal force >= 0, N.
+   pure subroutine evaluate(self, velocity, deflection, normal, response)
+      class(friction_law), intent(in) :: self
       real(wp), intent(in) :: velocity, deflection, normal
       type(friction_response), intent(out) :: response
-   end subroutine evaluate_none
+   end subroutine evaluate
 
    pure subroutine evaluate_bengisu_akay(self, velocity, deflection, normal, response)
       class(bengisu_akay_friction), intent(in) :: self
@@ -119,7 +84,7 @@ contains
       type(friction_response), intent(out) :: response
       real(wp) :: v, coefficient, derivative
       v = abs(velocity)
-      associate (fs => self%static_coefficient, fd => self%dynamic_coefficient, vc => self%critical_velocity)
+      associate (fs => self%static_coefficient, fd => self%dynamic_coefficient, vc => self%sticking_velocity)
          if (v < vc) then
             coefficient = fs*(1 - (v/vc - 1)**2)
             derivative = -2*fs*(v/vc - 1)/vc

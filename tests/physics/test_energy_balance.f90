@@ -5,7 +5,7 @@ module energy_ledger
    use ode_model, only: ode_model_type
    use film_solver, only: film_motion
    use rigid_journal, only: journal_motion
-   use kinematics, only: pad_state
+   use kinematics, only: pad_state, frame_of, motion_of
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model
    implicit none (type, external)
@@ -41,7 +41,7 @@ contains
             self%refusal = b%refusal
             return
          end if
-         films = b%sampled()
+         films = b%bearing%sampled()
          pads = b%layout%pad_states(y)
          speed = b%point%speed(t)
          phase = b%point%shaft_angle(t)
@@ -90,7 +90,7 @@ contains
       do i = 1, size(pads)
          associate (load => bearing%bearing%asperity(i), pad => bearing%bearing%pads(i))
             if (.not. load%touches) cycle
-            motion = pad%motion(pad%frame(journal, pads(i)), journal, pads(i))
+            motion = motion_of(pad%position, frame_of(pad%position, journal, pads(i)), journal, pads(i))
             ! the force is -pushed + coefficient (pushed(2), -pushed(1))
             pushed = -[load%force(1) + coefficient*load%force(2), load%force(2) - coefficient*load%force(1)] &
                & /(1 + coefficient**2)
@@ -129,7 +129,7 @@ contains
       pads = bearing%layout%pad_states(y)
       pressed = 0
       associate (p => bearing%bearing%pads(pad), gap => bearing%bearing%pads(pad)%gap, a => bearing%inputs%asperity)
-         motion = p%motion(p%frame(journal, pads(pad)), journal, pads(pad))
+         motion = motion_of(p%position, frame_of(p%position, journal, pads(pad)), journal, pads(pad))
          do i = 1, n
             phi = -gap%trailing_angle + (i - 0.5_wp)*gap%arc()/n
             depth = 4 - gap%thickness(motion, sin(phi), cos(phi))/a%roughness
@@ -205,13 +205,13 @@ contains
       type(bearing_model), intent(in) :: bearing
       real(wp), intent(in) :: depth
       integer, parameter :: n = 2000
-      real(wp) :: s, force
+      real(wp) :: s, force, stiffness
       integer :: k
       stored = 0
       if (depth <= 0) return
       do k = 1, n
          s = real(k, wp)/n
-         force = bearing%bearing%pivot_load(s**2*depth)
+         call bearing%bearing%contact%lookup(s**2*depth, force, stiffness)
          stored = stored + force*2*s*depth/n*merge(1.0_wp, merge(4.0_wp, 2.0_wp, mod(k, 2) == 1), k == n)/3
       end do
    end function stored

@@ -13,7 +13,7 @@ program test_fixed_pads
    use paper_bearing, only: paper_oil
    use random_films, only: film_state, volumes_type, new_volumes, extrapolated, shaft_speed
    use rigid_journal, only: journal_motion
-   use kinematics, only: pad_state
+   use kinematics, only: pad_state, frame_of, motion_of
    use equilibrium, only: equilibrium_type, find_equilibrium
    use pad_behaviour, only: whirl_of
    use sampled_march, only: march_samples
@@ -221,7 +221,8 @@ contains
       journal = [1.1e-5_wp, -2.3e-5_wp]
       do i = 1, 2
          associate (pad => model%bearing%pads(i), b => inputs%bearing, angle => inputs%pads%pivot_angle_deg(i)*degree)
-            motion = pad%motion(pad%frame(journal_motion(journal), still), journal_motion(journal), still)
+            motion = motion_of(pad%position, frame_of(pad%position, journal_motion(journal), still), &
+               & journal_motion(journal), still)
             middle = -(b%machined_clearance - b%assembled_clearance)*[sin(angle), cos(angle)]
             do k = 0, 6
                phi = -pad%gap%trailing_angle + k*pad%gap%arc()/6

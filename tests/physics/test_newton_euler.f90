@@ -61,7 +61,7 @@ contains
       y = random_state(model)
       allocate (f(model%n))
       call model%rhs(0.01_wp, y, f, ok)
-      films = model%sampled()
+      films = model%bearing%sampled()
       call expect(ok, 'a state with films')
       do pad = 1, 2
          associate (p => model%inputs%pads, loads => model%bearing%loads(pad), &
@@ -103,7 +103,7 @@ contains
       y = random_state(model)
       allocate (f(model%n))
       call model%rhs(0.01_wp, y, f, ok)
-      films = model%sampled()
+      films = model%bearing%sampled()
       call expect(ok, 'a state with films')
       do pad = 1, 2
          associate (p => model%inputs%pads, arm => model%bearing%pads(pad)%position%centre_distance)
@@ -135,7 +135,7 @@ contains
       allocate (f(model%n))
       t = between(0.0_wp, 0.01_wp)
       call model%rhs(t, y, f, ok)
-      films = model%sampled()
+      films = model%bearing%sampled()
       associate (w => model%point%speed(0.0_wp))
          total = inputs%rotor%static_load + [-2000*500.0_wp, 0.0_wp] + 0.01_wp*w**2*[cos(w*t), sin(w*t)]
       end associate

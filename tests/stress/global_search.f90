@@ -281,7 +281,7 @@ contains
                contact(k) = 0
             end if
             do k = 1, 2
-               if (contact(k) > 0) piece%pivot_deflection(k) = model%bearing%pivot_deflection(contact(k))
+               if (contact(k) > 0) piece%pivot_deflection(k) = model%bearing%contact%law%pivot_deflection(contact(k))
             end do
             piece%way = pad%position%pivot_radius + piece%pivot_deflection - r
          end if

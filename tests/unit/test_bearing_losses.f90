@@ -9,7 +9,7 @@ program test_bearing_losses
    use film_solver, only: film_motion
    use film_losses, only: film_losses_type, film_loss, new_film_losses
    use rigid_journal, only: journal_motion
-   use kinematics, only: pad_state, pad_frame
+   use kinematics, only: pad_state, pad_frame, frame_of, motion_of
    use equations_of_motion, only: bearing_model, new_bearing_model
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
    use check, only: runs, expect, expect_close, expect_no_error, report
@@ -55,7 +55,7 @@ contains
       call losses%find(model%bearing, journal, pads, model%oil, speed, found)
       do i = 1, 2
          associate (pad => model%bearing%pads(i))
-            motion = pad%motion(pad%frame(journal, pads(i)), journal, pads(i))
+            motion = motion_of(pad%position, frame_of(pad%position, journal, pads(i)), journal, pads(i))
             single = new_film_losses(pad%gap, .true., .false.)
             call single%find(motion, model%oil(i), speed, film)
             call expect_close(found(i)%load, norm2(film%force), 0.0_wp, 'load')
@@ -102,7 +102,7 @@ contains
       ! down to half a micrometre short of the pads, which turn until their middles lie closest
       journal = journal_motion([-79.5e-6_wp*sqrt(2.0_wp), 0.0_wp])
       do i = 1, 2
-         frame = model%bearing%pads(i)%frame(journal, pads(i))
+         frame = frame_of(model%bearing%pads(i)%position, journal, pads(i))
          pads(i)%tilt = frame%along/model%bearing%pads(i)%position%centre_distance
       end do
       call losses%find(model%bearing, journal, pads, model%oil, speed, found)

@@ -275,9 +275,6 @@ contains
          end if
          call expect_close(maxval(abs(found - expected)), 0.0_wp, 0.0_wp, 'no table at '//to_text(x)//' m'//what)
       end do
-      call expect_close(table%pivot_deflection(1e3_wp), law%pivot_deflection(1e3_wp), 0.0_wp, 'pivot_deflection'//what)
-      call expect_close(plain%pivot_deflection(1e3_wp), law%pivot_deflection(1e3_wp), 0.0_wp, &
-         & 'pivot deflection without table'//what)
    end subroutine without_table
 
    !> 32 cubic cells an octave: about (1/32)**4/384 = 2.5e-9 of the law's fourth logarithmic derivative,

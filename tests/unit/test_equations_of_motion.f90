@@ -266,7 +266,7 @@ contains
       y = moving_state(model)
       allocate (f(model%n))
       call model%rhs(0.0_wp, y, f, ok)
-      films = model%sampled()
+      films = model%bearing%sampled()
       do pad = 1, 2
          a = model%bearing%pads(pad)%position%angle - y(model%layout%tilt(pad))
          associate (p => model%inputs%pads)

@@ -4,7 +4,8 @@ program test_kinematics
    use text, only: to_text
    use film_solver, only: film_motion
    use pad_gap, only: pad_gap_type
-   use kinematics, only: pad_position, frame_of, motion_of
+   use rigid_journal, only: journal_motion
+   use kinematics, only: pad_state, pad_position, frame_of, motion_of
    use paper_bearing, only: offset_pad
    use case_inputs, only: case_type
    use operating_point, only: operating_point_type
@@ -43,8 +44,9 @@ contains
       real(wp), intent(in) :: journal(2), tilt, pivot_deflection, phi
       type(pad_gap_type) :: gap
       gap = film()
-      thickness = gap%thickness(motion_of(place, frame_of(place, journal, tilt, pivot_deflection), [0.0_wp, 0.0_wp], &
-         & 0.0_wp, 0.0_wp), sin(phi), cos(phi))
+      associate (still => journal_motion(journal), pad => pad_state(tilt=tilt, pivot_deflection=pivot_deflection))
+         thickness = gap%thickness(motion_of(place, frame_of(place, still, pad), still, pad), sin(phi), cos(phi))
+      end associate
    end function thickness
 
    !> Rounding of differences of lengths of 0.1 m.
@@ -106,15 +108,12 @@ contains
    pure type(film_motion) function on_path(place, t)
       type(pad_position), intent(in) :: place
       real(wp), intent(in) :: t
-      real(wp) :: journal(2), velocity(2), tilt, tilt_rate, pivot_deflection, pivot_deflection_rate
-      journal = 1e-3_wp*[sin(t), cos(1.3_wp*t)]
-      velocity = 1e-3_wp*[cos(t), -1.3_wp*sin(1.3_wp*t)]
-      tilt = 0.3_wp + 1e-2_wp*sin(0.7_wp*t)
-      tilt_rate = 0.7e-2_wp*cos(0.7_wp*t)
-      pivot_deflection = 1e-3_wp*cos(0.9_wp*t)
-      pivot_deflection_rate = -0.9e-3_wp*sin(0.9_wp*t)
-      on_path = motion_of(place, frame_of(place, journal, tilt, pivot_deflection), velocity, tilt_rate, &
-         & pivot_deflection_rate)
+      type(journal_motion) :: journal
+      type(pad_state) :: pad
+      journal = journal_motion(1e-3_wp*[sin(t), cos(1.3_wp*t)], 1e-3_wp*[cos(t), -1.3_wp*sin(1.3_wp*t)])
+      pad = pad_state(0.3_wp + 1e-2_wp*sin(0.7_wp*t), 0.7e-2_wp*cos(0.7_wp*t), 1e-3_wp*cos(0.9_wp*t), &
+         & -0.9e-3_wp*sin(0.9_wp*t))
+      on_path = motion_of(place, frame_of(place, journal, pad), journal, pad)
    end function on_path
 
    !> Between -size and size.

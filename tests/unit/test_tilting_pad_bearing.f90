@@ -260,7 +260,7 @@ contains
          inputs%film%solver = trim(solvers(k))
          if (solvers(k) == 'fourier') inputs%film%cavitation = 'gumbel'
          bearing = new_tilting_pad_bearing(inputs)
-         call expect(.not. bearing%smooth() .and. bearing%films_cavitate(), 'friction and cavitation, '//solvers(k))
+         call expect(.not. bearing%smooth() .and. bearing%film%cavitates(), 'friction and cavitation, '//solvers(k))
          ! the wedge of the second pad opens: its film cavitates
          journal%position = [-3e-5_wp, 0.0_wp]
          pads = [pad_state(2e-4_wp, 0.3_wp, 5e-6_wp), pad_state(-6e-4_wp, 0.3_wp, 5e-6_wp)]
@@ -268,8 +268,8 @@ contains
          call expect(ok .and. abs(bearing%loads(1)%friction%force) > 0, 'friction acts, '//solvers(k))
          cavitated = bearing%loads(2)%journal
          bearing%rubs = .false.
-         call bearing%set_cavitation(.false.)
-         call expect(bearing%smooth() .and. .not. bearing%films_cavitate(), 'neither, '//solvers(k))
+         call bearing%film%set_cavitation(.false.)
+         call expect(bearing%smooth() .and. .not. bearing%film%cavitates(), 'neither, '//solvers(k))
          call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect_close(bearing%loads(1)%friction%force, 0.0_wp, 0.0_wp, 'no friction, '//solvers(k))
          whole = bearing%loads(2)%journal
@@ -277,12 +277,12 @@ contains
             & 'the full film has another force, '//solvers(k))
          inputs%film%cavitation = 'none'
          bearing%rubs = .true.
-         call bearing%set_cavitation(.true.)
+         call bearing%film%set_cavitation(.true.)
          call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect_close(norm2(bearing%loads(2)%journal - cavitated), 0.0_wp, 1e-5_wp*norm2(cavitated), &
             & 'and back, within the tolerance of sor, '//solvers(k))
          bearing = new_tilting_pad_bearing(inputs)
-         call expect(.not. bearing%films_cavitate(), 'no cavitation by the input, '//solvers(k))
+         call expect(.not. bearing%film%cavitates(), 'no cavitation by the input, '//solvers(k))
          call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect_close(norm2(bearing%loads(2)%journal - whole), 0.0_wp, 1e-5_wp*norm2(whole), &
             & 'the full film is that of the input without cavitation, '//solvers(k))
