@@ -1,7 +1,7 @@
 !> Small problems y' = f(t, y) for tests: one is told by its rates and their derivatives.
 module small_ode
    use kinds, only: wp
-   use lapack, only: dgesv
+   use linear_algebra, only: dgesv
    use ode_model, only: ode_model_type
    implicit none (type, external)
    private

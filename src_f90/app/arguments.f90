@@ -1,9 +1,8 @@
 !> The words of the command line.
 module arguments
-   use text, only: shortened, to_text, lower_case
+   use text, only: shortened, to_text, lower_case, did_you_mean
    use variable_names, only: meant_variable
    use errors, only: error_type, raise, input_error
-   use similar_words, only: did_you_mean
    use former_names, only: new_name
    implicit none (type, external)
    private

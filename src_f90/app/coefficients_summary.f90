@@ -5,7 +5,7 @@ module coefficients_summary
    use text, only: to_text, fixed_text
    use case_inputs, only: case_type
    use bearing_coefficients, only: bearing_coefficients_type
-   use vibration_modes, only: vibration_modes_type
+   use linear_bearing, only: vibration_modes_type
    implicit none (type, external)
    private
    public :: print_coefficients

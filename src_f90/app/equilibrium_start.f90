@@ -4,7 +4,7 @@ module equilibrium_start
    use errors, only: error_type, stopped
    use equilibrium, only: equilibrium_type, find_equilibrium
    use namelist_writer, only: namelist_of
-   use static_figures, only: static_figures_type, find_static_figures
+   use heat_balance_equations, only: static_figures_type, find_static_figures
    use equilibrium_results, only: put_equilibrium, put_figures, put_temperatures
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type

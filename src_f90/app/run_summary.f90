@@ -9,7 +9,7 @@ module run_summary
    use heat_balance, only: oil_temperatures_type
    use bearing_numbers, only: load, specific_load, sommerfeld_number
    use equilibrium, only: equilibrium_type
-   use static_figures, only: static_figures_type
+   use heat_balance_equations, only: static_figures_type
    use hdf5_file, only: hdf5_type
    use summary_group, only: figure, pad_figures, has_figure
    use run_statistics, only: run_statistics_type

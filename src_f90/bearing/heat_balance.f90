@@ -8,7 +8,7 @@
 module heat_balance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, degree
-   use lapack, only: dgesv
+   use linear_algebra, only: dgesv
    use case_inputs, only: case_type, oil_type, is_set
    use oil_properties, only: viscosity, viscosity_slope
    use bearing_losses, only: pad_loss

@@ -5,12 +5,11 @@
 module equilibrium_branch
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error
-   use eigenvalues, only: largest_first
+   use linear_algebra, only: largest_first
    use newton_method, only: branch_problem_type, place_part_type
    use force_balance, only: forces, force_derivatives
    use pseudo_transient, only: clearances, reference_force
-   use linear_bearing, only: linear_bearing_of, pivot_name
-   use vibration_modes, only: rotor_eigenvalues
+   use linear_bearing, only: linear_bearing_of, pivot_name, rotor_eigenvalues
    use heat_balance, only: oil_temperatures_type
    use heat_balance_equations, only: state_balance_type, has_warm_oil, find_lack, find_lack_slopes, &
       & find_force_slopes, find_temperatures, check_heat

@@ -1,7 +1,7 @@
 !> Branches of orbits of double period, which begin at a period doubling.
 module period_doubling
    use kinds, only: wp
-   use lapack, only: dgesv
+   use linear_algebra, only: dgesv
    use newton_method, only: branch_point_type
    use continuation, only: return_to
    use orbit_polynomials, only: orbit_type, points

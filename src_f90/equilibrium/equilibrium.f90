@@ -10,7 +10,7 @@ module equilibrium
    use errors, only: error_type, raise, numerics_error, stopped, asked_to_stop, asked
    use equations_of_motion, only: bearing_model
    use pseudo_transient, only: follow_motion, unbalanced, newtons, residual_limit
-   use small_vibrations, only: stability_at
+   use force_balance, only: stability_at
    use pad_elimination, only: eliminate_pads, search_pads
    use static_model, only: equilibrium_type, describe, make_static, make_quick, solve_equilibrium, start, starts
    use heat_balance_equations, only: has_warm_oil

@@ -4,7 +4,7 @@
 module pad_elimination
    use kinds, only: wp
    use errors, only: asked_to_stop, asked
-   use solve_2x2, only: solved
+   use linear_algebra, only: solve_2x2
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_state, pad_frame, frame_of, motion_of
    use equations_of_motion, only: bearing_model
@@ -172,11 +172,9 @@ contains
       real(wp) :: stiffness(2, 2), damping(2, 2), force(2), step(2), clearance, film
       clearance = model%inputs%bearing%assembled_clearance
       call pad_balance(model, i, force, stiffness, damping)
-      damping = damping - trace*model%point%speed(0.0_wp)*model%bearing%pads(i)%masses()
-      if (.not. model%layout%radial) call hold_second(force, stiffness, damping)
       film = film_of(model, i, journal, pad)
       do
-         step = solved(stiffness + damping/time_step, -force)
+         step = solve_2x2(stiffness + damping/time_step, -force)
          trial = pad_state(tilt=pad%tilt + step(1), pivot_deflection=pad%pivot_deflection + step(2))
          if (max(abs(step(1)*model%bearing%pads(i)%gap%arc()*model%bearing%pads(i)%gap%pad_radius()), abs(step(2))) &
             & <= longest_move*clearance .and. film_of(model, i, journal, trial) >= least_film*film &
@@ -187,7 +185,8 @@ contains
       pad = trial
    end subroutine move_pad
 
-   !> A pad's own forces and their derivatives over its positions and rates, in the state evaluated last.
+   !> A pad's own forces and their derivatives over its positions and, with the trace of damping, rates, in the state
+   !> evaluated last; the second position of a rigid pivot does not move.
    pure subroutine pad_balance(model, i, force, stiffness, damping)
       type(bearing_model), intent(in) :: model
       integer, intent(in) :: i
@@ -196,18 +195,14 @@ contains
       force = [model%bearing%loads(i)%moment, model%bearing%loads(i)%radial]
       call pad_derivatives(model, i, over_positions, over_rates)
       stiffness = over_positions(3:4, 3:4)
-      damping = over_rates(3:4, 3:4)
-   end subroutine pad_balance
-
-   !> Makes the second position one that does not move.
-   pure subroutine hold_second(force, stiffness, damping)
-      real(wp), intent(inout) :: force(2), stiffness(2, 2), damping(2, 2)
+      damping = over_rates(3:4, 3:4) - trace*model%point%speed(0.0_wp)*model%bearing%pads(i)%masses()
+      if (model%layout%radial) return
       force(2) = 0
       stiffness(1, 2) = 0
       stiffness(2, :) = [0, 1]
       damping(1, 2) = 0
       damping(2, :) = 0
-   end subroutine hold_second
+   end subroutine pad_balance
 
    !> Puts the pads that are not in equilibrium at zero tilt on their pivots, where their films are open there, and
    !> evaluates.
@@ -250,12 +245,9 @@ contains
          damping = damping + over_rates(1:2, 1:2)
          if (.not. in_equilibrium(i) .or. .not. model%layout%tilting) cycle
          call pad_balance(model, i, force, of_pad, ignored)
-         if (.not. model%layout%radial) then
-            call hold_second(force, of_pad, ignored)
-            over_positions(4, 1:2) = 0
-         end if
+         if (.not. model%layout%radial) over_positions(4, 1:2) = 0
          do k = 1, 2
-            follow(:, k, i) = solved(of_pad, -over_positions(3:4, k))
+            follow(:, k, i) = solve_2x2(of_pad, -over_positions(3:4, k))
          end do
          stiffness = stiffness + matmul(over_positions(1:2, 3:4), follow(:, :, i))
       end do
@@ -273,7 +265,7 @@ contains
          do k = 1, 2
             matrix(k, k) = matrix(k, k) - trace*mass_rate/time_step
          end do
-         step = solved(matrix, -force)
+         step = solve_2x2(matrix, -force)
          ! what is no number ends here too, and the films refuse it
          if (.not. norm2(step) > longest_move*clearance) exit
          time_step = time_step*min(0.5_wp, longest_move*clearance/norm2(step))

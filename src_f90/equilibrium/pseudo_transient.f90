@@ -6,7 +6,8 @@ module pseudo_transient
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error, stopped, asked_to_stop, asked
-   use lapack, only: dgesv
+   use linear_algebra, only: dgesv
+   use state_layout, only: at_deflection
    use equations_of_motion, only: bearing_model
    use force_balance, only: forces, force_derivatives, masses
    implicit none (type, external)
@@ -193,7 +194,7 @@ contains
       real(wp) :: scale(model%n)
       integer :: i
       scale = model%scale
-      if (model%layout%radial) scale(model%layout%pivot_deflection([(i, i=1, model%layout%pads)])) &
+      if (model%layout%radial) scale(model%layout%before([(i, i=1, model%layout%pads)]) + at_deflection) &
          & = model%inputs%bearing%assembled_clearance
       clearances = scale(model%layout%positions())
    end function clearances

@@ -11,7 +11,7 @@ module static_model
    use equations_of_motion, only: bearing_model, new_bearing_model
    use errors, only: error_type, stopped, asked_to_stop
    use pseudo_transient, only: follow_motion, newtons
-   use small_vibrations, only: stability_type
+   use force_balance, only: stability_type
    implicit none (type, external)
    private
    public :: equilibrium_type, describe, make_static, make_quick, make_fine, solve_equilibrium, start, starts

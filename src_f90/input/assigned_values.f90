@@ -3,9 +3,8 @@
 module assigned_values
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use text, only: to_text, lower_case, shortened, is_utf8
+   use text, only: to_text, lower_case, shortened, is_utf8, did_you_mean
    use errors, only: error_type, raise, input_error
-   use similar_words, only: did_you_mean
    use former_names, only: new_name
    use number_syntax, only: is_special, read_number
    use assignments, only: assignment_type, token_type, assignment_text, study_group

@@ -1,7 +1,7 @@
 !> The names of all input variables, and what a wrong name may stand for.
 module variable_names
+   use text, only: find_similar, did_you_mean
    use kinds, only: wp
-   use similar_words, only: find_similar, did_you_mean
    use former_names, only: new_name
    use case_inputs, only: case_type
    use field_visitor, only: visitor_type, field_type

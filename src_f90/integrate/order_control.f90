@@ -2,7 +2,7 @@
 !> orders 3 to 5 is unstable, so that the error test keeps the steps short where nothing happens.
 module order_control
    use kinds, only: wp, i8
-   use eigenvalues, only: find_eigenvalues
+   use linear_algebra, only: find_eigenvalues
    implicit none (type, external)
    private
    public :: order_control_type, stable_order

@@ -3,11 +3,10 @@ module bearing_coefficients
    use kinds, only: wp
    use errors, only: error_type, raise, asked_to_stop, numerics_error
    use equations_of_motion, only: bearing_model
-   use small_vibrations, only: stability_at
+   use force_balance, only: stability_at
    use static_model, only: equilibrium_type, describe
    use thermal_equilibrium, only: solve_thermal_equilibrium
-   use linear_bearing, only: linear_bearing_type, linearize
-   use vibration_modes, only: vibration_modes_type, find_modes
+   use linear_bearing, only: linear_bearing_type, linearize, vibration_modes_type, find_modes
    implicit none (type, external)
    private
    public :: bearing_coefficients_type, settle, find_coefficients

@@ -144,7 +144,7 @@ contains
       integer :: i
       journal = self%rotor%journal(y(:self%rotor%states))
       scale = self%rotor%journal(self%scale(:self%rotor%states))
-      tilts = self%layout%tilt([(i, i=1, merge(self%layout%pads, 0, self%layout%tilting))])
+      tilts = self%layout%before([(i, i=1, merge(self%layout%pads, 0, self%layout%tilting))]) + at_tilt
       positions = [journal%position/scale%position, y(tilts)/self%scale(tilts)]
    end function positions
 
@@ -183,7 +183,7 @@ contains
          associate (loads => self%bearing%loads(i), layout => self%layout)
             force = force + loads%journal
             if (.not. layout%tilting) cycle
-            o = layout%first(i) - 1
+            o = layout%before(i)
             dydt(o + at_tilt) = y(o + at_tilt_rate)
             rates = self%bearing%per_mass(:, 1, i)*loads%moment + self%bearing%per_mass(:, 2, i)*loads%radial
             dydt(o + at_tilt_rate) = rates(1)
@@ -270,7 +270,7 @@ contains
       integer :: pads, i, j
       velocity = self%bearing%friction%switching_points()
       pads = merge(self%layout%pads, 0, self%layout%tilting)
-      state = [((self%layout%tilt_rate(i), j=1, size(velocity)), i=1, pads)]
+      state = [((self%layout%before(i) + at_tilt_rate, j=1, size(velocity)), i=1, pads)]
       value = [(velocity/self%bearing%pads(i)%ball_radius, i=1, pads)]
    end subroutine switching_points
 

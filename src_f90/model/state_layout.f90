@@ -22,11 +22,7 @@ module state_layout
       !> Whether the pads tilt; whether their pivots yield; whether there are bristles.
       logical :: tilting = .true., radial = .false., bristles = .false.
    contains
-      procedure :: first
-      procedure :: tilt
-      procedure :: tilt_rate
-      procedure :: pivot_deflection
-      procedure :: pivot_deflection_rate
+      procedure :: before
       procedure :: bristle
       procedure :: positions
       procedure :: rates
@@ -56,46 +52,18 @@ contains
       layout%n = rotor + pads*layout%per_pad
    end function new_state_layout
 
-   !> Index of the first state of a pad.
-   elemental integer function first(self, pad)
+   !> States before those of a pad: its tilt is this + at_tilt.
+   elemental integer function before(self, pad)
       class(state_layout_type), intent(in) :: self
       integer, intent(in) :: pad
-      first = self%rotor + (pad - 1)*self%per_pad + 1
-   end function first
-
-   !> Index of a pad's tilt; only where the pads tilt.
-   elemental integer function tilt(self, pad)
-      class(state_layout_type), intent(in) :: self
-      integer, intent(in) :: pad
-      tilt = self%first(pad) + at_tilt - 1
-   end function tilt
-
-   !> Index of a pad's tilt rate; only where the pads tilt.
-   elemental integer function tilt_rate(self, pad)
-      class(state_layout_type), intent(in) :: self
-      integer, intent(in) :: pad
-      tilt_rate = self%first(pad) + at_tilt_rate - 1
-   end function tilt_rate
-
-   !> Index of a pad's pivot deflection; only where the pivots yield.
-   elemental integer function pivot_deflection(self, pad)
-      class(state_layout_type), intent(in) :: self
-      integer, intent(in) :: pad
-      pivot_deflection = self%first(pad) + at_deflection - 1
-   end function pivot_deflection
-
-   !> Index of the rate of a pad's pivot deflection; only where the pivots yield.
-   elemental integer function pivot_deflection_rate(self, pad)
-      class(state_layout_type), intent(in) :: self
-      integer, intent(in) :: pad
-      pivot_deflection_rate = self%first(pad) + at_deflection_rate - 1
-   end function pivot_deflection_rate
+      before = self%rotor + (pad - 1)*self%per_pad
+   end function before
 
    !> Index of a pad's bristle deflection; only where there are bristles.
    elemental integer function bristle(self, pad)
       class(state_layout_type), intent(in) :: self
       integer, intent(in) :: pad
-      bristle = self%first(pad) + self%per_pad - 1
+      bristle = self%before(pad) + self%per_pad
    end function bristle
 
    !> Indices of the displacements of rotor and pads, in the order of the states.
@@ -103,7 +71,7 @@ contains
       class(state_layout_type), intent(in) :: self
       integer, allocatable :: positions(:)
       integer :: i, k
-      positions = [(i, i=1, self%rotor/2), ((self%first(i) + k, k=0, self%motion - 1, 2), i=1, self%pads)]
+      positions = [(i, i=1, self%rotor/2), ((self%before(i) + k, k=1, self%motion, 2), i=1, self%pads)]
    end function positions
 
    !> Indices of their rates, in the same order.
@@ -111,7 +79,7 @@ contains
       class(state_layout_type), intent(in) :: self
       integer, allocatable :: rates(:)
       integer :: i, k
-      rates = [(i, i=self%rotor/2 + 1, self%rotor), ((self%first(i) + k, k=1, self%motion - 1, 2), i=1, self%pads)]
+      rates = [(i, i=self%rotor/2 + 1, self%rotor), ((self%before(i) + k, k=2, self%motion, 2), i=1, self%pads)]
    end function rates
 
    !> Number of displacements of rotor and pads.
@@ -156,7 +124,7 @@ contains
       integer :: i, o
       if (.not. self%tilting) return
       do i = 1, self%pads
-         o = self%first(i) - 1
+         o = self%before(i)
          pads(i)%tilt = y(o + at_tilt)
          pads(i)%tilt_rate = y(o + at_tilt_rate)
          if (self%radial) then
@@ -175,7 +143,7 @@ contains
       integer :: i, o
       if (.not. self%tilting) return
       do i = 1, self%pads
-         o = self%first(i) - 1
+         o = self%before(i)
          y(o + at_tilt) = pads(i)%tilt
          y(o + at_tilt_rate) = pads(i)%tilt_rate
          if (self%radial) then
@@ -194,7 +162,7 @@ contains
       integer :: i, o
       change = 0
       do i = 1, self%pads
-         o = self%first(i) - 1
+         o = self%before(i)
          change(:journal_columns, i) = journal
          change(journal_columns + 1:journal_columns + self%motion, i) = y(o + 1:o + self%motion)
       end do

@@ -4,7 +4,7 @@
 !> neither with its cube nor with its square. Displacements x, x' = v, follow from their rates and are no unknowns.
 module interval_maps
    use kinds, only: wp
-   use simd_padding, only: simd_width, padded, apply
+   use linear_algebra, only: simd_width, padded, apply
    use ode_model, only: ode_model_type
    use orbit_polynomials, only: points
    implicit none (type, external)

@@ -4,7 +4,7 @@ module newton_method
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, raise, add_context, numerics_error, stopped, asked_to_stop
-   use lapack, only: dgesv
+   use linear_algebra, only: dgesv
    implicit none (type, external)
    private
    public :: branch_problem_type, place_part_type, branch_point_type, newton_options, correct, can_be_of

@@ -4,7 +4,7 @@
 !> unstable orbit is found like a stable one. Elimination from interval to interval leaves the monodromy matrix.
 module orbit_collocation
    use kinds, only: wp
-   use simd_padding, only: padded
+   use linear_algebra, only: padded
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error
    use ode_model, only: ode_model_type

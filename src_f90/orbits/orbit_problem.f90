@@ -8,7 +8,7 @@ module orbit_problem
    use orbit_polynomials, only: orbit_type, points, place
    use event_mesh, only: follow_switching_points
    use orbit_collocation, only: orbit_equations_type, parameter_shift_type, condense, move_orbit, collocated_state
-   use eigenvalues, only: find_eigenvalues, largest_first
+   use linear_algebra, only: find_eigenvalues, largest_first
    implicit none (type, external)
    private
    public :: parametric_ode_type, orbit_problem_type, begin_orbits, period_multiple_at

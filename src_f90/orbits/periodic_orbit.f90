@@ -4,7 +4,7 @@ module periodic_orbit
    use kinds, only: wp, i8, pi
    use text, only: to_text
    use errors, only: error_type, add_context, numerics_error, asked_to_stop
-   use lapack, only: zgesv
+   use linear_algebra, only: zgesv
    use operating_point, only: operating_point_type
    use marching, only: march_options
    use integrator_counts, only: integrator_counts_type

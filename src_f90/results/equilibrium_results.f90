@@ -6,7 +6,7 @@ module equilibrium_results
    use heat_balance, only: oil_temperatures_type
    use bearing_numbers, only: load, specific_load, sommerfeld_number
    use equilibrium, only: equilibrium_type
-   use static_figures, only: static_figures_type
+   use heat_balance_equations, only: static_figures_type
    use summary_group, only: put_figure
    implicit none (type, external)
    private

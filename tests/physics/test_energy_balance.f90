@@ -222,6 +222,7 @@ program test_energy_balance
    use text, only: to_text, exact_text
    use errors, only: error_type
    use case_inputs, only: case_type
+   use state_layout, only: at_tilt_rate
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use sampled_march, only: march_samples
@@ -303,7 +304,7 @@ contains
       bearing = new_bearing_model(inputs)
       start = bearing%static_state([-55e-6_wp, 0.0_wp], [-0.2e-3_wp, 1.03e-3_wp, -3.4e-3_wp], [7e-6_wp, 7e-6_wp, &
          & 1e-6_wp])
-      start(bearing%layout%tilt_rate(3)) = -1
+      start(bearing%layout%before(3) + at_tilt_rate) = -1
       call closes(inputs, start, what, rubbed, touched)
       call expect(touched, 'the edge strikes, '//what)
       call expect(merge(rubbed < 0, abs(rubbed) <= 0, coefficient > 0), 'friction takes work alone: ' &

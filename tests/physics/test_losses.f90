@@ -13,7 +13,7 @@ program test_losses
    use random_films, only: film_state, random_film, shown, shaft_speed
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
-   use static_figures, only: static_figures_type, find_static_figures
+   use heat_balance_equations, only: static_figures_type, find_static_figures
    use paper_bearing, only: paper_oil, paper_pad, offset_pad
    use check, only: runs, expect, expect_close, expect_no_error, between, report
    implicit none (type, external)

@@ -5,6 +5,7 @@ program test_newton_euler
    use text, only: to_text
    use case_inputs, only: case_type
    use tilting_pad_bearing, only: pad_sample
+   use state_layout, only: at_tilt, at_tilt_rate, at_deflection_rate
    use equations_of_motion, only: bearing_model, new_bearing_model
    use input_cases, only: case_of
    use check, only: runs, expect, expect_close, between, report
@@ -39,8 +40,8 @@ contains
          & 9e-6_wp)])
       y(3:4) = [between(-0.02_wp, 0.02_wp), between(-0.02_wp, 0.02_wp)]
       do pad = 1, 2
-         y(model%layout%tilt_rate(pad)) = between(-5.0_wp, 5.0_wp)
-         if (model%layout%radial) y(model%layout%pivot_deflection_rate(pad)) = between(-5e-3_wp, 5e-3_wp)
+         y(model%layout%before(pad) + at_tilt_rate) = between(-5.0_wp, 5.0_wp)
+         if (model%layout%radial) y(model%layout%before(pad) + at_deflection_rate) = between(-5e-3_wp, 5e-3_wp)
          y(model%layout%bristle(pad)) = between(-1e-7_wp, 1e-7_wp)
       end do
    end function random_state
@@ -66,10 +67,10 @@ contains
       do pad = 1, 2
          associate (p => model%inputs%pads, loads => model%bearing%loads(pad), &
             & arm => model%bearing%pads(pad)%position%centre_distance)
-            a = model%bearing%pads(pad)%position%angle - y(model%layout%tilt(pad))
-            rate = y(model%layout%tilt_rate(pad))
-            tilt_acceleration = f(model%layout%tilt_rate(pad))
-            radial_acceleration = f(model%layout%pivot_deflection_rate(pad))
+            a = model%bearing%pads(pad)%position%angle - y(model%layout%before(pad) + at_tilt)
+            rate = y(model%layout%before(pad) + at_tilt_rate)
+            tilt_acceleration = f(model%layout%before(pad) + at_tilt_rate)
+            radial_acceleration = f(model%layout%before(pad) + at_deflection_rate)
             ! C = (C_xi, C_eta) turns with the pad: C' = rate (-C_eta, C_xi) and so on
             associate (c_t => p%centre_tangential(pad), c_r => p%centre_radial(pad), m => p%mass(pad))
                acceleration = [-tilt_acceleration*c_r - rate**2*c_t, &
@@ -107,13 +108,13 @@ contains
       call expect(ok, 'a state with films')
       do pad = 1, 2
          associate (p => model%inputs%pads, arm => model%bearing%pads(pad)%position%centre_distance)
-            a = model%bearing%pads(pad)%position%angle - y(model%layout%tilt(pad))
+            a = model%bearing%pads(pad)%position%angle - y(model%layout%before(pad) + at_tilt)
             friction = model%bearing%pads(pad)%ball_radius*model%bearing%loads(pad)%friction%force
             ! C x weight, with weight along (-cos a, -sin a)
             moment = -films(pad)%film_force(1)*arm - friction + p%mass(pad)*500 &
                & *(-p%centre_tangential(pad)*sin(a) + p%centre_radial(pad)*cos(a))
             sizes = abs(films(pad)%film_force(1))*arm + abs(friction) + p%mass(pad)*500*0.03_wp
-            call expect_close(p%inertia(pad)*f(model%layout%tilt_rate(pad)), moment, rounding*sizes, &
+            call expect_close(p%inertia(pad)*f(model%layout%before(pad) + at_tilt_rate), moment, rounding*sizes, &
                & 'moments about the pivot')
          end associate
       end do
@@ -141,7 +142,7 @@ contains
       end associate
       sizes = norm2(total)
       do pad = 1, 2
-         a = model%bearing%pads(pad)%position%angle - y(model%layout%tilt(pad))
+         a = model%bearing%pads(pad)%position%angle - y(model%layout%before(pad) + at_tilt)
          associate (force => films(pad)%film_force)
             total = total + force(1)*[cos(a), -sin(a)] + force(2)*[sin(a), cos(a)]
             sizes = sizes + norm2(force)

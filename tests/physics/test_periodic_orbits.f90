@@ -10,8 +10,7 @@ program test_periodic_orbits
    use factories, only: converged_films
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
-   use force_balance, only: force_derivatives, masses
-   use small_vibrations, only: find_vibrations
+   use force_balance, only: force_derivatives, masses, find_vibrations
    use orbit_polynomials, only: orbit_type
    use resting_orbit, only: newton_round
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit, are_stable

@@ -7,7 +7,7 @@ program test_warm_oil
    use linear_analysis, only: analyse
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
-   use static_figures, only: static_figures_type, find_static_figures
+   use heat_balance_equations, only: static_figures_type, find_static_figures
    use bearing_coefficients, only: bearing_coefficients_type
    use viscosity_history, only: viscosity_history_type
    use groove_transient, only: find_groove_transient

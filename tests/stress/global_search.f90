@@ -17,16 +17,15 @@ program global_search
    use case_inputs, only: case_type
    use case_text, only: read_text
    use case_namelist, only: case_from_text
-   use solve_2x2, only: solved
-   use lapack, only: dgesv
+   use linear_algebra, only: solve_2x2, dgesv
    use film_solver, only: film_solver_type, film_motion, film_response, film_ok
    use factories, only: make_film, march_films
    use tilting_pad, only: tilting_pad_type
    use operating_point, only: operating_point_type
+   use state_layout, only: at_tilt, at_deflection
    use equations_of_motion, only: bearing_model, new_bearing_model
-   use force_balance, only: forces, force_derivatives
+   use force_balance, only: forces, force_derivatives, stability_at, stability_type
    use pseudo_transient, only: unbalanced, reference_force, residual_limit
-   use small_vibrations, only: stability_at, stability_type
    implicit none (type, external)
 
    !> Distances and leanings of a table; distances over the pad clearance.
@@ -331,7 +330,7 @@ contains
       else
          print '(a, 1x, a, 1x, i0, a, i0, *(1x, es12.5))', path, best%name, size(found, 2), ' of ', size(tried, 2), &
             & best%eigenvalue, y_best(:2)/model%inputs%bearing%assembled_clearance, &
-            & y_best(model%layout%tilt([(row, row=1, model%layout%pads)]))
+            & y_best(model%layout%before([(row, row=1, model%layout%pads)]) + at_tilt)
       end if
    end subroutine search_plane
 
@@ -347,7 +346,7 @@ contains
       real(wp) :: unit(size(y))
       integer :: k, i
       unit = model%scale
-      if (model%layout%radial) unit(model%layout%pivot_deflection([(i, i=1, model%layout%pads)])) &
+      if (model%layout%radial) unit(model%layout%before([(i, i=1, model%layout%pads)]) + at_deflection) &
          & = model%inputs%bearing%assembled_clearance
       known = .false.
       do k = 1, size(list, 2)
@@ -391,7 +390,7 @@ contains
             end associate
          end do
          if (norm2(force) < 1e-4_wp*reference) exit
-         step = solved(slope, -force)
+         step = solve_2x2(slope, -force)
          length = norm2(step)/(0.15_wp*model%inputs%bearing%assembled_clearance)
          if (.not. length > 0) exit
          place = place + step/max(1.0_wp, length)

@@ -2,7 +2,7 @@
 program test_bordered_system
    use kinds, only: wp
    use text, only: to_text
-   use lapack, only: dgesv
+   use linear_algebra, only: dgesv
    use bordered_system, only: bordered_matrix, new_bordered_matrix
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)

@@ -1,7 +1,7 @@
 !> Eigenvalues, their vectors and their order.
 program test_eigenvalues
    use kinds, only: wp
-   use eigenvalues, only: find_eigenvalues, largest_first
+   use linear_algebra, only: find_eigenvalues, largest_first
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 

@@ -7,6 +7,7 @@ program test_equations_of_motion
    use kinematics, only: pad_state
    use operating_point, only: operating_point_type
    use tilting_pad_bearing, only: pad_sample
+   use state_layout, only: at_tilt, at_tilt_rate, at_deflection, at_deflection_rate
    use equations_of_motion, only: bearing_model, new_bearing_model
    use input_cases, only: case_of, listed
    use check, only: runs, expect, expect_close, between, report
@@ -129,7 +130,7 @@ contains
       integer :: pad
       step_scale = model%scale(column)
       do pad = 1, 2
-         if (column == model%layout%tilt_rate(pad)) step_scale = 0.2_wp
+         if (column == model%layout%before(pad) + at_tilt_rate) step_scale = 0.2_wp
       end do
    end function step_scale
 
@@ -144,8 +145,8 @@ contains
       y(3:4) = [between(-5e-3_wp, 5e-3_wp), between(-5e-3_wp, 5e-3_wp)]
       if (.not. model%layout%tilting) return
       do pad = 1, 2
-         y(model%layout%tilt_rate(pad)) = sign(between(0.3_wp, 0.6_wp), between(-1.0_wp, 1.0_wp))
-         if (model%layout%radial) y(model%layout%pivot_deflection_rate(pad)) = between(-2e-3_wp, 2e-3_wp)
+         y(model%layout%before(pad) + at_tilt_rate) = sign(between(0.3_wp, 0.6_wp), between(-1.0_wp, 1.0_wp))
+         if (model%layout%radial) y(model%layout%before(pad) + at_deflection_rate) = between(-2e-3_wp, 2e-3_wp)
          if (model%layout%bristles) y(model%layout%bristle(pad)) = between(-1e-7_wp, 1e-7_wp)
       end do
    end function moving_state
@@ -164,10 +165,10 @@ contains
       call expect(ok .and. all(f < huge(f)), 'every rate is set, '//motion)
       call expect_close(norm2(f(1:2) - y(3:4)), 0.0_wp, 0.0_wp, 'rates of the journal, '//motion)
       do pad = 1, 2
-         call expect_close(f(model%layout%tilt(pad)), y(model%layout%tilt_rate(pad)), 0.0_wp, &
+         call expect_close(f(model%layout%before(pad) + at_tilt), y(model%layout%before(pad) + at_tilt_rate), 0.0_wp, &
             & 'rate of the tilt, '//motion)
-         if (model%layout%radial) call expect_close(f(model%layout%pivot_deflection(pad)), &
-            & y(model%layout%pivot_deflection_rate(pad)), 0.0_wp, 'rate of the pivot deflection')
+         if (model%layout%radial) call expect_close(f(model%layout%before(pad) + at_deflection), &
+            & y(model%layout%before(pad) + at_deflection_rate), 0.0_wp, 'rate of the pivot deflection')
       end do
    end subroutine trivial_rows
 
@@ -268,10 +269,10 @@ contains
       call model%rhs(0.0_wp, y, f, ok)
       films = model%bearing%sampled()
       do pad = 1, 2
-         a = model%bearing%pads(pad)%position%angle - y(model%layout%tilt(pad))
+         a = model%bearing%pads(pad)%position%angle - y(model%layout%before(pad) + at_tilt)
          associate (p => model%inputs%pads)
             reaction = -films(pad)%film_force(2) - p%mass(pad)*300*sin(a) &
-               & + p%mass(pad)*p%centre_radial(pad)*y(model%layout%tilt_rate(pad))**2
+               & + p%mass(pad)*p%centre_radial(pad)*y(model%layout%before(pad) + at_tilt_rate)**2
             call expect_close(model%bearing%loads(pad)%contact, max(0.0_wp, reaction), 1e-12_wp*abs(reaction), &
                & 'radial reaction of pad '//to_text(pad))
          end associate
@@ -290,7 +291,7 @@ contains
       inputs%pads%pivot_angle_deg = [45.0_wp, 135.0_wp]
       model = new_bearing_model(inputs)
       y = model%static_state([0.0_wp, 0.0_wp], [3e-4_wp, 3e-4_wp], [0.0_wp, 0.0_wp])
-      y(model%layout%tilt_rate([1, 2])) = 0.3_wp
+      y(model%layout%before([1, 2]) + at_tilt_rate) = 0.3_wp
       allocate (f(model%n))
       call model%rhs(0.0_wp, y, f, ok)
       do pad = 1, 2

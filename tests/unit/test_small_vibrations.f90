@@ -4,10 +4,11 @@ program test_small_vibrations
    use errors, only: error_type
    use input_cases, only: case_of
    use sampled_march, only: march_samples
+   use state_layout, only: at_tilt
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use static_model, only: make_static
-   use small_vibrations, only: stability_type, stability_of, find_vibrations
+   use force_balance, only: stability_type, stability_of, find_vibrations
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
 
@@ -82,7 +83,7 @@ contains
       rest = static%static_state(found%journal, found%tilt, found%pivot_deflection)
       y = rest
       y(1:2) = y(1:2) + 1e-5_wp*static%scale(1:2)
-      tilts = static%layout%tilt([(k, k=1, static%layout%pads)])
+      tilts = static%layout%before([(k, k=1, static%layout%pads)]) + at_tilt
       y(tilts) = y(tilts) + 1e-8_wp
       period = 2*pi/found%stability%eigenvalue%im
       allocate (states(static%n, periods*samples))

@@ -4,7 +4,7 @@ program test_state_layout
    use text, only: to_text
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_state, columns, tilt_column
-   use state_layout, only: state_layout_type, new_state_layout
+   use state_layout, only: state_layout_type, new_state_layout, at_tilt, at_tilt_rate, at_deflection, at_deflection_rate
    use case_inputs, only: case_type
    use equations_of_motion, only: bearing_model, new_bearing_model
    use force_balance, only: forces, force_derivatives, masses
@@ -55,9 +55,10 @@ contains
       own = merge(4, 2, layout%radial) + merge(1, 0, layout%bristles)
       call expect(layout%per_pad == own .and. layout%n == layout%rotor + pads*own, 'number of states'//what(layout))
       all_pads = [(i, i=1, pads)]
-      call expect(all(layout%first(all_pads) == layout%rotor + 1 + own*(all_pads - 1)), 'first states'//what(layout))
-      found = [[(i, i=1, layout%rotor)], layout%tilt(all_pads), layout%tilt_rate(all_pads)]
-      if (layout%radial) found = [found, layout%pivot_deflection(all_pads), layout%pivot_deflection_rate(all_pads)]
+      call expect(all(layout%before(all_pads) == layout%rotor + own*(all_pads - 1)), 'states before'//what(layout))
+      found = [[(i, i=1, layout%rotor)], layout%before(all_pads) + at_tilt, layout%before(all_pads) + at_tilt_rate]
+      if (layout%radial) found = [found, layout%before(all_pads) + at_deflection, &
+         & layout%before(all_pads) + at_deflection_rate]
       if (layout%bristles) found = [found, layout%bristle(all_pads)]
       call expect_each_once(layout, found, 'all states')
       found = [layout%positions(), layout%rates()]
@@ -126,8 +127,9 @@ contains
          & + abs(back%pivot_deflection_rate - states%pivot_deflection_rate) + abs(back%deflection &
             & - states%deflection)), 0.0_wp, 0.0_wp, 'what a pad has comes back, the rest is 0'//what(layout))
       do i = 1, pads
-         call expect_close(y(layout%tilt_rate(i)), 20.0_wp + i, 0.0_wp, 'tilt rate by its index'//what(layout))
-         if (layout%radial) call expect_close(y(layout%pivot_deflection(i)), 30.0_wp + i, 0.0_wp, &
+         call expect_close(y(layout%before(i) + at_tilt_rate), 20.0_wp + i, 0.0_wp, 'tilt rate by its index' &
+            & //what(layout))
+         if (layout%radial) call expect_close(y(layout%before(i) + at_deflection), 30.0_wp + i, 0.0_wp, &
             & 'pivot deflection by its index'//what(layout))
          if (layout%bristles) call expect_close(y(layout%bristle(i)), 50.0_wp + i, 0.0_wp, &
             & 'bristles by their index'//what(layout))

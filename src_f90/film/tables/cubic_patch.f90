@@ -3,7 +3,7 @@
 !> functions at once, as many as a vector holds.
 module cubic_patch
    use kinds, only: wp
-   use lapack, only: dgesv
+   use linear_algebra, only: dgesv
    implicit none (type, external)
    private
    public :: simd_width, terms, corner_data, corners, cubic_transform, evaluate_cubic

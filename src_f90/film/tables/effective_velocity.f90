@@ -9,7 +9,7 @@
 !> before.
 module effective_velocity
    use kinds, only: wp
-   use solve_2x2, only: solved
+   use linear_algebra, only: solve_2x2
    use film_solver, only: film_motion, film_response, film_counters, film_ok
    use dimensionless_pad, only: dimensionless_pad_type, unit_oil
    use film_grid, only: new_film_grid
@@ -184,7 +184,7 @@ contains
       drive%ok = cavitated%status == film_ok .and. whole%status == film_ok
       if (.not. drive%ok) return
       associate (m => whole%derivatives(:, 3:4))
-         drive%value = solved(m, cavitated%force)
+         drive%value = solve_2x2(m, cavitated%force)
          drive%weight = m/norm2(m(:, 1) + pad%tangent*m(:, 2))
       end associate
    end subroutine set_drive
@@ -196,9 +196,9 @@ contains
       integer :: i
       associate (m => whole%derivatives(:, 3:4))
          do i = 1, 2
-            drive%slopes(:, i) = solved(m, cavitated%derivatives(:, i) - whole%derivatives(:, i))
+            drive%slopes(:, i) = solve_2x2(m, cavitated%derivatives(:, i) - whole%derivatives(:, i))
          end do
-         drive%slopes(:, 3) = solved(m, cavitated%derivatives(:, 4))
+         drive%slopes(:, 3) = solve_2x2(m, cavitated%derivatives(:, 4))
       end associate
       if (cavitated%max_pressure > 0) drive%pressure_ratio = whole%max_pressure/cavitated%max_pressure
    end subroutine set_slopes

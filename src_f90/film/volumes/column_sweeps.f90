@@ -2,7 +2,7 @@
 !> column of cells wide. Modes and rows are filled up to whole SIMD vectors.
 module column_sweeps
    use kinds, only: wp
-   use simd_padding, only: simd_width
+   use linear_algebra, only: simd_width
    implicit none (type, external)
    private
    public :: green_chain, factor_chain, solve_chain, finish_chain, multiply_columns, weighted, invert

@@ -12,7 +12,7 @@ module elimination_film
    use volume_equations, only: volume_equations_type, new_volume_equations
    use rupture_boundary, only: boundary_conductance
    use local_cavitation, only: force_of_few
-   use simd_padding, only: apply
+   use linear_algebra, only: apply
    use column_sweeps, only: weighted
    implicit none (type, external)
    private

@@ -3,8 +3,7 @@
 !> the root of the rows' heights ("scaled").
 module grid_modes
    use kinds, only: wp
-   use lapack, only: dstev
-   use simd_padding, only: padded, apply
+   use linear_algebra, only: dstev, padded, apply
    use film_grid, only: film_grid_type
    implicit none (type, external)
    private

@@ -9,7 +9,7 @@ module local_cavitation
    use kinds, only: wp
    use film_grid, only: film_grid_type
    use grid_modes, only: grid_modes_type
-   use simd_padding, only: apply
+   use linear_algebra, only: apply
    use column_sweeps, only: green_chain, weighted
    implicit none (type, external)
    private

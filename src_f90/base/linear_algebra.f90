@@ -1,0 +1,139 @@
+!> Linear algebra: LAPACK, eigenvalues and their order, two equations, SIMD padding of rows.
+module linear_algebra
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: dgesv, zgesv, dstev, find_eigenvalues, largest_first, solve_2x2, simd_width, padded, apply
+
+   !> Rows are filled up to a multiple of this, so that loops over them have no remainder.
+   integer, parameter :: simd_width = 8
+
+   interface
+      !> Solves a x = b by elimination with row exchanges; `info` /= 0: a is singular.
+      subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         integer, intent(in) :: n, nrhs, lda, ldb
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         integer, intent(out) :: ipiv(*), info
+      end subroutine dgesv
+
+      !> The same of complex numbers.
+      subroutine zgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         integer, intent(in) :: n, nrhs, lda, ldb
+         complex(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         integer, intent(out) :: ipiv(*), info
+      end subroutine zgesv
+
+      !> Eigenvalues wr + i wi of a, and (jobvl, jobvr 'V'; else 'N') left and right eigenvectors; `info` /= 0: it does
+      !> not converge.
+      subroutine dgeev(jobvl, jobvr, n, a, lda, wr, wi, vl, ldvl, vr, ldvr, work, lwork, info)
+         import :: wp
+         character(len=1), intent(in) :: jobvl, jobvr
+         integer, intent(in) :: n, lda, ldvl, ldvr, lwork
+         real(wp), intent(inout) :: a(lda, *)
+         real(wp), intent(out) :: wr(*), wi(*), vl(ldvl, *), vr(ldvr, *), work(*)
+         integer, intent(out) :: info
+      end subroutine dgeev
+
+      !> Eigenvalues d and eigenvectors z of a symmetric tridiagonal matrix with the diagonal d and, beside it, e.
+      subroutine dstev(jobz, n, d, e, z, ldz, work, info)
+         import :: wp
+         character(len=1), intent(in) :: jobz
+         integer, intent(in) :: n, ldz
+         real(wp), intent(inout) :: d(*), e(*)
+         real(wp), intent(out) :: z(ldz, *), work(*)
+         integer, intent(out) :: info
+      end subroutine dstev
+   end interface
+contains
+
+   !> `ok` is false where LAPACK's iteration does not converge. Of a pair the value with positive imaginary part comes
+   !> first.
+   subroutine find_eigenvalues(matrix, values, ok, vectors)
+      real(wp), intent(in) :: matrix(:, :)
+      complex(wp), intent(out) :: values(:)
+      logical, intent(out) :: ok
+      !> (row, eigenvalue), of any size and phase.
+      complex(wp), intent(out), optional :: vectors(:, :)
+      real(wp), dimension(size(values)) :: re, im
+      real(wp) :: changed(size(values), size(values)), work(8*size(values)), left(1, 1)
+      real(wp), allocatable :: right(:, :)
+      integer :: info, rows
+      associate (n => size(values))
+         rows = merge(n, 1, present(vectors))
+         allocate (right(rows, rows))
+         changed = matrix
+         call dgeev('N', merge('V', 'N', present(vectors)), n, changed, n, re, im, left, 1, right, rows, work, &
+            & size(work), info)
+      end associate
+      ok = info == 0
+      values = cmplx(re, im, wp)
+      if (present(vectors) .and. ok) vectors = to_complex(right, im)
+   end subroutine find_eigenvalues
+
+   !> Vectors as LAPACK gives them: of a pair the real and the imaginary part of that whose eigenvalue comes first.
+   pure function to_complex(parts, im) result(vectors)
+      real(wp), intent(in) :: parts(:, :), im(:)
+      complex(wp) :: vectors(size(parts, 1), size(parts, 2))
+      integer :: i
+      do i = 1, size(im)
+         if (im(i) > 0) then
+            vectors(:, i) = cmplx(parts(:, i), parts(:, i + 1), wp)
+         else if (im(i) < 0) then
+            vectors(:, i) = cmplx(parts(:, i - 1), -parts(:, i), wp)
+         else
+            vectors(:, i) = cmplx(parts(:, i), 0.0_wp, wp)
+         end if
+      end do
+   end function to_complex
+
+   !> The places of numbers in their order, the largest first; of equal ones the first comes first.
+   pure function largest_first(numbers) result(places)
+      real(wp), intent(in) :: numbers(:)
+      integer :: places(size(numbers)), i
+      logical :: waiting(size(numbers))
+      waiting = .true.
+      do i = 1, size(numbers)
+         places(i) = maxloc(numbers, dim=1, mask=waiting)
+         waiting(places(i)) = .false.
+      end do
+   end function largest_first
+
+   !> x of the equations a x = b; 0 where they are singular.
+   pure function solve_2x2(a, b) result(x)
+      real(wp), intent(in) :: a(2, 2), b(2)
+      real(wp) :: x(2), determinant
+      x = 0
+      determinant = a(1, 1)*a(2, 2) - a(1, 2)*a(2, 1)
+      if (abs(determinant) > 0) x = [a(2, 2)*b(1) - a(1, 2)*b(2), a(1, 1)*b(2) - a(2, 1)*b(1)]/determinant
+   end function solve_2x2
+
+   !> So many numbers, filled up to whole SIMD vectors.
+   elemental integer function padded(numbers)
+      integer, intent(in) :: numbers
+      padded = simd_width*((numbers + simd_width - 1)/simd_width)
+   end function padded
+
+   !> Matrix times vector; m is filled up.
+   pure function apply(m, n, matrix, x)
+      integer, intent(in) :: m, n
+      real(wp), intent(in) :: matrix(m, n), x(n)
+      !> Sums over odd and even columns, so that one need not wait for the other.
+      real(wp) :: apply(m), odd(simd_width), even(simd_width)
+      integer :: j, k, first
+      do first = 0, m - 1, simd_width
+         odd = 0
+         even = 0
+         do j = 1, n - 1, 2
+            !$omp simd
+            do k = 1, simd_width
+               odd(k) = odd(k) + matrix(first + k, j)*x(j)
+               even(k) = even(k) + matrix(first + k, j + 1)*x(j + 1)
+            end do
+         end do
+         if (mod(n, 2) == 1) odd = odd + matrix(first + 1:first + simd_width, n)*x(n)
+         apply(first + 1:first + simd_width) = odd + even
+      end do
+   end function apply
+end module linear_algebra
