@@ -1,9 +1,8 @@
 !> The words of the command line.
 module arguments
-   use text, only: shortened, to_text, lower_case, did_you_mean
-   use variable_names, only: meant_variable
+   use text, only: shortened, to_text, lower_case
+   use variable_names, only: meant_variable, meant_word
    use errors, only: error_type, raise, input_error
-   use former_names, only: new_name
    implicit none (type, external)
    private
    public :: arguments_type, read_arguments, print_help
@@ -147,9 +146,7 @@ contains
       character(len=:), allocatable :: text
       integer :: equals
       equals = index(word, '=')
-      text = new_name(word)
-      if (text /= '') return
-      text = did_you_mean(word, options)
+      text = meant_word(word, options, '')
       if (equals == 0) return
       if (index(' '//options//' ', ' '//word(:equals - 1)//' ') > 0) then
          text = ' (did you mean '//word(:equals - 1)//' '//word(equals + 1:)//'?)'

@@ -38,7 +38,7 @@ contains
             if (.not. allocated(error)) call let_grooves_warm(run, y, error)
             if (.not. allocated(error)) call note_oil(run)
             if (present(equilibrium_state) .and. .not. allocated(error)) equilibrium_state = y
-            if (allocated(error) .or. .not. is_disturbed(run)) return
+            if (allocated(error) .or. .not. run%inputs%is_disturbed()) return
             journal = model%rotor%journal(y(:model%rotor%states))
             pads = model%layout%pad_states(y)
          else
@@ -167,15 +167,6 @@ contains
             & //'without tilt on its pivot'
       end do
    end subroutine start_partially
-
-   !> True where the group has values to add.
-   pure logical function is_disturbed(run)
-      type(case_run_type), intent(in) :: run
-      associate (s => run%inputs%start)
-         is_disturbed = any(abs([s%journal, s%journal_velocity, s%pad_tilt, s%pad_tilt_rate, s%pivot_deflection, &
-            & s%pivot_deflection_rate]) > 0)
-      end associate
-   end function is_disturbed
 
    !> Adds the values of the group.
    pure subroutine disturb(run, journal, pads)

@@ -166,7 +166,7 @@ contains
       type(run_file_type), intent(inout) :: file
       real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), amplitudes(:, :)
       integer :: revolutions, n, i
-      if (abs(inputs%operation%final_speed_rpm - inputs%operation%speed_rpm) > 0) return
+      if (.not. inputs%is_steady()) return
       associate (samples => inputs%output%samples_per_revolution)
          revolutions = int(min(int(inputs%output%spectrum_revolutions, i8), (file%samples() - 1)/samples))
          n = revolutions*samples

@@ -7,8 +7,7 @@ program tiltpad
    use case_inputs, only: case_type
    use result_size, only: size_note
    use parameter_study, only: study_type, run_tag, read_study
-   use namelist_writer, only: namelist_of
-   use input_reference, only: reference_text
+   use namelist_writer, only: namelist_of, reference_text
    use files, only: real_path
    use processes, only: processors, write_output
    use build_info, only: program_version, program_commit

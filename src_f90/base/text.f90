@@ -3,7 +3,7 @@ module text
    use kinds, only: wp, i8
    implicit none (type, external)
    private
-   public :: to_text, exact_text, fixed_text, lower_case, printable, shortened, on_one_line, is_utf8
+   public :: to_text, list_text, exact_text, fixed_text, lower_case, printable, shortened, on_one_line, is_utf8
    public :: checksum, find_similar, did_you_mean, unlike
 
    !> The score of a word that no known one is like.
@@ -38,6 +38,17 @@ contains
       character(len=:), allocatable :: string
       string = of_digits(x, 6)
    end function real_text
+
+   !> Numbers as short texts: "1, 0.5".
+   pure function list_text(values) result(string)
+      real(wp), intent(in) :: values(:)
+      character(len=:), allocatable :: string
+      integer :: i
+      string = to_text(values(1))
+      do i = 2, size(values)
+         string = string//', '//to_text(values(i))
+      end do
+   end function list_text
 
    !> A number with this number of significant digits, without needless zeros.
    pure function of_digits(x, digits) result(string)

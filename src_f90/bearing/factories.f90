@@ -2,7 +2,7 @@
 !> input into types.
 module factories
    use kinds, only: wp, degree
-   use case_inputs, only: case_type
+   use case_inputs, only: case_type, is_set
    use pad_gap, only: pad_gap_type
    use film_solver, only: film_solver_type
    use fourier_film, only: new_fourier_film
@@ -214,7 +214,7 @@ contains
                & f%critical_velocity, f%decay)
          case ('lugre')
             damping = f%bristle_damping
-            if (damping < 0) damping = default_bristle_damping(f%bristle_stiffness, f%characteristic_load)
+            if (.not. is_set(damping)) damping = default_bristle_damping(f%bristle_stiffness, f%characteristic_load)
             law = lugre_friction(.true., f%static_coefficient, f%dynamic_coefficient, never_sticks, &
                & f%stribeck_velocity, f%stribeck_exponent, f%bristle_stiffness, damping, f%viscous_coefficient)
          case default

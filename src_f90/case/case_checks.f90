@@ -3,8 +3,7 @@ module case_checks
    use kinds, only: wp, degree
    use text, only: to_text
    use errors, only: error_type, require
-   use case_inputs, only: case_type, clearance_range
-   use task_checks, only: check_tasks
+   use case_inputs, only: case_type, clearance_range, is_set
    implicit none (type, external)
    private
    public :: check_case
@@ -23,14 +22,13 @@ contains
       call check_film(inputs, error)
       call check_bearing(inputs, error)
       call check_thermal(inputs, error)
-      call check_integration(inputs, error)
-      call check_rotor(inputs, error)
       call check_friction(inputs, error)
       call check_pivot(inputs, error)
       call check_start(inputs, error)
       call check_output(inputs, error)
       call check_pads(inputs, error)
       call check_tasks(inputs, error)
+      call check_branch(inputs, error)
    end subroutine check_case
 
    subroutine check_film(inputs, error)
@@ -93,25 +91,6 @@ contains
       end associate
    end subroutine check_thermal
 
-   subroutine check_integration(inputs, error)
-      type(case_type), intent(in) :: inputs
-      type(error_type), allocatable, intent(inout) :: error
-      associate (periodic => inputs%integration%stop_when_periodic, o => inputs%operation)
-         call require(periodic <= 0 .or. abs(o%final_speed_rpm - o%speed_rpm) <= 0, &
-            & 'integration%stop_when_periodic = '//to_text(periodic) &
-            & //': must be 0 where operation%final_speed_rpm differs from operation%speed_rpm', error)
-      end associate
-   end subroutine check_integration
-
-   subroutine check_rotor(inputs, error)
-      type(case_type), intent(in) :: inputs
-      type(error_type), allocatable, intent(inout) :: error
-      associate (speed => inputs%rotor%balance_speed_rpm)
-         call require(speed < 0 .or. speed >= 1, 'rotor%balance_speed_rpm = '//to_text(speed) &
-            & //': must be < 0 (the highest of the run) or >= 1', error)
-      end associate
-   end subroutine check_rotor
-
    subroutine check_friction(inputs, error)
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
@@ -156,9 +135,14 @@ contains
       end associate
    end subroutine check_start
 
+   !> When a march ends, and what it samples.
    subroutine check_output(inputs, error)
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
+      associate (periodic => inputs%integration%stop_when_periodic)
+         call require(periodic <= 0 .or. inputs%is_steady(), 'integration%stop_when_periodic = '//to_text(periodic) &
+            & //': must be 0 where operation%final_speed_rpm differs from operation%speed_rpm', error)
+      end associate
       associate (output => inputs%output, duration => inputs%operation%duration)
          call require(output%start_time <= duration, 'output%start_time = '//to_text(output%start_time) &
             & //': must not exceed operation%duration = '//to_text(duration), error)
@@ -207,4 +191,52 @@ contains
          end do
       end associate
    end subroutine require_room
+
+   !> What some tasks cannot do: but for a march and an equilibrium the speed is constant; where nothing moves, no start
+   !> can be given.
+   subroutine check_tasks(inputs, error)
+      type(case_type), intent(in) :: inputs
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=:), allocatable :: without, also
+      associate (c => inputs%coefficients, o => inputs%operation, s => inputs%start, task => inputs%about%task)
+         if (task == 'march' .or. task == 'equilibrium') return
+         also = ''
+         if (task == 'coefficients') also = '; a study varies the speed'
+         call require(inputs%is_steady(), 'operation%final_speed_rpm = '//to_text(o%final_speed_rpm) &
+            & //': must be operation%speed_rpm = '//to_text(o%speed_rpm)//' with case%task = '''//task//''''//also, &
+            & error)
+         without = ': has no effect with case%task = '''//task//''''
+         if (inputs%seeks_orbits()) then
+            call require(.not. inputs%output%start_time > 0, 'output%start_time = ' &
+               & //to_text(inputs%output%start_time)//without, error)
+            call require(.not. inputs%integration%stop_when_periodic > 0, 'integration%stop_when_periodic = ' &
+               & //to_text(inputs%integration%stop_when_periodic)//without, error)
+            return
+         end if
+         if (task == 'branch') without = ': has no effect on a branch of equilibria'
+         call require(s%from == 'equilibrium', 'start%from = '''//s%from//''''//without, error)
+         call require(.not. inputs%is_disturbed(), 'start%journal = '//to_text(s%journal(1))//', ...: a disturbance' &
+            & //without, error)
+         call require(.not. c%threshold_up_to_rpm > 0 .or. c%threshold_up_to_rpm > o%speed_rpm, &
+            & 'coefficients%threshold_up_to_rpm = '//to_text(c%threshold_up_to_rpm) &
+            & //': must be 0 or above operation%speed_rpm = '//to_text(o%speed_rpm)//', where the search starts', error)
+      end associate
+   end subroutine check_tasks
+
+   !> A branch needs a parameter, its last value and a step; `case_parameter` checks what they mean.
+   subroutine check_branch(inputs, error)
+      type(case_type), intent(in) :: inputs
+      type(error_type), allocatable, intent(inout) :: error
+      if (inputs%about%task /= 'branch') return
+      associate (b => inputs%branch)
+         call require(b%parameter /= '', 'branch%parameter = '''': must name a number of the input, such as ' &
+            & //'''operation%speed_rpm''', error)
+         call require(is_set(b%last), 'branch%last: must be given, the last value of '//b%parameter, error)
+         call require(is_set(b%step), 'branch%step: must be given, the first change of '//b%parameter, error)
+         call require(.not. b%max_step > 0 .or. b%max_step >= abs(b%step), 'branch%max_step = ' &
+            & //to_text(b%max_step)//': must be 0 or at least the size of branch%step = '//to_text(b%step), error)
+         call require(b%switch .or. b%of == 'periodic', 'branch%switch = .false.: has no effect on a branch of ' &
+            & //'equilibria', error)
+      end associate
+   end subroutine check_branch
 end module case_checks

@@ -2,25 +2,34 @@
 !> and mass, inertia and centre of gravity of the pads.
 module case_completion
    use kinds, only: wp, degree
-   use text, only: to_text
-   use errors, only: error_type, raise, input_error
-   use case_inputs, only: case_type, unset, is_set, mass_range, inertia_range, centre_range, &
-      & clearance_range
-   use oil_completion, only: complete_oil
-   use annular_sector, only: annular_sector_type, new_annular_sector
+   use text, only: to_text, list_text
+   use errors, only: error_type, raise, require, input_error
+   use case_inputs, only: case_type, oil_type, unset, is_set, mass_range, inertia_range, centre_range, &
+      & clearance_range, temperature_range, viscosity_range
+   use oil_properties, only: reference_viscosity, density, grades
    implicit none (type, external)
    private
-   public :: leave_out, complete_case
+   public :: leave_out, complete_case, annular_sector_type, new_annular_sector
 
    !> Density of steel, kg/m^3.
    real(wp), parameter :: steel = 7850
+
+   !> The body of a pad: an annular sector of uniform density, as long as the bearing.
+   type :: annular_sector_type
+      !> m^3.
+      real(wp) :: volume = 0
+      !> Centre of gravity from the pivot, along the pad and outward, m.
+      real(wp) :: centre_tangential = 0, centre_radial = 0
+      !> Moment of inertia about the pivot over the mass, m^2.
+      real(wp) :: squared_radius = 0
+   end type annular_sector_type
 
 contains
 
    !> Leaves out what `complete_case` can find.
    pure subroutine leave_out(inputs)
       type(case_type), intent(inout) :: inputs
-      inputs%operation%final_speed_rpm = -1
+      inputs%operation%final_speed_rpm = unset
       inputs%bearing%machined_clearance = unset
       inputs%bearing%viscosity = unset
       inputs%oil%law = ''
@@ -102,10 +111,10 @@ contains
             call fill(p%inertia(i), p%mass(i)*sector%squared_radius)
             call fill(p%centre_tangential(i), sector%centre_tangential)
             call fill(p%centre_radial(i), sector%centre_radial)
-            call require('mass', p%mass(i), mass_range, error)
-            call require('inertia', p%inertia(i), inertia_range, error)
-            call require('centre_tangential', p%centre_tangential(i), centre_range, error)
-            call require('centre_radial', p%centre_radial(i), centre_range, error)
+            call require_range('mass', p%mass(i), mass_range, error)
+            call require_range('inertia', p%inertia(i), inertia_range, error)
+            call require_range('centre_tangential', p%centre_tangential(i), centre_range, error)
+            call require_range('centre_radial', p%centre_radial(i), centre_range, error)
          end if
          p%density(i) = unset
          p%thickness(i) = unset
@@ -152,12 +161,118 @@ contains
    end subroutine fill
 
    !> Refuses what the input would not allow if it were given.
-   subroutine require(name, value, range, error)
+   subroutine require_range(name, value, range, error)
       character(len=*), intent(in) :: name
       real(wp), intent(in) :: value, range(2)
       type(error_type), allocatable, intent(inout) :: error
-      if (allocated(error) .or. value >= range(1) .and. value <= range(2)) return
-      call raise(error, input_error, 'pads%'//name//' = '//to_text(value)//', from the size of the pad: must be ' &
-         & //to_text(range(1))//' to '//to_text(range(2)))
-   end subroutine require
+      call require(value >= range(1) .and. value <= range(2), 'pads%'//name//' = '//to_text(value) &
+         & //', from the size of the pad: must be '//to_text(range(1))//' to '//to_text(range(2)), error)
+   end subroutine require_range
+
+   !> Closed forms of the sector between the bore and a back that lies `thickness` behind it, from `trailing` before to
+   !> `leading` behind the pivot, rad; the pivot lies at `distance` outward of the bore.
+   pure type(annular_sector_type) function new_annular_sector(bore, thickness, leading, trailing, length, distance) &
+      & result(sector)
+      real(wp), intent(in) :: bore, thickness, leading, trailing, length, distance
+      real(wp) :: back, arc, radius, pivot, outward
+      back = bore + thickness
+      arc = leading + trailing
+      pivot = bore + distance
+      ! a ring's share of its area at each radius, and the mean direction of its points
+      radius = 2*(bore**2 + bore*back + back**2)/(3*(bore + back))
+      outward = radius*(sin(leading) + sin(trailing))/arc
+      sector%volume = 0.5_wp*arc*thickness*(bore + back)*length
+      sector%centre_tangential = radius*(cos(trailing) - cos(leading))/arc
+      sector%centre_radial = outward - pivot
+      sector%squared_radius = 0.5_wp*(bore**2 + back**2) + pivot*(pivot - 2*outward)
+   end function new_annular_sector
+
+   !> Finds the law where it is left out, checks its numbers, and gives the constant law the paper's viscosity.
+   subroutine complete_oil(inputs, error)
+      type(case_type), intent(inout) :: inputs
+      type(error_type), allocatable, intent(out) :: error
+      type(case_type) :: paper
+      associate (b => inputs%bearing, oil => inputs%oil)
+         ! resolved cases once said so of every case without a grade
+         if (.not. oil%grade > 0) oil%grade = unset
+         if (oil%law == '') oil%law = meant_law(oil)
+         call refuse_other_law(inputs, error)
+         select case (oil%law)
+         case ('constant')
+            paper = case_type()
+            if (.not. is_set(b%viscosity)) b%viscosity = paper%bearing%viscosity
+            return
+         case ('walther')
+            call check_walther(oil, error)
+         case default
+            call require(is_set(oil%reference_viscosity) .and. is_set(oil%temperature_exponent), 'oil%law = ' &
+               & //'''exponential'': needs oil%reference_viscosity and oil%temperature_exponent', error)
+         end select
+         if (allocated(error)) return
+         associate (mu => reference_viscosity(inputs))
+            call require(mu >= viscosity_range(1) .and. mu <= viscosity_range(2), 'oil%supply_temperature = ' &
+               & //to_text(oil%supply_temperature)//': the oil''s viscosity there is '//to_text(mu) &
+               & //' Pa s; must be '//to_text(viscosity_range(1))//' to '//to_text(viscosity_range(2)), error)
+         end associate
+      end associate
+   end subroutine complete_oil
+
+   !> The law whose numbers are given.
+   pure function meant_law(oil) result(law)
+      type(oil_type), intent(in) :: oil
+      character(len=:), allocatable :: law
+      if (is_set(oil%grade) .or. any(is_set(oil%kinematic_viscosity))) then
+         law = 'walther'
+      else if (is_set(oil%reference_viscosity) .or. is_set(oil%temperature_exponent)) then
+         law = 'exponential'
+      else
+         law = 'constant'
+      end if
+   end function meant_law
+
+   !> Refuses what tells that another law is meant; numbers that merely have no effect may stand.
+   subroutine refuse_other_law(inputs, error)
+      type(case_type), intent(in) :: inputs
+      type(error_type), allocatable, intent(inout) :: error
+      associate (oil => inputs%oil)
+         call only_of('constant', 'bearing%viscosity', inputs%bearing%viscosity)
+         call only_of('walther', 'oil%grade', oil%grade)
+         call only_of('walther', 'oil%kinematic_viscosity', maxval(oil%kinematic_viscosity))
+         call only_of('exponential', 'oil%reference_viscosity', oil%reference_viscosity)
+         call only_of('exponential', 'oil%temperature_exponent', oil%temperature_exponent)
+      end associate
+   contains
+      subroutine only_of(law, name, value)
+         character(len=*), intent(in) :: law, name
+         real(wp), intent(in) :: value
+         call require(.not. is_set(value) .or. inputs%oil%law == law, name//' = '//to_text(value) &
+            & //': belongs to oil%law = '''//law//''', but this case has oil%law = '''//inputs%oil%law &
+            & //'''; take it out of the case', error)
+      end subroutine only_of
+   end subroutine refuse_other_law
+
+   subroutine check_walther(oil, error)
+      type(oil_type), intent(in) :: oil
+      type(error_type), allocatable, intent(inout) :: error
+      type(oil_type) :: default
+      associate (nu => oil%kinematic_viscosity, t => oil%at_temperature)
+         if (is_set(oil%grade)) then
+            call require(any(abs(grades - oil%grade) <= 0), 'oil%grade = '//to_text(oil%grade)//': must be one of ' &
+               & //'the ISO viscosity grades '//list_text(real(grades, wp)), error)
+            call require(.not. any(is_set(nu)), 'oil%grade = '//to_text(oil%grade)//': oil%kinematic_viscosity = ' &
+               & //to_text(maxval(nu))//' is given too; give one of them', error)
+            call require(all(abs(t - default%at_temperature) <= 0), 'oil%at_temperature = '//list_text(t) &
+               & //': a grade has its two points at 40 and 100 C; leave it out', error)
+         else
+            call require(all(is_set(nu)), 'oil%law = ''walther'': needs oil%grade, or two values of ' &
+               & //'oil%kinematic_viscosity', error)
+            call require(t(2) > t(1), 'oil%at_temperature = '//list_text(t) &
+               & //': the second must be above the first', error)
+            call require(nu(2) <= nu(1), 'oil%kinematic_viscosity = '//list_text(nu) &
+               & //': must not rise with the temperature', error)
+         end if
+      end associate
+      call require(density(oil, temperature_range(2)) > 0, 'oil%density_slope = '//to_text(oil%density_slope) &
+         & //': the density must be above 0 up to '//to_text(temperature_range(2))//' C', error)
+   end subroutine check_walther
 end module case_completion

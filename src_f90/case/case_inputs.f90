@@ -1,21 +1,19 @@
 !> What a run is about: one derived type per namelist group. The defaults are Tables 1 and 2 of
-!> Dyk et al. 2023, so a default case is the paper's bearing. SI units unless a name says otherwise.
+!> Dyk et al. 2023, so a default case is the paper's bearing. SI units unless a name says otherwise. What each variable
+!> means, and which words a text may be, stands in the list of variables, case_fields.
 module case_inputs
    use kinds, only: wp, rpm
    implicit none (type, external)
    private
-   public :: case_type, max_pads, unset, is_set, mass_range, inertia_range, centre_range, temperature_range
-   public :: viscosity_range, clearance_range
-   public :: about_type, rotor_type, operation_type, bearing_type, oil_type, thermal_type, pads_type, pivot_type
-   public :: friction_type
-   public :: asperity_type, start_type, film_type, coefficients_type, most_ratios
-   public :: periodic_type, branch_type, integration_type, output_type
+   public :: case_type, max_pads, most_ratios, unset, is_set
+   public :: mass_range, inertia_range, centre_range, temperature_range, viscosity_range, clearance_range
+   public :: oil_type, branch_type
 
    !> Most pads of a bearing.
    integer, parameter :: max_pads = 24
    !> Most whirl frequencies of an analysis.
    integer, parameter :: most_ratios = 1000
-   !> A number that a case leaves out and that follows from others.
+   !> A number that is not set: what it stands for follows from others, or there is none of it.
    real(wp), parameter :: unset = -huge(1.0_wp)
    !> What the input allows of the pads, kg, kg m^2 and m: their masses may follow from other variables.
    real(wp), parameter :: mass_range(2) = [1e-9_wp, 1e9_wp], inertia_range(2) = [1e-15_wp, 1e12_wp]
@@ -27,23 +25,22 @@ module case_inputs
 
    type :: about_type
       character(len=:), allocatable :: title
-      !> 'equilibrium', 'coefficients', 'periodic', 'branch' or 'march'.
       character(len=:), allocatable :: task
    end type about_type
 
    type :: rotor_type
       !> Mass carried by the bearing, kg; unbalance, kg m.
       real(wp) :: mass = 2000, unbalance = 0.010_wp
-      !> > 0: ISO 21940-11 grade, mm/s, replaces the unbalance; its speed (< 0: the highest of the run).
-      real(wp) :: balance_grade = -1, balance_speed_rpm = -1
+      !> ISO 21940-11 grade, mm/s, that replaces the unbalance; its speed (unset: the highest of the run).
+      real(wp) :: balance_grade = unset, balance_speed_rpm = unset
       real(wp) :: gravity = 9.81_wp
       !> Extra force on the journal along y and z, N.
       real(wp) :: static_load(2) = 0
    end type rotor_type
 
    type :: operation_type
-      !> Speed at the start and at the end (linear in between; < 0: the same), and how long, s.
-      real(wp) :: speed_rpm = 6500, final_speed_rpm = -1, duration = 2
+      !> Speed at the start and at the end (linear in between; set in a complete case), and how long, s.
+      real(wp) :: speed_rpm = 6500, final_speed_rpm = unset, duration = 2
    end type operation_type
 
    type :: bearing_type
@@ -58,11 +55,10 @@ module case_inputs
 
    !> The oil; temperatures in C.
    type :: oil_type
-      !> 'constant', 'exponential' or 'walther'.
       character(len=:), allocatable :: law
-      !> Walther: an ISO viscosity grade, or 0 and the kinematic viscosities at two temperatures, m^2/s; density at
+      !> Walther: an ISO viscosity grade, or the kinematic viscosities at two temperatures, m^2/s; density at
       !> 15 C, kg/m^3 (unset: `density`), and its slope, kg/(m^3 K), which make them dynamic ones.
-      integer :: grade = 0
+      real(wp) :: grade = unset
       real(wp) :: kinematic_viscosity(2) = unset, at_temperature(2) = [40.0_wp, 100.0_wp]
       real(wp) :: density_at_15 = unset, density_slope = 0
       !> Exponential: Pa s at a temperature; 1/K.
@@ -80,9 +76,7 @@ module case_inputs
 
    !> The heat balance.
    type :: thermal_type
-      !> 'none' or 'pad': a temperature for each pad.
       character(len=:), allocatable :: model
-      !> In a march: 'frozen' at the equilibrium, or 'groove': in a run-up the oil between the pads is renewed.
       character(len=:), allocatable :: march
    end type thermal_type
 
@@ -93,12 +87,10 @@ module case_inputs
       !> What the four above follow from where they are left out; unset in a complete case. Fixed pads may leave out
       !> all six: then they stay unset.
       real(wp), allocatable :: density(:), thickness(:)
-      !> 'tilting_radial', 'tilting_only' or 'fixed'.
       character(len=:), allocatable :: motion
    end type pads_type
 
    type :: pivot_type
-      !> 'fang' or 'hertz'.
       character(len=:), allocatable :: law
       real(wp) :: socket_radius = 13e-3_wp, radius_difference = 15e-6_wp
       !> Of ball and socket.
@@ -107,18 +99,16 @@ module case_inputs
    end type pivot_type
 
    type :: friction_type
-      !> 'none', 'bengisu_akay' or 'lugre'.
       character(len=:), allocatable :: model
       real(wp) :: static_coefficient = 0.1_wp, dynamic_coefficient = 0.05_wp
       real(wp) :: critical_velocity = 1e-5_wp, decay = 1000
       real(wp) :: stribeck_velocity = 1e-3_wp, stribeck_exponent = 1
-      !> Bristle damping < 0: eq (28).
-      real(wp) :: bristle_stiffness = 1e6_wp, bristle_damping = -1, viscous_coefficient = 0
+      !> Bristle damping unset: eq (28).
+      real(wp) :: bristle_stiffness = 1e6_wp, bristle_damping = unset, viscous_coefficient = 0
       real(wp) :: characteristic_load = 1e4_wp
    end type friction_type
 
    type :: asperity_type
-      !> 'greenwood_tripp' or 'none'.
       character(len=:), allocatable :: model
       !> Combined rms roughness sigma of pad and journal, m; composite modulus E' of steel on white metal, Pa; K'.
       real(wp) :: roughness = 0.5e-6_wp, elastic_modulus = 4.7e10_wp, factor = 3e-3_wp
@@ -126,7 +116,6 @@ module case_inputs
    end type asperity_type
 
    type :: start_type
-      !> 'equilibrium', 'partial', 'centred', 'given' or 'file'.
       character(len=:), allocatable :: from
       !> The result that a start from a file continues.
       character(len=:), allocatable :: file
@@ -136,7 +125,6 @@ module case_inputs
    end type start_type
 
    type :: film_type
-      !> 'auto', 'direct', 'fourier' or 'sor'.
       character(len=:), allocatable :: solver
       !> Cells along the arc and, on finite volumes, along half the width; modes. 0: the solver's own number.
       integer :: circumferential_cells = 0, axial_cells = 0, axial_modes = 0
@@ -145,7 +133,6 @@ module case_inputs
       integer :: max_sweeps = 5000
       !> Of forces from tables over that of a film that is just whole; 0: by the march's tolerance.
       real(wp) :: table_tolerance = 0
-      !> 'reynolds', 'gumbel' or 'none'.
       character(len=:), allocatable :: cavitation
    end type film_type
 
@@ -185,9 +172,7 @@ module case_inputs
    end type periodic_type
 
    type :: branch_type
-      !> 'periodic' or 'equilibrium'.
       character(len=:), allocatable :: of
-      !> Name of the number of the input that changes, 'group%name' or 'group%name(element)'.
       character(len=:), allocatable :: parameter
       !> Its value at the end; its first change; its largest change in a step, 0: ten times the first. Unset where they
       !> are left out.
@@ -225,6 +210,8 @@ module case_inputs
       procedure :: tilting_radial
       procedure :: highest_speed
       procedure :: unbalance
+      procedure :: is_steady
+      procedure :: is_disturbed
       procedure :: set_final_speed
    end type case_type
 
@@ -279,8 +266,23 @@ contains
    !> The final speed where the input leaves it out: the speed at the start.
    pure subroutine set_final_speed(self)
       class(case_type), intent(inout) :: self
-      if (self%operation%final_speed_rpm < 0) self%operation%final_speed_rpm = self%operation%speed_rpm
+      if (.not. is_set(self%operation%final_speed_rpm)) self%operation%final_speed_rpm = self%operation%speed_rpm
    end subroutine set_final_speed
+
+   !> Whether the speed stays the same.
+   pure logical function is_steady(self)
+      class(case_type), intent(in) :: self
+      is_steady = .not. abs(self%operation%final_speed_rpm - self%operation%speed_rpm) > 0
+   end function is_steady
+
+   !> Whether the group start adds something to where a march starts.
+   pure logical function is_disturbed(self)
+      class(case_type), intent(in) :: self
+      associate (s => self%start)
+         is_disturbed = any(abs([s%journal, s%journal_velocity, s%pad_tilt, s%pad_tilt_rate, s%pivot_deflection, &
+            & s%pivot_deflection_rate]) > 0)
+      end associate
+   end function is_disturbed
 
    !> Whether the task integrates the motion.
    pure logical function moves(self)
@@ -321,9 +323,9 @@ contains
       class(case_type), intent(in) :: self
       real(wp) :: balance_rpm
       unbalance = self%rotor%unbalance
-      if (self%rotor%balance_grade > 0) then
+      if (is_set(self%rotor%balance_grade)) then
          balance_rpm = self%rotor%balance_speed_rpm
-         if (balance_rpm < 0) balance_rpm = self%highest_speed()/rpm
+         if (.not. is_set(balance_rpm)) balance_rpm = self%highest_speed()/rpm
          ! eq (26): 9549 G m / n, in g mm
          unbalance = 9549*self%rotor%balance_grade*self%rotor%mass/balance_rpm*1e-6_wp
       end if

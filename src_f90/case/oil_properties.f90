@@ -83,7 +83,7 @@ contains
       real(wp) :: points(2)
       integer :: i
       points = oil%kinematic_viscosity
-      i = findloc(grades, oil%grade, dim=1)
+      i = findloc(abs(grades - oil%grade) <= 0, .true., dim=1)
       if (i > 0) points = 1e-6_wp*[real(grades(i), wp), grades_at_100(i)]
    end function kinematic_points
 

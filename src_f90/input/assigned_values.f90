@@ -3,12 +3,13 @@
 module assigned_values
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use text, only: to_text, lower_case, shortened, is_utf8, did_you_mean
+   use text, only: to_text, lower_case, shortened, is_utf8
    use errors, only: error_type, raise, input_error
-   use former_names, only: new_name
    use number_syntax, only: is_special, read_number
    use assignments, only: assignment_type, token_type, assignment_text, study_group
-   use field_visitor, only: field_type
+   use case_inputs, only: unset
+   use variable_table, only: variable_type
+   use variable_names, only: meant_word
    implicit none (type, external)
    private
    public :: read_word, read_reals, refuse_values
@@ -20,21 +21,21 @@ contains
 
    !> The one text of an assignment; a word out of several is in lower case, without blanks around it. A shell has
    !> taken the quotes of --set away, so a bare word is a text there.
-   subroutine read_word(a, field, word, error)
+   subroutine read_word(a, v, word, error)
       type(assignment_type), intent(in) :: a
-      type(field_type), intent(in) :: field
+      type(variable_type), intent(in) :: v
       character(len=:), allocatable, intent(out) :: word
       type(error_type), allocatable, intent(out) :: error
       word = a%values(1)%text
-      if (field%choices /= '') word = lower_case(trim(adjustl(word)))
-      if (size(a%values) > 1 .and. field%choices == '') then
+      if (v%choices /= '') word = lower_case(trim(adjustl(word)))
+      if (size(a%values) > 1 .and. v%choices == '') then
          call refuse_values(a, 'takes one text, in quotes where it has blanks or commas', error)
       else if (size(a%values) > 1 .or. a%subscript > 0) then
          call refuse_values(a, 'takes one text'//several_runs(a), error)
-      else if (field%choices /= '' .and. .not. is_choice(word, field%choices)) then
-         call refuse_values(a, 'must be one of '''//quoted_list(field%choices)//'''' &
-            & //meant_word(a, word, field%choices), error)
-      else if (field%choices == '' .and. .not. (a%values(1)%quoted .or. a%overrides)) then
+      else if (v%choices /= '' .and. .not. is_choice(word, v%choices)) then
+         call refuse_values(a, 'must be one of '''//quoted_list(v%choices)//'''' &
+            & //meant_word(word, v%choices, a%group//'%'//a%name//'='), error)
+      else if (v%choices == '' .and. .not. (a%values(1)%quoted .or. a%overrides)) then
          call refuse_values(a, 'text must stand in quotes', error)
       else if (len(word) > longest_text) then
          call raise(error, input_error, a%origin//': '//a%group//'%'//a%name//': '//to_text(len(word)) &
@@ -44,24 +45,24 @@ contains
       end if
    end subroutine read_word
 
-   !> The values of an assignment as reals, each within the range; at most `most` up to the last element.
-   subroutine read_reals(a, most, field, values, error)
+   !> The values of an assignment as reals, each within the range; at most as many as the variable takes up to the last
+   !> element.
+   subroutine read_reals(a, v, values, error)
       type(assignment_type), intent(in) :: a
-      integer, intent(in) :: most
-      type(field_type), intent(in) :: field
+      type(variable_type), intent(in) :: v
       real(wp), allocatable, intent(out) :: values(:)
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: x
       integer :: i, repeat
       allocate (values(0))
       do i = 1, size(a%values)
-         call read_real(a, a%values(i), field, x, repeat, error)
+         call read_real(a, a%values(i), v, x, repeat, error)
          if (allocated(error)) return
-         if (max(1, a%subscript) - 1 + size(values) + repeat > most) then
-            if (most == 1 .and. size(a%values) > 1) then
+         if (max(1, a%subscript) - 1 + size(values) + repeat > v%most) then
+            if (v%most == 1 .and. size(a%values) > 1) then
                call refuse_values(a, 'takes one value'//several_runs(a), error)
             else
-               call refuse_values(a, 'at most '//to_text(most)//' values', error)
+               call refuse_values(a, 'at most '//to_text(v%most)//' values', error)
             end if
             return
          end if
@@ -69,11 +70,12 @@ contains
       end do
    end subroutine read_reals
 
-   !> One value of an assignment and how often it stands there: `repeat*value`.
-   subroutine read_real(a, token, field, x, repeat, error)
+   !> One value of an assignment and how often it stands there: `repeat*value`. Of what a case may leave out and what is
+   !> never below 0, the value -1 says that it is not set.
+   subroutine read_real(a, token, v, x, repeat, error)
       type(assignment_type), intent(in) :: a
       type(token_type), intent(in) :: token
-      type(field_type), intent(in) :: field
+      type(variable_type), intent(in) :: v
       real(wp), intent(out) :: x
       integer, intent(out) :: repeat
       type(error_type), allocatable, intent(out) :: error
@@ -92,18 +94,20 @@ contains
       end if
       x = 0
       if (.not. token%quoted .and. is_special(digits)) then
-         call refuse_values(a, 'must be finite, '//field%range_text(), error)
+         call refuse_values(a, 'must be finite, '//v%range_text(), error)
          return
       end if
       call read_number(digits, x, ok)
       if (index(token%text, ':') > 0 .and. .not. token%quoted) then
-         call refuse_values(a, 'must be a number, '//field%range_text()//several_runs(a), error)
+         call refuse_values(a, 'must be a number, '//v%range_text()//several_runs(a), error)
       else if (.not. repeat_ok .or. token%quoted .or. .not. ok) then
-         call refuse_values(a, 'must be a number, '//field%range_text(), error)
+         call refuse_values(a, 'must be a number, '//v%range_text(), error)
       else if (.not. ieee_is_finite(x)) then
-         call refuse_values(a, 'must be finite, '//field%range_text(), error)
-      else if (.not. field%allows(x)) then
-         call refuse_values(a, 'must be '//field%range_text(), error)
+         call refuse_values(a, 'must be finite, '//v%range_text(), error)
+      else if (v%may_be_unset .and. v%low >= 0 .and. abs(x + 1) <= 0) then
+         x = unset
+      else if (x < v%low .or. x > v%high) then
+         call refuse_values(a, 'must be '//v%range_text(), error)
       end if
    end subroutine read_real
 
@@ -121,15 +125,6 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       call raise(error, input_error, a%origin//': '//assignment_text(a)//': '//reason)
    end subroutine refuse_values
-
-   !> What a wrong word may stand for: today's name of a former one, or a word that it is like.
-   pure function meant_word(a, word, choices) result(text)
-      type(assignment_type), intent(in) :: a
-      character(len=*), intent(in) :: word, choices
-      character(len=:), allocatable :: text
-      text = new_name(a%group//'%'//a%name//'='//word)
-      if (text == '') text = did_you_mean(word, choices)
-   end function meant_word
 
    !> True for one of the words that `choices` lists, separated by blanks.
    pure logical function is_choice(word, choices)

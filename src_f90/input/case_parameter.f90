@@ -6,8 +6,8 @@ module case_parameter
    use errors, only: error_type, raise, input_error
    use case_inputs, only: case_type, is_set
    use case_checks, only: check_case
-   use field_visitor, only: visitor_type, field_type
-   use case_fields, only: visit_case
+   use variable_table, only: variable_table_type
+   use case_fields, only: list_variables, put_variables
    use variable_names, only: meant_variable
    implicit none (type, external)
    private
@@ -31,28 +31,6 @@ module case_parameter
       procedure :: set
    end type case_parameter_type
 
-   !> Looks for a variable, reads its value and puts another one there.
-   type, extends(visitor_type) :: seeker
-      character(len=:), allocatable :: group_name, name, this_group
-      integer :: element = 0
-      !> Whether there is such a variable, and whether it is one of real numbers.
-      logical :: exists = .false., real_number = .false.
-      !> Its elements, and whether they are one for each pad.
-      integer :: elements = 0
-      logical :: of_pads = .false.
-      real(wp) :: value = 0
-      real(wp), allocatable :: new_value
-      type(field_type) :: field
-   contains
-      procedure :: group => visit_group
-      procedure :: word => visit_word
-      procedure :: whole => visit_whole
-      procedure :: numbers => visit_numbers
-      procedure :: per_pad => visit_per_pad
-      procedure :: list => visit_list
-      procedure, private :: is_it
-   end type seeker
-
 contains
 
    !> The number of this name in a case; an error says why there is none.
@@ -61,40 +39,44 @@ contains
       character(len=*), intent(in) :: name
       type(case_parameter_type), intent(out) :: parameter
       type(error_type), allocatable, intent(out) :: error
-      type(case_type) :: copy
-      type(seeker) :: found
+      type(variable_table_type) :: table
+      integer :: at
       logical :: ok
       call split(lower_case(name), parameter, ok)
       if (.not. ok) then
          call raise(error, input_error, 'must be group%name or group%name(element)')
          return
       end if
-      copy = inputs
-      call seek(parameter, copy, found)
-      if (.not. found%exists) then
+      call list_variables(inputs, table)
+      at = table%find(parameter%group, parameter%variable)
+      if (at == 0) then
          call raise(error, input_error, 'there is no such variable' &
             & //meant_variable(parameter%group, parameter%variable))
-      else if (.not. found%real_number) then
-         call raise(error, input_error, 'must be a real number, no text and no whole number')
-      else if (index(groups, ' '//parameter%group//' ') == 0 .or. parameter%group == 'operation' &
-         & .and. parameter%variable /= speed) then
-         call raise(error, input_error, 'must be operation%'//speed//' or a number of rotor, bearing, oil, pads, ' &
-            & //'pivot, friction or asperity')
-      else if (parameter%element > found%elements) then
-         call raise(error, input_error, 'has '//to_text(found%elements)//trim(merge(' element ', ' elements', &
-            & found%elements == 1)))
-      else if (parameter%element == 0 .and. found%elements > 1 &
-         & .and. (found%field%fixes_pads .or. .not. found%of_pads)) then
-         call raise(error, input_error, 'needs the number of an element, '//parameter%group//'%'//parameter%variable &
-            & //'(1) to ('//to_text(found%elements)//')')
-      else if (.not. is_set(found%value)) then
-         call raise(error, input_error, 'has no value of its own here (tiltpad --check prints those that have)')
+         return
       end if
-      parameter%unit = found%field%unit
-      parameter%meaning = found%field%meaning
-      parameter%low = found%field%low
-      parameter%high = found%field%high
-      if (.not. allocated(error)) parameter%range = found%field%range_text()
+      associate (v => table%variables(at))
+         parameter%unit = v%unit
+         parameter%meaning = v%meaning
+         parameter%low = v%low
+         parameter%high = v%high
+         if (v%is_text .or. v%whole) then
+            call raise(error, input_error, 'must be a real number, no text and no whole number')
+         else if (index(groups, ' '//parameter%group//' ') == 0 .or. parameter%group == 'operation' &
+            & .and. parameter%variable /= speed) then
+            call raise(error, input_error, 'must be operation%'//speed//' or a number of rotor, bearing, oil, pads, ' &
+               & //'pivot, friction or asperity')
+         else if (parameter%element > size(v%values)) then
+            call raise(error, input_error, 'has '//to_text(size(v%values))//trim(merge(' element ', ' elements', &
+               & size(v%values) == 1)))
+         else if (parameter%element == 0 .and. size(v%values) > 1 .and. .not. v%of_pads) then
+            call raise(error, input_error, 'needs the number of an element, '//parameter%group//'%' &
+               & //parameter%variable//'(1) to ('//to_text(size(v%values))//')')
+         else if (.not. is_set(v%values(max(1, parameter%element)))) then
+            call raise(error, input_error, 'has no value of its own here (tiltpad --check prints those that have)')
+         else
+            parameter%range = v%range_text()
+         end if
+      end associate
    end subroutine find_parameter
 
    !> Parts of "group%name(element)". `ok` is false where it is none.
@@ -119,27 +101,15 @@ contains
       end associate
    end subroutine split
 
-   !> Walks along the variables of a case to that of a parameter.
-   subroutine seek(parameter, inputs, found)
-      class(case_parameter_type), intent(in) :: parameter
-      type(case_type), intent(inout) :: inputs
-      type(seeker), intent(inout) :: found
-      found%this_group = ''
-      found%group_name = parameter%group
-      found%name = parameter%variable
-      found%element = parameter%element
-      call visit_case(inputs, found)
-   end subroutine seek
-
    !> Its value in a case; where several elements change together, that of the first.
    real(wp) function value(self, inputs)
       class(case_parameter_type), intent(in) :: self
       type(case_type), intent(in) :: inputs
-      type(case_type) :: copy
-      type(seeker) :: found
-      copy = inputs
-      call seek(self, copy, found)
-      value = found%value
+      type(variable_table_type) :: table
+      call list_variables(inputs, table)
+      associate (v => table%variables(table%find(self%group, self%variable)))
+         value = v%values(max(1, self%element))
+      end associate
    end function value
 
    !> Gives it another value in a case. An error says why the case cannot be; it is changed all the same.
@@ -148,9 +118,16 @@ contains
       real(wp), intent(in) :: value
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      type(seeker) :: found
-      found%new_value = value
-      call seek(self, inputs, found)
+      type(variable_table_type) :: table
+      call list_variables(inputs, table)
+      associate (v => table%variables(table%find(self%group, self%variable)))
+         if (self%element > 0) then
+            v%values(self%element) = value
+         else
+            v%values = spread(value, 1, size(v%values))
+         end if
+      end associate
+      call put_variables(table, inputs)
       ! a run-up has no orbit
       inputs%operation%final_speed_rpm = inputs%operation%speed_rpm
       if (value < self%low .or. value > self%high) then
@@ -194,69 +171,4 @@ contains
          end if
       end associate
    end subroutine check_branch_parameter
-
-   subroutine visit_group(self, name, meaning)
-      class(seeker), intent(inout) :: self
-      character(len=*), intent(in) :: name, meaning
-      self%this_group = name
-   end subroutine visit_group
-
-   !> Whether this is the variable; then it is noted.
-   logical function is_it(self, field, real_number, elements)
-      class(seeker), intent(inout) :: self
-      type(field_type), intent(in) :: field
-      logical, intent(in) :: real_number
-      integer, intent(in) :: elements
-      is_it = self%this_group == self%group_name .and. field%name == self%name
-      if (.not. is_it) return
-      self%exists = .true.
-      self%real_number = real_number
-      self%elements = elements
-      self%field = field
-   end function is_it
-
-   subroutine visit_word(self, value, field)
-      class(seeker), intent(inout) :: self
-      character(len=:), allocatable, intent(inout) :: value
-      type(field_type), intent(in) :: field
-      logical :: ignored
-      ignored = self%is_it(field, .false., 1)
-   end subroutine visit_word
-
-   subroutine visit_whole(self, value, field)
-      class(seeker), intent(inout) :: self
-      integer, intent(inout) :: value
-      type(field_type), intent(in) :: field
-      logical :: ignored
-      ignored = self%is_it(field, .false., 1)
-   end subroutine visit_whole
-
-   subroutine visit_numbers(self, values, field)
-      class(seeker), intent(inout) :: self
-      real(wp), intent(inout) :: values(:)
-      type(field_type), intent(in) :: field
-      integer :: first, last
-      if (.not. self%is_it(field, .true., size(values))) return
-      if (self%element > size(values)) return
-      first = max(1, self%element)
-      last = merge(self%element, size(values), self%element > 0)
-      if (allocated(self%new_value)) values(first:last) = self%new_value
-      self%value = values(first)
-   end subroutine visit_numbers
-
-   subroutine visit_per_pad(self, values, field)
-      class(seeker), intent(inout) :: self
-      real(wp), allocatable, intent(inout) :: values(:)
-      type(field_type), intent(in) :: field
-      if (self%is_it(field, .true., size(values))) self%of_pads = .true.
-      call self%numbers(values, field)
-   end subroutine visit_per_pad
-
-   subroutine visit_list(self, values, most, field)
-      class(seeker), intent(inout) :: self
-      real(wp), allocatable, intent(inout) :: values(:)
-      integer, intent(in) :: most
-      type(field_type), intent(in) :: field
-      call self%numbers(values, field)
-   end subroutine visit_list
 end module case_parameter

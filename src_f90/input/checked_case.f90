@@ -3,22 +3,21 @@ module checked_case
    use kinds, only: wp
    use text, only: to_text, fixed_text
    use errors, only: error_type
-   use case_inputs, only: case_type
+   use case_inputs, only: case_type, is_set
    use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
    use result_size, only: result_bytes, sample_count
    use oil_properties, only: viscosity, kinematic_points
    use case_completion, only: complete_case
-   use case_fields, only: pads_variable
+   use variable_table, only: variable_table_type
+   use case_fields, only: list_variables, pads_variable
    use assignments, only: namelist_type
    use case_namelist, only: fill_case
-   use namelist_writer, only: namelist_of
+   use namelist_writer, only: lines_of, group_start
    implicit none (type, external)
    private
    public :: marked_text, derived_text, notes
 
    character(len=*), parameter :: newline = achar(10)
-   !> Column of the marks.
-   integer, parameter :: column = 46
    !> Surface speed, m/s, up to which a temperature for each pad is close to those along and across the films.
    real(wp), parameter :: compared_up_to = 35
    !> Radius of a journal, m, beyond which inches may be meant.
@@ -33,35 +32,32 @@ contains
    function marked_text(inputs, parsed) result(text)
       type(case_type), intent(in) :: inputs
       type(namelist_type), intent(in) :: parsed
-      character(len=:), allocatable :: text, left, line, defaults, group
-      integer :: length
-      left = namelist_of(inputs)
-      defaults = default_text(parsed)
+      character(len=:), allocatable :: text, mark
+      type(case_type) :: default
+      type(variable_table_type) :: table, defaults
+      integer :: i, k
+      call find_default_case(parsed, default)
+      call list_variables(inputs, table)
+      call list_variables(default, defaults)
       text = ''
-      group = ''
-      do while (left /= '')
-         length = index(left, newline)
-         line = left(:length - 1)
-         left = left(length + 1:)
-         if (line(1:1) == '&') group = line(2:)
-         if (line(1:1) == ' ' .and. .not. is_given(parsed, group, line)) then
-            line = line//repeat(' ', max(2, column - len(line)))
-            if (same_in(defaults, group, trim(line))) then
-               line = line//'! default'
-            else
-               line = line//'! derived'
-            end if
-         end if
-         text = text//line//newline
+      do i = 1, table%count
+         associate (v => table%variables(i))
+            mark = '! derived'
+            if (lines_of(v, '') == lines_of(defaults%variables(i), '')) mark = '! default'
+            do k = 1, size(parsed%assignments)
+               if (parsed%assignments(k)%group == v%group .and. parsed%assignments(k)%name == v%name) mark = ''
+            end do
+            text = text//group_start(table, i)//lines_of(v, mark)
+         end associate
       end do
+      text = text//'/'//newline
    end function marked_text
 
-   !> The text of the paper's bearing with the pivots of the case.
-   function default_text(parsed) result(text)
+   !> The paper's bearing with the pivots of the case.
+   subroutine find_default_case(parsed, inputs)
       type(namelist_type), intent(in) :: parsed
-      character(len=:), allocatable :: text
+      type(case_type), intent(out) :: inputs
       type(namelist_type) :: pivots
-      type(case_type) :: inputs
       type(error_type), allocatable :: error
       integer :: i
       pivots%file = parsed%file
@@ -70,29 +66,7 @@ contains
          & == pads_variable, i=1, size(parsed%assignments))])
       call fill_case(pivots, inputs, error)
       if (.not. allocated(error)) call complete_case(inputs, error)
-      text = namelist_of(inputs)
-   end function default_text
-
-   !> True where the variable of a line, "  name = value" or "  name(2) = value", is assigned.
-   pure logical function is_given(parsed, group, line)
-      type(namelist_type), intent(in) :: parsed
-      character(len=*), intent(in) :: group, line
-      integer :: i
-      is_given = .false.
-      do i = 1, size(parsed%assignments)
-         associate (a => parsed%assignments(i))
-            if (a%group == group .and. a%name == line(3:scan(line, '(=') - 1)) is_given = .true.
-         end associate
-      end do
-   end function is_given
-
-   !> True where the group has the same line in another text.
-   pure logical function same_in(text, group, line)
-      character(len=*), intent(in) :: text, group, line
-      integer :: start
-      start = index(text, '&'//group//newline)
-      same_in = index(text(start:start + index(text(start:), newline//'/'//newline)), newline//line//newline) > 0
-   end function same_in
+   end subroutine find_default_case
 
    !> What follows from a complete case, as comments.
    function derived_text(inputs) result(text)
@@ -102,7 +76,7 @@ contains
       call say('preload', preload(inputs), '1 - c_r/c_m')
       call say('clearance ratio', clearance_ratio(inputs), 'c_r/R_J')
       call say('length ratio', length_over_diameter(inputs), 'L/D')
-      if (inputs%rotor%balance_grade > 0) call say('unbalance', inputs%unbalance(), 'kg m, by rotor%balance_grade')
+      if (is_set(inputs%rotor%balance_grade)) call say('unbalance', inputs%unbalance(), 'kg m, by rotor%balance_grade')
       call say('load', load(inputs), 'N, weight and static load')
       call say('specific load', specific_load(inputs), 'Pa, W/(L D)')
       if (load(inputs) > 0) call say('Sommerfeld number', sommerfeld_number(inputs), &
@@ -121,7 +95,7 @@ contains
             do i = 1, size(warm)
                call say('viscosity', viscosity(oil, warm(i)), 'Pa s at '//to_text(warm(i))//' C')
             end do
-            do i = 1, merge(2, 0, oil%grade > 0)
+            do i = 1, merge(2, 0, is_set(oil%grade))
                call say('kinematic', points(i), 'm^2/s at '//to_text(oil%at_temperature(i))//' C')
             end do
          end associate
@@ -141,43 +115,21 @@ contains
       type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: mark
       character(len=:), allocatable :: text
-      text = line_of(length_note(inputs))//line_of(preload_note(inputs))//line_of(warm_note(inputs))
+      text = ''
+      ! as large as a journal in inches
+      if (inputs%bearing%journal_radius > largest_usual) call note('bearing%journal_radius = ' &
+         & //to_text(inputs%bearing%journal_radius)//': all lengths are in metres; an inch is 0.0254')
+      if (preload(inputs) < 0) call note('negative preload '//to_text(preload(inputs))//': the bore of the pads is ' &
+         & //'tighter than the clearance at the pivots; such a pad touches the journal at its edges first')
+      associate (surface => inputs%highest_speed()*inputs%bearing%journal_radius)
+         if (inputs%thermal%model /= 'none' .and. surface > compared_up_to) call note('surface speed ' &
+            & //fixed_text(surface, 1)//' m/s: above '//to_text(compared_up_to)//' m/s a temperature for each pad ' &
+            & //'shows trends, and stiffness may be off by more than 10 % (docs/warm_oil.md)')
+      end associate
    contains
-      pure function line_of(note) result(line)
-         character(len=*), intent(in) :: note
-         character(len=:), allocatable :: line
-         line = ''
-         if (note /= '') line = mark//'note: '//note//newline
-      end function line_of
+      subroutine note(line)
+         character(len=*), intent(in) :: line
+         text = text//mark//'note: '//line//newline
+      end subroutine note
    end function notes
-
-   !> A word on a journal that is as large as one in inches; else empty.
-   function length_note(inputs) result(note)
-      type(case_type), intent(in) :: inputs
-      character(len=:), allocatable :: note
-      note = ''
-      if (inputs%bearing%journal_radius > largest_usual) note = 'bearing%journal_radius = ' &
-         & //to_text(inputs%bearing%journal_radius)//': all lengths are in metres; an inch is 0.0254'
-   end function length_note
-
-   !> A word on a negative preload; else empty.
-   function preload_note(inputs) result(note)
-      type(case_type), intent(in) :: inputs
-      character(len=:), allocatable :: note
-      note = ''
-      if (preload(inputs) < 0) note = 'negative preload '//to_text(preload(inputs))//': the bore of the pads is ' &
-         & //'tighter than the clearance at the pivots; such a pad touches the journal at its edges first'
-   end function preload_note
-
-   !> A word on a surface speed at which a temperature for each pad was not compared with more; else empty.
-   function warm_note(inputs) result(note)
-      type(case_type), intent(in) :: inputs
-      character(len=:), allocatable :: note
-      real(wp) :: surface
-      note = ''
-      surface = inputs%highest_speed()*inputs%bearing%journal_radius
-      if (inputs%thermal%model /= 'none' .and. surface > compared_up_to) note = 'surface speed ' &
-         & //fixed_text(surface, 1)//' m/s: above '//to_text(compared_up_to)//' m/s a temperature for each pad shows ' &
-         & //'trends, and stiffness may be off by more than 10 % (docs/warm_oil.md)'
-   end function warm_note
 end module checked_case

@@ -1,107 +1,146 @@
-!> A case as namelist text that reads back to the same bits.
+!> The variables of a case as text: namelist text that reads back to the same bits, and the input reference.
 module namelist_writer
-   use kinds, only: wp
    use text, only: to_text, exact_text
-   use case_inputs, only: case_type, is_set
+   use case_inputs, only: case_type, is_set, unset
    use assignments, only: token_type, value_text
-   use field_visitor, only: visitor_type, field_type, logical_words
-   use case_fields, only: visit_case
+   use variable_table, only: variable_type, variable_table_type, logical_words
+   use case_fields, only: list_variables
    implicit none (type, external)
    private
-   public :: namelist_of
-
-   !> Writes a case as namelist text.
-   type, extends(visitor_type) :: case_writer
-      character(len=:), allocatable :: text
-   contains
-      procedure :: group => write_group
-      procedure :: word => write_word
-      procedure :: whole => write_whole
-      procedure :: numbers => write_numbers
-      procedure :: per_pad => write_per_pad
-      procedure :: list => write_list
-      procedure, private :: line
-   end type case_writer
+   public :: namelist_of, lines_of, group_start, reference_text
 
    character(len=*), parameter :: newline = achar(10)
 
 contains
 
-   !> The whole case as namelist text, every number to the last bit; what is unset is left out.
+   !> The whole case as namelist text, every number to the last bit; what is not set is left out.
    function namelist_of(inputs) result(text)
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: text
-      type(case_type) :: copy
-      type(case_writer) :: writer
-      copy = inputs
-      writer%text = ''
-      call visit_case(copy, writer)
-      text = writer%text//'/'//newline
+      type(variable_table_type) :: table
+      integer :: i
+      call list_variables(inputs, table)
+      text = ''
+      do i = 1, table%count
+         text = text//group_start(table, i)//lines_of(table%variables(i), '')
+      end do
+      text = text//'/'//newline
    end function namelist_of
 
-   subroutine write_group(self, name, meaning)
-      class(case_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, meaning
-      if (self%text /= '') self%text = self%text//'/'//newline
-      self%text = self%text//'&'//name//newline
-   end subroutine write_group
+   !> What stands before the first variable of a group: the end of the group before it, and its own start.
+   pure function group_start(table, i) result(text)
+      type(variable_table_type), intent(in) :: table
+      integer, intent(in) :: i
+      character(len=:), allocatable :: text
+      text = ''
+      if (i > 1) then
+         if (table%variables(i - 1)%group == table%variables(i)%group) return
+         text = '/'//newline
+      end if
+      text = text//'&'//table%variables(i)%group//newline
+   end function group_start
 
-   subroutine line(self, name, value)
-      class(case_writer), intent(inout) :: self
-      character(len=*), intent(in) :: name, value
-      self%text = self%text//'  '//name//' = '//value//newline
-   end subroutine line
-
-   subroutine write_word(self, value, field)
-      class(case_writer), intent(inout) :: self
-      character(len=:), allocatable, intent(inout) :: value
-      type(field_type), intent(in) :: field
-      type(token_type) :: token
-      if (value == '' .and. field%choices /= '') return
-      token%text = value
-      ! a logical value is a word that needs no quotes
-      token%quoted = field%choices /= logical_words
-      call self%line(field%name, value_text(token))
-   end subroutine write_word
-
-   subroutine write_whole(self, value, field)
-      class(case_writer), intent(inout) :: self
-      integer, intent(inout) :: value
-      type(field_type), intent(in) :: field
-      call self%line(field%name, to_text(value))
-   end subroutine write_whole
-
-   subroutine write_numbers(self, values, field)
-      class(case_writer), intent(inout) :: self
-      real(wp), intent(inout) :: values(:)
-      type(field_type), intent(in) :: field
-      character(len=:), allocatable :: list
+   !> "  name = value", or a line for each element that is set where not all are, each with a mark behind it.
+   pure function lines_of(v, mark) result(text)
+      type(variable_type), intent(in) :: v
+      character(len=*), intent(in) :: mark
+      character(len=:), allocatable :: text, list
       integer :: i
-      if (all(is_set(values))) then
-         list = exact_text(values(1))
-         do i = 2, size(values)
-            list = list//', '//exact_text(values(i))
+      text = ''
+      if (v%is_text) then
+         if (v%word /= '' .or. v%choices == '') call add(v%name, word_text(v))
+      else if (all(is_set(v%values))) then
+         list = exact(v, 1)
+         do i = 2, size(v%values)
+            list = list//', '//exact(v, i)
          end do
-         call self%line(field%name, list)
+         call add(v%name, list)
       else
-         do i = 1, size(values)
-            if (is_set(values(i))) call self%line(field%name//'('//to_text(i)//')', exact_text(values(i)))
+         do i = 1, size(v%values)
+            if (is_set(v%values(i))) call add(v%name//'('//to_text(i)//')', exact(v, i))
          end do
       end if
-   end subroutine write_numbers
+   contains
+      pure subroutine add(name, value)
+         character(len=*), intent(in) :: name, value
+         !> Column of the marks.
+         integer, parameter :: column = 46
+         text = text//'  '//name//' = '//value
+         if (mark /= '') text = text//repeat(' ', max(2, column - len('  '//name//' = '//value)))//mark
+         text = text//newline
+      end subroutine add
+   end function lines_of
 
-   subroutine write_per_pad(self, values, field)
-      class(case_writer), intent(inout) :: self
-      real(wp), allocatable, intent(inout) :: values(:)
-      type(field_type), intent(in) :: field
-      call self%numbers(values, field)
-   end subroutine write_per_pad
+   !> The word of a text, in quotes, which a logical value does not need.
+   pure function word_text(v) result(text)
+      type(variable_type), intent(in) :: v
+      character(len=:), allocatable :: text
+      type(token_type) :: token
+      token%text = v%word
+      token%quoted = v%choices /= logical_words
+      text = value_text(token)
+   end function word_text
 
-   subroutine write_list(self, values, most, field)
-      class(case_writer), intent(inout) :: self
-      real(wp), allocatable, intent(inout) :: values(:)
-      integer, intent(in) :: most
-      type(field_type), intent(in) :: field
-      call self%numbers(values, field)
-   end subroutine write_list
+   !> The i-th number, to the last bit.
+   pure function exact(v, i) result(text)
+      type(variable_type), intent(in) :: v
+      integer, intent(in) :: i
+      character(len=:), allocatable :: text
+      if (v%whole) then
+         text = to_text(nint(v%values(i)))
+      else
+         text = exact_text(v%values(i))
+      end if
+   end function exact
+
+   !> The input reference, Markdown tables of all groups: variable, default, unit, allowed values, meaning.
+   function reference_text() result(text)
+      character(len=:), allocatable :: text
+      type(case_type) :: inputs
+      type(variable_table_type) :: table
+      integer :: i
+      inputs = case_type()
+      inputs%operation%final_speed_rpm = unset
+      call list_variables(inputs, table)
+      text = ''
+      do i = 1, table%count
+         associate (v => table%variables(i))
+            if (group_start(table, i) /= '') then
+               if (i > 1) text = text//newline
+               text = text//'## &'//v%group//newline//v%group_meaning//'.'//newline//newline &
+                  & //'| variable | default | unit | allowed | meaning |'//newline//'|---|---|---|---|---|'//newline
+            end if
+            text = text//row(v)
+         end associate
+      end do
+   end function reference_text
+
+   !> The row of a variable.
+   function row(v) result(text)
+      type(variable_type), intent(in) :: v
+      character(len=:), allocatable :: text, default, allowed, meaning
+      integer :: i
+      meaning = v%meaning
+      if (v%is_text) then
+         default = '`'//word_text(v)//'`'
+         allowed = v%choices
+         if (allowed == '') allowed = 'any text'
+      else
+         default = ''
+         do i = 1, merge(1, size(v%values), v%of_pads)
+            if (i > 1) default = default//', '
+            if (.not. is_set(v%values(i))) then
+               default = default//'-'
+            else if (v%whole) then
+               default = default//exact(v, i)
+            else
+               default = default//to_text(v%values(i))
+            end if
+         end do
+         allowed = v%range_text()
+         if (v%whole) allowed = 'whole, '//allowed
+         if (v%any_length) meaning = meaning//'; 1 to '//to_text(v%most)//' of them'
+      end if
+      text = '| `'//v%name//'` | '//default//' | '//v%unit//' | '//allowed//' | '//meaning//' |'//newline
+   end function row
 end module namelist_writer

@@ -241,7 +241,7 @@ contains
       logical :: whirls, steady
       integer :: n
       n = last_revolutions(file, max(1, min(inputs%output%spectrum_revolutions, whole)))
-      steady = .not. abs(inputs%operation%final_speed_rpm - inputs%operation%speed_rpm) > 0
+      steady = inputs%is_steady()
       call file%last_samples('shaft_angle', n, angle)
       revolutions = (angle(1, n) - angle(1, 1))/(2*pi)
       said = ''

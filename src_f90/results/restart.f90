@@ -3,9 +3,10 @@ module restart
    use text, only: to_text, on_one_line
    use errors, only: error_type, raise, add_context, system_error, numerics_error
    use case_inputs, only: case_type
-   use case_fields, only: checkpoint_variable
+   use variable_table, only: variable_type, variable_table_type
+   use case_fields, only: list_variables, checkpoint_variable
    use case_namelist, only: case_from_text
-   use namelist_writer, only: namelist_of
+   use namelist_writer, only: lines_of
    use hdf5_file, only: hdf5_type
    use guarded_open, only: try_reading
    use provenance, only: format_version
@@ -151,19 +152,17 @@ contains
       logical, intent(in) :: go_on
       type(restart_type), intent(in) :: found
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: left, right, left_line, right_line, group
-      left = namelist_of(ours)
-      right = namelist_of(found%inputs)
-      group = ''
-      ! both are written from the same list, a line a variable
-      do while (left /= '' .and. right /= '')
-         call take_line(left, left_line)
-         call take_line(right, right_line)
-         if (left_line(1:1) == '&') group = left_line(2:)
-         if (left_line == right_line .or. group//'%'//name_of(left_line) == checkpoint_variable) cycle
-         call raise(error, system_error, path//': is the result of another case; '//group//'%' &
-            & //trim(adjustl(right_line))//' there, '//value_of(left_line)//' here')
-         return
+      type(variable_table_type) :: here, there
+      integer :: i
+      call list_variables(ours, here)
+      call list_variables(found%inputs, there)
+      do i = 1, here%count
+         associate (v => here%variables(i), w => there%variables(i))
+            if (lines_of(v, '') == lines_of(w, '') .or. v%group//'%'//v%name == checkpoint_variable) cycle
+            call raise(error, system_error, path//': is the result of another case; '//v%group//'%' &
+               & //v%name//' = '//value_of(w)//' there, '//value_of(v)//' here')
+            return
+         end associate
       end do
       if (tag%number == 0) then
          if (found%tag%number > 0 .and. .not. go_on) call raise(error, system_error, path//': is run ' &
@@ -176,26 +175,12 @@ contains
       end if
    end subroutine refuse_other_case
 
-   subroutine take_line(text, line)
-      character(len=:), allocatable, intent(inout) :: text
-      character(len=:), allocatable, intent(out) :: line
-      integer :: length
-      length = index(text, newline) - 1
-      line = text(:length)
-      text = text(length + 2:)
-   end subroutine take_line
-
-   !> "  name = value" to "name".
-   pure function name_of(line) result(name)
-      character(len=*), intent(in) :: line
-      character(len=:), allocatable :: name
-      name = trim(adjustl(line(:index(line, '=') - 1)))
-   end function name_of
-
-   !> "  name = value" to "value".
-   pure function value_of(line) result(value)
-      character(len=*), intent(in) :: line
+   !> The value of a variable, on one line.
+   pure function value_of(v) result(value)
+      type(variable_type), intent(in) :: v
       character(len=:), allocatable :: value
-      value = trim(line(index(line, '=') + 2:))
+      value = lines_of(v, '')
+      value = value(index(value, '=') + 2:index(value, newline) - 1)
+      if (value == '') value = 'not set'
    end function value_of
 end module restart

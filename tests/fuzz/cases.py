@@ -72,7 +72,7 @@ def draw(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
         if dice.random() < few:
             found.update(zip(group, together(dice), strict=True))
     if dice.random() < few:
-        found["rotor%balance_speed_rpm"] = (dice.choice((-1.0, -0.5, 1.0, 1e6, dice.uniform(1, 1e6))),)
+        found["rotor%balance_speed_rpm"] = (dice.choice((-1.0, 1.0, 1e6, dice.uniform(1, 1e6))),)
     if dice.random() < few:
         found["film%circumferential_cells"] = (float(dice.choice((0, 8, 2000, 2 * dice.randint(4, 1000)))),)
     if dice.random() < few:
@@ -199,7 +199,7 @@ def log_between(dice: Random, low: float, high: float) -> float:
 def operation(dice: Random):
     """Speeds, duration, sampling."""
     speed = log_between(dice, 1e-3, 1e6)
-    final = dice.choice((-1.0, -1e-9, speed, 0.0, log_between(dice, 1e-3, 1e6)))
+    final = dice.choice((-1.0, speed, 0.0, log_between(dice, 1e-3, 1e6)))
     samples = dice.choice((1, 360, 1000, dice.randint(1, 10**6)))
     longest = 0.99e9 * 60 / samples / max(speed, final)
     duration = log_between(dice, 1e-9, min(1e6, longest))

@@ -12,8 +12,7 @@ program fuzz_input
    use text, only: printable, to_text
    use case_inputs, only: case_type
    use parameter_study, only: study_type, study_from_text
-   use namelist_writer, only: namelist_of
-   use input_reference, only: reference_text
+   use namelist_writer, only: namelist_of, reference_text
    use processes, only: write_output
    implicit none (type, external)
 

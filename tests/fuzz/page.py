@@ -12,10 +12,10 @@ SOURCES = (
     "input/case_namelist",
     "input/assigned_values",
     "input/number_syntax",
-    "input/sweep",
+    "input/parameter_study",
     "input/namelist_writer",
     "input/case_fields",
-    "input/field_visitor",
+    "input/variable_table",
 )
 
 PAGE = """\

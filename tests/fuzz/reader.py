@@ -184,8 +184,13 @@ def resolve(assignments: list[Assignment], variables: dict[str, Variable]) -> di
         found[key] = words(variable, here) if variable.is_text else numbers(variable, here, pads)
         if variable.fixes_pads:
             pads = len(found[key])
-    if found["operation%final_speed_rpm"][0] < 0:
+    if found["operation%final_speed_rpm"] == (None,):
         found["operation%final_speed_rpm"] = found["operation%speed_rpm"]
+    for key in FOLLOWING:
+        if set(found[key]) == {None}:
+            # as if it were not given
+            given.pop(key, None)
+        found[key] = tuple(variables[key].default[0] if value is None else value for value in found[key])
     complete(found, given, variables)
     return found
 
@@ -196,6 +201,8 @@ SIZE = (
     *("pads%arc_deg", "pads%pivot_ratio", "pads%pivot_distance", "pads%density", "pads%thickness"),
 )
 BODY = ("pads%mass", "pads%inertia", "pads%centre_tangential", "pads%centre_radial")
+#: What may be left out though it has a default, and is never below 0.
+FOLLOWING = ("bearing%machined_clearance", "bearing%viscosity", "pads%mass", "pads%inertia")
 
 
 def complete(found: dict[str, tuple | None], given: dict[str, list], variables: dict[str, Variable]) -> None:
@@ -220,7 +227,7 @@ def complete(found: dict[str, tuple | None], given: dict[str, list], variables: 
 
 #: ISO viscosity grades.
 GRADES = (10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000, 1500, 2200, 3200)
-#: The numbers that tell which law of the viscosity is meant; a grade of 0 is none.
+#: The numbers that tell which law of the viscosity is meant.
 OF_LAW = {
     b"walther": ("oil%grade", "oil%kinematic_viscosity"),
     b"exponential": ("oil%reference_viscosity", "oil%temperature_exponent"),
@@ -232,8 +239,10 @@ def complete_oil(found: dict[str, tuple | None], given: dict[str, list]) -> None
     """The law of the viscosity, and whether it has its numbers alone."""
 
     def there(key: str) -> bool:
-        return key in given and (key != "oil%grade" or found[key] != (0.0,))
+        return key in given and set(found[key]) != {None}
 
+    if found["oil%grade"] == (0.0,):
+        found["oil%grade"] = (None,)
     if "oil%law" not in given:
         found["oil%law"] = (
             next(law for law in OF_LAW if law == b"constant" or any(map(there, OF_LAW[law]))),
@@ -321,7 +330,9 @@ def number_list(variable: Variable, assignment: Assignment, most: int):
         if not NUMBER.fullmatch(digits):
             raise Refused("no number")
         value = float(digits.replace(b"d", b"e"))
-        if not math.isfinite(value) or not variable.low <= value <= variable.high:
+        if value == -1 and variable.low >= 0 and (None in variable.default or variable.key in FOLLOWING):
+            value = None
+        elif not math.isfinite(value) or not variable.low <= value <= variable.high:
             raise Refused("out of range")
         if variable.whole and not re.fullmatch(rb"[+-]?[0-9]+", digits):
             raise Refused("not whole")
@@ -329,7 +340,7 @@ def number_list(variable: Variable, assignment: Assignment, most: int):
         if count > most:
             raise Refused("too many values")
         # the sign of a zero is kept by reals alone
-        yield from [float(int(value)) if variable.whole else value] * int(repeat or 1)
+        yield from [float(int(value)) if variable.whole and value is not None else value] * int(repeat or 1)
 
 
 LINE = re.compile(rb"^(?:&(\w+)|  (\w+) = (.*?)(?: +! (?:default|derived))?|/)$", re.M)

@@ -4,7 +4,7 @@ program test_case_completion
    use kinds, only: wp, degree
    use case_inputs, only: case_type, is_set
    use input_cases, only: case_of, expect_refused
-   use annular_sector, only: annular_sector_type, new_annular_sector
+   use case_completion, only: annular_sector_type, new_annular_sector
    use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
    use checked_case, only: derived_text, notes
    use result_size, only: sample_count, result_bytes, bytes_text, size_note
