@@ -171,7 +171,8 @@ contains
    subroutine coefficients()
       character(len=*), parameter :: task = '&case task = ''coefficients'' / ', &
          & without = 'has no effect but with case%task = ''coefficients'''
-      call expect_refused('&coefficients frequency_ratio = 1, 0.5 /', 'coefficients%frequency_ratio = 1, 0.5: '//without)
+      call expect_refused('&coefficients frequency_ratio = 1, 0.5 /', &
+         & 'coefficients%frequency_ratio = 1, 0.5: '//without)
       call expect_refused('&coefficients frequency_ratio = 0.5 /', 'coefficients%frequency_ratio = 0.5: '//without)
       call expect_allowed(task//'&coefficients frequency_ratio = 0.5 /')
       call expect_allowed(task//'&coefficients threshold_up_to_rpm = 6501 /')
