@@ -45,7 +45,7 @@ contains
       if (allocated(error)) return
       call complete_case(inputs, error)
       if (.not. allocated(error)) call check_case(inputs, error)
-      if (.not. allocated(error)) call refuse_idle_groups(inputs, error)
+      if (.not. allocated(error)) call refuse_idle_groups(parsed, inputs, error)
       if (.not. allocated(error)) call check_branch_parameter(inputs, error)
       call add_context(error, parsed%file)
    end subroutine case_from_namelist
@@ -82,12 +82,16 @@ contains
    end subroutine fill_case
 
    !> Refuses values in the group of a task that this case's task has no use for.
-   subroutine refuse_idle_groups(inputs, error)
+   subroutine refuse_idle_groups(parsed, inputs, error)
+      type(namelist_type), intent(in) :: parsed
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       type(variable_table_type) :: table, defaults
       character(len=:), allocatable :: tasks, given
       integer :: i
+      ! most cases have none of these groups, and a study has many cases
+      if (.not. any([(index(' coefficients periodic branch ', ' '//parsed%assignments(i)%group//' ') > 0, &
+         & i=1, size(parsed%assignments))])) return
       call list_variables(inputs, table)
       call list_variables(case_type(), defaults)
       do i = 1, table%count
@@ -96,8 +100,9 @@ contains
             if (v%group == 'coefficients' .and. task /= v%group) tasks = '''coefficients'''
             if (v%group == 'periodic' .and. .not. inputs%seeks_orbits()) tasks = '''periodic'', or ''branch'' of orbits'
             if (v%group == 'branch' .and. task /= v%group) tasks = '''branch'''
+            if (tasks == '') cycle
             given = lines_of(v, '')
-            if (tasks /= '' .and. given /= lines_of(defaults%variables(i), '')) call require(.false., v%group//'%' &
+            call require(given == lines_of(defaults%variables(i), ''), v%group//'%' &
                & //shortened(given(3:len(given) - 1))//': has no effect but with case%task = '//tasks, error)
          end associate
       end do
