@@ -46,6 +46,7 @@ module linear_algebra
          integer, intent(out) :: info
       end subroutine dstev
    end interface
+
 contains
 
    !> `ok` is false where LAPACK's iteration does not converge. Of a pair the value with positive imaginary part comes

@@ -92,6 +92,7 @@ contains
          reason = 'the film force of pad '//to_text(number)//' is not finite'//thickness
       end if
    end function why_not
+
    !> The loads in a state with a film force in the pad frame, N.
    pure subroutine loads(self, frame, state, film_force, asperities, contact, friction, answer)
       class(tilting_pad_type), intent(in) :: self

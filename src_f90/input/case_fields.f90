@@ -217,7 +217,7 @@ contains
       call v%per_pad(inputs%start%pad_tilt, 'pad_tilt', -3.0_wp, 3.0_wp, 'rad', 'tilts of the pads')
       call v%per_pad(inputs%start%pad_tilt_rate, 'pad_tilt_rate', -1e5_wp, 1e5_wp, 'rad/s', 'their rates')
       call v%per_pad(inputs%start%pivot_deflection, 'pivot_deflection', -0.1_wp, 0.1_wp, 'm', &
-         & 'tilting_radial: pivot deflections of the pivots')
+         & 'tilting_radial: deflections of the pivots')
       call v%per_pad(inputs%start%pivot_deflection_rate, 'pivot_deflection_rate', -1e3_wp, 1e3_wp, 'm/s', &
          & 'tilting_radial: their rates')
 

@@ -89,9 +89,10 @@ contains
       call get_special(file, special, ok)
       ok = ok .and. branches%branch > 0 .and. branches%points >= 0 .and. ieee_is_finite(branches%length)
       if (ok) call get_point(file, 'checkpoint/point', branches, branches%here, ok)
+      if (.not. ok) return
       do while (file%has(doubling_name(size(branches%period_doublings) + 1)))
-         if (ok) call get_point(file, doubling_name(size(branches%period_doublings) + 1), branches, period_doubling, ok)
-         if (.not. ok) exit
+         call get_point(file, doubling_name(size(branches%period_doublings) + 1), branches, period_doubling, ok)
+         if (.not. ok) return
          branches%period_doublings = [branches%period_doublings, period_doubling]
       end do
    end subroutine get_branches

@@ -67,10 +67,10 @@ contains
       real(wp), allocatable :: values(:, :)
       character(len=longest_name) :: name
       character(len=:), allocatable :: path
-      integer :: runs, i, kind, status
-      call h5gn_members_f(file%id, group, runs, status)
+      integer :: members, i, kind, status
+      call h5gn_members_f(file%id, group, members, status)
       if (status < 0) return
-      do i = 0, runs - 1
+      do i = 0, members - 1
          call h5gget_obj_info_idx_f(file%id, group, i, name, kind, status)
          if (status < 0) cycle
          path = group//trim(name)

@@ -1,5 +1,4 @@
-"""Branches of equilibria or periodic orbits over a parameter: stable and unstable parts, bifurcation
-points."""
+"""Branches of equilibria or orbits over a parameter: stable and unstable parts, bifurcation points."""
 
 from typing import NamedTuple
 

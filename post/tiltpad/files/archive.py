@@ -30,8 +30,7 @@ UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f\ud800-\udfff]")
 #: The library's own filters; it would look for others on the machine.
 FILTERS = (h5z.FILTER_DEFLATE, h5z.FILTER_SHUFFLE, h5z.FILTER_FLETCHER32, h5z.FILTER_LZF)
 #: A compressed array may be this many times as large as the whole file, or have this number of bytes.
-#: Deflated zeros
-#: reach a ratio of 1000, results hardly 2.
+#: Deflated zeros reach a ratio of 1000, results hardly 2.
 COMPRESSION, SMALL = 20, 1 << 24
 #: Longest attribute in the list of attributes itself, bytes; texts of variable length stand elsewhere.
 LONGEST = 1 << 16
@@ -203,7 +202,9 @@ class Archive:
 
     def length(self, name: str) -> int:
         """Number of values along a dimension, by the name of its scale."""
-        return self.item(name).shape[0]
+        found = self.item(name)
+        with reading(self.path, name):
+            return found.shape[0]
 
     def about(self, name: str, which: str) -> str:
         """An attribute of a dataset, `units` or `long_name`; empty where the dataset has none."""

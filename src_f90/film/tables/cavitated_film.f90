@@ -39,7 +39,7 @@ module cavitated_film
       end subroutine look_up_drive
    end interface
 
-   !> Functions: the two factories of d, the highest pressure of the full film driven by v over that of the cavitated
+   !> Functions: the two components of d, the highest pressure of the full film driven by v over that of the cavitated
    !> one, and 0. Their values, and derivatives over both thicknesses and T, (function, value or derivative).
    type :: node_type
       real(wp) :: data(simd_width, corner_data) = 0

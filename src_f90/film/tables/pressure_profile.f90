@@ -20,7 +20,7 @@ module pressure_profile
       private
       type(dimensionless_pad_type) :: pad
       real(wp) :: sines(points), cosines(points)
-      !> (point and load, power of the second thickness, power of the first); loads are the factories of w and, where
+      !> (point and load, power of the second thickness, power of the first); loads are the components of w and, where
       !> there is one, a pressure 1 at the leading edge.
       real(wp), allocatable :: coefficients(:, :, :)
    contains
