@@ -165,7 +165,7 @@ def viscosity(run: Run, time: float | None) -> np.ndarray:
 
 
 def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple[np.ndarray, np.ndarray]]:
-    """Time of the sample nearest `time`, journal (4,), pad tilts and pivot deflections with rates (2, pad)."""
+    """Time of the nearest sample, journal (4,), pad tilts and pivot deflections with rates (2, pad)."""
     if time is None:
         rest = run["equilibrium"]
         still = np.zeros(run.pads)
