@@ -180,8 +180,10 @@ def extremes(dice: Random, program: Path, folder: Path, variables, corpus):
     # what belongs to a task of its own is refused without it
     apart = ("pads", *cases.OF_TASK)
     inputs = {key: value for key, value in inputs.items() if variables[key].group not in cases.OF_TASK}
+    # an oil of the case gives the viscosity
+    alone = (*cases.SPECIAL, "bearing%viscosity")
     for key in dice.sample(list(variables), 5):
-        if key not in inputs and key not in cases.SPECIAL and variables[key].group not in apart:
+        if key not in inputs and key not in alone and variables[key].group not in apart:
             inputs[key] = cases.anything(dice, variables[key])
     # within the time allowed: few pads and steps, films of a usual size
     duration = 10 ** dice.uniform(-9, -2)

@@ -70,7 +70,9 @@ def out_of_range(dice: Random, spot: Spot):
         return None
     far = dice.random() < 0.5
     if variable.whole:
-        wrong = dice.choice((variable.low - (10**9 if far else 1), variable.high + (10**9 if far else 1)))
+        # -1 takes back a number that may be left out
+        near = 2 if variable.default[0] is None else 1
+        wrong = dice.choice((variable.low - (10**9 if far else near), variable.high + (10**9 if far else 1)))
         said = str(int(wrong)).encode()
     else:
         below = -1e300 if far else math.nextafter(variable.low, -math.inf)
