@@ -5,11 +5,14 @@ import sys
 import warnings
 from pathlib import Path
 
+import h5py
 import matplotlib as mpl
 import matplotlib.pyplot as plt
+import numpy as np
 import pytest
 import tiltpad as package
 from matplotlib.figure import Figure
+from result_files import replace_series
 
 mpl.use("agg")
 #: The paper's package, post/paper, is not installed.
@@ -146,33 +149,24 @@ def made(result, opened, tmp_path):
     Signals are arrays over the time, or functions of (time, shaft angle); what is not given is 0. The speed
     is that of the input, or rises to its final speed over the duration.
     """
-    import h5py
-    import numpy as np
-
     numbers = itertools.count()
 
     def run(case: str, seconds: float, interval: float = 1e-4, **signals) -> package.Run:
         path = tmp_path / f"made{next(numbers)}.h5"
-        with h5py.File(result(case), "r") as source, h5py.File(path, "w") as file:
-            file.attrs.update(source.attrs)
+        path.write_bytes(result(case).read_bytes())
+        with h5py.File(path, "r+") as file:
             time = interval * np.arange(round(seconds / interval) + 1)
-            first, final = (source["speed"][i] for i in (0, -1))
+            first, final = (file["speed"][i] for i in (0, -1))
             acceleration = (final - first) / time[-1]
             angle = first * time + acceleration * time**2 / 2
             own = {"time": time, "shaft_angle": angle, "speed": first + acceleration * time} | signals
-            for name in ("equilibrium", "summary"):
-                source.copy(name, file)
-                for each in file[name].values():
-                    # the scales are not those of this file
-                    each.attrs.pop("DIMENSION_LIST", None)
-            datasets = {name: each for name, each in source.items() if isinstance(each, h5py.Dataset)}
-            for name, dataset in datasets.items():
-                if len(dataset) != len(source["time"]):
-                    file[name] = dataset[()]
-                    continue
+
+            def series(name: str, former: np.ndarray) -> np.ndarray:
                 values = own.get(name, 0.0)
                 values = np.transpose(values(time, angle) if callable(values) else values)
-                file[name] = np.broadcast_to(values, dataset.shape[:0:-1] + time.shape).T
+                return np.broadcast_to(values, former.shape[:0:-1] + time.shape).T
+
+            replace_series(file, series)
         return opened(path)
 
     return run

@@ -4,6 +4,7 @@ import h5py
 import numpy as np
 import pytest
 import tiltpad
+from result_files import replace_series
 from tiltpad import behaviour, command, summary
 
 SAID = """pad 2 carries no load (mean 5.0 N); it is lifted off its pivot 75.0 % of the time
@@ -24,14 +25,7 @@ def made(result, tmp_path_factory):
         speed = file["speed"][0]
         series = {"time": 2 * np.pi * turns / speed, "shaft_angle": 2 * np.pi * turns}
         series |= {"asperity_force": asperity}
-        for name, each in list(file.items()):
-            if isinstance(each, h5py.Dataset) and each.shape[:1] == file["time"].shape and name not in series:
-                series[name] = np.repeat(each[:1], len(turns), axis=0)
-        for name, values in series.items():
-            if name in file:
-                del file[name]
-            file[name] = values
-            file[name].attrs["units"] = "1"
+        replace_series(file, lambda name, each: series.get(name, np.repeat(each[:1], len(turns), axis=0)))
         for name, values in figures.items():
             file[f"summary/{name}"][...] = values
         file.attrs["diagnosis"] = SAID

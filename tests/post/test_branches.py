@@ -29,7 +29,9 @@ def turned(changed, opened):
             own[name] = np.array([value], float)
         own["value_real"], own["value_imag"] = np.array([-1.0]), np.array([0.0])
         own["kind"] = np.array([b"period_doubling"])
-        own["kind"].make_scale()
+        own["kind"].make_scale("kind")
+        for name in own.keys() - {"kind"}:
+            own[name].dims[0].attach_scale(own["kind"])
 
     return opened(changed("branch", edit))
 

@@ -170,7 +170,8 @@ def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple
         rest = run["equilibrium"]
         still = np.zeros(run.pads)
         tilt, pivot_deflection = (rest.get(name, still) for name in ("pad_tilt", "pivot_deflection"))
-        journal = np.array([run["equilibrium/journal_y"], run["equilibrium/journal_z"], 0, 0])
+        with reading(run.path, "equilibrium"):
+            journal = np.array([rest["journal_y"], rest["journal_z"], 0, 0], float)
         return None, journal, (np.array([tilt, still]), np.array([pivot_deflection, still]))
     start, end = signals.ends(run, "time")
     step = run.values("time", slice(0, 2))[-1] - start

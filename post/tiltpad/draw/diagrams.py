@@ -205,7 +205,7 @@ def result(study: Study, name: str, revolutions: bool, pad: int | None) -> Resul
     if not all(each in study for each in wanted):
         raise ValueError(f"{study.path}: no Poincare points in this study: no run has them")
     what = f"{'Poincare points' if revolutions else 'a result'}{' of a pad' if pad is not None else ''}"
-    has = study.scales(name) or () if name in results else ()
+    has = study.scales(name) if name in results else ()
     if "pad" in has and pad is None:
         raise ArgumentError("{show}: {own} has a value for each pad: choose one by {pad}", own=name)
     if "revolution" in has and not revolutions:

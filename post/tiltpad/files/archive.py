@@ -32,6 +32,8 @@ FILTERS = (h5z.FILTER_DEFLATE, h5z.FILTER_SHUFFLE, h5z.FILTER_FLETCHER32, h5z.FI
 #: A compressed array may be this many times as large as the whole file, or have this number of bytes.
 #: Deflated zeros reach a ratio of 1000, results hardly 2.
 COMPRESSION, SMALL = 20, 1 << 24
+#: Type of the list of a dataset's scales, as files have it.
+SCALES = h5t.vlen_create(h5t.STD_REF_OBJ).encode()
 #: Longest attribute in the list of attributes itself, bytes; texts of variable length stand elsewhere.
 LONGEST = 1 << 16
 
@@ -140,7 +142,8 @@ class Archive:
                 raise damaged(self.path, name, "a group in a group")
             return {each: self.values(f"{name}/{each}") for each in self.names(name)}
         with reading(self.path, name):
-            return self.sound(name, found[part if found.shape else ()])
+            single = found.shape == () and part == slice(None)
+            return self.sound(name, found[() if single else part])
 
     def item(self, name: str) -> h5py.Dataset | h5py.Group:
         """A dataset or group, its type and size checked; nothing of it is read yet."""
@@ -175,8 +178,8 @@ class Archive:
         """What a dataset of this file is called today in its group."""
         return (renamed(path) if self.former else path).rpartition("/")[2]
 
-    def scales(self, name: str, found: h5py.Dataset | None = None) -> tuple[str, ...] | None:
-        """Dimensions of a dataset by the names of their scales; a scale is its own; None: unknown."""
+    def scales(self, name: str, found: h5py.Dataset | None = None) -> tuple[str, ...]:
+        """Dimensions of a dataset by the names of their scales; a scale is its own."""
         found = self.item(name) if found is None else found
         if found.shape == ():
             return ()
@@ -184,12 +187,12 @@ class Archive:
         if "DIMENSION_LIST" not in attrs:
             # h5py's is_scale ends the process where HDF5 1.14 finds another text here
             its_class = plain(attrs["CLASS"]) if "CLASS" in attrs and simple(attrs, "CLASS") else ""
-            return (name,) if its_class == "DIMENSION_SCALE" else None
+            if its_class != "DIMENSION_SCALE":
+                raise ValueError("its dimensions are missing")
+            return (name,)
         kept = attrs.get_id("DIMENSION_LIST")
-        kind = kept.get_type()
         # the library can crash over any other list
-        references = kind.get_class() == h5t.VLEN and kind.get_super().equal(h5t.STD_REF_OBJ)
-        if not references or kept.shape != (found.ndim,):
+        if kept.get_type().encode() != SCALES or kept.shape != (found.ndim,):
             raise ValueError("its dimensions are none")
         group = name.rpartition("/")[0]
         return tuple(self.scale(group, self.file[each[0]]) for each in attrs["DIMENSION_LIST"])
@@ -244,7 +247,7 @@ class Archive:
         if scales == (name,):
             fits(found.shape[1:], ())
             found.shape[0]  # a scalar has none
-        elif scales is not None:
+        else:
             fits(found.shape, [self.length(each) for each in scales])
 
     def sound(self, name: str, values: Any) -> Any:

@@ -106,7 +106,7 @@ class Run(Archive):
 
     def is_series(self, name: str) -> bool:
         """True for datasets over the time."""
-        return name not in self.GROUPS and (self.scales(name) or ())[:1] == ("time",)
+        return name not in self.GROUPS and self.scales(name)[:1] == ("time",)
 
     def first(self, name: str, value: float) -> int:
         """Index of the first sample at or above a value in a rising dataset; reads only a few of them."""
