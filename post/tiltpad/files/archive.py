@@ -142,8 +142,7 @@ class Archive:
                 raise damaged(self.path, name, "a group in a group")
             return {each: self.values(f"{name}/{each}") for each in self.names(name)}
         with reading(self.path, name):
-            single = found.shape == () and part == slice(None)
-            return self.sound(name, found[() if single else part])
+            return self.sound(name, found[part if found.shape else ()])
 
     def item(self, name: str) -> h5py.Dataset | h5py.Group:
         """A dataset or group, its type and size checked; nothing of it is read yet."""

@@ -108,6 +108,11 @@ class Run(Archive):
         """True for datasets over the time."""
         return name not in self.GROUPS and self.scales(name)[:1] == ("time",)
 
+    def values(self, name: str, part: slice | int = slice(None)) -> Any:
+        if part != slice(None) and not self.is_series(name):
+            raise damaged(self.path, name, "it is not over the time")
+        return super().values(name, part)
+
     def first(self, name: str, value: float) -> int:
         """Index of the first sample at or above a value in a rising dataset; reads only a few of them."""
         return bisect_left(range(self.samples), value, key=lambda i: self.values(name, i))
