@@ -1,12 +1,11 @@
-!> Films against limits in closed form, narrow and long; how solvers approach them with finer grids.
+!> Films against limits in closed form, narrow and long, which volumes approach with the second order of their cells.
 program test_film_limits
-   use kinds, only: wp, pi
+   use kinds, only: wp
    use text, only: to_text
-   use film_solver, only: film_motion, film_response, film_ok, film_solver_type
+   use film_solver, only: film_motion, film_response, film_ok
    use pad_gap, only: pad_gap_type
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none
-   use paper_bearing, only: paper_oil, offset_pad, speed, clearance, paper_pad
-   use fourier_film, only: new_fourier_film
+   use paper_bearing, only: paper_oil, offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
    !> Wedge alone; squeeze alone; both, with the journal towards either edge.
@@ -14,20 +13,12 @@ program test_film_limits
       & film_motion([0.0_wp, 5e-5_wp], [2e-3_wp, 8e-3_wp]), film_motion([-2e-5_wp, 5e-5_wp], [-4e-3_wp, 6e-3_wp]), &
       & film_motion([1e-5_wp, 3e-5_wp], [3e-3_wp, -5e-3_wp])]
    integer :: i
-   type(film_motion), parameter :: ordinary(3) = [film_motion([-2e-5_wp, 4e-5_wp], [0.0_wp, 0.0_wp]), &
-      & film_motion([-4e-5_wp, 4e-5_wp], [0.0_wp, 0.0_wp]), film_motion([-2e-5_wp, 5e-5_wp], [-4e-3_wp, 6e-3_wp])]
-   real(wp), parameter :: lengths(3) = [0.1_wp, 0.05_wp, 0.2_wp]
 
    do i = 1, size(motions)
       if (runs('long_pad')) call long_pad(motions(i))
       if (runs('narrow_pad')) call narrow_pad(motions(i))
    end do
    if (runs('linear_pressure')) call linear_pressure()
-   if (runs('reference_is_fine')) call reference_is_fine()
-   do i = 1, 3
-      if (runs('second_order')) call second_order(lengths(i), ordinary(i))
-      if (runs('fourier_order')) call fourier_order(lengths(i), ordinary(i))
-   end do
    call report()
 
 contains
@@ -148,130 +139,4 @@ contains
       expected = [(ambient + (supply - ambient)*(k - 0.5_wp)/n, k=1, n)]
       call expect_close(maxval(abs(p(:, 1) - expected)), 0.0_wp, 1e-7_wp*supply, 'pressure falls from the leading edge')
    end subroutine linear_pressure
-
-   !> p = sum over odd m of q_m(phi) cos(m pi Z/L); each q_m solves (h^3 q')' - (m pi R/L)^2 h^3 q = b_m r with
-   !> b_m = 4/(m pi) (-1)^((m-1)/2), central differences on n cells and elimination; then its integral over
-   !> the width is 2 L/(m pi) (-1)^((m-1)/2) q_m. Terms fall as m^-4: the sum up to m has an error of about
-   !> 1/(3 m^3) of its first left out, 1e-8 for 300.
-   function harmonics_force(film, motion, n) result(force)
-      type(pad_gap_type), intent(in) :: film
-      type(film_motion), intent(in) :: motion
-      integer, intent(in) :: n
-      real(wp) :: force(2)
-      real(wp) :: phi(0:n), h(0:n), below(n), above(n), q(0:n), right(0:n), step, beta, factor(n), r, d
-      integer :: m, k
-      r = film%pad_radius()
-      step = film%arc()/n
-      phi = [(-film%trailing_angle + k*step, k=0, n)]
-      h = clearance - motion%position(1)*sin(phi) - motion%position(2)*cos(phi)
-      right = r**2*(-6*paper_oil%viscosity*speed*film%journal_radius/r &
-         & *(motion%position(2)*sin(phi) - motion%position(1)*cos(phi)) &
-         & - 12*paper_oil%viscosity*(motion%velocity(1)*sin(phi) + motion%velocity(2)*cos(phi)))
-      ! h^3 at the middles of the cells, exactly
-      above = (clearance - motion%position(1)*sin(phi(1:) - step/2) - motion%position(2)*cos(phi(1:) &
-         & - step/2))**3/step**2
-      below = above
-      force = 0
-      do m = 1, 301, 2
-         beta = (m*pi*r/film%axial_length)**2
-         q(0) = 0
-         q(n) = 0
-         factor(1) = 0
-         ! elimination upwards, then substitution downwards
-         do k = 1, n - 1
-            d = -(below(k) + above(k + 1)) - beta*h(k)**3 + below(k)*factor(k)
-            factor(k + 1) = above(k + 1)/(-d)
-            q(k) = (right(k) - below(k)*q(k - 1))/d
-         end do
-         do k = n - 1, 1, -1
-            q(k) = q(k) + factor(k + 1)*q(k + 1)
-         end do
-         ! the trapezoidal rule, with q = 0 at both ends
-         force = force - r*step*8*film%axial_length/(m*pi)**2*[sum(q*sin(phi)), sum(q*cos(phi))]
-      end do
-   end function harmonics_force
-
-   !> Extrapolated from 400 and 800 cells: an error of (1/400)**4 times some hundred, 1e-8.
-   function reference_force(film, motion) result(force)
-      type(pad_gap_type), intent(in) :: film
-      type(film_motion), intent(in) :: motion
-      real(wp) :: force(2)
-      force = (4*harmonics_force(film, motion, 800) - harmonics_force(film, motion, 400))/3
-   end function reference_force
-
-   !> Two extrapolations from different grids agree to what is said of them.
-   subroutine reference_is_fine()
-      type(pad_gap_type) :: film
-      real(wp) :: coarse(2), fine(2)
-      film = paper_pad(length=0.1_wp)
-      coarse = (4*harmonics_force(film, ordinary(3), 400) - harmonics_force(film, ordinary(3), 200))/3
-      fine = reference_force(film, ordinary(3))
-      call expect_close(norm2(coarse - fine), 0.0_wp, 1e-7_wp*norm2(fine), 'the reference has converged')
-   end subroutine reference_is_fine
-
-   function solver_force(solver, motion) result(force)
-      class(film_solver_type), intent(inout) :: solver
-      type(film_motion), intent(in) :: motion
-      real(wp) :: force(2)
-      type(film_response) :: r(1)
-      call solver%evaluate([motion], [paper_oil], speed, .false., r)
-      call expect(r(1)%status == film_ok, 'the film converges')
-      force = r(1)%force
-   end function solver_force
-
-   !> 20 x 5 to 160 x 40: errors fall fourfold against the reference, and so do the changes from grid to
-   !> grid, which know no reference. The next term, h**2 smaller, may take a quarter off the first ratio,
-   !> and a sixteenth and less off the others.
-   subroutine second_order(length, motion)
-      real(wp), intent(in) :: length
-      type(film_motion), intent(in) :: motion
-      class(film_solver_type), allocatable :: solver
-      real(wp) :: force(2, 0:3), reference(2), found(0:3), extrapolated(3), ratio
-      character(len=:), allocatable :: what
-      integer :: k
-      what = ', L = '//to_text(length)
-      reference = reference_force(paper_pad(length=length), motion)
-      do k = 0, 3
-         solver = new_sor_film([paper_pad(length=length)], sor_options(20*2**k, 5*2**k, tolerance=1e-8_wp, &
-            & max_sweeps=100000, cavitation=cavitation_none))
-         force(:, k) = solver_force(solver, motion)
-         found(k) = norm2(force(:, k) - reference)/norm2(reference)
-      end do
-      do k = 1, 3
-         ratio = found(k - 1)/found(k)
-         call expect_close(ratio, 4.0_wp, 1.0_wp/4**(k - 1) + 0.05_wp, 'error, grid '//to_text(20*2**k)//what)
-      end do
-      ratio = norm2(force(:, 1) - force(:, 0))/norm2(force(:, 2) - force(:, 1))
-      call expect_close(ratio, 4.0_wp, 1.0_wp, 'change, grids 20 to 80'//what)
-      ratio = norm2(force(:, 2) - force(:, 1))/norm2(force(:, 3) - force(:, 2))
-      call expect_close(ratio, 4.0_wp, 0.3_wp, 'change, grids 40 to 160'//what)
-      ! extrapolation removes the second order: what is left is of the fourth, sixteenfold within a factor two
-      do k = 1, 3
-         extrapolated(k) = norm2((4*force(:, k) - force(:, k - 1))/3 - reference)/norm2(reference)
-      end do
-      call expect(extrapolated(2)/extrapolated(3) > 8 .and. extrapolated(2)/extrapolated(3) < 32, &
-         & 'order of the extrapolated force'//what//': '//to_text(extrapolated(2))//' '//to_text(extrapolated(3)))
-      call expect(extrapolated(3) < 1e-5_wp, 'extrapolated force'//what//': '//to_text(extrapolated(3)))
-   end subroutine second_order
-
-   !> Numerov's scheme along the arc, with all modes that the grid resolves: of the fourth order and more, so
-   !> 24 to 48 cells leave a quarter at the very most, down to the reference's own 1e-7. At the default, 24
-   !> cells and 8 modes, 1e-4 is far below what over-relaxation has.
-   subroutine fourier_order(length, motion)
-      real(wp), intent(in) :: length
-      type(film_motion), intent(in) :: motion
-      class(film_solver_type), allocatable :: solver
-      real(wp) :: reference(2), coarse, fine, usual
-      reference = reference_force(paper_pad(length=length), motion)
-      solver = new_fourier_film([paper_pad(length=length)], 24, 200, gumbel=.false.)
-      coarse = norm2(solver_force(solver, motion) - reference)/norm2(reference)
-      solver = new_fourier_film([paper_pad(length=length)], 48, 200, gumbel=.false.)
-      fine = norm2(solver_force(solver, motion) - reference)/norm2(reference)
-      solver = new_fourier_film([paper_pad(length=length)], 24, 8, gumbel=.false.)
-      usual = norm2(solver_force(solver, motion) - reference)/norm2(reference)
-      call expect(fine < 0.25_wp*coarse + 1e-7_wp, 'modes converge, L = '//to_text(length)//': '//to_text(coarse) &
-         & //' '//to_text(fine))
-      call expect(fine < 1e-6_wp, 'modes on 48 cells, L = '//to_text(length)//': '//to_text(fine))
-      call expect(usual < 1e-4_wp, 'modes by default, L = '//to_text(length)//': '//to_text(usual))
-   end subroutine fourier_order
 end program test_film_limits

@@ -1,5 +1,5 @@
-!> The table of cavitated films: against the drive itself at two tolerances, jumps between cells, both ends of T, and
-!> that neither the order of visits nor a table that was full changes a bit.
+!> The table of cavitated films: jumps between cells, both ends of T, and that neither the order of visits nor a table
+!> that was full changes a bit. That its films are right is for test_film_accuracy.
 program test_cavitation_table
    use kinds, only: wp, degree
    use text, only: to_text
@@ -18,9 +18,6 @@ program test_cavitation_table
    associate (gap => pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 0.0_wp, 0.0_wp, 0.0_wp))
       pad = new_dimensionless_pad(gap)
    end associate
-   if (runs('against_drive')) call against_drive(.false., tolerance)
-   if (runs('against_drive')) call against_drive(.true., tolerance)
-   if (runs('against_drive')) call against_drive(.true., 1e-3_wp)
    if (runs('between_cells')) call between_cells()
    if (runs('both_ends')) call both_ends(.false.)
    if (runs('both_ends')) call both_ends(.true.)
@@ -35,31 +32,6 @@ contains
       real(wp) :: place(3)
       place = [between(0.3_wp, 0.9_wp), between(0.2_wp, 0.9_wp), between(0.0_wp, 1.0_wp)]
    end function random_place
-
-   !> The tolerance is held at the middle of a cell, for the slopes, too; elsewhere twice that is asked for.
-   subroutine against_drive(gumbel, tolerance)
-      logical, intent(in) :: gumbel
-      real(wp), intent(in) :: tolerance
-      type(cavitation_table_type) :: table
-      type(effective_velocity_type) :: solver
-      type(drive_type) :: drive
-      real(wp) :: place(3), value(simd_width), slope(simd_width, 3), w(2), worst
-      integer :: trial, last
-      logical :: good
-      table = new_cavitation_table(pad, gumbel, tolerance)
-      solver = new_effective_velocity(pad, gumbel, 0.1_wp*tolerance)
-      last = 0
-      worst = 0
-      do trial = 1, 30
-         place = random_place()
-         w = [1.0_wp, pad%tangent*(1 - 2*place(3))]
-         drive = solver%at(place(:2), w(2))
-         call table%look_up(place(:2), place(3), .true., last, value, slope, good)
-         call expect(good, 'a film that is open')
-         worst = max(worst, norm2(matmul(drive%weight, w + value(:2) - drive%value)))
-      end do
-      call expect(worst < 2*tolerance, merge('gumbel  ', 'reynolds', gumbel)//', error '//to_text(worst))
-   end subroutine against_drive
 
    !> Cells of the same level meet to rounding; where one of them is cut they differ by the error of either.
    subroutine between_cells()

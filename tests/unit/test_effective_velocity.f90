@@ -1,12 +1,9 @@
-!> The drive of a cavitated film: against finite volumes on finer even grids, and its slopes.
+!> The drive of a cavitated film: its slopes. That films with it are right is for test_film_accuracy.
 program test_effective_velocity
    use kinds, only: wp, degree
    use text, only: to_text
-   use film_solver, only: film_motion, film_response, film_counters
    use pad_gap, only: pad_gap_type
-   use dimensionless_pad, only: unit_oil, dimensionless_pad_type, new_dimensionless_pad
-   use elimination_film, only: elimination_film_type, new_elimination_film
-   use fourier_film, only: fourier_film_type, new_fourier_film
+   use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
    use effective_velocity, only: effective_velocity_type, drive_type, new_effective_velocity
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
@@ -17,14 +14,12 @@ program test_effective_velocity
    real(wp), parameter :: films(3, 4) = reshape([0.8_wp, 0.4_wp, 0.15_wp, 0.5_wp, 0.9_wp, 0.4_wp, &
       & 0.3_wp, 0.3_wp, 0.7_wp, 1.5_wp, 0.2_wp, 0.3_wp], [3, 4])
    type(dimensionless_pad_type) :: pad
-   type(pad_gap_type) :: gap
    integer :: i
 
-   gap = pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 0.0_wp, 0.0_wp, 0.0_wp)
-   pad = new_dimensionless_pad(gap)
+   associate (gap => pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 0.0_wp, 0.0_wp, 0.0_wp))
+      pad = new_dimensionless_pad(gap)
+   end associate
    do i = 1, size(films, 2)
-      if (runs('against_even_grids')) call against_even_grids(films(:2, i), films(3, i))
-      if (runs('against_clipped_modes')) call against_clipped_modes(films(:2, i), films(3, i))
       if (runs('slopes')) call slopes(.false., films(:2, i), films(3, i))
       if (runs('slopes')) call slopes(.true., films(:2, i), films(3, i))
       if (runs('rim')) call rim(films(:2, i), films(3, i))
@@ -34,68 +29,6 @@ program test_effective_velocity
    call report()
 
 contains
-
-   !> w of a film with this T.
-   pure function w_of(t) result(w)
-      real(wp), intent(in) :: t
-      real(wp) :: w(2)
-      w = [1.0_wp, pad%tangent*(1 - 2*t)]
-   end function w_of
-
-   !> Force of the full film with a drive.
-   function whole_force(edges, drive) result(force)
-      real(wp), intent(in) :: edges(2), drive(2)
-      real(wp) :: force(2)
-      type(fourier_film_type) :: film
-      type(film_response) :: r(1)
-      film = new_fourier_film([gap], 96, 32, .false., 1e-7_wp)
-      call film%evaluate([film_motion(pad%position(edges), drive)], [unit_oil], 0.0_wp, .false., r)
-      force = r(1)%force
-   end function whole_force
-
-   !> Of three even grids, each finer by the root of 2, the errors fall to a half: the last two, extrapolated, err by no
-   !> more than they differ from the first two.
-   subroutine against_even_grids(edges, t)
-      real(wp), intent(in) :: edges(2), t
-      type(effective_velocity_type) :: solver
-      type(drive_type) :: drive
-      type(elimination_film_type) :: grid
-      type(film_counters) :: unused
-      type(film_response) :: r
-      real(wp) :: forces(2, 3), best(2), before(2), scale, doubt
-      integer, parameter :: columns(3) = [120, 170, 240], rows(3) = [12, 17, 24]
-      integer :: k
-      solver = new_effective_velocity(pad, .false., tolerance)
-      drive = solver%at(edges, pad%tangent*(1 - 2*t))
-      do k = 1, 3
-         grid = new_elimination_film(gap, columns(k), rows(k))
-         call grid%evaluate(film_motion(pad%position(edges), w_of(t)), unit_oil, 0.0_wp, .true., .false., unused, r)
-         forces(:, k) = r%force
-      end do
-      best = 2*forces(:, 3) - forces(:, 2)
-      before = 2*forces(:, 2) - forces(:, 1)
-      scale = norm2(whole_force(edges, w_of(0.0_wp)))
-      doubt = norm2(best - before)/scale
-      call expect(drive%ok, 'solved')
-      call expect(doubt < 0.3_wp*tolerance, 'the reference has converged: '//to_text(doubt))
-      call expect_close(norm2(whole_force(edges, drive%value) - best)/scale, 0.0_wp, tolerance + doubt, &
-         & 'force, T = '//to_text(t))
-   end subroutine against_even_grids
-
-   !> Guembel's condition, with as many modes.
-   subroutine against_clipped_modes(edges, t)
-      real(wp), intent(in) :: edges(2), t
-      type(effective_velocity_type) :: solver
-      type(drive_type) :: drive
-      type(fourier_film_type) :: film
-      type(film_response) :: r(1)
-      solver = new_effective_velocity(pad, .true., tolerance)
-      drive = solver%at(edges, pad%tangent*(1 - 2*t))
-      film = new_fourier_film([gap], 192, 64, .true., 1e-7_wp)
-      call film%evaluate([film_motion(pad%position(edges), w_of(t))], [unit_oil], 0.0_wp, .false., r)
-      call expect_close(norm2(whole_force(edges, drive%value) - r(1)%force)/norm2(whole_force(edges, w_of(0.0_wp))), &
-         & 0.0_wp, tolerance, 'force, T = '//to_text(t))
-   end subroutine against_clipped_modes
 
    !> Slopes against central differences over 0.02: of cells that cavitate one by one the differences keep the noise,
    !> some of the tolerance over the step; measured over the force at onset, as in the table.

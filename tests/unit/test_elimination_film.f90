@@ -20,10 +20,6 @@ program test_elimination_film
          call against_relaxation(grids(1, i), grids(2, i), .false., [3e5_wp, 1e5_wp, 0.0_wp])
       end if
    end do
-   if (runs('few_cells')) call few_cells([0.0_wp, 0.0_wp, 0.0_wp], .true.)
-   ! a flooded film breaks away from its edges: few are none there
-   if (runs('few_cells')) call few_cells([1.2e5_wp, 1e5_wp, 9e4_wp], .false.)
-   if (runs('any_start')) call any_start()
    if (runs('empty_film')) call empty_film()
    if (runs('many_columns')) call many_columns()
    if (runs('closed_film')) call closed_film()
@@ -90,58 +86,6 @@ contains
       deviation = norm2(found - expected)
       if (norm2(expected) > 0) deviation = deviation/norm2(expected)
    end function deviation
-
-   !> Where few cells cavitate their force by Green's functions is the difference of the films with and without
-   !> cavitation; where it says few, no others do.
-   subroutine few_cells(pressures, dry)
-      real(wp), intent(in) :: pressures(3)
-      logical, intent(in) :: dry
-      type(elimination_film_type) :: direct, by_few
-      type(film_counters) :: counters
-      type(film_motion) :: motion
-      type(film_response) :: r, whole
-      real(wp) :: force(2), worst
-      integer :: trial, said, with_cavitation
-      logical :: few
-      direct = new_elimination_film(paper_pad(pressures), 60, 15)
-      by_few = new_elimination_film(paper_pad(pressures), 60, 15)
-      said = 0
-      with_cavitation = 0
-      worst = 0
-      do trial = 1, 300
-         motion%position = clearance*[between(-0.5_wp, -0.05_wp), between(0.0_wp, 0.6_wp)]
-         motion%velocity = clearance*speed*[between(-0.02_wp, 0.02_wp), between(-0.02_wp, 0.02_wp)]
-         call by_few%force_of_cavitation(motion, paper_oil, speed, counters, force, few)
-         if (.not. few) cycle
-         said = said + 1
-         call direct%evaluate(motion, paper_oil, speed, .true., .false., counters, r)
-         call direct%evaluate(motion, paper_oil, speed, .false., .false., counters, whole)
-         if (norm2(r%force - whole%force) > 1e-6_wp*norm2(whole%force)) with_cavitation = with_cavitation + 1
-         worst = max(worst, norm2(force - (r%force - whole%force))/norm2(whole%force))
-      end do
-      call expect(worst < 1e-10_wp, 'few cells: error '//to_text(worst))
-      call expect(said > 50, 'few cells: often, '//to_text(said))
-      call expect((with_cavitation > 20) .eqv. dry, 'few cells: with cavitation, '//to_text(with_cavitation))
-   end subroutine few_cells
-
-   !> The answer does not depend on the film of the last motion.
-   subroutine any_start()
-      type(elimination_film_type) :: warm, cold
-      type(film_counters) :: counters
-      type(film_motion) :: motion
-      type(film_response) :: r, expected
-      integer :: trial
-      warm = new_elimination_film(paper_pad(), 60, 15)
-      do trial = 1, 50
-         motion = random_motion()
-         cold = new_elimination_film(paper_pad(), 60, 15)
-         call warm%evaluate(motion, paper_oil, speed, .true., .false., counters, r)
-         call cold%evaluate(motion, paper_oil, speed, .true., .false., counters, expected)
-         call expect_close(norm2(r%force - expected%force), 0.0_wp, 1e-12_wp*norm2(expected%force), 'any start')
-         ! without cavitation nothing is remembered
-         call warm%evaluate(motion, paper_oil, speed, .false., .false., counters, r)
-      end do
-   end subroutine any_start
 
    !> A pad that the journal leaves: nothing but cavitation, no force, no slopes; and back.
    subroutine empty_film()

