@@ -94,11 +94,6 @@ def test_text(refused_text, key):
     refused_text(*TEXTS[key])
 
 
-def test_result_file_for_a_case(refused, tmp_path):
-    (tmp_path / "other.h5").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(64))
-    refused("other.h5", names=["other.h5: a result or study (an HDF5 file), where a case belongs"])
-
-
 @pytest.mark.parametrize(
     "text",
     [
@@ -212,10 +207,12 @@ OVERRIDES = {
     "output%start_time=3": ["output%start_time = 3", "operation%duration"],
     "rotor%mas\ns=3": ["--set", "name = value"],
     "case%title='\x1b[2J'": ["--set case%title=", "control character"],
+    "case%title='\udcff'": ["--set", "case%title", "UTF-8"],
+    f"case%title='{10000 * 'x'}'": ["--set", "too long"],
 }
 
 
-@pytest.mark.parametrize("override", OVERRIDES)
+@pytest.mark.parametrize("override", OVERRIDES, ids=range(len(OVERRIDES)))
 def test_override(refused, case, override):
     refused("case.nml", *SHORT, "--set", override, names=OVERRIDES[override])
 
@@ -227,23 +224,9 @@ def test_a_text_of_set_needs_no_quotes_but_for_blanks_and_slashes(tiltpad, refus
         refused("case.nml", "--set", f"case%title={text}", names=["case%title", *names])
 
 
-def test_override_too_long(refused, case):
-    refused("case.nml", "--set", f"case%title='{10000 * 'x'}'", names=["--set", "too long"])
-
-
-def test_override_that_is_not_utf_8(refused, case):
-    refused("case.nml", "--set", "case%title='\udcff'", names=["--set", "case%title", "UTF-8"])
-
-
 def test_more_overrides_than_any_case_has(refused, case):
     many = 5000 * ("--set", "rotor%mass=1")
     refused("case.nml", *many, names=["--set rotor%mass=1", "more than 1000 times"])
-
-
-def test_name_that_ends_in_a_blank(refused, case):
-    """Fortran would open the file without the blank."""
-    (case / "case.nml ").write_text("&rotor mass=1 /\n")
-    refused("case.nml ", names=["case.nml ", "blank"])
 
 
 def test_a_huge_file_is_not_read_in_part(tiltpad, case):

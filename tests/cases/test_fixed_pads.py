@@ -105,9 +105,6 @@ def test_a_sweep_is_collected(tiltpad, run):
 
 #: Case of the paper, made fixed; a case without films to carry the load.
 REFUSED = {
-    "friction": (("friction%model='lugre'",), 1, "friction%model = 'lugre': must be 'none'"),
-    "tilt": (("start%pad_tilt=1e-3",), 1, "start%pad_tilt = 0.001, pad_tilt_rate = 0: must be 0"),
-    "pivot_deflection": (("start%pivot_deflection=1e-6",), 1, "must be 0 for pads%motion = 'fixed'"),
     "arc": (("pads%arc_deg=360.5",), 1, "0.1 to 360"),
     "overlap": (("pads%arc_deg=181",), 1, "overlap"),
     "other states": (("start%from='file'", "start%file='paper.h5'"), 3, "has pads%motion = 'tilting_radial'"),

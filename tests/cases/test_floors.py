@@ -1,13 +1,7 @@
 """The check of floors (make lint) finds what it is to find, and nothing else."""
 
-import importlib.util
-from pathlib import Path
-
+import floors
 import pytest
-
-spec = importlib.util.spec_from_file_location("floors", Path(__file__).parents[1] / "floors.py")
-floors = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(floors)
 
 
 @pytest.fixture

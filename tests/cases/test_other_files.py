@@ -88,12 +88,11 @@ def test_a_case_with_the_name_of_a_side_file(tiltpad, case, name, output, status
     assert (case / name).read_text() == CASE
 
 
-@pytest.mark.parametrize("suffix", ["lock", "part"])
 @pytest.mark.parametrize("kind", ["symbolic", "hard", "dangling", "pipe", "folder"])
-def test_links_with_the_name_of_a_side_file(tiltpad, refused, case, suffix, kind):
-    """Their targets keep every byte, and nothing waits for a pipe."""
+def test_links_with_the_name_of_a_part(tiltpad, case, kind):
+    """Their targets keep every byte, and nothing waits for a pipe. Of locks: test_working_file.f90."""
     (case / "target").write_bytes(b"precious" * 100)
-    place = case / f"case.h5.{suffix}"
+    place = case / "case.h5.part"
     if kind == "symbolic":
         place.symlink_to("target")
     elif kind == "hard":
@@ -105,14 +104,11 @@ def test_links_with_the_name_of_a_side_file(tiltpad, refused, case, suffix, kind
     else:
         place.mkdir()
     before = contents(case)
-    if suffix == "lock":
-        refused(["case.nml", "-q"], "case.h5.lock is no lock file of tiltpad")
-    else:
-        tiltpad("case.nml", "-q", cwd=case, status=0)
-        with h5py.File(case / "case.h5") as file:
-            assert file.attrs["complete"] == 1
+    tiltpad("case.nml", "-q", cwd=case, status=0)
+    with h5py.File(case / "case.h5") as file:
+        assert file.attrs["complete"] == 1
     after = contents(case)
-    after.pop("case.h5", None)
+    del after["case.h5"]
     assert after == before
 
 
@@ -175,15 +171,6 @@ def test_a_file_put_under_the_name_while_the_run_writes(running, case):
     if "something else has been put there" in said:
         with h5py.File(case / "case.h5.part") as file:
             assert len(file["time"]) > 0
-
-
-def test_a_lock_that_is_moved_away(running, tiltpad, case):
-    """Two writers never take each other's place: the first notices that its lock is gone."""
-    process = running("case.h5")
-    (case / "case.h5.lock").rename(case / "moved")
-    assert "its lock is gone" in one_error(process, 3)
-    (case / "moved").unlink()
-    tiltpad("case.nml", "-q", "--overwrite", cwd=case, status=0)
 
 
 def test_a_folder_that_looks_like_the_trial_of_a_sweep(program, case):

@@ -144,8 +144,6 @@ def test_a_partial_equilibrium(tiltpad, root, tmp_path):
 
 REFUSED = {
     "no file": (("start%from='file'", "start%file='none.h5'"), 3, "start%file: none.h5: no such file"),
-    "no name": (("start%from='file'",), 1, "start%file = '': must name a result"),
-    "not from it": (("start%file='whole.h5'",), 1, "needs start%from = 'file', not 'equilibrium'"),
     "text": (("start%from='file'", "start%file='case.nml'"), 3, "start%file: case.nml: "),
     "pads": ((*STARTS["from_file"], "pads%pivot_angle_deg=-90"), 3, "has 2 pads, and this case 1"),
     "motion": ((*STARTS["from_file"], "pads%motion='tilting_only'"), 3, "pads%motion = 'tilting_radial'"),
@@ -153,11 +151,6 @@ REFUSED = {
     "no motion": (("start%from='file'", "start%file='rest.h5'"), 3, "no samples of a motion"),
     "turned over": (("start%from='given'", "start%pad_tilt(2)=1.2"), 2, "pad 2 turned over"),
     "closed": (("start%from='centred'", "start%journal=-90e-6,0"), 2, "the film of pad 1 closed"),
-    "rigid": (
-        ("start%pivot_deflection=1e-6", "pads%motion='tilting_only'"),
-        1,
-        "must be 0 for pads%motion = 'tilting_only'",
-    ),
     "unknown": (("start%from='rest'",), 1, "must be one of 'equilibrium'"),
 }
 

@@ -114,28 +114,6 @@ def test_members_in_order_and_to_the_last_bit(tiltpad, case):
         assert float(case_value(text, "rotor", "mass")) == mass
 
 
-def test_zip(tiltpad, case):
-    folder = case(sweep("order='zip'", "operation%speed_rpm=1000,2000", "friction%model='none','lugre'"))
-    for k, pair in enumerate([("1000", "'none'"), ("2000", "'lugre'")], 1):
-        text, _ = result(tiltpad("--check", "--run", k, "case.nml", cwd=folder))
-        assert pair == (case_value(text, "operation", "speed_rpm"), case_value(text, "friction", "model"))
-
-
-def test_set_of_a_sweep(tiltpad, case):
-    folder = case(sweep("rotor%mass=1:3:1", "rotor%unbalance=0.1,0.2,0.3"))
-
-    def count(*overrides):
-        return int(result(tiltpad("--count", "case.nml", overrides=overrides, cwd=folder))[0])
-
-    assert count() == 9
-    assert count("sweep%order='zip'") == 3
-    assert count("sweep%rotor%mass=1,2") == 6
-    assert count("sweep%rotor%mass=1,2", "Sweep%Rotor%Mass=1:4:1") == 12
-    assert count("sweep%rotor%gravity=1:2:0.5") == 27
-    case(QUICK)
-    assert count("sweep%operation%speed_rpm=1000:9000:*3") == 3
-
-
 # ---- running -------------------------------------------------------------------------------------
 @pytest.mark.parametrize("options", [(), ("--jobs", "1"), ("--jobs", "3"), ("--jobs", "100")])
 def test_all_members_run(tiltpad, case, options):

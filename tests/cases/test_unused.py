@@ -1,13 +1,7 @@
 """The check of imports and public names (make lint) finds what nothing uses, and nothing else."""
 
-import importlib.util
-from pathlib import Path
-
 import pytest
-
-spec = importlib.util.spec_from_file_location("unused", Path(__file__).parents[1] / "unused.py")
-unused = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(unused)
+import unused
 
 
 def sources(folder, files):

@@ -1,16 +1,10 @@
 """The check of words (tests/words.py) finds what is not of the field, and leaves standard terms alone."""
 
-import importlib.util
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
-
-PROGRAM = Path(__file__).parents[1] / "words.py"
-spec = importlib.util.spec_from_file_location("words", PROGRAM)
-words = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(words)
+import words
 
 
 @pytest.mark.parametrize(
@@ -54,7 +48,7 @@ def test_the_command(tmp_path):
     page = tmp_path / "page.md"
     page.write_text("A scene.\nTwo scenes.\n")
     (tmp_path / "picture.png").write_bytes(b"scene")
-    listed = subprocess.run([sys.executable, PROGRAM, tmp_path], capture_output=True, text=True)
+    listed = subprocess.run([sys.executable, words.__file__, tmp_path], capture_output=True, text=True)
     assert listed.returncode == 1
     assert listed.stdout.splitlines() == [
         f"{page}:1: scene: say case",
@@ -62,4 +56,4 @@ def test_the_command(tmp_path):
         "     2  case",
     ]
     page.write_text("A case.\n")
-    assert subprocess.run([sys.executable, PROGRAM, tmp_path]).returncode == 0
+    assert subprocess.run([sys.executable, words.__file__, tmp_path]).returncode == 0

@@ -114,6 +114,7 @@ def in_every_entry(capsys, path: Path, kinds: tuple[str, ...] = ("run", "study")
 @pytest.mark.parametrize("kind", ["text", "empty", "HDF5", "netCDF", "netCDF classic", "another program's"])
 def test_a_foreign_file(tmp_path, capsys, kind):
     path = tmp_path / "foreign.h5"
+    expected = "not an HDF5 file"
     if kind in ("text", "empty", "netCDF classic"):
         path.write_bytes({"text": b"time,journal_y\n", "empty": b""}.get(kind, b"CDF\x01" + bytes(200)))
     elif kind == "netCDF":
@@ -123,6 +124,9 @@ def test_a_foreign_file(tmp_path, capsys, kind):
             file["time"] = [0.0]
             if kind == "another program's":
                 file.attrs["program"] = 3.5
+    if path.read_bytes().startswith(b"\x89HDF"):
+        expected = "not a result of tiltpad"
+    assert expected in refused(capsys, "tiltpad-plot", ["orbit", path], path)
     in_every_entry(capsys, path)
 
 
@@ -147,10 +151,11 @@ def test_a_study_is_no_run_and_a_run_no_study(study, small):
 
 @pytest.mark.parametrize("share", [0.001, 0.02, 0.3, 0.7, 0.95, 0.9999])
 def test_a_file_cut_short(small, study, tmp_path, capsys, share):
-    for source, kind in ((small, "run"), (study, "study")):
+    for source, kind, plot in ((small, "run", "orbit"), (study, "study", "study")):
         content = source.read_bytes()
         path = tmp_path / "cut.h5"
         path.write_bytes(content[: int(share * len(content))])
+        assert share < 0.01 or "damaged" in refused(capsys, "tiltpad-plot", [plot, path], path)
         in_every_entry(capsys, path, (kind,))
 
 

@@ -98,34 +98,6 @@ def test_no_permission(tmp_path):
         tiltpad.read(path)
 
 
-def test_not_hdf5(tmp_path):
-    path = tmp_path / "text.h5"
-    path.write_text("time,journal_y\n")
-    with pytest.raises(tiltpad.RunError, match="not an HDF5 file"):
-        tiltpad.read(path)
-
-
-def test_a_torn_file(result, tmp_path):
-    path = tmp_path / "torn.h5"
-    path.write_bytes(result("lugre").read_bytes()[:20000])
-    with pytest.raises(tiltpad.RunError, match="damaged"):
-        tiltpad.read(path)
-
-
-def test_another_program_s_file(tmp_path):
-    path = tmp_path / "other.h5"
-    with h5py.File(path, "w") as file:
-        file["time"] = [0.0]
-    with pytest.raises(tiltpad.RunError, match="not a result of tiltpad"):
-        tiltpad.read(path)
-
-
-def test_a_later_format(changed):
-    path = changed("none", lambda file: file.attrs.modify("format_version", 4))
-    with pytest.raises(tiltpad.RunError, match="format_version 4 is newer than 3"):
-        tiltpad.read(path)
-
-
 def test_an_incomplete_run_is_read_with_a_warning(changed):
     path = changed("none", lambda file: file.attrs.modify("complete", 0))
     with pytest.warns(tiltpad.IncompleteRunWarning, match=r"incomplete run, ended at 0\.06 s of 0\.06 s"):
