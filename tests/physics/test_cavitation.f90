@@ -19,8 +19,6 @@ program test_cavitation
       if (runs('complementarity')) call complementarity()
       if (runs('order_of_models')) call order_of_models()
    end do
-   if (runs('full_film')) call full_film()
-   if (runs('level_of_cavitation')) call level_of_cavitation()
    call report()
 
 contains
@@ -134,40 +132,4 @@ contains
       if (r_none%min_pressure < condition - slack) call expect(-r_reynolds%force(2) > -r_gumbel%force(2) .and. &
          & -r_gumbel%force(2) > -r_none%force(2), 'and apart where the film cavitates')
    end subroutine order_of_models
-
-   !> Where nothing falls below the pressure of cavitation the models agree.
-   subroutine full_film()
-      integer, parameter :: models(3) = [cavitation_none, cavitation_gumbel, cavitation_reynolds]
-      type(sor_film_type) :: solver
-      type(film_response) :: r(3)
-      type(film_motion) :: motion
-      integer :: k
-      motion = film_motion([-3e-5_wp, 5e-5_wp], [0.0_wp, 2e-3_wp])
-      do k = 1, 3
-         call solve(0.0_wp, models(k), motion, solver, r(k))
-      end do
-      call expect(r(1)%min_pressure > 0, 'a full film')
-      call expect_close(norm2(r(2)%force - r(1)%force), 0.0_wp, 0.0_wp, 'gumbel has nothing to clip')
-      call expect_close(norm2(r(3)%force - r(1)%force), 0.0_wp, 1000*tolerance*norm2(r(1)%force), &
-         & 'reynolds has nothing to hold')
-   end subroutine full_film
-
-   !> A lower pressure of cavitation lets more tension act: the load falls with it, down to the full film's.
-   subroutine level_of_cavitation()
-      type(sor_film_type) :: solver
-      type(film_response) :: r, whole
-      real(wp) :: before
-      integer :: k
-      type(film_motion), parameter :: motion = film_motion([2e-5_wp, 5e-5_wp], [0.0_wp, 0.0_wp])
-      call solve(0.0_wp, cavitation_none, motion, solver, whole)
-      before = huge(before)
-      do k = 0, 4
-         call solve(0.25_wp*k*whole%min_pressure, cavitation_reynolds, motion, solver, r)
-         call expect(-r%force(2) < before, 'the load falls with the level '//to_text(k))
-         before = -r%force(2)
-      end do
-      call solve(1.01_wp*whole%min_pressure, cavitation_reynolds, motion, solver, r)
-      call expect_close(norm2(r%force - whole%force), 0.0_wp, 1000*tolerance*norm2(whole%force), &
-         & 'a level never reached cavitates nothing')
-   end subroutine level_of_cavitation
 end program test_cavitation

@@ -33,9 +33,8 @@ program test_fixed_pads
    if (runs('short_bearing')) call short_bearing()
    if (runs('long_bearing')) call long_bearing()
    if (runs('lobes')) call lobes()
-   if (runs('turned')) call turned()
-   if (runs('wide_films')) call wide_films()
    if (runs('lund_thomsen')) call lund_thomsen()
+   if (runs('wide_films')) call wide_films()
    if (runs('threshold')) call threshold()
    if (runs('whirl')) call whirl()
    call report()
@@ -242,40 +241,6 @@ contains
       call expect_close(norm2(elsewhere%stiffness - rest%stiffness), 0.0_wp, 1e-6_wp*norm2(rest%stiffness), &
          & 'its stiffness')
    end subroutine lobes
-
-   !> Bearing and load turned by an angle: so do place and coefficients.
-   subroutine turned()
-      real(wp), parameter :: angle = 37*degree
-      type(case_type) :: inputs, other
-      type(bearing_model) :: model
-      type(equilibrium_type) :: rest(2)
-      type(error_type), allocatable :: error
-      real(wp) :: turn(2, 2), k(2, 2, 2), c(2, 2, 2)
-      integer :: i
-      logical :: ok
-      inputs = two_grooves(0.5_wp)
-      other = inputs
-      ! angles count from +z towards +y
-      turn = reshape([cos(angle), -sin(angle), sin(angle), cos(angle)], [2, 2])
-      other%pads%pivot_angle_deg = inputs%pads%pivot_angle_deg + angle/degree
-      associate (load => inputs%rotor%mass*inputs%rotor%gravity)
-         other%rotor%static_load = matmul(turn, [-load, 0.0_wp]) + [load, 0.0_wp]
-      end associate
-      do i = 1, 2
-         model = new_bearing_model(inputs)
-         if (i == 2) model = new_bearing_model(other)
-         call find_equilibrium(model, rest(i), error)
-         call expect_no_error(error, 'an equilibrium')
-         call model%evaluate(0.0_wp, model%static_state(rest(i)%journal, rest(i)%tilt, rest(i)%pivot_deflection), &
-            & .true., ok)
-         call force_derivatives(model, k(:, :, i), c(:, :, i))
-      end do
-      call expect_close(norm2(rest(2)%journal - matmul(turn, rest(1)%journal)), 0.0_wp, 1e-12_wp, 'the place')
-      call expect_close(norm2(k(:, :, 2) - matmul(matmul(turn, k(:, :, 1)), transpose(turn))), 0.0_wp, &
-         & 1e-5_wp*norm2(k(:, :, 1)), 'the stiffness')
-      call expect_close(norm2(c(:, :, 2) - matmul(matmul(turn, c(:, :, 1)), transpose(turn))), 0.0_wp, &
-         & 1e-5_wp*norm2(c(:, :, 1)), 'the damping')
-   end subroutine turned
 
    !> `direct` and `sor` at their default resolution on arcs of 150 to 360 degrees, which all cavitation, against
    !> volumes that follow the film, extrapolated; `auto` is `direct` on arcs as long as these. Errors are over the force

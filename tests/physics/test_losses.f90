@@ -1,5 +1,5 @@
 !> Losses and flows of films: against sums over finite volumes that share only the pressure with them, analytic limits,
-!> balances of oil and power, symmetries, and the values of an independent program.
+!> balances of oil and power, and the values of an independent program.
 program test_losses
    use kinds, only: wp, pi, degree
    use errors, only: error_type
@@ -25,12 +25,9 @@ program test_losses
    if (runs('cavitated_by_volumes')) call cavitated_by_volumes()
    if (runs('clipped')) call clipped()
    if (runs('under_pressure')) call under_pressure()
-   if (runs('order')) call order()
    if (runs('oil_is_kept')) call oil_is_kept()
    if (runs('power_is_kept')) call power_is_kept()
    if (runs('raimondi_boyd')) call raimondi_boyd()
-   if (runs('viscosity')) call viscosity()
-   if (runs('mirror')) call mirror()
    if (runs('even_strip_under_pressure')) call even_strip_under_pressure()
    if (runs('supply_by_volumes')) call supply_by_volumes()
    if (runs('onset_of_cavitation')) call onset_of_cavitation()
@@ -276,23 +273,6 @@ contains
       call expect(loss%wedge > 1.2_wp*loss%pressure, 'the shaft pumps oil through the cavitation to the edges')
    end subroutine under_pressure
 
-   !> Volumes approach the modes, and fine volumes of a cavitated film, by the second power of their cells.
-   subroutine order()
-      type(pad_gap_type) :: gap
-      type(film_motion) :: motion
-      type(film_loss) :: exact
-      real(wp) :: error(3)
-      integer :: k
-      gap = offset_pad()
-      motion = film_motion([-15e-6_wp, 50e-6_wp], [2e-3_wp, -3e-3_wp])
-      exact = found(gap, motion, shaft_speed, .false., .false.)
-      do k = 1, 3
-         error(k) = difference(gap, motion, shaft_speed, exact, by_volumes(gap, motion, shaft_speed, 24*2**k, &
-            & 3*2**k, .false.))
-      end do
-      call expect(all(error(2:) < 0.3_wp*error(:2)) .and. error(3) < 1e-3_wp, 'second order')
-   end subroutine order
-
    !> What flows in flows out, less what the growing gap holds back; where a film reforms it takes up more than
    !> arrives. For full films test whole_by_volumes has it, whose side flow is a sum of its own.
    subroutine oil_is_kept()
@@ -374,49 +354,6 @@ contains
       character(len=*), intent(in) :: what
       call expect_close(value, expected, limit*expected, what)
    end subroutine within
-
-   !> Losses grow with viscosity, flows stay.
-   subroutine viscosity()
-      type(pad_gap_type) :: gap
-      type(film_motion) :: motion
-      type(film_loss) :: thin, thick
-      integer :: i
-      do i = 1, 2
-         gap = offset_pad()
-         motion = film_motion([merge(25e-6_wp, -25e-6_wp, i == 1), 45e-6_wp], [1e-3_wp, 1e-3_wp])
-         thin = found(gap, motion, shaft_speed, .true., .false.)
-         thick = found(gap, motion, shaft_speed, .true., .false., film_oil(3*paper_oil%viscosity))
-         call expect(all(abs([thick%couette, thick%pressure, thick%wedge]/[thin%couette, thin%pressure, thin%wedge] &
-            & - 3) < 1e-9_wp), 'losses')
-         call expect(all(abs([thick%inlet, thick%outlet, thick%side] - [thin%inlet, thin%outlet, thin%side]) &
-            & < 1e-9_wp*thin%inlet), 'flows')
-      end do
-   end subroutine viscosity
-
-   !> In a mirror the shaft turns backward, and oil that came in goes out.
-   subroutine mirror()
-      type(film_state) :: state
-      type(pad_gap_type) :: gap
-      type(film_loss) :: there, seen
-      real(wp) :: error
-      integer :: i
-      do i = 1, 20
-         state = random_film(1.0_wp, 10.0_wp, .false., .false.)
-         there = found(state%gap, state%motion, shaft_speed, .false., .false.)
-         gap = state%gap
-         gap%leading_angle = state%gap%trailing_angle
-         gap%trailing_angle = state%gap%leading_angle
-         associate (m => state%motion)
-            seen = found(gap, film_motion([-m%position(1), m%position(2)], [-m%velocity(1), m%velocity(2)]), &
-               & -shaft_speed, .false., .false.)
-         end associate
-         error = maxval(abs([seen%couette, seen%pressure, seen%wedge] - [there%couette, there%pressure, &
-            & there%wedge]))/(there%couette + there%pressure)
-         error = max(error, maxval(abs([seen%inlet + there%outlet, seen%outlet + there%inlet, seen%side &
-            & - there%side]))/maxval(abs([there%inlet, there%outlet, there%side])))
-         call expect(error < 1e-9_wp, 'mirror: '//shown(state))
-      end do
-   end subroutine mirror
 
    !> An even film at rest under pressure: every mode is a hyperbolic sine, and their sum without the corners, a film
    !> thickness wide, is an integral in closed form.

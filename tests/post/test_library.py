@@ -175,7 +175,7 @@ def test_friction_of_closed_forms():
     assert not tiltpad.friction_force(v, 1e4).any()
 
 
-@pytest.mark.parametrize("n", [8, 9, 361])
+@pytest.mark.parametrize("n", [1, 2, 7, 8, 9, 45, 128, 361])
 def test_spectra_are_numpys(n):
     y, z = np.random.default_rng(1).normal(size=(2, n))
     one_sided = np.abs(np.fft.rfft(y)) / n

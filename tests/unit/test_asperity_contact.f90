@@ -19,7 +19,6 @@ program test_asperity_contact
       if (runs('loads_by_quadrature')) call loads_by_quadrature()
       if (runs('derivatives')) call derivatives()
    end do
-   if (runs('pressure')) call pressure()
    if (runs('nothing_above')) call nothing_above()
    if (runs('friction')) call friction_directions()
    if (runs('film_position')) call film_position()
@@ -187,19 +186,6 @@ contains
          call expect_close(norm2(load%film_slopes - film), 0.0_wp, 1e-5_wp*norm2(film), 'of the film''s position')
       end do
    end subroutine derivatives
-
-   !> A film of the same thickness everywhere: K' E' F(h/sigma) on the pad's area. F(0) = 4.4086e-5 4**6.804 = 0.5503.
-   subroutine pressure()
-      type(pad_gap_type) :: gap
-      type(asperity_load) :: load
-      gap = offset_pad()
-      gap%machined_clearance = 0.1_wp*roughness
-      load = load_at(steel_on_metal(friction), gap, [0.1_wp*roughness, 0.0_wp])
-      gap%machined_clearance = 1e-12_wp
-      load = load_at(steel_on_metal(friction), gap, [0.0_wp, 0.0_wp])
-      call expect_close(load%normal/(gap%pad_radius()*gap%arc()*gap%axial_length), factor*modulus*0.5503_wp, &
-         & 1e-3_wp*factor*modulus, 'pressure of surfaces whose mean planes meet')
-   end subroutine pressure
 
    !> Not a newton from 4 sigma on, as little as possible below it, and never with the model 'none'.
    subroutine nothing_above()

@@ -20,7 +20,6 @@ program test_hdf5_series
       call growing(5, 100_i8)
       call growing(0, 0_i8)
    end if
-   if (runs('opened_again')) call opened_again()
    if (runs('parts')) call parts()
    if (runs('shape_in_the_file')) call shape_in_the_file()
    if (runs('no_series')) call no_series()
@@ -86,24 +85,6 @@ contains
       call file%close()
       call expect(.not. allocated(file%failure), 'width '//to_text(width))
    end subroutine growing
-
-   subroutine opened_again()
-      type(hdf5_type) :: file
-      type(hdf5_series_type) :: series
-      call file%create(path)
-      call series%create(file, 'x', 3, 'm', 'numbers', '', long)
-      call series%append(file, samples(3, 1, 7))
-      call series%close(file)
-      call file%close()
-      call file%open(path, writing=.true.)
-      call series%open(file, 'x')
-      call expect(series%length == 7 .and. series%width == 3, 'as long and wide as it was')
-      call series%append(file, samples(3, 8, 9))
-      call expect_samples(series, file, 1, 9)
-      call series%close(file)
-      call file%close()
-      call expect(.not. allocated(file%failure), 'continued')
-   end subroutine opened_again
 
    subroutine parts()
       type(hdf5_type) :: file

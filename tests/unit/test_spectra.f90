@@ -1,8 +1,9 @@
-!> What is told of motions: spectra, loops, flutter and lift-off of pads, whirl.
+!> What is told of motions: spectra, loops, flutter and lift-off of pads, whirl. Spectra of any signal, full ones too:
+!> tests/post/test_library.py.
 program test_spectra
    use kinds, only: wp, pi
    use text, only: to_text
-   use spectra, only: one_sided_amplitude, full_amplitude
+   use spectra, only: one_sided_amplitude
    use loops, only: path_integral, harmonic, slow_share, periodicity, new_periodicity
    use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, dominant, evenly
    use march_figures, only: pad_diagnosis
@@ -10,16 +11,11 @@ program test_spectra
    implicit none (type, external)
    !> Transforms of a few hundred samples of order one: log2(n) roundings each, with room.
    real(wp), parameter :: rounding = 1000*epsilon(1.0_wp)
-   integer, parameter :: lengths(*) = [1, 2, 7, 8, 45, 128, 251]
    integer :: i
    !> Samples of a revolution, and revolutions.
    integer, parameter :: samples = 30, revolutions = 40, n = samples*revolutions
    real(wp), parameter :: turns = revolutions
 
-   do i = 1, size(lengths)
-      if (runs('against_direct_transform')) call against_direct_transform(lengths(i))
-      if (runs('against_direct_full_transform')) call against_direct_full_transform(lengths(i))
-   end do
    if (runs('sines')) then
       call sines(64)
       call sines(99)
@@ -61,50 +57,6 @@ contains
          call expect_close(amplitude(n/2), 3.0_wp, rounding, 'the highest frequency of '//to_text(n)//' samples')
       end if
    end subroutine sines
-
-   subroutine against_direct_transform(n)
-      integer, intent(in) :: n
-      real(wp) :: signal(n), amplitude(0:n/2), expected
-      complex(wp) :: line
-      integer :: k
-      call random_number(signal)
-      amplitude = one_sided_amplitude(signal)
-      do k = 0, n/2
-         line = direct_line(cmplx(signal, 0.0_wp, wp), k)
-         expected = abs(line)
-         ! all lines but the first and, with even n, the last stand for two
-         if (k > 0 .and. 2*k /= n) expected = 2*expected
-         call expect_close(amplitude(k), expected, rounding, 'line '//to_text(k)//' of '//to_text(n)//' random numbers')
-      end do
-   end subroutine against_direct_transform
-
-   subroutine against_direct_full_transform(n)
-      integer, intent(in) :: n
-      real(wp) :: re(n), im(n), worst
-      real(wp) :: amplitude(-((n - 1)/2):n/2)
-      integer :: k
-      call random_number(re)
-      call random_number(im)
-      amplitude = full_amplitude(cmplx(re, im, wp))
-      worst = 0
-      do k = lbound(amplitude, 1), ubound(amplitude, 1)
-         worst = max(worst, abs(amplitude(k) - abs(direct_line(cmplx(re, im, wp), k))))
-      end do
-      call expect_close(worst, 0.0_wp, rounding, 'full spectrum of '//to_text(n)//' random numbers')
-   end subroutine against_direct_full_transform
-
-   !> One line by its definition, over n.
-   pure complex(wp) function direct_line(signal, k)
-      complex(wp), intent(in) :: signal(0:)
-      integer, intent(in) :: k
-      integer :: j, n
-      n = size(signal)
-      direct_line = 0
-      do j = 0, n - 1
-         direct_line = direct_line + signal(j)*exp(cmplx(0.0_wp, -2*pi*mod(j*k, n)/n, wp))
-      end do
-      direct_line = direct_line/n
-   end function direct_line
 
    subroutine square()
       call expect_close(path_integral([0.0_wp, 0.0_wp, 2.0_wp, 2.0_wp, 0.0_wp], &

@@ -23,14 +23,12 @@ program test_table_film
    if (runs('no_force_left')) call no_force_left()
    if (runs('straight_squeeze')) call straight_squeeze()
    do i = none, reynolds
-      if (runs('mirror')) call mirror(i)
       if (runs('slopes')) call slopes(i)
       if (runs('repeats')) call repeats(i)
    end do
    if (runs('unequal_pressures')) call unequal_pressures()
    if (runs('ambient')) call ambient()
    if (runs('alike')) call alike()
-   if (runs('many_pads')) call many_pads()
    if (runs('closed')) call closed()
    if (runs('set_cavitation')) call set_cavitation()
    if (runs('pressures')) call pressures()
@@ -193,39 +191,6 @@ contains
       end do
    end subroutine straight_squeeze
 
-   !> A pad seen from behind: leading and trailing edge, and the motions along the arc, change their names.
-   subroutine mirror(condition)
-      integer, intent(in) :: condition
-      type(table_film_type) :: film
-      type(pad_gap_type) :: gap, behind
-      type(film_response) :: found(1), seen(1)
-      type(film_motion) :: motion
-      real(wp), parameter :: sides(2) = [-1.0_wp, 1.0_wp]
-      integer :: k, m
-      gap = offset_pad()
-      behind = gap
-      behind%leading_angle = gap%trailing_angle
-      behind%trailing_angle = gap%leading_angle
-      do k = 1, 6
-         motion = film_motion(clearance*[between(-0.4_wp, 0.4_wp), between(-0.2_wp, 0.4_wp)], &
-            & clearance*speed*[between(-0.5_wp, 0.5_wp), between(-0.2_wp, 0.2_wp)])
-         film = tables([gap], condition)
-         call film%evaluate([motion], [paper_oil], speed, .true., found)
-         film = tables([behind], condition)
-         call film%evaluate([film_motion(sides*motion%position, sides*motion%velocity)], [paper_oil], -speed, &
-            & .true., seen)
-         call expect_close(norm2(found(1)%force - sides*seen(1)%force), 0.0_wp, &
-            & 1e-10_wp*squeezed(gap, motion), 'force in the mirror')
-         do m = 1, 4
-            associate (slope => found(1)%derivatives(:, m), &
-               & slope_seen => sides(1 + mod(m - 1, 2))*sides*seen(1)%derivatives(:, m))
-               call expect_close(norm2(slope - slope_seen), 0.0_wp, 1e-8_wp*squeezed(gap, motion) &
-                  & /(clearance*merge(1.0_wp, speed, m < 3)), 'slope in the mirror')
-            end associate
-         end do
-      end do
-   end subroutine mirror
-
    !> Slopes are those of the force, whole and cavitated, both ways of motion: against differences over 1e-6.
    subroutine slopes(condition)
       integer, intent(in) :: condition
@@ -367,28 +332,6 @@ contains
       call expect(film%counters%nodes == alone%counters%nodes, 'and nodes')
       call expect(film%counters%looked_up == 6, 'six look-ups')
    end subroutine alike
-
-   !> 24 pads of different shapes, in one solver and alone.
-   subroutine many_pads()
-      integer, parameter :: n = 24
-      type(table_film_type) :: film, alone
-      type(pad_gap_type) :: gaps(n)
-      type(film_response) :: found(n), expected(1)
-      type(film_motion) :: motions(n)
-      integer :: k
-      do k = 1, n
-         gaps(k) = offset_pad(length=0.05_wp + 0.004_wp*k)
-         gaps(k)%leading_angle = (20 + k)*degree
-         motions(k) = loaded_motion()
-      end do
-      film = tables(gaps, gumbel)
-      call film%evaluate(motions, spread(paper_oil, 1, size(motions)), speed, .true., found)
-      do k = n, 1, -1
-         alone = tables(gaps(k:k), gumbel)
-         call alone%evaluate(motions(k:k), [paper_oil], speed, .true., expected)
-         call expect_same_bits(found(k), expected(1), 'pad '//to_text(k))
-      end do
-   end subroutine many_pads
 
    !> A journal that touches, beyond and just not: at an edge and between them.
    subroutine closed()
