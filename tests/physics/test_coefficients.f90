@@ -1,8 +1,8 @@
-!> Stiffness, damping, modes and thresholds of bearings: against the values of independent programs, against the forces
-!> of the films themselves, and by symmetry.
+!> Stiffness, damping, modes and thresholds of bearings: against the values of independent programs and against the
+!> forces of the films themselves. Turned bearings are for tests/cases/test_invariants.py.
 program test_coefficients
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use kinds, only: wp, pi, degree
+   use kinds, only: wp, pi
    use text, only: to_text
    use case_inputs, only: case_type
    use equations_of_motion, only: bearing_model
@@ -21,7 +21,6 @@ program test_coefficients
    if (runs('differences')) call differences()
    if (runs('refinement')) call refinement()
    if (runs('load')) call change_of_load()
-   if (runs('rotation')) call rotation()
    if (runs('sticking')) call sticking()
    call report()
 
@@ -229,40 +228,6 @@ contains
          end associate
       end do
    end subroutine change_of_load
-
-   !> A bearing and its load that are turned by an angle have the coefficients turned by it: rounding, and what rests
-   !> differ by within the limit of the residual, 1e-8.
-   subroutine rotation()
-      type(case_type) :: inputs
-      type(bearing_coefficients_type) :: found, turned
-      real(wp), parameter :: angle = 35
-      real(wp) :: turn(2, 2)
-      integer :: i
-      inputs = whole(6500.0_wp)
-      inputs%friction%model = 'bengisu_akay'
-      inputs%pads%pivot_ratio = [0.55_wp, 0.6_wp]
-      inputs%rotor%gravity = 0
-      inputs%rotor%static_load = [-20e3_wp, 5e3_wp]
-      call analyse(inputs, 'as it is', found)
-      associate (s => sin(angle*degree), c => cos(angle*degree))
-         ! angles of pivots go from z to y
-         turn = reshape([c, -s, s, c], [2, 2])
-      end associate
-      inputs%pads%pivot_angle_deg = inputs%pads%pivot_angle_deg + angle
-      inputs%rotor%static_load = matmul(turn, inputs%rotor%static_load)
-      call analyse(inputs, 'turned', turned)
-      do i = 1, size(found%bearings)
-         call same(turn, found%stiffness(:, :, 1, i), turned%stiffness(:, :, 1, i), 'K, '//found%bearings(i)%pivot)
-         call same(turn, found%damping(:, :, 1, i), turned%damping(:, :, 1, i), 'C, '//found%bearings(i)%pivot)
-      end do
-   end subroutine rotation
-
-   subroutine same(turn, before, after, what)
-      real(wp), intent(in) :: turn(2, 2), before(2, 2), after(2, 2)
-      character(len=*), intent(in) :: what
-      call expect_close(maxval(abs(matmul(turn, matmul(before, transpose(turn))) - after)), 0.0_wp, &
-         & 1e-7_wp*maxval(abs(after)), what)
-   end subroutine same
 
    !> What sticking adds to the tilts is R1^2 F_bs times sigma_0, and sigma_1 + sigma_2, or 2 f_s/v_c; of pads that only
    !> tilt F_bs is the reaction of the pivot.
