@@ -107,6 +107,19 @@ def one_error(process, status):
     return error
 
 
+def arrays(path, *but):
+    """All arrays of a result by their full names, but those of some groups."""
+    found = {}
+
+    def note(name, each):
+        if isinstance(each, h5py.Dataset) and name.partition("/")[0] not in but:
+            found[name] = each[()]
+
+    with h5py.File(path) as file:
+        file.visititems(note)
+    return found
+
+
 def shorten(path, more=0.01):
     """Sets the end of a stopped march so many seconds behind its checkpoint; gives it."""
     with h5py.File(path, "r+") as file:

@@ -9,7 +9,7 @@ import signal
 import h5py
 import numpy as np
 import pytest
-from conftest import EVERY_STEP, one_error, wait_for_checkpoint
+from conftest import EVERY_STEP, arrays, one_error, wait_for_checkpoint
 
 #: Sends SIGNAL to the program, not to a child that opens a file for it, at its request number REQUEST.
 AT_A_REQUEST = """
@@ -53,22 +53,9 @@ SWEPT = EQUILIBRIA.replace("&rotor", "&film solver='sor', circumferential_cells=
 OWN = ("created", "ended", "history", "resumes", "input")
 
 
-def datasets(path):
-    """All datasets of a result but counts and times, by name."""
-    found = {}
-
-    def note(name, each):
-        if isinstance(each, h5py.Dataset) and not name.startswith(("statistics/", "checkpoint/")):
-            found[name] = each[()]
-
-    with h5py.File(path) as file:
-        file.visititems(note)
-    return found
-
-
 def check_same(path, reference):
     """The same bits, texts and marks; the work that was done twice is counted twice."""
-    own, expected = datasets(path), datasets(reference)
+    own, expected = (arrays(each, "statistics", "checkpoint") for each in (path, reference))
     assert own.keys() == expected.keys()
     for name, values in own.items():
         np.testing.assert_array_equal(values, expected[name], err_msg=name)
@@ -100,7 +87,7 @@ def test_slices_of_a_branch_join_to_the_bit(run, tiltpad, tmp_path, loaded, case
         assert status in (0, 4, -signal.SIGKILL), done.stderr
         assert done.stderr.count("\n") == (status == 4)
         stops += status != 0
-        reached = len(datasets(path)["point"]) if path.exists() else 0
+        reached = len(arrays(path)["point"]) if path.exists() else 0
         requests = requests + 997 if reached > points else requests * 5 // 4
         points = reached
     assert stops > 5

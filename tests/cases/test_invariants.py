@@ -7,9 +7,9 @@ treated in a way of its own, would show.
 
 import re
 
-import h5py
 import numpy as np
 import pytest
+from conftest import arrays
 
 #: Four pads under preload, with friction in their pivots, on warm oil. No gravity: pads would feel it, too.
 CASE = {
@@ -141,19 +141,6 @@ def results(tiltpad, tmp_path_factory):
         return done[name]
 
     return make
-
-
-def arrays(path):
-    """All numbers of a file, by their full names."""
-    found = {}
-
-    def note(name, each):
-        if isinstance(each, h5py.Dataset) and each.dtype.kind == "f":
-            found[name] = each[()]
-
-    with h5py.File(path) as file:
-        file.visititems(note)
-    return found
 
 
 def check_same(found, expected, limit, what):

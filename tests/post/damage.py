@@ -64,8 +64,10 @@ def in_child(work: Callable[[], tuple[str, str]]) -> tuple[str, str]:
         used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
         resource.setrlimit(resource.RLIMIT_AS, (used + MEMORY, used + MEMORY))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-        os.write(send, "\n".join(work()).encode()[:4000])
-        os._exit(0)
+        try:
+            os.write(send, "\n".join(work()).encode()[:4000])
+        finally:
+            os._exit(0)
     os.close(send)
     status = os.waitpid(child, 0)[1]
     with os.fdopen(receive, "rb") as stream:

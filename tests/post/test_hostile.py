@@ -5,21 +5,20 @@ time: it is read, or refused in one line with the right status.
 """
 
 import os
-import resource
 import shutil
-import signal
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
+import damage
 import h5py
 import numpy as np
 import pytest
 import tiltpad
 from tiltpad import command
 
-MEMORY, SECONDS = 500 << 20, 5
+sys.path.insert(0, str(Path(__file__).parents[1] / "stress"))
+from limited import limited  # noqa: E402
 
 
 def replaced(name, **options):
@@ -164,48 +163,23 @@ def hostile(result, tmp_path):
     return make
 
 
-def limited(command_line, folder, **variables):
+def run_limited(words, folder, **variables):
     """Runs a command with limits; it ends with a right status and, where it fails, one line. Gives both."""
-
-    def limit():
-        resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
-        signal.alarm(60)
-
-    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as errors:
-        started = subprocess.Popen(
-            command_line,
-            cwd=folder,
-            preexec_fn=limit,
-            stdout=out,
-            stderr=errors,
-            env={**os.environ, **variables},
-        )
-        _, status, used = os.wait4(started.pid, 0)
-        errors.seek(0)
-        said = errors.read().decode(errors="replace")
-    started.returncode = status = os.waitstatus_to_exitcode(status)
-    assert status in (0, 1, 2, 3), (status, said)
-    lines = [line for line in said.splitlines() if ": warning: " not in line]
-    assert len(lines) == (status != 0), said
-    assert "please report" not in said
-    assert used.ru_maxrss << 10 < MEMORY
-    return status, said
+    done = limited(words, folder, damage.SECONDS, env={**os.environ, **variables})
+    assert done.returncode in (0, 1, 2, 3), (done.returncode, done.stderr)
+    lines = [line for line in done.stderr.splitlines() if ": warning: " not in line]
+    assert len(lines) == (done.returncode != 0), done.stderr
+    assert "please report" not in done.stderr
+    assert done.seconds < damage.SECONDS
+    assert done.memory < damage.MEMORY
+    return done.returncode, done.stderr
 
 
 def within_limits(work):
     """Status of the work in a child that has little memory and time."""
-    child = os.fork()
-    if child == 0:
-        used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
-        resource.setrlimit(resource.RLIMIT_AS, (used + MEMORY, used + MEMORY))
-        spent = sum(os.times()[:2])
-        resource.setrlimit(resource.RLIMIT_CPU, (int(spent) + SECONDS + 1,) * 2)
-        status = 99
-        try:
-            status = work()
-        finally:
-            os._exit(status)
-    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    outcome, said = damage.in_child(lambda: (str(work()), ""))
+    assert outcome.isdigit(), (outcome, said)
+    return int(outcome)
 
 
 @pytest.mark.parametrize("attack", ATTACKS)
@@ -258,7 +232,7 @@ def test_the_program(hostile, program, attack, tmp_path):
         ["case.nml", "--output", path],
         start,
     ):
-        limited([program, "--quiet", *arguments], tmp_path)
+        run_limited([program, "--quiet", *arguments], tmp_path)
 
 
 def test_letters_of_two_gigabytes(result, program, tmp_path):
@@ -269,7 +243,7 @@ def test_letters_of_two_gigabytes(result, program, tmp_path):
     content[place : place + 4] = (2**31 - 1).to_bytes(4, "little")
     path = tmp_path / "hostile.h5"
     path.write_bytes(content)
-    assert limited([program, "--quiet", "--resume", path, "--check"], tmp_path)[0] == 3
+    assert run_limited([program, "--quiet", "--resume", path, "--check"], tmp_path)[0] == 3
 
 
 @pytest.mark.skipif(not shutil.which("cc"), reason="no C compiler")
@@ -293,9 +267,9 @@ def test_a_filter_that_is_a_library(result, program, tmp_path):
     assert named[0] in content
     path.write_bytes(content.replace(*named))
     here = {"HDF5_PLUGIN_PATH": str(tmp_path)}
-    assert limited([program, "--quiet", "--resume", path, "--check"], tmp_path, **here)[0] == 3
+    assert run_limited([program, "--quiet", "--resume", path, "--check"], tmp_path, **here)[0] == 3
     orbit = "from tiltpad import command; raise SystemExit(command.main(['orbit', 'hostile.h5']))"
-    status, said = limited([sys.executable, "-c", orbit], tmp_path, **here)
+    status, said = run_limited([sys.executable, "-c", orbit], tmp_path, **here)
     assert status == 3
     assert "compressed by an unknown filter" in said
     assert not (tmp_path / "loaded").exists()

@@ -24,8 +24,9 @@ class Ended:
     returncode: int
     stdout: str
     stderr: str
-    #: CPU time, s.
+    #: CPU time, s; most memory, bytes.
     seconds: float
+    memory: int
 
     @property
     def hung(self) -> bool:
@@ -33,17 +34,18 @@ class Ended:
         return self.returncode in (-signal.SIGXCPU, -signal.SIGKILL)
 
 
-def limited(command: Sequence, folder: Path, seconds: int) -> Ended:
+def limited(command: Sequence, folder: Path, seconds: int, env: dict[str, str] | None = None) -> Ended:
     """Runs a command in a folder for so much CPU time, s; then SIGXCPU asks it to stop."""
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as error:
-        process = subprocess.Popen(list(map(str, command)), cwd=folder, stdout=out, stderr=error)
+        process = subprocess.Popen(list(map(str, command)), cwd=folder, env=env, stdout=out, stderr=error)
         resource.prlimit(process.pid, resource.RLIMIT_CPU, (seconds, seconds + NOTICE))
         last_resort = threading.Timer(PATIENCE * seconds, process.kill)
         last_resort.start()
         _, status, used = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
         last_resort.cancel()
-        return Ended(process.returncode, said(out), said(error), used.ru_utime + used.ru_stime)
+        spent = used.ru_utime + used.ru_stime
+        return Ended(process.returncode, said(out), said(error), spent, used.ru_maxrss << 10)
 
 
 def said(file: BinaryIO) -> str:
