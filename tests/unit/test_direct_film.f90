@@ -8,6 +8,7 @@ program test_direct_film
    use fourier_film, only: fourier_film_type, new_fourier_film
    use elimination_film, only: elimination_film_type, new_elimination_film
    use direct_film, only: direct_film_type, new_direct_film
+   use film_differences, only: difference
    use paper_bearing, only: paper_oil, paper_pad, offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -71,9 +72,9 @@ contains
       type(fourier_film_type) :: by_modes
       type(elimination_film_type) :: by_cells
       type(film_counters) :: counters
-      type(film_motion) :: motion, forward, back
-      type(film_response) :: found(1), of_modes(1), cavitated, unruptured, moved(1)
-      real(wp) :: change(2), shift(4), step
+      type(film_motion) :: motion
+      type(film_response) :: found(1), of_modes(1), cavitated, unruptured
+      real(wp) :: change(2)
       integer :: k
       motion%position = clearance*[between(-0.12_wp, -0.10_wp), between(0.4_wp, 0.5_wp)]
       motion%velocity = 0
@@ -90,15 +91,7 @@ contains
       call expect_close(found(1)%min_pressure, 0.0_wp, 0.0_wp, 'the minimum is the cavitation pressure')
       call expect(auto%counters%fourier == 0 .and. auto%counters%volumes == 1, 'it is counted as cavitated')
       do k = 1, 4
-         step = 1e-5_wp*clearance*merge(1.0_wp, speed, k <= 2)
-         shift = 0
-         shift(k) = step
-         forward = film_motion(motion%position + shift(:2), motion%velocity + shift(3:))
-         back = film_motion(motion%position - shift(:2), motion%velocity - shift(3:))
-         call auto%evaluate([forward], [paper_oil], speed, .false., moved)
-         change = moved(1)%force
-         call auto%evaluate([back], [paper_oil], speed, .false., moved)
-         change = (change - moved(1)%force)/(2*step)
+         call difference(auto, motion, paper_oil, speed, k, 1e-5_wp*clearance*merge(1.0_wp, speed, k <= 2), change)
          ! the force bends where a cell begins to cavitate, seldom within such a step
          call expect_close(norm2(found(1)%derivatives(:, k) - change), 0.0_wp, 1e-3_wp*norm2(change), &
             & 'slope '//to_text(k))
@@ -133,11 +126,11 @@ contains
    !> On a grid far too coarse for a thin film the two differ, and the slopes contain those of the share.
    subroutine coarse()
       type(direct_film_type) :: auto
-      type(film_motion) :: motion, forward, back
-      type(film_response) :: found(1), moved(1)
+      type(film_motion) :: motion
+      type(film_response) :: found(1)
       type(film_oil), parameter :: oil = film_oil(0.00216_wp)
       real(wp), parameter :: turning = 310.5_wp, arc = 78*degree, thin = 9e-5_wp
-      real(wp) :: change(2), shift(4), step
+      real(wp) :: change(2)
       integer :: k
       auto = new_direct_film([pad_gap_type(0.0315_wp, thin, 0.00786_wp, 0.55_wp*arc, 0.45_wp*arc, 5.4e5_wp, &
          & 0.0_wp, 0.0_wp)], 16, 4, 16, 8, .true., .false.)
@@ -145,15 +138,7 @@ contains
       call auto%evaluate([motion], [oil], turning, .true., found)
       call expect(auto%counters%volumes == 1, 'the film cavitates')
       do k = 1, 4
-         step = 1e-6_wp*thin*merge(1.0_wp, turning, k <= 2)
-         shift = 0
-         shift(k) = step
-         forward = film_motion(motion%position + shift(:2), motion%velocity + shift(3:))
-         back = film_motion(motion%position - shift(:2), motion%velocity - shift(3:))
-         call auto%evaluate([forward], [oil], turning, .false., moved)
-         change = moved(1)%force
-         call auto%evaluate([back], [oil], turning, .false., moved)
-         change = (change - moved(1)%force)/(2*step)
+         call difference(auto, motion, oil, turning, k, 1e-6_wp*thin*merge(1.0_wp, turning, k <= 2), change)
          call expect_close(norm2(found(1)%derivatives(:, k) - change), 0.0_wp, 1e-3_wp*norm2(change), &
             & 'slope '//to_text(k)//' on a coarse grid')
       end do

@@ -4,6 +4,7 @@ program test_fourier_film
    use text, only: to_text
    use film_solver, only: film_motion, film_response, film_ok, film_closed
    use fourier_film, only: fourier_film_type, new_fourier_film
+   use film_differences, only: difference
    use paper_bearing, only: paper_oil, offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -37,47 +38,27 @@ contains
       answer = all(1)
    end function answer
 
-   !> Five-point differences with a step of 1e-3 of the clearance (and of it times the speed): an error of
-   !> 1e-12 times the fifth derivative, 4**5 times some 10; rounding of a direct solution 1e-14/1e-3.
+   !> Differences with a step of 1e-3 of the clearance (and of it times the speed): an error of 1e-12 times the fifth
+   !> derivative, 4**5 times some 10; rounding of a direct solution 1e-14/1e-3.
    subroutine slopes()
-      real(wp), parameter :: h = 1e-3_wp, offsets(4) = [-2*h, -h, h, 2*h]
-      real(wp), parameter :: weights(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/(12*h)
       type(fourier_film_type) :: solver
-      type(film_motion) :: motion, moved
-      type(film_response) :: r, at(4)
-      real(wp) :: scale(4), expected(2), worst
-      integer :: trial, column, k
+      type(film_motion) :: motion
+      type(film_response) :: r
+      real(wp) :: expected(2), worst
+      integer :: trial, column
       solver = new_fourier_film([offset_pad([2e5_wp, 1e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
-      scale = clearance*[1.0_wp, 1.0_wp, speed, speed]
       worst = 0
       do trial = 1, 20
          motion = random_motion()
          r = answer(solver, motion, speed)
          do column = 1, 4
-            do k = 1, 4
-               moved = shifted(motion, offsets(k)*scale*unit(column))
-               at(k) = answer(solver, moved, speed)
-            end do
-            expected = [sum(weights*at%force(1)), sum(weights*at%force(2))]
-            worst = max(worst, maxval(abs(r%derivatives(:, column)*scale(column) - expected))/norm2(expected))
+            call difference(solver, motion, paper_oil, speed, column, 1e-3_wp*clearance*merge(1.0_wp, speed, &
+               & column <= 2), expected)
+            worst = max(worst, maxval(abs(r%derivatives(:, column) - expected))/norm2(expected))
          end do
       end do
       call expect_close(worst, 0.0_wp, 1e-7_wp, 'slopes of the modes')
    end subroutine slopes
-
-   !> The column-th unit vector of motions.
-   pure function unit(column)
-      integer, intent(in) :: column
-      real(wp) :: unit(4)
-      unit = 0
-      unit(column) = 1
-   end function unit
-
-   pure type(film_motion) function shifted(motion, step)
-      type(film_motion), intent(in) :: motion
-      real(wp), intent(in) :: step(4)
-      shifted = film_motion(motion%position + step(1:2), motion%velocity + step(3:4))
-   end function shifted
 
    !> A higher pressure at the leading edge, nothing else, on an even film: like heat in a plate. Mode by
    !> mode u = sinh(Lambda (phi + theta_2))/sinh(Lambda arc), whose integrals are closed; 2000 of them leave

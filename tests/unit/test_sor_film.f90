@@ -6,6 +6,7 @@ program test_sor_film
    use pad_gap, only: pad_gap_type
    use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel, &
       & cavitation_reynolds
+   use film_differences, only: shifted
    use paper_bearing, only: paper_oil, paper_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -86,7 +87,7 @@ contains
          do column = 1, 4
             same = .true.
             do k = 1, 4
-               call solver%evaluate_pad(1, moved(motion, column, offsets(k)*scale(column)), paper_oil, speed, &
+               call solver%evaluate_pad(1, shifted(motion, column, offsets(k)*scale(column)), paper_oil, speed, &
                   & .false., at(k))
                here = solver%pressure_field(1) > 0
                same = same .and. (all(film .eqv. here) .or. cavitation == cavitation_none)
@@ -103,18 +104,6 @@ contains
          & //to_text(cavitated))
       call expect_close(worst, 0.0_wp, 1e-6_wp, 'slopes by adjoints, '//trim(names(cavitation)))
    end subroutine slopes
-
-   pure type(film_motion) function moved(motion, column, step)
-      type(film_motion), intent(in) :: motion
-      integer, intent(in) :: column
-      real(wp), intent(in) :: step
-      moved = motion
-      if (column <= 2) then
-         moved%position(column) = moved%position(column) + step
-      else
-         moved%velocity(column - 2) = moved%velocity(column - 2) + step
-      end if
-   end function moved
 
    !> From whatever field it starts, the solution is the same but for the tolerance, amplified by the
    !> inverse of 1 - (Jacobi's spectral radius), about 50 on this grid.

@@ -9,6 +9,7 @@ program test_table_film
    use fourier_film, only: fourier_film_type, new_fourier_film
    use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: table_film_type, new_table_film
+   use film_differences, only: difference
    use paper_bearing, only: paper_oil, paper_pad, offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -196,9 +197,9 @@ contains
    subroutine slopes(condition)
       integer, intent(in) :: condition
       type(table_film_type) :: film
-      type(film_response) :: found(1), moved(1)
+      type(film_response) :: found(1)
       type(film_motion) :: motion
-      real(wp) :: shift(4), step, difference(2)
+      real(wp) :: unit, expected(2)
       integer :: trial, k
       film = tables([offset_pad()], condition)
       do trial = 1, 5
@@ -206,18 +207,11 @@ contains
             & clearance*speed*[between(-0.5_wp, 0.5_wp), between(-0.2_wp, 0.2_wp)])
          call film%evaluate([motion], [paper_oil], speed, .true., found)
          do k = 1, 4
-            step = 1e-6_wp*clearance*merge(1.0_wp, speed, k <= 2)
-            shift = 0
-            shift(k) = step
-            call film%evaluate([film_motion(motion%position + shift(:2), motion%velocity + shift(3:))], [paper_oil], &
-               & speed, .false., moved)
-            difference = moved(1)%force
-            call film%evaluate([film_motion(motion%position - shift(:2), motion%velocity - shift(3:))], [paper_oil], &
-               & speed, .false., moved)
-            difference = (difference - moved(1)%force)/(2*step)
+            unit = clearance*merge(1.0_wp, speed, k <= 2)
+            call difference(film, motion, paper_oil, speed, k, 1e-6_wp*unit, expected)
             ! T bends its slopes within the step
-            call expect_close(norm2(difference - found(1)%derivatives(:, k)), 0.0_wp, 1e-5_wp*squeezed(offset_pad(), &
-               & motion)/(step*1e6_wp), 'slope '//to_text(k))
+            call expect_close(norm2(expected - found(1)%derivatives(:, k)), 0.0_wp, 1e-5_wp*squeezed(offset_pad(), &
+               & motion)/unit, 'slope '//to_text(k))
          end do
       end do
    end subroutine slopes
