@@ -6,32 +6,16 @@ import numpy as np
 TASK = "case%task=coefficients"
 
 
-def condensed(matrices, pivot, nu):
-    """Complex stiffness of the journal, by numpy."""
-    stiffness, damping = matrices["full_stiffness"][pivot], matrices["full_damping"][pivot]
-    moves = np.isfinite(np.diag(stiffness))
-    z = (stiffness + 1j * nu * damping - nu**2 * matrices["full_mass"][:])[np.ix_(moves, moves)]
-    return z[:2, :2] - z[:2, 2:] @ np.linalg.solve(z[2:, 2:], z[2:, :2])
-
-
 def test_file_fits_its_own_matrices(tiltpad, root, tmp_path):
-    """Coefficients and modes follow from the full matrices: the same by numpy, to rounding."""
-    changes = ("coefficients%frequency_ratio=0.25,1", "coefficients%cross_stiffness=2e7")
-    case = root / "input/paper/steady_lugre.nml"
-    tiltpad(case, "-q", "-o", "found.h5", overrides=(TASK, *changes), cwd=tmp_path, status=0)
+    """Modes follow from the full matrices: the same by numpy, to rounding. Coefficients are in tests/post."""
+    case, overrides = root / "input/paper/steady_lugre.nml", (TASK, "coefficients%cross_stiffness=2e7")
+    tiltpad(case, "-q", "-o", "found.h5", overrides=overrides, cwd=tmp_path, status=0)
     with h5py.File(tmp_path / "found.h5") as file:
         assert list(file["pivot"].asstr()) == ["free", "stuck", "locked"]
         names = ["y", "z", "tilt_1", "pivot_deflection_1", "tilt_2", "pivot_deflection_2"]
         assert list(file["position_row"].asstr()) == list(file["position_column"].asstr()) == names
         group, modes = file["coefficients"], file["modes"]
-        speed = 6500 * np.pi / 30
         for pivot in range(3):
-            for k, ratio in enumerate((0.25, 1)):
-                z = condensed(group, pivot, ratio * speed)
-                np.testing.assert_allclose(group["stiffness"][pivot, k], z.real, rtol=1e-9, atol=1)
-                np.testing.assert_allclose(
-                    group["damping"][pivot, k], z.imag / (ratio * speed), rtol=1e-9, atol=1e-2
-                )
             check_modes(group, modes, pivot)
         tilts = np.ix_([2, 4], range(6))
         assert np.isnan(group["full_stiffness"][2][tilts]).all()

@@ -159,21 +159,10 @@ def test_pads_from_one_to_the_most(tiltpad, tmp_path):
 
 
 def test_set_comes_before_the_file_and_the_last_one_counts(tiltpad, tmp_path):
-    (tmp_path / "case.nml").write_text("&rotor mass=1 /\n&pads arc_deg=50, 51 /\n")
-    set_1, set_2, set_3 = (
-        ("--set", "rotor%mass=2"),
-        ("--set", "ROTOR%Mass = 3"),
-        ("--set", "pads%arc_deg(2)=52"),
-    )
-    assert value(check(tiltpad, tmp_path, "case.nml"), "rotor", "mass") == "1"
-    assert value(check(tiltpad, tmp_path, "case.nml", *set_1), "rotor", "mass") == "2"
+    (tmp_path / "case.nml").write_text("&rotor mass=1 /\n")
+    set_1, set_2 = ("--set", "rotor%mass=2"), ("--set", "ROTOR%Mass = 3")
     assert value(check(tiltpad, tmp_path, *set_1, "case.nml", *set_2), "rotor", "mass") == "3"
     assert value(check(tiltpad, tmp_path, *set_2, *set_1, "case.nml"), "rotor", "mass") == "2"
-    assert value(check(tiltpad, tmp_path, *set_3, "case.nml"), "pads", "arc_deg") == "50, 52"
-    assert (
-        value(check(tiltpad, tmp_path, *set_3, "--set", "pads%arc_deg=53", "case.nml"), "pads", "arc_deg")
-        == "53, 53"
-    )
 
 
 def test_set_mends_a_value_of_the_file(tiltpad, tmp_path):

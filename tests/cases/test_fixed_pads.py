@@ -1,4 +1,4 @@
-"""Whole runs with fixed pads: starts, checkpoints, sweeps, what is written, what is refused."""
+"""Whole runs with fixed pads: starts, sweeps, what is written, what is refused."""
 
 import h5py
 import numpy as np
@@ -78,18 +78,6 @@ def test_oil_whirl_of_the_example(tiltpad, root, tmp_path):
     with package.read(tmp_path / "above.h5") as run:
         frequency, amplitude = package.full_spectrum(run)
         assert 0.4 < frequency[np.argmax(amplitude)] / (8500 / 60) < 0.52
-
-
-def test_it_goes_on_from_a_checkpoint(tiltpad, run):
-    """As any other run (test_checkpoint.py): stopped by its steps, and given more of them."""
-    whole = run("whole")
-    stop = ("--set", "integration%max_steps=500", "-q", "-o", "part.h5")
-    part = tiltpad("case.nml", *stop, cwd=run.folder, status=2)
-    assert "gave up" in part.stderr
-    with h5py.File(whole) as one, h5py.File(run.folder / "part.h5") as two:
-        count = two["time"].size
-        assert 360 < count < one["time"].size
-        np.testing.assert_array_equal(one["journal_y"][:count], two["journal_y"][()])
 
 
 def test_a_sweep_is_collected(tiltpad, run):

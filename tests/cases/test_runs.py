@@ -119,13 +119,6 @@ def test_run_up_ends_in_the_steady_orbit(march):
         assert size == pytest.approx(reference, rel=0.01)
 
 
-def test_balance_grade(march):
-    """Rule (26) with G 6.3, 2000 kg and 6500 rpm is an unbalance of 0.0185 kg m."""
-    rule = march("paper/steady_tr", "operation%duration=0.02", "rotor%balance_grade=6.3")
-    given = march("paper/steady_tr", "operation%duration=0.02", "rotor%unbalance=0.018510369230769231")
-    assert deviation(rule, given, "journal_y") < 1e-6
-
-
 def test_friction_none_is_lugre_without_grip(march):
     """With coefficients of 1e-6 the bristles hold nothing: the frictionless orbit."""
     span = "operation%duration=0.1"

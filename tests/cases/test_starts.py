@@ -192,18 +192,6 @@ def test_a_damaged_file_is_no_start(tiltpad, run):
         assert words in done.stderr
 
 
-def test_a_sweep_over_starts(tiltpad, tmp_path):
-    (tmp_path / "case.nml").write_text(
-        "&operation duration=0.01 / &start from='centred' / &sweep start%journal(1)=0:2e-5:1e-5 /\n"
-    )
-    tiltpad("case.nml", "-q", cwd=tmp_path, status=0)
-    first = []
-    for path in sorted((tmp_path / "case").glob("*.h5")):
-        with h5py.File(path) as file:
-            first.append(file["journal_y"][0])
-    assert first == [0, 1e-5, 2e-5]
-
-
 def test_a_resumed_run_does_not_start_again(start, tiltpad, tmp_path):
     """It goes on from its checkpoint, even where the file that it started from is gone."""
     text = "&operation duration=2 / &friction model='lugre' /\n"

@@ -18,7 +18,6 @@ program test_film_limits
       if (runs('long_pad')) call long_pad(motions(i))
       if (runs('narrow_pad')) call narrow_pad(motions(i))
    end do
-   if (runs('linear_pressure')) call linear_pressure()
    call report()
 
 contains
@@ -119,24 +118,4 @@ contains
          call expect_close(norm2(r%force - force), 0.0_wp, 1e-8_wp*norm2(force), 'parabola on rows '//to_text(k))
       end do
    end subroutine narrow_pad
-
-   !> A long pad at rest with an even film: the pressure falls in a straight line from the leading edge,
-   !> which the grid has exactly.
-   subroutine linear_pressure()
-      real(wp), parameter :: supply = 5e5_wp, ambient = 1e5_wp
-      integer, parameter :: n = 40
-      type(pad_gap_type) :: film
-      type(sor_film_type) :: solver
-      type(film_response) :: r
-      real(wp), allocatable :: p(:, :)
-      real(wp) :: expected(n)
-      integer :: k
-      film = pad(1e4_wp, supply, ambient)
-      solver = new_sor_film([film], sor_options(n, 4, tolerance=1e-12_wp, max_sweeps=100000, &
-         & cavitation=cavitation_none))
-      call solver%evaluate_pad(1, film_motion([0.0_wp, 0.0_wp]), paper_oil, 0.0_wp, .false., r)
-      p = solver%pressure_field(1)
-      expected = [(ambient + (supply - ambient)*(k - 0.5_wp)/n, k=1, n)]
-      call expect_close(maxval(abs(p(:, 1) - expected)), 0.0_wp, 1e-7_wp*supply, 'pressure falls from the leading edge')
-   end subroutine linear_pressure
 end program test_film_limits
