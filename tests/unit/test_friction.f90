@@ -1,6 +1,6 @@
 !> Friction laws: printed values, symmetry, limits of the bristle model, slopes.
 program test_friction
-   use kinds, only: wp, pi
+   use kinds, only: wp
    use text, only: to_text
    use friction, only: friction_law, friction_response, bengisu_akay_friction, lugre_friction, &
       & default_bristle_damping, never_sticks
@@ -23,8 +23,6 @@ program test_friction
       if (runs('lugre_slopes')) call lugre_slopes(exponents(i))
    end do
    if (runs('presliding')) call presliding()
-   if (runs('closed_cycles')) call closed_cycles()
-   if (runs('coulomb_cycle')) call coulomb_cycle()
    call report()
 
 contains
@@ -207,56 +205,4 @@ contains
       call law%evaluate(v2, z + dt*c%rate, load, d)
       bristle_step = z + dt*(a%rate + 2*b%rate + 2*c%rate + d%rate)/6
    end function bristle_step
-
-   !> Work of the friction force in one harmonic cycle of amplitude `amplitude`, m, once periodic.
-   real(wp) function cycle_work(law, amplitude, frequency) result(work)
-      class(friction_law), intent(in) :: law
-      real(wp), intent(in) :: amplitude, frequency
-      type(friction_response) :: r
-      integer, parameter :: steps = 20000
-      !> Velocity at the steps and half steps.
-      real(wp), allocatable :: v(:)
-      real(wp) :: z, dt
-      integer :: k, turn
-      dt = 2*pi/frequency/steps
-      allocate (v(0:2*steps))
-      v(:) = [(amplitude*frequency*cos(pi*k/steps), k=0, 2*steps)]
-      z = 0
-      do turn = 1, 3
-         work = 0
-         do k = 0, steps - 1
-            call law%evaluate(v(2*k), z, load, r)
-            ! the trapezoidal rule of a periodic function
-            work = work + r%force*v(2*k)*dt
-            z = bristle_step(law, z, v(2*k), v(2*k + 1), v(2*k + 2), dt)
-         end do
-      end do
-   end function cycle_work
-
-   !> A closed cycle never gives work back, from deep within presliding to full sliding, and it takes no
-   !> more than the highest friction over the whole way.
-   subroutine closed_cycles()
-      real(wp), parameter :: amplitudes(*) = [1e-9_wp, 1e-8_wp, 1e-7_wp, 1e-6_wp]
-      real(wp) :: work, most
-      integer :: k
-      do k = 1, size(amplitudes)
-         work = cycle_work(lugre_friction(.true., fs, fd, never_sticks, vs, 1.0_wp, stiffness, damping, 0.0_wp), &
-            & amplitudes(k), 100.0_wp)
-         most = 4*amplitudes(k)*(fs + damping*100*amplitudes(k)*2)*load
-         call expect(work > 0 .and. work < most, 'work in a cycle of '//to_text(amplitudes(k))//' m: '//to_text(work))
-      end do
-   end subroutine closed_cycles
-
-   !> With f_s = f_d = f and a stroke far beyond the bristles' yield u = f/sigma_0, the work is Coulomb's
-   !> 4 f N A, less what the reversals lack: relative u/A times at most 2.
-   subroutine coulomb_cycle()
-      type(lugre_friction) :: law
-      real(wp), parameter :: amplitude = 1e-5_wp
-      real(wp) :: coulomb, work
-      law = lugre_friction(.true., fs, fs, never_sticks, vs, 1.0_wp, stiffness, 0.0_wp, 0.0_wp)
-      coulomb = 4*fs*load*amplitude
-      work = cycle_work(law, amplitude, 1.0_wp)
-      call expect(work < coulomb .and. work > coulomb*(1 - 2*fs/stiffness/amplitude), &
-         & 'Coulomb''s work '//to_text(coulomb)//' in a long stroke: '//to_text(work))
-   end subroutine coulomb_cycle
 end program test_friction
