@@ -5,7 +5,7 @@ module branch_task
    use text, only: to_text
    use errors, only: error_type, raise, add_context, system_error, stopped
    use clock, only: wall_clock
-   use equilibrium, only: equilibrium_type, find_equilibrium
+   use equilibrium, only: equilibrium_type
    use bearing_coefficients, only: settle
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
    use march_settings, only: march_settings_of
@@ -18,11 +18,9 @@ module branch_task
    use heat_balance_equations, only: has_warm_oil
    use branch_results, only: noted_point_type, begin_branches, add_point, put_bifurcations, noted
    use branch_checkpoint, only: put_branches, get_branches
-   use provenance, only: running
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
-   use equilibrium_start, only: seek_equilibrium, note_equilibrium
-   use march_start, only: make_start
+   use run_start, only: seek_equilibrium, note_equilibrium, make_start, take_oil
    use branch_summary, only: print_bifurcation, print_branch, branch_end
    implicit none (type, external)
    private
@@ -33,8 +31,6 @@ module branch_task
       type(noted_point_type), allocatable :: special(:)
       !> Where and why branches have ended, a line for each.
       character(len=:), allocatable :: ends
-      !> Clock of the last checkpoint, s.
-      real(wp) :: last_checkpoint = 0
    end type notes_type
 
 contains
@@ -47,7 +43,6 @@ contains
       logical :: more
       allocate (notes%special(0))
       notes%ends = ''
-      notes%last_checkpoint = run%started
       if (run%resumed) run%earlier = run%statistics()
       call b%prepare(run%model, run%earlier%count('steps'), error)
       if (.not. allocated(error)) then
@@ -71,7 +66,10 @@ contains
       if (.not. allocated(error)) then
          if (.not. run%quiet) call print_branch(run%file, b%given%parameter, has_warm_oil(run%model))
       else if (error%status == stopped) then
-         call stop_here(run, b, notes, error)
+         error%message = stop_reason()//' behind '//b%given%parameter//' = '//to_text(b%here%parameter)//', point ' &
+            & //to_text(b%points)//' of branch '//to_text(b%branch)
+         call begin_checkpoint(run, b, notes)
+         call run%stop_here(0.0_wp, error)
       end if
    end subroutine run_branch
 
@@ -108,32 +106,18 @@ contains
       type(periodic_orbit_type) :: found
       real(wp), allocatable :: y(:), equilibrium_state(:)
       call make_start(run, y, error, equilibrium_state)
-      if (.not. allocated(error) .and. has_warm_oil(run%model)) call oil_of_equilibrium(run, b, equilibrium_state, &
-         & error)
       if (allocated(error)) return
+      if (has_warm_oil(run%model)) then
+         ! where the start is from it, the model has its viscosities already
+         if (.not. allocated(equilibrium_state)) call take_oil(run, .false., error, equilibrium_state)
+         if (allocated(error)) return
+         call b%begin_oil(run%model, equilibrium_state)
+      end if
       call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier%count('steps')), y, found, &
          & error, stop_requested)
       run%counts = found%counts()
       if (.not. allocated(error)) call b%begin_with_orbit(found%orbit, run%inputs%periodic%revolutions)
    end subroutine first_orbit
-
-   !> Gives the oil of the first orbit the viscosities of the equilibrium, from which those of the others follow.
-   subroutine oil_of_equilibrium(run, b, equilibrium_state, error)
-      type(case_run_type), intent(inout) :: run
-      type(branch_progress_type), intent(inout), target :: b
-      !> Where the start is from it, the model has its viscosities already.
-      real(wp), allocatable, intent(inout) :: equilibrium_state(:)
-      type(error_type), allocatable, intent(out) :: error
-      type(equilibrium_type) :: static
-      if (.not. allocated(equilibrium_state)) then
-         call find_equilibrium(run%model, static, error, stop_requested)
-         call add_context(error, 'the oil takes the temperatures of the equilibrium')
-         if (allocated(error)) return
-         run%model%oil%viscosity = static%viscosity
-         equilibrium_state = run%model%static_state(static%journal, static%tilt, static%pivot_deflection)
-      end if
-      call b%begin_oil(run%model, equilibrium_state)
-   end subroutine oil_of_equilibrium
 
    !> The equilibrium of the case, with converged films.
    subroutine first_equilibrium(run, b, error)
@@ -214,7 +198,13 @@ contains
       do
          call b%take_step(special, found, at_end, error)
          if (.not. allocated(error) .and. found) call record_step(run, b, special, notes, error)
-         if (.not. allocated(error) .and. at_end == '') call mind_checkpoint(run, b, notes, error)
+         if (.not. allocated(error) .and. at_end == '') then
+            if (run%wants_checkpoint(wall_clock())) then
+               call bring_up_to_date(run, b, notes)
+               call begin_checkpoint(run, b, notes)
+               call run%checkpoint(0.0_wp, error)
+            end if
+         end if
          if (allocated(error)) return
          if (at_end /= '') exit
       end do
@@ -263,46 +253,12 @@ contains
       call run%file%beat(int(wall_clock() - run%started))
    end subroutine record
 
-   !> A checkpoint where it is time for one.
-   subroutine mind_checkpoint(run, b, notes, error)
-      type(case_run_type), intent(inout) :: run
-      type(branch_progress_type), intent(inout) :: b
-      type(notes_type), intent(inout) :: notes
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: started
-      started = wall_clock()
-      associate (pause => run%inputs%output%checkpoint_seconds)
-         if (.not. pause > 0 .or. started - notes%last_checkpoint < pause) return
-      end associate
-      call bring_up_to_date(run, b, notes)
-      call write_checkpoint(run, b, notes, running, '', error)
-      notes%last_checkpoint = wall_clock()
-      run%checkpoints = run%checkpoints + notes%last_checkpoint - started
-   end subroutine mind_checkpoint
-
-   !> The last checkpoint, where a signal asks for the end.
-   subroutine stop_here(run, b, notes, error)
+   !> Begins a checkpoint; a branch has no time.
+   subroutine begin_checkpoint(run, b, notes)
       type(case_run_type), intent(inout) :: run
       type(branch_progress_type), intent(in) :: b
       type(notes_type), intent(in) :: notes
-      type(error_type), allocatable, intent(inout) :: error
-      type(error_type), allocatable :: file_error
-      error%message = stop_reason()//' behind '//b%given%parameter//' = '//to_text(b%here%parameter)//', point ' &
-         & //to_text(b%points)//' of branch '//to_text(b%branch)
-      call write_checkpoint(run, b, notes, stopped, error%message, file_error)
-      if (allocated(file_error)) call move_alloc(file_error, error)
-   end subroutine stop_here
-
-   subroutine write_checkpoint(run, b, notes, status, reason, error)
-      type(case_run_type), intent(inout) :: run
-      type(branch_progress_type), intent(in) :: b
-      type(notes_type), intent(in) :: notes
-      integer, intent(in) :: status
-      character(len=*), intent(in) :: reason
-      type(error_type), allocatable, intent(out) :: error
-      ! a branch has no time
       call run%file%begin_checkpoint(0.0_wp)
       call put_branches(run%file%file, b, notes%special)
-      call run%file%checkpoint(0.0_wp, run%statistics(), status, reason, error)
-   end subroutine write_checkpoint
+   end subroutine begin_checkpoint
 end module branch_task

@@ -3,9 +3,11 @@ module case_run
    use kinds, only: wp
    use case_inputs, only: case_type
    use parameter_study, only: run_tag
+   use errors, only: error_type, stopped
    use integrator_counts, only: integrator_counts_type
    use equations_of_motion, only: bearing_model
    use run_file, only: run_file_type
+   use provenance, only: running
    use run_extremes, only: run_extremes_type
    use march_figures, only: put_march_figures
    use run_statistics, only: run_statistics_type
@@ -34,12 +36,15 @@ module case_run
       !> What the integration cost; wall time of sampling without its writing, and of the checkpoints, s.
       type(integrator_counts_type) :: counts
       real(wp) :: sampling = 0, checkpoints = 0
-      !> Clock at the start, s, and what the run cost before it was resumed.
-      real(wp) :: started = 0
+      !> Clock at the start and at the last checkpoint, s, and what the run cost before it was resumed.
+      real(wp) :: started = 0, last_checkpoint = 0
       type(run_statistics_type) :: earlier
    contains
       procedure :: statistics
       procedure :: note_figures
+      procedure :: wants_checkpoint
+      procedure :: checkpoint
+      procedure :: stop_here
    end type case_run_type
 
 contains
@@ -56,6 +61,7 @@ contains
       run%tag = tag
       run%quiet = quiet
       run%started = wall_clock()
+      run%last_checkpoint = run%started
    end subroutine begin_run
 
    !> Writes the figures of the samples so far.
@@ -64,6 +70,41 @@ contains
       if (self%inputs%about%task == 'branch') return
       call put_march_figures(self%file, self%inputs, self%extremes, norm2(self%model%point%load))
    end subroutine note_figures
+
+   !> True where it is time for a checkpoint; `now` is the clock, s.
+   pure logical function wants_checkpoint(self, now)
+      class(case_run_type), intent(in) :: self
+      real(wp), intent(in) :: now
+      associate (pause => self%inputs%output%checkpoint_seconds)
+         wants_checkpoint = pause > 0 .and. now - self%last_checkpoint >= pause
+      end associate
+   end function wants_checkpoint
+
+   !> Writes a checkpoint at simulated time t, s: of a march its state y; else it was begun in the file.
+   subroutine checkpoint(self, t, error, y)
+      class(case_run_type), intent(inout) :: self
+      real(wp), intent(in) :: t
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), intent(in), optional :: y(:)
+      real(wp) :: started
+      started = wall_clock()
+      call self%note_figures()
+      call self%file%checkpoint(t, self%statistics(), running, '', error, y)
+      self%last_checkpoint = wall_clock()
+      self%checkpoints = self%checkpoints + self%last_checkpoint - started
+   end subroutine checkpoint
+
+   !> Writes the last checkpoint, where a signal asks for the end, as the error says.
+   subroutine stop_here(self, t, error, y)
+      class(case_run_type), intent(inout) :: self
+      real(wp), intent(in) :: t
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp), intent(in), optional :: y(:)
+      type(error_type), allocatable :: file_error
+      call self%note_figures()
+      call self%file%checkpoint(t, self%statistics(), stopped, error%message, file_error, y)
+      if (allocated(file_error)) call move_alloc(file_error, error)
+   end subroutine stop_here
 
    !> What the run has cost so far, over all its stretches: the list of all figures.
    type(run_statistics_type) function statistics(self)

@@ -1,20 +1,26 @@
-!> The task 'coefficients': the equilibrium, and stiffness, damping and stability there.
+!> The task 'coefficients': the equilibrium, and stiffness, damping and stability there, as file and console have them.
 module coefficients_task
-   use kinds, only: wp
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use kinds, only: wp, pi
+   use text, only: to_text, fixed_text
    use errors, only: error_type, add_context, stopped
+   use case_inputs, only: case_type
    use equilibrium, only: equilibrium_type
    use equations_of_motion, only: bearing_model
    use static_model, only: make_fine
    use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
+   use linear_bearing, only: vibration_modes_type
    use stability_threshold, only: find_thresholds
    use coefficient_results, only: put_coefficients
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
-   use equilibrium_start, only: seek_equilibrium, note_equilibrium
-   use coefficients_summary, only: print_coefficients
+   use run_start, only: seek_equilibrium, note_equilibrium
    implicit none (type, external)
    private
    public :: run_coefficients
+
+   !> Whirl frequencies and modes that are printed at most.
+   integer, parameter :: most = 4
 
 contains
 
@@ -49,4 +55,77 @@ contains
          & run%model%layout%position_names())
       if (.not. run%quiet) call print_coefficients(found, run%inputs)
    end subroutine run_coefficients
+
+   subroutine print_coefficients(found, inputs)
+      type(bearing_coefficients_type), intent(in) :: found
+      type(case_type), intent(in) :: inputs
+      integer :: i, k
+      if (inputs%thermal%model /= 'none') print '(a)', 'stiffness and damping at the viscosities of this equilibrium:'
+      associate (ratios => inputs%coefficients%frequency_ratio)
+         do i = 1, size(found%bearings)
+            print '(a)', 'pivots '//trim(found%bearings(i)%pivot)//':'
+            do k = 1, min(most, size(ratios))
+               print '(a)', '  whirl at '//to_text(ratios(k))//' of the speed: K ' &
+                  & //of_journal(found%stiffness(:, :, k, i))//' MN/m, C ' &
+                  & //of_journal(found%damping(:, :, k, i))//' MN s/m (yy, yz, zy, zz)'
+            end do
+            if (size(ratios) > most) print '(a)', '  and '//to_text(size(ratios) - most) &
+               & //' whirl frequencies more, in the file'
+            call print_modes(found%modes(i))
+            if (allocated(found%thresholds)) call print_threshold(found%thresholds(i), found%sought_up_to, &
+               & inputs%operation%speed_rpm, any(found%modes(i)%eigenvalue%re > 0))
+         end do
+      end associate
+   end subroutine print_coefficients
+
+   !> The least damped modes.
+   subroutine print_modes(modes)
+      type(vibration_modes_type), intent(in) :: modes
+      integer :: i
+      do i = 1, min(most, count(modes%damping_ratio < 1))
+         associate (value => modes%eigenvalue(i))
+            if (value%im > 0) then
+               print '(a)', '  mode '//to_text(i)//': '//fixed_text(value%im/(2*pi), 4)//' Hz, damping ratio ' &
+                  & //fixed_text(modes%damping_ratio(i), 5)//', logarithmic decrement ' &
+                  & //fixed_text(modes%log_decrement(i), 4)
+            else
+               print '(a)', '  mode '//to_text(i)//': grows without vibration, '//fixed_text(value%re, 3)//' 1/s'
+            end if
+         end associate
+      end do
+   end subroutine print_modes
+
+   !> Where stability is lost, or, where it is lost already, what the next crossing is.
+   subroutine print_threshold(threshold, sought_up_to, speed, unstable)
+      real(wp), intent(in) :: threshold, sought_up_to, speed
+      logical, intent(in) :: unstable
+      character(len=:), allocatable :: start
+      start = '  stable'
+      if (unstable) start = '  unstable'
+      if (ieee_is_nan(threshold)) then
+         print '(a)', start//' from '//to_text(speed)//' rpm up to '//fixed_text(sought_up_to, 2)//' rpm'
+      else
+         print '(a)', start//' at '//to_text(speed)//' rpm; an eigenvalue crosses the axis at ' &
+            & //fixed_text(threshold, 2)//' rpm'
+      end if
+   end subroutine print_threshold
+
+   !> The four elements, in millions.
+   function of_journal(matrix) result(text)
+      real(wp), intent(in) :: matrix(:, :)
+      character(len=:), allocatable :: text
+      real(wp) :: elements(4)
+      integer :: i
+      elements = [transpose(matrix)]
+      text = mega(elements(1))
+      do i = 2, 4
+         text = text//', '//mega(elements(i))
+      end do
+   end function of_journal
+
+   function mega(x)
+      real(wp), intent(in) :: x
+      character(len=:), allocatable :: mega
+      mega = fixed_text(1e-6_wp*x, 6)
+   end function mega
 end module coefficients_task

@@ -7,7 +7,7 @@ module march_task
    use result_size, only: sample_interval, sample_count
    use case_run, only: case_run_type
    use march_settings, only: march_settings_of
-   use march_start, only: make_start, continue_from_checkpoint
+   use run_start, only: make_start, continue_from_checkpoint
    use recorder, only: recorder_type, begin_recording, write_spectra
    implicit none (type, external)
    private

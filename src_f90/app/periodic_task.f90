@@ -9,7 +9,7 @@ module periodic_task
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use march_settings, only: march_settings_of
-   use march_start, only: make_start, continue_from_checkpoint
+   use run_start, only: make_start, continue_from_checkpoint
    use recorder, only: recorder_type, begin_recording, write_spectra
    implicit none (type, external)
    private
@@ -33,24 +33,16 @@ contains
          & error, stop_requested)
       run%counts = found%counts()
       if (allocated(error)) then
-         if (error%status == stopped) call stop_here(run, found, error)
+         if (error%status /= stopped) return
+         ! the state to which the march or Newton's method had come
+         error%message = stop_reason()//' while the periodic orbit was sought'
+         call run%stop_here(0.0_wp, error, found%orbit%start)
          return
       end if
       call put_periodic(run%file%file, found, run%inputs%periodic%revolutions)
       if (.not. run%quiet) call print_orbit(found, run%inputs%periodic%revolutions)
       call record_orbit(run, found, error)
    end subroutine run_periodic
-
-   !> A checkpoint where a signal asks for the end: the state to which the march or Newton's method had come.
-   subroutine stop_here(run, found, error)
-      type(case_run_type), intent(inout) :: run
-      type(periodic_orbit_type), intent(in) :: found
-      type(error_type), allocatable, intent(inout) :: error
-      type(error_type), allocatable :: file_error
-      error%message = stop_reason()//' while the periodic orbit was sought'
-      call run%file%checkpoint(0.0_wp, run%statistics(), stopped, error%message, file_error, found%orbit%start)
-      if (allocated(file_error)) call move_alloc(file_error, error)
-   end subroutine stop_here
 
    !> Samples of the orbit over its period, and their spectra.
    subroutine record_orbit(run, found, error)

@@ -11,7 +11,6 @@ module recorder
    use spectra, only: one_sided_amplitude, full_amplitude
    use march_results, only: add_sample, put_spectrum
    use run_file, only: run_file_type
-   use provenance, only: running
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use clock, only: wall_clock
@@ -23,7 +22,6 @@ module recorder
    type, extends(march_observer_type) :: recorder_type
       type(case_run_type), pointer, private :: run => null()
       type(progress_type) :: progress
-      real(wp), private :: last_checkpoint = 0
       logical, private :: checkpoint_due = .false.
       type(periodicity), private :: orbit
       !> The last sample, and how many there were; its memory is used again.
@@ -50,7 +48,6 @@ contains
       real(wp), intent(in) :: t
       self%run => run
       self%progress = new_progress(t, run%inputs%operation%duration, run%quiet)
-      self%last_checkpoint = run%started
       if (run%inputs%integration%stop_when_periodic > 0) call self%follow_orbit()
    end subroutine begin_recording
 
@@ -121,15 +118,13 @@ contains
       now = wall_clock()
       call self%progress%report(t, steps, now)
       call self%run%file%beat(int(now - self%run%started))
-      associate (pause => self%run%inputs%output%checkpoint_seconds)
-         self%checkpoint_due = pause > 0 .and. now - self%last_checkpoint >= pause
-      end associate
+      self%checkpoint_due = self%run%wants_checkpoint(now)
    end subroutine report
 
    logical function wants_state(self)
       class(recorder_type), intent(in) :: self
-      wants_state = stop_requested()
-      if (self%checkpoint_due) wants_state = .true.
+      wants_state = self%checkpoint_due
+      if (.not. wants_state) wants_state = stop_requested()
    end function wants_state
 
    !> A checkpoint; the last one where a signal asks for the end.
@@ -138,22 +133,15 @@ contains
       real(wp), intent(in) :: t, y(:)
       type(integrator_counts_type), intent(in) :: counts
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: reason
-      real(wp) :: started
       self%run%reached = t
       self%run%counts = counts
-      started = wall_clock()
-      call self%run%note_figures()
       if (stop_requested()) then
-         reason = stop_reason()//' at t = '//to_text(t)//' s'
-         call self%run%file%checkpoint(t, self%run%statistics(), stopped, reason, error, y)
-         if (.not. allocated(error)) call raise(error, stopped, reason)
+         call raise(error, stopped, stop_reason()//' at t = '//to_text(t)//' s')
+         call self%run%stop_here(t, error, y)
       else
-         call self%run%file%checkpoint(t, self%run%statistics(), running, '', error, y)
+         call self%run%checkpoint(t, error, y)
          call self%progress%note('checkpoint at t = '//to_text(t)//' s')
          self%checkpoint_due = .false.
-         self%last_checkpoint = wall_clock()
-         self%run%checkpoints = self%run%checkpoints + self%last_checkpoint - started
       end if
    end subroutine take_state
 

@@ -7,7 +7,7 @@ module run_case
    use restart, only: restart_type, read_result, refuse_other_case
    use files, only: is_regular
    use case_run, only: case_run_type, begin_run
-   use equilibrium_task, only: run_equilibrium
+   use run_start, only: start_at_equilibrium
    use coefficients_task, only: run_coefficients
    use periodic_task, only: run_periodic
    use branch_task, only: run_branch
@@ -40,10 +40,10 @@ contains
       if (complete .or. allocated(error)) return
       if (.not. quiet) call print_notes(inputs)
       run%model = new_bearing_model(inputs)
-      ! every task has a module of its own, and a line here
+      ! every task has a line here, and where it is more than the start of others a module of its own
       select case (inputs%about%task)
       case ('equilibrium')
-         call run_equilibrium(run, error)
+         call start_at_equilibrium(run, error)
       case ('coefficients')
          call run_coefficients(run, error)
       case ('periodic')

@@ -1,5 +1,5 @@
-!> Where a march starts: the state that the group &start describes, or that of a checkpoint.
-module march_start
+!> Where a run starts: at its equilibrium, in the state that the group &start describes, or at a checkpoint.
+module run_start
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, raise, add_context, input_error, numerics_error, stopped
@@ -7,20 +7,76 @@ module march_start
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_state
    use equilibrium, only: equilibrium_type, find_equilibrium, find_partial_equilibrium
-   use heat_balance_equations, only: has_warm_oil
+   use namelist_writer, only: namelist_of
+   use heat_balance_equations, only: has_warm_oil, static_figures_type, find_static_figures
+   use equilibrium_results, only: put_equilibrium, put_figures, put_temperatures
    use last_state, only: read_last_state
    use march_results, only: put_viscosity, put_viscosity_history
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use viscosity_history, only: viscosity_history_type
    use groove_transient, only: find_groove_transient
-   use equilibrium_start, only: create_file, start_at_equilibrium, nothing_computed
-   use run_summary, only: print_start
+   use run_summary, only: print_start, print_equilibrium, print_figures, print_temperatures
    implicit none (type, external)
    private
-   public :: make_start, continue_from_checkpoint
+   public :: start_at_equilibrium, seek_equilibrium, note_equilibrium, make_start, take_oil, continue_from_checkpoint
 
 contains
+
+   !> Creates the file of a run.
+   subroutine create_file(run, error)
+      type(case_run_type), intent(inout) :: run
+      type(error_type), allocatable, intent(out) :: error
+      call run%file%create(run%inputs, namelist_of(run%inputs), error)
+      if (.not. allocated(error) .and. run%tag%number > 0) call run%file%put_tag(run%tag)
+   end subroutine create_file
+
+   !> Creates the file, finds the equilibrium and writes it; y is its state. All of the task 'equilibrium'.
+   subroutine start_at_equilibrium(run, error, y)
+      type(case_run_type), intent(inout) :: run
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable, intent(out), optional :: y(:)
+      type(equilibrium_type) :: static
+      call seek_equilibrium(run, static, error)
+      if (allocated(error)) return
+      call note_equilibrium(run, static)
+      if (present(y)) y = run%model%static_state(static%journal, static%tilt, static%pivot_deflection)
+   end subroutine start_at_equilibrium
+
+   !> Creates the file and finds the equilibrium.
+   subroutine seek_equilibrium(run, static, error)
+      type(case_run_type), intent(inout) :: run
+      type(equilibrium_type), intent(out) :: static
+      type(error_type), allocatable, intent(out) :: error
+      call create_file(run, error)
+      if (allocated(error)) return
+      call find_equilibrium(run%model, static, error, stop_requested)
+      call say_nothing_computed(error)
+   end subroutine seek_equilibrium
+
+   !> Writes an equilibrium with its losses and flows, and gives the films of the run its viscosities.
+   subroutine note_equilibrium(run, static)
+      type(case_run_type), intent(inout) :: run
+      type(equilibrium_type), intent(in) :: static
+      type(static_figures_type) :: figures
+      run%model%oil%viscosity = static%viscosity
+      call put_equilibrium(run%file%file, static, run%inputs%tilting(), run%inputs%tilting_radial())
+      call find_static_figures(run%model, static, figures)
+      call put_figures(run%file%file, run%inputs, figures)
+      if (allocated(figures%oil)) call put_temperatures(run%file%file, figures%oil, static%viscosity)
+      run%computed = .true.
+      if (run%quiet) return
+      call print_equilibrium(static, run%inputs)
+      call print_figures(run%inputs, figures)
+      if (allocated(figures%oil)) call print_temperatures(figures%oil, static%viscosity)
+   end subroutine note_equilibrium
+
+   !> What an error says of a signal that stops a run before its march.
+   subroutine say_nothing_computed(error)
+      type(error_type), allocatable, intent(inout) :: error
+      if (.not. allocated(error)) return
+      if (error%status == stopped) error%message = stop_reason()//' before the march; nothing was computed yet'
+   end subroutine say_nothing_computed
 
    !> Creates the file and finds the state y to start from.
    subroutine make_start(run, y, error, equilibrium_state)
@@ -34,7 +90,7 @@ contains
       logical :: ok
       associate (model => run%model, from => run%inputs%start%from)
          if (from == 'equilibrium') then
-            call start_at_equilibrium(run, y, error)
+            call start_at_equilibrium(run, error, y)
             if (.not. allocated(error)) call let_grooves_warm(run, y, error)
             if (.not. allocated(error)) call note_oil(run)
             if (present(equilibrium_state) .and. .not. allocated(error)) equilibrium_state = y
@@ -44,7 +100,7 @@ contains
          else
             allocate (pads(model%layout%pads))
             if (from == 'file') call start_from_file(run, journal, pads, error)
-            if (from /= 'partial' .and. .not. allocated(error)) call take_oil(run, error, equilibrium_state)
+            if (from /= 'partial' .and. .not. allocated(error)) call take_oil(run, .false., error, equilibrium_state)
             if (from == 'partial') call start_partially(run, journal, pads, error)
             if (.not. allocated(error)) call create_file(run, error)
             if (allocated(error)) return
@@ -74,8 +130,10 @@ contains
 
    !> Gives warm oil the viscosities of the equilibrium, which it keeps in a march that starts elsewhere or goes on from
    !> a checkpoint.
-   subroutine take_oil(run, error, equilibrium_state)
+   subroutine take_oil(run, partly, error, equilibrium_state)
       type(case_run_type), intent(inout) :: run
+      !> Whether it is the equilibrium of the pads that have one.
+      logical, intent(in) :: partly
       type(error_type), allocatable, intent(inout) :: error
       !> The equilibrium, if it was sought.
       real(wp), allocatable, intent(out), optional :: equilibrium_state(:)
@@ -83,7 +141,7 @@ contains
       real(wp), allocatable :: y(:)
       logical, allocatable :: held(:)
       if (.not. has_warm_oil(run%model)) return
-      if (run%inputs%start%from == 'partial') then
+      if (partly) then
          call find_partial_equilibrium(run%model, static, held, error, stop_requested)
       else
          call find_equilibrium(run%model, static, error, stop_requested)
@@ -121,7 +179,7 @@ contains
       allocate (y(run%model%n))
       run%earlier = run%statistics()
       call run%file%resume(t, run%earlier, error, y)
-      if (.not. allocated(error)) call take_oil(run, error)
+      if (.not. allocated(error)) call take_oil(run, run%inputs%start%from == 'partial', error)
       if (allocated(error)) return
       run%computed = .true.
       if (.not. run%quiet) print '(a)', 'going on from t = '//to_text(t)//' s'
@@ -154,10 +212,8 @@ contains
       logical, allocatable :: held(:)
       integer :: i
       call find_partial_equilibrium(run%model, static, held, error, stop_requested)
-      if (allocated(error)) then
-         if (error%status == stopped) error%message = stop_reason()//nothing_computed
-         return
-      end if
+      call say_nothing_computed(error)
+      if (allocated(error)) return
       journal%position = static%journal
       pads%tilt = static%tilt
       pads%pivot_deflection = static%pivot_deflection
@@ -182,4 +238,4 @@ contains
          pads%pivot_deflection_rate = pads%pivot_deflection_rate + s%pivot_deflection_rate
       end associate
    end subroutine disturb
-end module march_start
+end module run_start
