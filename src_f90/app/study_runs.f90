@@ -1,7 +1,7 @@
 !> Performs the runs of a study in child processes, as many at a time as are asked for.
 module study_runs
    use kinds, only: wp
-   use text, only: to_text, fixed_text, on_one_line
+   use text, only: to_text, fixed_text, replaced
    use errors, only: error_type, raise, system_error, stopped
    use case_inputs, only: case_type
    use parameter_study, only: study_type, run_tag
@@ -165,7 +165,8 @@ contains
          n = n + 1
          failures(n) = tally%errors(k)
          call study%tag(k, tag)
-         failures(n)%message = 'run '//to_text(k)//' ('//on_one_line(tag%study)//'): '//failures(n)%message
+         failures(n)%message = 'run '//to_text(k)//' ('//replaced(tag%study, achar(10), ', ')//'): ' &
+            & //failures(n)%message
       end do
       if (stop_requested()) then
          call raise(error, stopped, stop_reason()//'; of ' &

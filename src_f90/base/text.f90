@@ -3,7 +3,7 @@ module text
    use kinds, only: wp, i8
    implicit none (type, external)
    private
-   public :: to_text, list_text, exact_text, fixed_text, lower_case, printable, shortened, on_one_line, is_utf8
+   public :: to_text, list_text, exact_text, fixed_text, lower_case, printable, shortened, replaced, is_utf8
    public :: checksum, find_similar, did_you_mean, unlike
 
    !> The score of a word that no known one is like.
@@ -194,20 +194,21 @@ contains
          & .or. first == 240 .and. second < 144 .or. first == 244 .and. second > 143) length = 0
    end function utf8_length
 
-   !> Lines as a list.
-   pure function on_one_line(lines)
-      character(len=*), intent(in) :: lines
-      character(len=:), allocatable :: on_one_line
+   !> The text with something else for each of these characters.
+   pure function replaced(text, character, by)
+      character(len=*), intent(in) :: text, by
+      character(len=1), intent(in) :: character
+      character(len=:), allocatable :: replaced
       integer :: i
-      on_one_line = ''
-      do i = 1, len(lines)
-         if (lines(i:i) == achar(10)) then
-            on_one_line = on_one_line//', '
+      replaced = ''
+      do i = 1, len(text)
+         if (text(i:i) == character) then
+            replaced = replaced//by
          else
-            on_one_line = on_one_line//lines(i:i)
+            replaced = replaced//text(i:i)
          end if
       end do
-   end function on_one_line
+   end function replaced
 
    !> A number from 0 to 2**62 that tells a text from another, though not against intent: two remainders of 31 bits.
    !> With `before`, the checksum of what comes before the text, it is that of both together.

@@ -56,6 +56,7 @@ contains
       integer, intent(in) :: accuracy
       class(film_solver_type), allocatable, intent(out) :: film
       type(pad_gap_type) :: gaps(inputs%pad_count())
+      character(len=:), allocatable :: solver
       integer :: cells, modes, volumes(2)
       logical :: reynolds, gumbel
       real(wp), allocatable :: error
@@ -69,11 +70,9 @@ contains
          if (f%circumferential_cells + f%axial_modes == 0) error = merge(quick_error, usual_error, &
             & accuracy == quick_films)
          volumes = volumes_of(inputs, gaps, cavitation_volumes)
-         if (accuracy == quick_films) then
-            film = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
-            return
-         end if
-         select case (f%solver)
+         solver = f%solver
+         if (accuracy == quick_films .or. solver == 'auto' .and. accuracy == static_films) solver = 'direct'
+         select case (solver)
          case ('sor')
             film = new_sor_film(gaps, sor_settings(inputs, gaps, accuracy))
          case ('fourier')
@@ -87,7 +86,7 @@ contains
                   film = new_table_film(gaps, single_films(), reynolds .or. gumbel, gumbel, &
                      & merge(f%table_tolerance, usual, f%table_tolerance > 0))
                end associate
-            else if (accuracy == converged_films) then
+            else
                error = converged_error
                if (.not. all(has_tables(gaps))) volumes = volumes_of(inputs, gaps, converged_volumes)
                if (f%table_tolerance > 0) then
@@ -96,8 +95,6 @@ contains
                   film = new_converged_film(gaps, single_films(), reynolds .or. gumbel, gumbel, &
                      & merge(converged_error, converged_cavitated_error, gumbel), converged_full_error)
                end if
-            else
-               film = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
             end if
          end select
       end associate

@@ -14,8 +14,7 @@ module branch_progress
    use continuation, only: branch_options, start_branch, advance, return_to
    use bifurcations, only: bifurcation_type, find_bifurcations
    use period_doubling, only: double_period, half_apart, forget_doublings
-   use varied_bearing, only: varied_bearing_type
-   use bearing_orbits, only: bearing_orbits_type
+   use varied_bearing, only: varied_bearing_type, bearing_orbits_type
    use heat_balance_equations, only: has_warm_oil
    use equilibrium_branch, only: equilibrium_problem_type, begin_equilibria
    implicit none (type, external)

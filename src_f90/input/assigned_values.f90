@@ -3,10 +3,9 @@
 module assigned_values
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use text, only: to_text, lower_case, shortened, is_utf8
+   use text, only: to_text, lower_case, shortened, replaced, is_utf8
    use errors, only: error_type, raise, input_error
-   use number_syntax, only: is_special, read_number
-   use assignments, only: assignment_type, token_type, assignment_text, study_group
+   use assignments, only: assignment_type, token_type, assignment_text, study_group, is_special, read_number
    use case_inputs, only: unset
    use variable_table, only: variable_type
    use variable_names, only: meant_word
@@ -33,7 +32,7 @@ contains
       else if (size(a%values) > 1 .or. a%subscript > 0) then
          call refuse_values(a, 'takes one text'//several_runs(a), error)
       else if (v%choices /= '' .and. .not. is_choice(word, v%choices)) then
-         call refuse_values(a, 'must be one of '''//quoted_list(v%choices)//'''' &
+         call refuse_values(a, 'must be one of '''//replaced(v%choices, ' ', ''', ''')//'''' &
             & //meant_word(word, v%choices, a%group//'%'//a%name//'='), error)
       else if (v%choices == '' .and. .not. (a%values(1)%quoted .or. a%overrides)) then
          call refuse_values(a, 'text must stand in quotes', error)
@@ -131,19 +130,4 @@ contains
       character(len=*), intent(in) :: word, choices
       is_choice = scan(word, ' ') == 0 .and. index(' '//choices//' ', ' '//word//' ') > 0
    end function is_choice
-
-   !> "a b" to "a', 'b".
-   pure function quoted_list(choices) result(list)
-      character(len=*), intent(in) :: choices
-      character(len=:), allocatable :: list
-      integer :: i
-      list = ''
-      do i = 1, len(choices)
-         if (choices(i:i) == ' ') then
-            list = list//''', '''
-         else
-            list = list//choices(i:i)
-         end if
-      end do
-   end function quoted_list
 end module assigned_values

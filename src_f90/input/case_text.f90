@@ -2,7 +2,7 @@
 module case_text
    use kinds, only: i8
    use text, only: to_text
-   use errors, only: error_type, raise, input_error
+   use errors, only: error_type, raise, require, input_error
    use assignments, only: namelist_type
    use namelist_text, only: parse_namelist, parse_override
    use files, only: is_regular
@@ -25,20 +25,12 @@ contains
       integer :: unit, status
       integer(i8) :: length
       ! Fortran leaves blanks at the end of a name away
-      if (len_trim(file) < len(file)) then
-         call raise(error, input_error, file//': the name of a case must not end in a blank')
-         return
-      end if
+      call require(len_trim(file) == len(file), file//': the name of a case must not end in a blank', error)
       inquire (file=file, exist=exists)
-      if (.not. exists) then
-         call raise(error, input_error, file//': no such file')
-         return
-      end if
-      if (.not. is_regular(file)) then
-         call raise(error, input_error, file//': a directory, device or pipe, where a case belongs; ' &
-            & //'tiltpad-collect makes a study of a folder of results')
-         return
-      end if
+      call require(exists, file//': no such file', error)
+      call require(logical(is_regular(file)), file//': a directory, device or pipe, where a case belongs; ' &
+         & //'tiltpad-collect makes a study of a folder of results', error)
+      if (allocated(error)) return
       open (newunit=unit, file=file, access='stream', form='unformatted', action='read', status='old', &
          & iostat=status, iomsg=message)
       if (status == 0) then
@@ -46,16 +38,13 @@ contains
          if (starts_as_result(unit, length)) then
             call raise(error, input_error, file//': a result or study (an HDF5 file), where a case belongs; ' &
                & //'tiltpad-plot draws it, tiltpad --resume '//file//' continues a result')
-            close (unit)
-            return
          else if (length > longest_file) then
             call raise(error, input_error, file//': '//to_text(length)//' bytes; an input file has at most ' &
                & //to_text(longest_file))
-            close (unit)
-            return
+         else
+            allocate (character(len=max(length, 0_i8)) :: text)
+            if (length > 0) read (unit, pos=1, iostat=status, iomsg=message) text
          end if
-         allocate (character(len=max(length, 0_i8)) :: text)
-         if (length > 0) read (unit, pos=1, iostat=status, iomsg=message) text
          close (unit)
       end if
       if (status /= 0) call raise(error, input_error, file//': cannot be read: '//trim(message))

@@ -1,7 +1,7 @@
 !> Splits namelist text into assignments, each with its origin. Values are not interpreted.
 module namelist_text
    use text, only: to_text, lower_case, shortened
-   use errors, only: error_type, raise, input_error
+   use errors, only: error_type, raise, require, input_error
    use assignments, only: namelist_type, assignment_type, token_type, put_assignment, undoes, study_group
    use text_scanner, only: scanner, control_character, newline
    use variable_names, only: meant_variable
@@ -51,25 +51,16 @@ contains
          scan%at = scan%at + 1
          group%origin = scan%origin()
          group%group = lower_case(scan%word())
-         if (group%group == '') then
-            call raise(error, input_error, group%origin//': a group''s name is missing behind &')
-            return
-         end if
-         if (len(group%group) > longest_name) then
-            call raise(error, input_error, group%origin//': unknown group &'//shortened(group%group))
-            return
-         end if
-         if (size(parsed%groups) == most_items) then
-            call raise(error, input_error, group%origin//': more than '//to_text(most_items)//' groups')
-            return
-         end if
+         call require(group%group /= '', group%origin//': a group''s name is missing behind &', error)
+         call require(len(group%group) <= longest_name, group%origin//': unknown group &' &
+            & //shortened(group%group), error)
+         call require(size(parsed%groups) < most_items, group%origin//': more than '//to_text(most_items) &
+            & //' groups', error)
          do i = 1, size(parsed%groups)
-            if (parsed%groups(i)%group == group%group) then
-               call raise(error, input_error, group%origin//': group &'//group%group//' is given twice, first at ' &
-                  & //parsed%groups(i)%origin)
-               return
-            end if
+            call require(parsed%groups(i)%group /= group%group, group%origin//': group &'//group%group &
+               & //' is given twice, first at '//parsed%groups(i)%origin, error)
          end do
+         if (allocated(error)) return
          parsed%groups = [parsed%groups, group]
          call parse_group(scan, group, parsed%assignments, error)
          if (allocated(error)) return
@@ -89,31 +80,25 @@ contains
       integer :: percent
       percent = index(text, '%')
       group%origin = '--set '//shortened(text)
-      if (control_character(text) > 0) then
-         call raise(error, input_error, group%origin//': a control character is no part of a value')
-         return
-      end if
+      call require(control_character(text) == 0, group%origin//': a control character is no part of a value', error)
+      if (allocated(error)) return
       if (percent > 1) group%group = lower_case(trim(adjustl(text(:percent - 1))))
       if (percent <= 1 .or. index(text, '=') < percent) then
          call raise(error, input_error, group%origin//': expected group%name=value' &
             & //meant_variable('', lower_case(trim(adjustl(text(:index(text//'=', '=') - 1))))))
          return
       end if
-      if (len(group%group) > longest_name) then
-         call raise(error, input_error, group%origin//': unknown group '//shortened(group%group))
-         return
-      end if
+      call require(len(group%group) <= longest_name, group%origin//': unknown group '//shortened(group%group), error)
+      if (allocated(error)) return
       scan%text = text(percent + 1:)//' /'
       scan%file = group%origin
       allocate (new(0))
       call parse_group(scan, group, new, error)
       if (allocated(error)) return
       call scan%skip_blank('')
-      if (size(new) /= 1 .or. scan%peek() /= '') then
-         call raise(error, input_error, group%origin//': expected one group%name=value; a text with a / stands in ' &
-            & //'quotes within those of the shell: "group%name=''a/b''"')
-         return
-      end if
+      call require(size(new) == 1 .and. scan%peek() == '', group%origin//': expected one group%name=value; a text ' &
+         & //'with a / stands in quotes within those of the shell: "group%name=''a/b''"', error)
+      if (allocated(error)) return
       new(1)%origin = '--set'
       new(1)%overrides = .true.
       call put_assignment(new(1), parsed)
@@ -149,16 +134,14 @@ contains
          if (.not. allocated(error)) call parse_values(scan, new, error)
          if (allocated(error)) return
          do i = 1, size(assignments)
-            if (undoes(new, assignments(i))) then
-               call raise(error, input_error, new%origin//': '//new%group//'%'//new%name//' is given twice, first at ' &
-                  & //assignments(i)%origin)
-               return
-            end if
-         end do
-         if (size(assignments) == most_items) then
-            call raise(error, input_error, new%origin//': more than '//to_text(most_items)//' values given')
+            if (.not. undoes(new, assignments(i))) cycle
+            call raise(error, input_error, new%origin//': '//new%group//'%'//new%name//' is given twice, first at ' &
+               & //assignments(i)%origin)
             return
-         end if
+         end do
+         call require(size(assignments) < most_items, new%origin//': more than '//to_text(most_items) &
+            & //' values given', error)
+         if (allocated(error)) return
          assignments = [assignments, new]
       end do
    end subroutine parse_group
@@ -169,34 +152,27 @@ contains
       type(assignment_type), intent(inout) :: new
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: found, subscript, allowed
-      integer :: open, status
+      integer :: open
+      logical :: ok
       found = lower_case(scan%word())
       open = index(found, '(')
-      status = 0
+      ok = .true.
       new%name = found
       if (open > 0) then
          new%name = found(:open - 1)
          subscript = found(open + 1:max(open, len(found) - 1))
-         if (subscript == '' .or. verify(subscript, '0123456789') /= 0 .or. len(subscript) > 4 &
-            & .or. found(len(found):) /= ')') then
-            status = 1
-         else
-            read (subscript, *) new%subscript
-            if (new%subscript < 1) status = 1
-         end if
+         ok = subscript /= '' .and. verify(subscript, '0123456789') == 0 .and. len(subscript) <= 4 &
+            & .and. found(len(found):) == ')'
+         if (ok) read (subscript, *) new%subscript
+         ok = ok .and. new%subscript > 0
       end if
       allowed = name_characters
       if (new%group == study_group) allowed = name_characters//'%'
       call scan%skip_blank('')
-      if (status /= 0 .or. len(new%name) == 0 .or. verify(new%name, allowed) /= 0 .or. scan%peek() /= '=') then
-         call raise(error, input_error, new%origin//': '''//shortened(found)//''' in group &'//new%group &
-            & //': expected name = value')
-         return
-      end if
-      if (len(new%name) > longest_name) then
-         call raise(error, input_error, new%origin//': unknown variable '//new%group//'%'//shortened(new%name))
-         return
-      end if
+      call require(ok .and. len(new%name) > 0 .and. verify(new%name, allowed) == 0 .and. scan%peek() == '=', &
+         & new%origin//': '''//shortened(found)//''' in group &'//new%group//': expected name = value', error)
+      call require(len(new%name) <= longest_name, new%origin//': unknown variable '//new%group//'%' &
+         & //shortened(new%name), error)
       scan%at = scan%at + 1
    end subroutine parse_target
 
@@ -246,9 +222,8 @@ contains
          new%values = [new%values, token]
          comma = .false.
       end do
-      if (size(new%values) == 0 .or. scan%peek() == ',' .or. scan%peek() == '=') then
-         call raise(error, input_error, new%origin//': '//new%group//'%'//new%name//': a value is missing')
-      end if
+      call require(size(new%values) > 0 .and. scan%peek() /= ',' .and. scan%peek() /= '=', new%origin//': ' &
+         & //new%group//'%'//new%name//': a value is missing', error)
    end subroutine parse_values
 
    !> Reads a text in quotes on one line; a doubled quote means one.

@@ -2,7 +2,7 @@
 module parameter_study
    use kinds, only: i8
    use text, only: to_text, lower_case, checksum
-   use errors, only: error_type, raise, input_error
+   use errors, only: error_type, raise, require, input_error
    use case_inputs, only: case_type
    use assignments, only: namelist_type, assignment_type, put_assignment, undoes, assignment_text, target_text, &
       & value_text, study_group
@@ -110,10 +110,8 @@ contains
       integer :: percent, i
       if (given%name == 'order') then
          order = lower_case(trim(adjustl(given%values(1)%text)))
-         if (size(given%values) > 1 .or. given%subscript > 0 .or. order /= 'product' .and. order /= 'zip') then
-            call raise(error, input_error, given%origin//': '//assignment_text(given) &
-               & //': must be one of ''product'', ''zip''')
-         end if
+         call require(size(given%values) == 1 .and. given%subscript == 0 .and. any(order == ['product', 'zip    ']), &
+            & given%origin//': '//assignment_text(given)//': must be one of ''product'', ''zip''', error)
          study%zip = order == 'zip'
          return
       end if
@@ -128,25 +126,22 @@ contains
       new%target%group = given%name(:percent - 1)
       new%target%name = name
       new%target%overrides = .true.
-      if (new%target%group == study_group .or. given%name == title_variable) then
-         call raise(error, input_error, given%origin//': '//given%name//' cannot be swept')
-         return
-      end if
+      call require(new%target%group /= study_group .and. given%name /= title_variable, given%origin//': '//given%name &
+         & //' cannot be swept', error)
       do i = 1, size(study%variables)
          associate (other => study%variables(i)%target)
-            if (.not. (undoes(new%target, other) .or. undoes(other, new%target))) cycle
-            call raise(error, input_error, given%origin//': '//given%name//' is swept twice, first at '//other%origin)
-            return
+            call require(.not. (undoes(new%target, other) .or. undoes(other, new%target)), given%origin//': ' &
+               & //given%name//' is swept twice, first at '//other%origin, error)
          end associate
       end do
       do i = 1, size(study%base%assignments)
          associate (a => study%base%assignments(i))
-            if (a%origin /= '--set' .or. .not. undoes(new%target, a)) cycle
-            call raise(error, input_error, '--set '//assignment_text(a)//': is swept ('//given%origin &
-               & //'); give the study other values with --set sweep%'//given%name//'=...')
-            return
+            call require(a%origin /= '--set' .or. .not. undoes(new%target, a), '--set '//assignment_text(a) &
+               & //': is swept ('//given%origin//'); give the study other values with --set sweep%'//given%name &
+               & //'=...', error)
          end associate
       end do
+      if (allocated(error)) return
       call read_swept_values(given%values, given%origin//': '//study_group//'%'//given%name, new%values, error)
       if (allocated(error)) return
       deallocate (new%target%values)

@@ -33,7 +33,7 @@ contains
       end do
    end function group_names
 
-   !> The variables of a group, each with a blank before it.
+   !> The variables of a group, each with a blank before it; of all groups, as group%name, where it is empty.
    function names_in(group) result(names)
       character(len=*), intent(in) :: group
       character(len=:), allocatable :: names
@@ -44,6 +44,7 @@ contains
       do i = 1, table%count
          associate (v => table%variables(i))
             if (v%group == group) names = names//' '//v%name
+            if (group == '') names = names//' '//v%group//'%'//v%name
          end associate
       end do
    end function names_in
@@ -52,18 +53,12 @@ contains
    !> For the former name of a variable its new one.
    function meant_variable(group, name) result(text)
       character(len=*), intent(in) :: group, name
-      character(len=:), allocatable :: text, own, other, all
-      type(variable_table_type) :: table
-      integer :: own_score, other_score, i
-      call list_variables(case_type(), table)
-      all = ''
-      do i = 1, table%count
-         all = all//' '//table%variables(i)%group//'%'//table%variables(i)%name
-      end do
-      call find_similar(name, names_in(group), own, own_score)
-      call find_similar(name, all, other, other_score)
+      character(len=:), allocatable :: text, own, other
+      integer :: own_score, other_score
       text = new_name(group//'%'//name)
       if (text /= '') return
+      call find_similar(name, names_in(group), own, own_score)
+      call find_similar(name, names_in(''), other, other_score)
       if (own /= '' .and. own_score <= other_score) other = own
       if (other /= '') text = ' (did you mean '//other//'?)'
    end function meant_variable

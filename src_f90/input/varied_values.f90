@@ -4,8 +4,7 @@ module varied_values
    use kinds, only: wp, i8
    use text, only: to_text, exact_text, lower_case, shortened
    use errors, only: error_type, raise, add_context, input_error
-   use number_syntax, only: read_number
-   use assignments, only: token_type, value_text
+   use assignments, only: token_type, value_text, read_number
    implicit none (type, external)
    private
    public :: varied_values_type, read_swept_values

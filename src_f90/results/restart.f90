@@ -1,6 +1,6 @@
 !> What a run reads in a result file before it continues or replaces it.
 module restart
-   use text, only: to_text, on_one_line
+   use text, only: to_text, replaced
    use errors, only: error_type, raise, add_context, system_error, numerics_error
    use case_inputs, only: case_type
    use variable_table, only: variable_type, variable_table_type
@@ -171,7 +171,7 @@ contains
          call raise(error, system_error, path//': is the result of the same case, but no run of a study')
       else if (found%tag%number /= tag%number .or. found%tag%study /= tag%study) then
          call raise(error, system_error, path//': is run '//to_text(found%tag%number)//' of another study; ' &
-            & //on_one_line(found%tag%study)//' there, '//on_one_line(tag%study)//' here')
+            & //replaced(found%tag%study, newline, ', ')//' there, '//replaced(tag%study, newline, ', ')//' here')
       end if
    end subroutine refuse_other_case
 

@@ -11,7 +11,7 @@ SOURCES = (
     "input/namelist_text",
     "input/case_namelist",
     "input/assigned_values",
-    "input/number_syntax",
+    "input/assignments",
     "input/parameter_study",
     "input/namelist_writer",
     "input/case_fields",
