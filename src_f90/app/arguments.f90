@@ -1,8 +1,8 @@
 !> The words of the command line.
 module arguments
-   use text, only: shortened, to_text, lower_case
+   use text, only: shortened, to_text, lower_case, whole_number
    use variable_names, only: meant_variable, meant_word
-   use errors, only: error_type, raise, input_error
+   use errors, only: error_type, raise, require, input_error
    implicit none (type, external)
    private
    public :: arguments_type, read_arguments, print_help
@@ -120,24 +120,21 @@ contains
    subroutine check_arguments(given, error)
       type(arguments_type), intent(in) :: given
       type(error_type), allocatable, intent(out) :: error
-      if (given%resumed /= '' .and. given%output /= '') then
-         call raise(error, input_error, '--resume goes on with its file; --output cannot name another')
-      else if (given%overwrite .and. (given%resumed /= '' .or. given%task /= 'run')) then
-         call raise(error, input_error, '--overwrite: is for runs; not with --resume, --check or --count')
-      else if (given%jobs > 0 .and. (given%run > 0 .or. given%task /= 'run')) then
-         call raise(error, input_error, '--jobs: is for all runs of a study; not with --run, --check or --count')
-      else if (given%task == 'count' .and. given%run > 0) then
-         call raise(error, input_error, '--count and --run: one of them at a time')
-      else if (given%resumed == '' .and. given%case_file == '') then
-         call raise(error, input_error, 'no case given; usage: tiltpad [options] CASE.nml, see tiltpad --help')
-      else if (given%case_file == '') then
-         if (given%task == 'count' .or. given%jobs > 0 .or. given%run > 0) then
-            call raise(error, input_error, '--count, --jobs and --run: are for a case with a study, and --resume ' &
-               & //'for one run')
-         else if (size(given%overrides) > 0) then
-            call raise(error, input_error, '--set changes the case; a resumed run keeps its own')
-         end if
-      end if
+      logical :: resumes, runs
+      resumes = given%resumed /= ''
+      runs = given%task == 'run'
+      call require(.not. resumes .or. given%output == '', '--resume goes on with its file; --output cannot ' &
+         & //'name another', error)
+      call require(.not. given%overwrite .or. runs .and. .not. resumes, '--overwrite: is for runs; not with ' &
+         & //'--resume, --check or --count', error)
+      call require(given%jobs == 0 .or. runs .and. given%run == 0, '--jobs: is for all runs of a study; not with ' &
+         & //'--run, --check or --count', error)
+      call require(given%task /= 'count' .or. given%run == 0, '--count and --run: one of them at a time', error)
+      if (given%case_file /= '') return
+      call require(resumes, 'no case given; usage: tiltpad [options] CASE.nml, see tiltpad --help', error)
+      call require(given%task /= 'count' .and. given%jobs == 0 .and. given%run == 0, '--count, --jobs and --run: are ' &
+         & //'for a case with a study, and --resume for one run', error)
+      call require(size(given%overrides) == 0, '--set changes the case; a resumed run keeps its own', error)
    end subroutine check_arguments
 
    !> What an unknown option may stand for: another one, or "--option value" where "--option=value" is given.
@@ -166,8 +163,7 @@ contains
       character(len=*), intent(in) :: option, value
       integer, intent(out) :: number
       type(error_type), allocatable, intent(out) :: error
-      number = 0
-      if (value /= '' .and. len(value) < 10 .and. verify(value, '0123456789') == 0) read (value, *) number
+      number = whole_number(value)
       if (number == 0) call raise(error, input_error, option//' '//value//': must be a whole number, 1 or more')
    end subroutine read_whole
 

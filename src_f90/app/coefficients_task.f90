@@ -2,7 +2,7 @@
 module coefficients_task
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, pi
-   use text, only: to_text, fixed_text
+   use text, only: to_text, fixed_text, list_text
    use errors, only: error_type, add_context, stopped
    use case_inputs, only: case_type
    use equilibrium, only: equilibrium_type
@@ -114,18 +114,6 @@ contains
    function of_journal(matrix) result(text)
       real(wp), intent(in) :: matrix(:, :)
       character(len=:), allocatable :: text
-      real(wp) :: elements(4)
-      integer :: i
-      elements = [transpose(matrix)]
-      text = mega(elements(1))
-      do i = 2, 4
-         text = text//', '//mega(elements(i))
-      end do
+      text = list_text(1e-6_wp*[transpose(matrix)], 6)
    end function of_journal
-
-   function mega(x)
-      real(wp), intent(in) :: x
-      character(len=:), allocatable :: mega
-      mega = fixed_text(1e-6_wp*x, 6)
-   end function mega
 end module coefficients_task

@@ -2,7 +2,7 @@
 module run_summary
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, pi, degree
-   use text, only: to_text, fixed_text
+   use text, only: to_text, fixed_text, list_text
    use case_inputs, only: case_type
    use result_size, only: size_note
    use checked_case, only: notes
@@ -32,15 +32,8 @@ contains
       type(case_type), intent(in) :: inputs
       real(wp), intent(in) :: journal(2), tilt(:)
       character(len=:), allocatable :: tilts
-      integer :: i
       tilts = ''
-      if (inputs%tilting()) then
-         tilts = ', tilts '//milli(tilt(1))
-         do i = 2, size(tilt)
-            tilts = tilts//', '//milli(tilt(i))
-         end do
-         tilts = tilts//' mrad'
-      end if
+      if (inputs%tilting()) tilts = ', tilts '//list_text(1e3_wp*tilt, 4)//' mrad'
       print '(a)', 'start from '''//inputs%start%from//''': journal y '//micro(journal(1))//', z ' &
          & //micro(journal(2))//' um'//tilts
    end subroutine print_start

@@ -88,12 +88,12 @@ contains
       child%run = 0
    end subroutine wait_for_end
 
-   !> Starts a child with its first run; `child` has no run where no process could be started.
-   subroutine start(child, study, folder, k, pipe, perform_run)
+   !> Starts a child, which waits for orders; `child` has no process where none could be started.
+   subroutine start(child, study, folder, pipe, perform_run)
       class(child_type), intent(inout) :: child
       type(study_type), intent(in) :: study
       character(len=*), intent(in) :: folder
-      integer, intent(in) :: k, pipe
+      integer, intent(in) :: pipe
       procedure(study_runner) :: perform_run
       integer :: parent, process
       if (.not. open_pipe(child%orders)) return
@@ -104,31 +104,29 @@ contains
       process = new_process()
       if (process == 0) then
          call end_with_parent(parent)
-         call run_in_child(study, folder, k, child%orders(1), pipe, perform_run)
+         call run_in_child(study, folder, child%orders(1), pipe, perform_run)
       else if (process < 0) then
          call close_pipe(child%orders)
       else
          child%process = process
-         child%run = k
       end if
    end subroutine start
 
-   !> What a child does: it runs its first run and those that it is ordered to, and sends a report of each. It ends
-   !> after one that failed, as a library may then be in a bad state.
-   subroutine run_in_child(study, folder, first, orders, pipe, perform_run)
+   !> What a child does: it performs the runs that it is ordered to, and sends a report of each. It ends after one that
+   !> failed, as a library may then be in a bad state.
+   subroutine run_in_child(study, folder, orders, pipe, perform_run)
       type(study_type), intent(in) :: study
       character(len=*), intent(in) :: folder
-      !> Its first run; the end of a pipe that its orders come from, and that of one for its reports.
-      integer, intent(in) :: first, orders, pipe
+      !> The end of a pipe that its orders come from, and that of one for its reports.
+      integer, intent(in) :: orders, pipe
       procedure(study_runner) :: perform_run
       integer :: k, count
       logical :: stays
-      k = first
       do count = 1, runs_a_child
-         call run_one(study, folder, k, pipe, count < runs_a_child, perform_run, stays)
-         if (.not. stays) exit
          call receive_order(orders, k)
          if (k == 0) exit
+         call run_one(study, folder, k, pipe, count < runs_a_child, perform_run, stays)
+         if (.not. stays) exit
       end do
       call end_child(0)
    end subroutine run_in_child

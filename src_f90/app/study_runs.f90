@@ -32,8 +32,7 @@ contains
       integer :: k
       do k = 1, study%runs
          call study%inputs(k, inputs, error)
-         if (stop_requested()) call raise(error, stopped, stop_reason() &
-            & //'; no run was started')
+         if (stop_requested()) call raise(error, stopped, stop_reason()//'; no run was started')
          if (allocated(error)) return
       end do
    end subroutine check_runs
@@ -70,12 +69,10 @@ contains
          stopping = stop_requested()
          do i = 1, size(children)
             if (children(i)%run /= 0 .or. next > study%runs .or. stopping) cycle
+            if (children(i)%process == 0) call children(i)%start(study, folder, pipe(2), perform_run)
             if (children(i)%process /= 0) then
                call children(i)%order(next)
             else
-               call children(i)%start(study, folder, next, pipe(2), perform_run)
-            end if
-            if (children(i)%run == 0) then
                ! no process could be started: later, when one of ours has ended, if there is one
                if (any(children%run /= 0)) exit
                call note(next, system_error, 'no process could be started for it', tally)
@@ -112,7 +109,7 @@ contains
       logical :: ok
       if (.not. wait_for_record(pipe, pause)) then
          do i = 1, size(children)
-            if (children(i)%process == 0 .or. allocated(children(i)%how)) cycle
+            if (children(i)%process == 0) cycle
             if (ended(children(i)%process, .false., how)) children(i)%how = how
          end do
       end if

@@ -3,7 +3,7 @@ program tiltpad
    use, intrinsic :: iso_c_binding, only: c_int
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use text, only: printable, to_text
-   use errors, only: error_type, raise, input_error, system_error
+   use errors, only: error_type, raise, require, input_error, system_error
    use case_inputs, only: case_type
    use result_size, only: size_note
    use parameter_study, only: study_type, run_tag, read_study
@@ -147,15 +147,12 @@ contains
       type(arguments_type), intent(in) :: given
       type(study_type), intent(in) :: study
       type(error_type), allocatable, intent(out) :: error
-      if (.not. study%given .and. (given%run > 0 .or. given%jobs > 0)) then
-         call raise(error, input_error, given%case_file//': no group &sweep in it, which --run and --jobs are for')
-      else if (study%given .and. given%resumed /= '') then
-         call raise(error, input_error, '--resume goes on with one run; the runs of '//given%case_file &
-            & //' go on when it is run again')
-      else if (given%run > study%runs) then
-         call raise(error, input_error, '--run '//to_text(given%run)//': must be 1 to ' &
-            & //to_text(study%runs)//', the runs of '//given%case_file)
-      end if
+      call require(study%given .or. given%run == 0 .and. given%jobs == 0, given%case_file//': no group &sweep in it, ' &
+         & //'which --run and --jobs are for', error)
+      call require(.not. study%given .or. given%resumed == '', '--resume goes on with one run; the runs of ' &
+         & //given%case_file//' go on when it is run again', error)
+      call require(given%run <= study%runs, '--run '//to_text(given%run)//': must be 1 to '//to_text(study%runs) &
+         & //', the runs of '//given%case_file, error)
    end subroutine check_use
 
    !> The result file, or for a study the folder of the runs' files: as given, or named like the case.

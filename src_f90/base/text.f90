@@ -3,8 +3,8 @@ module text
    use kinds, only: wp, i8
    implicit none (type, external)
    private
-   public :: to_text, list_text, exact_text, fixed_text, lower_case, printable, shortened, replaced, is_utf8
-   public :: checksum, find_similar, did_you_mean, unlike
+   public :: to_text, list_text, exact_text, fixed_text, whole_number, lower_case, printable, shortened, replaced
+   public :: is_utf8, checksum, find_similar, did_you_mean, unlike
 
    !> The score of a word that no known one is like.
    integer, parameter :: unlike = huge(1)
@@ -39,16 +39,29 @@ contains
       string = of_digits(x, 6)
    end function real_text
 
-   !> Numbers as short texts: "1, 0.5".
-   pure function list_text(values) result(string)
+   !> Numbers as short texts, or with this number of decimals: "1, 0.5".
+   pure function list_text(values, decimals) result(string)
       real(wp), intent(in) :: values(:)
+      integer, intent(in), optional :: decimals
       character(len=:), allocatable :: string
       integer :: i
-      string = to_text(values(1))
-      do i = 2, size(values)
-         string = string//', '//to_text(values(i))
+      string = ''
+      do i = 1, size(values)
+         if (i > 1) string = string//', '
+         if (present(decimals)) then
+            string = string//fixed_text(values(i), decimals)
+         else
+            string = string//to_text(values(i))
+         end if
       end do
    end function list_text
+
+   !> The whole number from 1 that a text of at most 9 digits is; 0 where it is none.
+   pure integer function whole_number(text)
+      character(len=*), intent(in) :: text
+      whole_number = 0
+      if (text /= '' .and. len(text) <= 9 .and. verify(text, '0123456789') == 0) read (text, *) whole_number
+   end function whole_number
 
    !> A number with this number of significant digits, without needless zeros.
    pure function of_digits(x, digits) result(string)

@@ -3,7 +3,7 @@
 module assigned_values
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use text, only: to_text, lower_case, shortened, replaced, is_utf8
+   use text, only: to_text, lower_case, shortened, replaced, whole_number, is_utf8
    use errors, only: error_type, raise, input_error
    use assignments, only: assignment_type, token_type, assignment_text, study_group, is_special, read_number
    use case_inputs, only: unset
@@ -86,9 +86,8 @@ contains
       repeat = 1
       repeat_ok = .true.
       if (star > 0) then
-         repeat_ok = star > 1 .and. star <= 7 .and. verify(digits(:star - 1), '0123456789') == 0
-         if (repeat_ok) read (digits(:star - 1), *) repeat
-         repeat_ok = repeat_ok .and. repeat >= 1
+         repeat = whole_number(digits(:star - 1))
+         repeat_ok = repeat > 0 .and. repeat < 1000000
          digits = digits(star + 1:)
       end if
       x = 0

@@ -2,11 +2,12 @@
 module assignments
    use, intrinsic :: ieee_arithmetic, only: ieee_overflow, ieee_get_halting_mode, ieee_set_flag, ieee_set_halting_mode
    use kinds, only: wp
-   use text, only: to_text, shortened, replaced
+   use text, only: to_text, shortened, replaced, whole_number
    implicit none (type, external)
    private
    public :: namelist_type, assignment_type, token_type
-   public :: put_assignment, undoes, assignment_text, target_text, value_text, study_group, is_special, read_number
+   public :: put_assignment, undoes, assignment_text, target_text, value_text, study_group
+   public :: split_subscript, is_special, read_number
 
    !> The group of a study. Its variables are those of other groups, `group%name = values`, with one value for each run.
    character(len=*), parameter :: study_group = 'sweep'
@@ -106,6 +107,24 @@ contains
       text = token%text
       if (token%quoted) text = ''''//replaced(text, '''', '''''')//''''
    end function value_text
+
+   !> Name and subscript of "name(subscript)", which is 0 where there is none; `ok` is false where it is none from 1 to
+   !> 9999.
+   pure subroutine split_subscript(word, name, subscript, ok)
+      character(len=*), intent(in) :: word
+      character(len=:), allocatable, intent(out) :: name
+      integer, intent(out) :: subscript
+      logical, intent(out) :: ok
+      integer :: open
+      open = index(word, '(')
+      name = word
+      subscript = 0
+      ok = open == 0
+      if (ok) return
+      name = word(:open - 1)
+      subscript = whole_number(word(open + 1:max(open, len(word) - 1)))
+      ok = subscript > 0 .and. subscript < 10000 .and. word(len(word):) == ')'
+   end subroutine split_subscript
 
    !> [sign] digits [. digits] [e|d [sign] digits], with a digit before or after the point. Fortran itself
    !> would take more, such as 1+2 for 100.

@@ -3,12 +3,13 @@
 module case_parameter
    use kinds, only: wp
    use text, only: to_text, lower_case
-   use errors, only: error_type, raise, input_error
+   use errors, only: error_type, raise, require, input_error
    use case_inputs, only: case_type, is_set
    use case_checks, only: check_case
    use variable_table, only: variable_table_type
    use case_fields, only: list_variables, put_variables
    use variable_names, only: meant_variable
+   use assignments, only: split_subscript
    implicit none (type, external)
    private
    public :: case_parameter_type, find_parameter, check_branch_parameter
@@ -84,21 +85,11 @@ contains
       character(len=*), intent(in) :: name
       type(case_parameter_type), intent(inout) :: parameter
       logical, intent(out) :: ok
-      integer :: percent, open
+      integer :: percent
       percent = index(name, '%')
-      open = index(name, '(')
-      if (open == 0) open = len(name) + 1
-      ok = percent > 1 .and. open > percent + 1
-      if (.not. ok) return
       parameter%group = name(:percent - 1)
-      parameter%variable = name(percent + 1:open - 1)
-      if (open > len(name)) return
-      associate (digits => name(open + 1:max(open, len(name) - 1)))
-         ok = len(digits) > 0 .and. len(digits) < 5 .and. verify(digits, '0123456789') == 0
-         if (ok) ok = name(len(name):) == ')'
-         if (ok) read (digits, *) parameter%element
-         if (ok) ok = parameter%element > 0
-      end associate
+      call split_subscript(name(percent + 1:), parameter%variable, parameter%element, ok)
+      ok = ok .and. parameter%group /= '' .and. parameter%variable /= ''
    end subroutine split
 
    !> Its value in a case; where several elements change together, that of the first.
@@ -155,20 +146,16 @@ contains
             & .or. index(parameter%variable, 'balance_') == 1)) then
             call raise(error, input_error, 'branch%parameter = '''//b%parameter &
                & //''': has no effect on equilibria, which are without friction and unbalance')
-         else if (b%last < parameter%low .or. b%last > parameter%high) then
-            call raise(error, input_error, 'branch%last = '//to_text(b%last)//': must be '//parameter%range//', as ' &
-               & //b%parameter)
-         else if (.not. abs(b%last - first) > 0) then
-            call raise(error, input_error, 'branch%last = '//to_text(b%last)//': is the value of '//b%parameter &
-               & //' already, where the branch starts')
-         else if (.not. b%step*(b%last - first) > 0) then
-            call raise(error, input_error, 'branch%step = '//to_text(b%step)//': must be ' &
-               & //trim(merge('> 0', '< 0', b%last > first))//', from '//b%parameter//' = '//to_text(first) &
-               & //' towards branch%last = '//to_text(b%last))
-         else if (abs(b%step) > abs(b%last - first)) then
-            call raise(error, input_error, 'branch%step = '//to_text(b%step)//': must be smaller than the way from ' &
-               & //b%parameter//' = '//to_text(first)//' to branch%last = '//to_text(b%last))
          end if
+         call require(b%last >= parameter%low .and. b%last <= parameter%high, 'branch%last = '//to_text(b%last) &
+            & //': must be '//parameter%range//', as '//b%parameter, error)
+         call require(abs(b%last - first) > 0, 'branch%last = '//to_text(b%last)//': is the value of '//b%parameter &
+            & //' already, where the branch starts', error)
+         call require(b%step*(b%last - first) > 0, 'branch%step = '//to_text(b%step)//': must be ' &
+            & //merge('> 0', '< 0', b%last > first)//', from '//b%parameter//' = '//to_text(first) &
+            & //' towards branch%last = '//to_text(b%last), error)
+         call require(abs(b%step) <= abs(b%last - first), 'branch%step = '//to_text(b%step)//': must be smaller than ' &
+            & //'the way from '//b%parameter//' = '//to_text(first)//' to branch%last = '//to_text(b%last), error)
       end associate
    end subroutine check_branch_parameter
 end module case_parameter

@@ -2,7 +2,8 @@
 module namelist_text
    use text, only: to_text, lower_case, shortened
    use errors, only: error_type, raise, require, input_error
-   use assignments, only: namelist_type, assignment_type, token_type, put_assignment, undoes, study_group
+   use assignments, only: namelist_type, assignment_type, token_type, put_assignment, undoes, split_subscript, &
+      & study_group
    use text_scanner, only: scanner, control_character, newline
    use variable_names, only: meant_variable
    implicit none (type, external)
@@ -151,21 +152,10 @@ contains
       type(scanner), intent(inout) :: scan
       type(assignment_type), intent(inout) :: new
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: found, subscript, allowed
-      integer :: open
+      character(len=:), allocatable :: found, allowed
       logical :: ok
       found = lower_case(scan%word())
-      open = index(found, '(')
-      ok = .true.
-      new%name = found
-      if (open > 0) then
-         new%name = found(:open - 1)
-         subscript = found(open + 1:max(open, len(found) - 1))
-         ok = subscript /= '' .and. verify(subscript, '0123456789') == 0 .and. len(subscript) <= 4 &
-            & .and. found(len(found):) == ')'
-         if (ok) read (subscript, *) new%subscript
-         ok = ok .and. new%subscript > 0
-      end if
+      call split_subscript(found, new%name, new%subscript, ok)
       allowed = name_characters
       if (new%group == study_group) allowed = name_characters//'%'
       call scan%skip_blank('')
