@@ -31,7 +31,8 @@ contains
       end if
       if (allocated(error)) return
       call run%file%begin_series('time', sample_count(run%inputs))
-      plan = planned(run)
+      plan = sample_plan(run%inputs%output%start_time, sample_interval(run%inputs), sample_count(run%inputs), &
+         & run%file%samples())
       if (run%resumed) then
          call run%extremes%read(run%file%file, plan%interval)
          call check_samples(run, plan, t, error)
@@ -44,16 +45,6 @@ contains
       call observer%progress%clear()
       if (.not. allocated(error)) call write_spectra(run%inputs, plan%interval, run%file)
    end subroutine run_march
-
-   type(sample_plan) function planned(run) result(plan)
-      type(case_run_type), intent(in) :: run
-      associate (inputs => run%inputs)
-         plan%first = inputs%output%start_time
-         plan%interval = sample_interval(inputs)
-         plan%count = sample_count(inputs)
-      end associate
-      plan%next = run%file%samples()
-   end function planned
 
    !> Refuses a file whose samples end elsewhere than its checkpoint at time t, s, says.
    subroutine check_samples(run, plan, t, error)

@@ -4,7 +4,7 @@ module case_completion
    use kinds, only: wp, degree
    use text, only: to_text, list_text
    use errors, only: error_type, raise, require, input_error
-   use case_inputs, only: case_type, oil_type, unset, is_set, mass_range, inertia_range, centre_range, &
+   use case_inputs, only: case_type, bearing_type, oil_type, unset, is_set, mass_range, inertia_range, centre_range, &
       & clearance_range, temperature_range, viscosity_range
    use oil_properties, only: reference_viscosity, density, grades
    implicit none (type, external)
@@ -59,7 +59,7 @@ contains
    subroutine set_clearance(inputs, error)
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      type(case_type) :: paper
+      type(bearing_type) :: paper
       associate (b => inputs%bearing)
          if (is_set(b%preload) .and. is_set(b%machined_clearance)) then
             call raise(error, input_error, 'bearing%preload = '//to_text(b%preload)//': bearing%machined_clearance = ' &
@@ -75,8 +75,7 @@ contains
                   & //' (all in m)')
             end associate
          else if (.not. is_set(b%machined_clearance)) then
-            paper = case_type()
-            b%machined_clearance = paper%bearing%machined_clearance
+            b%machined_clearance = paper%machined_clearance
          end if
          b%preload = unset
       end associate
@@ -191,7 +190,7 @@ contains
    subroutine complete_oil(inputs, error)
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      type(case_type) :: paper
+      type(bearing_type) :: paper
       associate (b => inputs%bearing, oil => inputs%oil)
          ! resolved cases once said so of every case without a grade
          if (.not. oil%grade > 0) oil%grade = unset
@@ -199,8 +198,7 @@ contains
          call refuse_other_law(inputs, error)
          select case (oil%law)
          case ('constant')
-            paper = case_type()
-            if (.not. is_set(b%viscosity)) b%viscosity = paper%bearing%viscosity
+            if (.not. is_set(b%viscosity)) b%viscosity = paper%viscosity
             return
          case ('walther')
             call check_walther(oil, error)

@@ -7,7 +7,7 @@ module case_inputs
    private
    public :: case_type, max_pads, most_ratios, unset, is_set
    public :: mass_range, inertia_range, centre_range, temperature_range, viscosity_range, clearance_range
-   public :: oil_type, branch_type
+   public :: bearing_type, oil_type, branch_type
 
    !> Most pads of a bearing.
    integer, parameter :: max_pads = 24
