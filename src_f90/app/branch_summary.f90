@@ -49,9 +49,9 @@ contains
       real(wp), allocatable, dimension(:, :) :: branch, stable, value
       character(len=:), allocatable :: ends
       integer :: k
-      call file%last_samples('branch', int(file%samples()), branch)
-      call file%last_samples('stable', int(file%samples()), stable)
-      call file%last_samples('parameter', int(file%samples()), value)
+      call file%last_samples('branch', int(file%samples), branch)
+      call file%last_samples('stable', int(file%samples), stable)
+      call file%last_samples('parameter', int(file%samples), value)
       do k = 1, nint(maxval(branch))
          associate (own => nint(branch(1, :)) == k)
             print '(a)', 'branch '//to_text(k)//': '//to_text(count(own))//' points, '//parameter//' from ' &
@@ -61,7 +61,7 @@ contains
             if (warm) call print_oil(file, own)
          end associate
       end do
-      call file%file%get_text('branch_ends', ends)
+      call file%get_text('branch_ends', ends)
       print '(a)', ends
    end subroutine print_branch
 

@@ -92,8 +92,8 @@ contains
       end if
       call b%first_point(error)
       if (allocated(error)) return
-      call run%file%file%put_text('branch_of', b%given%of)
-      call run%file%file%put_text('branch_parameter', b%given%parameter)
+      call run%file%put_text('branch_of', b%given%of)
+      call run%file%put_text('branch_parameter', b%given%parameter)
       call open_series(run, b)
       call record(run, b, b%here, error)
    end subroutine begin
@@ -148,8 +148,8 @@ contains
       if (allocated(error)) return
       run%computed = .true.
       call b%begin_anywhere(run%model)
-      call get_branches(run%file%file, run%path, b, notes%special, ok, error)
-      call run%file%file%get_text('branch_ends', notes%ends)
+      call get_branches(run%file, run%path, b, notes%special, ok, error)
+      call run%file%get_text('branch_ends', notes%ends)
       call run%file%error_of(damage)
       if (allocated(damage)) call move_alloc(damage, error)
       if (allocated(error)) return
@@ -176,8 +176,8 @@ contains
       type(case_run_type), intent(inout) :: run
       type(branch_progress_type), intent(inout) :: b
       type(notes_type), intent(in) :: notes
-      call put_bifurcations(run%file%file, notes%special, b%parameter)
-      call run%file%file%put_text('branch_ends', notes%ends)
+      call put_bifurcations(run%file, notes%special, b%parameter)
+      call run%file%put_text('branch_ends', notes%ends)
       associate (counts => run%counts, orbits => b%orbits)
          counts%rhs_evaluations = counts%rhs_evaluations + orbits%evaluations + orbits%tangents
          counts%jacobian_evaluations = counts%jacobian_evaluations + orbits%tangents
@@ -259,6 +259,6 @@ contains
       type(branch_progress_type), intent(in) :: b
       type(notes_type), intent(in) :: notes
       call run%file%begin_checkpoint(0.0_wp)
-      call put_branches(run%file%file, b, notes%special)
+      call put_branches(run%file, b, notes%special)
    end subroutine begin_checkpoint
 end module branch_task

@@ -51,7 +51,7 @@ contains
          end if
          return
       end if
-      call put_coefficients(run%file%file, found, run%inputs%coefficients%frequency_ratio, &
+      call put_coefficients(run%file, found, run%inputs%coefficients%frequency_ratio, &
          & run%model%layout%position_names())
       if (.not. run%quiet) call print_coefficients(found, run%inputs)
    end subroutine run_coefficients

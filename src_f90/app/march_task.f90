@@ -32,9 +32,9 @@ contains
       if (allocated(error)) return
       call run%file%begin_series('time', sample_count(run%inputs))
       plan = sample_plan(run%inputs%output%start_time, sample_interval(run%inputs), sample_count(run%inputs), &
-         & run%file%samples())
+         & run%file%samples)
       if (run%resumed) then
-         call run%extremes%read(run%file%file, plan%interval)
+         call run%extremes%read(run%file, plan%interval)
          call check_samples(run, plan, t, error)
       end if
       if (allocated(error)) return

@@ -39,7 +39,7 @@ contains
          call run%stop_here(0.0_wp, error, found%orbit%start)
          return
       end if
-      call put_periodic(run%file%file, found, run%inputs%periodic%revolutions)
+      call put_periodic(run%file, found, run%inputs%periodic%revolutions)
       if (.not. run%quiet) call print_orbit(found, run%inputs%periodic%revolutions)
       call record_orbit(run, found, error)
    end subroutine run_periodic

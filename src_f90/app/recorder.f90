@@ -58,8 +58,8 @@ contains
       integer :: passed, n, i, watched
       associate (samples => self%run%inputs%output%samples_per_revolution, pads => self%run%inputs%pad_count())
          ! the last whole revolution and what came after it; comparing begins with the revolution after
-         passed = max(0, int(self%run%file%samples()/samples) - 1)
-         n = int(self%run%file%samples() - int(passed, i8)*samples)
+         passed = max(0, int(self%run%file%samples/samples) - 1)
+         n = int(self%run%file%samples - int(passed, i8)*samples)
          watched = 2 + merge(pads, 0, self%run%inputs%tilting())
          self%orbit = new_periodicity(samples, watched, passed)
          if (n == 0) return
@@ -86,10 +86,10 @@ contains
       real(wp) :: started
       logical :: timed
       timed = mod(self%samples, timing_stride) == timing_stride - 1
-      if (timed) started = wall_clock() - self%run%file%table%seconds
+      if (timed) started = wall_clock() - self%run%file%writing_seconds
       call self%record(t, y, output, error)
       if (timed) self%run%sampling = self%run%sampling &
-         & + timing_stride*(wall_clock() - self%run%file%table%seconds - started)
+         & + timing_stride*(wall_clock() - self%run%file%writing_seconds - started)
       self%samples = self%samples + 1
    end subroutine sample
 
@@ -156,7 +156,7 @@ contains
       integer :: revolutions, n, i
       if (.not. inputs%is_steady()) return
       associate (samples => inputs%output%samples_per_revolution)
-         revolutions = int(min(int(inputs%output%spectrum_revolutions, i8), (file%samples() - 1)/samples))
+         revolutions = int(min(int(inputs%output%spectrum_revolutions, i8), (file%samples - 1)/samples))
          n = revolutions*samples
       end associate
       if (revolutions == 0 .or. n < 2) return
@@ -169,7 +169,7 @@ contains
             amplitudes(:, i) = one_sided_amplitude(tilt(i, :))
          end do
       end if
-      call put_spectrum(file%file, interval, revolutions, inputs%highest_speed(), one_sided_amplitude(y(1, :)), &
+      call put_spectrum(file, interval, revolutions, inputs%highest_speed(), one_sided_amplitude(y(1, :)), &
          & one_sided_amplitude(z(1, :)), full_amplitude(cmplx(y(1, :), z(1, :), wp)), amplitudes)
    end subroutine write_spectra
 end module recorder

@@ -124,8 +124,8 @@ contains
       if (.not. ended) ended = error%status == numerics_error .and. run%computed
       if (ended) call run%note_figures()
       if (.not. allocated(error)) then
-         if (.not. run%quiet .and. run%file%samples() > 0) then
-            if (run%inputs%about%task /= 'branch') call print_march(run%file%file, run%inputs)
+         if (.not. run%quiet .and. run%file%samples > 0) then
+            if (run%inputs%about%task /= 'branch') call print_march(run%file, run%inputs)
             call print_cost(run%statistics())
          end if
          call run%file%finish(run%reached, run%statistics(), 0, '', file_error)

@@ -27,7 +27,7 @@ contains
    subroutine create_file(run, error)
       type(case_run_type), intent(inout) :: run
       type(error_type), allocatable, intent(out) :: error
-      call run%file%create(run%inputs, namelist_of(run%inputs), error)
+      call run%file%start(run%inputs, namelist_of(run%inputs), error)
       if (.not. allocated(error) .and. run%tag%number > 0) call run%file%put_tag(run%tag)
    end subroutine create_file
 
@@ -60,10 +60,10 @@ contains
       type(equilibrium_type), intent(in) :: static
       type(static_figures_type) :: figures
       run%model%oil%viscosity = static%viscosity
-      call put_equilibrium(run%file%file, static, run%inputs%tilting(), run%inputs%tilting_radial())
+      call put_equilibrium(run%file, static, run%inputs%tilting(), run%inputs%tilting_radial())
       call find_static_figures(run%model, static, figures)
-      call put_figures(run%file%file, run%inputs, figures)
-      if (allocated(figures%oil)) call put_temperatures(run%file%file, figures%oil, static%viscosity)
+      call put_figures(run%file, run%inputs, figures)
+      if (allocated(figures%oil)) call put_temperatures(run%file, figures%oil, static%viscosity)
       run%computed = .true.
       if (run%quiet) return
       call print_equilibrium(static, run%inputs)

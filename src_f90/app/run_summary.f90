@@ -107,7 +107,7 @@ contains
 
    !> Figures of the last revolution (or of what there is), and what is unusual.
    subroutine print_march(file, inputs)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: before, after, diagnosis
       integer :: i
@@ -173,7 +173,7 @@ contains
 
    !> Which pads touched the journal in the whole run, how hard and how long.
    subroutine print_asperities(file)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       character(len=:), allocatable :: of_load
       integer :: i
       associate (force => pad_figures(file, 'pad_asperity_force'), share => pad_figures(file, 'pad_asperity_share'), &

@@ -17,7 +17,7 @@ contains
 
    !> Into the group of the checkpoint, which is there; the file has the bifurcation points, too.
    subroutine put_branches(file, branches, special)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       type(branch_progress_type), intent(in) :: branches
       type(noted_point_type), intent(in) :: special(:)
       integer :: k
@@ -40,7 +40,7 @@ contains
    end function doubling_name
 
    subroutine put_point(file, group, branches, point)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: group
       type(branch_progress_type), intent(in) :: branches
       type(branch_point_type), intent(in) :: point
@@ -71,7 +71,7 @@ contains
    !> The same of branches that are ready to go on. An error where the file holds none of these numbers; `ok` is false
    !> where they cannot be a checkpoint.
    subroutine get_branches(file, path, branches, special, ok, error)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: path
       type(branch_progress_type), intent(inout) :: branches
       type(noted_point_type), allocatable, intent(out) :: special(:)
@@ -98,7 +98,7 @@ contains
    end subroutine get_branches
 
    subroutine get_special(file, special, ok)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       type(noted_point_type), allocatable, intent(out) :: special(:)
       logical, intent(out) :: ok
       real(wp), allocatable, dimension(:) :: kind, point, branch, parameter, re, im
@@ -119,7 +119,7 @@ contains
    end subroutine get_special
 
    subroutine get_point(file, group, branches, point, ok)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: group
       type(branch_progress_type), intent(in) :: branches
       type(branch_point_type), intent(out) :: point
@@ -142,7 +142,7 @@ contains
 
    !> A list of a file; empty where it has none of this name, as lists of no numbers are not written.
    function list(file, path)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: path
       real(wp), allocatable :: list(:)
       list = [real(wp) ::]

@@ -31,7 +31,7 @@ contains
       logical, intent(in) :: orbits
       integer, intent(in) :: modes
       integer :: i
-      if (.not. file%file%has('mode')) call file%file%put_list('mode', [(real(i, wp), i=1, modes)], '1', &
+      if (.not. file%has('mode')) call file%put_list('mode', [(real(i, wp), i=1, modes)], '1', &
          & merge('multiplier number', 'eigenvalue number', orbits), 'mode')
       call file%begin_series('point', usual_points)
    end subroutine begin_branches
@@ -51,11 +51,11 @@ contains
       character(len=:), allocatable :: frozen
       real(wp), allocatable :: values(:)
       logical :: first
-      first = .not. file%table%is_declared()
+      first = .not. file%is_declared()
       values = [real(wp) ::]
       frozen = ''
       if (present(oil)) frozen = ', at frozen viscosity'
-      call one('point', real(file%samples() + 1, wp), '1', 'point number')
+      call one('point', real(file%samples + 1, wp), '1', 'point number')
       call one('branch', real(branch, wp), '1', 'branch number: 1 the first, then those of double period')
       call one('parameter', point%parameter, parameter%unit, parameter%meaning)
       call one('arc_length', point%arc_length, '1', 'length of the branch')
@@ -78,7 +78,7 @@ contains
          call each('eigenvalue_real', real(point%values, wp), '1/s', 'eigenvalue, real part'//frozen, 'mode')
          call each('eigenvalue_imag', aimag(point%values), '1/s', 'eigenvalue, imaginary part'//frozen, 'mode')
       end if
-      call file%table%add(file%file, values)
+      call file%add(values)
       call file%error_of(error)
    contains
       subroutine put_oil()
@@ -108,14 +108,14 @@ contains
       subroutine one(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value
-         if (first) call file%table%declare(file%file, name, 1, '', units, long_name)
+         if (first) call file%declare(name, 1, '', units, long_name)
          values = [values, value]
       end subroutine one
 
       subroutine each(name, several, units, long_name, across)
          character(len=*), intent(in) :: name, units, long_name, across
          real(wp), intent(in) :: several(:)
-         if (first) call file%table%declare(file%file, name, size(several), across, units, long_name)
+         if (first) call file%declare(name, size(several), across, units, long_name)
          values = [values, several]
       end subroutine each
    end subroutine add_point
@@ -125,13 +125,13 @@ contains
       type(run_file_type), intent(in) :: file
       integer, intent(in) :: branch
       type(bifurcation_type), intent(in) :: special
-      noted = noted_point_type(int(file%samples()), findloc(kinds_of_points, special%kind, dim=1), branch, &
+      noted = noted_point_type(int(file%samples), findloc(kinds_of_points, special%kind, dim=1), branch, &
          & special%point%parameter, special%value)
    end function noted
 
    !> Writes the bifurcation points anew, if there are any.
    subroutine put_bifurcations(file, special, parameter)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       type(noted_point_type), intent(in) :: special(:)
       type(case_parameter_type), intent(in) :: parameter
       character(len=*), parameter :: over = 'bifurcations/point'

@@ -17,7 +17,7 @@ contains
 
    !> Writes coefficients at these whirl frequencies over the speed of the shaft, in a file with these positions.
    subroutine put_coefficients(file, found, ratios, positions)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       type(bearing_coefficients_type), intent(in) :: found
       real(wp), intent(in) :: ratios(:)
       character(len=*), intent(in) :: positions(:)
@@ -55,7 +55,7 @@ contains
 
    !> The matrices of all positions; those that do not move have no numbers.
    subroutine put_full(file, found)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       type(bearing_coefficients_type), intent(in) :: found
       real(wp), allocatable, dimension(:, :, :) :: stiffness, damping
       integer :: i, k, n, pivots
@@ -79,7 +79,7 @@ contains
 
    !> The modes, filled up to n with what is no number.
    subroutine put_modes(file, found, n)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       type(bearing_coefficients_type), intent(in) :: found
       integer, intent(in) :: n
       real(wp), dimension(n, size(found%modes)) :: re, im, frequency, ratio, decrement

@@ -16,7 +16,7 @@ contains
 
    !> Writes an equilibrium; `tilting` where the pads have tilts, `radial` where they have pivot deflections.
    subroutine put_equilibrium(file, found, tilting, radial)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       type(equilibrium_type), intent(in) :: found
       logical, intent(in) :: tilting, radial
       call file%make_group('equilibrium')
@@ -47,7 +47,7 @@ contains
 
    !> Writes where the journal lies, what the pads carry, losses, flows and temperature rises.
    subroutine put_figures(file, inputs, figures)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
       type(static_figures_type), intent(in) :: figures
       call number('eccentricity_ratio', figures%eccentricity_ratio, '1', &
@@ -100,7 +100,7 @@ contains
 
    !> Writes the temperatures of warm oil, C, and the viscosity of each pad's film, Pa s.
    subroutine put_temperatures(file, oil, viscosity)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       type(oil_temperatures_type), intent(in) :: oil
       real(wp), intent(in) :: viscosity(:)
       call temperature('inlet', oil%inlet, 'temperature of the oil at the leading edge')

@@ -48,7 +48,7 @@ contains
    !> Refuses a result without samples, or whose pads have other states.
    subroutine refuse_other_states(path, file, found, layout, error)
       character(len=*), intent(in) :: path
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       type(restart_type), intent(in) :: found
       type(state_layout_type), intent(in) :: layout
       type(error_type), allocatable, intent(out) :: error
@@ -75,7 +75,7 @@ contains
 
    !> Number of the sample, from 0, in which the shaft has turned whole revolutions, of the last revolution.
    integer(i8) function last_whole_turn(file, samples_per_revolution) result(at)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       integer, intent(in) :: samples_per_revolution
       type(hdf5_series_type) :: series
       real(wp), allocatable :: angle(:, :), revolutions(:), beside(:)
@@ -97,7 +97,7 @@ contains
 
    !> The states in a sample; the file keeps a failure where one is not there.
    subroutine read_states(file, layout, at, journal, pads)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       type(state_layout_type), intent(in) :: layout
       integer(i8), intent(in) :: at
       type(journal_motion), intent(inout) :: journal

@@ -32,7 +32,7 @@ contains
       real(wp), allocatable :: time(:, :), angle(:, :), speed(:, :)
       real(wp) :: revolutions
       integer :: n
-      if (file%samples() == 0) return
+      if (file%samples == 0) return
       call file%part_of_samples('shaft_angle', 0_i8, 1, angle)
       revolutions = angle(1, 1)
       n = last_revolutions(file, 1)
@@ -40,10 +40,10 @@ contains
       call file%last_samples('time', n, time)
       call file%last_samples('speed', 1, speed)
       revolutions = (angle(1, n) - revolutions)/(2*pi)
-      call put_figure(file%file, 'time_reached', time(1, n), 's', 'time reached')
-      call put_figure(file%file, 'speed', speed(1, 1), 'rad/s', 'shaft speed at the end')
-      call put_figure(file%file, 'revolutions', revolutions, '1', 'shaft revolutions sampled')
-      call extremes%write(file%file, load, (time(1, n) - time(1, 1))/max(1, n - 1))
+      call put_figure(file, 'time_reached', time(1, n), 's', 'time reached')
+      call put_figure(file, 'speed', speed(1, 1), 'rad/s', 'shaft speed at the end')
+      call put_figure(file, 'revolutions', revolutions, '1', 'shaft revolutions sampled')
+      call extremes%write(file, load, (time(1, n) - time(1, 1))/max(1, n - 1))
       call put_journal(file, n)
       call put_film(file, n)
       if (inputs%tilting()) call put_tilt(file, n)
@@ -61,7 +61,7 @@ contains
       real(wp), allocatable :: angle(:, :)
       real(wp) :: start
       integer(i8) :: low, high, middle
-      high = file%samples() - 1
+      high = file%samples - 1
       low = 0
       if (high > 0) then
          call file%last_samples('shaft_angle', 2, angle)
@@ -77,7 +77,7 @@ contains
             end if
          end do
       end if
-      n = int(file%samples() - low)
+      n = int(file%samples - low)
    end function last_revolutions
 
    !> The orbit of the journal in the last n samples.
@@ -87,17 +87,17 @@ contains
       real(wp), allocatable :: y(:, :), z(:, :)
       call file%last_samples('journal_y', n, y)
       call file%last_samples('journal_z', n, z)
-      call put_figure(file%file, 'journal_y_max', maxval(y), 'm', 'highest journal displacement, vertical')
-      call put_figure(file%file, 'journal_y_min', minval(y), 'm', 'lowest journal displacement, vertical')
-      call put_figure(file%file, 'journal_z_max', maxval(z), 'm', 'highest journal displacement, horizontal')
-      call put_figure(file%file, 'journal_z_min', minval(z), 'm', 'lowest journal displacement, horizontal')
+      call put_figure(file, 'journal_y_max', maxval(y), 'm', 'highest journal displacement, vertical')
+      call put_figure(file, 'journal_y_min', minval(y), 'm', 'lowest journal displacement, vertical')
+      call put_figure(file, 'journal_z_max', maxval(z), 'm', 'highest journal displacement, horizontal')
+      call put_figure(file, 'journal_z_min', minval(z), 'm', 'lowest journal displacement, horizontal')
       associate (size_y => maxval(y) - minval(y), size_z => maxval(z) - minval(z))
-         call put_figure(file%file, 'orbit_y', size_y, 'm', 'orbit, peak to peak of y')
-         call put_figure(file%file, 'orbit_z', size_z, 'm', 'orbit, peak to peak of z')
-         call put_figure(file%file, 'orbit_size', max(size_y, size_z), 'm', 'orbit, the larger of both peak to peak')
+         call put_figure(file, 'orbit_y', size_y, 'm', 'orbit, peak to peak of y')
+         call put_figure(file, 'orbit_z', size_z, 'm', 'orbit, peak to peak of z')
+         call put_figure(file, 'orbit_size', max(size_y, size_z), 'm', 'orbit, the larger of both peak to peak')
       end associate
-      call put_figure(file%file, 'mean_y', mean(y(1, :)), 'm', 'orbit, mean y')
-      call put_figure(file%file, 'mean_z', mean(z(1, :)), 'm', 'orbit, mean z')
+      call put_figure(file, 'mean_y', mean(y(1, :)), 'm', 'orbit, mean y')
+      call put_figure(file, 'mean_z', mean(z(1, :)), 'm', 'orbit, mean z')
    end subroutine put_journal
 
    !> The mean of samples over a revolution, of whose two ends one counts.
@@ -115,10 +115,10 @@ contains
       real(wp), allocatable :: film(:, :), pressure(:, :)
       call file%last_samples('min_film_thickness', n, film)
       call file%last_samples('max_pressure', n, pressure)
-      call put_figure(file%file, 'min_film_thickness', minval(film), 'm', 'minimum film thickness, last revolution')
-      call put_figure(file%file, 'max_pressure', maxval(pressure), 'Pa', 'maximum pressure, last revolution')
-      call put_figure(file%file, 'pad_min_film_thickness', minval(film, dim=2), 'm', 'minimum film thickness')
-      call put_figure(file%file, 'pad_max_pressure', maxval(pressure, dim=2), 'Pa', 'maximum pressure')
+      call put_figure(file, 'min_film_thickness', minval(film), 'm', 'minimum film thickness, last revolution')
+      call put_figure(file, 'max_pressure', maxval(pressure), 'Pa', 'maximum pressure, last revolution')
+      call put_figure(file, 'pad_min_film_thickness', minval(film, dim=2), 'm', 'minimum film thickness')
+      call put_figure(file, 'pad_max_pressure', maxval(pressure, dim=2), 'Pa', 'maximum pressure')
    end subroutine put_film
 
    !> Tilts and contact in the last n samples.
@@ -130,11 +130,11 @@ contains
       call file%last_samples('pad_tilt', n, tilt)
       call file%last_samples('pivot_load', n, contact)
       associate (highest => maxval(tilt, dim=2), lowest => minval(tilt, dim=2))
-         call put_figure(file%file, 'pad_tilt_max', highest, 'rad', 'highest tilt')
-         call put_figure(file%file, 'pad_tilt_min', lowest, 'rad', 'lowest tilt')
-         call put_figure(file%file, 'pad_tilt_size', highest - lowest, 'rad', 'tilt, peak to peak')
+         call put_figure(file, 'pad_tilt_max', highest, 'rad', 'highest tilt')
+         call put_figure(file, 'pad_tilt_min', lowest, 'rad', 'lowest tilt')
+         call put_figure(file, 'pad_tilt_size', highest - lowest, 'rad', 'tilt, peak to peak')
       end associate
-      call put_figure(file%file, 'pad_contact_force', [(mean(contact(i, :)), i=1, size(contact, 1))], 'N', &
+      call put_figure(file, 'pad_contact_force', [(mean(contact(i, :)), i=1, size(contact, 1))], 'N', &
          & 'mean pivot load')
    end subroutine put_tilt
 
@@ -150,27 +150,27 @@ contains
       n = last_revolutions(file, whole)
       y = parts('journal_y', 1.0_wp)
       z = parts('journal_z', 1.0_wp)
-      call put_figure(file%file, 'journal_y_amplitude', abs(y(1)), 'm', &
+      call put_figure(file, 'journal_y_amplitude', abs(y(1)), 'm', &
          & 'vertical journal vibration with the shaft, amplitude')
-      call put_figure(file%file, 'journal_z_amplitude', abs(z(1)), 'm', &
+      call put_figure(file, 'journal_z_amplitude', abs(z(1)), 'm', &
          & 'horizontal journal vibration with the shaft, amplitude')
-      call put_figure(file%file, 'journal_y_phase', lag(y(1)), 'rad', 'angle by which it comes after the unbalance')
-      call put_figure(file%file, 'journal_z_phase', lag(z(1)), 'rad', 'angle by which it comes after the unbalance')
+      call put_figure(file, 'journal_y_phase', lag(y(1)), 'rad', 'angle by which it comes after the unbalance')
+      call put_figure(file, 'journal_z_phase', lag(z(1)), 'rad', 'angle by which it comes after the unbalance')
       if (inputs%tilting()) then
          tilt = parts('pad_tilt', 1.0_wp)
-         call put_figure(file%file, 'pad_tilt_amplitude', abs(tilt), 'rad', 'tilt with the shaft, amplitude')
+         call put_figure(file, 'pad_tilt_amplitude', abs(tilt), 'rad', 'tilt with the shaft, amplitude')
       end if
       if (revolutions < 2) return
       n = last_revolutions(file, max(2, whole - mod(whole, 2)))
       y = parts('journal_y', 0.5_wp)
       z = parts('journal_z', 0.5_wp)
-      call put_figure(file%file, 'journal_y_half_amplitude', abs(y(1)), 'm', &
+      call put_figure(file, 'journal_y_half_amplitude', abs(y(1)), 'm', &
          & 'vertical journal vibration at half the shaft speed, amplitude')
-      call put_figure(file%file, 'journal_z_half_amplitude', abs(z(1)), 'm', &
+      call put_figure(file, 'journal_z_half_amplitude', abs(z(1)), 'm', &
          & 'horizontal journal vibration at half the shaft speed, amplitude')
       if (.not. inputs%tilting()) return
       tilt = parts('pad_tilt', 0.5_wp)
-      call put_figure(file%file, 'pad_tilt_half_amplitude', abs(tilt), 'rad', &
+      call put_figure(file, 'pad_tilt_half_amplitude', abs(tilt), 'rad', &
          & 'tilt at half the shaft speed, amplitude')
    contains
       !> The part of this order of each row of a series.
@@ -216,15 +216,15 @@ contains
             stuck(i) = slow_share(time, (pivot%socket_radius - pivot%radius_difference)*rate(i, :), slow)
          end do
       end associate
-      call put_figure(file%file, 'friction_work', sum(work)/revolutions, 'J', &
+      call put_figure(file, 'friction_work', sum(work)/revolutions, 'J', &
          & 'friction work a revolution, all pads')
-      call put_figure(file%file, 'pad_friction_work', work/revolutions, 'J', 'friction work a revolution')
-      call put_figure(file%file, 'pad_friction_power', work/(time(n) - time(1)), 'W', 'mean friction power')
-      call put_figure(file%file, 'pad_friction_moment', maxval(abs(moment), dim=2), 'N m', 'maximum friction moment')
-      call put_figure(file%file, 'stick_velocity', slow, 'm/s', 'sliding velocity below which a pivot sticks')
-      call put_figure(file%file, 'stick_fraction', sum(stuck)/size(stuck), '1', &
+      call put_figure(file, 'pad_friction_work', work/revolutions, 'J', 'friction work a revolution')
+      call put_figure(file, 'pad_friction_power', work/(time(n) - time(1)), 'W', 'mean friction power')
+      call put_figure(file, 'pad_friction_moment', maxval(abs(moment), dim=2), 'N m', 'maximum friction moment')
+      call put_figure(file, 'stick_velocity', slow, 'm/s', 'sliding velocity below which a pivot sticks')
+      call put_figure(file, 'stick_fraction', sum(stuck)/size(stuck), '1', &
          & 'share of time that pivots stick, mean of the pads')
-      call put_figure(file%file, 'pad_stick_fraction', stuck, '1', 'share of time that the pivot sticks')
+      call put_figure(file, 'pad_stick_fraction', stuck, '1', 'share of time that the pivot sticks')
    end subroutine put_friction
 
    !> Lift-off, flutter and rubbing of the pads and whirl of the journal in the last revolutions, and what is to be said
@@ -245,10 +245,10 @@ contains
       call file%last_samples('shaft_angle', n, angle)
       revolutions = (angle(1, n) - angle(1, 1))/(2*pi)
       said = ''
-      if (file%file%has('asperity_force')) then
+      if (file%has('asperity_force')) then
          call file%last_samples('asperity_force', n, asperity)
          found%rubbing = count(asperity > 0, dim=2)/real(n, wp)
-         call put_figure(file%file, 'pad_rubbing', found%rubbing, '1', 'share of the time in which the surfaces touch')
+         call put_figure(file, 'pad_rubbing', found%rubbing, '1', 'share of the time in which the surfaces touch')
       end if
       if (inputs%tilting()) then
          call file%last_samples('pivot_load', n, contact)
@@ -263,19 +263,19 @@ contains
       call take('journal_y', y)
       call take('journal_z', z)
       call whirl_of(y(1, :), z(1, :), revolutions, inputs%bearing%assembled_clearance, order, amplitude, whirls)
-      call put_figure(file%file, 'last_revolutions', revolutions, '1', &
+      call put_figure(file, 'last_revolutions', revolutions, '1', &
          & 'revolutions over which lift-off, orders and shares are')
-      call put_figure(file%file, 'whirl_order', known(order), '1', &
+      call put_figure(file, 'whirl_order', known(order), '1', &
          & 'order of the largest journal motion that is no multiple of 1x')
-      call put_figure(file%file, 'whirl_amplitude', amplitude, 'm', 'its amplitude')
-      call put_figure(file%file, 'whirls', merge(1.0_wp, 0.0_wp, whirls), '1', &
+      call put_figure(file, 'whirl_amplitude', amplitude, 'm', 'its amplitude')
+      call put_figure(file, 'whirls', merge(1.0_wp, 0.0_wp, whirls), '1', &
          & '1 where the journal whirls at this order')
       if (whirls) call say('the journal whirls at '//fixed_text(order, 3)//' of the shaft speed, amplitude ' &
          & //fixed_text(1e6_wp*amplitude, 3)//' um')
       do n = 1, size(found)
          if (pad_diagnosis(found(n)) /= '') call say('pad '//to_text(n)//' '//pad_diagnosis(found(n)))
       end do
-      call file%file%put_text('diagnosis', said)
+      call file%put_text('diagnosis', said)
    contains
       !> A series but its last sample, which begins the next revolution, at equal steps of the shaft angle.
       subroutine take(name, values)
@@ -308,13 +308,13 @@ contains
    subroutine put_behaviour(file, found)
       type(run_file_type), intent(inout) :: file
       type(pad_behaviour_type), intent(in) :: found(:)
-      call put_figure(file%file, 'pad_load', found%load, 'N', 'mean pivot load, last revolutions')
-      call put_figure(file%file, 'pad_unloaded', merge(1.0_wp, 0.0_wp, found%unloaded), '1', &
+      call put_figure(file, 'pad_load', found%load, 'N', 'mean pivot load, last revolutions')
+      call put_figure(file, 'pad_unloaded', merge(1.0_wp, 0.0_wp, found%unloaded), '1', &
          & '1 where it carries no load')
-      call put_figure(file%file, 'pad_lifted', found%lifted, '1', 'share of the time lifted off its pivot')
-      call put_figure(file%file, 'pad_order', known(found%order), '1', 'dominant order of the tilt')
-      call put_figure(file%file, 'pad_order_amplitude', found%amplitude, 'rad', 'amplitude at this order')
-      call put_figure(file%file, 'pad_flutters', merge(1.0_wp, 0.0_wp, found%flutters), '1', '1 where it flutters')
+      call put_figure(file, 'pad_lifted', found%lifted, '1', 'share of the time lifted off its pivot')
+      call put_figure(file, 'pad_order', known(found%order), '1', 'dominant order of the tilt')
+      call put_figure(file, 'pad_order_amplitude', found%amplitude, 'rad', 'amplitude at this order')
+      call put_figure(file, 'pad_flutters', merge(1.0_wp, 0.0_wp, found%flutters), '1', '1 where it flutters')
    end subroutine put_behaviour
 
    !> "carries no load (mean 12 N); it flutters at 0.48 of the shaft speed, ..."; empty for a pad like others.

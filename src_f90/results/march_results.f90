@@ -24,7 +24,7 @@ contains
       real(wp) :: values(of_journal + of_pad*size(sample%states))
       logical :: first
       integer :: i, k, n
-      first = .not. file%table%is_declared()
+      first = .not. file%is_declared()
       n = 0
       call one('time', sample%time, 's', 'time')
       call one('shaft_angle', sample%shaft_angle, 'rad', 'shaft angle')
@@ -59,13 +59,13 @@ contains
                & 'normal force between the asperities of pad and journal')
          end associate
       end do
-      call file%table%add(file%file, values(:n + k*size(sample%states)))
+      call file%add(values(:n + k*size(sample%states)))
       call file%error_of(error)
    contains
       subroutine one(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value
-         if (first) call file%table%declare(file%file, name, 1, '', units, long_name)
+         if (first) call file%declare(name, 1, '', units, long_name)
          n = n + 1
          values(n) = value
       end subroutine one
@@ -74,7 +74,7 @@ contains
       subroutine each(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value
-         if (first .and. i == 1) call file%table%declare(file%file, name, size(sample%states), 'pad', units, long_name)
+         if (first .and. i == 1) call file%declare(name, size(sample%states), 'pad', units, long_name)
          values(n + k*size(sample%states) + i) = value
          k = k + 1
       end subroutine each
@@ -84,7 +84,7 @@ contains
    subroutine put_viscosity(file, viscosity)
       type(run_file_type), intent(inout) :: file
       real(wp), intent(in) :: viscosity(:)
-      call file%file%put_list('viscosity', viscosity, 'Pa s', 'viscosity of the oil on each pad in the march', 'pad')
+      call file%put_list('viscosity', viscosity, 'Pa s', 'viscosity of the oil on each pad in the march', 'pad')
    end subroutine put_viscosity
 
    !> Writes the history of these viscosities in a run-up.
@@ -99,14 +99,14 @@ contains
       do k = 1, size(time)
          call history%at(time(k), viscosity(:, k))
       end do
-      call file%file%make_group('oil')
-      call file%file%put_list('oil/time', time, 's', 'time', 'oil/time')
-      call file%file%put_table('oil/viscosity', viscosity, 'Pa s', 'viscosity of the oil on each pad', 'oil/time pad')
+      call file%make_group('oil')
+      call file%put_list('oil/time', time, 's', 'time', 'oil/time')
+      call file%put_table('oil/viscosity', viscosity, 'Pa s', 'viscosity of the oil on each pad', 'oil/time pad')
    end subroutine put_viscosity_history
 
    !> Amplitude spectra over the last revolutions of a run at constant speed, rad/s.
    subroutine put_spectrum(file, interval, revolutions, speed, journal_y, journal_z, journal_full, tilt)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       !> Between samples, s.
       real(wp), intent(in) :: interval
       integer, intent(in) :: revolutions

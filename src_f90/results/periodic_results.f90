@@ -11,7 +11,7 @@ module periodic_results
 contains
 
    subroutine put_periodic(file, found, revolutions)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       type(periodic_orbit_type), intent(in) :: found
       integer, intent(in) :: revolutions
       integer :: k

@@ -96,7 +96,7 @@ contains
    !> Opens the file for reading if it is a result that this program knows.
    subroutine open_result(path, file, error, older)
       character(len=*), intent(in) :: path
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       type(error_type), allocatable, intent(out) :: error
       !> True where it is refused because an earlier version wrote it.
       logical, intent(out), optional :: older

@@ -43,7 +43,7 @@ contains
    !> Writes them as figures of a run with this load on the journal, N, and interval between samples, s.
    subroutine write_extremes(self, file, load, interval)
       class(run_extremes_type), intent(in) :: self
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       real(wp), intent(in) :: load, interval
       call put_figure(file, 'run_min_film_thickness', self%film, 'm', 'minimum film thickness of the whole run')
       call put_figure(file, 'run_max_pressure', self%pressure, 'Pa', 'maximum pressure of the whole run')
@@ -58,7 +58,7 @@ contains
    !> Goes on from those of a file with samples at this interval, s.
    subroutine read_extremes(self, file, interval)
       class(run_extremes_type), intent(inout) :: self
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       real(wp), intent(in) :: interval
       if (.not. has_figure(file, 'run_min_film_thickness')) return
       self%film = figure(file, 'run_min_film_thickness')

@@ -16,7 +16,7 @@ module run_file
    type, extends(growing_file_type) :: run_file_type
       type(provenance_type), private :: provenance
    contains
-      procedure :: create
+      procedure :: start
       procedure :: resume
       procedure :: put_tag
       procedure :: begin_checkpoint
@@ -27,7 +27,7 @@ module run_file
 contains
 
    !> Starts the file of a case under the name claimed; `input` is its resolved namelist.
-   subroutine create(self, inputs, input, error)
+   subroutine start(self, inputs, input, error)
       class(run_file_type), intent(inout) :: self
       character(len=*), intent(in) :: input
       type(case_type), intent(in) :: inputs
@@ -38,20 +38,18 @@ contains
          call self%abandon()
          return
       end if
-      call self%provenance%begin(self%file)
-      associate (file => self%file)
-         call file%put_flag('complete', 0)
-         call file%put_text('title', inputs%about%title)
-         call file%put_text('task', inputs%about%task)
-         call file%put_text('input', input)
-         call file%put_list('pad', [(real(i, wp), i=1, inputs%pad_count())], '1', 'pad number', 'pad')
-         if (inputs%about%task /= 'branch') call put_figure(file, 'speed', inputs%operation%speed_rpm*pi/30, 'rad/s', &
-            & 'shaft speed at the end')
-         call file%put_list('pivot_angle', inputs%pads%pivot_angle_deg*degree, 'rad', 'pivot angle', 'pad')
-      end associate
+      call self%provenance%begin(self)
+      call self%put_flag('complete', 0)
+      call self%put_text('title', inputs%about%title)
+      call self%put_text('task', inputs%about%task)
+      call self%put_text('input', input)
+      call self%put_list('pad', [(real(i, wp), i=1, inputs%pad_count())], '1', 'pad number', 'pad')
+      if (inputs%about%task /= 'branch') call put_figure(self, 'speed', inputs%operation%speed_rpm*pi/30, 'rad/s', &
+         & 'shaft speed at the end')
+      call self%put_list('pivot_angle', inputs%pads%pivot_angle_deg*degree, 'rad', 'pivot angle', 'pad')
       call self%error_of(error)
       if (allocated(error)) call self%abandon()
-   end subroutine create
+   end subroutine start
 
    !> Continues the file of the name claimed from its checkpoint: simulated time t, s, and state.
    subroutine resume(self, t, statistics, error, state)
@@ -66,10 +64,10 @@ contains
       t = 0
       call self%reopen(error)
       if (.not. allocated(error)) then
-         t = self%file%get_real('checkpoint/time')
-         if (present(state)) call self%file%get_list('checkpoint/state', state)
-         call statistics%read(self%file)
-         call self%provenance%resume(self%file, t)
+         t = self%get_real('checkpoint/time')
+         if (present(state)) call self%get_list('checkpoint/state', state)
+         call statistics%read(self)
+         call self%provenance%resume(self, t)
          call self%error_of(error)
          ok = ieee_is_finite(t)
          if (present(state)) ok = ok .and. all(ieee_is_finite(state))
@@ -83,10 +81,10 @@ contains
    subroutine put_tag(self, tag)
       class(run_file_type), intent(inout) :: self
       type(run_tag), intent(in) :: tag
-      call self%file%put_flag('run', tag%number)
-      call self%file%put_flag('runs', tag%runs)
-      call self%file%put_text('sweep', tag%study)
-      call self%file%put_text('study_marks', tag%marks)
+      call self%put_flag('run', tag%number)
+      call self%put_flag('runs', tag%runs)
+      call self%put_text('sweep', tag%study)
+      call self%put_text('study_marks', tag%marks)
    end subroutine put_tag
 
    !> Begins a new checkpoint, at time t, s: what the run goes on from belongs into its group.
@@ -94,9 +92,9 @@ contains
       class(run_file_type), intent(inout) :: self
       real(wp), intent(in) :: t
       ! what it holds may have another size than in the last
-      call self%file%delete('checkpoint')
-      call self%file%make_group('checkpoint')
-      call self%file%put_real('checkpoint/time', t, 's', 'time from which the run can go on')
+      call self%delete('checkpoint')
+      call self%make_group('checkpoint')
+      call self%put_real('checkpoint/time', t, 's', 'time from which the run can go on')
    end subroutine begin_checkpoint
 
    !> Publishes what there is, with the checkpoint that was begun or, of a march, with the state y. With an exit status
@@ -111,10 +109,10 @@ contains
       real(wp), intent(in), optional :: y(:)
       if (present(y)) then
          call self%begin_checkpoint(t)
-         call self%file%put_list('checkpoint/state', y, '1', 'state of the march at that time', '')
+         call self%put_list('checkpoint/state', y, '1', 'state of the march at that time', '')
       end if
-      call statistics%write(self%file)
-      call self%provenance%note(self%file, t, status, reason)
+      call statistics%write(self)
+      call self%provenance%note(self, t, status, reason)
       call self%publish(status == running, error)
    end subroutine checkpoint
 
@@ -127,10 +125,10 @@ contains
       integer, intent(in) :: status
       character(len=*), intent(in) :: reason
       type(error_type), allocatable, intent(out) :: error
-      call self%file%delete('checkpoint')
-      call statistics%write(self%file)
-      call self%provenance%note(self%file, t, status, reason)
-      if (status == 0) call self%file%put_flag('complete', 1)
+      call self%delete('checkpoint')
+      call statistics%write(self)
+      call self%provenance%note(self, t, status, reason)
+      if (status == 0) call self%put_flag('complete', 1)
       call self%publish(.false., error)
    end subroutine finish
 end module run_file

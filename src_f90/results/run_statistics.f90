@@ -100,7 +100,7 @@ contains
 
    subroutine write_all(self, file)
       class(run_statistics_type), intent(in) :: self
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       integer :: k
       if (.not. file%has(group)) call file%make_group(group)
       do k = 1, size(self%figures)
@@ -117,7 +117,7 @@ contains
    !> Gives the figures of the list the values in a file.
    subroutine read_all(self, file)
       class(run_statistics_type), intent(inout) :: self
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       integer :: k
       do k = 1, size(self%figures)
          associate (figure => self%figures(k))

@@ -16,7 +16,7 @@ module summary_group
 contains
 
    subroutine put_number(file, name, value, units, long_name)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: name, units, long_name
       real(wp), intent(in) :: value
       if (.not. file%has(group)) call file%make_group(group)
@@ -25,7 +25,7 @@ contains
 
    !> Of each pad, or of what else the scale `across` counts.
    subroutine put_list(file, name, values, units, long_name, across)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: name, units, long_name
       real(wp), intent(in) :: values(:)
       character(len=*), intent(in), optional :: across
@@ -39,14 +39,14 @@ contains
 
    !> Whether a run has a figure.
    logical function has_figure(file, name)
-      type(hdf5_type), intent(in) :: file
+      class(hdf5_type), intent(in) :: file
       character(len=*), intent(in) :: name
       has_figure = file%has(group//'/'//name)
    end function has_figure
 
    !> A number; 0 where there is none.
    real(wp) function figure(file, name)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: name
       figure = 0
       if (has_figure(file, name)) figure = file%get_real(group//'/'//name)
@@ -54,7 +54,7 @@ contains
 
    !> A number for each pad; 0 where there are none.
    function pad_figures(file, name) result(values)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: name
       real(wp), allocatable :: values(:)
       allocate (values(file%list_size('pad')), source=0.0_wp)

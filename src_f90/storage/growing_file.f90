@@ -1,31 +1,54 @@
-!> A file that grows by samples and can be continued.
+!> An HDF5 file that grows by samples and can be continued: series over one axis (time, or whatever a task follows) grow
+!> together, a sample at a time, and are written a chunk at a time.
 !>
 !> It is written beside its final name and published whole, at checkpoints and at the end, so that a crash at any
 !> moment leaves the last checkpoint, or before the first one the previous file as it was.
 module growing_file
    use kinds, only: wp, i8
    use errors, only: error_type, raise, system_error
+   use clock, only: wall_clock
    use hdf5_file, only: hdf5_type
-   use sample_table, only: sample_table_type
+   use hdf5_series, only: hdf5_series_type, chunk_samples
    use working_file, only: working_file_type
    implicit none (type, external)
    private
    public :: growing_file_type
 
-   type :: growing_file_type
+   type :: series_type
+      character(len=:), allocatable :: name
+      type(hdf5_series_type) :: data
+      !> Values of a sample before its own; its own.
+      integer :: before = 0, width = 0
+   end type series_type
+
+   type, extends(hdf5_type) :: growing_file_type
       type(working_file_type), private :: working
-      !> The open file, and its series, to which samples are added.
-      type(hdf5_type) :: file
-      type(sample_table_type) :: table
       !> Clock of the last beat, s.
       integer, private :: last_beat = 0
+      !> Name of the series that is the scale of all; it is declared first.
+      character(len=:), allocatable, private :: axis
+      !> How many samples there will be, if this is known.
+      integer(i8), private :: expected = 0
+      type(series_type), allocatable, private :: series(:)
+      !> Samples held back, series after series with room for a chunk each, and how many there are.
+      real(wp), allocatable, private :: buffer(:)
+      integer, private :: held = 0
+      !> Of each value of a sample: its place in the buffer for the first sample, and from there to the next.
+      integer, allocatable, private :: place(:), stride(:)
+      !> Samples added, held or in the file, also before the run was resumed.
+      integer(i8) :: samples = 0
+      !> Wall time of writing samples, s.
+      real(wp) :: writing_seconds = 0
    contains
       !> Locks the name of the file, so that no other run writes it, until `abandon`.
       procedure :: claim
       procedure :: begin
       procedure :: reopen
       procedure :: begin_series
-      procedure :: samples
+      !> Names a series; all before the first sample.
+      procedure :: declare
+      procedure :: is_declared
+      procedure :: add
       procedure :: last_samples
       procedure :: part_of_samples
       procedure :: publish
@@ -39,7 +62,11 @@ module growing_file
       !> What has gone wrong with the file so far.
       procedure :: error_of
       procedure, private :: open_part
+      procedure, private :: open_series
+      procedure, private :: close_part
+      procedure, private :: write_held
       procedure, private :: catch_up
+      procedure, private :: copy_missing
    end type growing_file_type
 
 contains
@@ -48,6 +75,7 @@ contains
       class(growing_file_type), intent(inout) :: self
       character(len=*), intent(in) :: path
       type(error_type), allocatable, intent(out) :: error
+      self%series = [series_type ::]
       call self%working%claim(path, error)
    end subroutine claim
 
@@ -56,7 +84,7 @@ contains
       class(growing_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
       call self%working%make_part(error)
-      if (.not. allocated(error)) call self%file%create(self%working%part)
+      if (.not. allocated(error)) call self%create(self%working%part)
    end subroutine begin
 
    !> Opens a copy of the file of the name claimed, to continue it.
@@ -72,7 +100,7 @@ contains
       class(growing_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
       call self%working%check_part(error)
-      if (.not. allocated(error)) call self%file%open(self%working%part, writing=.true.)
+      if (.not. allocated(error)) call self%open(self%working%part, writing=.true.)
    end subroutine open_part
 
    !> Series over an axis, 'time' or another, follow; they start from the samples that are in the file, if any.
@@ -81,14 +109,83 @@ contains
       class(growing_file_type), intent(inout) :: self
       character(len=*), intent(in) :: axis
       integer(i8), intent(in) :: expected
-      call self%table%begin(self%file, axis, expected)
+      type(hdf5_series_type) :: scale
+      self%axis = axis
+      self%expected = expected
+      if (allocated(self%buffer)) deallocate (self%buffer)
+      self%series = [series_type ::]
+      self%place = [integer ::]
+      self%stride = [integer ::]
+      self%held = 0
+      self%samples = 0
+      if (.not. self%has(axis)) return
+      call scale%open(self%hdf5_type, axis)
+      self%samples = scale%length
+      call scale%close(self%hdf5_type)
    end subroutine begin_series
 
-   !> Samples added, also before the run was resumed.
-   integer(i8) function samples(self)
+   !> A series of this number of values over the axis, or, where `across` names another scale, over both. One that is in
+   !> the file must have this width and be as long as all others.
+   subroutine declare(self, name, width, across, units, long_name)
+      class(growing_file_type), intent(inout) :: self
+      character(len=*), intent(in) :: name, across, units, long_name
+      integer, intent(in) :: width
+      type(series_type) :: new
+      integer :: i
+      new%name = name
+      new%width = width
+      new%before = size(self%place)
+      if (self%samples == 0) then
+         call new%data%create(self%hdf5_type, name, merge(width, 0, across /= ''), units, long_name, &
+            & trim(self%axis//' '//across), self%expected)
+      else
+         call new%data%open(self%hdf5_type, name)
+         if (new%data%length /= self%samples .or. new%data%width /= width) call self%check_read(-1, &
+            & 'find all samples of '//name)
+      end if
+      self%series = [self%series, new]
+      self%place = [self%place, (chunk_samples*new%before + i, i=1, width)]
+      self%stride = [self%stride, (width, i=1, width)]
+   end subroutine declare
+
+   !> Whether the series have names.
+   pure logical function is_declared(self)
       class(growing_file_type), intent(in) :: self
-      samples = self%table%samples
-   end function samples
+      is_declared = size(self%series) > 0
+   end function is_declared
+
+   !> A sample: the values of all series, in the order in which they were declared.
+   subroutine add(self, values)
+      class(growing_file_type), intent(inout) :: self
+      real(wp), intent(in), contiguous :: values(:)
+      integer :: i
+      if (.not. allocated(self%buffer)) allocate (self%buffer(chunk_samples*size(values)))
+      ! chunks of the file are filled up, also after a checkpoint in the middle of one
+      if (self%held > 0 .and. mod(self%samples, int(chunk_samples, i8)) == 0) call self%write_held()
+      do i = 1, size(values)
+         self%buffer(self%place(i) + self%stride(i)*self%held) = values(i)
+      end do
+      self%held = self%held + 1
+      self%samples = self%samples + 1
+   end subroutine add
+
+   subroutine write_held(self)
+      class(growing_file_type), intent(inout), target :: self
+      real(wp), pointer, contiguous :: values(:, :)
+      real(wp) :: started
+      integer :: k, o
+      if (self%held == 0) return
+      started = wall_clock()
+      do k = 1, size(self%series)
+         associate (width => self%series(k)%width)
+            o = chunk_samples*self%series(k)%before
+            values(1:width, 1:self%held) => self%buffer(o + 1:o + width*self%held)
+            call self%series(k)%data%append(self%hdf5_type, values)
+         end associate
+      end do
+      self%held = 0
+      self%writing_seconds = self%writing_seconds + wall_clock() - started
+   end subroutine write_held
 
    !> The last n samples of a series, (width, n); n at most the samples there are.
    subroutine last_samples(self, name, n, values)
@@ -96,7 +193,7 @@ contains
       character(len=*), intent(in) :: name
       integer, intent(in) :: n
       real(wp), allocatable, intent(out) :: values(:, :)
-      call self%table%last(self%file, name, n, values)
+      call self%part_of_samples(name, self%samples - n, n, values)
    end subroutine last_samples
 
    !> The n samples of a series behind the first `skip` ones, (width, n).
@@ -106,7 +203,18 @@ contains
       integer(i8), intent(in) :: skip
       integer, intent(in) :: n
       real(wp), allocatable, intent(out) :: values(:, :)
-      call self%table%part(self%file, name, skip, n, values)
+      type(hdf5_series_type) :: data
+      integer :: k
+      call self%write_held()
+      do k = 1, size(self%series)
+         if (self%series(k)%name /= name) cycle
+         call self%series(k)%data%read(self%hdf5_type, skip, n, values)
+         return
+      end do
+      ! not one of this run's own: from before it was resumed
+      call data%open(self%hdf5_type, name)
+      call data%read(self%hdf5_type, skip, n, values)
+      call data%close(self%hdf5_type)
    end subroutine part_of_samples
 
    !> Publishes what there is. With `continued` the writing continues; otherwise the file is closed and the lock freed.
@@ -115,9 +223,8 @@ contains
       logical, intent(in) :: continued
       type(error_type), allocatable, intent(out) :: error
       logical :: exchanged
-      call self%table%write(self%file)
-      call self%table%close(self%file)
-      call self%file%close()
+      call self%write_held()
+      call self%close_part()
       call self%error_of(error)
       if (.not. allocated(error)) call self%working%publish(exchanged, error)
       if (.not. allocated(error) .and. continued) call self%catch_up(exchanged, error)
@@ -135,24 +242,63 @@ contains
          call self%open_part(error)
          if (allocated(error)) return
          call published%open(self%working%path, writing=.false.)
-         call self%table%open(self%file)
-         call self%table%copy_missing(self%file, published)
+         call self%open_series()
+         call self%copy_missing(published)
          call published%close()
-         if (.not. allocated(self%file%failure) .and. .not. allocated(published%failure)) return
-         call self%table%close(self%file)
-         call self%file%close()
+         if (.not. allocated(self%failure) .and. .not. allocated(published%failure)) return
+         call self%close_part()
       end if
       call self%working%copy_published(error)
       if (.not. allocated(error)) call self%open_part(error)
       if (allocated(error)) return
-      call self%table%open(self%file)
+      call self%open_series()
       call self%error_of(error)
    end subroutine catch_up
 
+   !> Adds to a file, whose series are open, the samples that it lacks from another that has them all.
+   subroutine copy_missing(self, whole)
+      class(growing_file_type), intent(inout) :: self
+      type(hdf5_type), intent(inout) :: whole
+      type(hdf5_series_type) :: source
+      real(wp), allocatable :: values(:, :)
+      integer(i8) :: missing
+      integer :: k
+      do k = 1, size(self%series)
+         associate (data => self%series(k)%data)
+            call source%open(whole, self%series(k)%name)
+            do
+               missing = source%length - data%length
+               if (missing <= 0 .or. allocated(self%failure) .or. allocated(whole%failure)) exit
+               ! up to the end of a chunk
+               missing = min(missing, chunk_samples - mod(data%length, int(chunk_samples, i8)))
+               call source%read(whole, data%length, int(missing), values)
+               call data%append(self%hdf5_type, values)
+            end do
+            call source%close(whole)
+         end associate
+      end do
+   end subroutine copy_missing
+
+   subroutine open_series(self)
+      class(growing_file_type), intent(inout) :: self
+      integer :: k
+      do k = 1, size(self%series)
+         call self%series(k)%data%open(self%hdf5_type, self%series(k)%name)
+      end do
+   end subroutine open_series
+
+   subroutine close_part(self)
+      class(growing_file_type), intent(inout) :: self
+      integer :: k
+      do k = 1, size(self%series)
+         call self%series(k)%data%close(self%hdf5_type)
+      end do
+      call self%close()
+   end subroutine close_part
+
    subroutine abandon(self)
       class(growing_file_type), intent(inout) :: self
-      call self%table%close(self%file)
-      call self%file%close()
+      call self%close_part()
       call self%working%release()
    end subroutine abandon
 
@@ -181,11 +327,11 @@ contains
    subroutine error_of(self, error)
       class(growing_file_type), intent(in) :: self
       type(error_type), allocatable, intent(out) :: error
-      if (.not. allocated(self%file%failure)) return
-      if (self%file%damaged) then
-         call raise(error, system_error, self%working%path//': damaged: '//self%file%failure)
+      if (.not. allocated(self%failure)) return
+      if (self%damaged) then
+         call raise(error, system_error, self%working%path//': damaged: '//self%failure)
       else
-         call raise(error, system_error, 'cannot write '//self%working%path//': '//self%file%failure)
+         call raise(error, system_error, 'cannot write '//self%working%path//': '//self%failure)
       end if
    end subroutine error_of
 end module growing_file

@@ -61,7 +61,7 @@ contains
    end subroutine read_all
 
    recursive subroutine read_group(file, group)
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: group
       type(hdf5_series_type) :: data
       real(wp), allocatable :: values(:, :)

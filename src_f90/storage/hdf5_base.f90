@@ -46,7 +46,7 @@ module hdf5_base
       procedure :: check_read
       procedure :: write_attribute
       procedure, private :: open_attribute
-      procedure, private :: begin
+      procedure, private :: ready
    end type hdf5_base_type
 
    interface
@@ -90,18 +90,18 @@ contains
       ignored = c_allow_libraries(0_c_int)
    end subroutine start_hdf5
 
-   subroutine begin(self)
+   subroutine ready(self)
       class(hdf5_base_type), intent(inout) :: self
       call start_hdf5()
       if (allocated(self%failure)) deallocate (self%failure)
       self%damaged = .false.
-   end subroutine begin
+   end subroutine ready
 
    subroutine create(self, path)
       class(hdf5_base_type), intent(inout) :: self
       character(len=*), intent(in) :: path
       integer :: status
-      call self%begin()
+      call self%ready()
       call h5fcreate_f(path, h5f_acc_trunc_f, self%id, status)
       call self%check(status, 'create the file')
    end subroutine create
@@ -112,7 +112,7 @@ contains
       logical, intent(in) :: writing
       integer :: status
       logical :: exists
-      call self%begin()
+      call self%ready()
       call h5fopen_f(path, merge(h5f_acc_rdwr_f, h5f_acc_rdonly_f, writing), self%id, status)
       ! where it could not write HDF5 looks for other files, too
       inquire (file=path, exist=exists)

@@ -39,7 +39,7 @@ contains
    !> many samples it will have, if this is known; HDF5 takes room for whole chunks.
    subroutine create(self, file, path, width, units, long_name, scales, expected)
       class(hdf5_series_type), intent(inout) :: self
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: path, units, long_name, scales
       integer, intent(in) :: width
       integer(i8), intent(in) :: expected
@@ -72,7 +72,7 @@ contains
    !> An existing dataset, of (axis) or (axis, width).
    subroutine open_series(self, file, path)
       class(hdf5_series_type), intent(inout) :: self
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: path
       integer(hsize_t) :: dims(2), most(2)
       integer(hid_t) :: space, access
@@ -111,7 +111,7 @@ contains
    !> Adds samples, values(width, samples), in memory order.
    subroutine append(self, file, values)
       class(hdf5_series_type), intent(inout) :: self
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       real(wp), intent(in), contiguous, target :: values(:, :)
       integer(hsize_t) :: dims(2)
       integer(hid_t) :: memory, space
@@ -132,7 +132,7 @@ contains
    !> The n samples behind the first `skip` ones, values(width, n).
    subroutine read_part(self, file, skip, n, values)
       class(hdf5_series_type), intent(in) :: self
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       integer(i8), intent(in) :: skip
       integer, intent(in) :: n
       real(wp), allocatable, target, intent(out) :: values(:, :)
@@ -168,7 +168,7 @@ contains
 
    subroutine close_series(self, file)
       class(hdf5_series_type), intent(inout) :: self
-      type(hdf5_type), intent(inout) :: file
+      class(hdf5_type), intent(inout) :: file
       integer :: status
       if (self%id < 0) return
       call h5dclose_f(self%id, status)

@@ -216,7 +216,7 @@ contains
       call expect_no_error(error, 'claimed')
       call file%begin(error)
       call expect_no_error(error, 'begun')
-      call file%file%put_list('pad', [1.0_wp, 2.0_wp], '1', 'pad number', 'pad')
+      call file%put_list('pad', [1.0_wp, 2.0_wp], '1', 'pad number', 'pad')
       call file%begin_series('frequency', 5000_i8)
    end subroutine begin_new
 
@@ -225,12 +225,12 @@ contains
       type(growing_file_type), intent(inout) :: file
       integer, intent(in) :: first, last
       integer :: k
-      if (.not. file%table%is_declared()) then
-         call file%table%declare(file%file, 'frequency', 1, '', 'Hz', 'frequency')
-         call file%table%declare(file%file, 'amplitude', 2, 'pad', 'm', 'amplitude')
+      if (.not. file%is_declared()) then
+         call file%declare('frequency', 1, '', 'Hz', 'frequency')
+         call file%declare('amplitude', 2, 'pad', 'm', 'amplitude')
       end if
       do k = first, last
-         call file%table%add(file%file, [real(k, wp), amplitude(k)])
+         call file%add([real(k, wp), amplitude(k)])
       end do
    end subroutine add_samples
 
@@ -270,7 +270,7 @@ contains
       before = 0
       do i = 1, size(ends)
          call add_samples(file, before + 1, ends(i))
-         call expect(file%samples() == ends(i), 'samples are counted')
+         call expect(file%samples == ends(i), 'samples are counted')
          if (i > 1) call expect_samples(before)
          call file%publish(continued=i < size(ends), error=error)
          call expect_no_error(error, 'published '//to_text(ends(i)))
@@ -291,7 +291,7 @@ contains
       call later%reopen(error)
       call expect_no_error(error, 'opened again')
       call later%begin_series('frequency', 5000_i8)
-      call expect(later%samples() == 4000_i8, 'the samples in the file count')
+      call expect(later%samples == 4000_i8, 'the samples in the file count')
       call add_samples(later, 4001, 4500)
       call later%publish(continued=.true., error=error)
       call expect_no_error(error, 'published')
@@ -344,10 +344,10 @@ contains
       call file%claim(path, error)
       call file%begin(error)
       call expect_no_error(error, 'begun')
-      call file%file%put_real('value', 1.5_wp, '1', 'a value')
+      call file%put_real('value', 1.5_wp, '1', 'a value')
       call file%publish(continued=.true., error=error)
       call expect_no_error(error, 'published without series')
-      call expect(file%samples() == 0, 'no samples')
+      call expect(file%samples == 0, 'no samples')
       call file%publish(continued=.false., error=error)
       call expect_no_error(error, 'and closed')
       call found%open(path, writing=.false.)
