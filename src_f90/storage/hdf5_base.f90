@@ -3,11 +3,12 @@
 module hdf5_base
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_loc, c_null_char, c_null_ptr, c_ptr
    use hdf5, only: hid_t, hsize_t, size_t, h5open_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5fopen_f, &
-      & h5fclose_f, h5f_acc_trunc_f, h5f_acc_rdonly_f, h5f_acc_rdwr_f, h5gcreate_f, h5gclose_f, h5screate_f, &
-      & h5sclose_f, h5s_scalar_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, h5tis_variable_str_f, h5tget_super_f, &
-      & h5tget_size_f, h5t_string, h5t_cset_utf8_f, h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, &
-      & h5aget_type_f, h5adelete_f, h5aexists_f, h5aget_space_f, h5sget_simple_extent_npoints_f, h5lexists_f, &
-      & h5ldelete_f, h5t_native_integer
+      & h5fclose_f, h5f_acc_trunc_f, h5f_acc_rdonly_f, h5f_acc_rdwr_f, h5f_libver_v110_f, h5p_file_access_f, &
+      & h5pcreate_f, h5pset_libver_bounds_f, h5pclose_f, h5gcreate_f, h5gclose_f, h5screate_f, h5sclose_f, &
+      & h5s_scalar_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, h5tis_variable_str_f, h5tget_super_f, h5tget_size_f, &
+      & h5t_string, h5t_cset_utf8_f, h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, h5aget_type_f, &
+      & h5adelete_f, h5aexists_f, h5aget_space_f, h5sget_simple_extent_npoints_f, h5lexists_f, h5ldelete_f, &
+      & h5t_native_integer
    use system_texts, only: fortran_text
    use processes, only: set_environment
    use system_texts, only: write_refusal, forget_missing
@@ -15,6 +16,8 @@ module hdf5_base
    private
    public :: hdf5_base_type, start_hdf5
 
+   !> Version of a file's first structure from which on all have checksums (HDF5 1.10), and its byte in the file.
+   integer, parameter :: first_with_checksums = 3, version_place = 9
    !> HDF5's number of the class of links to other files.
    integer(c_int), parameter :: external_links = 64
 
@@ -100,10 +103,15 @@ contains
    subroutine create(self, path)
       class(hdf5_base_type), intent(inout) :: self
       character(len=*), intent(in) :: path
+      integer(hid_t) :: access
       integer :: status
       call self%ready()
-      call h5fcreate_f(path, h5f_acc_trunc_f, self%id, status)
+      call h5pcreate_f(h5p_file_access_f, access, status)
+      ! from this version on all structures have checksums, and damaged ones are refused before they do harm
+      call h5pset_libver_bounds_f(access, h5f_libver_v110_f, h5f_libver_v110_f, status)
+      if (status >= 0) call h5fcreate_f(path, h5f_acc_trunc_f, self%id, status, access_prp=access)
       call self%check(status, 'create the file')
+      call h5pclose_f(access, status)
    end subroutine create
 
    subroutine open_file(self, path, writing)
@@ -119,7 +127,22 @@ contains
       if (status < 0 .and. exists) call forget_missing()
       call self%check(status, 'open the file')
       if (status < 0) self%id = -1
+      if (status < 0 .or. .not. writing) return
+      ! HDF5 may crash where it changes damaged structures that have none
+      if (.not. has_checksums(path)) call self%check(-1, 'find checksums in it; start the run anew')
    end subroutine open_file
+
+   !> Whether all structures of an HDF5 file have checksums.
+   logical function has_checksums(path)
+      character(len=*), intent(in) :: path
+      character :: version
+      integer :: unit, status
+      open (newunit=unit, file=path, access='stream', action='read', iostat=status)
+      if (status == 0) read (unit, pos=version_place, iostat=status) version
+      has_checksums = status == 0
+      if (has_checksums) has_checksums = ichar(version) >= first_with_checksums
+      close (unit, iostat=status)
+   end function has_checksums
 
    subroutine close_file(self)
       class(hdf5_base_type), intent(inout) :: self

@@ -559,3 +559,17 @@ def test_a_checkpoint_that_does_not_fit_its_samples(tiltpad, stopped):
         done = tiltpad("--resume", "case.h5", cwd=stopped, status=3)
         assert re.match(r"tiltpad: error: \S*case\.h5: damaged: ", done.stderr), done.stderr
         assert "no such file" not in done.stderr
+
+
+def test_a_file_without_checksums(tiltpad, stopped):
+    """HDF5 may crash where it changes damaged structures that have none: such a file is not continued."""
+    path = stopped / "case.h5"
+    path.rename(stopped / "sound.h5")
+    with h5py.File(stopped / "sound.h5") as sound, h5py.File(path, "w", libver="earliest") as file:
+        file.attrs.update(sound.attrs)
+        for name in sound:
+            sound.copy(name, file)
+    before = path.read_bytes()
+    done = tiltpad("--resume", "case.h5", cwd=stopped, status=3)
+    assert done.stderr.endswith("HDF5 could not find checksums in it; start the run anew\n")
+    assert path.read_bytes() == before
