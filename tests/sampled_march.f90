@@ -2,9 +2,8 @@
 module sampled_march
    use kinds, only: wp, i8
    use errors, only: error_type
-   use ode_model, only: ode_model_type
+   use ode_model, only: ode_model_type, integrator_counts_type
    use cvode_integrator, only: integrator_type, integrator_options
-   use integrator_counts, only: integrator_counts_type
    use check, only: expect_no_error
    implicit none (type, external)
    private

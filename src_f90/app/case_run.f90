@@ -4,11 +4,11 @@ module case_run
    use case_inputs, only: case_type
    use parameter_study, only: run_tag
    use errors, only: error_type, stopped
-   use integrator_counts, only: integrator_counts_type
+   use ode_model, only: integrator_counts_type
    use equations_of_motion, only: bearing_model
    use run_file, only: run_file_type
    use provenance, only: running
-   use run_extremes, only: run_extremes_type
+   use summary_group, only: run_extremes_type
    use march_figures, only: put_march_figures
    use run_statistics, only: run_statistics_type
    use clock, only: wall_clock

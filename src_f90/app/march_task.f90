@@ -3,12 +3,13 @@ module march_task
    use kinds, only: wp
    use errors, only: error_type, raise, system_error
    use marching, only: march, sample_plan
-   use integrator_counts, only: integrator_counts_type
+   use ode_model, only: integrator_counts_type
    use result_size, only: sample_interval, sample_count
    use case_run, only: case_run_type
    use march_settings, only: march_settings_of
    use run_start, only: make_start, continue_from_checkpoint
-   use recorder, only: recorder_type, begin_recording, write_spectra
+   use march_results, only: put_spectra
+   use recorder, only: recorder_type, begin_recording
    implicit none (type, external)
    private
    public :: run_march
@@ -43,7 +44,7 @@ contains
          & run%inputs%operation%duration, plan, y, observer, counts, error)
       run%counts = counts
       call observer%progress%clear()
-      if (.not. allocated(error)) call write_spectra(run%inputs, plan%interval, run%file)
+      if (.not. allocated(error)) call put_spectra(run%file, run%inputs, plan%interval)
    end subroutine run_march
 
    !> Refuses a file whose samples end elsewhere than its checkpoint at time t, s, says.

@@ -5,12 +5,12 @@ module periodic_task
    use errors, only: error_type, raise, stopped, numerics_error
    use marching, only: sample_plan
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit, are_stable, loss_of_stability
-   use periodic_results, only: put_periodic
+   use march_results, only: put_periodic, put_spectra
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use march_settings, only: march_settings_of
    use run_start, only: make_start, continue_from_checkpoint
-   use recorder, only: recorder_type, begin_recording, write_spectra
+   use recorder, only: recorder_type, begin_recording
    implicit none (type, external)
    private
    public :: run_periodic
@@ -70,7 +70,7 @@ contains
          call observer%sample(t, y, run%model%output(none), error)
          if (allocated(error)) return
       end do
-      call write_spectra(run%inputs, plan%interval, run%file)
+      call put_spectra(run%file, run%inputs, plan%interval)
    end subroutine record_orbit
 
    !> Period, stability and effort.

@@ -3,21 +3,18 @@ module recorder
    use kinds, only: wp, i8
    use text, only: to_text
    use errors, only: error_type, raise, stopped
-   use march_observer, only: march_observer_type
-   use integrator_counts, only: integrator_counts_type
+   use marching, only: march_observer_type
+   use ode_model, only: integrator_counts_type
    use loops, only: periodicity, new_periodicity
    use equations_of_motion, only: model_sample
-   use case_inputs, only: case_type
-   use spectra, only: one_sided_amplitude, full_amplitude
-   use march_results, only: add_sample, put_spectrum
-   use run_file, only: run_file_type
+   use march_results, only: add_sample
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use clock, only: wall_clock
    use progress, only: progress_type, new_progress
    implicit none (type, external)
    private
-   public :: recorder_type, begin_recording, write_spectra
+   public :: recorder_type, begin_recording
 
    type, extends(march_observer_type) :: recorder_type
       type(case_run_type), pointer, private :: run => null()
@@ -144,32 +141,4 @@ contains
          self%checkpoint_due = .false.
       end if
    end subroutine take_state
-
-   !> Spectra over the last whole revolutions of a run at constant speed; none where it was not sampled
-   !> over one.
-   subroutine write_spectra(inputs, interval, file)
-      type(case_type), intent(in) :: inputs
-      !> Between samples, s.
-      real(wp), intent(in) :: interval
-      type(run_file_type), intent(inout) :: file
-      real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), amplitudes(:, :)
-      integer :: revolutions, n, i
-      if (.not. inputs%is_steady()) return
-      associate (samples => inputs%output%samples_per_revolution)
-         revolutions = int(min(int(inputs%output%spectrum_revolutions, i8), (file%samples - 1)/samples))
-         n = revolutions*samples
-      end associate
-      if (revolutions == 0 .or. n < 2) return
-      call file%last_samples('journal_y', n, y)
-      call file%last_samples('journal_z', n, z)
-      if (inputs%tilting()) then
-         call file%last_samples('pad_tilt', n, tilt)
-         allocate (amplitudes(n/2 + 1, inputs%pad_count()))
-         do i = 1, inputs%pad_count()
-            amplitudes(:, i) = one_sided_amplitude(tilt(i, :))
-         end do
-      end if
-      call put_spectrum(file, interval, revolutions, inputs%highest_speed(), one_sided_amplitude(y(1, :)), &
-         & one_sided_amplitude(z(1, :)), full_amplitude(cmplx(y(1, :), z(1, :), wp)), amplitudes)
-   end subroutine write_spectra
 end module recorder

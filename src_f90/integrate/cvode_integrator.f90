@@ -1,5 +1,5 @@
-!> Integrates an ode_model step by step with CVODE (BDF, Newton). It, cvode_failures, sundials_context and
-!> vector_operations alone know SUNDIALS.
+!> Integrates an ode_model step by step with CVODE (BDF, Newton). It, sundials_context and vector_operations
+!> alone know SUNDIALS.
 module cvode_integrator
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
    use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodewftolerances, fcvodesetuserdata, &
@@ -9,8 +9,8 @@ module cvode_integrator
       & fcvodefree, fcvodegetnumrhsevals, fcvodegetnumjacevals, fcvodegetnumerrtestfails, &
       & fcvodegetnumnonlinsolvconvfails, fcvodegetcurrentstep, fcvodegetlastorder, cv_bdf, cv_one_step, &
       & cv_first_rhsfunc_err
-   use sundials_context, only: index_kind, new_context, free_context, silence, n_vector, fn_vdestroy, sunmatrix, &
-      & fsunmatdestroy, sunlinearsolver, sunlinearsolver_ops, sunlinearsolver_direct, fsunlinsolnewempty, &
+   use sundials_context, only: index_kind, new_context, free_context, silence, cvode_failure, n_vector, fn_vdestroy, &
+      & sunmatrix, fsunmatdestroy, sunlinearsolver, sunlinearsolver_ops, sunlinearsolver_direct, fsunlinsolnewempty, &
       & fsunlinsolfreeempty
    use fnvector_serial_mod, only: fn_vmake_serial
    use vector_operations, only: use_own_operations, numbers
@@ -18,9 +18,7 @@ module cvode_integrator
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error
-   use ode_model, only: ode_model_type
-   use integrator_counts, only: integrator_counts_type
-   use cvode_failures, only: cvode_failure
+   use ode_model, only: ode_model_type, integrator_counts_type
    use step_history, only: step_history_type, new_step_history
    implicit none (type, external)
    private

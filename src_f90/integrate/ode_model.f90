@@ -1,9 +1,10 @@
-!> What an integrator needs to know of a problem: y' = f(t, y), its derivatives, and Newton's linear systems.
+!> What an integrator needs to know of a problem: y' = f(t, y), its derivatives, and Newton's linear systems; and what an
+!> integration cost.
 module ode_model
-   use kinds, only: wp
+   use kinds, only: wp, i8
    implicit none (type, external)
    private
-   public :: ode_model_type
+   public :: ode_model_type, integrator_counts_type
 
    type, abstract :: ode_model_type
       !> Number of states.
@@ -27,6 +28,16 @@ module ode_model
       !> What may soon stop the integration in the state evaluated last, for its message; else empty.
       procedure :: warning
    end type ode_model_type
+
+   !> What an integration cost.
+   type :: integrator_counts_type
+      integer(i8) :: steps = 0, rhs_evaluations = 0, jacobian_evaluations = 0
+      !> Steps that the error test refused; Newton iterations that failed.
+      integer(i8) :: error_test_failures = 0, convergence_failures = 0
+   contains
+      procedure, private :: plus
+      generic :: operator(+) => plus
+   end type integrator_counts_type
 
    abstract interface
       !> f(t, y). `ok = .false.` refuses the state (the step is then shortened) and sets `refusal`.
@@ -113,4 +124,14 @@ contains
       character(len=:), allocatable :: warning
       warning = ''
    end function warning
+
+   !> What two integrations cost, one after the other.
+   elemental type(integrator_counts_type) function plus(self, other)
+      class(integrator_counts_type), intent(in) :: self, other
+      plus%steps = self%steps + other%steps
+      plus%rhs_evaluations = self%rhs_evaluations + other%rhs_evaluations
+      plus%jacobian_evaluations = self%jacobian_evaluations + other%jacobian_evaluations
+      plus%error_test_failures = self%error_test_failures + other%error_test_failures
+      plus%convergence_failures = self%convergence_failures + other%convergence_failures
+   end function plus
 end module ode_model

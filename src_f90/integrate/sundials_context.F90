@@ -1,5 +1,6 @@
 #include "sundials/sundials_config.h"
-!> What differs between SUNDIALS 6 and 7: the context of its objects, its messages, the kind of its indices.
+!> What differs between SUNDIALS 6 and 7: the context of its objects, its messages, the kind of its indices; and what a
+!> failure of CVODE means.
 module sundials_context
    use, intrinsic :: iso_c_binding, only: c_int, c_int32_t, c_int64_t, c_null_ptr, c_ptr
 #if SUNDIALS_VERSION_MAJOR >= 7
@@ -14,9 +15,12 @@ module sundials_context
       & fsunlinsolnewempty, fsunlinsolfreeempty
    use fcvode_mod, only: fcvodeseterrfile
 #endif
+   use fcvode_mod, only: cv_err_failure, cv_conv_failure, cv_too_much_acc, cv_rhsfunc_fail, cv_first_rhsfunc_err, &
+      & cv_reptd_rhsfunc_err, cv_unrec_rhsfunc_err, cv_lsetup_fail
+   use text, only: to_text
    implicit none (type, external)
    private
-   public :: index_kind, new_context, free_context, silence
+   public :: index_kind, new_context, free_context, silence, cvode_failure
    public :: n_vector, n_vector_ops, fn_vdestroy, sunmatrix, fsunmatdestroy, sunlinearsolver, sunlinearsolver_ops, &
       & sunlinearsolver_direct, fsunlinsolnewempty, fsunlinsolfreeempty
 
@@ -55,4 +59,22 @@ contains
       flag = fcvodeseterrfile(memory, c_null_ptr)
 #endif
    end subroutine silence
+
+   !> What a negative flag of CVODE means.
+   pure function cvode_failure(flag) result(reason)
+      integer(c_int), intent(in) :: flag
+      character(len=:), allocatable :: reason
+      select case (flag)
+      case (cv_err_failure)
+         reason = 'the error test kept failing'
+      case (cv_conv_failure)
+         reason = 'the Newton iteration kept failing'
+      case (cv_too_much_acc)
+         reason = 'the tolerances are finer than the machine can resolve'
+      case (cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_reptd_rhsfunc_err, cv_unrec_rhsfunc_err, cv_lsetup_fail)
+         reason = 'the equations of motion could not be evaluated'
+      case default
+         reason = 'CVODE gave up with code '//to_text(int(flag))
+      end select
+   end function cvode_failure
 end module sundials_context

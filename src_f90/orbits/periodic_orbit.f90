@@ -7,7 +7,7 @@ module periodic_orbit
    use linear_algebra, only: zgesv
    use operating_point, only: operating_point_type
    use marching, only: march_options
-   use integrator_counts, only: integrator_counts_type
+   use ode_model, only: integrator_counts_type
    use cvode_integrator, only: integrator_type
    use equations_of_motion, only: bearing_model
    use orbit_polynomials, only: orbit_type

@@ -1,7 +1,6 @@
 !> Figures of a march or a periodic orbit, from its samples: of the last revolution, of the last revolutions (as many as
 !> the spectra may have), and of the whole run. Console, report and studies take them from the file.
 module march_figures
-   ! heap: arrays as long as the last revolutions
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, i8, pi, degree
    use text, only: to_text, fixed_text
@@ -9,8 +8,7 @@ module march_figures
    use loops, only: path_integral, harmonic, slow_share
    use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, evenly
    use run_file, only: run_file_type
-   use run_extremes, only: run_extremes_type
-   use summary_group, only: put_figure
+   use summary_group, only: put_figure, run_extremes_type
    implicit none (type, external)
    private
    public :: put_march_figures, pad_diagnosis

@@ -1,15 +1,19 @@
-!> What the file of a run says of its march, samples and spectra: names, dimensions and units as docs/results.md lists
-!> them.
+!> What the file of a run says of its march or periodic orbit, samples and spectra: names, dimensions and units as
+!> docs/results.md lists them.
 module march_results
    use kinds, only: wp, i8, pi
    use errors, only: error_type
+   use case_inputs, only: case_type
+   use spectra, only: one_sided_amplitude, full_amplitude
+   use periodic_orbit, only: periodic_orbit_type, are_stable
    use hdf5_file, only: hdf5_type
+   use summary_group, only: put_figure
    use viscosity_history, only: viscosity_history_type
    use equations_of_motion, only: model_sample
    use run_file, only: run_file_type
    implicit none (type, external)
    private
-   public :: add_sample, put_spectrum, put_viscosity, put_viscosity_history
+   public :: add_sample, put_spectra, put_viscosity, put_viscosity_history, put_periodic
 
    !> Values of a sample: of the journal, and of a pad at most.
    integer, parameter :: of_journal = 7, of_pad = 12
@@ -104,32 +108,78 @@ contains
       call file%put_table('oil/viscosity', viscosity, 'Pa s', 'viscosity of the oil on each pad', 'oil/time pad')
    end subroutine put_viscosity_history
 
-   !> Amplitude spectra over the last revolutions of a run at constant speed, rad/s.
-   subroutine put_spectrum(file, interval, revolutions, speed, journal_y, journal_z, journal_full, tilt)
-      class(hdf5_type), intent(inout) :: file
+   !> Writes amplitude spectra over the last whole revolutions of a run at constant speed; none where it was not sampled
+   !> over one.
+   subroutine put_spectra(file, inputs, interval)
+      type(run_file_type), intent(inout) :: file
+      type(case_type), intent(in) :: inputs
       !> Between samples, s.
       real(wp), intent(in) :: interval
-      integer, intent(in) :: revolutions
-      real(wp), intent(in) :: speed
-      !> One-sided, at k/T; full, at k/T with k = -((n-1)/2) .. n/2; one-sided (k, pad) of pads that tilt.
-      real(wp), intent(in) :: journal_y(:), journal_z(:), journal_full(:)
-      real(wp), intent(in), optional :: tilt(:, :)
+      real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), amplitudes(:, :)
       real(wp) :: step
-      integer :: k, n
-      n = size(journal_full)
+      integer :: revolutions, n, i, k
+      if (.not. inputs%is_steady()) return
+      associate (samples => inputs%output%samples_per_revolution)
+         revolutions = int(min(int(inputs%output%spectrum_revolutions, i8), (file%samples - 1)/samples))
+         n = revolutions*samples
+      end associate
+      if (revolutions == 0 .or. n < 2) return
       step = 1/(n*interval)
       call file%make_group('spectrum')
-      call file%put_list('spectrum/frequency', [(k*step, k=0, n/2)], 'Hz', 'frequency', 'spectrum/frequency')
-      call file%put_list('spectrum/order', [(k*step, k=0, n/2)]*2*pi/speed, '1', &
-         & 'frequency over shaft frequency', 'spectrum/frequency')
-      call file%put_list('spectrum/journal_y', journal_y, 'm', 'amplitude of journal_y', 'spectrum/frequency')
-      call file%put_list('spectrum/journal_z', journal_z, 'm', 'amplitude of journal_z', 'spectrum/frequency')
-      if (present(tilt)) call file%put_table('spectrum/pad_tilt', tilt, 'rad', 'amplitude of pad_tilt', &
-         & 'pad spectrum/frequency')
-      call file%put_list('spectrum/full_frequency', [(k*step, k=-((n - 1)/2), n/2)], 'Hz', &
-         & 'frequency, positive for forward whirl', 'spectrum/full_frequency')
-      call file%put_list('spectrum/journal_full', journal_full, 'm', &
-         & 'amplitude of journal_y + i journal_z', 'spectrum/full_frequency')
+      call put('frequency', [(k*step, k=0, n/2)], 'Hz', 'frequency', 'frequency')
+      call put('order', [(k*step, k=0, n/2)]*2*pi/inputs%highest_speed(), '1', 'frequency over shaft frequency', &
+         & 'frequency')
+      call file%last_samples('journal_y', n, y)
+      call file%last_samples('journal_z', n, z)
+      call put('journal_y', one_sided_amplitude(y(1, :)), 'm', 'amplitude of journal_y', 'frequency')
+      call put('journal_z', one_sided_amplitude(z(1, :)), 'm', 'amplitude of journal_z', 'frequency')
+      if (inputs%tilting()) then
+         call file%last_samples('pad_tilt', n, tilt)
+         allocate (amplitudes(n/2 + 1, inputs%pad_count()))
+         do i = 1, inputs%pad_count()
+            amplitudes(:, i) = one_sided_amplitude(tilt(i, :))
+         end do
+         call file%put_table('spectrum/pad_tilt', amplitudes, 'rad', 'amplitude of pad_tilt', 'pad spectrum/frequency')
+      end if
+      ! at k/T with k = -((n-1)/2) .. n/2
+      call put('full_frequency', [(k*step, k=-((n - 1)/2), n/2)], 'Hz', 'frequency, positive for forward whirl', &
+         & 'full_frequency')
+      call put('journal_full', full_amplitude(cmplx(y(1, :), z(1, :), wp)), 'm', &
+         & 'amplitude of journal_y + i journal_z', 'full_frequency')
       call file%put_count('spectrum/revolutions', int(revolutions, i8), 'revolutions covered')
-   end subroutine put_spectrum
+   contains
+      subroutine put(name, values, units, long_name, over)
+         character(len=*), intent(in) :: name, units, long_name, over
+         real(wp), intent(in) :: values(:)
+         call file%put_list('spectrum/'//name, values, units, long_name, 'spectrum/'//over)
+      end subroutine put
+   end subroutine put_spectra
+
+   !> Writes a periodic orbit and its stability; its period has so many revolutions of the shaft.
+   subroutine put_periodic(file, found, revolutions)
+      class(hdf5_type), intent(inout) :: file
+      type(periodic_orbit_type), intent(in) :: found
+      integer, intent(in) :: revolutions
+      integer :: k
+      associate (values => found%multipliers)
+         call file%put_list('multiplier', [(real(k, wp), k=1, size(values))], '1', 'multiplier number', 'multiplier')
+         call file%make_group('periodic')
+         call file%put_real('periodic/period', found%period, 's', 'period of the orbit')
+         call file%put_count('periodic/revolutions', int(revolutions, i8), 'revolutions of the shaft in a period')
+         call file%put_real('periodic/residual', found%residual, '1', &
+            & 'largest residual of the equations, over the size of the states')
+         call file%put_count('periodic/iterations', int(found%iterations, i8), 'iterations of Newton''s method')
+         call file%put_count('periodic/intervals', int(found%orbit%intervals(), i8), 'intervals of the collocation')
+         call file%put_count('periodic/evaluations', found%evaluations, &
+            & 'evaluations of the equations with their derivatives in all iterations')
+         call file%put_count('periodic/marched_periods', int(found%marched, i8), 'periods of the march before them')
+         call put_figure(file, 'leading_multiplier_real', values(1)%re, '1', 'leading multiplier, real part')
+         call put_figure(file, 'leading_multiplier_imag', values(1)%im, '1', 'leading multiplier, imaginary part')
+         call put_figure(file, 'leading_multiplier_modulus', abs(values(1)), '1', 'leading multiplier, modulus')
+         call file%put_list('periodic/multiplier_real', values%re, '1', 'multiplier, real part', 'multiplier')
+         call file%put_list('periodic/multiplier_imag', values%im, '1', 'multiplier, imaginary part', 'multiplier')
+         call file%put_count('periodic/stable', merge(1_i8, 0_i8, are_stable(found%multipliers)), &
+            & '1 where all multipliers are inside the unit circle')
+      end associate
+   end subroutine put_periodic
 end module march_results

@@ -11,8 +11,7 @@ module run_statistics
    type :: figure_type
       character(len=:), allocatable :: name, long_name
       logical :: counts = .true.
-      integer(i8) :: count = 0
-      real(wp) :: seconds = 0
+      real(wp) :: value = 0
    end type figure_type
 
    type :: run_statistics_type
@@ -40,48 +39,37 @@ contains
       class(run_statistics_type), intent(inout) :: self
       character(len=*), intent(in) :: name, long_name
       integer(i8), intent(in) :: value
-      call append(self, figure_type(name, long_name, counts=.true., count=value))
+      call append(self, figure_type(name, long_name, .true., real(value, wp)))
    end subroutine put_count
 
    subroutine put_seconds(self, name, value, long_name)
       class(run_statistics_type), intent(inout) :: self
       character(len=*), intent(in) :: name, long_name
       real(wp), intent(in) :: value
-      call append(self, figure_type(name, long_name, counts=.false., seconds=value))
+      call append(self, figure_type(name, long_name, .false., value))
    end subroutine put_seconds
 
    subroutine append(self, figure)
       type(run_statistics_type), intent(inout) :: self
       type(figure_type), intent(in) :: figure
-      type(figure_type), allocatable :: longer(:)
-      integer :: n
-      n = 0
-      if (allocated(self%figures)) n = size(self%figures)
-      allocate (longer(n + 1))
-      if (n > 0) longer(:n) = self%figures
-      longer(n + 1) = figure
-      call move_alloc(longer, self%figures)
+      if (.not. allocated(self%figures)) allocate (self%figures(0))
+      self%figures = [self%figures, figure]
    end subroutine append
 
    pure integer(i8) function count_of(self, name) result(count)
       class(run_statistics_type), intent(in) :: self
       character(len=*), intent(in) :: name
-      integer :: k
-      count = 0
-      if (.not. allocated(self%figures)) return
-      do k = 1, size(self%figures)
-         if (self%figures(k)%name == name) count = self%figures(k)%count
-      end do
+      count = nint(self%seconds(name), i8)
    end function count_of
 
-   pure real(wp) function seconds_of(self, name) result(seconds)
+   pure real(wp) function seconds_of(self, name) result(value)
       class(run_statistics_type), intent(in) :: self
       character(len=*), intent(in) :: name
       integer :: k
-      seconds = 0
+      value = 0
       if (.not. allocated(self%figures)) return
       do k = 1, size(self%figures)
-         if (self%figures(k)%name == name) seconds = self%figures(k)%seconds
+         if (self%figures(k)%name == name) value = self%figures(k)%value
       end do
    end function seconds_of
 
@@ -91,10 +79,7 @@ contains
       class(run_statistics_type), intent(in) :: other
       integer :: k
       do k = 1, size(self%figures)
-         associate (figure => self%figures(k))
-            figure%count = figure%count + other%count(figure%name)
-            figure%seconds = figure%seconds + other%seconds(figure%name)
-         end associate
+         self%figures(k)%value = self%figures(k)%value + other%seconds(self%figures(k)%name)
       end do
    end subroutine add
 
@@ -104,11 +89,11 @@ contains
       integer :: k
       if (.not. file%has(group)) call file%make_group(group)
       do k = 1, size(self%figures)
-         associate (figure => self%figures(k))
+         associate (figure => self%figures(k), path => group//'/'//self%figures(k)%name)
             if (figure%counts) then
-               call file%put_count(group//'/'//figure%name, figure%count, figure%long_name)
+               call file%put_count(path, nint(figure%value, i8), figure%long_name)
             else
-               call file%put_real(group//'/'//figure%name, figure%seconds, 's', figure%long_name)
+               call file%put_real(path, figure%value, 's', figure%long_name)
             end if
          end associate
       end do
@@ -120,11 +105,11 @@ contains
       class(hdf5_type), intent(inout) :: file
       integer :: k
       do k = 1, size(self%figures)
-         associate (figure => self%figures(k))
+         associate (figure => self%figures(k), path => group//'/'//self%figures(k)%name)
             if (figure%counts) then
-               figure%count = file%get_count(group//'/'//figure%name)
+               figure%value = real(file%get_count(path), wp)
             else
-               figure%seconds = file%get_real(group//'/'//figure%name)
+               figure%value = file%get_real(path)
             end if
          end associate
       end do

@@ -1,15 +1,29 @@
-!> The figures of a run in its file: group `summary`, a number each, or one for each pad.
+!> The figures of a run in its file: group `summary`, a number each, or one for each pad; and the extremes of
+!> all samples, which are among them.
 module summary_group
    use kinds, only: wp
    use hdf5_file, only: hdf5_type
+   use equations_of_motion, only: model_sample
    implicit none (type, external)
    private
-   public :: put_figure, figure, pad_figures, has_figure
+   public :: put_figure, figure, pad_figures, has_figure, run_extremes_type
 
    interface put_figure
       module procedure :: put_number
       module procedure :: put_list
    end interface put_figure
+
+   !> The least film, the highest pressure and the contact of asperities in all samples of a run.
+   type :: run_extremes_type
+      private
+      real(wp) :: film = huge(1.0_wp), pressure = -huge(1.0_wp)
+      !> Of each pad: highest force between asperities, N, and samples with such a force.
+      real(wp), allocatable :: force(:), touches(:)
+   contains
+      procedure :: add
+      procedure :: write => write_extremes
+      procedure :: read => read_extremes
+   end type run_extremes_type
 
    character(len=*), parameter :: group = 'summary'
 
@@ -60,4 +74,50 @@ contains
       allocate (values(file%list_size('pad')), source=0.0_wp)
       if (has_figure(file, name)) call file%get_list(group//'/'//name, values)
    end function pad_figures
+
+   subroutine add(self, sample)
+      class(run_extremes_type), intent(inout) :: self
+      type(model_sample), intent(in) :: sample
+      integer :: i
+      if (.not. allocated(self%force)) then
+         allocate (self%force(size(sample%loads)), self%touches(size(sample%loads)))
+         self%force = 0
+         self%touches = 0
+      end if
+      do i = 1, size(sample%loads)
+         associate (pad => sample%loads(i))
+            self%film = min(self%film, pad%min_film_thickness)
+            self%pressure = max(self%pressure, pad%max_pressure)
+            self%force(i) = max(self%force(i), pad%asperity_force)
+            if (pad%asperity_force > 0) self%touches(i) = self%touches(i) + 1
+         end associate
+      end do
+   end subroutine add
+
+   !> Writes them as figures of a run with this load on the journal, N, and interval between samples, s.
+   subroutine write_extremes(self, file, load, interval)
+      class(run_extremes_type), intent(in) :: self
+      class(hdf5_type), intent(inout) :: file
+      real(wp), intent(in) :: load, interval
+      call put_figure(file, 'run_min_film_thickness', self%film, 'm', 'minimum film thickness of the whole run')
+      call put_figure(file, 'run_max_pressure', self%pressure, 'Pa', 'maximum pressure of the whole run')
+      if (.not. file%has('asperity_force')) return
+      call put_figure(file, 'pad_asperity_force', self%force, 'N', 'highest asperity force of the whole run')
+      if (load > 0) call put_figure(file, 'pad_asperity_share', self%force/load, '1', &
+         & 'highest asperity force of the whole run over the load')
+      call put_figure(file, 'pad_asperity_time', self%touches*interval, 's', &
+         & 'time of the whole run in which asperities touched')
+   end subroutine write_extremes
+
+   !> Goes on from those of a file with samples at this interval, s.
+   subroutine read_extremes(self, file, interval)
+      class(run_extremes_type), intent(inout) :: self
+      class(hdf5_type), intent(inout) :: file
+      real(wp), intent(in) :: interval
+      if (.not. has_figure(file, 'run_min_film_thickness')) return
+      self%film = figure(file, 'run_min_film_thickness')
+      self%pressure = figure(file, 'run_max_pressure')
+      self%force = pad_figures(file, 'pad_asperity_force')
+      self%touches = anint(pad_figures(file, 'pad_asperity_time')/interval)
+   end subroutine read_extremes
 end module summary_group

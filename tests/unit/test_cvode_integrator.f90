@@ -54,7 +54,7 @@ program test_cvode_integrator
    use text, only: to_text
    use errors, only: error_type, numerics_error
    use cvode_integrator, only: integrator_type, integrator_options
-   use integrator_counts, only: integrator_counts_type
+   use ode_model, only: integrator_counts_type
    use swinging, only: oscillator, exact
    use step_history, only: step_history_type, new_step_history
    use order_control, only: order_control_type, stable_order

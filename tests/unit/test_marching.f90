@@ -3,8 +3,8 @@ module march_problems
    use kinds, only: wp, i8
    use errors, only: error_type, raise, numerics_error, stopped
    use small_ode, only: small_ode_type
-   use march_observer, only: march_observer_type
-   use integrator_counts, only: integrator_counts_type
+   use marching, only: march_observer_type
+   use ode_model, only: integrator_counts_type
    implicit none (type, external)
    private
    public :: stiff_cosine, robertson, light_vibration, keeper
@@ -142,7 +142,7 @@ program test_marching
    use text, only: to_text
    use errors, only: error_type, numerics_error
    use marching, only: march, march_options, sample_plan
-   use integrator_counts, only: integrator_counts_type
+   use ode_model, only: integrator_counts_type
    use march_problems, only: stiff_cosine, robertson, light_vibration, keeper
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
