@@ -176,7 +176,7 @@ help:
 	@echo 'make deps     installs missing packages (as root or with sudo; otherwise prints the list and stops)'
 	@echo 'make python   makes the Python environment build/venv with the package tiltpad and its compiled part'
 	@echo 'make wheel    packs build/wheel/tiltpad-*.whl: program, plots, library, for any Linux of this age or later'
-	@echo 'make lint     checks style, the order of the floors and that no name is unused; make format corrects some of it'
+	@echo 'make lint     checks style, the order of the floors, words and that no name is unused; make format corrects some of it'
 	@echo 'make docs     writes the generated pages of docs (inputs, modules, api, gallery, verification) and docs/images'
 	@echo 'make install  puts program, plot commands, manual pages and completion into PREFIX ($(PREFIX)); PLOTS=no: no Python'
 	@echo 'make uninstall  removes them again'
@@ -359,6 +359,7 @@ lint: python
 	$(VENV)/bin/ruff format --check --config post/pyproject.toml post tests docs
 	$(venv_python) tests/floors.py
 	$(venv_python) tests/unused.py
+	$(venv_python) tests/words.py
 	$(venv_python) docs/modules.py --check
 	$(venv_python) -m mypy --config-file post/pyproject.toml post/tiltpad
 

@@ -45,7 +45,7 @@ RUNS = {
     "five_pads": ("input/examples/five_pads.nml", ()),
     "warm": ("input/examples/warm_five_pads.nml", ()),
 }
-#: Studies: name, which is that of the folder, case, and what is swept.
+#: Studies: name, which is that of the folder, case, and what is varied.
 STUDIES = {
     "laws": (
         LUGRE,
@@ -136,9 +136,9 @@ def march(program: str, name: str, output: Path) -> None:
     subprocess.run(words, check=True, cwd=DOCS.parent)
 
 
-def sweep(program: str, name: str, folder: Path) -> None:
+def run_study(program: str, name: str, folder: Path) -> None:
     """Performs the runs of a study into their folder, and collects them."""
-    # those of an earlier sweep would be refused
+    # those of an earlier study would be refused
     shutil.rmtree(folder / name, ignore_errors=True)
     march(program, name, folder / name)
     subprocess.run([Path(sys.executable).with_name("tiltpad-collect"), name], check=True, cwd=folder)
@@ -165,7 +165,7 @@ def main() -> None:
     with ThreadPoolExecutor() as pool:
         list(pool.map(lambda name: march(program, name, folder / f"{name}.h5"), RUNS))
         for name in STUDIES:
-            sweep(program, name, folder)
+            run_study(program, name, folder)
         # pictures of one plot are numbered from 0
         plots = [plot for plot, *_ in PICTURES]
         numbers = [plots[:k].count(plot) for k, plot in enumerate(plots)]

@@ -9,7 +9,7 @@ module check
    public :: runs, expect, expect_close, expect_no_error, expect_error, between, report
 
    integer :: passed = 0, failed = 0, calls = 0
-   !> "test_sweep:ranges", for messages.
+   !> "test_parameter_study:ranges", for messages.
    character(len=300) :: this_case = 'outside a case'
 
 contains

@@ -79,7 +79,7 @@ contains
       state%gap%supply_pressure = state%supply*state%pressure
    end function random_film
 
-   !> Sets the velocity that drives the film, over a half of clearance times journal speed, in the frame of the middle.
+   !> Sets the velocity that drives the film, over a half of clearance times journal speed, in the mid-arc frame.
    pure subroutine set_velocity(state, drive)
       type(film_state), intent(inout) :: state
       real(wp), intent(in) :: drive(2)
@@ -124,7 +124,7 @@ contains
       turned = [v(1)*cos(angle) + v(2)*sin(angle), v(2)*cos(angle) - v(1)*sin(angle)]
    end function turned
 
-   !> The film by finite volumes, that cavitates by the condition of Reynolds or not at all, on so many rows and eight
+   !> The film by finite volumes, that cavitates by the condition of Reynolds or not at all, on this many rows and eight
    !> times as many columns: half of them on each side of where the source of pressure changes its sign, narrow where
    !> the film is thin; with a supply pressure, half of them narrow towards the leading edge.
    type(volumes_type) function new_volumes(state, rows, cavitates) result(volumes)

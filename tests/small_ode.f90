@@ -1,4 +1,4 @@
-!> Small problems y' = f(t, y) for tests: one is told by its rates and their derivatives.
+!> Small problems y' = f(t, y) for tests: one consists of its rates and their derivatives.
 module small_ode
    use kinds, only: wp
    use linear_algebra, only: dgesv
@@ -8,7 +8,7 @@ module small_ode
    public :: small_ode_type
 
    type, abstract, extends(ode_model_type) :: small_ode_type
-      !> Refuses every time after this one, and the first so many evaluations.
+      !> Refuses every time after this one, and the first this many evaluations.
       real(wp) :: refuse_after = huge(1.0_wp)
       integer :: refuse_first = 0
       !> Evaluations; state of the last one; derivatives taken last.

@@ -9,7 +9,7 @@ from paper.judging import Claims, Verdict, above, below, growth, larger, smaller
 from paper.laws import FANG_DIFFERENCES, fang_force
 from paper.measures import height, peak_to_peak, rms_deviation, size, sticking, stribeck_curve
 from paper.runs import Runs
-from paper.settings import DIFFERENCES, ON_CURVE, RESOLUTION, RESTS, STIFFNESSES, VELOCITIES
+from paper.settings import DIFFERENCES, ON_CURVE, RESOLUTION, STICKS, STIFFNESSES, VELOCITIES
 
 CLAIMS = Claims()
 
@@ -37,7 +37,7 @@ def one_stribeck_curve(runs: Runs) -> Verdict:
 @CLAIMS.add("Fig. 7", "With v_c = 1e-3 m/s only sliding occurs")
 def coarse_velocity_slides(runs: Runs) -> Verdict:
     """Time below the stick velocity, over that of a sinusoid of the same amplitude."""
-    return below(sticking(runs[VELOCITIES["1e-3"]]), RESTS)
+    return below(sticking(runs[VELOCITIES["1e-3"]]), STICKS)
 
 
 @CLAIMS.add("Fig. 7", "With lower v_c sticking is more apparent")
@@ -49,19 +49,19 @@ def fine_velocity_sticks(runs: Runs) -> Verdict:
 @CLAIMS.add("Fig. 7", "With v_c = 1e-5 m/s the pads stick")
 def fine_velocity_rests(runs: Runs) -> Verdict:
     """Time below the stick velocity, over that of a sinusoid of the same amplitude."""
-    return above(sticking(runs[VELOCITIES["1e-5"]]), RESTS)
+    return above(sticking(runs[VELOCITIES["1e-5"]]), STICKS)
 
 
 @CLAIMS.add("Fig. 8", "For low sigma_0 almost no sticking occurs")
 def soft_bristles_slide(runs: Runs) -> Verdict:
     """Time below the stick velocity, over that of a sinusoid of the same amplitude; sigma_0 = 1e5 1/m."""
-    return below(sticking(runs[STIFFNESSES["1e5"]]), RESTS)
+    return below(sticking(runs[STIFFNESSES["1e5"]]), STICKS)
 
 
 @CLAIMS.add("Fig. 8", "With higher sigma_0 the pads stick")
 def stiff_bristles_stick(runs: Runs) -> Verdict:
     """Minimum of this time over all sigma_0 from 1e6 1/m."""
-    return above(min(sticking(runs[name]) for name in list(STIFFNESSES.values())[1:]), RESTS)
+    return above(min(sticking(runs[name]) for name in list(STIFFNESSES.values())[1:]), STICKS)
 
 
 @CLAIMS.add("Sec. 3.1", "With a further increase of sigma_0 the results do not differ significantly")
@@ -157,4 +157,4 @@ def friction_flattens(runs: Runs) -> Verdict:
     """Time below the stick velocity, over that of a sinusoid of the same amplitude; the minimum of the three
     dR.
     """
-    return above(min(sticking(run) for run in by_difference(runs, 1)), RESTS)
+    return above(min(sticking(run) for run in by_difference(runs, 1)), STICKS)

@@ -7,7 +7,7 @@ from paper.judging import Checked
 from paper.reasons import WHY
 from paper.runs import Runs
 from paper.sections import SECTIONS, Section
-from paper.settings import AGREEMENT, LAST, REFINED, RESOLUTION, RESTS, SHORT
+from paper.settings import AGREEMENT, LAST, REFINED, RESOLUTION, SHORT, STICKS
 from paper.tables import digits, table
 
 PAGE = """\
@@ -28,7 +28,7 @@ One number decides a claim. It is taken over the last {last} revolutions, for pa
 {resolution}, ten times the limit of the error of the default settings ([benchmarks](../benchmarks.md)).
 Orbits agree if their maximum distance at the same shaft angle is below {agreement} of their size. A pad
 sticks while its pivot slides slower than 5 % of the Stribeck velocity; it comes to rest if it sticks
-{rests:g} times as long as a sinusoid of the same amplitude would. Two columns have the same number from
+{sticks:g} times as long as a sinusoid of the same amplitude would. Two columns have the same number from
 other runs: *refined* with {refined} and, except for the run-ups, {short}; *rule (26)* with the unbalance
 that the rule of the paper gives for G 6.3, {unbalance} kg m at 6500 rpm. All pictures and verdicts have the
 unbalance of Table 1 of the paper, 0.010 kg m.
@@ -162,7 +162,7 @@ def page(checked: Sequence[Checked], paper: Runs, studied: Runs, machine: str) -
         last=LAST,
         resolution=f"{RESOLUTION:.0%}",
         agreement=f"{AGREEMENT:.0%}",
-        rests=RESTS,
+        sticks=STICKS,
         refined=", ".join(f"`{word}`" for word in REFINED),
         short=f"`{SHORT}`",
         sections="\n\n".join(section_text(each, checked) for each in SECTIONS),

@@ -96,8 +96,8 @@ UPPER_PADS = (
 RESOLUTION = 0.01
 #: Journal paths closer than this part of the orbit's size agree.
 AGREEMENT = 0.1
-#: A pad comes to rest if it is slow for this multiple of the time that a sinusoid of its amplitude would be.
-RESTS = 2.0
+#: A pad sticks if it is slow for this multiple of the time that a sinusoid of its amplitude would be.
+STICKS = 2.0
 #: Part of f_s within which friction coefficients lie on one curve.
 ON_CURVE = 0.01
 #: The same runs again, to tell numerics from physics: finer film, tighter tolerance, and a shorter march.

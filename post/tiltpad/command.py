@@ -299,7 +299,7 @@ def report_parser() -> Parser:
 def collect_parser() -> Parser:
     parser = Parser(
         prog="tiltpad-collect",
-        description="Puts the results of many runs, such as the runs of a sweep, into one file: their "
+        description="Puts the results of many runs, such as the runs of a study, into one file: their "
         "parameters, orbits, films, friction, Poincare points, cost, and links to the runs.",
         epilog="exit status: 0 done; 1 usage, or runs of two studies; 3 a file cannot be read or written",
     )

@@ -49,8 +49,8 @@ def run(
         study = tiltpad.run("mine.nml", sweep={"operation%speed_rpm": "1000:6000:500"})
 
     `case` is a namelist file, or groups of variables as for `write_case`; without it all have their defaults.
-    Each further keyword is a group with values of its own. A sweep gives the study of its runs. The
-    result is written to `output` (of a sweep: the folder of its runs, with study.h5); it replaces that of
+    Each further keyword is a group with values of its own. A parameter study gives the study of its runs. The
+    result is written to `output` (of a study: the folder of its runs, with study.h5); it replaces that of
     another case only with `overwrite`. Without a name it is temporary, for as long as it is used. A wrong
     case is a ValueError with the program's message, a run that gives no result a RunError. Where the numerics
     fail on the way the result is there up to this point, with an IncompleteRunWarning.
@@ -82,7 +82,7 @@ def started(
     words += ["--quiet"] if quiet else []
     for group, values in overrides.items():
         for name, value in namelist.variables(group, values).items():
-            words += ["--set", f"{group}%{name}={namelist.written(value, group == namelist.SWEEP)}"]
+            words += ["--set", f"{group}%{name}={namelist.written(value, group == namelist.STUDY)}"]
     done = subprocess.run(words, stderr=subprocess.PIPE, text=True)
     said = done.stderr.strip().removeprefix("tiltpad: error: ")
     said = said.replace("--overwrite", "overwrite=True").replace("--output", "output")
@@ -96,7 +96,7 @@ def started(
 
 
 def resolved(case: str | os.PathLike) -> dict[str, dict[str, Any]]:
-    """The groups of a case with every default, as run.input; of a sweep those of its first run.
+    """The groups of a case with every default, as run.input; of a study those of its first run.
 
     The program only checks the case.
     """

@@ -85,6 +85,6 @@ def marched(
             if result.complete:
                 own.setdefault("start", {}).update({"from": "file", "file": os.fspath(path.resolve())})
         with h5py.File(path, "r+") as file:
-            sweep = "\n".join(f"{each} = {written(of)}" for each, of in ((parameter, value), (WAY, way)))
-            file.attrs.update({"run": number, "runs": len(runs), "sweep": sweep})
+            varied = "\n".join(f"{each} = {written(of)}" for each, of in ((parameter, value), (WAY, way)))
+            file.attrs.update({"run": number, "runs": len(runs), "sweep": varied})
     return read_study(collect(folder, folder / "study.h5").output)

@@ -27,7 +27,7 @@ module progress
 
 contains
 
-   !> Starts the clock of a march from one simulated time to another, s, or of so many runs.
+   !> Starts the clock of a march from one simulated time to another, s, or of this many runs.
    function new_progress(from, duration, quiet) result(progress)
       real(wp), intent(in) :: from, duration
       logical, intent(in) :: quiet

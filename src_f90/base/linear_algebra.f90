@@ -110,7 +110,7 @@ contains
       if (abs(determinant) > 0) x = [a(2, 2)*b(1) - a(1, 2)*b(2), a(1, 1)*b(2) - a(2, 1)*b(1)]/determinant
    end function solve_2x2
 
-   !> So many numbers, filled up to whole SIMD vectors.
+   !> This many numbers, filled up to whole SIMD vectors.
    elemental integer function padded(numbers)
       integer, intent(in) :: numbers
       padded = simd_width*((numbers + simd_width - 1)/simd_width)

@@ -53,7 +53,7 @@ module heat_balance
       logical :: solved = .false.
    end type heat_network
 
-   !> Least flow through a film, over that which the journal would drag through its clearance: oil that stands gives its
+   !> Least flow through a film, over what the journal would drag through its clearance: oil that stands gives its
    !> heat to the shaft.
    real(wp), parameter :: least_share = 1e-12_wp
    !> Relative change of the viscosities at which they have settled; most rounds of Newton's method.

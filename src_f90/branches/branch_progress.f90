@@ -40,7 +40,7 @@ module branch_progress
       integer :: branch = 1, points = 0
       real(wp) :: length = 0
       type(branch_point_type) :: here
-      !> Orbits of fewer turns of the shaft are followed where their period doubles.
+      !> Orbits of fewer revolutions are followed where their period doubles.
       integer, private :: longest_turns = 0
       !> Period doublings from which branches are still to be followed.
       type(branch_point_type), allocatable :: period_doublings(:)
@@ -61,13 +61,13 @@ module branch_progress
    !> First step of a branch of double period over that of the first: it starts across the parameter.
    real(wp), parameter :: across = 0.3_wp
    !> How far behind the last point of a branch, over the first step, is looked for a reason of its end.
-   real(wp), parameter :: near = 1e-2_wp
+   real(wp), parameter :: step_beyond = 1e-2_wp
    !> Periods are doubled up to this many of the first branch's.
    integer, parameter :: longest_period = 8
 
 contains
 
-   !> What follows from the case of a model; marches have taken so many steps already.
+   !> What follows from the case of a model; marches have taken this many steps already.
    subroutine prepare(self, model, steps, error)
       class(branch_progress_type), intent(inout), target :: self
       type(bearing_model), intent(in), target :: model
@@ -193,7 +193,7 @@ contains
       length = self%length
       call advance(self%problem, self%options, self%here, length, next, ends, error)
       if (allocated(error)) then
-         call blame_oil(self, error)
+         call find_oil_error(self, error)
          if (error%status == numerics_error .and. .not. self%problem%refused) call add_context(error, 'branch ' &
             & //to_text(self%branch)//' was lost behind '//self%given%parameter//' = ' &
             & //to_text(self%here%parameter)//', its point '//to_text(self%points))
@@ -238,17 +238,17 @@ contains
 
    !> A branch of orbits that is lost where the equilibrium turns back from which its oil takes its viscosities has
    !> ended: near such an equilibrium nothing is smooth over the parameter.
-   subroutine blame_oil(branches, error)
+   subroutine find_oil_error(branches, error)
       type(branch_progress_type), intent(inout) :: branches
       type(error_type), allocatable, intent(inout) :: error
       type(error_type), allocatable :: lost
       if (branches%problem%refused .or. error%status == stopped .or. .not. allocated(branches%ode%oil)) return
       associate (here => branches%here, step => branches%options%first_step*branches%orbits%unit)
-         call branches%ode%set(here%parameter + sign(near*step, here%tangent(size(here%tangent))), lost)
+         call branches%ode%set(here%parameter + sign(step_beyond*step, here%tangent(size(here%tangent))), lost)
       end associate
       branches%problem%refused = allocated(lost)
       if (allocated(lost)) call move_alloc(lost, error)
-   end subroutine blame_oil
+   end subroutine find_oil_error
 
    !> Goes to the start of the next branch of double period, if there are `more`.
    subroutine begin_double(self, more)

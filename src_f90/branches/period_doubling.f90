@@ -64,8 +64,8 @@ contains
       end associate
    end function half_apart
 
-   !> A branch of double period, of orbits of so many turns, that ends at another period doubling between two points
-   !> need not be followed from there again.
+   !> A branch of double period, of orbits of this many revolutions, that ends at another period doubling between two
+   !> points need not be followed from there again.
    pure subroutine forget_doublings(period_doublings, here, next, period_multiple)
       type(branch_point_type), allocatable, intent(inout) :: period_doublings(:)
       type(branch_point_type), intent(in) :: here, next

@@ -128,7 +128,7 @@ module case_inputs
       character(len=:), allocatable :: solver
       !> Cells along the arc and, on finite volumes, along half the width; modes. 0: the solver's own number.
       integer :: circumferential_cells = 0, axial_cells = 0, axial_modes = 0
-      !> Of an iterative solution: relaxation factor, 0: the grid's optimum; residual at which it ends; most sweeps.
+      !> Of an iterative solution: relaxation factor, 0: the grid's optimum; residual at which it ends; most SOR sweeps.
       real(wp) :: relaxation = 0, tolerance = 1e-6_wp
       integer :: max_sweeps = 5000
       !> Of forces from tables over that of a film that is just whole; 0: by the march's tolerance.

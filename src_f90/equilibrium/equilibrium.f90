@@ -25,9 +25,9 @@ module equilibrium
    !> Iterations from an equilibrium of quick films to that of the model's own: the 535 of docs/stability.md that
    !> succeed take 35 at most. Iterations of the first search from a start along the load, after which full films lead
    !> to the equilibrium of most unloaded pads: of 813 searches that succeed 90 % end within 42.
-   integer, parameter :: few = 40, patience = 60
+   integer, parameter :: near_rounds = 40, cavitated_rounds = 60
    !> Residual of quick films from which on this is tried.
-   real(wp), parameter :: near = 0.1_wp
+   real(wp), parameter :: near_residual = 0.1_wp
 
 contains
 
@@ -115,7 +115,7 @@ contains
       real(wp), allocatable :: y_whole(:)
       y = best_start(static, give_up)
       call follow_motion(static, y, residual, error, give_up, &
-         & most=merge(patience, huge(patience), static%bearing%film%cavitates()))
+         & most=merge(cavitated_rounds, huge(cavitated_rounds), static%bearing%film%cavitates()))
       films_fail = .not. static%bearing%films_converge()
       by_full_films = .false.
       if (.not. allocated(error) .or. .not. static%bearing%film%cavitates()) return
@@ -159,7 +159,7 @@ contains
       end do
    end function best_start
 
-   !> From every start by every method, up to the first stable equilibrium; where there is none, `found` is that which
+   !> From every start by every method, up to the first stable equilibrium; where there is none, `found` is the one that
    !> grows least, or has no pads. All is sought with quick films; their equilibrium leads to the model's own.
    subroutine search_wider(static, found, traces, give_up)
       type(bearing_model), intent(inout) :: static
@@ -182,8 +182,8 @@ contains
             if (.not. ok) cycle
             ! loose films leap by their error: where they do nothing comes to equilibrium
             call follow_motion(quick, y, candidate%residual, error, give_up, first_step=newtons)
-            if (candidate%residual > near) cycle
-            call solve_equilibrium(static, y, candidate%residual, error, give_up, most=few)
+            if (candidate%residual > near_residual) cycle
+            call solve_equilibrium(static, y, candidate%residual, error, give_up, most=near_rounds)
             if (allocated(error)) cycle
             if (.not. is_usable(static, y, candidate, traces)) cycle
             if (.not. is_better(candidate, found)) cycle
@@ -194,8 +194,8 @@ contains
       end do
    end subroutine search_wider
 
-   !> Whether an equilibrium is to be kept instead of another one, which may have no pads: first that which no leap of
-   !> the films disturbs, then that which grows less.
+   !> Whether an equilibrium is to be kept instead of another one, which may have no pads: first the one that no leap of
+   !> the films disturbs, then the one that grows less.
    pure logical function is_better(candidate, found)
       type(equilibrium_type), intent(in) :: candidate, found
       is_better = .not. allocated(found%tilt)
@@ -234,7 +234,7 @@ contains
          ok = .true.
       case default
          call follow_motion(model, y, residual, error, give_up)
-         ok = residual <= near
+         ok = residual <= near_residual
       end select
    end subroutine approach
 

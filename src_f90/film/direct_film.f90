@@ -104,7 +104,7 @@ contains
       type(film_response) :: changed
       real(wp) :: force(2)
       integer :: i
-      logical :: few
+      logical :: is_local
       call self%fourier%evaluate(motion, oil, speed, want_derivatives, response, chosen)
       do i = 1, size(motion)
          if (present(chosen)) then
@@ -116,11 +116,11 @@ contains
             cycle
          end if
          self%counters%volumes = self%counters%volumes + 1
-         few = .false.
+         is_local = .false.
          if (.not. share_of_modes(self%cavitation_pressure(i), response(i)) < 1) then
-            call self%volumes(i)%force_of_cavitation(motion(i), oil(i), speed, self%counters, force, few)
+            call self%volumes(i)%force_of_cavitation(motion(i), oil(i), speed, self%counters, force, is_local)
          end if
-         if (few) then
+         if (is_local) then
             if (want_derivatives) response(i)%derivatives = response(i)%derivatives &
                & + derivatives_of_cavitation(self, i, motion(i), oil(i), speed, force)
             response(i)%force = response(i)%force + force
@@ -140,14 +140,15 @@ contains
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed, force(2)
-      real(wp) :: derivatives(2, 4), step(4), near(2)
+      real(wp) :: derivatives(2, 4), step(4), moved_force(2)
       integer :: k
-      logical :: few
+      logical :: is_local
       step = steps(self%clearance(i), speed)
       derivatives = 0
       do k = 1, 4
-         call self%volumes(i)%force_of_cavitation(moved(motion, k, step(k)), oil, speed, self%counters, near, few)
-         if (few) derivatives(:, k) = (near - force)/step(k)
+         call self%volumes(i)%force_of_cavitation(moved(motion, k, step(k)), oil, speed, &
+            & self%counters, moved_force, is_local)
+         if (is_local) derivatives(:, k) = (moved_force - force)/step(k)
       end do
    end function derivatives_of_cavitation
 
@@ -159,14 +160,14 @@ contains
       type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed, c
       real(wp) :: derivatives(4), step(4)
-      type(film_motion) :: near(size(self%gaps))
+      type(film_motion) :: beside(size(self%gaps))
       type(film_response) :: fourier(size(self%gaps))
       integer :: k, n
       step = steps(self%clearance(i), speed)
       derivatives = 0
       do k = 1, 4
-         near = moved(motion, k, step(k))
-         call self%fourier%evaluate(near, oil, speed, .false., fourier, [(n == i, n=1, size(near))])
+         beside = moved(motion, k, step(k))
+         call self%fourier%evaluate(beside, oil, speed, .false., fourier, [(n == i, n=1, size(beside))])
          if (fourier(i)%status == film_ok) derivatives(k) = &
             & (share_of_modes(self%cavitation_pressure(i), fourier(i)) - c)/step(k)
       end do
@@ -256,7 +257,7 @@ contains
       call rebuild(self, .true., motion, oil, speed, phi, z, pressure)
    end subroutine fine_field
 
-   !> The field. Where the film cavitates, that of volumes that follow it; or as the force: that of the finite volumes
+   !> The field. Where the film cavitates, that of film-adapted volumes; or as the force: that of the finite volumes
    !> with cavitation and, outside the cavitation, c times (modes - finite volumes without cavitation).
    subroutine rebuild(self, follows, motion, oil, speed, phi, z, pressure)
       class(direct_film_type), intent(inout) :: self

@@ -7,7 +7,7 @@
 !> for cavitated films too. Of a full film the first is Sommerfeld's variable along the arc, and what pressure drives
 !> through an edge is, by reciprocity, the force of a unit of pressure there, times w.
 !>
-!> Where a film cavitates, finite volumes that follow it give the force and the flows with and without cavitation, and
+!> Where a film cavitates, film-adapted finite volumes give the force and the flows with and without cavitation, and
 !> how far the cavitated part is filled.
 module film_losses
    use kinds, only: wp
@@ -207,7 +207,7 @@ contains
       end associate
    end subroutine add_cavitation
 
-   !> The film on the last of these volumes that follow it, without and with cavitation; in the film before, if there is
+   !> The film on the last of these film-adapted volumes, without and with cavitation; in the film before, if there is
    !> one, cavitation was found already.
    subroutine by_volumes(self, volumes, motion, oil, speed, whole, cavitated, status)
       class(film_losses_type), intent(in) :: self

@@ -18,7 +18,7 @@ module table_film
    private
    public :: table_film_type, new_table_film, new_converged_film, has_tables
 
-   !> Pads with half arcs above this, rad, have no table: their film is not told by its thickness at the edges.
+   !> Pads with half arcs above this, rad, have no table: their film does not follow from its thickness at the edges.
    real(wp), parameter :: largest_half_arc = 1.3_wp
    !> Error of the full film over that of what cavitation changes.
    real(wp), parameter :: share_of_whole = 0.1_wp

@@ -38,7 +38,7 @@ module assignments
 contains
 
    !> Adds an assignment and removes those that it replaces. It comes last; only that of a study takes the position of
-   !> the first one that it replaces, as the order of swept variables is the order of the runs.
+   !> the first one that it replaces, as the order of varied variables is the order of the runs.
    subroutine put_assignment(new, parsed)
       type(assignment_type), intent(in) :: new
       type(namelist_type), intent(inout) :: parsed

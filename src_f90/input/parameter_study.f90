@@ -6,7 +6,7 @@ module parameter_study
    use case_inputs, only: case_type
    use assignments, only: namelist_type, assignment_type, put_assignment, undoes, assignment_text, target_text, &
       & value_text, study_group
-   use varied_values, only: varied_values_type, read_swept_values
+   use varied_values, only: varied_values_type, read_varied_values
    use case_text, only: read_text, parse_case
    use case_fields, only: title_variable
    use variable_names, only: meant_variable
@@ -21,7 +21,7 @@ module parameter_study
    integer, parameter :: most_runs = 100000, most_listed = 8
    character(len=*), parameter :: newline = achar(10)
 
-   !> A swept variable: its assignment without values, and the values.
+   !> A varied variable: its assignment without values, and the values.
    type :: variable_type
       type(assignment_type) :: target
       type(varied_values_type) :: values
@@ -31,7 +31,7 @@ module parameter_study
    type :: run_tag
       !> From 1; 0 for a run of its own.
       integer :: number = 0, runs = 0
-      !> A line for each swept variable: "operation%speed_rpm = 1500".
+      !> A line for each varied variable: "operation%speed_rpm = 1500".
       character(len=:), allocatable :: study
       !> Checksums of the study: of its runs before this one, up to this one, and of all, separated by blanks. A
       !> study that has grown keeps those of its former runs. Empty where they are not known.
@@ -208,7 +208,7 @@ contains
       allocate (self%marks(0:self%runs), source=marks)
    end subroutine mark
 
-   !> True where two tags of one number are of sweeps that have the same runs up to it, or where that is not known.
+   !> True where two tags of one number are of studies that have the same runs up to it, or where that is not known.
    pure logical function same_up_to(self, other)
       class(run_tag), intent(in) :: self, other
       same_up_to = self%marks == '' .or. other%marks == ''
@@ -256,7 +256,7 @@ contains
       text = marked_text(inputs, parsed)//derived_text(inputs)
    end subroutine checked
 
-   !> The case with every default, followed by the study, as namelist text. A swept variable has the first run's
+   !> The case with every default, followed by the study, as namelist text. A varied variable has the first run's
    !> value; what follows from other variables is left out.
    subroutine resolved(self, text, error)
       class(study_type), intent(in) :: self
@@ -299,7 +299,7 @@ contains
       end do
    end subroutine namelist_of_run
 
-   !> The k-th run's assignment to the i-th swept variable. The first variable changes slowest.
+   !> The k-th run's assignment to the i-th varied variable. The first variable changes slowest.
    subroutine value_of_run(self, i, k, found)
       class(study_type), intent(in) :: self
       integer, intent(in) :: i, k

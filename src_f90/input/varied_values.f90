@@ -1,4 +1,4 @@
-!> The values of a swept variable: single values, and the numbers of ranges.
+!> The values of a varied variable: single values, and the numbers of ranges.
 module varied_values
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, i8
@@ -7,7 +7,7 @@ module varied_values
    use assignments, only: token_type, value_text, read_number
    implicit none (type, external)
    private
-   public :: varied_values_type, read_swept_values
+   public :: varied_values_type, read_varied_values
 
    !> Most values of a range.
    integer, parameter :: most_values = 100000
@@ -37,7 +37,7 @@ module varied_values
 contains
 
    !> The values of an assignment; `name`, what is assigned, is for messages.
-   subroutine read_swept_values(tokens, name, values, error)
+   subroutine read_varied_values(tokens, name, values, error)
       type(token_type), intent(in) :: tokens(:)
       character(len=*), intent(in) :: name
       type(varied_values_type), intent(out) :: values
@@ -49,7 +49,7 @@ contains
          call add_context(error, name//' = '//shortened(value_text(tokens(i))))
          if (allocated(error)) return
       end do
-   end subroutine read_swept_values
+   end subroutine read_varied_values
 
    !> A value, first:last:stride or first:last:*factor.
    subroutine read_piece(token, piece, error)

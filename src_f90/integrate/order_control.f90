@@ -11,9 +11,9 @@ module order_control
    integer(i8), parameter :: window = 250
    !> Windows in a row with short steps before low orders are first tried; windows with low orders before high ones are
    !> tried again; and how many times as many after a trial in vain.
-   integer, parameter :: first_wait = 4, stay = 40, patience = 4
+   integer, parameter :: first_wait = 4, stay = 40, longer = 4
    !> Windows of a half of a trial. In the first, what the orders before have left dies away; the trial ends with it
-   !> where it does not go a part as far as before. How much further than before the second must go for low orders to
+   !> where it does not go the same part of the way. How much further than before the second must go for low orders to
    !> stay; high ones stay where they go no less far.
    integer, parameter :: half = 2
    real(wp), parameter :: part = 0.5_wp, gain = 1.5_wp
@@ -41,7 +41,7 @@ module order_control
 
 contains
 
-   !> True where the orders change now, at time t, s, after so many steps: to those of `low`.
+   !> True where the orders change now, at time t, s, after this many steps: to those of `low`.
    logical function changes(self, t, steps)
       class(order_control_type), intent(inout) :: self
       real(wp), intent(in) :: t
@@ -77,7 +77,7 @@ contains
       in_vain = t - self%since < least*half*window*self%mean_step
       self%since = t
       if (in_vain) then
-         self%wait = patience*self%wait
+         self%wait = longer*self%wait
       else if (self%windows > half) then
          self%wait = merge(stay, first_wait, self%low)
          self%tried = .false.

@@ -22,7 +22,7 @@ module march_settings
 
 contains
 
-   !> Those of a model after so many steps.
+   !> Those of a model after this many steps.
    type(march_options) function march_settings_of(model, steps) result(options)
       type(bearing_model), intent(in) :: model
       integer(i8), intent(in) :: steps

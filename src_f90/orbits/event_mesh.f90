@@ -90,11 +90,11 @@ contains
       class(mesh_type), intent(inout) :: self
       real(wp), intent(in) :: t
       integer, intent(in) :: switching_point
-      integer :: near, before
-      near = minloc(abs(self%time - t), dim=1)
-      if (abs(self%time(near) - t) <= rounding*self%time(size(self%time))) then
-         if (self%switching_point(near) /= 0 .or. near == 1 .or. near == size(self%time)) return
-         self%switching_point(near) = switching_point
+      integer :: closest, before
+      closest = minloc(abs(self%time - t), dim=1)
+      if (abs(self%time(closest) - t) <= rounding*self%time(size(self%time))) then
+         if (self%switching_point(closest) /= 0 .or. closest == 1 .or. closest == size(self%time)) return
+         self%switching_point(closest) = switching_point
       else
          before = count(self%time < t)
          self%time = [self%time(:before), t, self%time(before + 1:)]

@@ -37,10 +37,10 @@ module periodic_orbit
       procedure :: counts
    end type periodic_orbit_type
 
-   !> Newton's method is tried once the state changes by less than this over a period, over the scales, or after so many
-   !> periods. Where it fails, it is tried again when the march has doubled. Over several turns the change must be less,
-   !> or the method would lead back to an orbit of one turn that the motion is only leaving.
-   real(wp), parameter :: near = 3e-2_wp, near_of_several = 1e-3_wp
+   !> Newton's method is tried once the state changes by less than this over a period, over the scales, or after a
+   !> number of periods. Where it fails, it is tried again when the march has doubled. Over several turns the change
+   !> must be less, or the method would lead back to an orbit of one turn that the motion is only leaving.
+   real(wp), parameter :: small_change = 3e-2_wp, small_change_of_several = 1e-3_wp
    integer, parameter :: first_try = 12, last_try = 96
    !> The first period has the short steps of a start: it is no mesh. Most rounds before `first_try`.
    integer, parameter :: fewest_periods = 2, early_rounds = 12
@@ -74,7 +74,7 @@ contains
       found%orbit%start = y
       found%orbit%scale = model%scale
       mesh = mesh_options(march, found%period/revolutions)
-      close_by = merge(near, near_of_several, revolutions == 1)
+      close_by = merge(small_change, small_change_of_several, revolutions == 1)
       if (revolutions == 1) call go_to_response(model, found%orbit%start)
       call integrator%start(model, mesh, 0.0_wp, found%orbit%start, last_try*found%period, error)
       next_try = first_try

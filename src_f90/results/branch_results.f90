@@ -25,7 +25,7 @@ module branch_results
 
 contains
 
-   !> Series over points follow, with so many eigenvalues or (of periodic orbits) multipliers.
+   !> Series over points follow, with this many eigenvalues or (of periodic orbits) multipliers.
    subroutine begin_branches(file, orbits, modes)
       type(run_file_type), intent(inout) :: file
       logical, intent(in) :: orbits

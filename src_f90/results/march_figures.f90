@@ -189,7 +189,7 @@ contains
       end function lag
    end subroutine put_harmonics
 
-   !> What friction in the pivots does in the last samples, at these times, s, in so many revolutions.
+   !> What friction in the pivots does in the last samples, at these times, s, in this many revolutions.
    subroutine put_friction(file, inputs, time, revolutions)
       type(run_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs

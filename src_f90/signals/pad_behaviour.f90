@@ -29,7 +29,7 @@ module pad_behaviour
 contains
 
    !> What the pads do beside rubbing, by samples (pad, time) of pivot load, N, and tilt, rad, this at equal steps of
-   !> the shaft angle, over so many revolutions.
+   !> the shaft angle, over this many revolutions.
    subroutine behaviour_of(found, contact, tilt, revolutions, edge)
       type(pad_behaviour_type), intent(inout) :: found(:)
       real(wp), intent(in) :: contact(:, :), tilt(:, :)

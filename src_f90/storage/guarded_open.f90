@@ -12,7 +12,7 @@ module guarded_open
    public :: try_reading
 
    !> Seconds of time, and of the processor's time, after which the reading is given up, and megabytes that it may take.
-   integer, parameter :: patience = 60, work = 3, room = 300
+   integer, parameter :: seconds = 60, work = 3, room = 300
    integer, parameter :: longest_name = 200
 
 contains
@@ -31,7 +31,7 @@ contains
          return
       else if (child == 0) then
          ! the library and the runtime would report the crash
-         call limit_child(patience, work, room)
+         call limit_child(seconds, work, room)
          call read_all(path)
          call end_child(0)
       end if
@@ -67,10 +67,10 @@ contains
       real(wp), allocatable :: values(:, :)
       character(len=longest_name) :: name
       character(len=:), allocatable :: path
-      integer :: members, i, kind, status
-      call h5gn_members_f(file%id, group, members, status)
+      integer :: count, i, kind, status
+      call h5gn_members_f(file%id, group, count, status)
       if (status < 0) return
-      do i = 0, members - 1
+      do i = 0, count - 1
          call h5gget_obj_info_idx_f(file%id, group, i, name, kind, status)
          if (status < 0) cycle
          path = group//trim(name)

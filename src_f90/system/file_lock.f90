@@ -50,7 +50,7 @@ module file_lock
       procedure :: is_ours
       procedure, private :: attempt
       procedure, nopass, private :: identity
-      procedure, private :: patience_with
+      procedure, private :: watch_time
       procedure, private :: write_beat
    end type file_lock_type
 
@@ -102,7 +102,7 @@ contains
       character(len=*), intent(in) :: path
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: holder, first
-      integer :: found, waited, patience
+      integer :: found, waited, watched
       self%path = path//'.lock'
       self%taken_from = ''
       self%files_left = ''
@@ -118,10 +118,10 @@ contains
          end if
          if (allocated(error)) return
          if (waited == 0) first = holder
-         patience = self%patience_with(found, holder)
-         if (found /= held .and. waited >= patience) exit
+         watched = self%watch_time(found, holder)
+         if (found /= held .and. waited >= watched) exit
          call close_lock(self)
-         if (holder /= first .or. waited >= patience) then
+         if (holder /= first .or. waited >= watched) then
             call raise(error, system_error, 'cannot write '//path//': '//described(holder)//' is writing it')
             return
          end if
@@ -160,19 +160,19 @@ contains
    end function no_lock_reason
 
    !> Seconds for which the holder's beats are watched.
-   integer function patience_with(self, found, holder) result(patience)
+   integer function watch_time(self, found, holder) result(watched)
       class(file_lock_type), intent(in) :: self
       integer, intent(in) :: found
       character(len=*), intent(in) :: holder
-      patience = merge(self%watch_held, self%watch_free, found == held)
-      if (found /= held .and. holder == '') patience = 0
+      watched = merge(self%watch_held, self%watch_free, found == held)
+      if (found /= held .and. holder == '') watched = 0
       if (index(holder, host_name()//' ') /= 1) return
       ! on this machine the system knows
       if (found == unknown) then
          if (process_alive(process_of(holder))) return
       end if
-      patience = 0
-   end function patience_with
+      watched = 0
+   end function watch_time
 
    !> Opens the lock file and tries to lock it.
    subroutine attempt(self, found, holder)

@@ -1,4 +1,4 @@
-"""Benchmark: run time against error, all cases with the defaults, films, pads, orbits, sweeps, peers, oil.
+"""Benchmark: run time against error, all cases with the defaults, films, pads, orbits, studies, peers, oil.
 
 usage: bench.py TILTPAD [--only PART...] [--folder FOLDER] [--docs FOLDER]
 

@@ -23,11 +23,11 @@ def cases(runner: Runner) -> Iterator[Row]:
     # the slowest first
     waiting = sorted(jobs, key=lambda job: -job[1].wall_seconds)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        list(pool.map(lambda job: judge(runner, *job[1], job[0]), enumerate(waiting)))
+        list(pool.map(lambda job: compare(runner, *job[1], job[0]), enumerate(waiting)))
     yield from (row for _, row, _ in jobs)
 
 
-def judge(runner: Runner, case: Case, row: Row, path: Path, core: int) -> None:
+def compare(runner: Runner, case: Case, row: Row, path: Path, core: int) -> None:
     """Enters the error of the defaults, and how far the reference still moves; removes the result files."""
     runs = [runner.run(case, "", *each, timed=False, core=core) for each in REFINED]
     failed = [f"{each.setting}: {each.note}" for each, _ in runs if each.note]

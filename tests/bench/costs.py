@@ -5,7 +5,7 @@ import os
 from figures import compared
 from films import CHECK, exponent
 from peers import DIFFERENCED, OWN, SCALAR, SCALED, SCIPY, TILTPAD
-from production import CHECKPOINTS, COLLECT, LONG, SHORT, START, SWEEP
+from production import CHECKPOINTS, COLLECT, LONG, SHORT, START, STUDY
 from runner import Row
 from settings import (
     CHECKPOINT_SHARE,
@@ -207,20 +207,20 @@ def checkpoints(rows: list[Row]) -> str:
 
 
 def study(rows: list[Row]) -> str:
-    """A sweep of short runs and its collection."""
+    """A study of short runs and its collection."""
     walls = {(row.group, row.setting): row.wall_seconds for row in rows}
-    if (SWEEP, "all") not in walls:
+    if (STUDY, "all") not in walls:
         return NOT_RUN
-    brief, long = walls[SWEEP, f"{SHORT:g}"], walls[SWEEP, f"{LONG:g}"]
+    brief, long = walls[STUDY, f"{SHORT:g}"], walls[STUDY, f"{LONG:g}"]
     march = (long - brief) / (LONG - SHORT) * SHORT
     cores = os.cpu_count()
-    beyond = 1e3 * (cores * walls[SWEEP, "all"] / RUNS - march)
-    again, collected = walls[SWEEP, "again"], walls[COLLECT, "all"]
+    beyond = 1e3 * (cores * walls[STUDY, "all"] / RUNS - march)
+    again, collected = walls[STUDY, "again"], walls[COLLECT, "all"]
     started = 1e3 * walls[START, "--version"]
     lines = [
         ("start of the program, which prints its version", f"{short(started)} ms", f"{START_MILLISECONDS} ms",
          verdict(started, START_MILLISECONDS)),
-        (f"all runs, {cores} at a time", f"{short(walls[SWEEP, 'all'])} s", "", ""),
+        (f"all runs, {cores} at a time", f"{short(walls[STUDY, 'all'])} s", "", ""),
         ("a run beyond its march", f"{short(beyond)} ms", f"{RUN_MILLISECONDS} ms",
          verdict(beyond, RUN_MILLISECONDS)),
         ("the march of a run", f"{short(1e3 * march)} ms", "", ""),

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import tiltpad
-from tiltpad.calculate.deviations import RESTING, SIGNALS, characteristic_scale
+from tiltpad.calculate.deviations import SIGNALS, STEADY, characteristic_scale
 
 #: Change from sample to sample, over the span, from which a signal jumps: six times that of a sine at the
 #: usual 360 samples a revolution.
@@ -34,12 +34,12 @@ def deviations(path: Path, reference: Path, whole: bool = False) -> Deviation:
     """Deviations of one result file from another over the last revolution, or over the whole run."""
     with tiltpad.read(path) as run, tiltpad.read(reference) as true:
         if "time" not in true:
-            return resting(run.equilibrium, true)
+            return of_equilibrium(run.equilibrium, true)
         part = slice(0, None) if whole else tiltpad.last_revolutions(true)
         found = Deviation({})
         for name in (name for name in SIGNALS if name in true):
             values, exact = (each.values(name, part).reshape(-1, pads(true, name)) for each in (run, true))
-            span = max(float(np.ptp(exact, axis=0).max()), RESTING * characteristic_scale(true, name))
+            span = max(float(np.ptp(exact, axis=0).max()), STEADY * characteristic_scale(true, name))
             if span > 0:
                 jump, left = compared(values / span, exact / span)
                 found.signals[name] = left
@@ -63,12 +63,12 @@ def compared(values: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
     return float(shift.max()), float(np.where(jumps, 0, off).max())
 
 
-def resting(found: dict, true: tiltpad.Run) -> Deviation:
+def of_equilibrium(found: dict, true: tiltpad.Run) -> Deviation:
     """Deviations of an equilibrium, over 5 % of the characteristic scales."""
     return Deviation(
         {
             name: float(abs(found[name] - true.equilibrium[name]).max())
-            / (RESTING * characteristic_scale(true, name))
+            / (STEADY * characteristic_scale(true, name))
             for name in ("journal_y", "journal_z", "pad_tilt")
             if name in true.equilibrium
         }

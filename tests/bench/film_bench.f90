@@ -53,39 +53,39 @@ contains
       type(direct_film_type) :: direct
       type(table_film_type) :: fine
       type(sor_film_type) :: sor
-      type(film_motion), dimension(0:round - 1) :: near, far
+      type(film_motion), dimension(0:round - 1) :: nearby, distant
       real(wp), dimension(2, 0:round - 1) :: exact, exact_far
       integer :: n
-      near = path(centre, small, 1)
+      nearby = path(centre, small, 1)
       ! a step of two fifths of the circle
-      far = path(centre, large, 73)
+      distant = path(centre, large, 73)
       if (cavitation == cavitation_reynolds) then
          direct = new_direct_film(films, 128, 32, 320, 64, .true., .false.)
-         call forces(direct, near, exact)
+         call forces(direct, nearby, exact)
       else
          fourier = new_fourier_film(films, 128, 32, cavitation == cavitation_gumbel)
-         call forces(fourier, near, exact)
+         call forces(fourier, nearby, exact)
       end if
       fine = new_table(cavitation, 0.1_wp*default_tolerance)
-      call forces(fine, far, exact_far)
-      call measure('table, same cell', new_table(cavitation, default_tolerance), near, exact, condition, state)
-      call measure('table, wandering', new_table(cavitation, default_tolerance), far, exact_far, condition, state)
-      call measure('table 4e-6', fine, near, exact, condition, state)
+      call forces(fine, distant, exact_far)
+      call measure('table, same cell', new_table(cavitation, default_tolerance), nearby, exact, condition, state)
+      call measure('table, wandering', new_table(cavitation, default_tolerance), distant, exact_far, condition, state)
+      call measure('table 4e-6', fine, nearby, exact, condition, state)
       n = 12
       do while (n <= 48)
          if (cavitation == cavitation_reynolds) then
             direct = new_direct_film(films, n, 8, 80*n/24, n/3, .true., .false.)
-            call measure('direct '//to_text(n), direct, near, exact, condition, state)
+            call measure('direct '//to_text(n), direct, nearby, exact, condition, state)
          else
             fourier = new_fourier_film(films, n, 8, cavitation == cavitation_gumbel)
-            call measure('fourier '//to_text(n), fourier, near, exact, condition, state)
+            call measure('fourier '//to_text(n), fourier, nearby, exact, condition, state)
          end if
          n = 2*n
       end do
       n = 30
       do while (n <= 120)
          sor = new_sor_film(films, sor_options(n, n/4, tolerance=1e-6_wp, max_sweeps=100000, cavitation=cavitation))
-         call measure('sor '//to_text(n), sor, near, exact, condition, state)
+         call measure('sor '//to_text(n), sor, nearby, exact, condition, state)
          n = 2*n
       end do
    end subroutine compare

@@ -32,7 +32,7 @@ def pads(runner: Runner) -> Iterator[Row]:
 
 
 def ring(count: int) -> Case:
-    """So many pads evenly around the journal, two of them below it, each with its share of the load."""
+    """This many pads evenly around the journal, two of them below it, each with its share of the load."""
     angles = (-45, 225) if count == 2 else [-90 + (i + 0.5) * 360 / count for i in range(count)]
     return Case(
         f"pads_{count}",

@@ -1,4 +1,4 @@
-"""Coefficients over speed and whirl frequency: a sweep of this program, and ROSS's own tilting pads."""
+"""Coefficients over speed and whirl frequency: a study of this program, and ROSS's own tilting pads."""
 
 import shutil
 from collections.abc import Iterator

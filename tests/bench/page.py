@@ -148,7 +148,7 @@ cost.
 
 {checkpoints}
 
-### Sweeps and studies
+### Parameter studies
 
 One call runs {runs} runs of 0.1 s without friction on all cores, and a second one collects their
 results into one file. The time of a run "beyond its march" is its time on a core minus the time that 0.1
@@ -209,7 +209,7 @@ converged run, which also contains the error of the film's grid.
 ## Coefficients: ROSS beside it
 
 A map of stiffness and damping over {map_speeds} speeds from {map_first:g} to {map_last:g} rpm and
-{map_ratios} whirl frequencies: a sweep of this program on one core, a file for each speed, and ROSS 3.1
+{map_ratios} whirl frequencies: a study of this program on one core, a file for each speed, and ROSS 3.1
 (`ross.TiltingPad`), which solves some of the speeds at one frequency; its map is extrapolated from them.
 The bearing is one that both describe: five pads with a preload of {map_preload:g}, the load between two of
 them, rigid pivots, pads nearly without mass, oil of one viscosity, laminar. ROSS's time starts when its

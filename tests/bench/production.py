@@ -1,4 +1,4 @@
-"""What checkpoints cost, what a run of a sweep costs beyond its march, and what collecting costs."""
+"""What checkpoints cost, what a run of a study costs beyond its march, and what collecting costs."""
 
 import os
 import shutil
@@ -12,18 +12,18 @@ import tiltpad
 from runner import Row, Runner
 from settings import CHECKPOINT_CASES, CHECKPOINT_SECONDS, RUNS
 
-CHECKPOINTS, SWEEP, COLLECT, START = "checkpoints", "sweep", "collect", "start"
+CHECKPOINTS, STUDY, COLLECT, START = "checkpoints", "sweep", "collect", "start"
 #: Short runs so often; the best counts. Starts so often; their median counts.
 REPEATS = 3
 STARTS = 21
-#: A sweep of short frictionless runs, and one of them longer: what the march alone takes follows.
+#: A study of short frictionless runs, and one of them longer: what the march alone takes follows.
 CASE = "&operation duration={duration:g} /\n"
-SWEPT = "&sweep rotor%unbalance=1e-5:{last:g}:1e-5 /\n"
+VARIED = "&sweep rotor%unbalance=1e-5:{last:g}:1e-5 /\n"
 SHORT, LONG = 0.1, 10.1
 
 
 def production(runner: Runner) -> Iterator[Row]:
-    """Rows of checkpoints, sweep and collection."""
+    """Rows of checkpoints, study and collection."""
     for case in CHECKPOINT_CASES:
         # what runs before it left to the system to write is not its own
         os.sync()
@@ -60,15 +60,15 @@ def copying(path: Path) -> float:
 
 
 def runs(runner: Runner) -> Iterator[Row]:
-    """A run, a longer one, all of a sweep of the first, the same again, and its collection."""
+    """A run, a longer one, all of a study of the first, the same again, and its collection."""
     folder = runner.folder / "runs"
     folder.mkdir()
     for duration in (SHORT, LONG):
         times = [timed(runner, folder, CASE.format(duration=duration)) for _ in range(REPEATS)]
-        yield Row(runner.part, "one", SWEEP, f"{duration:g}", wall_seconds=min(times), rotor_seconds=duration)
-    text = CASE.format(duration=SHORT) + SWEPT.format(last=1e-5 * RUNS)
+        yield Row(runner.part, "one", STUDY, f"{duration:g}", wall_seconds=min(times), rotor_seconds=duration)
+    text = CASE.format(duration=SHORT) + VARIED.format(last=1e-5 * RUNS)
     for setting in ("all", "again"):
-        yield Row(runner.part, "sweep", SWEEP, setting, wall_seconds=timed(runner, folder, text))
+        yield Row(runner.part, "sweep", STUDY, setting, wall_seconds=timed(runner, folder, text))
     collect = Path(sys.executable).with_name("tiltpad-collect")
     started = time.perf_counter()
     done = subprocess.run([collect, "case", "-o", "study.h5"], cwd=folder, text=True, capture_output=True)
@@ -80,7 +80,7 @@ def runs(runner: Runner) -> Iterator[Row]:
 
 
 def timed(runner: Runner, folder: Path, text: str) -> float:
-    """Wall seconds of a case, on all cores; a sweep goes on from what it has, a run starts anew."""
+    """Wall seconds of a case, on all cores; a study goes on from what it has, a run starts anew."""
     (folder / "case.h5").unlink(missing_ok=True)
     (folder / "case.nml").write_text(text)
     os.sync()

@@ -15,7 +15,7 @@ from settings import ROOT, Case
 
 #: Seconds after which a run is killed.
 LIMIT = 600
-#: A run is timed again, three times at most, until that takes so many seconds; the best counts.
+#: A run is timed again, three times at most, until that takes this many seconds; the best counts.
 SHORT, REPEATS = 2.0, 3
 #: Core of the timed runs.
 CORE = 1

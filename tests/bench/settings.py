@@ -82,7 +82,7 @@ CHECKPOINT_CASES = (
     Case("steady_lugre", "LuGre, over-relaxation", MAIN[1].input_file,
           ("operation%duration=1", "film%solver=sor")),
 )  # fmt: skip
-#: Runs of the sweep of short runs; milliseconds allowed beyond a run's march; seconds to collect all.
+#: Runs of the study of short runs; milliseconds allowed beyond a run's march; seconds to collect all.
 RUNS, RUN_MILLISECONDS, COLLECT_SECONDS = 1000, 6, 10
 #: Start of the program, which does nothing else.
 START_MILLISECONDS = 20
@@ -158,7 +158,7 @@ VISITS = tuple(
     for v in ("0.02", "0.2", "2", "20")
 ) + (FULL_FILM[1], *MAIN[2:])
 
-#: The same pad so many times: pads of 20 degrees all around, preloaded so that each carries, 50 kg a pad.
+#: The same pad this many times: pads of 20 degrees all around, preloaded so that each carries, 50 kg a pad.
 PAD_COUNTS = (2, 4, 8, 16)
 
 #: The case of the peers; their tolerances are the paper's: relative, and absolute for every state.

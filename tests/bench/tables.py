@@ -35,7 +35,7 @@ def table(head: str, rows: Iterable[Iterable]) -> str:
 
 
 def short(value: float | None, digits: int = 3) -> str:
-    """A number of so many digits; '-' where there is none."""
+    """A number of this many digits; '-' where there is none."""
     return "-" if value is None else f"{value:#.{digits}g}".rstrip(".")
 
 

@@ -16,7 +16,7 @@ import h5py
 import pytest
 
 #: Seconds after which a test gives up what it waits for: many times what it takes on a loaded machine.
-PATIENCE = 300
+TIMEOUT = 300
 #: A run that does not end by itself.
 ENDLESS = ("--set", "operation%duration=10000")
 #: A run that makes a checkpoint at each of its steps, which takes fifty times as long as the steps do.
@@ -48,7 +48,7 @@ int clock_gettime(clockid_t clock, struct timespec *now)
 
 def wait_for(condition, process=None):
     """Until the condition holds. A process, where one is given, must not end before."""
-    end = time.monotonic() + PATIENCE
+    end = time.monotonic() + TIMEOUT
     while not condition():
         assert process is None or process.poll() is None, process.communicate()
         assert time.monotonic() < end
@@ -86,7 +86,7 @@ def on_a_terminal(program, arguments, folder, environment, stderr=None):
     ) as process:  # fmt: skip
         os.close(follower)
         seen = b""
-        while select.select([leader], [], [], PATIENCE)[0]:
+        while select.select([leader], [], [], TIMEOUT)[0]:
             try:
                 new = os.read(leader, 65536)
             except OSError:
@@ -100,7 +100,7 @@ def on_a_terminal(program, arguments, folder, environment, stderr=None):
 
 def one_error(process, status):
     """The one line with which a process ended."""
-    error = process.communicate(timeout=PATIENCE)[1]
+    error = process.communicate(timeout=TIMEOUT)[1]
     assert process.returncode == status, error
     assert error.count("\n") == 1
     assert error.startswith("tiltpad: error: ")
@@ -121,7 +121,7 @@ def arrays(path, *but):
 
 
 def shorten(path, more=0.01):
-    """Sets the end of a stopped march so many seconds behind its checkpoint; gives it."""
+    """Sets the end of a stopped march this many seconds behind its checkpoint; gives it."""
     with h5py.File(path, "r+") as file:
         end = float(file["checkpoint/time"][()]) + more
         file.attrs["input"] = re.sub(r"duration = \S+", f"duration = {end!r}", file.attrs["input"])

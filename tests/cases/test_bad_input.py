@@ -278,11 +278,11 @@ LINES = {
         ["case.nml", "--set", "operation%mass=1"],
         ["(did you mean rotor%mass or pads%"],
     ),
-    "range without sweep": (
+    "range without &sweep": (
         ["case.nml", "--set", "operation%speed_rpm=1:3:1"],
         ["sweep%operation%speed_rpm = 1:3:1"],
     ),
-    "values without sweep": (
+    "values without &sweep": (
         ["case.nml", "--set", "rotor%mass=1,2"],
         ["takes one value", "sweep%rotor%mass = 1, 2"],
     ),

@@ -83,8 +83,8 @@ def test_step_budget(tiltpad, tmp_path, steps):
     stopped_in_the_march(tmp_path, message)
 
 
-def test_sweep_cap_at_the_start(tiltpad, tmp_path):
-    """The equilibrium has sweeps of its own, so that the first sample is what fails."""
+def test_cap_at_the_start(tiltpad, tmp_path):
+    """The equilibrium has SOR sweeps of its own, so that the first sample is what fails."""
     message = fails(tiltpad, tmp_path, "film%solver='sor'", "film%max_sweeps=1")
     assert re.search(
         rf"film of pad 1 did not converge: residual {NUMBER} after film%max_sweeps = 1\b", message
@@ -96,7 +96,7 @@ def test_sweep_cap_at_the_start(tiltpad, tmp_path):
         assert file["equilibrium/residual"][()] < 1e-6
 
 
-def test_sweeps_that_do_not_converge(tiltpad, tmp_path):
+def test_films_that_do_not_converge(tiltpad, tmp_path):
     message = fails(tiltpad, tmp_path, "film%solver='sor'", "film%tolerance=1e-13", "film%relaxation=1.999",
                     "film%max_sweeps=100")  # fmt: skip
     assert re.search(rf"film of pad [12] did not converge: residual {NUMBER} after film%max_sweeps", message)

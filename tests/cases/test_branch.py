@@ -4,7 +4,7 @@ import h5py
 import numpy as np
 import pytest
 
-#: Its journal loses its stability at the threshold that the task coefficients finds.
+#: Its journal loses its stability at the threshold speed that the task coefficients finds.
 LIGHT = "&rotor mass=200 /\n&operation speed_rpm=14000 /\n"
 LUGRE = "&friction model='lugre' /\n&operation speed_rpm=3000 /\n&output samples_per_revolution=90 /\n"
 BENGISU_AKAY = (

@@ -43,12 +43,12 @@ LUGRE = f"""{BRANCH}&friction model='lugre' / &operation speed_rpm=11500 /
 SWITCHING = LUGRE.replace("lugre", "bengisu_akay").replace("11500", "6500").replace("11700", "6700")
 #: Warm oil: its viscosities are unknowns of equilibria, and of orbits they are those of the equilibrium.
 WARM = "&film cavitation='none' / &oil grade=46 / &thermal model='pad' /"
-WARM_EQUILIBRIA = EQUILIBRIA.replace("14700", "13500").replace("15300", "14100") + WARM
+THERMAL_EQUILIBRIA = EQUILIBRIA.replace("14700", "13500").replace("15300", "14100") + WARM
 WARM_ORBITS = f"""{BRANCH}&operation speed_rpm=4000 / {WARM}
 &branch parameter='oil%supply_temperature', last=41, step=0.1, max_step=0.1 /
 """
-#: Films that are solved by sweeps from the last ones.
-SWEPT = EQUILIBRIA.replace("&rotor", "&film solver='sor', circumferential_cells=20, axial_cells=4 / &rotor")
+#: Films that are solved by SOR sweeps from the last ones.
+RELAXED = EQUILIBRIA.replace("&rotor", "&film solver='sor', circumferential_cells=20, axial_cells=4 / &rotor")
 #: What each stretch of a run has of its own, and the input, where the time between checkpoints may change.
 OWN = ("created", "ended", "history", "resumes", "input")
 
@@ -69,12 +69,12 @@ def check_same(path, reference):
 
 @pytest.mark.parametrize(
     "case",
-    [EQUILIBRIA, SWEPT, DOUBLED, LUGRE, SWITCHING, WARM_EQUILIBRIA, WARM_ORBITS],
-    ids=["equilibria", "swept", "doubled", "lugre", "switching", "warm equilibria", "warm orbits"],
+    [EQUILIBRIA, RELAXED, DOUBLED, LUGRE, SWITCHING, THERMAL_EQUILIBRIA, WARM_ORBITS],
+    ids=["equilibria", "relaxed", "doubled", "lugre", "switching", "warm equilibria", "warm orbits"],
 )
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
 def test_slices_of_a_branch_join_to_the_bit(run, tiltpad, tmp_path, loaded, case, number):
-    """Slices that end after so many requests; one without a new point is followed by a longer one."""
+    """Slices that end after this many requests; one without a new point is followed by a longer one."""
     run(case, more=("-o", "whole.h5"))
     path, library = tmp_path / "case.h5", loaded(AT_A_REQUEST, SIGNAL=str(int(number)))
     requests, points, stops, status = 20000, 0, 0, None

@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 import pytest
 import tiltpad as package
-from conftest import ENDLESS, EVERY_STEP, PATIENCE, one_error, shorten, wait_for, wait_for_checkpoint
+from conftest import ENDLESS, EVERY_STEP, TIMEOUT, one_error, shorten, wait_for, wait_for_checkpoint
 
 CASE = "&friction model='lugre' / &operation duration=0.5 / &output checkpoint_seconds=0.01 /\n"
 #: What a case may add: every kind of state, film and end that a resumed run must take up.
@@ -172,7 +172,7 @@ def test_every_case_can_be_resumed(start, tiltpad, case, whole, case_name):
         wait_for_checkpoint(output, process)
         wait_for(lambda part=part: reached(output) > part * end, process)
         process.send_signal(number)
-        process.wait(PATIENCE)
+        process.wait(TIMEOUT)
         check_checkpoint(output, whole(case_name))
     tiltpad(*arguments, cwd=case, status=0)
     check_joined(case / "case.h5", whole(case_name), resumes=3)
@@ -184,7 +184,7 @@ def test_kills_at_random_instants(start, case, whole):
     output = case / "case.h5"
     arguments = ("--resume", "case.h5", "case.nml", "-q")
     began = time.monotonic()
-    assert start(case, "case.nml", "-q").wait(PATIENCE) == 0
+    assert start(case, "case.nml", "-q").wait(TIMEOUT) == 0
     all_of_it = time.monotonic() - began
     output.unlink()
     kills = 0
@@ -202,7 +202,7 @@ def test_kills_at_random_instants(start, case, whole):
             assert process.returncode == 0
             check_joined(output, whole("lugre"))
             output.unlink()
-    assert start(case, *arguments).wait(PATIENCE) == 0
+    assert start(case, *arguments).wait(TIMEOUT) == 0
     check_joined(output, whole("lugre"))
     assert sorted(path.name for path in case.iterdir()) == ["case.h5", "case.nml"]
 
@@ -368,7 +368,7 @@ def in_a_mount_namespace(script, **names):
         ["unshare", "-m", "sh", "-e", "-c", script],
         capture_output=True,
         text=True,
-        timeout=PATIENCE,
+        timeout=TIMEOUT,
         env={**os.environ, **{name: str(value) for name, value in names.items()}},
     )
 

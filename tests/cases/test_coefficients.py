@@ -50,7 +50,7 @@ def check_modes(group, modes, pivot):
         assert np.abs(left).max() <= 1e-6 * np.abs(k @ form).max()
 
 
-def test_sweep_goes_on_without_equilibrium(tiltpad, root, tmp_path):
+def test_study_goes_on_without_equilibrium(tiltpad, root, tmp_path):
     """A load between pads that nothing carries: its run is marked, the others are whole."""
     loads = "sweep%rotor%static_load(2)=0,1e5,1000"
     arguments = ("--output", tmp_path / "map", "--quiet", "--set", TASK, "--set", loads)

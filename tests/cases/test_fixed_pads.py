@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import tiltpad as package
 
-#: Below its threshold; an unbalance keeps it moving.
+#: Below its threshold speed; an unbalance keeps it moving.
 CASE = """&pads motion='fixed', pivot_angle_deg=-90,90, arc_deg=160 /
 &bearing journal_radius=50e-3, assembled_clearance=100e-6, preload=0, axial_length=50e-3, viscosity=0.02 /
 &rotor mass=300, balance_grade=2.5 /
@@ -66,7 +66,7 @@ def test_what_pads_without_pivots_have(run):
 
 
 def test_oil_whirl_of_the_example(tiltpad, root, tmp_path):
-    """Above the threshold the journal whirls at nearly half the shaft speed; below it does not."""
+    """Above the threshold speed the journal whirls at nearly half the shaft speed; below it does not."""
     example = root / "input/examples/two_groove.nml"
     above = tiltpad(example, "-o", "above.h5", cwd=tmp_path, status=0)
     slower = ["operation%speed_rpm=6000"]
@@ -143,7 +143,7 @@ def test_one_pad_of_any_arc_carries(tiltpad, tmp_path, arc, cavitation):
 
 
 def test_coefficients_have_the_journal_alone(tiltpad, run):
-    """They are those that the march feels, whatever the frequency, and the threshold is where it whirls."""
+    """They are those of the march, whatever the frequency, and the threshold speed is where it whirls."""
     overrides = ("case%task='coefficients'", "coefficients%frequency_ratio=0.5,1")
     path = run("linear", *overrides, "coefficients%threshold_up_to_rpm=9000")
     with package.read(path) as file:

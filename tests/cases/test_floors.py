@@ -19,7 +19,7 @@ def house(tmp_path):
 
 
 def procedure(lines, name="f", comment=""):
-    """A function of so many lines."""
+    """A function of this many lines."""
     return (
         "\n".join(
             [f"   pure function {name}(x)", *[comment or "      x = 1"] * (lines - 2), "   end function"]

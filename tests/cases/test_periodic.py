@@ -1,4 +1,4 @@
-"""Whole runs of the task periodic: the file, agreement with marches, refusals, failures, signals, sweeps."""
+"""Whole runs of the task periodic: the file, agreement with marches, refusals, failures, signals, studies."""
 
 import h5py
 import numpy as np
@@ -15,7 +15,7 @@ LONG = (
     "periodic%revolutions=5",
 )
 LONGER = (*LONG[:3], "periodic%revolutions=100")
-#: A journal in fixed pads above its threshold: the orbit is left by a whirl that doubles once a revolution.
+#: A journal in fixed pads above its threshold speed: a whirl leaves the orbit and doubles once a revolution.
 WHIRL = """&pads motion='fixed', pivot_angle_deg=-90,90, arc_deg=160 /
 &bearing journal_radius=50e-3, assembled_clearance=100e-6, preload=0, axial_length=50e-3, viscosity=0.02 /
 &rotor mass=300, balance_grade=2.5 /
@@ -234,10 +234,10 @@ def test_a_stopped_search_goes_on_to_the_same_orbit(start, tiltpad, run, tmp_pat
         np.testing.assert_allclose(part["journal_y"][:], whole["journal_y"][:], atol=1e-10)
 
 
-def test_a_sweep(tiltpad, tmp_path):
+def test_a_study(tiltpad, tmp_path):
     (tmp_path / "case.nml").write_text(LUGRE)
-    sweep = (PERIODIC, "sweep%operation%speed_rpm=3000,6500")
-    tiltpad("case.nml", "-q", overrides=sweep, cwd=tmp_path, status=0)
+    varied = (PERIODIC, "sweep%operation%speed_rpm=3000,6500")
+    tiltpad("case.nml", "-q", overrides=varied, cwd=tmp_path, status=0)
     periods = []
     for number in (1, 2):
         with h5py.File(tmp_path / f"case/000{number}.h5") as file:

@@ -9,11 +9,11 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parents[1] / "stress"))
 from limited import limited  # noqa: E402
 from stress_cases import draw, text  # noqa: E402
-from stress_judge import cause_of, judge, searched  # noqa: E402
+from stress_judge import assess, cause_of, searched  # noqa: E402
 
 # cases (seed, number) whose equilibrium the first search misses, by the method that finds it: pads one by
-# one (163, 172, 225), Newton from another start (144), the rest of an unloaded pad (15, 48, 70, 297, and 492
-# and 603 of seed 2); and films without load that press with 670 kN (205)
+# one (163, 172, 225), Newton from another start (144), the equilibrium of an unloaded pad (15, 48, 70, 297,
+# and 492 and 603 of seed 2); and films without load that press with 670 kN (205)
 HARD = {
     (1, 15): "stable",
     (1, 48): "stable",
@@ -52,7 +52,7 @@ def test_found(program, tmp_path, seed, number):
 
 
 def test_rest_in_a_leap(program, tmp_path):
-    # the film's force leaps, by a part of its error, where this bearing rests
+    # the film's force leaps, by a part of its error, at the equilibrium of this bearing
     run = at_rest(program, tmp_path, 53, seed=2)
     assert run.returncode == 0, run.stderr
     with h5py.File(tmp_path / "case.h5") as file:
@@ -83,6 +83,6 @@ def test_limit_of_cpu_time(program, tmp_path):
 
 @pytest.mark.parametrize("number", FIXED)
 def test_fixed_pads(tmp_path, number, program):
-    result = judge(Path(program), number, draw(1, number, fixed=True), tmp_path, compare=False)
+    result = assess(Path(program), number, draw(1, number, fixed=True), tmp_path, compare=False)
     assert result.outcome == "done"
     assert not result.faults

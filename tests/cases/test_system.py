@@ -348,7 +348,7 @@ def test_a_stopped_writer_elsewhere(start, case, loaded, when):
         wait_for(lambda: (case / "case.h5.lock").read_text().startswith(f"two {second.pid} "), second)
         wait_for_checkpoint(case / "case.h5", second)
     else:
-        assert second.wait(PATIENCE) == 0, second.stderr.read()
+        assert second.wait(TIMEOUT) == 0, second.stderr.read()
         before = (case / "case.h5").read_bytes()
     first.send_signal(signal.SIGCONT)
     assert "cannot write case.h5" in one_error(first, 3)
@@ -375,7 +375,7 @@ def touched(log, folder):
 
 
 def test_all_that_the_program_touches(start, tiltpad, case, loaded, tmp_path):
-    """Runs, a stop, going on, a refusal and a sweep: only files of their names, no connection, no program."""
+    """Runs, a stop, going on, a refusal and a study: only files of their names, no connection, no program."""
     log = tmp_path / "log"
     environment = loaded(NOTES, LOG=str(log))
     run = start(case, "-q", "case.nml", *ENDLESS, env=environment)
@@ -391,8 +391,8 @@ def test_all_that_the_program_touches(start, tiltpad, case, loaded, tmp_path):
     read = {f"r {name}" for name in (".", "case.nml", "case.h5", "case.h5.part", "/proc/self/statm")}
     assert touched(log, case) == own | read | {"w /dev/null"}
     log.unlink()
-    sweep = CASE.replace("0.3", "0.01").replace("seconds=0.01", "seconds=0")
-    (case / "case.nml").write_text(f"{sweep}&sweep operation%speed_rpm=4000,5000 /\n")
+    study = CASE.replace("0.3", "0.01").replace("seconds=0.01", "seconds=0")
+    (case / "case.nml").write_text(f"{study}&sweep operation%speed_rpm=4000,5000 /\n")
     tiltpad("case.nml", "-q", cwd=case, env=environment, status=0)
     own = {f"{what} case/N.h5.{side}" for what in "wd" for side in ("part", "lock")} - {"d case/N.h5.part"}
     found = touched(log, case)
@@ -465,5 +465,5 @@ def test_two_makes_in_one_folder(root, tmp_path):
     assert second.poll() is None
     assert (tmp_path / "build").exists()
     (tmp_path / "go").touch()
-    assert (first.wait(PATIENCE), second.wait(PATIENCE)) == (0, 0)
+    assert (first.wait(TIMEOUT), second.wait(TIMEOUT)) == (0, 0)
     assert not (tmp_path / "build").exists()

@@ -19,8 +19,8 @@ BOILING = (5, 6, 7, 8, 14)
 
 
 @pytest.fixture
-def sweep(tiltpad, tmp_path):
-    """sweep(overrides): the ends of the runs that failed, by their number."""
+def failures(tiltpad, tmp_path):
+    """failures(overrides): the ends of the runs that failed, by their number."""
     (tmp_path / "case.nml").write_text(CASE)
 
     def run(*overrides):
@@ -33,9 +33,9 @@ def sweep(tiltpad, tmp_path):
     return run
 
 
-def test_corners_of_the_range(sweep):
+def test_corners_of_the_range(failures):
     """Most have an equilibrium; in the others the friction of asperities boils the oil."""
-    refused = sweep()
+    refused = failures()
     assert tuple(sorted(refused)) == BOILING
     assert all("above 300 C, where mineral oil boils" in line for line in refused.values())
-    assert sweep("asperity%friction_coefficient=0") == {}
+    assert failures("asperity%friction_coefficient=0") == {}

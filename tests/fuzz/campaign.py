@@ -10,7 +10,7 @@ import cases
 import faults
 import mutate
 import spelling
-import sweeps
+import studies
 from harness import Case, Crash, Hang, Harness, Reply
 from judge import findings
 from reference import Variable, variables
@@ -42,7 +42,7 @@ class Campaign:
         self.variables: dict[str, Variable] = variables(self.harness.reference())
 
     def run(self, seconds: float, most: int = 10**9) -> None:
-        """Draws cases for so many seconds, or at most so many cases."""
+        """Draws cases for this many seconds, or at most this many cases."""
         end = time.monotonic() + seconds
         while time.monotonic() < end and most > 0:
             self.one(Random(f"{self.seed}/{self.count.total()}"))
@@ -61,10 +61,10 @@ class Campaign:
         elif kind < 0.95:
             self.check(spelling.case(dice, inputs, self.variables), "valid", intended=0)
         else:
-            sweep, count = sweeps.draw(dice, self.variables)
-            swept = {item.key.removeprefix("sweep%") for item in sweep.items}
-            inputs = {key: value for key, value in inputs.items() if key not in swept}
-            self.check(spelling.case(dice, inputs, self.variables, sweep), "valid sweep", intended=count)
+            study, count = studies.draw(dice, self.variables)
+            varied = {item.key.removeprefix("sweep%") for item in study.items}
+            inputs = {key: value for key, value in inputs.items() if key not in varied}
+            self.check(spelling.case(dice, inputs, self.variables, study), "valid study", intended=count)
 
     def check(self, case: Case, kind: str, words=None, intended=None, back: bool = True) -> None:
         """Reads and judges a case."""

@@ -99,7 +99,7 @@ def set_arguments(dice: Random, program: Path, folder: Path, variables, corpus):
 
 
 def with_members(program: Path, folder: Path, arguments: list[bytes], resolved: bytes) -> bytes:
-    """What the harness would say of a sweep: how many, the resolved case, some runs."""
+    """What the harness would say of a study: how many, the resolved case, some runs."""
     count = run(program, folder, b"--count", *arguments[1:])[1].strip()
     runs = [*range(1, min(SHOWN, int(count)) + 1), *([int(count)] if int(count) > SHOWN else [])]
     cases = [run(program, folder, b"--run", b"%d" % k, *arguments)[1] for k in runs]

@@ -71,7 +71,7 @@ def main() -> int:
 
 
 def run_commands(campaign: Campaign, options: argparse.Namespace, seconds: float) -> None:
-    """Runs commands for so many seconds."""
+    """Runs commands for this many seconds."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         dice = Random(f"{campaign.seed}/{campaign.count.total()}")

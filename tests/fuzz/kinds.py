@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from random import Random
 
 import spelling
-import sweeps
+import studies
 from reference import Variable
 from spelling import Group, Item
 
@@ -227,9 +227,9 @@ def control(dice: Random, spot: Spot):
     return (b"not a text file",)
 
 
-def bad_sweep(dice: Random, spot: Spot):
-    """A sweep that is none."""
-    return sweeps.wrong(dice, spot.groups, spot.variables)
+def bad_study(dice: Random, spot: Spot):
+    """A study that is none."""
+    return studies.wrong(dice, spot.groups, spot.variables)
 
 
 KINDS = (
@@ -249,5 +249,5 @@ KINDS = (
     unclosed_quote,
     stray,
     control,
-    bad_sweep,
+    bad_study,
 )

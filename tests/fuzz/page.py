@@ -38,7 +38,7 @@ and the test judges the result:
   reaches it a new number of times.
 
 A refusal is exit status 1 and one printable line of limited length that says where the error is. If a case
-is accepted, the program prints it, and reading this text must give the same text again. A sweep must have
+is accepted, the program prints it, and reading this text must give the same text again. A study must have
 the number of runs that the second reader counts, and the runs must have the values that it finds. If
 there is no answer within {limit:g} s, the test counts a hang.
 
@@ -49,9 +49,9 @@ bounds checks, floating-point traps and the sanitizers for addresses and undefin
 run without sanitizers).
 
 **Damaged results** are tried by `make test` (`tests/post/damages.py`): results, checkpoints, runs of
-sweeps and studies with flipped bits, other blocks, very large numbers in their structure, other lengths, and
-other objects and attributes in place of theirs. Every reader in Python, and the program, must give values or
-one line, within 5 s of the processor's time and 500 MB, and leave nothing behind.
+studies, and studies with flipped bits, other blocks, very large numbers in their structure, other lengths,
+and other objects and attributes in place of theirs. Every reader in Python, and the program, must give values
+or one line, within 5 s of the processor's time and 500 MB, and leave nothing behind.
 `TILTPAD_DAMAGES=3000 make test ONLY=damage_is` tries more of them.
 
 | kind | number |

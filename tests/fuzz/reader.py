@@ -10,14 +10,14 @@ from reference import Variable
 MOST_ITEMS = 1000
 MOST_TEXT = 1000
 LONGEST_NUMBER = 60
-SWEEP = "sweep"
+STUDY = "sweep"
 
 BLANK = re.compile(rb"(?:[ \t\r\n]|![^\n]*)*")
 COMMAS = re.compile(rb"(?:[ \t\r\n,]|![^\n]*)*")
 WORD = re.compile(rb"[^ ,=/&!'\"\t\n\r]*")
 QUOTED = re.compile(rb"'(?:[^'\n]|'')*+'|\"(?:[^\"\n]|\"\")*+\"")
 TARGET = re.compile(rb"([a-z0-9_]+)(?:\(([0-9]{1,4})\))?")
-SWEEP_TARGET = re.compile(rb"([a-z0-9_%]+)(?:\(([0-9]{1,4})\))?")
+STUDY_TARGET = re.compile(rb"([a-z0-9_%]+)(?:\(([0-9]{1,4})\))?")
 NUMBER = re.compile(rb"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[ed][+-]?[0-9]+)?")
 REPEAT = re.compile(rb"(?:([0-9]{1,6})\*)?(.*)", re.S)
 # control characters, and a carriage return that ends no line
@@ -44,15 +44,15 @@ class Assignment:
 
     def replaces(self, other: "Assignment") -> bool:
         """True where nothing is left of the other: an element leaves the rest of a list."""
-        if not self.undoes(other) or not self.subscript or self.group == SWEEP:
+        if not self.undoes(other) or not self.subscript or self.group == STUDY:
             return self.undoes(other)
         return len(other.values) == 1 and b"*" not in other.values[0][0]
 
     def put(self, others: list["Assignment"]) -> list["Assignment"]:
-        """Behind the others in place of those it replaces; a sweep's where the first of them stood."""
+        """Behind the others in place of those it replaces; a study's where the first of them stood."""
         replaced = [i for i, each in enumerate(others) if self.replaces(each)]
         kept = [each for each in others if not self.replaces(each)]
-        at = replaced[0] if replaced and self.group == SWEEP else len(kept)
+        at = replaced[0] if replaced and self.group == STUDY else len(kept)
         return [*kept[:at], self, *kept[at:]]
 
 
@@ -75,11 +75,11 @@ class Scanner:
 
 
 def read(case: Case, known: set[str]) -> tuple[list[Assignment], bool]:
-    """The assignments of a case, with those of --set in place; whether it has a sweep. Or Refused."""
-    assignments, groups = read_file(case.text, known | {SWEEP})
+    """The assignments of a case, with those of --set in place; whether it has a study. Or Refused."""
+    assignments, groups = read_file(case.text, known | {STUDY})
     for argument in case.sets:
         assignments = read_set(argument).put(assignments)
-    return assignments, SWEEP in groups or any(each.group == SWEEP for each in assignments)
+    return assignments, STUDY in groups or any(each.group == STUDY for each in assignments)
 
 
 def read_file(text: bytes, known: set[str]) -> tuple[list[Assignment], set[str]]:
@@ -127,7 +127,7 @@ def read_group(scan: Scanner, group: str, found: list[Assignment]) -> None:
             if scan.take(re.compile(rb"&end", re.I)):
                 return
             raise Refused(f"{group} not closed")
-        target = (SWEEP_TARGET if group == SWEEP else TARGET).fullmatch(scan.take(WORD)[0].lower())
+        target = (STUDY_TARGET if group == STUDY else TARGET).fullmatch(scan.take(WORD)[0].lower())
         if not target or scan.skip() != b"=" or target[2] and int(target[2]) == 0:
             raise Refused("expected name = value")
         scan.at += 1

@@ -1,10 +1,10 @@
-"""What a case stands for, by the second reader: one run, or the runs of a sweep."""
+"""What a case stands for, by the second reader: one run, or the runs of a study."""
 
 import math
 from dataclasses import replace
 
 from harness import Case
-from reader import LONGEST_NUMBER, NUMBER, SWEEP, Assignment, Refused, read, resolve, resolved
+from reader import LONGEST_NUMBER, NUMBER, STUDY, Assignment, Refused, read, resolve, resolved
 from reference import Variable
 
 MOST_RUNS = 100000
@@ -16,18 +16,18 @@ SMALLEST, LARGEST = 1e-100, 1e100
 
 
 def expected(case: Case, variables: dict[str, Variable]) -> tuple[int, list[dict[str, tuple]]]:
-    """How many runs, 0 without a sweep, and the values of those that are shown; or Refused."""
-    assignments, sweep = read(case, {v.group for v in variables.values()})
-    base = [each for each in assignments if each.group != SWEEP]
-    if not sweep:
+    """How many runs, 0 without a study, and the values of those that are shown; or Refused."""
+    assignments, is_study = read(case, {v.group for v in variables.values()})
+    base = [each for each in assignments if each.group != STUDY]
+    if not is_study:
         return 0, [resolve(base, variables)]
-    zipped, swept = swept_variables([each for each in assignments if each.group == SWEEP], base)
-    counts = [sum(count_of(piece) for piece in pieces) for _, pieces in swept]
+    zipped, varied = varied_variables([each for each in assignments if each.group == STUDY], base)
+    counts = [sum(count_of(piece) for piece in pieces) for _, pieces in varied]
     runs = counts[0] if zipped else math.prod(counts)
     if zipped and len(set(counts)) > 1 or runs > MOST_RUNS:
         raise Refused("number of runs")
     shown = [*range(1, min(SHOWN, runs) + 1), *([runs] if runs > SHOWN else [])]
-    return runs, [resolve(run(k, zipped, swept, counts, base), variables) for k in shown]
+    return runs, [resolve(run(k, zipped, varied, counts, base), variables) for k in shown]
 
 
 def answered(text: bytes) -> tuple[int, list[dict[str, tuple]]]:
@@ -38,9 +38,9 @@ def answered(text: bytes) -> tuple[int, list[dict[str, tuple]]]:
     return int(count), [resolved(inputs) for inputs in cases]
 
 
-def swept_variables(assignments: list[Assignment], base: list[Assignment]):
-    """Whether the order is zip; assignments and pieces of the swept variables."""
-    zipped, swept = False, []
+def varied_variables(assignments: list[Assignment], base: list[Assignment]):
+    """Whether the order is zip; assignments and pieces of the varied variables."""
+    zipped, varied = False, []
     for each in assignments:
         if each.name == "order":
             word = each.values[0][0].strip(b" ").lower()
@@ -51,24 +51,24 @@ def swept_variables(assignments: list[Assignment], base: list[Assignment]):
         group, percent, name = each.name.partition("%")
         if not percent or not group or not name or "%" in name:
             raise Refused("no group%name")
-        if group == SWEEP or each.name == "case%title":
-            raise Refused("cannot be swept")
+        if group == STUDY or each.name == "case%title":
+            raise Refused("cannot be varied")
         target = Assignment(group, name, each.subscript, overrides=True)
-        if any(target.undoes(other) or other.undoes(target) for other, _ in swept):
-            raise Refused("swept twice")
+        if any(target.undoes(other) or other.undoes(target) for other, _ in varied):
+            raise Refused("varied twice")
         if any(target.undoes(other) and other.overrides for other in base):
-            raise Refused("swept and set")
-        swept.append((target, [piece(*value) for value in each.values]))
-    if not swept:
-        raise Refused("nothing is swept")
-    return zipped, swept
+            raise Refused("varied and set")
+        varied.append((target, [piece(*value) for value in each.values]))
+    if not varied:
+        raise Refused("nothing is varied")
+    return zipped, varied
 
 
 def piece(text: bytes, quoted: bool):
     """A single value, or first, step, whether that is a factor, and count."""
     if quoted or b":" not in text:
         if b"*" in text and not quoted:
-            raise Refused("repeat in a sweep")
+            raise Refused("repeat in a study")
         return text, quoted
     parts = text.lower().split(b":")
     if len(parts) != 3:
@@ -118,13 +118,13 @@ def value_of(pieces, n: int) -> tuple[bytes, bool]:
     return str(round(x) if whole else x).encode(), False
 
 
-def run(k: int, zipped: bool, swept, counts: list[int], base: list[Assignment]) -> list[Assignment]:
+def run(k: int, zipped: bool, varied, counts: list[int], base: list[Assignment]) -> list[Assignment]:
     """The assignments of the k-th run."""
     at, assignments = k - 1, base
     places = []
     for count in reversed(counts):
         places.insert(0, k - 1 if zipped else at % count)
         at //= count
-    for (target, pieces), place in zip(swept, places, strict=True):
+    for (target, pieces), place in zip(varied, places, strict=True):
         assignments = replace(target, values=[value_of(pieces, place)]).put(assignments)
     return assignments

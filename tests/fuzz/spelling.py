@@ -35,9 +35,9 @@ class Group:
 
 
 def case(
-    dice: Random, inputs: dict[str, tuple], variables: dict[str, Variable], sweep: Group | None = None
+    dice: Random, inputs: dict[str, tuple], variables: dict[str, Variable], study: Group | None = None
 ) -> Case:
-    """The values as a case file, some of it by --set, maybe with a sweep."""
+    """The values as a case file, some of it by --set, maybe with a study."""
     units = [spelled(dice, variables[key], value) for key, value in inputs.items()]
     sets, in_file = [], []
     share = dice.choice((0, 0, 0.1, 1))
@@ -53,10 +53,10 @@ def case(
         if dice.random() < 0.1:
             sets.insert(0, argument(dice, replace(unit[0], values=[b"'undone'"])))
     drawn = groups(dice, in_file, variables)
-    if sweep:
-        drawn.insert(dice.randint(0, len(drawn)), sweep)
+    if study:
+        drawn.insert(dice.randint(0, len(drawn)), study)
         if dice.random() < 0.3:
-            sets.append(argument(dice, sweep.items.pop()))
+            sets.append(argument(dice, study.items.pop()))
     text = file_text(dice, drawn)
     return Case(text, tuple(sets))
 

@@ -89,7 +89,7 @@ contains
       call expect(found%thresholds(2) > 6500 .and. found%thresholds(2) < found%thresholds(1), &
          & 'locked pads lose stability before')
       inputs%coefficients%threshold_up_to_rpm = 8000
-      call analyse(inputs, 'no threshold', found)
+      call analyse(inputs, 'stable up to 8000 rpm', found)
       call expect(all(ieee_is_nan(found%thresholds)), 'none up to 8000 rpm')
       call expect_close(found%sought_up_to, 8000.0_wp, 0.0_wp, 'all of the range was looked at')
    end subroutine threshold

@@ -80,7 +80,7 @@ contains
    end subroutine compare
 
    !> Prints the errors of a range, and holds them against limits of force, slopes and highest pressure.
-   subroutine judge(name, range, errors, limits)
+   subroutine expect_within(name, range, errors, limits)
       character(len=*), intent(in) :: name
       integer, intent(in) :: range
       type(error_type), intent(in) :: errors
@@ -92,7 +92,7 @@ contains
       call expect(errors%force < limits(1), what//'force '//to_text(errors%force)//': '//shown(errors%worst))
       call expect(errors%slopes < limits(2), what//'slopes '//to_text(errors%slopes))
       call expect(errors%pressure < limits(3), what//'highest pressure '//to_text(errors%pressure))
-   end subroutine judge
+   end subroutine expect_within
 
    !> The film by many modes, or by a part of them and of the cells; whole or clipped.
    function fine_film(state, part, clips) result(film)
@@ -187,8 +187,8 @@ contains
          end do
          limits = reshape([usual_error, 1e-3_wp, 1e-2_wp, usual_error, 1e-3_wp, 2e-2_wp], [3, 2])
          if (clips) limits = spread([merge(supply_limits(range), usual_error, supplied), 2e-2_wp, 5e-3_wp], 2, 2)
-         call judge('fourier'//name, range, modes, limits(:, 1))
-         call judge('auto'//name, range, looked_up, limits(:, 2))
+         call expect_within('fourier'//name, range, modes, limits(:, 1))
+         call expect_within('auto'//name, range, looked_up, limits(:, 2))
       end do
    end subroutine by_modes
 
@@ -202,7 +202,7 @@ contains
          & tolerance)
    end function new_tables
 
-   !> `direct` with so many times its default volumes.
+   !> `direct` with this many times its default volumes.
    function new_direct(state, finer, cavitates, clips) result(film)
       type(film_state), intent(in) :: state
       integer, intent(in) :: finer
@@ -226,21 +226,21 @@ contains
       clipped%max_pressure = max(0.0_wp, whole%max_pressure)
    end function clipped
 
-   !> From so many points along the arc, a fifth as many across; slopes over the position from what the field changes.
+   !> From this many points along the arc, a fifth as many across; slopes over the position from what the field changes.
    type(volumes_type) function integral(film, state, n)
       type(fourier_film_type), intent(inout) :: film
       type(film_state), intent(in) :: state
       integer, intent(in) :: n
-      type(film_motion) :: near
+      type(film_motion) :: beside
       real(wp) :: force(2), step
       integer :: k, side
       step = 1e-4_wp*state%thinnest
       integral%force = field_force(film, state, state%motion, n)
       do k = 1, 2
          do side = -1, 1, 2
-            near = state%motion
-            near%position(k) = near%position(k) + side*step
-            force = field_force(film, state, near, n)
+            beside = state%motion
+            beside%position(k) = beside%position(k) + side*step
+            force = field_force(film, state, beside, n)
             integral%derivatives(:, k) = integral%derivatives(:, k) + side*force/(2*step)
          end do
       end do
@@ -314,7 +314,7 @@ contains
 
    !> `direct`, with its default volumes and twice as many each way, `sor` likewise, and tables, with the condition of
    !> Reynolds, against volumes that are narrow where the film is thin, extrapolated. By how much these have not
-   !> converged, is told by a coarser pair of grids.
+   !> converged, follows from a coarser pair of grids.
    subroutine reynolds(supplied)
       logical, intent(in) :: supplied
       type(film_state) :: state
@@ -358,14 +358,15 @@ contains
             tables = new_tables(state, .true., .false., table_tolerances(2))
             call try(tables, state, expected, looked_up)
          end do
-         if (.not. supplied) call judge('auto'//name, range, looked_up, [5*table_tolerances(2), 1e-2_wp, 1e-2_wp])
+         if (.not. supplied) call expect_within('auto'//name, range, looked_up, &
+            & [5*table_tolerances(2), 1e-2_wp, 1e-2_wp])
          do k = 1, 2
             ! of second order
             associate (in_force => direct_limits(range, merge(1, 0, supplied)))
-               call judge('direct '//to_text(80*k)//' x '//to_text(8*k)//name, range, of_direct(k), &
+               call expect_within('direct '//to_text(80*k)//' x '//to_text(8*k)//name, range, of_direct(k), &
                   & [in_force, 0.1_wp, 4*in_force]*0.4_wp**(k - 1))
             end associate
-            call judge('sor '//to_text(60*k)//' x '//to_text(15*k)//name, range, of_sor(k), &
+            call expect_within('sor '//to_text(60*k)//' x '//to_text(15*k)//name, range, of_sor(k), &
                & [1.0_wp, 4.0_wp, 1.0_wp]*sor_limits(range)*0.4_wp**(k - 1))
          end do
       end do

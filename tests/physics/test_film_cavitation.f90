@@ -231,17 +231,17 @@ contains
    !> are the same on the way back, to rounding, whatever was solved before.
    subroutine no_chatter(path)
       type(journal_path), intent(in) :: path
-      integer, parameter :: few = 100, many = 1000
+      integer, parameter :: coarse_steps = 100, many = 1000
       type(direct_film_type) :: solver
-      real(wp) :: coarse(2, 0:few), fine(2, 0:many), back(2, 0:few), rough_coarse, rough_fine, largest
+      real(wp) :: coarse(2, 0:coarse_steps), fine(2, 0:many), back(2, 0:coarse_steps), rough_coarse, rough_fine, largest
       solver = new_direct_film([pad(path%flooded)], cells, modes, 60, 15, .true., .false.)
-      call walk(solver, path, 2*pi/few, coarse, rough_coarse)
-      call walk(solver, path, -2*pi/few, back, rough_coarse)
+      call walk(solver, path, 2*pi/coarse_steps, coarse, rough_coarse)
+      call walk(solver, path, -2*pi/coarse_steps, back, rough_coarse)
       call walk(solver, path, 2*pi/many, fine, rough_fine)
       largest = maxval(norm2(fine, dim=1))
       call expect(rough_fine <= 0.1_wp*rough_coarse + fourier_error*largest, 'steps of the force ' &
          & //to_text(rough_coarse/largest)//', ten times finer '//to_text(rough_fine/largest))
-      call expect_close(maxval(norm2(coarse - back(:, few:0:-1), dim=1)), 0.0_wp, 1e-9_wp*largest, &
+      call expect_close(maxval(norm2(coarse - back(:, coarse_steps:0:-1), dim=1)), 0.0_wp, 1e-9_wp*largest, &
          & 'there and back again')
    end subroutine no_chatter
 

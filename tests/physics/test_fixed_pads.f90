@@ -1,5 +1,5 @@
-!> Bearings of fixed pads: the limits of Ocvirk and Sommerfeld, the table of Lund and Thomsen, the threshold of oil
-!> whirl and the marches on both sides of it.
+!> Bearings of fixed pads: the limits of Ocvirk and Sommerfeld, the table of Lund and Thomsen, the threshold speed of
+!> oil whirl and the marches on both sides of it.
 program test_fixed_pads
    use kinds, only: wp, pi, rpm, degree
    use text, only: to_text
@@ -136,7 +136,7 @@ contains
       inputs = fixed_case([-90.0_wp, 90.0_wp], [160.0_wp, 160.0_wp], length_ratio)
    end function two_grooves
 
-   !> The bearing at rest at a Sommerfeld number mu N L D/W (R/c)^2: by the viscosity.
+   !> The equilibrium at a Sommerfeld number mu N L D/W (R/c)^2: by the viscosity.
    subroutine rest_at(inputs, sommerfeld, rest, model)
       type(case_type), intent(inout) :: inputs
       real(wp), intent(in) :: sommerfeld
@@ -243,7 +243,7 @@ contains
    end subroutine lobes
 
    !> `direct` and `sor` at their default resolution on arcs of 150 to 360 degrees, which all cavitation, against
-   !> volumes that follow the film, extrapolated; `auto` is `direct` on arcs as long as these. Errors are over the force
+   !> film-adapted volumes, extrapolated; `auto` is `direct` on arcs as long as these. Errors are over the force
    !> that the full film gives per velocity, times the velocity that drives it. Volumes are of second order: twice as
    !> many err a quarter, or half where cells that cavitate one by one make it rough.
    subroutine wide_films()
@@ -271,7 +271,7 @@ contains
       call expect(finer < 0.5_wp*worst(1), 'twice as fine: '//to_text(finer)//' after '//to_text(worst(1)))
    end subroutine wide_films
 
-   !> Error of the force of a solver with so many times its volumes, with the journal off the middle by a part of the
+   !> Error of the force of a solver with this many times its volumes, with the journal off the middle by a part of the
    !> clearance, towards an angle, and a velocity of a part of clearance times shaft speed, towards another.
    real(wp) function error_of(bearing, solver, finer, place, drive)
       type(case_type), intent(in) :: bearing
@@ -340,7 +340,7 @@ contains
       do i = -1, 1, 2
          call rotor_at(critical*(1 + i*1e-3_wp), rest, model, found)
          associate (value => found%stability%eigenvalue, omega => model%point%speed(0.0_wp))
-            call expect(i*value%re > 0, 'growth on either side of the threshold: '//to_text(value%re))
+            call expect(i*value%re > 0, 'growth on either side of the threshold speed: '//to_text(value%re))
             call expect_close(value%im/omega, ratio, 1e-3_wp, 'whirl at '//to_text(value%im/omega))
             call expect((found%stability%name == 'oscillatory instability') .eqv. i > 0, 'and its name: ' &
                & //found%stability%name)
@@ -348,10 +348,10 @@ contains
       end do
    end subroutine threshold
 
-   !> Marches from a little beside the rest, 10 % below and above the threshold. The whirl dies away, or grows, as its
-   !> eigenvalue says: this comes from slopes that are rough by 1 % where films cavitate, so that growth over shaft
-   !> speed is uncertain by 1e-3. Above the threshold it ends as an orbit of half the shaft's frequency within the
-   !> clearance.
+   !> Marches from a little beside the equilibrium, 10 % below and above the threshold speed. The whirl dies away, or
+   !> grows, as its eigenvalue says: this comes from slopes that are rough by 1 % where films cavitate, so that growth
+   !> over shaft speed is uncertain by 1e-3. Above the threshold speed it ends as an orbit of half the shaft's frequency
+   !> within the clearance.
    subroutine whirl()
       real(wp), parameter :: beside = 1e-3_wp
       integer, parameter :: revolutions = 150, last = 40
@@ -400,7 +400,7 @@ contains
       end do
    end function sizes
 
-   !> The places of the journal, (y or z, sample), m, of so many revolutions, from a part of the clearance beside its
+   !> The places of the journal, (y or z, sample), m, of this many revolutions, from a part of the clearance beside its
    !> rest.
    subroutine march_from(model, found, beside, revolutions, places)
       type(bearing_model), intent(inout) :: model

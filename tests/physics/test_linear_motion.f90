@@ -104,7 +104,7 @@ contains
       z = reshape([x(2, 2), -x(2, 1), -x(1, 2), x(1, 1)], [2, 2])/determinant
    end function measured
 
-   !> Of exp(i nu t) in the journal's motion, m, in the last of so many periods of 0.02 s at least.
+   !> Of exp(i nu t) in the journal's motion, m, in the last of this many periods of 0.02 s at least.
    function amplitude(model, rest) result(x)
       type(forced_model), intent(inout), target :: model
       real(wp), intent(in) :: rest(:)
@@ -123,11 +123,11 @@ contains
       end do
    end function amplitude
 
-   !> The threshold of a light rotor is near this speed, and 2 % below and above it a small motion dies away and grows
-   !> as the first mode says. Pads that stick are marched with LuGre friction.
-   subroutine both_sides(pivot, near)
+   !> The threshold speed of a light rotor is near this one, and 2 % below and above it a small motion dies away and
+   !> grows as the first mode says. Pads that stick are marched with LuGre friction.
+   subroutine both_sides(pivot, expected)
       character(len=*), intent(in) :: pivot
-      real(wp), intent(in) :: near
+      real(wp), intent(in) :: expected
       type(case_type) :: inputs
       type(bearing_coefficients_type) :: found
       type(bearing_model) :: model
@@ -141,7 +141,7 @@ contains
       call analyse(inputs, 'analysis', found, fine=model, y=y)
       i = merge(1, 2, pivot == 'free')
       threshold = found%thresholds(i)
-      call expect_close(threshold, near, 0.05_wp*near, 'threshold')
+      call expect_close(threshold, expected, 0.05_wp*expected, 'threshold')
       inputs%coefficients%threshold_up_to_rpm = 0
       do side = -1, 1, 2
          inputs%operation%speed_rpm = (1 + 0.02_wp*side)*threshold

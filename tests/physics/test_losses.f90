@@ -207,7 +207,7 @@ contains
       print '(a, es9.2)', 'full films, largest error ', worst
    end subroutine whole_by_volumes
 
-   !> Volumes that follow the film against four times as many uniform ones: both are of first order where the film
+   !> Film-adapted volumes against four times as many uniform ones: both are of first order where the film
    !> ends, and the flow at the trailing edge of a film that is squeezed is more so, as it is cut off at whole cells.
    subroutine cavitated_by_volumes()
       type(film_state) :: state

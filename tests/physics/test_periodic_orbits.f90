@@ -1,5 +1,5 @@
-!> Periodic orbits of bearings and their multipliers: against an independent program, against the eigenvalues of a rest,
-!> against a march over the period, and by their order of convergence.
+!> Periodic orbits of bearings and their multipliers: against an independent program, against the eigenvalues of an
+!> equilibrium, against a march over the period, and by their order of convergence.
 program test_periodic_orbits
    use kinds, only: wp
    use text, only: to_text
@@ -12,7 +12,7 @@ program test_periodic_orbits
    use equilibrium, only: equilibrium_type, find_equilibrium
    use force_balance, only: force_derivatives, masses, find_vibrations
    use orbit_polynomials, only: orbit_type
-   use resting_orbit, only: newton_round
+   use constant_orbit, only: newton_round
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit, are_stable
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)

@@ -173,8 +173,8 @@ def made(result, opened, tmp_path):
 
 
 @pytest.fixture(scope="session")
-def sweep(tiltpad):
-    """sweep(folder, "&friction model='lugre' /", {"operation%speed_rpm": [2000, 3000]}, failed=(2,)).
+def runs_of(tiltpad):
+    """runs_of(folder, "&friction model='lugre' /", {"operation%speed_rpm": [2000, 3000]}, failed=(2,)).
 
     The runs of the product of these values as a folder of results; the numbers in `failed` are runs
     whose equilibrium was not found. Gives the folder.

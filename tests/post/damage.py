@@ -31,7 +31,7 @@ import tiltpad  # noqa: E402
 from tiltpad import command, diagrams, figures, summary  # noqa: E402, F401
 
 #: Damages from one picture to the next; seconds, of the processor's time too, and bytes for one damage.
-PICTURE_EVERY, PATIENCE, SECONDS, MEMORY = 6, 60, 5, 500 << 20
+PICTURE_EVERY, TIMEOUT, SECONDS, MEMORY = 6, 60, 5, 500 << 20
 
 
 def main() -> None:
@@ -59,7 +59,7 @@ def in_child(work: Callable[[], tuple[str, str]]) -> tuple[str, str]:
     receive, send = os.pipe()
     child = os.fork()
     if child == 0:
-        signal.alarm(PATIENCE)
+        signal.alarm(TIMEOUT)
         resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
         used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
         resource.setrlimit(resource.RLIMIT_AS, (used + MEMORY, used + MEMORY))

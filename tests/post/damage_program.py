@@ -1,9 +1,9 @@
-"""Damages results, checkpoints, runs of a sweep and studies, and has the program read each of them.
+"""Damages results, checkpoints, runs of a study and studies, and has the program read each of them.
 
 usage: damage_program.py PROGRAM COUNT SEED [FOLDER]
 
 The program looks at the damaged file (--resume --check), goes on with it, starts from it, replaces it, or
-finds it among the runs of a sweep. Prints a line for each damage at which it crashed, hung, needed too
+finds it among the runs of a study. Prints a line for each damage at which it crashed, hung, needed too
 much time or memory, said anything but its own lines, changed a file that it refused, or left something
 behind; with FOLDER the damaged file is kept there. The last line counts the damages that were read, refused
 and faulty.
@@ -39,7 +39,7 @@ CASES = {
     "stopped": "&operation duration=10000 /\n" + MARCH.replace("=0 /", "=0.01 /"),
     "sweep": "&operation duration=0.01 /\n&sweep operation%speed_rpm=4000:6000:1000 /\n" + MARCH,
 }
-#: Of a file: the arguments of the program. {} is the file; it is the second run in the folder of a sweep.
+#: Of a file: the arguments of the program. {} is the file; it is the second run in the folder of a study.
 USES = {
     "complete": ("--resume {} --check", "--resume {}", "complete.nml -o {}", "other.nml -o {}",
                  "other.nml --overwrite -o {}", "start.nml"),

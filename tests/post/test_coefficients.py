@@ -17,10 +17,10 @@ PIVOTS = ["free", "stuck", "locked"]
 
 
 @pytest.fixture(scope="module")
-def folder(sweep, cases, tmp_path_factory):
+def folder(runs_of, cases, tmp_path_factory):
     """Runs at five speeds, the slowest one last; the second has no equilibrium."""
     values = {"operation%speed_rpm": SPEEDS[1:] + SPEEDS[:1]}
-    return sweep(tmp_path_factory.mktemp("sweeps") / "offset", cases["offset"], values, failed=(FAILED,))
+    return runs_of(tmp_path_factory.mktemp("studies") / "offset", cases["offset"], values, failed=(FAILED,))
 
 
 @pytest.fixture(scope="module")

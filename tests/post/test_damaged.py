@@ -39,11 +39,11 @@ def small(tiltpad, tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def study(sweep, tmp_path_factory):
+def study(runs_of, tmp_path_factory):
     """A study of six runs, one of which failed."""
     folder = tmp_path_factory.mktemp("study")
     values = {"operation%speed_rpm": [3000, 5000, 7000], "friction%model": ["none", "lugre"]}
-    sweep(folder / "speeds", "&operation duration=0.05 / &output samples_per_revolution=40 /", values, (2,))
+    runs_of(folder / "speeds", "&operation duration=0.05 / &output samples_per_revolution=40 /", values, (2,))
     tiltpad.collect(folder / "speeds", folder / "speeds.h5")
     return folder / "speeds.h5"
 

@@ -11,7 +11,7 @@ pytestmark = pytest.mark.usefixtures("quick_pictures")
 
 CASE = "&operation duration=0.04 / &output samples_per_revolution=40 /"
 SPEEDS, UNBALANCES = [3000, 4000, 6500], [0.0002, 0.002, 0.02]
-SWEEPS = {
+STUDIES = {
     "speed": ({"operation%speed_rpm": SPEEDS}, (2,)),
     "grid": ({"operation%speed_rpm": [4000, 6500], "rotor%unbalance": UNBALANCES}, (6,)),
     "wide": (
@@ -24,18 +24,18 @@ SWEEPS = {
 
 
 @pytest.fixture(scope="module")
-def study(sweep, tmp_path_factory):
+def study(runs_of, tmp_path_factory):
     """study("grid"): that study, opened; of `wide` the runs are copies of one."""
-    folder, opened = tmp_path_factory.mktemp("sweeps"), {}
+    folder, opened = tmp_path_factory.mktemp("studies"), {}
 
     def read(name):
         if name not in opened:
-            values, failed = SWEEPS[name]
+            values, failed = STUDIES[name]
             if name == "wide":
                 values = {variable: list(each)[:1] for variable, each in values.items()}
-            runs = sweep(folder / name, CASE, values, failed)
+            runs = runs_of(folder / name, CASE, values, failed)
             if name == "wide":
-                grown(runs, *SWEEPS["wide"][0].values())
+                grown(runs, *STUDIES["wide"][0].values())
             tiltpad.collect(runs, folder / f"{name}.h5")
             opened[name] = tiltpad.read_study(folder / f"{name}.h5")
         return opened[name]
@@ -242,7 +242,7 @@ def test_options_of_a_study_are_not_for_others(result, capsys):
     assert "--as: for the plot study, not for orbit" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("name", SWEEPS)
+@pytest.mark.parametrize("name", STUDIES)
 def test_the_command_writes_a_picture(study, tmp_path, name):
     for options in ([], ["--as", "bifurcation", "--over", study(name).parameters[0]]):
         output = tmp_path / "a.png"
@@ -250,9 +250,9 @@ def test_the_command_writes_a_picture(study, tmp_path, name):
         assert plt.imread(output).std() > 0.02
 
 
-def test_a_study_of_which_nothing_is_left(sweep, tmp_path, capsys):
+def test_a_study_of_which_nothing_is_left(runs_of, tmp_path, capsys):
     """All runs failed: results that they have are drawn, a message names a result that none has."""
-    folder = sweep(tmp_path / "a", CASE, {"operation%speed_rpm": [4000, 5000]}, (1, 2))
+    folder = runs_of(tmp_path / "a", CASE, {"operation%speed_rpm": [4000, 5000]}, (1, 2))
     tiltpad.collect(folder, tmp_path / "a.h5")
     assert command.main(["study", str(tmp_path / "a.h5"), "-o", str(tmp_path / "a.png")]) == 1
     assert "no orbit_size in this study: no run has it" in capsys.readouterr().err

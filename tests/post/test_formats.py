@@ -66,9 +66,9 @@ def test_a_former_run_has_no_summary(former, tmp_path, capsys):
         assert "orbit_y" not in study
 
 
-def test_a_former_study(sweep, tmp_path, capsys):
+def test_a_former_study(runs_of, tmp_path, capsys):
     values = {"operation%speed_rpm": [3000, 5000]}
-    tiltpad.collect(sweep(tmp_path / "speeds", "&case task='equilibrium' /", values), tmp_path / "study.h5")
+    tiltpad.collect(runs_of(tmp_path / "speeds", "&case task='equilibrium' /", values), tmp_path / "study.h5")
     shutil.copy(tmp_path / "study.h5", tmp_path / "former.h5")
     with h5py.File(tmp_path / "former.h5", "r+") as file:
         file.attrs["format_version"] = 2

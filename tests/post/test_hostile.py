@@ -133,17 +133,17 @@ FALSE = {
         f"without {name}": lambda file, name=name: file.attrs.__delitem__(name)
         for name in ("complete", "task", "input")
     },
-    "sweep over run": run("operation%run"),
-    "sweep over status": run("rotor%status"),
-    "sweep out of its group": run("operation%../../status"),
-    "sweep over a blank": run("operation%a b"),
-    "sweep over nothing": attribute(run=np.int32(1), runs=np.int32(2), sweep="operation%speed_rpm"),
+    "study over run": run("operation%run"),
+    "study over status": run("rotor%status"),
+    "study out of its group": run("operation%../../status"),
+    "study over a blank": run("operation%a b"),
+    "study over nothing": attribute(run=np.int32(1), runs=np.int32(2), sweep="operation%speed_rpm"),
     "run without runs": attribute(run=np.int32(1)),
     "texts for numbers": replaced("journal_y", dtype="S3"),
     "chunks of two gigabytes": chunks_of_two_gigabytes(),
     "deflated chunks of two gigabytes": chunks_of_two_gigabytes(compression="gzip"),
 }
-#: They are refused by whoever uses what they touch; the others may be read, as far as that is possible.
+#: They are refused by whoever uses what they touch; the others may be read, where that is possible.
 ATTACKS = OUTSIDE | FALSE
 
 
@@ -205,12 +205,12 @@ def test_readers_in_python(hostile, attack, tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("attack", ATTACKS)
-def test_one_bad_member_stops_no_study(hostile, result, attack, tmp_path, monkeypatch):
+def test_one_bad_run_stops_no_study(hostile, result, attack, tmp_path, monkeypatch):
     single = result("none")
     bad = hostile(attack)
     monkeypatch.chdir(tmp_path)
-    if attack.startswith(("sweep", "run", "a thousand")):
-        # as a run of a sweep it is refused beside a single run, or unreadable
+    if attack.startswith(("study", "run", "a thousand")):
+        # as a run of a study it is refused beside a single run, or unreadable
         assert within_limits(lambda: command.collect([str(bad), str(single), "-o", "study.h5"])) in (0, 1)
     else:
         assert within_limits(lambda: command.collect([str(bad), str(single), "-o", "study.h5"])) == 0

@@ -169,9 +169,9 @@ def test_a_case_as_the_program_completes_it(result, run, tmp_path, monkeypatch, 
     monkeypatch.setenv("TILTPAD", program)
     case = result("offset").with_suffix(".nml")
     assert resolved(case) == run("offset").input
-    swept = tmp_path / "swept.nml"
-    swept.write_text(case.read_text() + "&sweep operation%speed_rpm=4000,5000 /\n")
-    assert resolved(swept)["operation"]["speed_rpm"] == 4000
+    varied = tmp_path / "varied.nml"
+    varied.write_text(case.read_text() + "&sweep operation%speed_rpm=4000,5000 /\n")
+    assert resolved(varied)["operation"]["speed_rpm"] == 4000
 
 
 def test_the_bearing_of_a_case(result, run, tmp_path, monkeypatch, program):
@@ -222,9 +222,9 @@ def test_a_movie(result, tmp_path, monkeypatch, capsys):
         assert said.count("\n") == 1
 
 
-def test_the_report_of_a_study(sweep, tmp_path, capsys):
+def test_the_report_of_a_study(runs_of, tmp_path, capsys):
     speeds = {"operation%speed_rpm": [3000, 4000, 6500]}
-    folder = sweep(tmp_path / "speeds", "&case task='equilibrium' /", speeds, (2,))
+    folder = runs_of(tmp_path / "speeds", "&case task='equilibrium' /", speeds, (2,))
     tiltpad.collect(folder, tmp_path / "speeds.h5")
     assert command.report([str(tmp_path / "speeds.h5"), "-o", str(tmp_path / "a.html")]) == 0
     page = (tmp_path / "a.html").read_text()

@@ -115,7 +115,7 @@ def test_a_quick_turn_is_seen_between_samples():
 
 
 def test_stiff_bristles_and_small_critical_velocities_stick_more(run):
-    """Bengisu-Akay with v_c far below the stick velocity rests longest, LuGre creeps on its bristles."""
+    """Bengisu-Akay with v_c far below the stick velocity sticks longest, LuGre creeps on its bristles."""
     assert tiltpad.stick_fraction(run("bengisu")) > tiltpad.stick_fraction(run("lugre")) > 0.1
 
 

@@ -68,11 +68,11 @@ def test_a_ripple_on_a_flank_is_no_peak():
 
 
 @pytest.fixture(scope="module")
-def study(sweep, tmp_path_factory):
+def study(runs_of, tmp_path_factory):
     """Periodic orbits under a small unbalance, over the speed."""
     folder = tmp_path_factory.mktemp("response")
     collected = tiltpad.collect(
-        sweep(folder / "runs", CASE, {"operation%speed_rpm": SPEEDS}), folder / "study.h5"
+        runs_of(folder / "runs", CASE, {"operation%speed_rpm": SPEEDS}), folder / "study.h5"
     )
     with tiltpad.read_study(collected.output) as opened:
         yield opened

@@ -38,10 +38,10 @@ def ross(root):
 
 
 @pytest.fixture(scope="module")
-def study(sweep, cases, tmp_path_factory):
+def study(runs_of, cases, tmp_path_factory):
     """The offset bearing at several speeds; one run has no equilibrium."""
-    folder = tmp_path_factory.mktemp("sweeps") / "speeds"
-    sweep(folder, cases["offset"], {"operation%speed_rpm": [*SPEEDS, 9000]}, failed=(len(SPEEDS) + 1,))
+    folder = tmp_path_factory.mktemp("studies") / "speeds"
+    runs_of(folder, cases["offset"], {"operation%speed_rpm": [*SPEEDS, 9000]}, failed=(len(SPEEDS) + 1,))
     tiltpad.collect(folder, folder.with_suffix(".h5"))
     with tiltpad.read_study(folder.with_suffix(".h5")) as opened:
         yield opened
@@ -165,8 +165,8 @@ def test_several_members_at_one_speed(tiltpad, tmp_path):
     import tiltpad as package
 
     (tmp_path / "case.nml").write_text("&case task='coefficients' /\n")
-    swept = ["sweep%operation%speed_rpm=3000,4000", "sweep%rotor%mass=1000,2000", "sweep%order=product"]
-    words = [word for each in swept for word in ("--set", each)]
+    varied = ["sweep%operation%speed_rpm=3000,4000", "sweep%rotor%mass=1000,2000", "sweep%order=product"]
+    words = [word for each in varied for word in ("--set", each)]
     tiltpad("--quiet", "case.nml", *words, "--output", "loads", cwd=tmp_path, status=0)
     package.collect(tmp_path / "loads", tmp_path / "loads.h5")
     with package.read_study(tmp_path / "loads.h5") as study:

@@ -52,7 +52,7 @@ def test_a_result_without_a_name_is_removed_with_the_last_use_of_it():
 
 
 @pytest.mark.parametrize("speeds", ["3000:5000:1000", [3000, 4000, 5000], np.array([3e3, 4e3, 5e3])])
-def test_a_sweep_is_a_study(speeds):
+def test_varied_values_make_a_study(speeds):
     with tiltpad.run({"case": {"task": "equilibrium"}}, sweep={"operation%speed_rpm": speeds}) as study:
         np.testing.assert_array_equal(study.speed_rpm, [3000, 4000, 5000])
         assert np.isfinite(study.equilibrium_journal_y).all()

@@ -21,10 +21,10 @@ SPEEDS, MODELS = [4000, 5000, 6500], ["none", "lugre"]
 
 
 @pytest.fixture(scope="module")
-def folder(sweep, tmp_path_factory):
+def folder(runs_of, tmp_path_factory):
     """Runs of three speeds times two models; the fourth, 5000 rpm with LuGre, failed."""
     values = {"operation%speed_rpm": SPEEDS, "friction%model": MODELS}
-    return sweep(tmp_path_factory.mktemp("sweeps") / "grid", CASE, values, failed=(4,))
+    return runs_of(tmp_path_factory.mktemp("studies") / "grid", CASE, values, failed=(4,))
 
 
 @pytest.fixture
@@ -159,20 +159,20 @@ def test_a_damaged_and_a_missing_member(copy, tmp_path, capsys):
         assert study.missing == "5"
 
 
-def test_two_studies_are_not_mixed(copy, sweep, tmp_path, capsys):
-    other = sweep(tmp_path / "other", CASE, {"rotor%unbalance": [0.01, 0.02]})
+def test_two_studies_are_not_mixed(copy, runs_of, tmp_path, capsys):
+    other = runs_of(tmp_path / "other", CASE, {"rotor%unbalance": [0.01, 0.02]})
     assert command.collect([str(copy), str(other), "-o", str(tmp_path / "a.h5")]) == 1
     said = capsys.readouterr().err
     assert said.count("\n") == 1
-    sweeps = "over operation%speed_rpm, friction%model, and a run of a sweep over rotor%unbalance"
-    assert f"not of one study: a run of a sweep {sweeps}" in said
+    both = "over operation%speed_rpm, friction%model, and a run of a study over rotor%unbalance"
+    assert f"not of one study: a run of a study {both}" in said
     assert not (tmp_path / "a.h5").exists()
     edited(copy / "0006.h5", lambda file: file.attrs.update({"run": 1}))
     with pytest.raises(ValueError, match="both are run 1"):
         tiltpad.collect(copy, tmp_path / "a.h5")
 
 
-def test_a_sweep_that_grew_is_one_study(copy, tmp_path):
+def test_a_study_that_grew_is_one_study(copy, tmp_path):
     """Its first runs know of fewer."""
     for k in (1, 2, 3):
         edited(copy / f"000{k}.h5", lambda file: file.attrs.update({"runs": 3}))
@@ -184,14 +184,14 @@ def test_a_sweep_that_grew_is_one_study(copy, tmp_path):
         assert (study.runs, study.missing) == (6, "6")
 
 
-def test_a_folder_of_two_sweeps(tiltpad, tmp_path, monkeypatch, capsys):
-    """Files of another sweep over the same variable are seen, of any size; a sweep that grew is one."""
+def test_a_folder_of_two_studies(tiltpad, tmp_path, monkeypatch, capsys):
+    """Files of another study over the same variable are seen, of any size; a study that grew is one."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "case.nml").write_text("&case task='equilibrium' /\n&sweep operation%speed_rpm=1:2:1 /\n")
 
     def ran(name, values, folder=None):
-        swept = ["--set", f"sweep%operation%speed_rpm={values}"]
-        tiltpad("--quiet", "case.nml", *swept, "--output", folder or name, status=0)
+        varied = ["--set", f"sweep%operation%speed_rpm={values}"]
+        tiltpad("--quiet", "case.nml", *varied, "--output", folder or name, status=0)
         return tmp_path / name
 
     three, other, two = ran("three", "3e3:5e3:1e3"), ran("other", "3e3:6e3:15e2"), ran("two", "25e2,26e2")
@@ -202,7 +202,7 @@ def test_a_folder_of_two_sweeps(tiltpad, tmp_path, monkeypatch, capsys):
             shutil.copy(source / f"000{number}.h5", mixed)
         assert command.collect(["mixed"]) == 1
         said = capsys.readouterr().err
-        assert "runs of two sweeps; run one of them into another folder, or with --overwrite" in said
+        assert "runs of two studies; run one of them into another folder, or with --overwrite" in said
         assert not (tmp_path / "mixed.h5").exists()
         shutil.rmtree(mixed)
     ran("three", "3e3:7e3:1e3")
@@ -286,7 +286,7 @@ def test_names_of_parameters():
         f"pads%arc_deg(1) = 6{k}\nrotor%mass = {k}\npads%mass = 1\nfriction%model = 'no ''{k}'''"
         for k in (1, 2)
     ]
-    found = parameters.parameters([*map(parameters.swept, texts), None])
+    found = parameters.parameters([*map(parameters.varied_values, texts), None])
     assert [each.name for each in found] == ["arc_deg_1", "rotor_mass", "pads_mass", "model"]
     assert [each.units for each in found] == ["deg", "kg", "kg", ""]
     assert [each.long_name for each in found] == ["arc, 1", "mass (rotor)", "mass (pads)", "friction model"]

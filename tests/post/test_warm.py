@@ -26,13 +26,13 @@ WARM = {
 
 @pytest.fixture(scope="module")
 def folder(tiltpad, tmp_path_factory):
-    """A march, a sweep of equilibria over the speed, and its study."""
+    """A march, runs of equilibria over the speed, and their study."""
     folder = tmp_path_factory.mktemp("warm")
     (folder / "warm.nml").write_text(CASE)
-    sweep = "sweep%operation%speed_rpm=" + ",".join(map(str, SPEEDS))
+    varied = "sweep%operation%speed_rpm=" + ",".join(map(str, SPEEDS))
     for words in (
         ("warm.nml", "--set", "operation%speed_rpm=4000"),
-        ("warm.nml", "--quiet", "--set", "case%task=equilibrium", "--set", sweep, "--output", "speeds"),
+        ("warm.nml", "--quiet", "--set", "case%task=equilibrium", "--set", varied, "--output", "speeds"),
     ):
         done = tiltpad(*words, cwd=folder, status=0)
         if "--quiet" not in words:
@@ -193,9 +193,9 @@ def test_pressures_of_a_run_up_take_the_oil_of_their_time(tiltpad, tmp_path, ope
         np.testing.assert_allclose(field.force[:, 1], run["film_force_radial"][sample], rtol=2e-4)
 
 
-def test_a_study_without_them_says_why(sweep, tmp_path):
+def test_a_study_without_them_says_why(runs_of, tmp_path):
     package.collect(
-        sweep(tmp_path / "cold", "&case task='equilibrium' /", {"operation%speed_rpm": [3000, 6500]}),
+        runs_of(tmp_path / "cold", "&case task='equilibrium' /", {"operation%speed_rpm": [3000, 6500]}),
         tmp_path / "cold.h5",
     )
     with (

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import tiltpad
 
-#: Runs of the sweep, and the one that fails.
+#: Runs of the study, and the one that fails.
 RUNS, FAILING = range(1, 7), 3
 SHORT = "operation%duration=1"
 
@@ -23,8 +23,8 @@ def one(duration: float = 40) -> str:
 """
 
 
-def sweep(duration: float = 40, speeds: str = "5000:7500:500") -> str:
-    """A sweep over six speeds, of which the third fails."""
+def six_speeds(duration: float = 40, speeds: str = "5000:7500:500") -> str:
+    """A study over six speeds, of which the third fails."""
     steps = ", ".join("10" if k == FAILING else "1000000" for k in RUNS)
     return f"""{one(duration)}
 &sweep
@@ -167,7 +167,7 @@ def test_cancelled_job_is_not_requeued(cluster, scripts, case):
 
 
 def test_task_requeues_itself_alone_when_its_time_is_over(cluster, scripts, folder):
-    write(folder, "speeds.nml", sweep())
+    write(folder, "speeds.nml", six_speeds())
     # the last task that starts has the number of the whole array
     array = cluster.submit("--array=1-2", scripts / "sweep.sh", "speeds.nml", cwd=folder)
     cluster.wait_for(lambda: len(cluster.running(array)) == 2, "both tasks")
@@ -180,8 +180,8 @@ def test_task_requeues_itself_alone_when_its_time_is_over(cluster, scripts, fold
     assert "stopped by signal 10" in (folder / f"slurm-{array}_{task}.out").read_text()
 
 
-def test_sweep_in_one_job_goes_on(cluster, scripts, folder):
-    write(folder, "speeds.nml", sweep(duration=25))
+def test_study_in_one_job_goes_on(cluster, scripts, folder):
+    write(folder, "speeds.nml", six_speeds(duration=25))
     job = cluster.submit("--cpus-per-task=2", scripts / "sweep.sh", "speeds.nml", cwd=folder)
     begun(cluster, folder / "speeds/0002.h5")
     cluster.ask("scancel", "--batch", "--signal=USR1", job)
@@ -192,7 +192,7 @@ def test_sweep_in_one_job_goes_on(cluster, scripts, folder):
 
 
 def test_several_members_a_task(cluster, scripts, folder):
-    write(folder, "speeds.nml", sweep(duration=0.5))
+    write(folder, "speeds.nml", six_speeds(duration=0.5))
     array = cluster.submit("--array=1-2", scripts / "sweep.sh", "speeds.nml", "4", cwd=folder)
     assert outcome(cluster.ended(f"{array}_1")) == ("FAILED", "2:0", "0")
     assert outcome(cluster.ended(f"{array}_2")) == ("COMPLETED", "0:0", "0")
@@ -204,7 +204,7 @@ def test_several_members_a_task(cluster, scripts, folder):
 def test_study(cluster, scripts, folder):
     at_a_time = 2
     assert at_a_time < cluster.processors
-    write(folder, "speeds.nml", sweep(duration=6))
+    write(folder, "speeds.nml", six_speeds(duration=6))
     said = cluster.ask(scripts / "submit.sh", "speeds.nml", "1", str(at_a_time), cwd=folder)
     array, collection = re.findall(r"job ([0-9]+)", said)
     seen = []
@@ -228,7 +228,7 @@ def test_study(cluster, scripts, folder):
 
 
 def test_faulty_study_is_not_submitted(cluster, scripts, folder):
-    write(folder, "speeds.nml", sweep(speeds="5000:-5000:-2000"))
+    write(folder, "speeds.nml", six_speeds(speeds="5000:-5000:-2000"))
     refused = cluster.call(scripts / "submit.sh", "speeds.nml", cwd=folder)
     assert refused.returncode == 1
     assert "speed_rpm" in refused.stderr

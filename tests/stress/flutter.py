@@ -41,14 +41,14 @@ class Motion(NamedTuple):
 
 
 def flutter(program: Path, jobs: int) -> str:
-    """The section of the page, by sweeps over the speed."""
+    """The section of the page, by runs with a changing speed."""
     with tempfile.TemporaryDirectory(prefix="tiltpad-flutter-") as name:
         found = [motions(program, Path(name) / each, each, jobs) for each in TOLERANCES]
     rows, same = [], 0
     for speed, loose in found[0].items():
         close = found[1][speed]
         agrees = abs(loose.amplitude - close.amplitude) <= SAME * close.amplitude
-        # a pad that rests has no order
+        # a pad without motion has no order
         agrees = agrees and not abs(loose.order - close.order) > SAME_ORDER
         same += agrees
         rows.append((f"{speed:.0f}", *words(loose), *words(close), "yes" if agrees else "no"))

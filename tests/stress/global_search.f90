@@ -29,7 +29,7 @@ program global_search
    implicit none (type, external)
 
    !> Distances and leanings of a table; distances over the pad clearance.
-   integer, parameter :: near = 44, middle = 10, far = 8, distances = near + 2*middle + far, leanings = 65
+   integer, parameter :: close = 44, middle = 10, far = 8, distances = close + 2*middle + far, leanings = 65
    real(wp), parameter :: nearest = 3e-4_wp, farthest = 6
    integer :: n
    !> Close where the film is thin, and about the place where the pad is round about the journal and its force changes
@@ -160,7 +160,7 @@ contains
       end do
    end subroutine make_tables
 
-   !> The journal at rest at distance rho from the pivot, turned by b.
+   !> The journal without velocity at distance rho from the pivot, turned by b.
    pure type(film_motion) function motion_at(centre_distance, rho, b) result(motion)
       real(wp), intent(in) :: centre_distance, rho, b
       motion%position = [rho*sin(b), centre_distance - rho*cos(b)]
@@ -249,7 +249,7 @@ contains
       end associate
    end subroutine make_curve
 
-   !> Adds the piece between two places, as far as the pivot can hold the pad there.
+   !> Adds the piece between two places, where the pivot can hold the pad there.
    subroutine add_piece(model, i, rho, b, force, stable, pieces)
       type(bearing_model), intent(in) :: model
       integer, intent(in) :: i
@@ -400,9 +400,9 @@ contains
       if (ok) y = state_on_curves(model, curves, place, at, t)
    end subroutine journal_on_curves
 
-   !> The piece on which a pad is when the journal has come a way towards it, and where on it: that which has it and is
+   !> The piece on which a pad is when the journal has come a way towards it, and where on it: which one has it and is
    !> closest to the last one; one drawn of those that have it if there was none; the nearest where none has it.
-   !> Newton's method on the whole then says whether there is a rest.
+   !> Newton's method on the whole then says whether there is an equilibrium.
    subroutine choose(pieces, way, handicap, at, t)
       type(piece_type), intent(in) :: pieces(:)
       real(wp), intent(in) :: way, handicap

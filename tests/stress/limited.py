@@ -14,7 +14,7 @@ from typing import BinaryIO
 #: CPU time, s, in which a program that notes the limit's signal must stop.
 NOTICE = 30
 #: Limit by the clock, in limits of the CPU time: the last resort against a program that only waits.
-PATIENCE = 20
+TIMEOUT = 20
 
 
 @dataclass
@@ -39,7 +39,7 @@ def limited(command: Sequence, folder: Path, seconds: int, env: dict[str, str] |
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as error:
         process = subprocess.Popen(list(map(str, command)), cwd=folder, env=env, stdout=out, stderr=error)
         resource.prlimit(process.pid, resource.RLIMIT_CPU, (seconds, seconds + NOTICE))
-        last_resort = threading.Timer(PATIENCE * seconds, process.kill)
+        last_resort = threading.Timer(TIMEOUT * seconds, process.kill)
         last_resort.start()
         _, status, used = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)

@@ -38,8 +38,8 @@ found what was kept, in {cases} cases (seeds {seeds}) and {bearings} bearings as
 A search stays in the program if it finds more than one in 200 that none before it finds. Newton's method in
 parts of its steps, the motion itself, pads tilted so that full films pull the journal, and pads balanced
 along all their tilts did not: what they cost, and the program is without, are the lost cases {lost},
-which are refused, and none of the bearings. Ten cases that fluttered less there, or have several equilibria,
-now start elsewhere. `stress.py --searches` counts again.
+which are refused, and none of the bearings. Ten cases whose instability grew less there, or that
+have several equilibria, now start elsewhere. `stress.py --searches` counts again.
 """
 
 

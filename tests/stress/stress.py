@@ -21,7 +21,7 @@ from flutter import flutter
 from report import page
 from searches import searches
 from stress_cases import Dice, draw, text
-from stress_judge import LOST, Comparison, Result, judge
+from stress_judge import LOST, Comparison, Result, assess
 
 
 def arguments() -> argparse.Namespace:
@@ -55,7 +55,7 @@ def run(options: argparse.Namespace, number: int, known: dict[int, Result]) -> R
     try:
         search = options.search and options.search.resolve()
         lost = number in LOST.get(options.seed, ()) and not options.fixed
-        result = judge(options.program, number, case, folder, compare, search, lost)
+        result = assess(options.program, number, case, folder, compare, search, lost)
     finally:
         shutil.rmtree(folder)
     if result.faults:

@@ -242,7 +242,7 @@ def film(dice: Dice) -> dict:
     return values
 
 
-def sweeps(case: Case) -> bool:
+def studies(case: Case) -> bool:
     """Whether films are solved by over-relaxation, which costs a hundred times more."""
     return case["film"].get("solver") == "sor"
 
@@ -250,7 +250,7 @@ def sweeps(case: Case) -> bool:
 def step_budget(case: Case) -> int:
     """Steps that take some ten seconds."""
     count = len(case["pads"]["pivot_angle_deg"])
-    a_pad = 3e-4 if sweeps(case) else 5e-6
+    a_pad = 3e-4 if studies(case) else 5e-6
     return int(min(400000, 15 / (3e-5 + count * a_pad + count**2 * 1e-6)))
 
 

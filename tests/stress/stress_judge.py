@@ -14,7 +14,7 @@ from stress_cases import Case, text
 TIME_BUDGET = 300
 #: How a run ends that has been asked to stop.
 STOPPED = 4
-#: Steps of a case that rests in its equilibrium, where there is nothing to compare.
+#: Steps of a case that stays in its equilibrium, where there is nothing to compare.
 AT_REST = 20
 #: Revolutions over which two runs of a case are compared.
 COMPARED = 2.5
@@ -88,7 +88,7 @@ def run(program: Path, case: Case, folder: Path, name: str) -> Ended:
     return limited([program, f"{name}.nml", "--quiet"], folder, TIME_BUDGET)
 
 
-def judge(
+def assess(
     program: Path,
     number: int,
     case: Case,
@@ -244,7 +244,7 @@ def unphysical(
             (values["min_film_thickness"] > 0) | (values["asperity_force"] > 0)
         ),
         "max_pressure below the film's cavitation": np.all(values["max_pressure"] >= cavitated),
-        "equilibrium not at rest": residual <= (1e-7 if case["film"]["cavitation"] == "none" else LEAP),
+        "unbalanced forces": residual <= (1e-7 if case["film"]["cavitation"] == "none" else LEAP),
     }
     if case["pads"]["motion"] != "fixed":
         checks |= unphysical_pivots(values, promised, case)

@@ -212,7 +212,7 @@ contains
       call expect(.not. load%touches, 'nor in a closed film')
    end subroutine nothing_above
 
-   !> Normal force with a film of so many sigma inside the arc, N.
+   !> Normal force with a film of this many sigma inside the arc, N.
    real(wp) function carried_at(sigmas)
       real(wp), intent(in) :: sigmas
       type(asperity_load) :: load
@@ -238,7 +238,7 @@ contains
       call expect_close(norm2(with%force - without%force) + abs(with%moment), 0.0_wp, 0.0_wp, 'no friction at rest')
    end subroutine friction_directions
 
-   !> The film is taken where the journal is as far as 2 sigma, and less close below, by the mean gap; never at 0.
+   !> The film is taken where the journal is 2 sigma away, and less close below, by the mean gap; never at 0.
    subroutine film_position()
       type(pad_gap_type) :: gap
       type(pad_directions) :: directions

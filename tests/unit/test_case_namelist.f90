@@ -50,7 +50,7 @@ contains
          & [0.0_wp, 0.0_wp, 0.0_wp], 'pressures')
       call expect_list(s%pads%pivot_angle_deg, [-45.0_wp, 225.0_wp], 'load between the two lower pads')
       call expect_list(s%pads%arc_deg, [69.3_wp, 69.3_wp], 'Table 1: angular pad length')
-      call expect_list(s%pads%pivot_ratio, [0.5_wp, 0.5_wp], 'Table 1: pivot ratio')
+      call expect_list(s%pads%pivot_ratio, [0.5_wp, 0.5_wp], 'Table 1: pivot offset')
       call expect_list(s%pads%pivot_distance, [14e-3_wp, 14e-3_wp], 'Table 1: kappa')
       call expect_list(s%pads%mass, [0.8108_wp, 0.8108_wp], 'Table 1: pad mass')
       call expect_list(s%pads%inertia, [4.055e-4_wp, 4.055e-4_wp], 'Table 1: pad inertia')

@@ -195,7 +195,7 @@ program test_continuation
    use continuation, only: branch_options, start_branch, advance, return_to
    use bifurcations, only: bifurcation_type, find_bifurcations
    use orbit_polynomials, only: orbit_type
-   use resting_orbit, only: at_rest
+   use constant_orbit, only: at_rest
    use orbit_problem, only: orbit_problem_type, begin_orbits
    use period_doubling, only: double_period
    use branch_problems, only: parabola, turning_frame, duffing, oscillator_orbits
@@ -317,7 +317,7 @@ contains
       call expect(.not. any(abs(first%tangent - second%tangent) > 0), 'the same tangent')
    end subroutine return
 
-   !> Orbits at rest of the model with a frame, from p = -0.5 to 0.5.
+   !> Constant orbits of the model with a frame, from p = -0.5 to 0.5.
    subroutine begin_frame(model, ode, half_turn, problem, options)
       type(turning_frame), intent(inout), target :: model
       type(oscillator_orbits), intent(inout), target :: ode

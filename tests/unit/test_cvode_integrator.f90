@@ -310,7 +310,7 @@ contains
       call expect(steps == 5000 .and. .not. watch%low, 'no trial at step '//to_text(steps))
    end subroutine long_steps
 
-   !> Low orders that go twice as far stay, until high ones are tried; these stay where they go as far as low ones, and
+   !> Low orders that go twice as far stay, until high ones are tried; these stay where they go no less far, and
    !> low ones are then tried as soon as at first.
    subroutine stays()
       type(order_control_type) :: watch

@@ -82,8 +82,8 @@ contains
       call auto%evaluate([motion], [paper_oil], speed, .true., found)
       call by_modes%evaluate([motion], [paper_oil], speed, .true., of_modes)
       call by_cells%evaluate(motion, paper_oil, speed, .true., .false., counters, cavitated)
-      call by_cells%evaluate(motion, paper_oil, speed, .false., .false., counters, unruptured)
-      change = cavitated%force - unruptured%force
+      call by_cells%evaluate(motion, paper_oil, speed, .false., .false., counters, full_film)
+      change = cavitated%force - full_film%force
       call expect(-of_modes(1)%min_pressure < 0.1_wp*of_modes(1)%max_pressure, 'a loaded film')
       call expect(norm2(change) > 1e-6_wp*norm2(of_modes(1)%force), 'that cavitates')
       call expect_close(norm2(found(1)%force - of_modes(1)%force - change), 0.0_wp, 1e-9_wp*norm2(of_modes(1)%force), &
@@ -106,7 +106,7 @@ contains
       type(elimination_film_type) :: by_cells
       type(film_counters) :: counters
       type(film_motion) :: motion
-      type(film_response) :: found(1), of_modes(1), expected, unruptured
+      type(film_response) :: found(1), of_modes(1), expected, full_film
       real(wp) :: share
       motion%position = clearance*[between(-0.05_wp, 0.0_wp), between(0.4_wp, 0.5_wp)]
       motion%velocity = 0
@@ -114,12 +114,12 @@ contains
       call auto%evaluate([motion], [paper_oil], speed, .true., found)
       call by_modes%evaluate([motion], [paper_oil], speed, .true., of_modes)
       call by_cells%evaluate(motion, paper_oil, speed, .true., .true., counters, expected)
-      call by_cells%evaluate(motion, paper_oil, speed, .false., .true., counters, unruptured)
+      call by_cells%evaluate(motion, paper_oil, speed, .false., .true., counters, full_film)
       share = (1 + of_modes(1)%min_pressure/of_modes(1)%max_pressure)/0.9_wp
       call expect(share > 0 .and. share < 1, 'a share between: '//to_text(share))
-      expected%force = expected%force + share*(of_modes(1)%force - unruptured%force)
-      expected%derivatives = expected%derivatives + share*(of_modes(1)%derivatives - unruptured%derivatives)
-      expected%max_pressure = expected%max_pressure + share*(of_modes(1)%max_pressure - unruptured%max_pressure)
+      expected%force = expected%force + share*(of_modes(1)%force - full_film%force)
+      expected%derivatives = expected%derivatives + share*(of_modes(1)%derivatives - full_film%derivatives)
+      expected%max_pressure = expected%max_pressure + share*(of_modes(1)%max_pressure - full_film%max_pressure)
       call expect_same(found(1), expected, 'between both')
    end subroutine between_both
 

@@ -98,7 +98,7 @@ contains
    !> another once.
    subroutine few_modes()
       type(fourier_film_type) :: solver
-      type(film_response) :: most, few
+      type(film_response) :: most, fewer
       type(film_motion) :: motion
       integer :: k
       motion = film_motion([-2e-5_wp, 4e-5_wp], [1e-3_wp, -2e-3_wp])
@@ -106,8 +106,8 @@ contains
       most = answer(solver, motion, speed)
       do k = 0, 2
          solver = new_fourier_film([offset_pad()], 96, 2**k, gumbel=.false.)
-         few = answer(solver, motion, speed)
-         call expect_close(norm2(few%force - most%force), 0.0_wp, 2*0.1_wp**(k + 2)*norm2(most%force), &
+         fewer = answer(solver, motion, speed)
+         call expect_close(norm2(fewer%force - most%force), 0.0_wp, 2*0.1_wp**(k + 2)*norm2(most%force), &
             & 'tail of modes beyond '//to_text(2**k))
       end do
    end subroutine few_modes

@@ -53,9 +53,9 @@ contains
       logical, intent(in) :: cavitates
       real(wp) :: p(rows, columns)
       real(wp) :: flow, total, new, change
-      integer :: sweep, column, row
+      integer :: round, column, row
       p = 0
-      do sweep = 1, 20000
+      do round = 1, 20000
          change = 0
          do column = 1, columns
             do row = 1, rows
@@ -92,14 +92,14 @@ contains
       type(grid_modes_type) :: basis
       real(wp), allocatable :: film(:, :)
       real(wp) :: force(2), expected(2), p(rows, columns), all_of_it
-      logical :: few
+      logical :: is_local
       integer :: trial, compared
       compared = 0
       do trial = 1, 60
          call loaded_film(grid, basis, film)
          p = relaxed(grid, .true.)
-         call force_of_few(grid, basis, film, force, few)
-         if (.not. (few .and. any(p <= 0))) cycle
+         call force_of_few(grid, basis, film, force, is_local)
+         if (.not. (is_local .and. any(p <= 0))) cycle
          compared = compared + 1
          expected = expected_force(grid)
          all_of_it = norm2(grid%force(matmul(grid%height, p)))
@@ -116,17 +116,17 @@ contains
       type(grid_modes_type) :: basis
       real(wp), allocatable :: film(:, :), other(:, :)
       real(wp) :: force(2), again(2), draw(rows, columns)
-      logical :: few, still_few
+      logical :: is_local, still_local
       integer :: trial, compared
       compared = 0
       do trial = 1, 60
          call loaded_film(grid, basis, film)
          other = film
-         call force_of_few(grid, basis, film, force, few)
+         call force_of_few(grid, basis, film, force, is_local)
          call random_number(draw)
          other(:rows, :) = nint(draw)
-         call force_of_few(grid, basis, other, again, still_few)
-         if (.not. (few .and. still_few .and. norm2(force) > 0)) cycle
+         call force_of_few(grid, basis, other, again, still_local)
+         if (.not. (is_local .and. still_local .and. norm2(force) > 0)) cycle
          compared = compared + 1
          call expect_close(norm2(again - force), 0.0_wp, 1e-12_wp*norm2(force), 'the same force, film '//to_text(trial))
          call expect(all(nint(other(:rows, :)) == nint(film(:rows, :))), 'the same cells, film '//to_text(trial))
@@ -140,7 +140,7 @@ contains
       type(grid_modes_type) :: basis
       real(wp), allocatable :: film(:, :)
       real(wp) :: force(2), p(rows, columns)
-      logical :: few
+      logical :: is_local
       integer :: trial, inside
       inside = 0
       do trial = 1, 300
@@ -148,8 +148,8 @@ contains
             & between(1e3_wp, 1e6_wp), grid, basis, film)
          p = relaxed(grid, .true.)
          if (any(p <= 0) .and. all(p(:, 1) > 0)) inside = inside + 1
-         call force_of_few(grid, basis, film, force, few)
-         if (few) call expect_close(norm2(force - expected_force(grid)), 0.0_wp, &
+         call force_of_few(grid, basis, film, force, is_local)
+         if (is_local) call expect_close(norm2(force - expected_force(grid)), 0.0_wp, &
             & 1e-10_wp*norm2(grid%force(matmul(grid%height, p))), 'force, film '//to_text(trial))
       end do
       call expect(inside >= 20, 'films that cavitate inside: '//to_text(inside))
@@ -163,11 +163,11 @@ contains
       type(grid_modes_type) :: basis
       real(wp), allocatable :: film(:, :)
       real(wp) :: force(2)
-      logical :: few
+      logical :: is_local
       call film_at(squeezed, 0.0_wp, grid, basis, film)
       call expect(minval(relaxed(grid, .false.)) >= 0, 'a film that does not cavitate')
-      call force_of_few(grid, basis, film, force, few)
-      call expect(few, 'is slight cavitation')
+      call force_of_few(grid, basis, film, force, is_local)
+      call expect(is_local, 'is slight cavitation')
       call expect_close(norm2(force), 0.0_wp, 0.0_wp, 'without a force')
    end subroutine full_film
 
@@ -179,13 +179,13 @@ contains
       type(grid_modes_type) :: basis
       real(wp), allocatable :: film(:, :)
       real(wp) :: force(2)
-      logical :: few
+      logical :: is_local
       integer :: k
       do k = 1, size(motions)
          call film_at(motions(k), 0.0_wp, grid, basis, film)
          call expect(any(relaxed(grid, .true.) <= 0), 'a film that cavitates, '//to_text(k))
-         call force_of_few(grid, basis, film, force, few)
-         call expect(.not. few, 'far or wide, '//to_text(k))
+         call force_of_few(grid, basis, film, force, is_local)
+         call expect(.not. is_local, 'far or wide, '//to_text(k))
       end do
    end subroutine not_few
 end program test_local_cavitation

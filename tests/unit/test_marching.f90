@@ -36,7 +36,7 @@ module march_problems
    type, extends(march_observer_type) :: keeper
       real(wp), allocatable :: t(:), y(:, :)
       integer :: stop_at = 0, reports = 0
-      !> Wants the state once so many samples are there, and ends the march then.
+      !> Wants the state once this many samples are there, and ends the march then.
       integer :: leave_at = huge(1)
       real(wp) :: left_at = -1
    contains

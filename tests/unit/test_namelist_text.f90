@@ -27,13 +27,13 @@ program test_namelist_text
    if (runs('endings')) call endings()
    if (runs('places')) call places()
    if (runs('overrides_text')) call overrides_text()
-   if (runs('sweeps')) call sweeps()
+   if (runs('studies')) call studies()
    if (runs('refused')) call refused()
    if (runs('refused_overrides')) call refused_overrides()
    if (runs('one_undoes_another')) call one_undoes_another()
    if (runs('order')) call order()
    if (runs('elements_stay')) call elements_stay()
-   if (runs('sweeps_keep_their_order')) call sweeps_keep_their_order()
+   if (runs('studies_keep_their_order')) call studies_keep_their_order()
    if (runs('texts')) call texts()
    call report()
 
@@ -235,19 +235,19 @@ contains
    end subroutine overrides_text
 
    !> In &sweep a name is another group's variable, and an override keeps the rank of what it replaces.
-   subroutine sweeps()
+   subroutine studies()
       type(namelist_type) :: found
       type(error_type), allocatable :: error
       call parse('&sweep order = ''zip'', a%x = 1:5:2, a%y(2) = 1:8:*2, 3 / &a x=1/', found)
       call expect_text(as_text(found), 'sweep%order="zip"; sweep%a%x=1:5:2; sweep%a%y(2)=1:8:*2|3; a%x=1')
       call parse_override('sweep%a%x=7,8', found, error)
-      call expect(.not. allocated(error) .and. size(found%assignments) == 4, 'an override of a sweep')
+      call expect(.not. allocated(error) .and. size(found%assignments) == 4, 'an override of a study')
       call expect_text(as_text(found), 'sweep%order="zip"; sweep%a%x=7|8; sweep%a%y(2)=1:8:*2|3; a%x=1')
       call parse_override('sweep%a%y(2)=9', found, error)
       call expect_text(as_text(found), 'sweep%order="zip"; sweep%a%x=7|8; sweep%a%y(2)=9; a%x=1')
       call parse_override('sweep%a%z=1', found, error)
       call expect_text(as_text(found), 'sweep%order="zip"; sweep%a%x=7|8; sweep%a%y(2)=9; a%x=1; sweep%a%z=1')
-   end subroutine sweeps
+   end subroutine studies
 
    !> The message names file and line and has the words.
    subroutine expect_refused(text, words)
@@ -397,13 +397,13 @@ contains
    end subroutine elements_stay
 
    !> Their order is that of the runs.
-   subroutine sweeps_keep_their_order()
+   subroutine studies_keep_their_order()
       call expect_text(put([assigned('sweep', 'a%x', 0, '1 2'), assigned('sweep', 'a%y', 0, '3'), &
          & assigned('sweep', 'a%x', 0, '4 5 6')]), 'sweep%a%x = 4, 5, 6|sweep%a%y = 3|')
       call expect_text(put([assigned('sweep', 'a%y', 0, '3'), assigned('sweep', 'a%x', 0, '4')]), &
          & 'sweep%a%y = 3|sweep%a%x = 4|')
       call expect_text(put([assigned('sweep', 'a%y', 2, '3 4'), assigned('sweep', 'a%y', 2, '5')]), 'sweep%a%y(2) = 5|')
-   end subroutine sweeps_keep_their_order
+   end subroutine studies_keep_their_order
 
    subroutine texts()
       call expect_text(target_text(assigned('pads', 'mass', 0, '1')), 'pads%mass')

@@ -119,7 +119,7 @@ end module orbit_problems
 program test_orbit_collocation
    use kinds, only: wp, pi
    use orbit_polynomials, only: orbit_type, points, place
-   use resting_orbit, only: at_rest, newton_round
+   use constant_orbit, only: at_rest, newton_round
    use errors, only: error_type
    use text, only: to_text
    use orbit_problems, only: linear_problem, van_der_pol, bent_problem

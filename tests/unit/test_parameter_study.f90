@@ -1,11 +1,11 @@
-!> Sweeps: the values of a variable, single ones as they stand and ranges to the last bit; how many runs, which
-!> values in which order; what is refused.
-program test_sweep
+!> Parameter studies: the values of a variable, single ones as they stand and ranges to the last bit; how many runs,
+!> which values in which order; what is refused.
+program test_parameter_study
    use kinds, only: wp
    use text, only: to_text, exact_text
    use errors, only: error_type, input_error
    use assignments, only: token_type
-   use varied_values, only: varied_values_type, read_swept_values
+   use varied_values, only: varied_values_type, read_varied_values
    use case_inputs, only: case_type
    use namelist_writer, only: namelist_of
    use parameter_study, only: study_type, run_tag, study_from_text
@@ -55,7 +55,7 @@ contains
          tokens = [tokens, token]
          rest = rest(blank + 1:)
       end do
-      call read_swept_values(tokens, 'a%x', values, error)
+      call read_varied_values(tokens, 'a%x', values, error)
    end subroutine read_values
 
    !> The values are these, separated by blanks.
@@ -275,7 +275,7 @@ contains
       call expect(study%runs == 3, 'three pairs')
       call expect_tag(study, 2, 'rotor%mass = 2'//newline//'rotor%unbalance = 0.2')
       study = study_of('&sweep order = ''product'', rotor%mass = 1:3:1, rotor%unbalance = 0.1, 0.2 /')
-      call expect(study%runs == 6, 'the product in so many words')
+      call expect(study%runs == 6, 'the product in words')
    end subroutine zip_order
 
    !> A swept value stands in place of the case's, be that good or bad, and elements in place of elements.
@@ -285,7 +285,7 @@ contains
       study = study_of('&rotor mass = -1, gravity = 5 / &sweep rotor%mass = 10, 20 / &pads arc_deg(1) = 50, 51 /')
       inputs = run(study, 2)
       call expect_close(inputs%rotor%mass, 20.0_wp, 0.0_wp, 'a bad value mended')
-      call expect_close(inputs%rotor%gravity, 5.0_wp, 0.0_wp, 'what is not swept stays')
+      call expect_close(inputs%rotor%gravity, 5.0_wp, 0.0_wp, 'what is not varied stays')
       study = study_of('&pads arc_deg(1) = 50, 51 / &sweep pads%arc_deg(1) = 60 /')
       inputs = run(study, 1)
       call expect_close(maxval(abs(inputs%pads%arc_deg - [60.0_wp, 51.0_wp])), 0.0_wp, 0.0_wp, 'one element of a list')
@@ -430,4 +430,4 @@ contains
       call study%inputs(k, inputs, error)
       call expect_error(error, input_error, words, 'a bad run: '//assignment)
    end subroutine expect_bad
-end program test_sweep
+end program test_parameter_study

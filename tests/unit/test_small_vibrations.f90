@@ -16,7 +16,7 @@ program test_small_vibrations
    if (runs('names')) call names()
    ! films that are smooth; and an ordinary bearing whose pad on top carries nothing
    if (runs('stable_march')) call against_march('&film solver = ''fourier'', cavitation = ''none'' /', 'stable', 4)
-   if (runs('fluttering_march')) call against_march('&film solver = ''fourier'', cavitation = ''gumbel'' / ' &
+   if (runs('unstable_march')) call against_march('&film solver = ''fourier'', cavitation = ''gumbel'' / ' &
       & //'&rotor mass = 1500 / &operation speed_rpm = 9000 / &pads pivot_angle_deg = -54, 18, 90, 162, 234, ' &
       & //'arc_deg = 60, mass = 0.8108, inertia = 4.055e-4, centre_tangential = 0, centre_radial = -10.1e-3 / ' &
       & //'&bearing journal_radius = 63.5e-3, axial_length = 63.5e-3, assembled_clearance = 0.2e-3, ' &

@@ -195,18 +195,18 @@ contains
    !> A film given up is told, and is no start for the next.
    subroutine sweep_cap()
       type(sor_film_type) :: solver, fresh
-      type(sor_options) :: few
+      type(sor_options) :: capped
       type(film_response) :: r
-      few = options(cavitation_reynolds, 1e-8_wp)
-      few%max_sweeps = 8
-      solver = new_sor_film([paper_pad()], few)
+      capped = options(cavitation_reynolds, 1e-8_wp)
+      capped%max_sweeps = 8
+      solver = new_sor_film([paper_pad()], capped)
       call solver%evaluate_pad(1, film_motion([-2e-5_wp, 5e-5_wp]), paper_oil, speed, .false., r)
       call expect(r%status == film_not_converged, 'the cap on the sweeps is told')
       call expect(r%residual > 1e-8_wp, 'with the residual')
       call expect(solver%counters%passes == 8 .and. solver%counters%volumes == 1, 'and the sweeps are counted')
       call expect(all(abs(solver%pressure_field(1)) <= 0), 'what did not converge is dropped')
-      few%max_sweeps = 5000
-      fresh = new_sor_film([paper_pad()], few)
+      capped%max_sweeps = 5000
+      fresh = new_sor_film([paper_pad()], capped)
       call fresh%evaluate_pad(1, film_motion([-2e-5_wp, 5e-5_wp]), paper_oil, speed, .false., r)
       call expect(r%status == film_ok, 'enough sweeps converge')
    end subroutine sweep_cap

@@ -236,7 +236,7 @@ contains
          & 'at half its speed')
    end subroutine orders
 
-   !> A velocity that crosses the limits between samples, touches none, and rests.
+   !> A velocity that crosses the limits between samples, touches none, and stays constant.
    subroutine slow()
       call expect_close(slow_share([0.0_wp, 1.0_wp, 2.0_wp], [-10.0_wp, 10.0_wp, 10.0_wp], 1.0_wp), 0.05_wp, rounding, &
          & 'a tenth of the first second')

@@ -188,7 +188,7 @@ contains
                & condition == none), 2*tolerance, 'it opens')
             motion%velocity(2) = 0
             call film%evaluate([motion], [paper_oil], 0.0_wp, .true., found)
-            call expect(norm2(found(1)%force) < 1e-6_wp*norm2(expected(1)%force), 'it rests')
+            call expect(norm2(found(1)%force) < 1e-6_wp*norm2(expected(1)%force), 'without motion')
          end do
       end do
    end subroutine straight_squeeze

@@ -158,7 +158,7 @@ contains
       same_bits = transfer(a, 1_i8) == transfer(b, 1_i8)
    end function same_bits
 
-   !> One of parts is that of the whole, as a sweep that grows needs it; order, blanks and zeros count.
+   !> One of parts is that of the whole, as a study that grows needs it; order, blanks and zeros count.
    subroutine checksums()
       integer(i8) :: whole
       whole = checksum('ab', 0_i8)

@@ -12,7 +12,7 @@ from tiltpad.files.read import Run
 #: Journal orbit, pad tilts and friction moments.
 SIGNALS = ("journal_y", "journal_z", "pad_tilt", "friction_moment")
 #: The deviation of a signal that hardly moves is taken over this share of its characteristic scale.
-RESTING = 0.05
+STEADY = 0.05
 
 
 def characteristic_scale(run: Run, name: str) -> float:
@@ -27,7 +27,7 @@ def deviation(values: np.ndarray, true: np.ndarray, scale: float = 0.0) -> float
     latter (of the pad that moves most), or over 5 % of its characteristic scale where it moves less; None
     where there is neither.
     """
-    span = max(float(np.ptp(true, axis=0).max()), RESTING * scale)
+    span = max(float(np.ptp(true, axis=0).max()), STEADY * scale)
     return float(np.abs(values - true).max()) / span if span > 0 else None
 
 

@@ -114,9 +114,9 @@ def slow_intervals(time: np.ndarray, velocity: np.ndarray, limit: float) -> np.n
         # the straight line from 0 to 1 meets the two limits here; a constant velocity is slow always or never
         meets = (np.array([[-limit], [limit]]) - start) / (stop - start)
     low, high = np.clip(np.sort(meets, axis=0), 0, 1)
-    resting = start == stop
-    low = np.where(resting, 0.0, low)
-    high = np.where(resting, np.where(np.abs(start) < limit, 1.0, 0.0), high)
+    constant = start == stop
+    low = np.where(constant, 0.0, low)
+    high = np.where(constant, np.where(np.abs(start) < limit, 1.0, 0.0), high)
     slow = high > low
     step = np.diff(time)
     begin, end = time[:-1] + low * step, time[:-1] + high * step

@@ -1,6 +1,6 @@
 """Studies: the results of many runs in one file.
 
-The runs of a study are those of a sweep, or any runs. The study has the parameters, results of the last
+The runs are those of a parameter study, or any runs. The study has the parameters, results of the last
 revolution, Poincare points and the cost of each run, and links to the files of the runs; it does not
 have their series over time.
 """
@@ -55,7 +55,7 @@ def collect(
     """Writes the study of a folder of results, or of result files, into one HDF5 file.
 
     `output` is by default the folder's name with .h5, in the working directory. A file that cannot be read
-    becomes a run without values, with a RunWarning. Raises ValueError for runs of different sweeps
+    becomes a run without values, with a RunWarning. Raises ValueError for runs of different studies
     and for an output that would replace anything but a study, and RunError if no file can be read.
     """
     given = [Path(each) for each in ([paths] if isinstance(paths, str | os.PathLike) else paths)]
@@ -133,14 +133,14 @@ def check_replaceable(target: Path) -> None:
 
 
 def check_one_study(runs: Sequence[StudyRun]) -> None:
-    """Raises ValueError for runs of two sweeps, and for two files of one run.
+    """Raises ValueError for runs of two studies, and for two files of one run.
 
-    The sweep may have got more runs since the first ones were run.
+    The study may have got more runs since the first ones were run.
     """
     readable = [each for each in runs if each.input]
     first = readable[0]
     for each in readable[1:]:
-        if (each.runs is None, *each.sweep) != (first.runs is None, *first.sweep):
+        if (each.runs is None, *each.varied) != (first.runs is None, *first.varied):
             raise ValueError(
                 f"{first.path} and {each.path}: not of one study: {kind(first)}, and {kind(each)}"
             )
@@ -152,9 +152,9 @@ def check_one_study(runs: Sequence[StudyRun]) -> None:
 
 
 def check_marks(readable: Sequence[StudyRun]) -> None:
-    """Raises ValueError where the checksums of the runs show that they are of two sweeps.
+    """Raises ValueError where the checksums of the runs show that they are of two studies.
 
-    Runs of sweeps of one size have the checksum of all runs in common. A sweep that has grown has the
+    Runs of studies of one size have the checksum of all runs in common. A study that has grown has the
     checksum of the smaller one at its last run.
     """
     marked = [(each, each.number or 0, each.runs or 0, each.marks) for each in readable if each.marks]
@@ -168,14 +168,14 @@ def check_marks(readable: Sequence[StudyRun]) -> None:
         for other, found, expected in others:
             if found != expected:
                 raise ValueError(
-                    f"{other.path} and {each.path}: runs of two sweeps; run one of them into another "
+                    f"{other.path} and {each.path}: runs of two studies; run one of them into another "
                     "folder, or with --overwrite"
                 )
 
 
 def kind(one: StudyRun) -> str:
     """The study that a run is from, in words."""
-    return f"a run of a sweep over {', '.join(one.sweep)}" if one.runs else "a run of its own"
+    return f"a run of a study over {', '.join(one.varied)}" if one.runs else "a run of its own"
 
 
 def numbered(runs: Sequence[StudyRun]) -> list[StudyRun]:

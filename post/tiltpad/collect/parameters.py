@@ -1,4 +1,4 @@
-"""Parameters of a study: the swept variables, or those in which the inputs differ."""
+"""Parameters of a study: the varied variables, or those in which the inputs differ."""
 
 from collections import Counter
 from collections.abc import Collection, Sequence
@@ -27,7 +27,7 @@ class Parameter(NamedTuple):
     values: list[float] | list[str]
 
 
-def swept(text: str) -> dict[str, Any]:
+def varied_values(text: str) -> dict[str, Any]:
     """Values by variable from the attribute `sweep` of a run: a line "operation%speed_rpm = 1500" each."""
     lines = [line.partition("=") for line in text.splitlines() if line.strip()]
     return {variable.strip(): namelist.value_of(value.strip()) for variable, _, value in lines}

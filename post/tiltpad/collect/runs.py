@@ -9,16 +9,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tiltpad.calculate import signals
-from tiltpad.collect.parameters import swept
+from tiltpad.collect.parameters import varied_values
 from tiltpad.files.archive import NotInRunError, RunError, damaged, reading
 from tiltpad.files.read import Run, read
 from tiltpad.files.study import POINTS, REVOLUTIONS
 
 #: Exit status of a run that was done, and those of one that did not end: running or killed, stopped.
 DONE, UNENDED = 0, (-1, 4)
-#: Most runs of a sweep.
+#: Most runs of a study.
 MOST = 100_000
-#: Names as the program writes them: of a swept variable, and of a dataset.
+#: Names as the program writes them: of a varied variable, and of a dataset.
 VARIABLE = re.compile(r"[a-z]\w*%[a-z]\w*(\(\d+\))?", re.ASCII)
 DATASET = re.compile(r"[a-z]\w*", re.ASCII)
 #: Groups of a run's file that are columns of a study, and what stands before the names in them.
@@ -35,10 +35,10 @@ class StudyRun(NamedTuple):
 
     Its fields:
 
-        path, number      its file; its number in the sweep, None of a run of its own
+        path, number      its file; its number in the study, None of a run of its own
         status, reason    exit status (nan: the file cannot be read), and the reason where it failed
-        runs, sweep    runs of the whole sweep, and its own swept values by variable
-        marks             checksums of the sweep: up to the run before, up to this one, of all; None where
+        runs, varied      runs of the whole study, and its own varied values by variable
+        marks             checksums of the study: up to the run before, up to this one, of all; None where
                           they are not known
         input             resolved namelist, empty where the file cannot be read
         origin            version, title and input text
@@ -52,7 +52,7 @@ class StudyRun(NamedTuple):
     status: float
     reason: str
     runs: int | None = None
-    sweep: dict[str, Any] = {}
+    varied: dict[str, Any] = {}
     marks: tuple[str, str, str] | None = None
     input: dict[str, dict[str, Any]] = {}
     origin: dict[str, str] = {}
@@ -84,8 +84,8 @@ def measured(path: Path, run: Run) -> StudyRun:
     """The run of a run that can be read."""
     attributes = run.attributes
     complete = bool(run.complete)
-    with reading(run.path, "its place in a sweep"):
-        number, runs, sweep, marks = place(attributes)
+    with reading(run.path, "its place in a study"):
+        number, runs, varied, marks = place(attributes)
     status = int(attributes.get("exit_status", DONE if complete else 2))
     if not complete and status == DONE:
         status = UNENDED[0]
@@ -108,7 +108,7 @@ def measured(path: Path, run: Run) -> StudyRun:
         status,
         reason,
         runs,
-        sweep,
+        varied,
         marks,
         run.input,
         {name: attributes[name] for name in ("version", "title", "input")},
@@ -119,20 +119,20 @@ def measured(path: Path, run: Run) -> StudyRun:
 
 
 def place(attributes: dict[str, Any]) -> tuple[int | None, int | None, dict[str, Any], Any]:
-    """Number, runs, values and marks of a run of a sweep; None, None, {} and None of another run.
+    """Number, runs, values and marks of a run of a study; None, None, {} and None of another run.
 
-    Raises ValueError where they are not those of a sweep that the program makes.
+    Raises ValueError where they are not those of a study that the program makes.
     """
     if "run" not in attributes:
         return None, None, {}, None
     number, runs = (int(attributes.get(name, 0)) for name in ("run", "runs"))
     if not 1 <= number <= runs <= MOST:
         raise ValueError(f"run {number} of {runs}")
-    sweep = swept(attributes.get("sweep", ""))
-    if strange := [name for name in sweep if not VARIABLE.fullmatch(name)]:
+    varied = varied_values(attributes.get("sweep", ""))
+    if strange := [name for name in varied if not VARIABLE.fullmatch(name)]:
         raise ValueError(f"{strange[0]!r} is no variable")
     marks = tuple(f"{attributes.get('study_marks', '')}".split())
-    return number, runs, sweep, marks if len(marks) == len(("before", "own", "all")) else None
+    return number, runs, varied, marks if len(marks) == len(("before", "own", "all")) else None
 
 
 def columns(run: Run, done: bool) -> dict[str, tuple[str, tuple[str, ...]]]:
@@ -168,5 +168,5 @@ def ends_of_revolutions(run: Run, count: int) -> dict[str, Any]:
 
 
 def planned(runs: Sequence[StudyRun]) -> int:
-    """Number of runs that the sweep has, by the file that says most; 0 for single runs."""
+    """Number of runs that the study has, by the file that says most; 0 for single runs."""
     return max(each.runs or 0 for each in runs)

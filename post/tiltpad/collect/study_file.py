@@ -69,7 +69,7 @@ def fill(file: h5py.File, runs: Sequence[StudyRun], missing: Sequence[int], fold
     readable = [each for each in runs if each.input]
     first = readable[0]
     if first.runs:
-        known = {each.path: each.sweep for each in readable}
+        known = {each.path: each.varied for each in readable}
     else:
         own = differing([each.input for each in readable])
         known = {each.path: values for each, values in zip(readable, own, strict=True)}

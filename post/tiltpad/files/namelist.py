@@ -12,7 +12,7 @@ import numpy as np
 ASSIGNMENT = re.compile(r"^&(?P<group>\w+)|^\s+(?P<name>\w+) = (?P<value>.*)$", re.MULTILINE)
 
 #: The group whose values are those of other variables.
-SWEEP = "sweep"
+STUDY = "sweep"
 #: Truth values as the program writes them.
 TRUTH = {".true.": True, ".false.": False}
 #: The range of no variable reaches beyond it.
@@ -87,7 +87,7 @@ def write_case(path: str | os.PathLike, groups: Mapping[str, Mapping[str, Any]])
     lines = []
     for group, values in groups.items():
         own = variables(group, values).items()
-        lines += [f"&{group}", *(f"  {name} = {written(value, group == SWEEP)}" for name, value in own), "/"]
+        lines += [f"&{group}", *(f"  {name} = {written(value, group == STUDY)}" for name, value in own), "/"]
     target = Path(path)
     target.write_text("\n".join([*lines, ""]), encoding="utf-8")
     return target
@@ -100,10 +100,10 @@ def variables(group: str, values: Any) -> Mapping[str, Any]:
     return values
 
 
-def written(value: Any, swept: bool = False) -> str:
-    """A value as a namelist has it; a text of swept values as it is ("1000:6000:500")."""
+def written(value: Any, varied: bool = False) -> str:
+    """A value as a namelist has it; a text of varied values as it is ("1000:6000:500")."""
     if isinstance(value, str):
-        return value if swept else "'" + value.replace("'", "''") + "'"
+        return value if varied else "'" + value.replace("'", "''") + "'"
     if isinstance(value, bool | np.bool_):
         return ".true." if value else ".false."
     if isinstance(value, numbers.Real):

@@ -30,7 +30,7 @@ module film_solver
       real(wp) :: derivatives(2, 4) = 0
       !> Minimum and maximum pressure, Pa (a solver may leave them to `take_pressures`); minimum film thickness, m.
       real(wp) :: min_pressure = 0, max_pressure = 0, min_film_thickness = 0
-      !> Relative residual of an iterative solution, and the sweeps after which it is given up; 0 for a direct one.
+      !> Relative residual of an iterative solution, and the SOR sweeps after which it is given up; 0 for a direct one.
       real(wp) :: residual = 0
       integer :: max_sweeps = 0
    end type film_response

@@ -1,4 +1,4 @@
-!> Between a pad's frame and the frame of its middle, in which films are tabulated: the motion there, the forces and
+!> Between a pad's frame and the frame of its mid-arc, in which films are tabulated: the motion there, the forces and
 !> their derivatives back.
 module mid_arc_frame
    use kinds, only: wp
@@ -22,14 +22,14 @@ module mid_arc_frame
       procedure :: derivatives
    end type mid_arc_frame_type
 
-   !> A motion in the frame of the middle: film thicknesses at the leading and trailing edge over the clearance; the
+   !> A motion in the mid-arc frame: film thicknesses at the leading and trailing edge over the clearance; the
    !> velocity w that drives the film, m/s; its turn with the journal, 1/s; S, N s/m,
    !> that is mu R^4/c^3 times the thickness scale.
    type :: middle_motion
       real(wp) :: edges(2), w(2), turn, scale
    end type middle_motion
 
-   !> A force in the frame of the middle, N, and its derivatives over the edges' thicknesses, (component, edge), and
+   !> A force in the mid-arc frame, N, and its derivatives over the edges' thicknesses, (component, edge), and
    !> over w, (component, component of w).
    type :: middle_force
       real(wp) :: value(2), over_edges(2, 2), over_w(2, 2)
@@ -85,7 +85,7 @@ contains
       real(wp) :: derivatives(2, 4), over(2, 4)
       integer :: i
       associate (s => self%sine, c => self%cosine)
-         ! over position and velocity in the frame of the middle
+         ! over position and velocity in the mid-arc frame
          associate (leading => force%over_edges(:, 1), trailing => force%over_edges(:, 2))
             over(:, 1) = self%edge_sine*(trailing - leading) - motion%turn*force%over_w(:, 2)
             over(:, 2) = -self%edge_cosine*(leading + trailing) + motion%turn*force%over_w(:, 1)

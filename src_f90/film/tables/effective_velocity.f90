@@ -204,7 +204,7 @@ contains
    end subroutine set_slopes
 
    !> Angles between the columns, rad, from the trailing to the leading edge, where the film has gone up to an angle
-   !> `rim`; so many columns, each cut into so many parts.
+   !> `rim`; this many columns, each cut into this many parts.
    pure function angles(pad, motion, rim, columns, parts)
       type(dimensionless_pad_type), intent(in) :: pad
       type(film_motion), intent(in) :: motion

@@ -13,7 +13,7 @@ module elimination_film
    use rupture_boundary, only: boundary_conductance
    use local_cavitation, only: force_of_few
    use linear_algebra, only: apply
-   use column_sweeps, only: weighted
+   use column_elimination, only: weighted
    implicit none (type, external)
    private
    public :: elimination_film_type, new_elimination_film
@@ -206,17 +206,17 @@ contains
    end subroutine cells
 
    !> Force with the Reynolds condition less force without cavitation, N, where only a few cells cavitate; else
-   !> `few` is false, and `evaluate` has to be asked.
-   subroutine force_of_cavitation(self, motion, oil, speed, counters, force, few)
+   !> `is_local` is false, and `evaluate` has to be asked.
+   subroutine force_of_cavitation(self, motion, oil, speed, counters, force, is_local)
       class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(film_counters), intent(inout) :: counters
       real(wp), intent(out) :: force(2)
-      logical, intent(out) :: few
+      logical, intent(out) :: is_local
       call self%grid%set_motion(motion, oil, speed)
-      call force_of_few(self%grid, self%basis, self%film, force, few)
+      call force_of_few(self%grid, self%basis, self%film, force, is_local)
       counters%passes = counters%passes + 1
    end subroutine force_of_cavitation
 

@@ -1,4 +1,4 @@
-!> Finite volumes that follow one film: half of their columns lie on each side of where the source of pressure changes
+!> Finite volumes adapted to one film: half of their columns lie on each side of where the source of pressure changes
 !> its sign, all of them are narrow where the film is thin. For its pressure field, which is asked for seldom and
 !> has to agree with the force from tables.
 module film_adapted_grid

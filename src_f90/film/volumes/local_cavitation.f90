@@ -10,7 +10,7 @@ module local_cavitation
    use film_grid, only: film_grid_type
    use grid_modes, only: grid_modes_type
    use linear_algebra, only: apply
-   use column_sweeps, only: green_chain, weighted
+   use column_elimination, only: green_chain, weighted
    implicit none (type, external)
    private
    public :: force_of_few
@@ -30,15 +30,15 @@ module local_cavitation
 
 contains
 
-   !> Force with cavitation less force of the full film, N, at the motion the grid has been set to. `few` is false
+   !> Force with cavitation less force of the full film, N, at the motion the grid has been set to. `is_local` is false
    !> where cavitation is not slight enough: then nothing is said. `film` tells which cells are whole (1) or
    !> cavitated (0): those of the last motion on entry, of this one on return.
-   pure subroutine force_of_few(grid, basis, film, force, few)
+   pure subroutine force_of_few(grid, basis, film, force, is_local)
       type(film_grid_type), intent(in) :: grid
       type(grid_modes_type), intent(in) :: basis
       real(wp), intent(inout) :: film(:, :)
       real(wp), intent(out) :: force(2)
-      logical, intent(out) :: few
+      logical, intent(out) :: is_local
       real(wp) :: load(loads, grid%columns)
       !> Of the columns up to the last with a source > 0: the others have no pressure below that of the edges.
       real(wp), dimension(basis%m, last_source(grid)) :: per_pivot
@@ -53,26 +53,26 @@ contains
       load(2:, :) = -transpose(grid%weight())
       call green_chain(basis%m, grid%columns, size(x, 3), grid%along, grid%beside, basis%eigenvalue, basis%uniform, &
          & basis%at_edge, load, -grid%edge_source, per_pivot, x)
-      call find_cells(grid, basis, per_pivot, x, cells, n, few)
-      if (.not. few .or. n == 0) return
+      call find_cells(grid, basis, per_pivot, x, cells, n, is_local)
+      if (.not. is_local .or. n == 0) return
       do i = 1, n
          cavitated(i) = film(cells(i)%row, cells(i)%column) <= 0
       end do
       ! the active set: lambda > 0 on the cavitated cells, p + G lambda >= 0 on the others
       do round = 1, max_rounds
          k = count(cavitated(:n))
-         few = k <= most_cavitated
-         if (.not. few) return
+         is_local = k <= most_cavitated
+         if (.not. is_local) return
          held(:k) = pack([(i, i=1, n)], cavitated(:n))
          call hold(grid, basis, per_pivot, cells(held(:k)), lambda)
          call pressure_after(grid, basis, per_pivot, cells(held(:k)), lambda, cells(:n), cavitated(:n), after)
          new(:n) = after(:n) < 0
          new(held(:k)) = lambda(:k) > 0
-         few = all(new(:n) .eqv. cavitated(:n))
-         if (few) exit
+         is_local = all(new(:n) .eqv. cavitated(:n))
+         if (is_local) exit
          cavitated(:n) = new(:n)
       end do
-      if (.not. few) return
+      if (.not. is_local) return
       film(:grid%rows, :) = 1
       do i = 1, k
          film(cells(held(i))%row, cells(held(i))%column) = 0
@@ -88,27 +88,27 @@ contains
 
    !> The cells with p < 0, column by column from the trailing edge; p is what `green_chain` leaves, solved on
    !> the way out. Where the film is under tension elsewhere too, or in too many cells, they are not few.
-   pure subroutine find_cells(grid, basis, per_pivot, x, cells, n, few)
+   pure subroutine find_cells(grid, basis, per_pivot, x, cells, n, is_local)
       type(film_grid_type), intent(in) :: grid
       type(grid_modes_type), intent(in) :: basis
       real(wp), intent(in) :: per_pivot(:, :)
       real(wp), intent(inout) :: x(:, :, :)
       type(candidate), intent(out) :: cells(most_cells)
       integer, intent(out) :: n
-      logical, intent(out) :: few
+      logical, intent(out) :: is_local
       real(wp) :: p(basis%m)
       integer :: i, j, l, below, window
       n = 0
       window = 0
-      few = .true.
+      is_local = .true.
       do i = 1, size(x, 3)
          if (i > 1) x(:, 1, i) = x(:, 1, i) + per_pivot(:, i)*grid%along(i - 1)*x(:, 1, i - 1)
          if (.not. grid%source(i) > 0) cycle
          p = apply(basis%m, grid%rows, basis%modes, x(:, 1, i))
          below = count(p(:grid%rows) < 0)
          if (below == 0) cycle
-         few = window == i - 1 .and. i <= most_columns .and. n + below <= most_cells
-         if (.not. few) return
+         is_local = window == i - 1 .and. i <= most_columns .and. n + below <= most_cells
+         if (.not. is_local) return
          window = i
          do l = 2, loads
             if (i > 1) x(:, l, i) = x(:, l, i) + per_pivot(:, i)*grid%along(i - 1)*x(:, l, i - 1)

@@ -8,7 +8,7 @@ module volume_equations
    use film_grid, only: film_grid_type
    use grid_modes, only: grid_modes_type, new_grid_modes
    use linear_algebra, only: apply
-   use column_sweeps, only: factor_chain, solve_chain, finish_chain, multiply_columns, weighted, invert
+   use column_elimination, only: factor_chain, solve_chain, finish_chain, multiply_columns, weighted, invert
    implicit none (type, external)
    private
    public :: volume_equations_type, new_volume_equations

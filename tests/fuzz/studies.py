@@ -1,4 +1,4 @@
-"""Sweeps for drawn cases, right ones and wrong ones."""
+"""Parameter studies for drawn cases, right ones and wrong ones."""
 
 from random import Random
 
@@ -7,7 +7,7 @@ import spelling
 from reference import Variable
 from spelling import Group, Item
 
-# values of a swept number that are none
+# values of a varied number that are none
 NO_VALUES = (
     b"1:2 1:2:0 2:1:1 1:2:-1 1:2:*1 1:2:*0 0:1:*2 1:0:*2 -1:1:*2 1:2:*0.5 2:1:*2 1:2:*-2 1:1e9:1e-9 1:2:3:4 "
     b"a:b:c 1::1 :: ::: : :1:1 1:2: 1:2:* 1:2:** 1:2:2* 2*3 2*1:2:1 1e101:1e102:1e101 1e-101:1:1 nan:1:1 "
@@ -19,12 +19,12 @@ NO_TARGETS = (
 
 
 def draw(dice: Random, variables: dict[str, Variable]) -> tuple[Group, int]:
-    """A sweep of some variables, and how many runs it has."""
+    """A study of some variables, and how many runs it has."""
     zipped = dice.random() < 0.4
     count = dice.randint(1, 5)
     items, runs = [], 1
-    for variable in dice.sample(sweepable(variables), dice.randint(1, 3)):
-        values, number = swept(dice, variable, count if zipped else None)
+    for variable in dice.sample(variable_alone(variables), dice.randint(1, 3)):
+        values, number = varied(dice, variable, count if zipped else None)
         items.append(Item(f"sweep%{variable.key}", target(dice, variable), values))
         runs = number if zipped else runs * number
     order = b"'zip'" if zipped else b"'product'"
@@ -33,7 +33,7 @@ def draw(dice: Random, variables: dict[str, Variable]) -> tuple[Group, int]:
     return Group(spelling.cased(dice, "sweep"), items), runs
 
 
-def sweepable(variables: dict[str, Variable]) -> list[Variable]:
+def variable_alone(variables: dict[str, Variable]) -> list[Variable]:
     """Variables of one value that fit whatever the others are."""
     apart = ("pads", *cases.OF_TASK)
     # an oil may have another law of its viscosity
@@ -47,8 +47,8 @@ def target(dice: Random, variable: Variable) -> bytes:
     return spelling.cased(dice, variable.key) + element
 
 
-def swept(dice: Random, variable: Variable, count: int | None) -> tuple[list[bytes], int]:
-    """Values of a variable, so many if that is given, and how many."""
+def varied(dice: Random, variable: Variable, count: int | None) -> tuple[list[bytes], int]:
+    """Values of a variable, this many if that is given, and how many."""
     number = count or dice.choice((1, 2, 3, dice.randint(1, 8)))
     if variable.is_text:
         return [
@@ -62,7 +62,7 @@ def swept(dice: Random, variable: Variable, count: int | None) -> tuple[list[byt
 
 
 def spread(dice: Random, variable: Variable, number: int) -> bytes:
-    """A range of so many values within the limits."""
+    """A range of this many values within the limits."""
     if variable.whole:
         step = dice.randint(1, max(1, min(1000, int(variable.high - variable.low) // number)))
         first = dice.randint(int(variable.low), int(variable.high) - step * (number - 1))
@@ -82,10 +82,10 @@ def spread(dice: Random, variable: Variable, number: int) -> bytes:
 
 
 def wrong(dice: Random, groups: list[Group], variables: dict[str, Variable]) -> tuple:
-    """Adds a sweep with one fault; gives what must be named."""
+    """Adds a study with one fault; gives what must be named."""
     group = Group(b"sweep")
     groups.append(group)
-    number = dice.choice([v for v in sweepable(variables) if not v.is_text])
+    number = dice.choice([v for v in variable_alone(variables) if not v.is_text])
     good = Item(f"sweep%{number.key}", spelling.cased(dice, number.key), [b"1", b"2"])
     kind = dice.randrange(7)
     if kind == 0:
@@ -102,7 +102,7 @@ def wrong(dice: Random, groups: list[Group], variables: dict[str, Variable]) -> 
         ]
         return group.items[1], b"order"
     if kind == 3:
-        other = next(v for v in sweepable(variables) if v is not number)
+        other = next(v for v in variable_alone(variables) if v is not number)
         group.items = [good, Item("sweep%order", b"order", [b"'zip'"])]
         group.items.append(Item(f"sweep%{other.key}", other.key.encode(), [b"1:3:1"]))
         return group, b"&sweep"
@@ -110,7 +110,7 @@ def wrong(dice: Random, groups: list[Group], variables: dict[str, Variable]) -> 
         group.items = [] if dice.random() < 0.5 else [Item("sweep%order", b"order", [b"'zip'"])]
         return group, b"&sweep"
     if kind == 5:
-        many = dice.sample(sweepable(variables), 3)
+        many = dice.sample(variable_alone(variables), 3)
         group.items = [Item(f"sweep%{v.key}", v.key.encode(), [b"1:99:1"]) for v in many]
         return group, b"runs"
     group.items = [good, Item(good.key, good.target + dice.choice((b"(1)", b"")), [b"1"])]

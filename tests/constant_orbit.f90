@@ -1,5 +1,5 @@
 !> Orbits from which tests of orbits start, and single rounds of Newton's method on them.
-module resting_orbit
+module constant_orbit
    use kinds, only: wp
    use errors, only: error_type
    use ode_model, only: ode_model_type
@@ -12,7 +12,7 @@ module resting_orbit
 
 contains
 
-   !> An orbit at rest on n equal intervals of a period.
+   !> A constant orbit on n equal intervals of a period.
    type(orbit_type) function at_rest(states, n, period) result(orbit)
       integer, intent(in) :: states, n
       real(wp), intent(in) :: period
@@ -40,4 +40,4 @@ contains
       if (present(residual)) residual = problem%residual()
       if (present(multipliers)) multipliers = point%values
    end subroutine newton_round
-end module resting_orbit
+end module constant_orbit

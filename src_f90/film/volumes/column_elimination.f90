@@ -1,6 +1,6 @@
 !> The inner loops of elimination_film: chains of single equations by mode of the grid, and small dense blocks one
 !> column of cells wide. Modes and rows are filled up to whole SIMD vectors.
-module column_sweeps
+module column_elimination
    use kinds, only: wp
    use linear_algebra, only: simd_width
    implicit none (type, external)
@@ -165,7 +165,7 @@ contains
    end function weighted
 
    !> Inverse, in place, of the part of a symmetric positive definite block where mask > 0; 0 elsewhere.
-   !> Gauss-Jordan by symmetric sweeps, which need no pivoting.
+   !> Gauss-Jordan by symmetric eliminations, which need no pivoting.
    pure subroutine invert(m, rows, mask, block)
       integer, intent(in) :: m, rows
       real(wp), intent(in) :: mask(m)
@@ -192,4 +192,4 @@ contains
       end do
       block = -block
    end subroutine invert
-end module column_sweeps
+end module column_elimination

@@ -1,5 +1,5 @@
 !> Thermal equilibria: the values of an independent program, the isothermal limit, thresholds, run-ups, and refusals.
-program test_warm_oil
+program test_thermal_equilibrium
    use kinds, only: wp
    use errors, only: error_type, numerics_error
    use case_inputs, only: case_type
@@ -182,4 +182,4 @@ contains
       never = after_run_up(1.0_wp, 1e-2_wp)
       call expect(never(2) > static%viscosity(2)*exp(lag(2)), 'never renewed')
    end subroutine run_up
-end program test_warm_oil
+end program test_thermal_equilibrium

@@ -1,4 +1,4 @@
-"""Sweeps: counting and checking runs, running them side by side, failures, signals, what is refused."""
+"""Parameter studies: counting and checking runs, running side by side, failures, signals, what is refused."""
 
 import os
 import re
@@ -10,7 +10,7 @@ import time
 
 import h5py
 import pytest
-from conftest import FAST_CLOCK, PATIENCE, on_a_terminal, one_error, wait_for
+from conftest import FAST_CLOCK, TIMEOUT, on_a_terminal, one_error, wait_for
 
 # quick runs; a run of a second or two; and one that does not end by itself
 QUICK = "&case task='equilibrium' /\n"
@@ -18,8 +18,8 @@ LONG = "&operation duration=0.2 / &integration max_step=5e-5 / &output checkpoin
 ENDLESS = LONG.replace("0.2", "10000")
 
 
-def sweep(*lines, base=QUICK):
-    """A case with a sweep; it starts in the second line."""
+def varied(*lines, base=QUICK):
+    """A case with a study; it starts in the second line."""
     return base + "&sweep\n" + "".join(f"  {line}\n" for line in lines) + "/\n"
 
 
@@ -69,11 +69,11 @@ def speed(path):
     ("text", "runs"),
     [
         ("&case /\n", 1),
-        (sweep("operation%speed_rpm = 5000"), 1),
-        (sweep("operation%speed_rpm = 1000:10000:500"), 19),
-        (sweep("rotor%mass=1:3:1", "friction%model='none','lugre'", "pads%arc_deg(1)=60,65"), 12),
-        (sweep("order='zip'", "rotor%mass=1:3:1", "rotor%unbalance=0.1:0.3:0.1"), 3),
-        (sweep("rotor%mass = 1:100000:1"), 100000),
+        (varied("operation%speed_rpm = 5000"), 1),
+        (varied("operation%speed_rpm = 1000:10000:500"), 19),
+        (varied("rotor%mass=1:3:1", "friction%model='none','lugre'", "pads%arc_deg(1)=60,65"), 12),
+        (varied("order='zip'", "rotor%mass=1:3:1", "rotor%unbalance=0.1:0.3:0.1"), 3),
+        (varied("rotor%mass = 1:100000:1"), 100000),
     ],
 )
 def test_count(tiltpad, case, text, runs):
@@ -84,7 +84,7 @@ def test_count(tiltpad, case, text, runs):
 
 def test_check_prints_a_case_that_resolves_to_itself(tiltpad, case):
     folder = case(
-        sweep("operation%speed_rpm=0.1:0.5:0.1, 7", "pads%arc_deg(2)=60, 61", "friction%model='LuGre'")
+        varied("operation%speed_rpm=0.1:0.5:0.1, 7", "pads%arc_deg(2)=60, 61", "friction%model='LuGre'")
     )
     text, _ = result(tiltpad("--check", "case.nml", cwd=folder))
     assert text.endswith(
@@ -104,7 +104,7 @@ def test_check_prints_a_case_that_resolves_to_itself(tiltpad, case):
 
 
 def test_members_in_order_and_to_the_last_bit(tiltpad, case):
-    folder = case(sweep("operation%speed_rpm=0.3:0.9:0.1", "rotor%mass=1e-3:1e1:*10"))
+    folder = case(varied("operation%speed_rpm=0.3:0.9:0.1", "rotor%mass=1e-3:1e1:*10"))
     runs = [(0.3 + i * 0.1, 1e-3 * 10.0**k) for i in range(7) for k in range(5)]
     assert result(tiltpad("--count", "case.nml", cwd=folder)) == (f"{len(runs)}\n", [])
     for k, (rpm, mass) in enumerate(runs, 1):
@@ -117,7 +117,7 @@ def test_members_in_order_and_to_the_last_bit(tiltpad, case):
 # ---- running -------------------------------------------------------------------------------------
 @pytest.mark.parametrize("options", [(), ("--jobs", "1"), ("--jobs", "3"), ("--jobs", "100")])
 def test_all_members_run(tiltpad, case, options):
-    folder = case(sweep("operation%speed_rpm=3000:3400:100"))
+    folder = case(varied("operation%speed_rpm=3000:3400:100"))
     stdout, errors = result(tiltpad("case.nml", *options, cwd=folder))
     assert errors == []
     assert re.fullmatch(r"5 runs: 5 done, 0 failed; [0-9.]+ s; in case\n", stdout)
@@ -150,14 +150,14 @@ def test_a_member_is_the_run_of_its_case(tiltpad, case):
 )
 def test_default_folder(tiltpad, tmp_path, name, folder):
     (tmp_path / "work").mkdir()
-    (tmp_path / name).write_text(sweep("rotor%mass=2000"))
+    (tmp_path / name).write_text(varied("rotor%mass=2000"))
     result(tiltpad(f"../{name}", cwd=tmp_path / "work"))
     assert files(tmp_path / "work") == [folder]
     assert files(tmp_path / "work" / folder) == ["0001.h5"]
 
 
 def test_a_file_says_which_member_it_is(tiltpad, case):
-    folder = case(sweep("operation%speed_rpm=3000,4000", "friction%model='none','lugre'"))
+    folder = case(varied("operation%speed_rpm=3000,4000", "friction%model='none','lugre'"))
     result(tiltpad("case.nml", cwd=folder))
     result(tiltpad("case.nml", "--run", 2, "-o", "alone", cwd=folder))
     for path in ("case/0002.h5", "alone/0002.h5"):
@@ -167,7 +167,7 @@ def test_a_file_says_which_member_it_is(tiltpad, case):
 
 
 def test_a_second_call_runs_what_is_missing(tiltpad, case):
-    folder = case(sweep("operation%speed_rpm=3000,4000,5000"))
+    folder = case(varied("operation%speed_rpm=3000,4000,5000"))
     (folder / "case").mkdir()
     (folder / "case/notes.txt").write_text("kept")
     result(tiltpad("case.nml", cwd=folder))
@@ -183,9 +183,9 @@ def test_a_second_call_runs_what_is_missing(tiltpad, case):
 WAY_OUT = "; --overwrite replaces it, and --output names another place"
 
 
-def test_two_sweeps_are_not_mixed(tiltpad, case):
+def test_two_studies_are_not_mixed(tiltpad, case):
     """One line before anything runs; with --overwrite the results are replaced."""
-    folder = case(sweep("operation%speed_rpm=3000,4000,5000"))
+    folder = case(varied("operation%speed_rpm=3000,4000,5000"))
     result(tiltpad("case.nml", cwd=folder))
     other = "is the result of another case"
     for change, line in (
@@ -209,7 +209,7 @@ def test_two_sweeps_are_not_mixed(tiltpad, case):
 
 
 def test_a_single_member_looks_at_its_neighbours(tiltpad, case):
-    folder = case(sweep("operation%speed_rpm=3000,4000,5000"))
+    folder = case(varied("operation%speed_rpm=3000,4000,5000"))
     result(tiltpad("case.nml", cwd=folder))
     other = ("--set", "sweep%operation%speed_rpm=3000:7000:500")
     _, errors = result(tiltpad("case.nml", "--run", 4, *other, cwd=folder), status=3)
@@ -224,8 +224,8 @@ def test_a_single_member_looks_at_its_neighbours(tiltpad, case):
     assert errors == ["case/0001.h5: is run 1 of a study" + WAY_OUT]
 
 
-def test_a_sweep_may_grow(tiltpad, case):
-    folder = case(sweep("operation%speed_rpm=3000,4000"))
+def test_a_study_may_grow(tiltpad, case):
+    folder = case(varied("operation%speed_rpm=3000,4000"))
     result(tiltpad("case.nml", cwd=folder))
     before = (folder / "case/0001.h5").read_bytes()
     longer = ("--set", "sweep%operation%speed_rpm=3000,4000,5000")
@@ -235,8 +235,8 @@ def test_a_sweep_may_grow(tiltpad, case):
 
 
 def test_the_same_case_in_another_place_is_refused(tiltpad, case):
-    """A run of a sweep over something else, or a run that is none: a study could not tell what it is."""
-    folder = case(sweep("operation%speed_rpm=6500"))
+    """A run of a study over something else, or a run that is none: the file could not tell what it is."""
+    folder = case(varied("operation%speed_rpm=6500"))
     result(tiltpad("case.nml", cwd=folder))
     _, errors = result(tiltpad("case.nml", "--set", "sweep%rotor%gravity=9.81", cwd=folder), status=3)
     assert errors[0].endswith(
@@ -250,7 +250,7 @@ def test_the_same_case_in_another_place_is_refused(tiltpad, case):
 
 
 def test_file_names_have_the_digits_of_the_last_member(tiltpad, case):
-    folder = case(sweep("operation%speed_rpm=1:20000:1"))
+    folder = case(varied("operation%speed_rpm=1:20000:1"))
     result(tiltpad("--quiet", "--run", 7, "case.nml", cwd=folder))
     result(tiltpad("--quiet", "--run", 20000, "case.nml", cwd=folder))
     assert files(folder / "case") == ["00007.h5", "20000.h5"]
@@ -259,7 +259,7 @@ def test_file_names_have_the_digits_of_the_last_member(tiltpad, case):
 # ---- runs that fail ---------------------------------------------------------------------------
 def test_a_failing_member_among_good_ones(tiltpad, case):
     values = ("operation%speed_rpm=3000,4000", "integration%max_steps=100000,20")
-    folder = case(sweep(*values, base="&operation duration=0.01 /\n"))
+    folder = case(varied(*values, base="&operation duration=0.01 /\n"))
     stdout, errors = result(tiltpad("case.nml", cwd=folder), status=2)
     assert re.match(r"4 runs: 2 done, 2 failed; ", stdout)
     quiet = tiltpad("--quiet", "--jobs", 1, "case.nml", "-o", "Case", cwd=folder)
@@ -280,7 +280,7 @@ def test_a_failing_member_among_good_ones(tiltpad, case):
 
 def test_a_file_error_has_its_own_status(tiltpad, case):
     """A folder where one run's file is to be, beside a run whose numerics fail."""
-    folder = case(sweep("integration%max_steps=20,21,100000", base="&operation duration=0.01 /\n"))
+    folder = case(varied("integration%max_steps=20,21,100000", base="&operation duration=0.01 /\n"))
     (folder / "case").mkdir()
     (folder / "case/0003.h5").mkdir()
     _, errors = result(tiltpad("case.nml", cwd=folder), status=3)
@@ -299,7 +299,7 @@ def children(process):
 
 @pytest.fixture
 def started(start):
-    """started(folder, arguments, runs=2): the program under way, with so many children."""
+    """started(folder, arguments, runs=2): the program under way, with this many children."""
 
     def begin(folder, *arguments, runs=1):
         process = start(folder, *arguments)
@@ -312,12 +312,12 @@ def started(start):
 def test_a_killed_member_is_a_failed_one_and_the_others_go_on(start, tiltpad, case):
     """The first run is long; it is killed as soon as it says who runs it."""
     durations = "operation%duration=0.2" + 4 * ",0.01"
-    folder = case(sweep("order='zip'", "rotor%mass=2000:2400:100", durations, base=LONG))
+    folder = case(varied("order='zip'", "rotor%mass=2000:2400:100", durations, base=LONG))
     process = start(folder, "--jobs", "2", "case.nml")
     lock = folder / "case/0001.h5.lock"
     wait_for(lambda: lock.exists() and lock.read_text(), process)
     os.kill(int(lock.read_text().split()[1]), signal.SIGKILL)
-    stdout, stderr = process.communicate(timeout=PATIENCE)
+    stdout, stderr = process.communicate(timeout=TIMEOUT)
     assert process.returncode == 3
     assert re.match(r"5 runs: 4 done, 1 failed; ", stdout)
     line, total = stderr.splitlines()
@@ -332,7 +332,7 @@ def test_a_killed_member_is_a_failed_one_and_the_others_go_on(start, tiltpad, ca
 
 def test_a_child_runs_many_members_and_leaves_nothing_open(program, tiltpad, case):
     """Few processes for many runs, with hardly more descriptors than one run needs."""
-    folder = case(sweep("rotor%mass=2000:2119:1"))
+    folder = case(varied("rotor%mass=2000:2119:1"))
     seen = set()
     limit = (24, resource.getrlimit(resource.RLIMIT_NOFILE)[1])
     few = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_NOFILE, limit)}
@@ -351,19 +351,19 @@ def test_a_child_runs_many_members_and_leaves_nothing_open(program, tiltpad, cas
 
 @pytest.mark.parametrize("jobs", [1, 3])
 def test_as_many_at_a_time_as_asked(start, case, jobs):
-    folder = case(sweep("rotor%mass=2000:2500:100", base=ENDLESS))
+    folder = case(varied("rotor%mass=2000:2500:100", base=ENDLESS))
     check_members_at_a_time(start(folder, "--quiet", "--jobs", str(jobs), "case.nml"), folder, jobs)
 
 
 def test_as_many_at_a_time_as_processors(start, case):
-    folder = case(sweep("rotor%mass=2000:2500:100", base=ENDLESS))
+    folder = case(varied("rotor%mass=2000:2500:100", base=ENDLESS))
     one = min(os.sched_getaffinity(0))
     process = start(folder, "--quiet", "case.nml", preexec_fn=lambda: os.sched_setaffinity(0, [one]))
     check_members_at_a_time(process, folder, 1)
 
 
 def check_members_at_a_time(process, folder, count):
-    """So many of runs that do not end run, and no more."""
+    """This many of runs that do not end run, and no more."""
     results = [folder / f"case/000{k}.h5" for k in range(1, count + 1)]
     wait_for(lambda: all(path.exists() for path in results), process)
     assert len(children(process)) == count
@@ -373,11 +373,11 @@ def check_members_at_a_time(process, folder, count):
 
 # ---- signals -------------------------------------------------------------------------------------
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGUSR1])
-def test_a_signal_stops_the_sweep(started, case, number):
-    folder = case(sweep("rotor%mass=2000:2900:1", base=ENDLESS))
+def test_a_signal_stops_the_study(started, case, number):
+    folder = case(varied("rotor%mass=2000:2900:1", base=ENDLESS))
     process = started(folder, "--jobs", "2", "case.nml", runs=2)
     process.send_signal(number)
-    stdout, stderr = process.communicate(timeout=PATIENCE)
+    stdout, stderr = process.communicate(timeout=TIMEOUT)
     totals = "901 runs: 0 done, 0 failed, 2 stopped, 899 not started"
     assert process.returncode == 4
     assert stderr == f"tiltpad: error: stopped by signal {number.value}; of {totals.replace(':', '')}\n"
@@ -386,7 +386,7 @@ def test_a_signal_stops_the_sweep(started, case, number):
 
 
 def test_stopped_members_go_on_at_the_second_call(started, tiltpad, case):
-    folder = case(sweep("rotor%mass=2000,2100", base=LONG))
+    folder = case(varied("rotor%mass=2000,2100", base=LONG))
     whole = {}
     for output in ("stopped", "through"):
         if output == "stopped":
@@ -407,7 +407,7 @@ def test_stopped_members_go_on_at_the_second_call(started, tiltpad, case):
 
 def test_members_end_with_the_program(started, case):
     """Nobody is left behind by a program that is killed."""
-    folder = case(sweep("rotor%mass=2000,2100", base=ENDLESS))
+    folder = case(varied("rotor%mass=2000,2100", base=ENDLESS))
     process = started(folder, "--quiet", "--jobs", "2", "case.nml", runs=2)
     runs = children(process)
     process.kill()
@@ -426,7 +426,7 @@ def running(process):
 # ---- what is printed -----------------------------------------------------------------------------
 def test_a_terminal_has_one_line_for_all_members(program, case, loaded):
     base = "&operation duration=0.001 /\n"
-    folder = case(sweep("rotor%mass=2000:2900:100", "integration%max_steps=100000,1", base=base))
+    folder = case(varied("rotor%mass=2000:2900:100", "integration%max_steps=100000,1", base=base))
     arguments = "--jobs", "1", "case.nml"
     text, status = on_a_terminal(program, arguments, folder, loaded(FAST_CLOCK), subprocess.DEVNULL)
     assert status == 2
@@ -442,7 +442,7 @@ def test_a_terminal_has_one_line_for_all_members(program, case, loaded):
 
 def test_nothing_is_printed_twice(tiltpad, case):
     """Output that waits to be written when a child is made is written once."""
-    folder = case(sweep("rotor%mass=2000:2900:100"))
+    folder = case(varied("rotor%mass=2000:2900:100"))
     stdout, _ = result(tiltpad("case.nml", cwd=folder))
     assert stdout.count("\n") == 1
 
@@ -464,19 +464,19 @@ def refused(tiltpad, tmp_path):
 
 
 # of the study itself: line, what the message must name; more in tests/unit/test_parameter_study.f90
-SWEEPS = {
+STUDIES = {
     "": ["line 2", "&sweep"],
     "order='zip', rotor%mass=1,2, rotor%gravity=1": ["zip", "rotor%mass has 2", "rotor%gravity has 1"],
     "rotor%mass=1:2": ["line 3", "rotor%mass = 1:2", "first:last:stride"],
 }
 
 
-@pytest.mark.parametrize("line", SWEEPS, ids=lambda line: line or "empty")
+@pytest.mark.parametrize("line", STUDIES, ids=lambda line: line or "empty")
 @pytest.mark.parametrize("options", [(), ("--check",), ("--count",), ("--run", "1")], ids=" ".join)
-def test_sweep_refused(refused, case, line, options):
-    """Whatever is asked for, also where the sweep is not run."""
-    case(sweep(*line.split(", ")) if line else "\n&sweep /\n")
-    refused("case.nml", *options, names=["case.nml", *SWEEPS[line]])
+def test_study_refused(refused, case, line, options):
+    """Whatever is asked for, also where the study is not run."""
+    case(varied(*line.split(", ")) if line else "\n&sweep /\n")
+    refused("case.nml", *options, names=["case.nml", *STUDIES[line]])
 
 
 @pytest.mark.parametrize("options", [(), ("--check",)], ids=" ".join)
@@ -488,12 +488,12 @@ def test_sweep_refused(refused, case, line, options):
     ],
 )
 def test_a_bad_member_is_named_and_nothing_runs(refused, case, options, line, names):
-    case(sweep(line))
+    case(varied(line))
     refused("case.nml", *options, names=names)
 
 
 def test_only_the_member_that_runs_must_be_good(tiltpad, refused, case):
-    folder = case(sweep("rotor%mass=2000,-1"))
+    folder = case(varied("rotor%mass=2000,-1"))
     result(tiltpad("--run", 1, "case.nml", cwd=folder))
     refused("--run", 2, "case.nml", names=["line 3, run 2: rotor%mass = -1"])
 
@@ -512,14 +512,14 @@ LINES = {
     "jobs and a run": (["--jobs", "2", "--run", "1"], ["--jobs", "--run"]),
     "jobs and count": (["--jobs", "2", "--count"], ["--jobs", "--count"]),
     "count and run": (["--count", "--run", "1"], ["--count", "--run"]),
-    "set of what is swept": (
+    "set of what is varied": (
         ["--set", "rotor%mass=1"],
         ["--set rotor%mass = 1", "swept", "case.nml line 3", "--set sweep%rotor%mass="],
     ),
-    "bad sweep by set": (["--set", "sweep%rotor%gravity=1:2:-1"], ["--set", "sweep%rotor%gravity = 1:2:-1"]),
+    "bad study by set": (["--set", "sweep%rotor%gravity=1:2:-1"], ["--set", "sweep%rotor%gravity = 1:2:-1"]),
     "bad run by set": (["--set", "sweep%rotor%mass=1,-1"], ["--set, run 2", "rotor%mass = -1"]),
     "bad order by set": (["--set", "sweep%order='all'"], ["--set", "sweep%order = 'all'"]),
-    "resume of a sweep": (["--resume", "case.h5"], ["--resume", "case.nml"]),
+    "resume of a study": (["--resume", "case.h5"], ["--resume", "case.nml"]),
     "output is the case": (["--output", "case.nml"], ["case.nml", "replace"]),
 }
 
@@ -527,12 +527,12 @@ LINES = {
 @pytest.mark.parametrize("key", LINES)
 def test_command_line(refused, case, key):
     arguments, names = LINES[key]
-    case(sweep("rotor%mass=1000,2000"))
+    case(varied("rotor%mass=1000,2000"))
     refused("case.nml", *arguments, names=names)
 
 
 @pytest.mark.parametrize("option", ["--run", "--jobs"])
-def test_a_case_without_a_sweep(refused, case, option):
+def test_a_case_without_a_study(refused, case, option):
     """With the option's value, and without."""
     case(QUICK)
     refused("case.nml", option, 1, names=["case.nml", "&sweep", option])
@@ -540,7 +540,7 @@ def test_a_case_without_a_sweep(refused, case, option):
 
 
 def test_folder_that_cannot_be(refused, case):
-    folder = case(sweep("rotor%mass=1000,2000"))
+    folder = case(varied("rotor%mass=1000,2000"))
     (folder / "file").write_text("a file")
     outputs = {"none/runs": "no such file", "file": "not a directory", "file/runs": "not a directory"}
     if os.path.isdir("/proc/self"):
@@ -553,13 +553,13 @@ def test_folder_that_cannot_be(refused, case):
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root writes everywhere")
 def test_folder_that_is_shut(refused, case):
-    folder = case(sweep("rotor%mass=1000,2000"))
+    folder = case(varied("rotor%mass=1000,2000"))
     (folder / "shut").mkdir(mode=0o500)
     refused("case.nml", "-o", "shut", names=["shut", "ermission"], status=3)
 
 
 def test_default_folder_is_the_case_itself(refused, tmp_path):
-    (tmp_path / "noend").write_text(sweep("rotor%mass=1000,2000"))
+    (tmp_path / "noend").write_text(varied("rotor%mass=1000,2000"))
     refused("noend", names=["noend"])
 
 
