@@ -87,7 +87,7 @@ def test_what_failed_is_nan_with_its_reason(study):
         assert list(bad) == [False, False, False, True, False, False], name
 
 
-def test_an_incomplete_member_has_its_time_and_no_results(copy, tmp_path):
+def test_an_incomplete_run_has_its_time_and_no_results(copy, tmp_path):
     def stop(file):
         file.attrs.update({"complete": 0, "exit_status": 4})
         file.create_group("checkpoint")
@@ -139,7 +139,7 @@ def test_the_members_of_a_study_elsewhere(copy, tmp_path):
         assert "journal_y" in file["runs/0001"]
 
 
-def test_a_damaged_and_a_missing_member(copy, tmp_path, capsys):
+def test_a_damaged_and_a_missing_run(copy, tmp_path, capsys):
     (copy / "0002.h5").write_text("nothing")
     (copy / "0005.h5").unlink()
     assert command.collect([str(copy), "-o", str(tmp_path / "a.h5")]) == 0
@@ -212,7 +212,7 @@ def test_a_folder_of_two_studies(tiltpad, tmp_path, monkeypatch, capsys):
     assert command.collect(["three"]) == 0
 
 
-def test_a_file_named_twice_is_one_member(copy, tmp_path, monkeypatch, result):
+def test_a_file_named_twice_is_one_run(copy, tmp_path, monkeypatch, result):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "link.h5").symlink_to(copy / "0002.h5")
     assert tiltpad.collect(["grid", copy, "grid/0001.h5", "link.h5"], "a.h5").runs == 6
