@@ -14,8 +14,7 @@ from paper.runs import Runs
 
 DEFLECTION, FORCE = SHOWN["pivot_deflection"], SHOWN["pivot_load"]
 #: The example of Figs. 3 and 4: socket radius, m, load of Fig. 3, N, radius differences, um, and pivot
-#: deflections
-#: up to, m, of Fig. 4. The paper prints the first of them only.
+#: deflections up to, m, of Fig. 4. The paper prints the first of them only.
 FANG_PIVOT, FANG_LOAD, FANG_DIFFERENCES, FANG_DEFLECTION = 0.1, 1e4, (0, 15, 30, 60), 20e-6
 #: Contact laws beside the paper's, by their overrides.
 LAWS = {

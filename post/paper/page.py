@@ -104,7 +104,7 @@ locked pads as the bristles become stiffer.
 
 ![Damping ratio over speed and mass; threshold speed over bristle stiffness](stability.png)
 
-{threshold speeds}
+{thresholds}
 
 Marches with LuGre friction, without unbalance, from a displacement of 0.2 um confirm the threshold speed on
 both sides:
