@@ -1,4 +1,4 @@
-"""Whole runs of the task coefficients: what the file says, and sweeps."""
+"""Whole runs of the task coefficients: what the file says, and studies."""
 
 import h5py
 import numpy as np

@@ -1,4 +1,4 @@
-"""Whole runs with fixed pads: starts, sweeps, what is written, what is refused."""
+"""Whole runs with fixed pads: starts, studies, what is written, what is refused."""
 
 import h5py
 import numpy as np
@@ -80,9 +80,9 @@ def test_oil_whirl_of_the_example(tiltpad, root, tmp_path):
         assert 0.4 < frequency[np.argmax(amplitude)] / (8500 / 60) < 0.52
 
 
-def test_a_sweep_is_collected(tiltpad, run):
-    sweep = ("sweep%operation%speed_rpm=3000,5000", "operation%duration=0.05")
-    tiltpad("case.nml", "-q", "-o", "sweep", overrides=sweep, cwd=run.folder, status=0)
+def test_a_study_is_collected(tiltpad, run):
+    varied = ("sweep%operation%speed_rpm=3000,5000", "operation%duration=0.05")
+    tiltpad("case.nml", "-q", "-o", "sweep", overrides=varied, cwd=run.folder, status=0)
     package.collect([run.folder / "sweep"], run.folder / "study.h5")
     with package.read_study(run.folder / "study.h5") as study:
         assert np.isfinite(study.orbit_y).all()

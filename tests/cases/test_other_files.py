@@ -173,7 +173,7 @@ def test_a_file_put_under_the_name_while_the_run_writes(running, case):
             assert len(file["time"]) > 0
 
 
-def test_a_folder_that_looks_like_the_trial_of_a_sweep(program, case):
+def test_a_folder_that_looks_like_the_trial_of_a_study(program, case):
     """Also with the number of the process, which a shell knows."""
     (case / "sweep.nml").write_text("&case task='equilibrium' /\n&sweep rotor%mass=1000,2000 /\n")
     (case / "sweep").mkdir()

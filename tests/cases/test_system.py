@@ -13,7 +13,7 @@ import sys
 import h5py
 import numpy as np
 import pytest
-from conftest import ENDLESS, EVERY_STEP, PATIENCE, arrays, one_error, shorten, wait_for, wait_for_checkpoint
+from conftest import ENDLESS, EVERY_STEP, TIMEOUT, arrays, one_error, shorten, wait_for, wait_for_checkpoint
 
 CASE = "&friction model='lugre' / &operation duration=0.3 / &output checkpoint_seconds=0.01 /\n"
 NO_PROCESSES = "pid_t fork(void) { errno = EAGAIN; return -1; }"
@@ -222,7 +222,7 @@ def test_clocks_that_jump(start, tiltpad, case, loaded):
     environment = loaded(JUMPING_CLOCK)
     tiltpad("case.nml", "-q", "-o", "still.h5", cwd=case, status=0)
     run = start(case, "-q", "case.nml", env=environment)
-    assert run.wait(PATIENCE) == 0, run.stderr.read()
+    assert run.wait(TIMEOUT) == 0, run.stderr.read()
     jumped, still = (arrays(case / f"{name}.h5", "statistics") for name in ("case", "still"))
     assert jumped.keys() == still.keys()
     assert all(np.array_equal(jumped[name], still[name], equal_nan=True) for name in still)

@@ -73,7 +73,7 @@ contains
       type(elimination_film_type) :: by_cells
       type(film_counters) :: counters
       type(film_motion) :: motion
-      type(film_response) :: found(1), of_modes(1), cavitated, unruptured
+      type(film_response) :: found(1), of_modes(1), cavitated, full_film
       real(wp) :: change(2)
       integer :: k
       motion%position = clearance*[between(-0.12_wp, -0.10_wp), between(0.4_wp, 0.5_wp)]

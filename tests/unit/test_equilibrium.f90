@@ -1,5 +1,5 @@
-!> Partial equilibria: pads without rest are held at zero tilt on their pivots, the rest is in balance; where every pad
-!> has a rest, it is the equilibrium. Refusals: each cause is named, with what may help.
+!> Partial equilibria: pads without equilibrium are held at zero tilt on their pivots, the rest is in balance; where
+!> every pad has one, it is the equilibrium. Refusals: each cause is named, with what may help.
 program test_equilibrium
    use kinds, only: wp
    use errors, only: error_type, numerics_error

@@ -278,7 +278,7 @@ contains
       call expect(study%runs == 6, 'the product in words')
    end subroutine zip_order
 
-   !> A swept value stands in place of the case's, be that good or bad, and elements in place of elements.
+   !> A varied value stands in place of the case's, be that good or bad, and elements in place of elements.
    subroutine in_place_of_the_case()
       type(study_type) :: study
       type(case_type) :: inputs
