@@ -142,7 +142,7 @@ contains
          end associate
       end do
       if (allocated(error)) return
-      call read_swept_values(given%values, given%origin//': '//study_group//'%'//given%name, new%values, error)
+      call read_varied_values(given%values, given%origin//': '//study_group//'%'//given%name, new%values, error)
       if (allocated(error)) return
       deallocate (new%target%values)
       study%variables = [study%variables, new]
