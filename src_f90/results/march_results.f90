@@ -155,7 +155,7 @@ contains
       end subroutine put
    end subroutine put_spectra
 
-   !> Writes a periodic orbit and its stability; its period has so many revolutions of the shaft.
+   !> Writes a periodic orbit and its stability; its period has this many revolutions of the shaft.
    subroutine put_periodic(file, found, revolutions)
       class(hdf5_type), intent(inout) :: file
       type(periodic_orbit_type), intent(in) :: found
